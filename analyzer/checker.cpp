@@ -1,0 +1,330 @@
+#include "analyzer/checker.h"
+
+#include <algorithm>
+#include <unordered_set>
+#include <utility>
+
+#include "interpreter/syntax/characters.h"
+
+namespace isocnc::analyzer {
+
+using namespace dialect::literals;
+using syntax::Finding;
+using syntax::LineTree;
+
+/// Longer paths are told by their latest decisions.
+static constexpr std::size_t kLongestPath = 64;
+/// Valuations of the registers that are kept apart in one group.
+static constexpr std::size_t kMostValuations = 256;
+/// More than one live group is paid from a bucket that fills by two extra executions a line and holds this many: short
+/// stretches may follow all paths, endless ones only a few.
+static constexpr std::uint32_t kSpreadLimit = 100'000;
+static constexpr std::uint32_t kSpreadRelief = 2;
+/// Labels that may be waited for at once.
+static constexpr std::size_t kMostWaiting = 16'384;
+
+void Outcome::clear() { *this = Outcome{}; }
+
+/// Listens to one execution: findings to a place, assignments to the group's registers.
+class Checker::Listener final : public execution::Sink {
+ public:
+  Listener(std::uint64_t line, Outcome& outcome) : line_(line), outcome_(outcome) {}
+
+  void report(const Finding& finding) override { outcome_.findings.push_back({line_, finding}); }
+
+ private:
+  std::uint64_t line_;
+  Outcome& outcome_;
+};
+
+Checker::Checker(const execution::Setup& setup, const JumpMap& jumps)
+    : frontier(start(setup, jumps)), setup_(setup), jumps_(jumps) {}
+
+Frontier Checker::start(const execution::Setup& setup, const JumpMap& jumps) {
+  Frontier frontier;
+  frontier.live.add({.state = execution::initial_state(setup), .registers = Valuations::unknown(jumps)});
+  return frontier;
+}
+
+void Checker::note_text(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+  const std::string_view text = line.text;
+  std::size_t begin = 0;
+  std::size_t end = text.size();
+  while (begin < end && syntax::is_blank(text[begin])) ++begin;
+  if (begin == end) return;
+  while (syntax::is_blank(text[end - 1])) --end;
+  outcome.has_text = true;
+  outcome.last_text_line = line_number;
+  outcome.last_text = {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
+}
+
+void Checker::check(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+  note_text(line, line_number, outcome);
+  if (!jumps_.empty() && line.has_label()) arrive(line, line_number, outcome);
+  Groups& live = frontier.live;
+  if (live.empty()) {
+    if (line.jump && line.jump->has_target) ++frontier.next_jump;
+    return;
+  }
+  const std::size_t first = outcome.findings.size();
+  for (const Finding& finding : line.findings) outcome.findings.push_back({line_number, finding});
+  if (live.size() == 1 && jumps_.empty()) {
+    Listener listener(line_number, outcome);
+    execution::execute(line, live[0].state, setup_, listener);
+  } else {
+    execute_in_all_groups(line, line_number, outcome);
+  }
+  if (line.jump && line.jump->has_target) branch(line, line_number, outcome);
+  if (outcome.findings.size() - first > 1)
+    std::stable_sort(outcome.findings.begin() + static_cast<std::ptrdiff_t>(first), outcome.findings.end(),
+                     [](const LocatedFinding& a, const LocatedFinding& b) {
+                       return a.finding.span.begin < b.finding.span.begin;
+                     });
+  if (!live.empty() && live[0].state.ended) live.clear();  // M02 ends every path through it.
+}
+
+/// A label: paths that jumped here go on from here, on every feasible path or not.
+void Checker::arrive(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+  if (!jumps_.names(line.label)) return;
+  if (const auto waiting = frontier.waiting.find(line.label); waiting != frontier.waiting.end()) {
+    for (Group& group : waiting->second) group.registers.forget_unread(frontier.next_jump, jumps_);
+    frontier.live.add_all(std::move(waiting->second));
+    frontier.waiting.erase(waiting);
+    bound_states(line, line_number, outcome);
+  }
+  for (const syntax::Word& word : line.words) {
+    if (word.letter != 'N' || word.owner != syntax::Word::kNobody) continue;
+    outcome.labels.push_back({line.label, line_number, word.span(), !frontier.live.empty()});
+    break;
+  }
+}
+
+void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+  Groups& live = frontier.live;
+  if (!line.is_empty()) {
+    class GroupListener final : public execution::Sink {
+     public:
+      GroupListener(Checker& checker, std::size_t group) : checker_(checker), group_(group) {}
+      void report(const Finding& finding) override { checker_.group_findings_.push_back({finding, group_}); }
+      void assign(int reg, double value) override {
+        if (checker_.jumps_.is_read_from(reg, checker_.frontier.next_jump))
+          checker_.frontier.live[group_].registers.assign(reg, value, checker_.jumps_);
+      }
+
+     private:
+      Checker& checker_;
+      std::size_t group_;
+    };
+    group_findings_.clear();
+    for (std::size_t i = 0; i < live.size(); ++i) {
+      GroupListener listener(*this, i);
+      execution::execute(line, live[i].state, setup_, listener);
+    }
+    if (!group_findings_.empty()) report_common_findings(line_number, outcome);
+  }
+  if (live.size() == 1) {
+    frontier.spread -= std::min(frontier.spread, kSpreadRelief);
+    return;
+  }
+  live.converge();
+  bound_states(line, line_number, outcome);
+}
+
+/// Each finding once. One that only some groups have carries the decisions that lead to them.
+void Checker::report_common_findings(std::uint64_t line_number, Outcome& outcome) {
+  const Groups& live = frontier.live;
+  for (std::size_t i = 0; i < group_findings_.size(); ++i) {
+    const Finding& finding = group_findings_[i].finding;
+    const auto same = [&](const GroupFinding& other) {
+      return other.finding.id == finding.id && other.finding.span == finding.span;
+    };
+    const auto here = group_findings_.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::any_of(group_findings_.begin(), here, same)) continue;
+    LocatedFinding located{line_number, finding};
+    // The decisions that all of its paths share.
+    Path path = live[group_findings_[i].group].path;
+    std::size_t count = 0;
+    for (auto other = here; other != group_findings_.end(); ++other) {
+      if (!same(*other)) continue;
+      ++count;
+      const Path& theirs = live[other->group].path;
+      std::erase_if(path, [&](const Decision& decision) {
+        return std::find(theirs.begin(), theirs.end(), decision) == theirs.end();
+      });
+    }
+    // On every path that comes here only jumps are worth telling: that no IF skipped the line goes without saying.
+    if (count == live.size()) std::erase_if(path, [](const Decision& decision) { return !decision.taken; });
+    if (!path.empty()) {
+      located.path = static_cast<std::int32_t>(outcome.paths.size());
+      if (!outcome.paths.empty() && outcome.paths.back() == path) {
+        --located.path;
+      } else {
+        outcome.paths.push_back(std::move(path));
+      }
+    }
+    outcome.findings.push_back(located);
+  }
+}
+
+/// IF: follows the paths that are feasible (D51, D52).
+void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+  const syntax::Jump& jump = *line.jump;
+  const std::uint32_t ordinal = frontier.next_jump++;
+  switch (jumps_.target_of(ordinal)) {
+    case JumpMap::Target::Below: break;
+    case JumpMap::Target::NotFound:
+      outcome.findings.push_back({line_number, {.id = "label-not-found"_diag, .span = jump.target_span}});
+      return;
+    case JumpMap::Target::Above:
+      outcome.findings.push_back({line_number, {.id = "backward-jump"_diag, .span = jump.target_span}});
+      return;
+  }
+  outcome.named.push_back(jump.target);
+  Groups staying;
+  const auto decide = [&](Path path, bool taken) {
+    path.insert(path.begin(), {ordinal, taken});
+    if (path.size() > kLongestPath) path.pop_back();
+    return path;
+  };
+  for (Group& group : frontier.live) {
+    const bool on_register = jump.variable > 0 && jump.condition_is_known();
+    Valuations where_true = on_register ? group.registers.where(jump, true, jumps_) : group.registers;
+    Valuations where_false = on_register ? group.registers.where(jump, false, jumps_) : group.registers;
+    if (on_register && !jumps_.is_read_from(jump.variable, frontier.next_jump)) {
+      where_true.forget_unread(frontier.next_jump, jumps_);
+      where_false.forget_unread(frontier.next_jump, jumps_);
+    }
+    const bool both = where_true.possible() && where_false.possible();
+    if (where_true.possible()) {
+      Groups& waiting = frontier.waiting[jump.target];
+      waiting.add({group.state, std::move(where_true), both ? decide(group.path, true) : group.path});
+      if (waiting.size() > kMostStates) {
+        waiting.reduce_to(kMostStates / 2);
+        admit_reduction(line, line_number, outcome);
+      }
+    }
+    if (!where_false.possible()) continue;
+    staying.add({std::move(group.state), std::move(where_false), both ? decide(std::move(group.path), false) : std::move(group.path)});
+  }
+  frontier.live = std::move(staying);
+  if (frontier.waiting.size() > kMostWaiting) {
+    frontier.waiting.erase(std::prev(frontier.waiting.end()));
+    admit_reduction(line, line_number, outcome);
+  }
+}
+
+void Checker::bound_states(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+  Groups& live = frontier.live;
+  bool reduced = false;
+  frontier.spread += static_cast<std::uint32_t>(live.size()) - 1;
+  frontier.spread -= std::min(frontier.spread, kSpreadRelief);
+  if (live.size() > kMostStates) {
+    live.reduce_to(kMostStates / 2);
+    reduced = true;
+  }
+  if (frontier.spread > kSpreadLimit) {
+    live.reduce_to(1);
+    frontier.spread = 0;
+    reduced = true;
+  }
+  for (Group& group : live) {
+    if (group.registers.size() <= kMostValuations) continue;
+    group.registers.blur();
+    reduced = true;
+  }
+  if (reduced) admit_reduction(line, line_number, outcome);
+}
+
+/// Says, once, that not all is followed from here on.
+void Checker::admit_reduction(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+  if (frontier.reduced) return;
+  frontier.reduced = true;
+  syntax::Span span;
+  if (!line.words.empty()) span = line.words.front().span();
+  outcome.findings.push_back(
+      {line_number, {.id = "too-many-paths"_diag, .span = span, .values = {static_cast<double>(kMostStates)}}});
+}
+
+std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> label_lines(const std::vector<Outcome>& outcomes) {
+  std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> lines;
+  for (const Outcome& outcome : outcomes)
+    for (const Outcome::Label& label : outcome.labels) lines[label.label].push_back(label.line);
+  return lines;
+}
+
+/// A label that a GOTO names may be defined once: the second and each later one that the control reads (D50, D51).
+static void add_duplicate_labels(const std::vector<Outcome>& outcomes, std::vector<LocatedFinding>& findings) {
+  std::unordered_set<std::uint64_t> named;
+  for (const Outcome& outcome : outcomes) named.insert(outcome.named.begin(), outcome.named.end());
+  std::unordered_set<std::uint64_t> seen;
+  for (const Outcome& outcome : outcomes)
+    for (const Outcome::Label& label : outcome.labels)
+      if (label.live && named.contains(label.label) && !seen.insert(label.label).second)
+        findings.push_back({label.line, {.id = "duplicate-label"_diag, .span = label.span}});
+}
+
+/// A path that reaches the end of the file without an M02: said on the last line with any text (D47).
+static void add_missing_end(const std::vector<Outcome>& outcomes, const Frontier& end, std::vector<Path>& paths,
+                            std::vector<LocatedFinding>& findings) {
+  if (end.live.empty()) return;
+  LocatedFinding located{0, {.id = "m02-missing"_diag}};
+  for (const Outcome& outcome : outcomes) {
+    if (!outcome.has_text) continue;
+    located.line = outcome.last_text_line;
+    located.finding.span = outcome.last_text;
+  }
+  Path path = end.live[0].path;
+  for (const Group& group : end.live)
+    std::erase_if(path, [&](const Decision& decision) {
+      return !decision.taken || std::find(group.path.begin(), group.path.end(), decision) == group.path.end();
+    });
+  if (!path.empty()) {
+    located.path = static_cast<std::int32_t>(paths.size());
+    paths.push_back(std::move(path));
+  }
+  findings.push_back(located);
+}
+
+/// Said once per program: one mistake, however many paths show it (D44).
+static void keep_first_of_each(std::vector<LocatedFinding>& findings) {
+  for (const dialect::DiagnosticId id : {"initial-tool-missing"_diag, "feed-missing"_diag, "too-many-paths"_diag}) {
+    bool seen = false;
+    std::erase_if(findings, [&](const LocatedFinding& located) {
+      if (located.finding.id != id) return false;
+      return std::exchange(seen, true);
+    });
+  }
+}
+
+Report conclude(std::vector<Outcome> outcomes, const Frontier& end, const JumpMap& jumps) {
+  Report report;
+  std::vector<Path> paths;
+  for (Outcome& outcome : outcomes) {
+    const auto first_path = static_cast<std::int32_t>(paths.size());
+    if (report.findings.empty()) {
+      report.findings = std::move(outcome.findings);
+    } else {
+      const std::size_t first = report.findings.size();
+      report.findings.insert(report.findings.end(), outcome.findings.begin(), outcome.findings.end());
+      for (std::size_t i = first; i < report.findings.size(); ++i)
+        if (report.findings[i].path >= 0) report.findings[i].path += first_path;
+    }
+    paths.insert(paths.end(), std::make_move_iterator(outcome.paths.begin()), std::make_move_iterator(outcome.paths.end()));
+  }
+  add_duplicate_labels(outcomes, report.findings);
+  add_missing_end(outcomes, end, paths, report.findings);
+  const auto by_place = [](const LocatedFinding& a, const LocatedFinding& b) {
+    return a.line != b.line ? a.line < b.line : a.finding.span.begin < b.finding.span.begin;
+  };
+  if (!std::is_sorted(report.findings.begin(), report.findings.end(), by_place))
+    std::stable_sort(report.findings.begin(), report.findings.end(), by_place);
+  keep_first_of_each(report.findings);
+  for (const Path& path : paths) {
+    std::vector<PathStep>& steps = report.paths.emplace_back();
+    for (auto decision = path.rbegin(); decision != path.rend(); ++decision)
+      steps.push_back({jumps.sites()[decision->jump].line, decision->taken});
+  }
+  return report;
+}
+
+}  // namespace isocnc::analyzer

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "analyzer/frontier.h"
+#include "interpreter/execution/execute.h"
+
+namespace isocnc::analyzer {
+
+/// What the check of a stretch of lines has found.
+struct Outcome {
+  struct Label {
+    std::uint64_t label = 0;
+    std::uint64_t line = 0;
+    syntax::Span span;
+    bool live = false;  ///< On a feasible path.
+  };
+
+  std::vector<LocatedFinding> findings;  ///< In the order of the lines.
+  std::vector<Path> paths;
+  std::vector<Label> labels;             ///< Definitions of labels that some GOTO names.
+  std::vector<std::uint64_t> named;      ///< Labels that a GOTO on a feasible path names.
+  std::uint64_t last_text_line = 0;      ///< Holds any text; D47.
+  syntax::Span last_text;
+  bool has_text = false;
+
+  void clear();
+};
+
+/// Most machine states that are followed at once (W191).
+inline constexpr std::size_t kMostStates = 64;
+
+/// Checks a program line by line on every feasible path. It holds where it stands (`frontier`) and nothing else, so that a
+/// check can go on from any earlier frontier.
+class Checker {
+ public:
+  Checker(const execution::Setup& setup, const JumpMap& jumps);
+
+  /// The frontier before the first line.
+  static Frontier start(const execution::Setup& setup, const JumpMap& jumps);
+
+  void check(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
+
+  Frontier frontier;
+
+ private:
+  class Listener;
+
+  void note_text(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
+  void arrive(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
+  void execute_in_all_groups(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
+  void report_common_findings(std::uint64_t line_number, Outcome& outcome);
+  void branch(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
+  void bound_states(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
+  void admit_reduction(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
+
+  struct GroupFinding {
+    syntax::Finding finding;
+    std::size_t group = 0;
+  };
+
+  const execution::Setup& setup_;
+  const JumpMap& jumps_;
+  std::vector<GroupFinding> group_findings_;  // Of one line; kept for its memory.
+};
+
+/// Puts together what was found: sorts, adds what only the whole program shows (E006, ISO045), and leaves of the findings
+/// that are said once per program the first (D44).
+Report conclude(std::vector<Outcome> outcomes, const Frontier& end, const JumpMap& jumps);
+
+/// The lines on which each label that a GOTO names is defined.
+std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> label_lines(const std::vector<Outcome>& outcomes);
+
+}  // namespace isocnc::analyzer

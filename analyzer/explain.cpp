@@ -1,0 +1,116 @@
+#include "analyzer/explain.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+namespace isocnc::analyzer {
+
+using dialect::DiagnosticDef;
+using dialect::Language;
+using dialect::Text;
+
+static constexpr Text kSection = {"specification", "specifica"};
+static constexpr Text kWrong = {"Wrong:", "Sbagliato:"};
+static constexpr Text kRight = {"Right:", "Giusto:"};
+
+MarkedProgram read_marked(std::string_view program) {
+  MarkedProgram marked;
+  std::size_t line = 0;
+  std::size_t line_begin = 0;
+  for (std::size_t i = 0; i < program.size(); ++i) {
+    const std::string_view rest = program.substr(i);
+    if (rest.starts_with("[!")) {
+      marked.has_mark = true;
+      marked.line = line;
+      marked.begin = marked.text.size() - line_begin;
+      ++i;
+    } else if (rest.starts_with("!]")) {
+      marked.end = marked.text.size() - line_begin;
+      ++i;
+    } else {
+      marked.text.push_back(program[i]);
+      if (program[i] != '\n') continue;
+      ++line;
+      line_begin = marked.text.size();
+    }
+  }
+  return marked;
+}
+
+/// Folded at 78 columns; UTF-8 letters count as one.
+static std::string folded(std::string_view text) {
+  std::string result;
+  std::size_t column = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    const std::string_view word = text.substr(at, end - at);
+    const auto width = static_cast<std::size_t>(
+        std::count_if(word.begin(), word.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+    if (column > 0 && column + 1 + width > 78) {
+      result += '\n';
+      column = 0;
+    }
+    if (column > 0) {
+      result += ' ';
+      ++column;
+    }
+    result += word;
+    column += width;
+    at = end + 1;
+  }
+  return result + '\n';
+}
+
+/// The program, indented, with its mark beneath the line.
+static std::string shown(std::string_view program) {
+  const MarkedProgram marked = read_marked(program);
+  std::string result;
+  std::size_t line = 0;
+  for (std::size_t at = 0; at < marked.text.size(); ++line) {
+    const std::size_t end = std::min(marked.text.find('\n', at), marked.text.size());
+    result += fmt::format("    {}\n", marked.text.substr(at, end - at));
+    if (marked.has_mark && line == marked.line)
+      result += fmt::format("    {}{}\n", std::string(marked.begin, ' '), std::string(std::max<std::size_t>(1, marked.end - marked.begin), '^'));
+    at = end + 1;
+  }
+  return result;
+}
+
+std::string explain(dialect::DiagnosticId id, Language language) {
+  const DiagnosticDef& def = dialect::definition(id);
+  std::string result = fmt::format("{} {} ({}, {} {})\n{}\n\n", def.code, def.name,
+                                   dialect::severity_name(def.severity, language), kSection.in(language), def.section,
+                                   def.title.in(language));
+  result += folded(def.explanation.in(language));
+  if (!def.wrong.empty()) result += fmt::format("\n{}\n{}", kWrong.in(language), shown(def.wrong));
+  if (!def.right.empty()) result += fmt::format("\n{}\n{}", kRight.in(language), shown(def.right));
+  return result;
+}
+
+std::string list_rules(Language language) {
+  std::string result;
+  for (const DiagnosticDef& def : dialect::kDiagnostics)
+    result += fmt::format("{:7} {:8} {:32} {}\n", def.code, dialect::severity_name(def.severity, language), def.name,
+                          def.title.in(language));
+  return result;
+}
+
+std::string rules_page() {
+  std::string page =
+      "# Codes\n\n"
+      "What `isolint` reports, in English and Italian. `isolint --explain CODE` shows the same in the terminal.\n"
+      "This page is made from the table in `interpreter/dialect/diagnostic_table.h` (`isolint --rules-page`).\n";
+  for (const DiagnosticDef& def : dialect::kDiagnostics) {
+    page += fmt::format("\n## {} {}\n\n", def.code, def.name);
+    page += fmt::format("**{}** · {} · specification {}\n\n", def.title.en,
+                        dialect::severity_name(def.severity, Language::English), def.section);
+    page += fmt::format("{}\n\n> **{}.** {}\n", def.explanation.en, def.title.it, def.explanation.it);
+    if (!def.wrong.empty()) page += fmt::format("\nWrong:\n\n{}", shown(def.wrong));
+    if (!def.right.empty()) page += fmt::format("\nRight:\n\n{}", shown(def.right));
+  }
+  return page;
+}
+
+}  // namespace isocnc::analyzer

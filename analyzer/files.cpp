@@ -1,0 +1,168 @@
+#include "analyzer/files.h"
+
+#include <algorithm>
+#include <string_view>
+#include <system_error>
+#include <unordered_set>
+#include <utility>
+
+#include "analyzer/gitignore.h"
+#include "analyzer/source_file.h"
+
+namespace isocnc::analyzer {
+
+namespace fs = std::filesystem;
+
+/// A path as the user knows it and as the system does, without symlinks.
+struct Place {
+  fs::path shown;
+  fs::path real;
+
+  Place operator/(const fs::path& name) const { return {shown / name, real / name}; }
+};
+
+/// Pipes and other things that have no path of their own keep the one they were given.
+static Place place_of(const fs::path& path) {
+  std::error_code error;
+  fs::path real = fs::canonical(path, error);
+  return {path, error ? path : std::move(real)};
+}
+
+/// So that a file found there is `part.iso`, not `./part.iso` or `parts//part.iso`.
+static fs::path as_prefix(std::string directory) {
+  if (fs::path(directory).lexically_normal() == ".") return {};
+  while (directory.size() > 1 && directory.ends_with('/')) directory.pop_back();
+  return directory;
+}
+
+static char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+static bool has_extension(std::string_view name, std::string_view extension) {
+  return name.size() > extension.size() && std::equal(extension.rbegin(), extension.rend(), name.rbegin(),
+                                                      [](char a, char b) { return lower(a) == lower(b); });
+}
+
+static std::string problem(const fs::path& path, const std::error_code& error, dialect::Language language) {
+  return path.native() + ": " + cannot_read(error.value(), language);
+}
+
+namespace {
+
+/// The search of one directory that the user named.
+class Search {
+ public:
+  Search(std::span<const std::string> extensions, dialect::Language language)
+      : extensions_(extensions), language_(language) {}
+
+  void search(const Place& directory, const GitIgnore& rules) {
+    // The directory is closed before those in it are opened, however deep they go.
+    for (const fs::directory_entry& entry : entries(directory)) {
+      const fs::path name = entry.path().filename();
+      std::error_code error;
+      const bool is_link = entry.is_symlink(error);
+      if (!is_link && entry.is_directory(error)) {
+        enter(directory / name, rules);
+      } else if (is_program(entry) && !rules.ignores(directory.real / name, false)) {
+        add(directory / name, is_link);
+      }
+    }
+  }
+
+  /// Sorted by path.
+  std::vector<Place> take_programs() {
+    std::sort(programs_.begin(), programs_.end(),
+              [](const Place& a, const Place& b) { return a.shown.native() < b.shown.native(); });
+    return std::move(programs_);
+  }
+  /// Sorted by path.
+  std::vector<std::string> take_problems() {
+    std::sort(problems_.begin(), problems_.end());
+    return std::move(problems_);
+  }
+
+ private:
+  std::vector<fs::directory_entry> entries(const Place& directory) {
+    std::vector<fs::directory_entry> result;
+    std::error_code error;
+    for (fs::directory_iterator at(directory.real, error); !error && at != fs::end(at); at.increment(error))
+      result.push_back(*at);
+    if (error) problems_.push_back(problem(directory.shown.empty() ? "." : directory.shown, error, language_));
+    return result;
+  }
+
+  void enter(const Place& directory, const GitIgnore& rules) {
+    if (directory.real.filename().native().starts_with(".git") || rules.ignores(directory.real, true)) return;
+    search(directory, rules.entering(directory.real));
+  }
+
+  /// Not a pipe, which would be waited for, nor a symlink to nothing, which some editors leave as a lock.
+  bool is_program(const fs::directory_entry& entry) const {
+    const std::string name = entry.path().filename();
+    if (std::none_of(extensions_.begin(), extensions_.end(),
+                     [&](const std::string& extension) { return has_extension(name, extension); })) {
+      return false;
+    }
+    std::error_code error;
+    return entry.is_regular_file(error);
+  }
+
+  void add(Place file, bool is_link) {
+    if (is_link) file.real = place_of(file.real).real;
+    programs_.push_back(std::move(file));
+  }
+
+  std::span<const std::string> extensions_;
+  dialect::Language language_;
+  std::vector<Place> programs_;
+  std::vector<std::string> problems_;
+};
+
+/// Takes paths one after another, each file once.
+class Selector {
+ public:
+  Selector(std::span<const std::string> extensions, dialect::Language language)
+      : extensions_(extensions), language_(language) {}
+
+  void select(const std::string& path) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (error) {
+      selection_.problems.push_back(problem(path, error, language_));
+    } else if (fs::is_directory(status)) {
+      select_directory(path);
+    } else {
+      add(place_of(path));
+    }
+  }
+
+  FileSelection take() { return std::move(selection_); }
+
+ private:
+  void select_directory(const std::string& path) {
+    const Place directory{as_prefix(path), place_of(path).real};
+    Search search(extensions_, language_);
+    search.search(directory, GitIgnore::at(directory.real));
+    for (Place& program : search.take_programs()) add(std::move(program));
+    for (std::string& text : search.take_problems()) selection_.problems.push_back(std::move(text));
+  }
+
+  void add(Place file) {
+    if (taken_.insert(file.real.native()).second) selection_.files.push_back(std::move(file.shown));
+  }
+
+  std::span<const std::string> extensions_;
+  dialect::Language language_;
+  std::unordered_set<std::string> taken_;
+  FileSelection selection_;
+};
+
+}  // namespace
+
+FileSelection select_files(std::span<const std::string> paths, std::span<const std::string> extensions,
+                           dialect::Language language) {
+  Selector selector(extensions, language);
+  for (const std::string& path : paths) selector.select(path);
+  return selector.take();
+}
+
+}  // namespace isocnc::analyzer

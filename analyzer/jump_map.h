@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "interpreter/syntax/line_tree.h"
+
+namespace isocnc::analyzer {
+
+/// What of a program's jumps must be known before its first line is checked: where the IFs stand, which labels they name,
+/// and what they compare registers with. Jumps go forward only (I.5), so this and one pass over the lines suffice.
+class JumpMap {
+ public:
+  struct Site {
+    std::uint64_t line = 0;
+    syntax::Jump jump;
+  };
+
+  JumpMap() = default;
+  /// Finds the jumps of a text without parsing the lines that hold none.
+  explicit JumpMap(std::string_view text);
+
+  /// Adds the jump of the next line that has one with a label.
+  void add(std::uint64_t line, const syntax::Jump& jump);
+  /// To be called when all have been added.
+  void complete();
+
+  bool empty() const { return sites_.empty(); }
+  const std::vector<Site>& sites() const { return sites_; }
+  bool names(std::uint64_t label) const { return targets_.contains(label); }
+  /// The values that register 1 to 30 is compared with, ascending.
+  const std::vector<double>& constants(int reg) const { return constants_[static_cast<std::size_t>(reg)]; }
+  /// Registers that an IF compares, in ascending order.
+  const std::vector<int>& compared_registers() const { return compared_; }
+  /// Whether an IF at or behind this one (counted from the top) compares the register.
+  bool is_read_from(int reg, std::uint32_t jump) const { return last_read_[static_cast<std::size_t>(reg)] > jump; }
+
+  /// Marks the jumps that have no label below them, once all definitions of labels are known (lines by label, ascending).
+  void resolve(const std::unordered_map<std::uint64_t, std::vector<std::uint64_t>>& label_lines);
+  bool is_resolved() const { return resolved_; }
+  enum class Target : std::uint8_t { Below, NotFound, Above };
+  Target target_of(std::uint32_t jump) const {
+    return resolved_ ? targets_of_jumps_[jump] : Target::Below;
+  }
+  /// Whether two programs' jumps mean the same, wherever they stand.
+  bool means_the_same(const JumpMap& other) const;
+
+ private:
+  std::vector<Site> sites_;
+  std::unordered_set<std::uint64_t> targets_;
+  std::array<std::vector<double>, dialect::kRegisterCount + 1> constants_;
+  std::array<std::uint32_t, dialect::kRegisterCount + 1> last_read_{};  // One past the ordinal of the last IF.
+  std::vector<int> compared_;
+  std::vector<Target> targets_of_jumps_;
+  bool resolved_ = false;
+};
+
+}  // namespace isocnc::analyzer

@@ -1,0 +1,65 @@
+#include <nlohmann/json.hpp>
+
+#include "analyzer/renderers.h"
+#include "interpreter/dialect/diagnostic_id.h"
+
+namespace isocnc::analyzer {
+
+using Json = nlohmann::ordered_json;
+
+/// One array of objects, as docs/isolint.md describes them; columns from 1 in code points, ends exclusive.
+class JsonRenderer final : public Renderer {
+ public:
+  explicit JsonRenderer(const Style& style) : style_(style) {}
+
+  void begin(std::string& output) override { output += "["; }
+  void end(std::string& output) override { output += first_ ? "]\n" : "\n]\n"; }
+
+  void file(std::string_view name, std::string_view text, const Report& report, Output& output) override {
+    LineFinder lines(text);
+    for (const LocatedFinding& located : report.findings) {
+      output.buffer() += first_ ? "\n  " : ",\n  ";
+      first_ = false;
+      const Json object = to_json(name, text, lines.line(located.line), located, report);
+      output.buffer() += object.dump(-1, ' ', false, Json::error_handler_t::replace);
+      output.relieve();
+    }
+  }
+
+ private:
+  Json to_json(std::string_view name, std::string_view text, std::string_view line, const LocatedFinding& located,
+               const Report& report) const {
+    const syntax::Finding& finding = located.finding;
+    const dialect::DiagnosticDef& def = dialect::definition(finding.id);
+    const std::string_view marked = line.substr(finding.span.begin, finding.span.end - finding.span.begin);
+    const std::size_t column = column_of(line, finding.span.begin);
+    Json object;
+    object["file"] = name;
+    object["line"] = located.line + 1;
+    object["column"] = column;
+    object["endLine"] = located.line + 1;
+    object["endColumn"] = column + column_of(marked, marked.size()) - 1;
+    object["severity"] = dialect::severity_name(def.severity, dialect::Language::English);
+    object["code"] = def.code;
+    object["name"] = def.name;
+    object["message"] = dialect::message(finding.id, style_.language, marked, finding.values);
+    object["url"] = rule_url(finding.id);
+    object["fix"] = nullptr;
+    object["path"] = nullptr;
+    if (located.path >= 0) {
+      object["path"] = Json::array();
+      LineFinder path_lines(text);
+      for (const PathStep& step : report.paths[static_cast<std::size_t>(located.path)])
+        object["path"].push_back({{"line", step.line + 1},
+                                  {"text", describe_step(step, path_lines.line(step.line), style_.language)}});
+    }
+    return object;
+  }
+
+  Style style_;
+  bool first_ = true;
+};
+
+std::unique_ptr<Renderer> make_json_renderer(const Style& style) { return std::make_unique<JsonRenderer>(style); }
+
+}  // namespace isocnc::analyzer

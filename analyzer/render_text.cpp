@@ -1,0 +1,130 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "analyzer/renderers.h"
+#include "interpreter/dialect/diagnostic_id.h"
+
+namespace isocnc::analyzer {
+
+using dialect::Text;
+
+/// Longer lines are shown from shortly before the mark.
+static constexpr std::size_t kWidth = 110;
+static constexpr std::size_t kContext = 40;
+
+static constexpr std::string_view kReset = "\x1b[0m";
+static constexpr std::string_view kBold = "\x1b[1m";
+static constexpr std::string_view kDim = "\x1b[2m";
+static constexpr std::string_view kBlue = "\x1b[1;34m";
+static constexpr std::string_view kSeverityColors[] = {"\x1b[1;31m", "\x1b[1;33m", "\x1b[1;36m"};
+
+static constexpr Text kReachedThrough = {"only on this path:", "solo su questo percorso:"};
+static constexpr Text kOtherPlace = {"the other place", "l'altro punto"};
+
+/// A piece of a line that fits on the screen, and where it starts.
+struct Excerpt {
+  std::string_view text;
+  std::size_t begin = 0;
+  bool cut_left = false;
+  bool cut_right = false;
+};
+
+static Excerpt excerpt_around(std::string_view line, std::size_t byte) {
+  const auto is_inside = [&](std::size_t at) { return at < line.size() && (static_cast<unsigned char>(line[at]) & 0xC0) == 0x80; };
+  Excerpt excerpt;
+  if (line.size() > kWidth && byte > kContext + kContext / 2) excerpt.begin = byte - kContext;
+  while (excerpt.begin > 0 && is_inside(excerpt.begin)) --excerpt.begin;
+  std::size_t end = std::min(line.size(), excerpt.begin + kWidth);
+  while (end < line.size() && is_inside(end)) --end;
+  excerpt.cut_left = excerpt.begin > 0;
+  excerpt.cut_right = end < line.size();
+  excerpt.text = line.substr(excerpt.begin, end - excerpt.begin);
+  return excerpt;
+}
+
+/// As the best compilers print: what, where, the line with the mark beneath it, why, and what leads there.
+class TextRenderer final : public Renderer {
+ public:
+  explicit TextRenderer(const Style& style) : style_(style) {}
+
+  void file(std::string_view name, std::string_view text, const Report& report, Output& output) override {
+    LineFinder lines(text);
+    for (const LocatedFinding& located : report.findings) {
+      one(name, text, lines.line(located.line), located, report, output.buffer());
+      output.relieve();
+    }
+  }
+
+ private:
+  std::string_view paint(std::string_view color) const { return style_.color ? color : std::string_view(); }
+
+  void one(std::string_view name, std::string_view text, std::string_view line, const LocatedFinding& located,
+           const Report& report, std::string& out) const {
+    const syntax::Finding& finding = located.finding;
+    const dialect::DiagnosticDef& def = dialect::definition(finding.id);
+    const std::string_view marked = line.substr(finding.span.begin, finding.span.end - finding.span.begin);
+    const std::string_view color = paint(kSeverityColors[static_cast<std::size_t>(def.severity)]);
+    const std::string number = fmt::format("{}", located.line + 1);
+    const std::string margin(number.size(), ' ');
+    const auto to = std::back_inserter(out);
+    fmt::format_to(to, "{}{}[{}]{}{}: {}{}\n", color, dialect::severity_name(def.severity, style_.language), def.code,
+                   paint(kReset), paint(kBold),
+                   printable(dialect::message(finding.id, style_.language, marked, finding.values)), paint(kReset));
+    fmt::format_to(to, "{}{}-->{} {}:{}:{}\n", margin, paint(kBlue), paint(kReset), name, number,
+                   column_of(line, finding.span.begin));
+    const Excerpt excerpt = excerpt_around(line, finding.span.begin);
+    fmt::format_to(to, "{} {}|{}\n", margin, paint(kBlue), paint(kReset));
+    fmt::format_to(to, "{}{} |{} {}{}{}\n", paint(kBlue), number, paint(kReset), excerpt.cut_left ? "..." : "",
+                   printable(excerpt.text), excerpt.cut_right ? "..." : "");
+    fmt::format_to(to, "{} {}|{} {}\n", margin, paint(kBlue), paint(kReset), underline(excerpt, finding, color));
+    fmt::format_to(to, "{} {}={} {}\n", margin, paint(kBlue), paint(kReset),
+                   dialect::first_sentence(def.explanation.in(style_.language)));
+    if (located.path >= 0) path(text, report.paths[static_cast<std::size_t>(located.path)], margin, out);
+    out += '\n';
+  }
+
+  /// `^^^^` under the finding, `----` under the other place on the same line.
+  std::string underline(const Excerpt& excerpt, const syntax::Finding& finding, std::string_view color) const {
+    struct Mark {
+      std::size_t begin, end;
+      char sign;
+    };
+    const auto mark = [&](syntax::Span span, char sign) {
+      const auto clip = [&](std::size_t byte) { return std::min(std::max(byte, excerpt.begin), excerpt.begin + excerpt.text.size()) - excerpt.begin; };
+      const std::size_t begin = column_of(excerpt.text, clip(span.begin)) - 1;
+      return Mark{begin, std::max(begin + 1, column_of(excerpt.text, clip(span.end)) - 1), sign};
+    };
+    std::vector<Mark> marks = {mark(finding.span, '^')};
+    const bool related_shown = !finding.related.empty() && finding.related.begin >= excerpt.begin &&
+                               finding.related.end <= excerpt.begin + excerpt.text.size();
+    if (related_shown) marks.push_back(mark(finding.related, '-'));
+    std::sort(marks.begin(), marks.end(), [](const Mark& a, const Mark& b) { return a.begin < b.begin; });
+    std::string result(excerpt.cut_left ? 3 : 0, ' ');
+    std::size_t at = 0;
+    for (const Mark& each : marks) {
+      if (each.begin < at) continue;
+      result.append(each.begin - at, ' ');
+      result += each.sign == '^' ? color : paint(kBlue);
+      result.append(each.end - each.begin, each.sign);
+      result += paint(kReset);
+      at = each.end;
+    }
+    if (related_shown) fmt::format_to(std::back_inserter(result), "  {}(--- {}){}", paint(kDim), kOtherPlace.in(style_.language), paint(kReset));
+    return result;
+  }
+
+  void path(std::string_view text, const std::vector<PathStep>& steps, std::string_view margin, std::string& out) const {
+    LineFinder lines(text);
+    fmt::format_to(std::back_inserter(out), "{} {}={} {}\n", margin, paint(kBlue), paint(kReset), kReachedThrough.in(style_.language));
+    for (const PathStep& step : steps)
+      fmt::format_to(std::back_inserter(out), "{}     {}: {}\n", margin, step.line + 1,
+                     describe_step(step, lines.line(step.line), style_.language));
+  }
+
+  Style style_;
+};
+
+std::unique_ptr<Renderer> make_text_renderer(const Style& style) { return std::make_unique<TextRenderer>(style); }
+
+}  // namespace isocnc::analyzer

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "analyzer/report.h"
+#include "interpreter/dialect/diagnostic.h"
+
+namespace isocnc::analyzer {
+
+/// Gives the text of ever later lines.
+class LineFinder {
+ public:
+  explicit LineFinder(std::string_view text) : rest_(text) {}
+  /// The text of a line without its terminator; lines must be asked for in ascending order, repeats allowed.
+  std::string_view line(std::uint64_t index);
+
+ private:
+  std::string_view rest_;  // From the start of line `at_`.
+  std::uint64_t at_ = 0;
+};
+
+/// How findings are shown.
+struct Style {
+  dialect::Language language = dialect::Language::English;
+  bool color = false;
+};
+
+/// Writes the findings of one file after another in one of the output formats.
+class Renderer {
+ public:
+  virtual ~Renderer() = default;
+  /// Appends to `output` whatever precedes the first file.
+  virtual void begin(std::string&) {}
+  /// Appends the file's findings to `output`, which is handed to `flush` whenever it has grown long.
+  virtual void file(std::string_view name, std::string_view text, const Report& report, class Output& output) = 0;
+  virtual void end(std::string&) {}
+};
+
+/// Where rendered text goes: gathers it and hands it on in large pieces.
+class Output {
+ public:
+  virtual ~Output() = default;
+  std::string& buffer() { return buffer_; }
+  /// To be called between findings.
+  void relieve() {
+    if (buffer_.size() >= kLarge) flush();
+  }
+  void flush() {
+    write(buffer_);
+    buffer_.clear();
+  }
+
+ protected:
+  virtual void write(std::string_view text) = 0;
+
+ private:
+  static constexpr std::size_t kLarge = 64 * 1024;
+  std::string buffer_;
+};
+
+/// Columns from 1 in Unicode code points; a byte that is no UTF-8 counts as one.
+std::size_t column_of(std::string_view line, std::size_t byte);
+/// The page of a rule.
+std::string rule_url(dialect::DiagnosticId id);
+/// `line 12: IF VGPL = 1 GOTO N30 jumps` in the reader's language.
+std::string describe_step(const PathStep& step, std::string_view line_text, dialect::Language language);
+/// Well-formed UTF-8 for the screen: control characters and stray bytes replaced, tabs as blanks.
+std::string printable(std::string_view text);
+
+}  // namespace isocnc::analyzer

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "interpreter/dialect/diagnostic.h"
+
+namespace isocnc::analyzer {
+
+/// A program's bytes: the file mapped, or a stream read to its end. Never UTF-16, never binary, and no line of it is
+/// longer than 32 bits can count. Who cuts a mapped file short while it is checked takes its bytes away (SIGBUS).
+class SourceFile {
+ public:
+  /// Why a file cannot be checked, for people: `cannot read: Permission denied`. Does not name the file.
+  struct Problem {
+    std::string message;
+  };
+
+  static std::variant<SourceFile, Problem> open(const std::filesystem::path& path, dialect::Language language);
+  /// Reads on from where `descriptor` stands, and leaves it open: standard input, pipes.
+  static std::variant<SourceFile, Problem> read_stream(int descriptor, dialect::Language language);
+
+  /// Valid as long as this, and not beyond a move.
+  std::string_view text() const;
+
+ private:
+  struct Unmap {
+    std::size_t size;
+    void operator()(char* bytes) const;
+  };
+
+  SourceFile() = default;
+  static std::variant<SourceFile, Problem> map(int descriptor, std::size_t size, dialect::Language language);
+  static std::variant<SourceFile, Problem> checked(SourceFile file, dialect::Language language);
+
+  std::unique_ptr<char, Unmap> mapped_;
+  std::string read_;  // When nothing is mapped.
+};
+
+/// `cannot read: Permission denied`, for an errno.
+std::string cannot_read(int error, dialect::Language language);
+
+/// Whether some line has more than `limit` bytes, its end not counted. Looks at one place in `limit` bytes as long as
+/// lines are short.
+bool has_line_longer_than(std::size_t limit, std::string_view text);
+
+}  // namespace isocnc::analyzer

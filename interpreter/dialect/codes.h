@@ -1,0 +1,152 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/dialect/letters.h"
+
+namespace isocnc::dialect {
+
+/// The groups of Tav. 2, of whose members one is in force at a time. `None`: not modal (Tav. 3 and I.3.9 to I.3.12).
+enum class ModalGroup : std::uint8_t {
+  Motion,
+  Plane,
+  Face,
+  ProfileReduction,
+  CutterCompensation,
+  Interpolation,
+  Units,
+  Distance,
+  Workpiece,
+  FeedMode,
+  None,
+};
+
+inline constexpr std::size_t kModalGroupCount = static_cast<std::size_t>(ModalGroup::None);
+
+/// A G code: everything that is known of it without running it.
+struct GCode {
+  std::uint16_t number = 0;
+  Text name;
+  ModalGroup group = ModalGroup::None;
+  bool is_default = false;                 ///< In force when a program starts.
+  LetterSet arguments = 0;                 ///< What may follow it.
+  DiagnosticId alone = kNoDiagnostic;      ///< Reported when it has to stand alone on its line and does not.
+  DiagnosticId repeated = kNoDiagnostic;   ///< Reported when written again while in force.
+  DiagnosticId misplaced = kNoDiagnostic;  ///< Reported when it follows dimensions on its line.
+  std::string_view section;
+
+  constexpr bool is_motion() const { return group == ModalGroup::Motion; }
+  constexpr bool is_arc() const { return is_motion() && number >= 2; }
+  constexpr bool takes_arguments() const { return arguments != 0; }
+};
+
+/// All G codes of the dialect, by number.
+inline constexpr GCode kGCodes[] = {
+    {.number = 0, .name = {"rapid positioning", "posizionamento rapido"}, .group = ModalGroup::Motion,
+     .arguments = letters("XYZBC"), .section = "I.3.4.1"},
+    {.number = 1, .name = {"linear interpolation", "interpolazione lineare"}, .group = ModalGroup::Motion,
+     .arguments = letters("XYZBC"), .section = "I.3.4.2"},
+    {.number = 2, .name = {"clockwise arc or helix", "interpolazione circolare (elicoidale) oraria"},
+     .group = ModalGroup::Motion, .arguments = letters("XYZBCIJKR"), .section = "I.3.4.3"},
+    {.number = 3, .name = {"counterclockwise arc or helix", "interpolazione circolare (elicoidale) antioraria"},
+     .group = ModalGroup::Motion, .arguments = letters("XYZBCIJKR"), .section = "I.3.4.3"},
+    {.number = 4, .name = {"dwell", "attesa"}, .arguments = letters("P"), .alone = "g04-not-alone"_diag,
+     .section = "I.3.10"},
+    {.number = 9, .name = {"exact stop at the end of the block", "arresto a fine blocco"}, .section = "I.3.8"},
+    {.number = 17, .name = {"arc plane XY", "piano di interpolazione XY"}, .group = ModalGroup::Plane,
+     .is_default = true, .repeated = "redundant-modal"_diag, .section = "I.3.4.3.a"},
+    {.number = 18, .name = {"arc plane ZX", "piano di interpolazione ZX"}, .group = ModalGroup::Plane,
+     .repeated = "redundant-modal"_diag, .section = "I.3.4.3.a"},
+    {.number = 19, .name = {"arc plane YZ", "piano di interpolazione YZ"}, .group = ModalGroup::Plane,
+     .repeated = "redundant-modal"_diag, .section = "I.3.4.3.a"},
+    {.number = 24, .name = {"mount a face frame: origin and axes", "faccia: origine e assi"}, .group = ModalGroup::Face,
+     .arguments = letters("XYZABCIJKPQR"), .alone = "frame-not-alone"_diag, .section = "I.3.2"},
+    {.number = 27, .name = {"dismount the face frame", "smonta il sistema di riferimento di faccia"},
+     .group = ModalGroup::Face, .is_default = true, .alone = "frame-not-alone"_diag, .section = "I.3.2"},
+    {.number = 28, .name = {"mount a face frame at the tool tip: axes", "faccia con origine nella posizione corrente: assi"},
+     .group = ModalGroup::Face, .arguments = letters("XYZIJKPQR"), .alone = "frame-not-alone"_diag, .section = "I.3.2"},
+    {.number = 29, .name = {"mount a face frame: origin and angles", "faccia: origine e angoli"},
+     .group = ModalGroup::Face, .arguments = letters("XYZBC"), .alone = "frame-not-alone"_diag, .section = "I.3.2"},
+    {.number = 38, .name = {"profile reduction off", "riduzione profilo non attiva"},
+     .group = ModalGroup::ProfileReduction, .is_default = true, .section = "I.3"},
+    {.number = 39, .name = {"profile reduction on", "riduzione profilo attiva"}, .group = ModalGroup::ProfileReduction,
+     .section = "I.3"},
+    {.number = 40, .name = {"cutter compensation off", "nessuna correzione raggio fresa"},
+     .group = ModalGroup::CutterCompensation, .is_default = true, .section = "I.3"},
+    {.number = 41, .name = {"cutter compensation left of the profile", "correzione raggio fresa a sinistra del profilo"},
+     .group = ModalGroup::CutterCompensation, .section = "I.3"},
+    {.number = 42, .name = {"cutter compensation right of the profile", "correzione raggio fresa a destra del profilo"},
+     .group = ModalGroup::CutterCompensation, .section = "I.3"},
+    {.number = 48, .name = {"three-axis interpolation", "interpolazione a 3 assi"}, .group = ModalGroup::Interpolation,
+     .is_default = true, .alone = "g48-g49-not-alone"_diag, .repeated = "redundant-modal"_diag, .section = "I.3.5"},
+    {.number = 49, .name = {"five-axis interpolation", "interpolazione a 5 assi"}, .group = ModalGroup::Interpolation,
+     .alone = "g48-g49-not-alone"_diag, .repeated = "redundant-modal"_diag, .section = "I.3.5"},
+    {.number = 70, .name = {"inches", "pollici"}, .group = ModalGroup::Units, .repeated = "redundant-modal"_diag,
+     .misplaced = "units-after-dimensions"_diag, .section = "I.3.1"},
+    {.number = 71, .name = {"millimeters", "millimetri"}, .group = ModalGroup::Units, .is_default = true,
+     .repeated = "redundant-modal"_diag, .misplaced = "units-after-dimensions"_diag, .section = "I.3.1"},
+    {.number = 90, .name = {"absolute dimensions", "dimensioni assolute"}, .group = ModalGroup::Distance,
+     .is_default = true, .misplaced = "distance-mode-after-dimensions"_diag, .section = "I.3.3"},
+    {.number = 91, .name = {"incremental dimensions", "dimensioni incrementali"}, .group = ModalGroup::Distance,
+     .misplaced = "distance-mode-after-dimensions"_diag, .section = "I.3.3"},
+    {.number = 92, .name = {"workpiece frame", "sistema di riferimento di pezzo"}, .group = ModalGroup::Workpiece,
+     .is_default = true, .arguments = letters("XYZ"), .alone = "frame-not-alone"_diag, .section = "I.3.2"},
+    {.number = 93, .name = {"feed rate as inverse time", "feed rate come inverso del tempo"},
+     .group = ModalGroup::FeedMode, .repeated = "redundant-modal"_diag, .section = "I.3.7"},
+    {.number = 94, .name = {"feed rate per minute", "feed rate in unità al minuto"}, .group = ModalGroup::FeedMode,
+     .is_default = true, .repeated = "redundant-modal"_diag, .section = "I.3.7"},
+    {.number = 200, .name = {"wait for the next program at the end", "stato di attesa (pending) a fine programma"},
+     .section = "I.3.12"},
+    {.number = 909, .name = {"apply MDI instructions", "applicazione istruzioni MDI"}, .section = "I.3.9"},
+    {.number = 990, .name = {"update the technological parameters", "aggiornamento della parametrica tecnologica"},
+     .section = "I.3.11"},
+};
+
+/// Stands for a G that the dialect does not know (E001, ISO007).
+inline constexpr std::uint8_t kUnknownGCode = 255;
+
+/// Row of kGCodes for each number up to 999; kUnknownGCode where there is none.
+inline constexpr auto kGCodeRows = [] {
+  std::array<std::uint8_t, 1000> rows{};
+  rows.fill(kUnknownGCode);
+  for (std::size_t i = 0; i < std::size(kGCodes); ++i) rows[kGCodes[i].number] = static_cast<std::uint8_t>(i);
+  return rows;
+}();
+
+/// The G codes in force when a program starts, by modal group; kNoMotion where none is (I.3).
+inline constexpr std::uint8_t kNoMotion = 255;
+inline constexpr auto kDefaultModes = [] {
+  std::array<std::uint8_t, kModalGroupCount> modes{};
+  modes.fill(kNoMotion);
+  for (const GCode& code : kGCodes)
+    if (code.is_default) modes[static_cast<std::size_t>(code.group)] = static_cast<std::uint8_t>(code.number);
+  return modes;
+}();
+
+/// An M that the control interprets itself (Tav. 4); all others are the user's (I.4.4).
+struct MCode {
+  std::uint16_t number = 0;
+  Text name;
+  DiagnosticId alone = kNoDiagnostic;
+  std::string_view section;
+};
+
+inline constexpr MCode kMCodes[] = {
+    {.number = 2, .name = {"end of program", "termine programma"}, .alone = "m02-not-alone"_diag, .section = "I.4.1"},
+    {.number = 3, .name = {"spindle on, clockwise", "avvio mandrino, orario"}, .section = "I.4.2"},
+    {.number = 4, .name = {"spindle on, counterclockwise", "avvio mandrino, antiorario"}, .section = "I.4.2"},
+    {.number = 5, .name = {"spindle off", "arresto mandrino"}, .section = "I.4.2"},
+    {.number = 6, .name = {"tool change", "cambio utensile"}, .section = "I.4.3"},
+};
+
+inline constexpr int kProgramEnd = 2;
+inline constexpr int kToolChange = 6;
+constexpr bool is_user_function(int m) { return m < 2 || m > 6; }
+
+inline constexpr int kRegisterCount = 30;           ///< V1 to V30 (I.6).
+inline constexpr int kMostFunctionParameters = 20;  ///< P1 to P20 (I.4.4).
+
+}  // namespace isocnc::dialect

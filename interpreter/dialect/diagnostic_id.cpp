@@ -1,0 +1,77 @@
+#include "interpreter/dialect/diagnostic_id.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace isocnc::dialect {
+
+static bool equal_ignoring_case(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
+    return std::tolower(x) == std::tolower(y);
+  });
+}
+
+std::optional<DiagnosticId> find_diagnostic(std::string_view code_or_name) {
+  for (std::size_t i = 0; i < kDiagnosticCount; ++i)
+    if (equal_ignoring_case(kDiagnostics[i].code, code_or_name) || equal_ignoring_case(kDiagnostics[i].name, code_or_name))
+      return DiagnosticId{static_cast<std::uint8_t>(i)};
+  return std::nullopt;
+}
+
+std::string format_value(double value) {
+  if (!std::isfinite(value)) return fmt::format("{}", value);
+  std::string text = fmt::format("{:.4f}", value);
+  if (text.size() > 24) return fmt::format("{:.6g}", value);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  // Below the printed decimals a value still has to read as what it is, and never as "-0".
+  if ((text == "0" || text == "-0") && value != 0) return fmt::format("{:.3g}", value);
+  return text == "-0" ? "0" : text;
+}
+
+/// A longer piece of program text would push the message off the screen; the mark shows it whole.
+static std::string shortened(std::string_view text) {
+  constexpr std::size_t kMost = 40;
+  if (text.size() <= kMost) return std::string(text);
+  std::size_t end = kMost - 3;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  return std::string(text.substr(0, end)) + "...";
+}
+
+std::string message(DiagnosticId id, Language language, std::string_view text, std::span<const double> values) {
+  const DiagnosticDef& def = definition(id);
+  const std::string_view pattern = def.message.in(language);
+  std::string result;
+  result.reserve(pattern.size() + 32);
+  for (std::size_t at = 0; at < pattern.size();) {
+    const std::size_t open = pattern.find('{', at);
+    const std::size_t close = open == pattern.npos ? pattern.npos : pattern.find('}', open);
+    if (close == pattern.npos) return result.append(pattern.substr(at));
+    result.append(pattern.substr(at, open - at));
+    const std::string_view name = pattern.substr(open + 1, close - open - 1);
+    if (name == "text") result.append(shortened(text));
+    for (std::size_t i = 0; i < values.size() && i < kMostArguments; ++i)
+      if (def.arguments[i] == name) result.append(format_value(values[i]));
+    at = close + 1;
+  }
+  return result;
+}
+
+std::string_view severity_name(Severity severity, Language language) {
+  static constexpr Text kNames[] = {{"error", "errore"}, {"warning", "avviso"}, {"info", "nota"}};
+  return kNames[static_cast<std::size_t>(severity)].in(language);
+}
+
+std::string_view first_sentence(std::string_view explanation) {
+  for (std::size_t at = explanation.find(". "); at != explanation.npos; at = explanation.find(". ", at + 1)) {
+    const char next = explanation[at + 2];
+    const bool abbreviation = at >= 3 && explanation.substr(at - 3, 3) == "e.g";
+    if (!abbreviation && !(next >= 'a' && next <= 'z')) return explanation.substr(0, at + 1);
+  }
+  return explanation;
+}
+
+}  // namespace isocnc::dialect

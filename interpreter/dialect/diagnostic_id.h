@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <span>
+
+#include "interpreter/dialect/diagnostic_table.h"
+
+namespace isocnc::dialect {
+
+/// A row of the table of diagnostics. Made only from a name, so that there is none that the table does not know.
+enum class DiagnosticId : std::uint8_t {};
+
+/// Stands where a table row has no diagnostic to name.
+inline constexpr DiagnosticId kNoDiagnostic{255};
+
+inline constexpr std::size_t kDiagnosticCount = std::size(kDiagnostics);
+static_assert(kDiagnosticCount < 255);
+
+namespace detail {
+/// Never defined: calling it is what makes a misspelt name fail to compile.
+void no_diagnostic_has_this_name();
+}  // namespace detail
+
+inline namespace literals {
+/// `"head-not-selected"_diag`: a misspelt name does not compile.
+consteval DiagnosticId operator""_diag(const char* name, std::size_t length) {
+  for (std::size_t i = 0; i < kDiagnosticCount; ++i)
+    if (kDiagnostics[i].name == std::string_view(name, length)) return DiagnosticId{static_cast<std::uint8_t>(i)};
+  detail::no_diagnostic_has_this_name();
+  return kNoDiagnostic;
+}
+}  // namespace literals
+
+inline const DiagnosticDef& definition(DiagnosticId id) { return kDiagnostics[static_cast<std::size_t>(id)]; }
+
+/// The diagnostic with this code (`ISO012`, any case) or name (`head-not-selected`).
+std::optional<DiagnosticId> find_diagnostic(std::string_view code_or_name);
+
+/// The message in `language`, with `text` (the program text under the mark) and the values put in.
+std::string message(DiagnosticId id, Language language, std::string_view text, std::span<const double> values);
+
+/// A value as messages show it: at most four decimals, no trailing zeros.
+std::string format_value(double value);
+
+/// `error`, `warning`, `info` (`errore`, `avviso`, `nota`).
+std::string_view severity_name(Severity severity, Language language);
+
+/// The explanation's first sentence: it stands alone.
+std::string_view first_sentence(std::string_view explanation);
+
+}  // namespace isocnc::dialect

@@ -1,0 +1,991 @@
+#pragma once
+
+#include "interpreter/dialect/diagnostic.h"
+
+namespace isocnc::dialect {
+
+/// Every kind of finding. One row is all that is ever said about a code: messages in both languages, `--explain`, the
+/// documentation and the reports to other tools are read from here, and `wrong` and `right` are its first test.
+///
+/// `ISO` codes are the specification's (I.7); `E` and `W0` are rules that its text states without a code (D2, D3);
+/// `W19x` tell of the check itself. Lengths in messages are in mm and angles in degrees, whatever the program uses.
+inline constexpr DiagnosticDef kDiagnostics[] = {
+    {.code = "ISO001", .name = "unclosed-comment", .severity = Severity::Error, .section = "I.2.3", .arguments = {},
+     .title = {.en = "Unclosed comment", .it = "Commento non chiuso"},
+     .message = {.en = "no ) closes this comment before the end of the line",
+                 .it = "il commento non è chiuso da una ) entro la fine della linea"},
+     .explanation = {.en = "A comment in parentheses must end on the line where it begins. Add the ), or put ; in "
+                           "place of the ( to comment out the rest of the line. A second ( inside a comment is plain "
+                           "text and needs no ) of its own.",
+                     .it = "Un commento fra parentesi deve chiudersi sulla stessa linea in cui si apre. Aggiungere "
+                           "la ), oppure mettere ; al posto della ( per commentare tutto il resto della linea. Una "
+                           "seconda ( dentro il commento è semplice testo e non richiede una sua )."},
+     .wrong = "M06 T101001\nG00 Z5 [!(OP 10!]\nM02\n",
+     .right = "M06 T101001\nG00 Z5 (OP 10)\nM02\n"},
+    {.code = "ISO002", .name = "unopened-comment", .severity = Severity::Error, .section = "I.2.3", .arguments = {},
+     .title = {.en = "Unopened comment", .it = "Commento non aperto"},
+     .message = {.en = "this ) closes no comment: its ( is missing on the line",
+                 .it = "questa ) non chiude alcun commento: sulla linea manca la ( corrispondente"},
+     .explanation = {.en = "A ) is allowed only where it closes a comment that was opened on the same line. The first "
+                           ") ends the comment, however many ( stand before it. Delete the extra ) or add the missing "
+                           "(.",
+                     .it = "Una ) è ammessa solo per chiudere un commento aperto sulla stessa linea. La prima ) "
+                           "chiude il commento, anche se prima ci sono più (. Cancellare la ) di troppo o aggiungere "
+                           "la ( mancante."},
+     .wrong = "M06 T101001\nG00 Z5 (OP 10)[!)!]\nM02\n",
+     .right = "M06 T101001\nG00 Z5 (OP 10)\nM02\n"},
+    {.code = "ISO003", .name = "unknown-word", .severity = Severity::Error, .section = "I.2.2", .arguments = {},
+     .title = {.en = "Unknown word", .it = "Parola non riconosciuta"},
+     .message = {.en = "{text} is not a word of this control: words start with A B C F G I J K M N P Q R S T V X Y Z",
+                 .it = "parola {text} non riconosciuta: le parole iniziano con A B C F G I J K M N P Q R S T V X Y Z"},
+     .explanation = {.en = "The control knows no word with D, E, H, L, O, U or W, nor characters such as %, # or *. "
+                           "Use the letter that serves the purpose here, or put the text in a comment. Programs "
+                           "written for other controls often begin with % or with an O number: delete both.",
+                     .it = "Il controllo non conosce parole con D, E, H, L, O, U o W, né caratteri come %, # o *. "
+                           "Usare la lettera prevista da questo controllo, oppure mettere il testo in un commento. I "
+                           "programmi scritti per altri controlli iniziano spesso con % o con un numero O: vanno "
+                           "tolti."},
+     .wrong = "M06 T101001\nG00 X10 [!U5!]\nM02\n",
+     .right = "M06 T101001\nG00 X10 Y5\nM02\n"},
+    {.code = "ISO004", .name = "word-without-number", .severity = Severity::Error, .section = "I.2.2", .arguments = {},
+     .title = {.en = "Word without a number", .it = "Parola senza numero"},
+     .message = {.en = "no number follows the letter {text}", .it = "alla lettera {text} non segue un numero"},
+     .explanation = {.en = "A word is a letter with its number: the letter alone tells the control nothing. Write the "
+                           "number after it, or delete the letter. Zero must be written too: X0, not X.",
+                     .it = "Una parola è formata da una lettera e dal suo numero: la lettera da sola non dice nulla "
+                           "al controllo. Scrivere il numero o cancellare la lettera. Anche lo zero va scritto: X0, "
+                           "non X."},
+     .wrong = "M06 T101001\nG00 X10 [!Y!]\nM02\n",
+     .right = "M06 T101001\nG00 X10 Y20\nM02\n"},
+    {.code = "ISO005", .name = "number-without-letter",
+     .severity = Severity::Error, .section = "I.2.2", .arguments = {},
+     .title = {.en = "Number without a letter", .it = "Numero senza lettera"},
+     .message = {.en = "no letter stands before the number {text}",
+                 .it = "il numero {text} non è preceduto da una lettera"},
+     .explanation = {.en = "Without its letter the control cannot tell what the number is for. Write the letter "
+                           "before it (X, F, N and so on), or delete the number. Spaces do not separate numbers: X10 "
+                           "20 is read as X1020.",
+                     .it = "Senza la lettera il controllo non sa a che cosa serva il numero. Scrivere la lettera "
+                           "davanti (X, F, N e così via) o cancellare il numero. Gli spazi non separano i numeri: "
+                           "X10 20 viene letto come X1020."},
+     .wrong = "M06 T101001\nG00 X10 Y20\n[!30!] Y40\nM02\n",
+     .right = "M06 T101001\nG00 X10 Y20\nX30 Y40\nM02\n"},
+    {.code = "ISO006", .name = "malformed-number", .severity = Severity::Error, .section = "I.2.1", .arguments = {},
+     .title = {.en = "Malformed number", .it = "Formato numerico errato"},
+     .message = {.en = "{text} is not a valid number: only one sign, digits and one decimal point are allowed",
+                 .it = "{text} non è un numero valido: sono ammessi solo un segno, le cifre e un punto decimale"},
+     .explanation = {.en = "A number may start with + or -, and its decimals follow a point, never a comma. Write "
+                           "10.5, .35 or -3. A second sign, a second point and separators for thousands are not "
+                           "allowed.",
+                     .it = "Un numero può iniziare con + o -, e i decimali si separano con il punto, mai con la "
+                           "virgola. Scrivere 10.5, .35 o -3. Non sono ammessi un secondo segno, un secondo punto o "
+                           "separatori delle migliaia."},
+     .wrong = "M06 T101001\nG00 X[!10,5!]\nM02\n",
+     .right = "M06 T101001\nG00 X10.5\nM02\n"},
+    {.code = "ISO007", .name = "invalid-g-number", .severity = Severity::Error, .section = "I.2.2", .arguments = {},
+     .title = {.en = "Invalid G number", .it = "Numero non valido per la G"},
+     .message = {.en = "{text}: G takes a whole number from 0 to 999, without sign or decimal point",
+                 .it = "{text}: alla G segue un numero intero da 0 a 999, senza segno né punto decimale"},
+     .explanation = {.en = "The control knows G codes only as whole numbers of at most three digits. Codes with a "
+                           "point, such as G54.1 or G90.1, belong to other controls: use the G that does the same "
+                           "here. Leading zeros do not matter: G01 is G1.",
+                     .it = "Il controllo conosce solo G con un numero intero di tre cifre al massimo. I codici con "
+                           "il punto, come G54.1 o G90.1, sono di altri controlli: usare la G che qui fa lo stesso "
+                           "lavoro. Gli zeri iniziali non contano: G01 è G1."},
+     .wrong = "M06 T101001\n[!G90.1!]\nG00 X10\nM02\n",
+     .right = "M06 T101001\nG90\nG00 X10\nM02\n"},
+    {.code = "ISO008", .name = "invalid-m-number", .severity = Severity::Error, .section = "I.2.2", .arguments = {},
+     .title = {.en = "Invalid M number", .it = "Numero non valido per la M"},
+     .message = {.en = "{text}: M takes a whole number from 1 to 999, without sign or decimal point",
+                 .it = "{text}: alla M segue un numero intero da 1 a 999, senza segno né punto decimale"},
+     .explanation = {.en = "M functions are numbered from 1 to 999, and no other exists. M02 to M06 have a fixed "
+                           "meaning; the others are defined for each machine. There is no M0 on this control.",
+                     .it = "Le funzioni M sono numerate da 1 a 999 e altre non esistono. Da M02 a M06 il significato "
+                           "è fisso; le altre sono definite macchina per macchina. La M0 su questo controllo non c'è."},
+     .wrong = "[!M1000!]\nM02\n",
+     .right = "M100\nM02\n"},
+    {.code = "ISO009", .name = "invalid-tool-number", .severity = Severity::Error, .section = "I.2.2", .arguments = {},
+     .title = {.en = "Invalid tool number", .it = "Numero non valido per la T"},
+     .message = {.en = "{text}: T takes exactly six digits, one for the head, two for the holder, three for the tool",
+                 .it = "{text}: alla T seguono esattamente sei cifre, una per la testa, due per il portautensile, "
+                       "tre per l'utensile"},
+     .explanation = {.en = "Head, holder and tool have fixed places in the number, so none of the six digits may be "
+                           "left out. Fill up with zeros: head 1, holder 1 and tool 1 are T101001. Spaces between the "
+                           "groups are allowed: T 1 01 001.",
+                     .it = "Testa, portautensile e utensile hanno un posto fisso nel numero: delle sei cifre non se "
+                           "ne può omettere nessuna. Completare con gli zeri: testa 1, portautensile 1 e utensile 1 "
+                           "si scrivono T101001. Fra i gruppi di cifre si possono lasciare spazi: T 1 01 001."},
+     .wrong = "M06 [!T1001!]\nM02\n",
+     .right = "M06 T101001\nM02\n"},
+    {.code = "ISO010", .name = "units-after-dimensions",
+     .severity = Severity::Error, .section = "I.3.1", .arguments = {},
+     .title = {.en = "Units after the coordinates", .it = "G70/G71 dopo le quote"},
+     .message = {.en = "{text} must stand before the line's motion and coordinates",
+                 .it = "{text} va scritta prima del movimento della linea e delle sue quote"},
+     .explanation = {.en = "The control must know the unit before it reads the coordinates of the line. Move G70 or "
+                           "G71 to the start of the line, or put it on a line of its own before this one.",
+                     .it = "Il controllo deve conoscere l'unità di misura prima di leggere le quote della linea. "
+                           "Spostare la G70 o la G71 all'inizio della linea, oppure scriverla da sola sulla linea "
+                           "precedente."},
+     .wrong = "M06 T101001\nG00 X2 Y3 [!G70!]\nM02\n",
+     .right = "M06 T101001\nG70 G00 X2 Y3\nM02\n"},
+    {.code = "ISO011", .name = "stray-argument", .severity = Severity::Error, .section = "I.3.4", .arguments = {},
+     .title = {.en = "Stray argument", .it = "Quota o componente fuori posto"},
+     .message = {.en = "no command here takes {text}", .it = "nessun comando in questo punto ammette {text}"},
+     .explanation = {.en = "A coordinate or component counts only directly after the command that takes it, or alone "
+                           "on its line while a motion G is in force. S, N or another command in between breaks the "
+                           "series of arguments: write S before the G or after its last coordinate. G00 and G01 take "
+                           "X Y Z B C; G02 and G03 take I J K R as well; no motion takes A, P or Q.",
+                     .it = "Una quota o una componente vale solo subito dopo il comando che la richiede, oppure da "
+                           "sola sulla linea se è già in presa una G di movimento. Una S, una N o un altro comando "
+                           "in mezzo spezzano la serie degli argomenti: scrivere la S prima della G o dopo l'ultima "
+                           "quota. G00 e G01 ammettono X Y Z B C; G02 e G03 anche I J K R; nessun movimento ammette "
+                           "A, P o Q."},
+     .wrong = "M06 T101001\nG00 X10 S5000 [!Z5!]\nM02\n",
+     .right = "M06 T101001\nG00 X10 Z5 S5000\nM02\n"},
+    {.code = "ISO012", .name = "head-not-selected",
+     .severity = Severity::Error, .section = "I.4.3", .arguments = {"holder"},
+     .title = {.en = "Head not selected", .it = "Testa non selezionata"},
+     .message = {.en = "holder {holder} has no head: the first digit of T is 0",
+                 .it = "il portautensile {holder} non ha testa: la prima cifra di T è 0"},
+     .explanation = {.en = "A holder is always mounted on a head, so a holder without a head cannot be called. Write "
+                           "the head, from 1 to 9, as the first digit of T. T000000 says that nothing is mounted.",
+                     .it = "Il portautensile sta sempre su una testa: senza testa non si può richiamare. Scrivere la "
+                           "testa, da 1 a 9, come prima cifra della T. Con T000000 si indica che non è montato nulla."},
+     .wrong = "M06 [!T030207!]\nM02\n",
+     .right = "M06 T130207\nM02\n"},
+    {.code = "ISO013", .name = "holder-not-selected",
+     .severity = Severity::Error, .section = "I.4.3", .arguments = {"tool"},
+     .title = {.en = "Holder not selected", .it = "Portautensile non selezionato"},
+     .message = {.en = "tool {tool} has no holder: the second and third digits of T are 0",
+                 .it = "l'utensile {tool} non ha portautensile: la seconda e la terza cifra di T sono 0"},
+     .explanation = {.en = "A tool is always mounted in a holder, so a tool without a holder cannot be called. Write "
+                           "the holder, from 01 to 99, as the second and third digits of T. If no tool is mounted, "
+                           "the last three digits are 000.",
+                     .it = "L'utensile sta sempre in un portautensile: senza portautensile non si può richiamare. "
+                           "Scrivere il portautensile, da 01 a 99, come seconda e terza cifra della T. Se l'utensile "
+                           "non è montato, le ultime tre cifre sono 000."},
+     .wrong = "M06 [!T100207!]\nM02\n",
+     .right = "M06 T130207\nM02\n"},
+    {.code = "ISO014", .name = "tool-change-without-tool",
+     .severity = Severity::Error, .section = "I.4.3", .arguments = {},
+     .title = {.en = "Tool change without a tool", .it = "Cambio utensile senza T"},
+     .message = {.en = "no T follows {text}: it does not say which tool to load",
+                 .it = "alla {text} non segue la T: manca l'attrezzaggio da montare"},
+     .explanation = {.en = "M06 must be followed at once by the T of the tool to load. Write both together and in "
+                           "this order: M06 T101001. A T before M06, on another line or after another word does not "
+                           "count.",
+                     .it = "Alla M06 deve seguire subito la T dell'utensile da montare. Scriverle insieme e in "
+                           "quest'ordine: M06 T101001. Una T prima della M06, su un'altra linea o dopo un'altra "
+                           "parola non vale."},
+     .wrong = "[!M06!]\nM02\n",
+     .right = "M06 T101001\nM02\n"},
+    {.code = "ISO015", .name = "spindle-speed-not-positive",
+     .severity = Severity::Error, .section = "I.4.2", .arguments = {"speed"},
+     .title = {.en = "Spindle speed not positive", .it = "Velocità del mandrino negativa o nulla"},
+     .message = {.en = "spindle speed {speed} rpm: it must be greater than 0",
+                 .it = "velocità di rotazione del mandrino {speed} giri/min: deve essere maggiore di 0"},
+     .explanation = {.en = "S gives the spindle speed only, neither the stop nor the direction, so it is always "
+                           "positive. To stop the spindle write M05. To turn it counterclockwise write M04 and a "
+                           "positive S.",
+                     .it = "La S dà solo la velocità del mandrino, non l'arresto né il senso di rotazione, perciò è "
+                           "sempre positiva. Per arrestare il mandrino scrivere M05. Per la rotazione antioraria "
+                           "scrivere M04 con una S positiva."},
+     .wrong = "[!S-5000!] M03\nM02\n",
+     .right = "S5000 M03\nM02\n"},
+    {.code = "ISO016", .name = "repeated-argument", .severity = Severity::Error, .section = "I.7", .arguments = {},
+     .title = {.en = "Repeated argument", .it = "Argomento ripetuto"},
+     .message = {.en = "{text} repeats a letter that this command already has",
+                 .it = "{text} ripete una lettera già data allo stesso comando"},
+     .explanation = {.en = "Each letter may be given once per command: the control does not choose between two "
+                           "values. Delete the wrong one or correct its letter.",
+                     .it = "Ogni lettera si può dare una sola volta per comando: fra due valori il controllo non "
+                           "sceglie. Cancellare quello sbagliato o correggerne la lettera."},
+     .wrong = "M06 T101001\nG00 X10 [!X20!]\nM02\n",
+     .right = "M06 T101001\nG00 X10 Y20\nM02\n"},
+    {.code = "ISO017", .name = "missing-arguments", .severity = Severity::Error, .section = "I.7", .arguments = {},
+     .title = {.en = "Missing arguments", .it = "Mancanza di argomenti"},
+     .message = {.en = "{text} has none of the arguments that it needs",
+                 .it = "{text} senza nessuno degli argomenti richiesti"},
+     .explanation = {.en = "Without arguments the control does not know what the command should do. After G29 write "
+                           "at least one of X, Y, Z (origin), C and B (angles). Those left out are 0.",
+                     .it = "Senza argomenti il controllo non sa che cosa fare del comando. Dopo la G29 scrivere "
+                           "almeno una fra X, Y, Z (origine), C e B (angoli). Quelle omesse valgono 0."},
+     .wrong = "[!G29!]\nM02\n",
+     .right = "G29 X100 C90\nM02\n"},
+    {.code = "ISO018", .name = "frame-not-alone", .severity = Severity::Error, .section = "I.3.2", .arguments = {},
+     .title = {.en = "Reference frame not alone on its line", .it = "Sistema di riferimento non da solo sulla linea"},
+     .message = {.en = "{text} must stand alone on its line, with nothing but its own arguments",
+                 .it = "{text} deve stare da sola sulla linea, con i suoi soli argomenti"},
+     .explanation = {.en = "On a line that changes the reference frame anything else could be taken in the old frame "
+                           "or in the new one. Put the other words on a line before or after it; only a line number N "
+                           "may stay. Check the letters too: G92 takes X Y Z, G29 takes X Y Z B C, G27 takes none.",
+                     .it = "Su una linea che cambia sistema di riferimento ogni altra parola potrebbe valere per il "
+                           "vecchio sistema o per il nuovo. Spostare le altre parole su una linea prima o dopo; può "
+                           "restare solo il numero di riga N. Controllare anche le lettere: la G92 ammette X Y Z, la "
+                           "G29 X Y Z B C, la G27 nessuna."},
+     .wrong = "G90 [!G92!] X100 Y50\nM02\n",
+     .right = "G90\nG92 X100 Y50\nM02\n"},
+    {.code = "ISO019", .name = "missing-i-vector", .severity = Severity::Error, .section = "I.3.2", .arguments = {},
+     .title = {.en = "Missing axis vector i", .it = "Mancanza del versore i"},
+     .message = {.en = "{text} has no axis vector i, the direction of the face's X axis",
+                 .it = "{text} senza il versore i, che dà la direzione dell'asse X della faccia"},
+     .explanation = {.en = "A face frame needs the directions of all three axes, each with at least one component. "
+                           "The components of i are X Y Z with G28, A B C with G24; those left out are 0. On this "
+                           "control G28 mounts a face frame: it is no return to the reference point.",
+                     .it = "Un sistema di riferimento di faccia vuole la direzione di tutti e tre gli assi, ciascuna "
+                           "con almeno una componente. Le componenti di i sono X Y Z con la G28, A B C con la G24; "
+                           "quelle omesse valgono 0. Su questo controllo la G28 mette in presa un sistema di faccia, "
+                           "non è un ritorno allo zero macchina."},
+     .wrong = "[!G28!] I-1 R1\nM02\n",
+     .right = "G28 Y1 I-1 R1\nM02\n"},
+    {.code = "ISO020", .name = "missing-j-vector", .severity = Severity::Error, .section = "I.3.2", .arguments = {},
+     .title = {.en = "Missing axis vector j", .it = "Mancanza del versore j"},
+     .message = {.en = "{text} has no axis vector j, the direction of the face's Y axis",
+                 .it = "{text} senza il versore j, che dà la direzione dell'asse Y della faccia"},
+     .explanation = {.en = "A face frame needs the directions of all three axes, each with at least one component. "
+                           "The components of j are I J K; those left out are 0. On this control G28 mounts a face "
+                           "frame: it is no return to the reference point.",
+                     .it = "Un sistema di riferimento di faccia vuole la direzione di tutti e tre gli assi, ciascuna "
+                           "con almeno una componente. Le componenti di j sono I J K; quelle omesse valgono 0. Su "
+                           "questo controllo la G28 mette in presa un sistema di faccia, non è un ritorno allo zero "
+                           "macchina."},
+     .wrong = "[!G28!] Y1 R1\nM02\n",
+     .right = "G28 Y1 I-1 R1\nM02\n"},
+    {.code = "ISO021", .name = "missing-k-vector", .severity = Severity::Error, .section = "I.3.2", .arguments = {},
+     .title = {.en = "Missing axis vector k", .it = "Mancanza del versore k"},
+     .message = {.en = "{text} has no axis vector k, the direction of the face's Z axis",
+                 .it = "{text} senza il versore k, che dà la direzione dell'asse Z della faccia"},
+     .explanation = {.en = "A face frame needs the directions of all three axes, each with at least one component. "
+                           "The components of k are P Q R; those left out are 0. On this control G28 mounts a face "
+                           "frame: it is no return to the reference point.",
+                     .it = "Un sistema di riferimento di faccia vuole la direzione di tutti e tre gli assi, ciascuna "
+                           "con almeno una componente. Le componenti di k sono P Q R; quelle omesse valgono 0. Su "
+                           "questo controllo la G28 mette in presa un sistema di faccia, non è un ritorno allo zero "
+                           "macchina."},
+     .wrong = "[!G28!] Y1 I-1\nM02\n",
+     .right = "G28 Y1 I-1 R1\nM02\n"},
+    {.code = "ISO022", .name = "zero-axis-vector", .severity = Severity::Error, .section = "I.3.2", .arguments = {},
+     .title = {.en = "Axis vector of length zero", .it = "Versore a modulo nullo"},
+     .message = {.en = "{text}: an axis vector of length 0 has no direction",
+                 .it = "{text}: un versore a modulo nullo non ha direzione"},
+     .explanation = {.en = "An axis of the face must point somewhere, so at least one of its components must differ "
+                           "from 0. Correct the components. Their size does not matter, only the direction that they "
+                           "give.",
+                     .it = "Un asse della faccia deve avere una direzione: almeno una componente deve essere diversa "
+                           "da 0. Correggere le componenti. La loro grandezza non conta, conta solo la direzione che "
+                           "danno."},
+     .wrong = "G28 [!X0 Y0 Z0!] I-1 R1\nM02\n",
+     .right = "G28 X0 Y1 Z0 I-1 R1\nM02\n"},
+    {.code = "ISO023", .name = "coplanar-axis-vectors",
+     .severity = Severity::Error, .section = "I.3.2", .arguments = {},
+     .title = {.en = "Coplanar axis vectors", .it = "Terna di versori complanari"},
+     .message = {.en = "the three axis vectors of {text} lie in one plane",
+                 .it = "i tre versori della {text} sono complanari"},
+     .explanation = {.en = "Three axes in one plane make no frame in space. They need not be at right angles, but "
+                           "none may lie in the plane of the other two. Often two vectors are the same or a component "
+                           "has the wrong letter, such as P for R: check them one by one.",
+                     .it = "Tre assi su uno stesso piano non formano un sistema di riferimento nello spazio. Non "
+                           "occorre che siano ortogonali, ma nessuno può giacere nel piano degli altri due. Spesso "
+                           "due versori coincidono o una componente ha la lettera sbagliata, per esempio P al posto "
+                           "di R: controllarle una per una."},
+     .wrong = "[!G28!] X1 J1 P1\nM02\n",
+     .right = "G28 X1 J1 R1\nM02\n"},
+    {.code = "ISO024", .name = "face-already-mounted", .severity = Severity::Error, .section = "I.3.2", .arguments = {},
+     .title = {.en = "Face frame already in force", .it = "Sistema di riferimento di faccia già in presa"},
+     .message = {.en = "{text} while a face frame is in force: it must be dismounted with G27 first",
+                 .it = "{text} con un sistema di riferimento di faccia già in presa: prima va smontato con la G27"},
+     .explanation = {.en = "The control does not pass straight from one face frame to another. Write G27 on a line of "
+                           "its own before this one. The rule is the same for G24, G28 and G29.",
+                     .it = "Il controllo non passa direttamente da un sistema di riferimento di faccia a un altro. "
+                           "Scrivere prima una G27 su una linea a sé. La regola è la stessa per G24, G28 e G29."},
+     .wrong = "G29 X100 C90\n[!G29!] Y100 C-90\nM02\n",
+     .right = "G29 X100 C90\nG27\nG29 Y100 C-90\nM02\n"},
+    {.code = "ISO025", .name = "missing-origin", .severity = Severity::Error, .section = "I.3.2", .arguments = {},
+     .title = {.en = "Missing origin", .it = "Mancanza delle coordinate dell'origine"},
+     .message = {.en = "{text} has no origin: at least one of X, Y and Z is needed",
+                 .it = "{text} senza origine: serve almeno una fra X, Y e Z"},
+     .explanation = {.en = "G92 sets the workpiece zero and needs at least one of its coordinates, even if it is 0. "
+                           "Those left out are 0. G92 X0 Y0 Z0 goes back to the machine frame.",
+                     .it = "La G92 fissa lo zero pezzo e vuole almeno una delle sue coordinate, anche nulla. Quelle "
+                           "omesse valgono 0. Con G92 X0 Y0 Z0 si torna al sistema di riferimento di macchina."},
+     .wrong = "[!G92!]\nM02\n",
+     .right = "G92 X100 Y50\nM02\n"},
+    {.code = "ISO026", .name = "missing-coordinate", .severity = Severity::Error, .section = "I.3.4", .arguments = {},
+     .title = {.en = "Missing coordinate", .it = "Nessuna quota specificata"},
+     .message = {.en = "no coordinate follows {text}", .it = "alla {text} non segue alcuna quota"},
+     .explanation = {.en = "A motion G needs at least one coordinate directly after it, even if it is meant for the "
+                           "lines that follow. Write the coordinate right after the G. S or N in between cuts the "
+                           "coordinate off from its G.",
+                     .it = "Una G di movimento vuole almeno una quota subito dopo, anche quando dovrebbe servire "
+                           "solo per le linee successive. Scrivere la quota subito dopo la G. Una S o una N in mezzo "
+                           "stacca la quota dalla sua G."},
+     .wrong = "M06 T101001\n[!G00!]\nX10 Y20\nM02\n",
+     .right = "M06 T101001\nG00 X10 Y20\nM02\n"},
+    {.code = "ISO027", .name = "arc-end-outside-plane",
+     .severity = Severity::Error, .section = "I.3.4.3.a", .arguments = {},
+     .title = {.en = "Arc end outside the plane", .it = "Punto finale dell'arco fuori dal piano"},
+     .message = {.en = "{text} is not in the arc plane: G17 needs X or Y, G18 needs X or Z, G19 needs Y or Z",
+                 .it = "{text} non appartiene al piano di interpolazione: con G17 serve X o Y, con G18 X o Z, con "
+                       "G19 Y o Z"},
+     .explanation = {.en = "The end of an arc needs at least one of the two coordinates of its plane. Add it, or "
+                           "select the right plane with G17, G18 or G19. The third coordinate may be added to make a "
+                           "helix. For a full turn repeat a coordinate of the start.",
+                     .it = "Il punto finale di un arco vuole almeno una delle due coordinate del suo piano. "
+                           "Aggiungerla, oppure selezionare il piano giusto con G17, G18 o G19. La terza coordinata "
+                           "si può aggiungere per un'elica. Per un giro completo ripetere una coordinata del punto "
+                           "iniziale."},
+     .wrong = "M06 T101001\nG00 Z5\nG02 [!Z-3!] R10 F1000\nM02\n",
+     .right = "M06 T101001\nG00 Z5\nG02 X10 Y10 Z-3 R10 F1000\nM02\n"},
+    {.code = "ISO028", .name = "circle-not-given", .severity = Severity::Error, .section = "I.3.4.3.a", .arguments = {},
+     .title = {.en = "Circle not given", .it = "Mancanza dei dati del cerchio"},
+     .message = {.en = "{text} has neither radius nor center", .it = "{text} senza raggio né centro"},
+     .explanation = {.en = "Many circles pass through the same start and end, so the control needs the radius or the "
+                           "center. Add R for an arc of up to 180°, or the center: I J with G17, I K with G18, J K "
+                           "with G19. With G90 the center is given as a position, with G91 as a distance from the "
+                           "start.",
+                     .it = "Per gli stessi punti iniziale e finale passano molti cerchi: al controllo serve il "
+                           "raggio o il centro. Aggiungere R per un arco fino a 180°, oppure il centro: I J con G17, "
+                           "I K con G18, J K con G19. Con la G90 il centro si dà come posizione, con la G91 come "
+                           "distanza dal punto iniziale."},
+     .wrong = "M06 T101001\n[!G02!] X10 Y10 F1000\nM02\n",
+     .right = "M06 T101001\nG02 X10 Y10 R10 F1000\nM02\n"},
+    {.code = "ISO029", .name = "arc-radius-mismatch",
+     .severity = Severity::Error, .section = "I.3.4.3.a", .arguments = {"radius", "distance"},
+     .title = {.en = "Radius and center do not agree", .it = "Raggio e centro incongruenti"},
+     .message = {.en = "the radius is {radius} mm, but the center is {distance} mm from the start",
+                 .it = "il raggio è {radius} mm, ma il centro dista {distance} mm dal punto iniziale"},
+     .explanation = {.en = "Radius and center given together must describe the same circle. Correct the wrong one, or "
+                           "delete it: either is enough. With G90 I, J and K are the position of the center, with G91 "
+                           "its distance from the start.",
+                     .it = "Raggio e centro dati insieme devono descrivere lo stesso cerchio. Correggere quello "
+                           "sbagliato o toglierlo: ne basta uno. Con la G90 I, J e K danno la posizione del centro, "
+                           "con la G91 la sua distanza dal punto iniziale."},
+     .wrong = "M06 T101001\nG02 X10 Y10 I10 J0 [!R12!] F1000\nM02\n",
+     .right = "M06 T101001\nG02 X10 Y10 I10 J0 R10 F1000\nM02\n"},
+    {.code = "ISO030", .name = "arc-radius-too-small",
+     .severity = Severity::Error, .section = "I.3.4.3.a", .arguments = {"radius", "needed"},
+     .title = {.en = "Arc radius too small", .it = "Raggio del cerchio insufficiente"},
+     .message = {.en = "radius {radius} mm is too small: it must be positive and at least {needed} mm",
+                 .it = "il raggio di {radius} mm è insufficiente: deve essere positivo e di almeno {needed} mm"},
+     .explanation = {.en = "No circle of this radius reaches from the start of the arc to its end. Enlarge R, or "
+                           "check the two points: R cannot be less than half the distance between them. R is always "
+                           "positive: for an arc of more than 180° give the center, not a negative R.",
+                     .it = "Con questo raggio nessun cerchio arriva dal punto iniziale dell'arco a quello finale. "
+                           "Aumentare R o controllare i due punti: R non può essere minore di metà della loro "
+                           "distanza. R è sempre positivo: per un arco oltre i 180° dare il centro, non un R "
+                           "negativo."},
+     .wrong = "M06 T101001\nG02 X30 [!R10!] F1000\nM02\n",
+     .right = "M06 T101001\nG02 X30 R20 F1000\nM02\n"},
+    {.code = "ISO031", .name = "arc-center-mismatch",
+     .severity = Severity::Error, .section = "I.3.4.3.a", .arguments = {"start", "end"},
+     .title = {.en = "Arc center does not fit", .it = "Centro dell'arco incongruente"},
+     .message = {.en = "the center is {start} mm from the start and {end} mm from the end of the arc",
+                 .it = "il centro dista {start} mm dal punto iniziale e {end} mm dal punto finale dell'arco"},
+     .explanation = {.en = "Start and end of an arc must lie on one circle, equally far from its center and not on "
+                           "it. Check the center and the end point. With G90 I, J and K are the position of the "
+                           "center, with G91 its distance from the start.",
+                     .it = "I punti iniziale e finale devono stare sullo stesso cerchio, alla stessa distanza dal "
+                           "centro e non sul centro stesso. Controllare il centro e il punto finale. Con la G90 I, J "
+                           "e K danno la posizione del centro, con la G91 la sua distanza dal punto iniziale."},
+     .wrong = "M06 T101001\nG02 X10 Y10 [!I10 J5!] F1000\nM02\n",
+     .right = "M06 T101001\nG02 X10 Y10 I10 J0 F1000\nM02\n"},
+    {.code = "ISO032", .name = "five-axis-not-enabled",
+     .severity = Severity::Error, .section = "I.3.5", .arguments = {},
+     .title = {.en = "Five-axis interpolation not enabled", .it = "Interpolazione a 5 assi non abilitata"},
+     .message = {.en = "{text} moves a rotary axis, but three-axis interpolation (G48) is in force",
+                 .it = "{text} muove un rotante, ma è in presa l'interpolazione a 3 assi (G48)"},
+     .explanation = {.en = "With G48 in force B and C may move in rapid only, not in a feed move. Write G49 on a line "
+                           "of its own before this move, or position the rotary axes with G00 first.",
+                     .it = "Con la G48 in presa B e C si muovono solo in rapido, non in interpolazione. Scrivere "
+                           "prima una G49 su una linea a sé, oppure posizionare i rotanti con una G00."},
+     .wrong = "M06 T101001\nG01 X10 [!C45!] F1000\nM02\n",
+     .right = "M06 T101001\nG49\nG01 X10 C45 F1000\nM02\n"},
+    {.code = "ISO033", .name = "g48-g49-not-alone", .severity = Severity::Error, .section = "I.3.5", .arguments = {},
+     .title = {.en = "G48 or G49 not alone on its line", .it = "G48/G49 non da sola sulla linea"},
+     .message = {.en = "{text} must stand alone on its line", .it = "{text} deve stare da sola sulla linea"},
+     .explanation = {.en = "The control changes between three-axis and five-axis interpolation only on a line that "
+                           "holds nothing else. Move the other words to the next line, where the new setting holds. A "
+                           "line number N may stay.",
+                     .it = "Il controllo cambia fra interpolazione a 3 e a 5 assi solo su una linea che non contiene "
+                           "altro. Spostare le altre parole sulla linea successiva, dove vale la nuova impostazione. "
+                           "Il numero di riga N può restare."},
+     .wrong = "M06 T101001\n[!G49!] G01 X10 C45 F1000\nM02\n",
+     .right = "M06 T101001\nG49\nG01 X10 C45 F1000\nM02\n"},
+    {.code = "ISO034", .name = "misplaced-g41-g42", .severity = Severity::Error, .section = "I.7", .arguments = {},
+     .title = {.en = "Misplaced G41 or G42", .it = "Posizione errata della G41/G42"},
+     .message = {.en = "{text} must stand alone or before the motion on its line",
+                 .it = "{text} deve stare da sola o prima del movimento della linea"},
+     .explanation = {.en = "Cutter compensation must be known before the motion to which it applies. Write G41 or G42 "
+                           "before the motion G, or on a line of its own.",
+                     .it = "La correzione raggio fresa deve essere nota prima del movimento a cui si applica. "
+                           "Scrivere la G41 o la G42 prima della G di movimento, oppure su una linea a sé."},
+     .wrong = "M06 T101001\nG01 X10 F1000 [!G41!]\nG01 Y20 G40\nM02\n",
+     .right = "M06 T101001\nG41 G01 X10 F1000\nG01 Y20 G40\nM02\n"},
+    {.code = "ISO035", .name = "misplaced-g40", .severity = Severity::Error, .section = "I.7", .arguments = {},
+     .title = {.en = "Misplaced G40", .it = "Posizione errata della G40"},
+     .message = {.en = "{text} must stand alone or after the line's motion and coordinates",
+                 .it = "{text} deve stare da sola o dopo il movimento della linea e le sue quote"},
+     .explanation = {.en = "Cutter compensation is switched off once the last compensated motion is complete, not "
+                           "before it. Write G40 after the coordinates of that motion, or on a line of its own. In a "
+                           "start line with several G codes it needs its own line too.",
+                     .it = "La correzione raggio fresa si toglie quando l'ultimo movimento corretto è completo, non "
+                           "prima. Scrivere la G40 dopo le quote di quel movimento, oppure su una linea a sé. Anche "
+                           "fra le impostazioni di inizio programma la G40 va su una linea sua."},
+     .wrong = "M06 T101001\nG41 G01 X10 F1000\n[!G40!] G01 Y20\nM02\n",
+     .right = "M06 T101001\nG41 G01 X10 F1000\nG01 Y20 G40\nM02\n"},
+    {.code = "ISO036", .name = "negative-dwell",
+     .severity = Severity::Error, .section = "I.3.10", .arguments = {"seconds"},
+     .title = {.en = "Negative dwell time", .it = "Tempo di attesa negativo"},
+     .message = {.en = "dwell time {seconds} s: it must not be negative",
+                 .it = "tempo di attesa {seconds} s: non può essere negativo"},
+     .explanation = {.en = "P is the time to wait in seconds, and waiting less than 0 seconds makes no sense. Write a "
+                           "positive value. 0 is allowed and does not wait.",
+                     .it = "La P è il tempo di attesa in secondi, e un'attesa negativa non ha senso. Scrivere un "
+                           "valore positivo. Lo zero è ammesso e non fa attendere."},
+     .wrong = "G04 [!P-2!]\nM02\n",
+     .right = "G04 P2\nM02\n"},
+    {.code = "ISO037", .name = "g04-not-alone", .severity = Severity::Error, .section = "I.3.10", .arguments = {},
+     .title = {.en = "G04 not alone on its line", .it = "G04 non da sola sulla linea"},
+     .message = {.en = "{text} must stand alone on its line, with nothing but its P",
+                 .it = "{text} deve stare da sola sulla linea, con la sola P"},
+     .explanation = {.en = "A dwell needs a line of its own: it could otherwise come before or after the other words "
+                           "of the line. Move them to the line before or after, as they should be executed. A line "
+                           "number N may stay.",
+                     .it = "L'attesa vuole una linea a sé: altrimenti non sarebbe chiaro se viene prima o dopo le "
+                           "altre parole. Spostarle sulla linea prima o su quella dopo, nell'ordine voluto. Il "
+                           "numero di riga N può restare."},
+     .wrong = "S5000 M03 [!G04!] P2\nM02\n",
+     .right = "S5000 M03\nG04 P2\nM02\n"},
+    {.code = "ISO038", .name = "stray-center-k", .severity = Severity::Error, .section = "I.3.4.3.a", .arguments = {},
+     .title = {.en = "Center with K in G17", .it = "Centro con K in G17"},
+     .message = {.en = "{text}: in the XY plane (G17) the center takes I and J only",
+                 .it = "{text}: nel piano XY (G17) il centro si dà solo con I e J"},
+     .explanation = {.en = "K is the Z of a center, which means nothing in the XY plane. Delete K or replace it with "
+                           "the right letter. If another plane was meant, select it before the arc: G18 takes I and "
+                           "K, G19 takes J and K.",
+                     .it = "La K è la Z del centro, che nel piano XY non ha senso. Togliere la K o sostituirla con "
+                           "la lettera giusta. Se si intendeva un altro piano, selezionarlo prima dell'arco: con G18 "
+                           "I e K, con G19 J e K."},
+     .wrong = "M06 T101001\nG02 X10 Y10 I10 [!K0!] F1000\nM02\n",
+     .right = "M06 T101001\nG02 X10 Y10 I10 J0 F1000\nM02\n"},
+    {.code = "ISO039", .name = "stray-center-j", .severity = Severity::Error, .section = "I.3.4.3.a", .arguments = {},
+     .title = {.en = "Center with J in G18", .it = "Centro con J in G18"},
+     .message = {.en = "{text}: in the ZX plane (G18) the center takes I and K only",
+                 .it = "{text}: nel piano ZX (G18) il centro si dà solo con I e K"},
+     .explanation = {.en = "J is the Y of a center, which means nothing in the ZX plane. Delete J or replace it with "
+                           "the right letter. If another plane was meant, select it before the arc: G17 takes I and "
+                           "J, G19 takes J and K.",
+                     .it = "La J è la Y del centro, che nel piano ZX non ha senso. Togliere la J o sostituirla con "
+                           "la lettera giusta. Se si intendeva un altro piano, selezionarlo prima dell'arco: con G17 "
+                           "I e J, con G19 J e K."},
+     .wrong = "M06 T101001\nG18 G02 X10 Z10 I10 [!J0!] F1000\nM02\n",
+     .right = "M06 T101001\nG18 G02 X10 Z10 I10 K0 F1000\nM02\n"},
+    {.code = "ISO040", .name = "stray-center-i", .severity = Severity::Error, .section = "I.3.4.3.a", .arguments = {},
+     .title = {.en = "Center with I in G19", .it = "Centro con I in G19"},
+     .message = {.en = "{text}: in the YZ plane (G19) the center takes J and K only",
+                 .it = "{text}: nel piano YZ (G19) il centro si dà solo con J e K"},
+     .explanation = {.en = "I is the X of a center, which means nothing in the YZ plane. Delete I or replace it with "
+                           "the right letter. If another plane was meant, select it before the arc: G17 takes I and "
+                           "J, G18 takes I and K.",
+                     .it = "La I è la X del centro, che nel piano YZ non ha senso. Togliere la I o sostituirla con "
+                           "la lettera giusta. Se si intendeva un altro piano, selezionarlo prima dell'arco: con G17 "
+                           "I e J, con G18 I e K."},
+     .wrong = "M06 T101001\nG19 G02 Y10 Z10 [!I10!] K0 F1000\nM02\n",
+     .right = "M06 T101001\nG19 G02 Y10 Z10 J10 K0 F1000\nM02\n"},
+    {.code = "ISO041", .name = "inverse-time-feed-missing",
+     .severity = Severity::Error, .section = "I.3.7", .arguments = {},
+     .title = {.en = "F missing in inverse time", .it = "F mancante con la G93"},
+     .message = {.en = "{text} has no F: with G93 in force every feed move needs its own",
+                 .it = "{text} senza F: con la G93 in presa ogni movimento in interpolazione vuole la sua"},
+     .explanation = {.en = "In inverse time (G93) F belongs to one move only: it is 1 divided by the minutes that the "
+                           "move should take. Write F on this line, or return to feed rate per minute with G94.",
+                     .it = "Con l'inverso del tempo (G93) la F vale per un solo movimento: è 1 diviso la durata "
+                           "voluta in minuti. Scrivere la F su questa linea, oppure tornare al feed rate in unità al "
+                           "minuto con la G94."},
+     .wrong = "M06 T101001\nG93 G01 X10 F4\n[!G01!] Y20\nM02\n",
+     .right = "M06 T101001\nG93 G01 X10 F4\nG01 Y20 F4\nM02\n"},
+    {.code = "ISO042", .name = "feed-not-positive",
+     .severity = Severity::Error, .section = "I.3.7", .arguments = {"feed"},
+     .title = {.en = "Feed rate not positive", .it = "Feed rate negativo o nullo"},
+     .message = {.en = "feed rate {feed}: it must be greater than 0",
+                 .it = "feed rate {feed}: deve essere maggiore di 0"},
+     .explanation = {.en = "With a feed rate of 0 or less the tool would never arrive. Write a positive F: the "
+                           "direction comes from the coordinates. This holds for an F next to G00 too, although it is "
+                           "ignored there.",
+                     .it = "Con un feed rate negativo o nullo l'utensile non arriverebbe mai. Scrivere una F "
+                           "positiva: il verso del movimento lo danno le quote. Vale anche per una F accanto a una "
+                           "G00, dove pure viene ignorata."},
+     .wrong = "M06 T101001\nG01 X10 F1000\nG01 Y20 [!F0!]\nM02\n",
+     .right = "M06 T101001\nG01 X10 F1000\nG01 Y20 F500\nM02\n"},
+    {.code = "ISO043", .name = "m02-not-alone", .severity = Severity::Error, .section = "I.4.1", .arguments = {},
+     .title = {.en = "M02 not alone on its line", .it = "M02 non da sola sulla linea"},
+     .message = {.en = "{text} must stand alone on its line", .it = "{text} deve stare da sola sulla linea"},
+     .explanation = {.en = "The program end needs a line of its own, with a line number N at most. Move the other "
+                           "words to the line before: what comes after M02 is ignored.",
+                     .it = "La fine programma vuole una linea a sé, al più con il numero di riga N. Spostare le "
+                           "altre parole sulla linea precedente: ciò che segue la M02 viene ignorato."},
+     .wrong = "M06 T101001\nG00 Z50 [!M02!]\n",
+     .right = "M06 T101001\nG00 Z50\nM02\n"},
+    {.code = "ISO044", .name = "initial-tool-missing", .severity = Severity::Error, .section = "I.4.3", .arguments = {},
+     .title = {.en = "Initial tool missing", .it = "Attrezzaggio iniziale mancante"},
+     .message = {.en = "no tool change (M06) before the first motion",
+                 .it = "nessun cambio utensile (M06) prima del primo movimento"},
+     .explanation = {.en = "Before the first motion the control must know which head, holder and tool are mounted. "
+                           "Write M06 and its T on a line before it, for example M06 T101001. To move without a tool "
+                           "write M06 T000000.",
+                     .it = "Prima del primo movimento il controllo deve sapere quali testa, portautensile e utensile "
+                           "sono montati. Scrivere prima una M06 con la sua T, per esempio M06 T101001. Per muoversi "
+                           "senza utensile scrivere M06 T000000."},
+     .wrong = "[!G00!] X10\nM02\n",
+     .right = "M06 T101001\nG00 X10\nM02\n"},
+    {.code = "ISO045", .name = "m02-missing", .severity = Severity::Error, .section = "I.4.1", .arguments = {},
+     .title = {.en = "M02 missing", .it = "Mancanza della M02"},
+     .message = {.en = "the program ends here without M02", .it = "il programma finisce qui senza M02"},
+     .explanation = {.en = "Every program must end with M02 on a line of its own. Add it after the last line. If an "
+                           "IF jumps past an M02, the lines that it jumps to need one as well.",
+                     .it = "Ogni programma deve finire con una M02 su una linea a sé. Aggiungerla dopo l'ultima "
+                           "linea. Se un IF salta oltre una M02, ne serve una anche per le linee a cui si salta."},
+     .wrong = "M06 T101001\n[!G00 X10!]\n",
+     .right = "M06 T101001\nG00 X10\nM02\n"},
+    {.code = "ISO046", .name = "repeated-spindle-speed",
+     .severity = Severity::Error, .section = "I.4.2", .arguments = {},
+     .title = {.en = "Repeated spindle speed", .it = "S ripetuta"},
+     .message = {.en = "{text}: only one S is allowed on a line", .it = "{text}: su una linea è ammessa una sola S"},
+     .explanation = {.en = "The control sets one spindle speed per line and does not choose between two. Delete the "
+                           "wrong S, or put it on another line.",
+                     .it = "Il controllo imposta una sola velocità del mandrino per linea: fra due valori non "
+                           "sceglie. Cancellare la S sbagliata o spostarla su un'altra linea."},
+     .wrong = "S5000 [!S6000!] M03\nM02\n",
+     .right = "S5000 M03\nM02\n"},
+    {.code = "ISO047", .name = "linear-coordinate-missing",
+     .severity = Severity::Error, .section = "I.3.4.2", .arguments = {},
+     .title = {.en = "Linear coordinate missing", .it = "Quota lineare mancante"},
+     .message = {.en = "{text} without X, Y or Z: with G48 in force a G01 needs at least one",
+                 .it = "{text} senza X, Y o Z: con la G48 in presa la G01 ne vuole almeno una"},
+     .explanation = {.en = "In three-axis interpolation (G48) G01 moves the linear axes, so one of them must be "
+                           "given. Add the coordinate. To turn B or C alone use G00, or write G49 on a line of its "
+                           "own before this one.",
+                     .it = "Nell'interpolazione a 3 assi (G48) la G01 muove gli assi lineari: almeno una delle loro "
+                           "quote va data. Aggiungerla. Per muovere solo B o C usare la G00, oppure scrivere prima "
+                           "una G49 su una linea a sé."},
+     .wrong = "M06 T101001\n[!G01!] C45 F1000\nM02\n",
+     .right = "M06 T101001\nG49\nG01 C45 F1000\nM02\n"},
+    {.code = "ISO048", .name = "center-undetermined-g17-i",
+     .severity = Severity::Error, .section = "I.3.4.3.a", .arguments = {},
+     .title = {.en = "Center undetermined: I alone in G17", .it = "Centro non individuabile: solo I in G17"},
+     .message = {.en = "{text} alone does not fix the center: start and end have the same Y",
+                 .it = "{text} da sola non individua il centro: i punti iniziale e finale hanno la stessa Y"},
+     .explanation = {.en = "From I alone the control works out the Y of the center only if start and end differ in Y. "
+                           "Add J, or give the radius with R instead. A full circle always needs both I and J.",
+                     .it = "Con la sola I il controllo ricava la Y del centro solo se i punti iniziale e finale "
+                           "hanno Y diverse. Aggiungere la J, oppure dare il raggio con R. Per un cerchio completo "
+                           "servono sempre I e J."},
+     .wrong = "M06 T101001\nG02 X20 [!I10!] F1000\nM02\n",
+     .right = "M06 T101001\nG02 X20 I10 J0 F1000\nM02\n"},
+    {.code = "ISO049", .name = "center-undetermined-g17-j",
+     .severity = Severity::Error, .section = "I.3.4.3.a", .arguments = {},
+     .title = {.en = "Center undetermined: J alone in G17", .it = "Centro non individuabile: solo J in G17"},
+     .message = {.en = "{text} alone does not fix the center: start and end have the same X",
+                 .it = "{text} da sola non individua il centro: i punti iniziale e finale hanno la stessa X"},
+     .explanation = {.en = "From J alone the control works out the X of the center only if start and end differ in X. "
+                           "Add I, or give the radius with R instead. A full circle always needs both I and J.",
+                     .it = "Con la sola J il controllo ricava la X del centro solo se i punti iniziale e finale "
+                           "hanno X diverse. Aggiungere la I, oppure dare il raggio con R. Per un cerchio completo "
+                           "servono sempre I e J."},
+     .wrong = "M06 T101001\nG02 Y20 [!J10!] F1000\nM02\n",
+     .right = "M06 T101001\nG02 Y20 I0 J10 F1000\nM02\n"},
+    {.code = "ISO050", .name = "center-undetermined-g18-i",
+     .severity = Severity::Error, .section = "I.3.4.3.a", .arguments = {},
+     .title = {.en = "Center undetermined: I alone in G18", .it = "Centro non individuabile: solo I in G18"},
+     .message = {.en = "{text} alone does not fix the center: start and end have the same Z",
+                 .it = "{text} da sola non individua il centro: i punti iniziale e finale hanno la stessa Z"},
+     .explanation = {.en = "From I alone the control works out the Z of the center only if start and end differ in Z. "
+                           "Add K, or give the radius with R instead. A full circle always needs both I and K.",
+                     .it = "Con la sola I il controllo ricava la Z del centro solo se i punti iniziale e finale "
+                           "hanno Z diverse. Aggiungere la K, oppure dare il raggio con R. Per un cerchio completo "
+                           "servono sempre I e K."},
+     .wrong = "M06 T101001\nG18 G02 X20 [!I10!] F1000\nM02\n",
+     .right = "M06 T101001\nG18 G02 X20 I10 K0 F1000\nM02\n"},
+    {.code = "ISO051", .name = "center-undetermined-g18-k",
+     .severity = Severity::Error, .section = "I.3.4.3.a", .arguments = {},
+     .title = {.en = "Center undetermined: K alone in G18", .it = "Centro non individuabile: solo K in G18"},
+     .message = {.en = "{text} alone does not fix the center: start and end have the same X",
+                 .it = "{text} da sola non individua il centro: i punti iniziale e finale hanno la stessa X"},
+     .explanation = {.en = "From K alone the control works out the X of the center only if start and end differ in X. "
+                           "Add I, or give the radius with R instead. A full circle always needs both I and K.",
+                     .it = "Con la sola K il controllo ricava la X del centro solo se i punti iniziale e finale "
+                           "hanno X diverse. Aggiungere la I, oppure dare il raggio con R. Per un cerchio completo "
+                           "servono sempre I e K."},
+     .wrong = "M06 T101001\nG18 G02 Z20 [!K10!] F1000\nM02\n",
+     .right = "M06 T101001\nG18 G02 Z20 I0 K10 F1000\nM02\n"},
+    {.code = "ISO052", .name = "center-undetermined-g19-j",
+     .severity = Severity::Error, .section = "I.3.4.3.a", .arguments = {},
+     .title = {.en = "Center undetermined: J alone in G19", .it = "Centro non individuabile: solo J in G19"},
+     .message = {.en = "{text} alone does not fix the center: start and end have the same Z",
+                 .it = "{text} da sola non individua il centro: i punti iniziale e finale hanno la stessa Z"},
+     .explanation = {.en = "From J alone the control works out the Z of the center only if start and end differ in Z. "
+                           "Add K, or give the radius with R instead. A full circle always needs both J and K.",
+                     .it = "Con la sola J il controllo ricava la Z del centro solo se i punti iniziale e finale "
+                           "hanno Z diverse. Aggiungere la K, oppure dare il raggio con R. Per un cerchio completo "
+                           "servono sempre J e K."},
+     .wrong = "M06 T101001\nG19 G02 Y20 [!J10!] F1000\nM02\n",
+     .right = "M06 T101001\nG19 G02 Y20 J10 K0 F1000\nM02\n"},
+    {.code = "ISO053", .name = "center-undetermined-g19-k",
+     .severity = Severity::Error, .section = "I.3.4.3.a", .arguments = {},
+     .title = {.en = "Center undetermined: K alone in G19", .it = "Centro non individuabile: solo K in G19"},
+     .message = {.en = "{text} alone does not fix the center: start and end have the same Y",
+                 .it = "{text} da sola non individua il centro: i punti iniziale e finale hanno la stessa Y"},
+     .explanation = {.en = "From K alone the control works out the Y of the center only if start and end differ in Y. "
+                           "Add J, or give the radius with R instead. A full circle always needs both J and K.",
+                     .it = "Con la sola K il controllo ricava la Y del centro solo se i punti iniziale e finale "
+                           "hanno Y diverse. Aggiungere la J, oppure dare il raggio con R. Per un cerchio completo "
+                           "servono sempre J e K."},
+     .wrong = "M06 T101001\nG19 G02 Z20 [!K10!] F1000\nM02\n",
+     .right = "M06 T101001\nG19 G02 Z20 J0 K10 F1000\nM02\n"},
+    {.code = "ISO054", .name = "tool-without-m06", .severity = Severity::Error, .section = "I.4.3", .arguments = {},
+     .title = {.en = "T without M06", .it = "T senza M06"},
+     .message = {.en = "no M06 stands directly before {text}", .it = "manca la M06 subito prima di {text}"},
+     .explanation = {.en = "T has a meaning only as the argument of a tool change, directly after M06. Write M06 "
+                           "T101001, in this order. T alone does not preselect a tool on this control.",
+                     .it = "La T ha senso solo come argomento del cambio utensile, subito dopo la M06. Scrivere M06 "
+                           "T101001, in quest'ordine. Su questo controllo la T da sola non preseleziona l'utensile."},
+     .wrong = "[!T101001!]\nM02\n",
+     .right = "M06 T101001\nM02\n"},
+    {.code = "ISO055", .name = "workpiece-frame-under-face",
+     .severity = Severity::Error, .section = "I.3.2", .arguments = {},
+     .title = {.en = "Workpiece frame changed under a face frame",
+               .it = "Cambio di sistema di pezzo con faccia in presa"},
+     .message = {.en = "{text} while a face frame is in force: it must be dismounted with G27 first",
+                 .it = "{text} con un sistema di riferimento di faccia in presa: prima va smontato con la G27"},
+     .explanation = {.en = "A face frame is measured from the workpiece frame, which therefore cannot change beneath "
+                           "it. Write G27 on a line of its own before G92. If the face is still needed, mount it "
+                           "again afterwards.",
+                     .it = "Il sistema di faccia è riferito a quello di pezzo, che quindi non può cambiare mentre la "
+                           "faccia è in presa. Scrivere prima della G92 una G27 su una linea a sé. Se la faccia "
+                           "serve ancora, rimetterla in presa dopo."},
+     .wrong = "G28 Y1 I-1 R1\n[!G92!] X200 Y50\nM02\n",
+     .right = "G28 Y1 I-1 R1\nG27\nG92 X200 Y50\nM02\n"},
+    {.code = "ISO056", .name = "invalid-line-number", .severity = Severity::Error, .section = "I.2.0", .arguments = {},
+     .title = {.en = "Invalid line number", .it = "Numero di riga non valido"},
+     .message = {.en = "{text} is not a valid line number: a line has one at most, a whole number without sign, point "
+                       "or comma",
+                 .it = "{text} non è un numero di riga valido: al più uno per linea, intero, senza segno, punto o "
+                       "virgola"},
+     .explanation = {.en = "After N the control expects a plain whole number, such as N20 or N20000. Correct it, or "
+                           "delete the whole word: line numbers are optional.",
+                     .it = "Dopo la N il controllo si aspetta un semplice numero intero, come N20 o N20000. "
+                           "Correggerlo, oppure togliere tutta la parola: i numeri di riga non sono obbligatori."},
+     .wrong = "M06 T101001\n[!N-5!] G00 X10\nM02\n",
+     .right = "M06 T101001\nN5 G00 X10\nM02\n"},
+    {.code = "ISO057", .name = "invalid-register-number",
+     .severity = Severity::Error, .section = "I.6", .arguments = {},
+     .title = {.en = "Invalid register number", .it = "Numero di registro non valido"},
+     .message = {.en = "{text}: the number of a register is a whole number from 1 to 30, without sign or decimal point",
+                 .it = "{text}: il numero di un registro è un intero da 1 a 30, senza segno né punto decimale"},
+     .explanation = {.en = "The control has 30 registers, V1 to V30, and none in between. Correct the number after V. "
+                           "Decimals are allowed in the value, after the = sign: V2 = 5.5.",
+                     .it = "Il controllo ha 30 registri, da V1 a V30, senza decimali nel numero. Correggere il "
+                           "numero dopo la V. I decimali sono ammessi nel valore, dopo il segno =: V2 = 5.5."},
+     .wrong = "[!V2.5!] = 10\nM02\n",
+     .right = "V2 = 10\nM02\n"},
+    {.code = "ISO058", .name = "assignment-without-register",
+     .severity = Severity::Error, .section = "I.6", .arguments = {},
+     .title = {.en = "Assignment without a register", .it = "Assegnazione senza registro"},
+     .message = {.en = "no register stands before this =", .it = "questo segno = non è preceduto da un registro"},
+     .explanation = {.en = "The control does not know where to put the value: a = needs a register before it, as in "
+                           "V5 = 10. Coordinates take no =: write X10, not X=10. Otherwise = appears only in the "
+                           "parameters of an M (M100 P1=5) and in an IF.",
+                     .it = "Il controllo non sa a chi assegnare il valore: prima del segno = ci vuole un registro, "
+                           "come in V5 = 10. Le quote non vogliono il segno =: scrivere X10, non X=10. Per il resto "
+                           "il segno = si usa solo nei parametri di una M (M100 P1=5) e in un IF."},
+     .wrong = "[!=!] 10\nM02\n",
+     .right = "V5 = 10\nM02\n"},
+    {.code = "ISO059", .name = "register-out-of-range",
+     .severity = Severity::Error, .section = "I.6", .arguments = {"number"},
+     .title = {.en = "Register out of range", .it = "Numero di registro fuori intervallo"},
+     .message = {.en = "there is no register {number}: registers go from V1 to V30",
+                 .it = "il registro {number} non esiste: i registri vanno da V1 a V30"},
+     .explanation = {.en = "The control has 30 registers and cannot store a value in any other. Choose a number from "
+                           "1 to 30 that the program does not use for anything else.",
+                     .it = "Il controllo ha 30 registri e non può memorizzare valori altrove. Scegliere un numero da "
+                           "1 a 30 che il programma non usi già per altro."},
+     .wrong = "[!V31!] = 10\nM02\n",
+     .right = "V30 = 10\nM02\n"},
+    {.code = "ISO060", .name = "face-angle-out-of-range",
+     .severity = Severity::Error, .section = "I.3.2", .arguments = {"angle", "limit"},
+     .title = {.en = "Face angle out of range", .it = "Angolo della G29 fuori intervallo"},
+     .message = {.en = "the angle {angle}° is not between -{limit}° and +{limit}°",
+                 .it = "l'angolo {angle}° non è compreso fra -{limit}° e +{limit}°"},
+     .explanation = {.en = "G29 takes C from -180° to +180° and B from -90° to +90°. Write the same direction within "
+                           "these limits, for example C-90 in place of C270. A face that B cannot reach is mounted "
+                           "with G24 or G28.",
+                     .it = "La G29 ammette C da -180° a +180° e B da -90° a +90°. Scrivere la stessa direzione entro "
+                           "questi limiti, per esempio C-90 al posto di C270. Una faccia che con B non si raggiunge "
+                           "si mette in presa con G24 o G28."},
+     .wrong = "G29 X100 [!C270!]\nM02\n",
+     .right = "G29 X100 C-90\nM02\n"},
+    {.code = "ISO061", .name = "distance-mode-after-dimensions",
+     .severity = Severity::Error, .section = "I.3.3", .arguments = {},
+     .title = {.en = "G90 or G91 after the coordinates", .it = "G90/G91 dopo le quote"},
+     .message = {.en = "{text} must stand before the line's motion and coordinates",
+                 .it = "{text} va scritta prima del movimento della linea e delle sue quote"},
+     .explanation = {.en = "The control must know whether coordinates are absolute or incremental before it reads "
+                           "them. Move G90 or G91 to the start of the line, or put it on a line of its own before "
+                           "this one.",
+                     .it = "Il controllo deve sapere se le quote sono assolute o incrementali prima di leggerle. "
+                           "Spostare la G90 o la G91 all'inizio della linea, oppure scriverla da sola sulla linea "
+                           "precedente."},
+     .wrong = "M06 T101001\nG00 X10 [!G91!]\nM02\n",
+     .right = "M06 T101001\nG91 G00 X10\nM02\n"},
+    {.code = "ISO062", .name = "second-motion", .severity = Severity::Error, .section = "I.7", .arguments = {},
+     .title = {.en = "Second motion on a line", .it = "Più di una G di movimento"},
+     .message = {.en = "{text}: only one motion G is allowed on a line",
+                 .it = "{text}: su una linea è ammessa una sola G di movimento"},
+     .explanation = {.en = "A line carries out one motion at most. Put the second one, with its coordinates, on the "
+                           "next line.",
+                     .it = "Una linea esegue al più un movimento. Scrivere il secondo, con le sue quote, sulla linea "
+                           "successiva."},
+     .wrong = "M06 T101001\nG00 X10 [!G01!] Z-3 F1000\nM02\n",
+     .right = "M06 T101001\nG00 X10\nG01 Z-3 F1000\nM02\n"},
+    {.code = "ISO063", .name = "register-not-assigned", .severity = Severity::Error, .section = "I.6", .arguments = {},
+     .title = {.en = "Register without a value", .it = "Registro senza valore"},
+     .message = {.en = "{text} gets no value: = and a number must follow",
+                 .it = "a {text} non viene assegnato alcun valore: devono seguire = e un numero"},
+     .explanation = {.en = "Naming a register means giving it a value: on its own it does nothing. Write V5 = 10, or "
+                           "delete it. A coordinate cannot be taken from a register: besides assignments, V appears "
+                           "only in the condition of an IF.",
+                     .it = "Scrivere un registro vuol dire assegnargli un valore: da solo non fa nulla. Scrivere V5 "
+                           "= 10, oppure toglierlo. Una quota non si può prendere da un registro: oltre che nelle "
+                           "assegnazioni, V si usa solo nella condizione di un IF."},
+     .wrong = "[!V5!]\nM02\n",
+     .right = "V5 = 10\nM02\n"},
+    {.code = "ISO064", .name = "dwell-time-missing", .severity = Severity::Error, .section = "I.3.10", .arguments = {},
+     .title = {.en = "Dwell time missing", .it = "Tempo di attesa mancante"},
+     .message = {.en = "{text} has no P: the dwell time in seconds is missing",
+                 .it = "{text} senza P: manca il tempo di attesa in secondi"},
+     .explanation = {.en = "Without P the control does not know how long to wait. Write the time after P, for example "
+                           "G04 P2 or G04 P0.5. P is in seconds, not in milliseconds as on some other controls.",
+                     .it = "Senza la P il controllo non sa quanto attendere. Scrivere il tempo dopo la P, per "
+                           "esempio G04 P2 o G04 P0.5. La P è in secondi, non in millisecondi come su altri "
+                           "controlli."},
+     .wrong = "[!G04!]\nM02\n",
+     .right = "G04 P2\nM02\n"},
+    {.code = "ISO065", .name = "repeated-feed", .severity = Severity::Error, .section = "I.3.7", .arguments = {},
+     .title = {.en = "Repeated feed rate", .it = "F ripetuta"},
+     .message = {.en = "{text}: only one F is allowed on a line", .it = "{text}: su una linea è ammessa una sola F"},
+     .explanation = {.en = "The control takes one feed rate per line and does not choose between two. Delete the "
+                           "wrong F, or put it on another line.",
+                     .it = "Il controllo accetta un solo feed rate per linea: fra due valori non sceglie. Cancellare "
+                           "la F sbagliata o spostarla su un'altra linea."},
+     .wrong = "M06 T101001\nG01 X10 F1000 [!F500!]\nM02\n",
+     .right = "M06 T101001\nG01 X10 F1000\nM02\n"},
+    {.code = "ISO066", .name = "feed-missing", .severity = Severity::Error, .section = "I.3.7", .arguments = {},
+     .title = {.en = "Feed rate missing", .it = "Feed rate mancante"},
+     .message = {.en = "{text} has no feed rate: no F has been given yet",
+                 .it = "{text} senza feed rate: finora non è stata data alcuna F"},
+     .explanation = {.en = "The control cannot start the first feed move without a speed. Write F on this line or on "
+                           "one before it. An F on the line of a G00 is ignored and does not count.",
+                     .it = "Il controllo non può iniziare il primo movimento in interpolazione senza una velocità. "
+                           "Scrivere la F su questa linea o su una precedente. Una F sulla linea di una G00 viene "
+                           "ignorata e non conta."},
+     .wrong = "M06 T101001\n[!G01!] X10\nM02\n",
+     .right = "M06 T101001\nG01 X10 F1000\nM02\n"},
+    {.code = "ISO067", .name = "tool-not-configured", .severity = Severity::Error, .section = "I.4.3", .arguments = {},
+     .title = {.en = "Tool not configured", .it = "Attrezzaggio non configurato"},
+     .message = {.en = "{text} names a head, holder or tool that the machine file does not list",
+                 .it = "{text} indica una testa, un portautensile o un utensile non configurato in parametrica"},
+     .explanation = {.en = "The control changes only to a head, holder and tool that are configured on the machine. "
+                           "Correct T. If the tool is really there, add it to the machine file.",
+                     .it = "Il controllo monta solo testa, portautensile e utensile configurati sulla macchina. "
+                           "Correggere la T. Se l'utensile c'è davvero, aggiungerlo in parametrica."},
+     .wrong = "M06 [!T202002!]\nM02\n",
+     .right = "M06 T101001\nM02\n"},
+    {.code = "ISO068", .name = "arc-plane-not-orthogonal",
+     .severity = Severity::Error, .section = "I.3.4.3.a", .arguments = {"angle"},
+     .title = {.en = "Arc plane not orthogonal", .it = "Piano di interpolazione non ortogonale"},
+     .message = {.en = "the axes of the arc plane are at {angle}° to each other, not at 90°",
+                 .it = "gli assi del piano di interpolazione formano un angolo di {angle}°, non di 90°"},
+     .explanation = {.en = "On axes that are not at right angles a circle would become an ellipse, so the control "
+                           "refuses the arc. Correct the axis vectors of G24 or G28, or dismount the face with G27 "
+                           "before the arc. Only the two axes of the plane count: with G18 or G19 another pair is "
+                           "used.",
+                     .it = "Su assi non ortogonali il cerchio diventerebbe un'ellisse, perciò il controllo rifiuta "
+                           "l'arco. Correggere i versori della G24 o della G28, oppure smontare la faccia con la G27 "
+                           "prima dell'arco. Contano solo i due assi del piano: con G18 o G19 sono altri due."},
+     .wrong = "M06 T101001\nG28 X1 I1 J1 R1\n[!G02!] X10 Y10 R10 F1000\nM02\n",
+     .right = "M06 T101001\nG28 X1 J1 R1\nG02 X10 Y10 R10 F1000\nM02\n"},
+    {.code = "E001", .name = "unsupported-g", .severity = Severity::Error, .section = "I.3", .arguments = {},
+     .title = {.en = "Unsupported G", .it = "G non prevista"},
+     .message = {.en = "{text} is not among the G codes of this control",
+                 .it = "{text} non è fra le G di questo controllo"},
+     .explanation = {.en = "The control gives this G no meaning and would not know what to do. Delete it, or write "
+                           "what it was meant for with the G codes of this control. Zero points such as G54 and "
+                           "canned cycles such as G81 do not exist here: use G92 and single moves.",
+                     .it = "Il controllo non conosce questa G e non saprebbe che cosa fare. Toglierla, oppure "
+                           "ottenere lo stesso risultato con le G di questo controllo. Le origini come la G54 e i "
+                           "cicli fissi come la G81 qui non esistono: usare la G92 e i singoli movimenti."},
+     .wrong = "[!G54!]\nM02\n",
+     .right = "G92 X100 Y50\nM02\n"},
+    {.code = "E002", .name = "if-not-alone", .severity = Severity::Error, .section = "I.5", .arguments = {},
+     .title = {.en = "IF not alone on its line", .it = "IF non da solo sulla linea"},
+     .message = {.en = "IF ... GOTO must stand alone on its line", .it = "IF ... GOTO deve stare da solo sulla linea"},
+     .explanation = {.en = "At an IF the control stops reading ahead, checks the condition and jumps, so the line may "
+                           "hold nothing else. Move the other instructions to the line before, or after if they "
+                           "belong to the case without the jump. A line number N may stay.",
+                     .it = "Davanti a un IF il controllo sospende la lettura del programma, valuta la condizione e "
+                           "salta: sulla linea non può esserci altro. Spostare le altre istruzioni sulla linea "
+                           "precedente, o su quella seguente se valgono solo quando non si salta. Il numero di riga "
+                           "N può restare."},
+     .wrong = "M06 T101001\nG00 X10 [!IF!] VGPL = 1 GOTO N30\nG00 Y20\nN30 M02\n",
+     .right = "M06 T101001\nG00 X10\nIF VGPL = 1 GOTO N30\nG00 Y20\nN30 M02\n"},
+    {.code = "E003", .name = "if-malformed", .severity = Severity::Error, .section = "I.5", .arguments = {},
+     .title = {.en = "Malformed IF", .it = "IF scritto male"},
+     .message = {.en = "the jump cannot be read at {text}: it is IF, VGPL or V1 to V30, one of = < > <= >= <>, a "
+                       "number, GOTO, N and number",
+                 .it = "salto non leggibile in {text}: si scrive IF, VGPL o V1-V30, uno fra = < > <= >= <>, un "
+                       "numero, GOTO, N e numero"},
+     .explanation = {.en = "The control reads a jump in one form only, such as IF VGPL = 34.5 GOTO N30 or IF V5 >= 2 "
+                           "GOTO N100. Write all its parts in this order. A condition compares with one number: two "
+                           "registers cannot be compared, nor two conditions combined.",
+                     .it = "Il controllo legge il salto in una sola forma, per esempio IF VGPL = 34.5 GOTO N30 o IF "
+                           "V5 >= 2 GOTO N100. Scrivere tutte le parti in quest'ordine. Il confronto si fa con un "
+                           "solo numero: non si possono confrontare due registri né unire due condizioni."},
+     .wrong = "M06 T101001\nIF VGPL [!==!] 1 GOTO N30\nG00 X10\nN30 M02\n",
+     .right = "M06 T101001\nIF VGPL = 1 GOTO N30\nG00 X10\nN30 M02\n"},
+    {.code = "E004", .name = "label-not-found", .severity = Severity::Error, .section = "I.5", .arguments = {},
+     .title = {.en = "Label not found", .it = "Etichetta inesistente"},
+     .message = {.en = "no line of the program has the label {text}",
+                 .it = "nessuna linea del programma ha l'etichetta {text}"},
+     .explanation = {.en = "The control would not know where to go on after the jump. Correct the number after GOTO, "
+                           "or write this N on the line to jump to. Leading zeros do not matter: N007 and N7 are the "
+                           "same label.",
+                     .it = "Il controllo non saprebbe da dove riprendere dopo il salto. Correggere il numero dopo "
+                           "GOTO, oppure scrivere questa N sulla linea a cui saltare. Gli zeri iniziali non contano: "
+                           "N007 e N7 sono la stessa etichetta."},
+     .wrong = "M06 T101001\nIF VGPL = 1 GOTO [!N99!]\nG00 X10\nN30 M02\n",
+     .right = "M06 T101001\nIF VGPL = 1 GOTO N30\nG00 X10\nN30 M02\n"},
+    {.code = "E005", .name = "backward-jump", .severity = Severity::Error, .section = "I.5", .arguments = {},
+     .title = {.en = "Backward jump", .it = "Salto all'indietro"},
+     .message = {.en = "{text} is not below the jump: IF ... GOTO goes forward only",
+                 .it = "{text} non si trova dopo il salto: IF ... GOTO va solo in avanti"},
+     .explanation = {.en = "The control runs a program from top to bottom and does not return to a line already "
+                           "passed, so loops are not possible. Put the label below the IF. What must be repeated has "
+                           "to be written again.",
+                     .it = "Il controllo esegue il programma dall'alto in basso e non torna su una linea già "
+                           "passata: i cicli non sono possibili. Mettere l'etichetta dopo l'IF. Ciò che va ripetuto "
+                           "si deve riscrivere."},
+     .wrong = "M06 T101001\nN10 G00 X10\nIF VGPL = 1 GOTO [!N10!]\nG00 Y20\nN20 M02\n",
+     .right = "M06 T101001\nN10 G00 X10\nIF VGPL = 1 GOTO N20\nG00 Y20\nN20 M02\n"},
+    {.code = "E006", .name = "duplicate-label", .severity = Severity::Error, .section = "I.5", .arguments = {},
+     .title = {.en = "Duplicate label", .it = "Etichetta doppia"},
+     .message = {.en = "label {text} already stands on a line above",
+                 .it = "l'etichetta {text} esiste già su una linea precedente"},
+     .explanation = {.en = "A jump needs a single target, so a label named after GOTO may stand on one line only. "
+                           "Give this line another number. Equal line numbers do no harm as long as no GOTO names "
+                           "them.",
+                     .it = "Il salto deve avere un solo punto di arrivo: l'etichetta indicata dopo GOTO può stare su "
+                           "una sola linea. Dare a questa linea un altro numero. I numeri di riga uguali non danno "
+                           "problemi finché nessun GOTO li indica."},
+     .wrong = "M06 T101001\nIF VGPL = 1 GOTO N30\nG00 X10\nN30 G00 Y20\n[!N30!] M02\n",
+     .right = "M06 T101001\nIF VGPL = 1 GOTO N30\nG00 X10\nN30 G00 Y20\nN40 M02\n"},
+    {.code = "E007", .name = "m-params-not-alone", .severity = Severity::Error, .section = "I.4.4", .arguments = {},
+     .title = {.en = "M with parameters not alone on its line", .it = "M con parametri non da sola sulla linea"},
+     .message = {.en = "{text} has parameters and must stand alone on its line",
+                 .it = "{text} ha dei parametri e deve stare da sola sulla linea"},
+     .explanation = {.en = "The control runs an M with parameters only if it is the single instruction on its line. "
+                           "Move the other instructions to the line before or after it. A line number N may stay.",
+                     .it = "Il controllo esegue una M con parametri solo se è l'unica istruzione della linea. "
+                           "Spostare le altre istruzioni sulla linea prima o su quella dopo. Il numero di riga N può "
+                           "restare."},
+     .wrong = "M06 T101001\nG00 X10 [!M100!] P1=5\nM02\n",
+     .right = "M06 T101001\nG00 X10\nM100 P1=5\nM02\n"},
+    {.code = "E008", .name = "m-param-invalid", .severity = Severity::Error, .section = "I.4.4", .arguments = {},
+     .title = {.en = "Invalid M parameter", .it = "Parametro non valido per la M"},
+     .message = {.en = "{text} is not a valid parameter: user M functions take P1 to P20, each once, with = and a "
+                       "number",
+                 .it = "{text} non è un parametro valido: le M dell'utente ammettono da P1 a P20, una volta "
+                       "ciascuno, con = e un numero"},
+     .explanation = {.en = "A user M function has 20 places for values, P1 to P20, and each value needs its place. "
+                           "Write the parameters as in M100 P1=2.5 P2=-3. M03, M04 and M05 take none.",
+                     .it = "Una M definita dall'utente ha 20 posti per i valori, da P1 a P20, e ogni valore vuole il "
+                           "suo. Scrivere i parametri come in M100 P1=2.5 P2=-3. M03, M04 e M05 non ne ammettono."},
+     .wrong = "M100 [!P21=5!]\nM02\n",
+     .right = "M100 P20=5\nM02\n"},
+    {.code = "E009", .name = "g09-misplaced", .severity = Severity::Error, .section = "I.3.8", .arguments = {},
+     .title = {.en = "Misplaced G09", .it = "Posizione errata della G09"},
+     .message = {.en = "{text} must directly follow a feed move, on its line or first on the next",
+                 .it = "{text} deve seguire subito un movimento in interpolazione, sulla sua linea o all'inizio "
+                       "della successiva"},
+     .explanation = {.en = "G09 stops the axes at the end of the feed move just before it, and here there is none. "
+                           "Write it after the coordinates of the move or first on the next line. After a rapid (G00) "
+                           "it is not allowed.",
+                     .it = "La G09 arresta gli assi alla fine del movimento in interpolazione che la precede, e qui "
+                           "non ce n'è uno. Scriverla dopo le quote del movimento o all'inizio della linea "
+                           "successiva. Dopo un rapido (G00) non è ammessa."},
+     .wrong = "M06 T101001\n[!G09!] G01 X10 F1000\nM02\n",
+     .right = "M06 T101001\nG01 X10 F1000 G09\nM02\n"},
+    {.code = "W001", .name = "redundant-modal", .severity = Severity::Warning, .section = "I.3", .arguments = {},
+     .title = {.en = "Repeated modal G", .it = "G modale ripetuta"},
+     .message = {.en = "{text} is already in force", .it = "{text} è già in presa"},
+     .explanation = {.en = "The G stays in force until another one of its group replaces it, so writing it again "
+                           "changes nothing. Delete it, or check whether another G was meant. Writing a default once "
+                           "at the start of the program is fine.",
+                     .it = "La G resta in presa finché non la sostituisce un'altra dello stesso gruppo: riscriverla "
+                           "non cambia nulla. Toglierla, o verificare se si intendeva un'altra G. Scrivere una volta "
+                           "la G di default a inizio programma va bene."},
+     .wrong = "M06 T101001\nG70 G00 X1\n[!G70!] G00 Y2\nM02\n",
+     .right = "M06 T101001\nG70 G00 X1\nG00 Y2\nM02\n"},
+    {.code = "W002", .name = "g27-without-face", .severity = Severity::Warning, .section = "I.3.2", .arguments = {},
+     .title = {.en = "G27 without a face frame", .it = "G27 senza faccia in presa"},
+     .message = {.en = "{text} has nothing to dismount: no face frame is in force",
+                 .it = "{text} non ha nulla da smontare: nessun sistema di riferimento di faccia è in presa"},
+     .explanation = {.en = "The control ignores a G27 when the workpiece frame is already the one in use. Delete it, "
+                           "or check whether a G24, G28 or G29 is missing before it.",
+                     .it = "Il controllo ignora la G27 se si sta già lavorando nel sistema di riferimento di pezzo. "
+                           "Toglierla, o verificare se prima manca una G24, una G28 o una G29."},
+     .wrong = "M06 T101001\n[!G27!]\nG00 X10\nM02\n",
+     .right = "M06 T101001\nG00 X10\nM02\n"},
+    {.code = "W003", .name = "feed-ignored", .severity = Severity::Warning, .section = "I.3.7", .arguments = {},
+     .title = {.en = "F ignored", .it = "F ignorata"},
+     .message = {.en = "{text} is ignored: with G93 in force F counts only on the line of a feed move",
+                 .it = "{text} viene ignorata: con la G93 in presa la F vale solo sulla linea di un movimento in "
+                       "interpolazione"},
+     .explanation = {.en = "In inverse time (G93) F stands for the time of the move on its own line, and this line "
+                           "has no feed move. Delete F, or write it on the line of the move that it is meant for.",
+                     .it = "Con l'inverso del tempo (G93) la F dà il tempo del movimento sulla stessa linea, e qui "
+                           "non ci sono movimenti in interpolazione. Togliere la F, oppure scriverla sulla linea del "
+                           "movimento a cui serve."},
+     .wrong = "M06 T101001\nG93 G01 X10 F4\nG00 Z5 [!F4!]\nM02\n",
+     .right = "M06 T101001\nG93 G01 X10 F4\nG00 Z5\nM02\n"},
+    {.code = "W191", .name = "too-many-paths", .severity = Severity::Info, .section = "I.5", .arguments = {"limit"},
+     .title = {.en = "Too many paths", .it = "Troppi percorsi"},
+     .message = {.en = "the jumps lead here in more than {limit} different machine states: what differs between them "
+                       "is unknown from here on",
+                 .it = "i salti portano qui con più di {limit} stati macchina diversi: da qui in poi ciò che li "
+                       "distingue è ignoto"},
+     .explanation = {.en = "The check follows only so many machine states one by one, and the jumps above give more. "
+                           "From here on whatever differs between them (position, feed rate, tool and so on) counts "
+                           "as unknown, so mistakes that depend on it may go unreported. The control itself runs the "
+                           "program as usual.",
+                     .it = "La verifica segue uno per uno solo un certo numero di stati macchina, e i salti "
+                           "precedenti ne danno di più. Da qui in poi tutto ciò che li distingue (posizione, feed "
+                           "rate, utensile e così via) si considera ignoto: gli errori che ne dipendono possono non "
+                           "essere segnalati. La macchina esegue comunque il programma come sempre."},
+     .wrong = "",
+     .right = ""},
+    {.code = "W192", .name = "line-too-long", .severity = Severity::Info, .section = "I.2", .arguments = {"limit"},
+     .title = {.en = "Line too long", .it = "Linea troppo lunga"},
+     .message = {.en = "the line has more than {limit} words: the rest is not checked",
+                 .it = "la linea ha più di {limit} parole: il resto non viene verificato"},
+     .explanation = {.en = "Only the first words of a line this long are checked, so mistakes in the rest go "
+                           "unreported. Divide the line into several. A line this long often means that line ends "
+                           "were lost when the file was copied.",
+                     .it = "Di una linea così lunga si verificano solo le prime parole: gli errori nel resto non "
+                           "vengono segnalati. Dividere la linea in più linee. Una linea così lunga spesso vuol dire "
+                           "che i fine linea sono andati persi copiando il file."},
+     .wrong = "",
+     .right = ""},
+};
+
+}  // namespace isocnc::dialect

@@ -1,0 +1,170 @@
+#include "interpreter/execution/execute.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "interpreter/execution/executor.h"
+
+namespace isocnc::execution {
+
+using namespace dialect::literals;
+using syntax::Instruction;
+using syntax::InstructionKind;
+using syntax::Word;
+
+void execute(const syntax::LineTree& line, State& state, const Setup& setup, Sink& sink) {
+  if (!line.is_empty()) Executor(line, state, setup, sink).run();
+}
+
+void Executor::run() {
+  // S comes before the line's motion wherever it stands (I.4.2).
+  if (line_.spindle >= 0) {
+    const double speed = line_.words[static_cast<std::size_t>(line_.spindle)].value;
+    if (speed > 0) {
+      state_.spindle_speed = speed;
+      sink_.spindle_speed(speed);
+    }
+  }
+  for (const Instruction& instruction : line_.instructions) {
+    switch (instruction.kind) {
+      case InstructionKind::Continuation: motion(instruction); break;
+      case InstructionKind::G: execute_g(instruction); break;
+      case InstructionKind::Function: function(instruction); break;
+      case InstructionKind::ToolChange: tool_change(instruction); break;
+      case InstructionKind::StrayTool: stray_tool(instruction); break;
+      case InstructionKind::Assignment: assign(instruction); break;
+      case InstructionKind::Jump: break;
+    }
+    if (state_.ended) return;
+  }
+  if (line_.feed >= 0 && !feed_move_) apply_feed_without_motion();
+  state_.exact_stop_fits = feed_move_;
+  const Instruction* const last = line_.instructions.empty() ? nullptr : &line_.instructions.back();
+  state_.tool_awaited = last && last->kind == InstructionKind::ToolChange && last->end == last->command + 1 &&
+                        !last->has(Instruction::kSettled);
+}
+
+void Executor::report(dialect::DiagnosticId id, syntax::Span span, std::initializer_list<double> values,
+                      syntax::Span related) {
+  syntax::Finding finding{.id = id, .span = span, .related = related};
+  std::copy(values.begin(), values.end(), finding.values.begin());
+  sink_.report(finding);
+}
+
+void Executor::execute_g(const Instruction& instruction) {
+  const dialect::GCode* const code = instruction.g();
+  if (!code) {
+    // What an unknown G does with its arguments is unknown, and so are the axes it names.
+    const Arguments arguments(line_, instruction);
+    for (int axis = 0; axis < kAxisCount; ++axis)
+      if (arguments.has("XYZBC"[axis])) state_.unknown |= axis_bit(static_cast<Axis>(axis));
+    return;
+  }
+  if (code->is_motion()) return motion(instruction);
+  switch (code->number) {
+    case 4: return dwell(instruction);
+    case 9: return exact_stop(instruction);
+    case 24:
+    case 28:
+    case 29: return mount_face(instruction, *code);
+    case 27: return dismount_face(instruction);
+    case 92: return workpiece_frame(instruction);
+    default: return set_mode(*code, line_.command(instruction));
+  }
+}
+
+void Executor::set_mode(const dialect::GCode& code, const Word& word) {
+  if (code.group == dialect::ModalGroup::None) return;
+  const auto bit = static_cast<std::uint16_t>(1u << static_cast<unsigned>(code.group));
+  const bool repeats = state_.mode(code.group) == code.number && (state_.written & bit) != 0;
+  if (repeats && code.repeated != dialect::kNoDiagnostic) report(code.repeated, word.span());
+  state_.set_mode(code.group, static_cast<std::uint8_t>(code.number));
+  state_.written |= bit;
+}
+
+/// G09 belongs to the feed move before it: directly behind its arguments, or first on the next line (D23).
+void Executor::exact_stop(const Instruction& instruction) {
+  const bool fits = instruction.has(Instruction::kFollowsMotion)
+                        ? feed_move_
+                        : instruction.has(Instruction::kFirst) && state_.exact_stop_fits;
+  if (fits) return sink_.exact_stop();
+  report("g09-misplaced"_diag, line_.command(instruction).span());
+}
+
+void Executor::dwell(const Instruction& instruction) {
+  const double seconds = Arguments(line_, instruction).value_or('P', 0);
+  if (seconds >= 0) sink_.dwell(seconds);
+}
+
+void Executor::function(const Instruction& instruction) {
+  if (!line_.command(instruction).known()) return;  // No M of any number; reported.
+  const auto m = static_cast<int>(line_.command(instruction).value);
+  if (m == dialect::kProgramEnd) {
+    state_.ended = true;
+    return sink_.end();
+  }
+  if (!dialect::is_user_function(m)) state_.spindle = static_cast<std::uint8_t>(m);
+  if (!sink_.wants_effects()) return;
+  std::array<FunctionParameter, dialect::kMostFunctionParameters> parameters;
+  std::size_t count = 0;
+  for (std::uint16_t i = instruction.begin; i + 1 < instruction.end && count < parameters.size(); ++i) {
+    const Word& name = line_.words[i];
+    const Word& value = line_.words[i + 1u];
+    if (name.owner == instruction.number && name.letter == 'P' && value.letter == syntax::kAssign && value.known())
+      parameters[count++] = {static_cast<int>(name.value), value.value};
+  }
+  sink_.function(m, {parameters.data(), count});
+}
+
+void Executor::tool_change(const Instruction& instruction) {
+  for (const Word& word : line_.words)
+    if (word.letter == 'T' && word.owner == instruction.number) return select_tool(word);
+  state_.tool_selected = true;  // Without its T, or with one reported elsewhere, a tool change was meant all the same.
+}
+
+void Executor::stray_tool(const Instruction& instruction) {
+  const Word& word = line_.command(instruction);
+  const bool follows_change = state_.tool_awaited && instruction.has(Instruction::kFirst);
+  if (!follows_change) report("tool-without-m06"_diag, word.span());
+  select_tool(word);
+}
+
+void Executor::select_tool(const Word& word) {
+  state_.tool_selected = true;  // A wrong number counts as a tool change, too (D44).
+  state_.tool = {};
+  if (!word.is_plain_integer() || word.digits != 6) return;
+  state_.tool = tool_code(static_cast<int>(word.value));
+  const bool impossible = (state_.tool.head == 0 && state_.tool.holder != 0) ||
+                          (state_.tool.holder == 0 && state_.tool.tool != 0);
+  if (!impossible && !is_configured(state_.tool)) report("tool-not-configured"_diag, word.span());
+  sink_.tool_change(state_.tool);
+}
+
+/// Zeros stand for nothing mounted, which needs no configuration (I.4.3).
+bool Executor::is_configured(ToolCode tool) const {
+  if (!setup_.tools || tool.head == 0) return true;
+  return std::any_of(setup_.tools->begin(), setup_.tools->end(), [&](const ToolCode& listed) {
+    return listed.head == tool.head && (tool.holder == 0 || listed.holder == tool.holder) &&
+           (tool.tool == 0 || listed.tool == tool.tool);
+  });
+}
+
+void Executor::assign(const Instruction& instruction) {
+  const Word& name = line_.command(instruction);
+  if (!name.is_plain_integer() || !(name.value >= 1 && name.value <= dialect::kRegisterCount)) return;
+  const bool has_value = instruction.end > instruction.command + 1;
+  sink_.assign(static_cast<int>(name.value),
+               has_value ? line_.words[instruction.command + 1u].value : std::numeric_limits<double>::quiet_NaN());
+}
+
+/// In G93 an F without a feed move is ignored, on a rapid's line in G94 as well (D43).
+void Executor::apply_feed_without_motion() {
+  const Word& word = line_.words[static_cast<std::size_t>(line_.feed)];
+  if (state_.inverse_time()) {
+    if (!(word.value <= 0)) report("feed-ignored"_diag, word.span());
+  } else if (!rapid_move_) {
+    take_feed();
+  }
+}
+
+}  // namespace isocnc::execution

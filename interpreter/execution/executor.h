@@ -1,0 +1,79 @@
+#pragma once
+
+#include <initializer_list>
+#include <string_view>
+
+#include "interpreter/execution/arguments.h"
+#include "interpreter/execution/execute.h"
+
+namespace isocnc::execution {
+
+/// The two axes of the arc plane in force and its normal, as coordinates (0 X, 1 Y, 2 Z) and letters. The normal is
+/// u x v: i x j, k x i, j x k (D40).
+struct Plane {
+  int u, v, normal;
+  char u_letter, v_letter;                    ///< Of the end point.
+  char u_center, v_center, stray_center;      ///< I, J, K.
+  dialect::DiagnosticId stray;                ///< For the center letter outside the plane (D39).
+  dialect::DiagnosticId undetermined_by_u;    ///< When u of the center alone does not fix it.
+  dialect::DiagnosticId undetermined_by_v;
+};
+
+const Plane& plane_in_force(const State& state);
+
+/// Executes the instructions of one line on a state. Lives for one call of execute().
+class Executor {
+ public:
+  Executor(const syntax::LineTree& line, State& state, const Setup& setup, Sink& sink)
+      : line_(line), state_(state), setup_(setup), sink_(sink) {}
+
+  void run();
+
+ private:
+  void execute_g(const syntax::Instruction& instruction);
+  void set_mode(const dialect::GCode& code, const syntax::Word& word);
+  void exact_stop(const syntax::Instruction& instruction);
+  void dwell(const syntax::Instruction& instruction);
+  void function(const syntax::Instruction& instruction);
+  void tool_change(const syntax::Instruction& instruction);
+  void stray_tool(const syntax::Instruction& instruction);
+  void select_tool(const syntax::Word& word);
+  bool is_configured(ToolCode tool) const;
+  void assign(const syntax::Instruction& instruction);
+  void apply_feed_without_motion();
+
+  // motions.cpp
+  void motion(const syntax::Instruction& instruction);
+  bool motion_is_in_force(const Arguments& arguments);
+  void report_strays(const Arguments& arguments, const dialect::GCode& code);
+  void check_first_motion(syntax::Span place);
+  void check_feed(syntax::Span place);
+  void check_rotary_axes(const Arguments& arguments, const dialect::GCode& code, syntax::Span place);
+  void take_feed();
+  Feed feed_in_force() const;
+  void move_axis(Axis axis, double& position, double value, double scale);
+  void move_to(const Arguments& arguments);
+  void arc(const Arguments& arguments, const dialect::GCode& code, syntax::Span place, Move& move);
+  bool arc_is_described(const Arguments& arguments, const Plane& plane, syntax::Span place);
+
+  // frames.cpp
+  void workpiece_frame(const syntax::Instruction& instruction);
+  void dismount_face(const syntax::Instruction& instruction);
+  void mount_face(const syntax::Instruction& instruction, const dialect::GCode& code);
+  void leave_face();
+  bool read_axes(const Arguments& arguments, std::string_view letters, geometry::Mat3& axes);
+  bool read_point(const Arguments& arguments, geometry::Vec3& point) const;
+  void blur_linear_axes() { state_.unknown |= kLinearAxes; }
+
+  void report(dialect::DiagnosticId id, syntax::Span span, std::initializer_list<double> values = {},
+              syntax::Span related = {});
+
+  const syntax::LineTree& line_;
+  State& state_;
+  const Setup& setup_;
+  Sink& sink_;
+  bool feed_move_ = false;   ///< The line has had an interpolated motion.
+  bool rapid_move_ = false;
+};
+
+}  // namespace isocnc::execution

@@ -1,0 +1,116 @@
+#include <cmath>
+
+#include "interpreter/execution/executor.h"
+
+namespace isocnc::execution {
+
+using namespace dialect::literals;
+using geometry::Frame;
+using geometry::Mat3;
+using geometry::Vec3;
+using syntax::Instruction;
+
+/// X Y Z of a frame's origin, mm; what is omitted is 0. False when one could not be read.
+bool Executor::read_point(const Arguments& arguments, Vec3& point) const {
+  const double scale = state_.mm_per_unit();
+  for (int i = 0; i < 3; ++i) point[i] = arguments.value_or("XYZ"[i], 0) * scale;
+  return point.allFinite();
+}
+
+/// The position goes from the face frame to the workpiece frame: the tip does not move (D25).
+void Executor::leave_face() {
+  if (!state_.face_mounted) return;
+  if ((state_.unknown & kLinearAxes) != 0 || state_.face_undefined) blur_linear_axes();
+  state_.position.tip = state_.face.to_outer(state_.position.tip);
+  state_.face = Frame{};
+  state_.face_mounted = false;
+  state_.face_undefined = false;
+}
+
+void Executor::workpiece_frame(const Instruction& instruction) {
+  if (state_.face_mounted) {
+    report("workpiece-frame-under-face"_diag, line_.command(instruction).span());
+    leave_face();
+    state_.set_mode(dialect::ModalGroup::Face, 27);
+    state_.dismount_forgiven = true;
+  }
+  Vec3 origin;
+  const Arguments arguments(line_, instruction);
+  if (!read_point(arguments, origin)) {
+    for (int i = 0; i < 3; ++i) {
+      if (std::isfinite(origin[i])) continue;
+      state_.unknown |= axis_bit(static_cast<Axis>(i));
+      origin[i] = 0;
+    }
+  }
+  state_.position.tip += state_.workpiece_origin - origin;
+  state_.workpiece_origin = origin;
+  sink_.frame_changed(state_);
+}
+
+void Executor::dismount_face(const Instruction& instruction) {
+  if (!state_.face_mounted && !state_.dismount_forgiven)
+    report("g27-without-face"_diag, line_.command(instruction).span());
+  state_.dismount_forgiven = false;
+  leave_face();
+  state_.set_mode(dialect::ModalGroup::Face, 27);
+  sink_.frame_changed(state_);
+}
+
+/// One unit axis per three letters. What is written but has no direction is ISO022; what is not written at all has been
+/// reported. False when the axes are not known in full.
+bool Executor::read_axes(const Arguments& arguments, std::string_view letters, Mat3& axes) {
+  bool complete = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string_view names = letters.substr(static_cast<std::size_t>(3 * axis), 3);
+    const dialect::LetterSet set = dialect::letters(names);
+    Vec3 vector;
+    for (int i = 0; i < 3; ++i) vector[i] = arguments.value_or(names[static_cast<std::size_t>(i)], 0);
+    if ((arguments.present() & set) == 0 || !vector.allFinite()) {
+      complete = false;
+    } else if (!geometry::has_direction(vector)) {
+      report("zero-axis-vector"_diag, arguments.span_of(set));
+      complete = false;
+    } else {
+      axes.col(axis) = vector.normalized();
+    }
+  }
+  return complete;
+}
+
+void Executor::mount_face(const Instruction& instruction, const dialect::GCode& code) {
+  const syntax::Span place = line_.command(instruction).span();
+  if (state_.face_mounted) report("face-already-mounted"_diag, place);
+  leave_face();
+  state_.dismount_forgiven = false;
+  const Arguments arguments(line_, instruction);
+  Frame face;
+  face.origin = state_.position.tip;
+  bool defined = true;
+  if (code.number != 28) defined = read_point(arguments, face.origin);
+  if (code.number == 29) {
+    const double b = arguments.value_or('B', 0);
+    const double c = arguments.value_or('C', 0);
+    defined = defined && std::isfinite(b) && std::isfinite(c);
+    if (defined) face.axes = geometry::axes_from_angles(b, c);
+  } else {
+    const bool complete = read_axes(arguments, code.number == 24 ? "ABCIJKPQR" : "XYZIJKPQR", face.axes);
+    const bool flat = complete && geometry::are_coplanar(face.axes);
+    if (flat) report("coplanar-axis-vectors"_diag, place);
+    defined = defined && complete && !flat;
+  }
+  state_.set_mode(dialect::ModalGroup::Face, static_cast<std::uint8_t>(code.number));
+  state_.face_mounted = true;
+  state_.face_undefined = !defined;
+  if (defined) {
+    state_.face = face;
+    state_.position.tip = face.to_inner(state_.position.tip);
+    if ((state_.unknown & kLinearAxes) != 0) blur_linear_axes();
+  } else {
+    state_.face = Frame{};
+    blur_linear_axes();
+  }
+  sink_.frame_changed(state_);
+}
+
+}  // namespace isocnc::execution

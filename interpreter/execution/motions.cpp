@@ -1,0 +1,245 @@
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "interpreter/execution/executor.h"
+#include "interpreter/geometry/arc.h"
+
+namespace isocnc::execution {
+
+using namespace dialect::literals;
+using dialect::GCode;
+using geometry::ArcProblem;
+using geometry::Vec3;
+using syntax::Instruction;
+using syntax::InstructionKind;
+using syntax::Span;
+
+static constexpr Plane kPlaneXY = {.u = 0, .v = 1, .normal = 2, .u_letter = 'X', .v_letter = 'Y',
+                                   .u_center = 'I', .v_center = 'J', .stray_center = 'K',
+                                   .stray = "stray-center-k"_diag,
+                                   .undetermined_by_u = "center-undetermined-g17-i"_diag,
+                                   .undetermined_by_v = "center-undetermined-g17-j"_diag};
+static constexpr Plane kPlaneZX = {.u = 2, .v = 0, .normal = 1, .u_letter = 'Z', .v_letter = 'X',
+                                   .u_center = 'K', .v_center = 'I', .stray_center = 'J',
+                                   .stray = "stray-center-j"_diag,
+                                   .undetermined_by_u = "center-undetermined-g18-k"_diag,
+                                   .undetermined_by_v = "center-undetermined-g18-i"_diag};
+static constexpr Plane kPlaneYZ = {.u = 1, .v = 2, .normal = 0, .u_letter = 'Y', .v_letter = 'Z',
+                                   .u_center = 'J', .v_center = 'K', .stray_center = 'I',
+                                   .stray = "stray-center-i"_diag,
+                                   .undetermined_by_u = "center-undetermined-g19-j"_diag,
+                                   .undetermined_by_v = "center-undetermined-g19-k"_diag};
+
+const Plane& plane_in_force(const State& state) {
+  switch (state.mode(dialect::ModalGroup::Plane)) {
+    case 18: return kPlaneZX;
+    case 19: return kPlaneYZ;
+    default: return kPlaneXY;
+  }
+}
+
+void Executor::motion(const Instruction& instruction) {
+  const bool is_continuation = instruction.kind == InstructionKind::Continuation;
+  const Arguments arguments(line_, instruction);
+  if (!is_continuation) {
+    state_.set_mode(dialect::ModalGroup::Motion, static_cast<std::uint8_t>(instruction.g()->number));
+  } else if (!motion_is_in_force(arguments)) {
+    return;
+  }
+  const GCode& code = dialect::kGCodes[dialect::kGCodeRows[state_.mode(dialect::ModalGroup::Motion)]];
+  const Span place = is_continuation ? arguments.first().span() : line_.command(instruction).span();
+  (code.number == 0 ? rapid_move_ : feed_move_) = true;
+  if ((arguments.present() & ~code.arguments) != 0) report_strays(arguments, code);
+  if ((arguments.present() & dialect::kCoordinateLetters) == 0) {
+    const bool only_center = is_continuation && (arguments.present() & ~code.arguments) == 0;
+    if (only_center) report("missing-coordinate"_diag, place);
+    if (line_.feed >= 0 && code.number != 0) take_feed();
+    return;
+  }
+  check_first_motion(place);
+  Move move;
+  if (code.number != 0) {
+    check_feed(place);
+    if (!state_.five_axis()) check_rotary_axes(arguments, code, place);
+  }
+  const bool wants_effects = sink_.wants_effects();
+  if (wants_effects) {
+    move.kind = code.number == 0 ? MoveKind::Rapid : MoveKind::Feed;
+    move.from = state_.position;
+    if (code.number != 0) {
+      const Feed feed = feed_in_force();
+      const bool rotary_only = (arguments.present() & dialect::kLinearLetters) == 0;
+      move.inverse_time = state_.inverse_time();
+      move.feed = feed.number * (rotary_only || move.inverse_time ? 1 : feed.mm_per_unit);
+    }
+  }
+  if (code.is_arc()) arc(arguments, code, place, move);
+  move_to(arguments);
+  if (!wants_effects) return;
+  move.to = state_.position;
+  sink_.move(move, state_);
+}
+
+/// Coordinates before any motion G belong to nothing: one finding a line (D21).
+bool Executor::motion_is_in_force(const Arguments& arguments) {
+  if (state_.mode(dialect::ModalGroup::Motion) != dialect::kNoMotion) return true;
+  bool reported = line_.has(syntax::LineTree::kAloneViolated);
+  for (const syntax::Finding& finding : line_.findings) reported |= finding.id == "stray-argument"_diag;
+  if (!reported) report("stray-argument"_diag, arguments.first().span());
+  return false;
+}
+
+/// Letters that the motion does not take (D16).
+void Executor::report_strays(const Arguments& arguments, const GCode& code) {
+  if (line_.has(syntax::LineTree::kAloneViolated)) return;
+  for (char letter = 'A'; letter <= 'Z'; ++letter)
+    if (dialect::contains(arguments.present() & ~code.arguments, letter))
+      report("stray-argument"_diag, arguments.word(letter).span());
+}
+
+void Executor::check_first_motion(Span place) {
+  if (state_.tool_selected || state_.tool_reported) return;
+  report("initial-tool-missing"_diag, place);
+  state_.tool_reported = true;
+}
+
+/// A feed move needs an F: of its own in G93, of its own or an earlier line's in G94 (I.3.7, D43).
+void Executor::check_feed(Span place) {
+  if (line_.feed >= 0) return take_feed();
+  if (state_.inverse_time()) {
+    report("inverse-time-feed-missing"_diag, place);
+  } else if (!state_.feed_given && !state_.feed_reported) {
+    report("feed-missing"_diag, place);
+    state_.feed_reported = true;
+  }
+}
+
+void Executor::take_feed() {
+  const double number = line_.words[static_cast<std::size_t>(line_.feed)].value;
+  state_.feed_given = true;
+  if (!(number > 0)) return;  // Reported; the feed before it stays.
+  state_.last_feed = {number, state_.mm_per_unit()};
+  if (!state_.inverse_time()) state_.feed_per_minute = state_.last_feed;
+}
+
+Feed Executor::feed_in_force() const {
+  if (state_.inverse_time()) return line_.feed >= 0 ? state_.last_feed : Feed{};
+  return state_.feed_per_minute.number > 0 ? state_.feed_per_minute : state_.last_feed;
+}
+
+/// Three-axis interpolation moves no rotary axis, and a G01 under it needs a linear one (I.3.4.2, I.3.5, D41).
+void Executor::check_rotary_axes(const Arguments& arguments, const GCode& code, Span place) {
+  if (code.number == 1 && (arguments.present() & dialect::kLinearLetters) == 0)
+    return report("linear-coordinate-missing"_diag, place);
+  Span changed;
+  for (const char letter : {'B', 'C'}) {
+    if (!arguments.has(letter)) continue;
+    const Axis axis = letter == 'B' ? Axis::B : Axis::C;
+    const double present = letter == 'B' ? state_.position.b : state_.position.c;
+    if (!state_.incremental() && (state_.unknown & axis_bit(axis)) != 0) continue;
+    const double change = state_.incremental() ? arguments[letter] : arguments[letter] - present;
+    if (!(std::abs(change) > geometry::kEqualCoordinate)) continue;
+    const Span span = arguments.word(letter).span();
+    changed = changed.empty() ? span : syntax::hull(changed, span);
+  }
+  if (!changed.empty()) report("five-axis-not-enabled"_diag, changed);
+}
+
+void Executor::move_axis(Axis axis, double& position, double value, double scale) {
+  const AxisSet bit = axis_bit(axis);
+  const double target = value * scale;
+  if (!std::isfinite(target)) {
+    state_.unknown |= bit;
+    position = 0;
+  } else if (!state_.incremental()) {
+    state_.unknown &= static_cast<AxisSet>(~bit);
+    position = target;
+  } else if ((state_.unknown & bit) == 0) {
+    position += target;
+  }
+}
+
+void Executor::move_to(const Arguments& arguments) {
+  const double scale = state_.mm_per_unit();
+  if (arguments.has('X')) move_axis(Axis::X, state_.position.tip[0], arguments['X'], scale);
+  if (arguments.has('Y')) move_axis(Axis::Y, state_.position.tip[1], arguments['Y'], scale);
+  if (arguments.has('Z')) move_axis(Axis::Z, state_.position.tip[2], arguments['Z'], scale);
+  if (arguments.has('B')) move_axis(Axis::B, state_.position.b, arguments['B'], 1);
+  if (arguments.has('C')) move_axis(Axis::C, state_.position.c, arguments['C'], 1);
+}
+
+/// What an arc must say before its geometry can be looked at, in the order of D45.
+bool Executor::arc_is_described(const Arguments& arguments, const Plane& plane, Span place) {
+  if (!arguments.has(plane.u_letter) && !arguments.has(plane.v_letter)) {
+    report("arc-end-outside-plane"_diag, arguments.span_of(dialect::kCoordinateLetters));
+    return false;
+  }
+  if (arguments.has(plane.stray_center)) {
+    report(plane.stray, arguments.word(plane.stray_center).span());
+    return false;
+  }
+  if (!arguments.has(plane.u_center) && !arguments.has(plane.v_center) && !arguments.has('R')) {
+    if (!line_.has(syntax::LineTree::kUnclosed)) report("circle-not-given"_diag, place);
+    return false;
+  }
+  if (state_.face_mounted && !state_.face_undefined) {
+    const double cosine = state_.face.axes.col(plane.u).dot(state_.face.axes.col(plane.v));
+    if (std::abs(cosine) >= geometry::kOrthogonalCosine) {
+      report("arc-plane-not-orthogonal"_diag, place, {std::acos(cosine) * 180 / std::numbers::pi});
+      return false;
+    }
+  }
+  return true;
+}
+
+void Executor::arc(const Arguments& arguments, const GCode& code, Span place, Move& move) {
+  const Plane& plane = plane_in_force(state_);
+  if (!arc_is_described(arguments, plane, place)) return;
+  const double scale = state_.mm_per_unit();
+  // From the start. Under G91 that is what is written, wherever the start may be.
+  const auto offset = [&](char letter, int axis) {
+    const double value = arguments[letter] * scale;
+    if (state_.incremental()) return value;
+    if ((state_.unknown & axis_bit(static_cast<Axis>(axis))) != 0) return std::numeric_limits<double>::quiet_NaN();
+    return value - state_.position.tip[axis];
+  };
+  geometry::ArcGiven given{.counterclockwise = code.number == 3};
+  if (arguments.has(plane.u_letter)) given.end.u = offset(plane.u_letter, plane.u);
+  if (arguments.has(plane.v_letter)) given.end.v = offset(plane.v_letter, plane.v);
+  bool known = std::isfinite(given.end.u) && std::isfinite(given.end.v);
+  const auto read = [&](char letter, double value) {
+    known = known && std::isfinite(value);
+    return arguments.has(letter) ? std::optional(value) : std::nullopt;
+  };
+  if (arguments.has(plane.u_center)) given.center_u = read(plane.u_center, offset(plane.u_center, plane.u));
+  if (arguments.has(plane.v_center)) given.center_v = read(plane.v_center, offset(plane.v_center, plane.v));
+  if (arguments.has('R')) given.radius = read('R', arguments['R'] * scale);
+  if (!known) return;
+
+  const geometry::Circle circle = geometry::find_circle(given, setup_.arc_tolerance);
+  const Span centers = arguments.span_of(dialect::kCenterLetters);
+  switch (circle.problem) {
+    case ArcProblem::None: break;
+    case ArcProblem::CenterUndeterminedByU: return report(plane.undetermined_by_u, centers);
+    case ArcProblem::CenterUndeterminedByV: return report(plane.undetermined_by_v, centers);
+    case ArcProblem::CenterMismatch:
+      return report("arc-center-mismatch"_diag, centers, {circle.found, circle.wanted});
+    case ArcProblem::RadiusMismatch:
+      return report("arc-radius-mismatch"_diag, arguments.word('R').span(), {circle.found, circle.wanted});
+    case ArcProblem::RadiusTooSmall:
+      return report("arc-radius-too-small"_diag, arguments.word('R').span(), {circle.found, circle.wanted});
+  }
+  if (!sink_.wants_effects() || circle.goes_nowhere) return;
+  move.kind = MoveKind::Arc;
+  move.center = state_.position.tip;
+  move.center[plane.u] += circle.center.u;
+  move.center[plane.v] += circle.center.v;
+  move.normal_axis = plane.normal;
+  move.normal = Vec3::Unit(plane.normal);
+  move.radius = circle.center.norm();
+  move.sweep_deg = geometry::sweep_deg(circle.center, given.end, given.counterclockwise);
+}
+
+}  // namespace isocnc::execution

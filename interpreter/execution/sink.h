@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "interpreter/execution/state.h"
+#include "interpreter/syntax/line_tree.h"
+
+namespace isocnc::execution {
+
+enum class MoveKind : std::uint8_t { Rapid, Feed, Arc };
+
+/// One motion of the tool tip, in the frame in force when it runs.
+struct Move {
+  MoveKind kind = MoveKind::Rapid;
+  geometry::Pose from;  ///< Frame in force; mm, degrees.
+  geometry::Pose to;
+  geometry::Vec3 center = geometry::Vec3::Zero();  ///< Arcs: frame in force; the start's coordinate along the normal.
+  geometry::Vec3 normal = geometry::Vec3::Zero();  ///< Arcs: unit, frame in force; for oblique frames along the axis cross product.
+  double radius = 0;     ///< Arcs: distance of the center from the start, mm.
+  double sweep_deg = 0;  ///< Arcs: positive counterclockwise about the normal (G03).
+  int normal_axis = 2;   ///< Arcs: the coordinate that rises along a helix: 2 in G17, 1 in G18, 0 in G19.
+  double feed = 0;       ///< mm/min (degrees/min when only rotary axes move), or 1/min in G93; 0 for rapids.
+  bool inverse_time = false;
+};
+
+/// A parameter of a user M (I.4.4).
+struct FunctionParameter {
+  int number = 0;
+  double value = 0;
+};
+
+/// Takes what a block does and what is wrong with it, in the order in which it happens. A checker listens to findings
+/// alone; a simulator moves a machine.
+class Sink {
+ public:
+  virtual ~Sink() = default;
+
+  virtual void report(const syntax::Finding& finding) = 0;
+  /// Whether the effects below are wanted; without them their geometry is not worked out.
+  virtual bool wants_effects() const { return false; }
+
+  /// `state` is the one in which the motion runs: its frame, modes and spindle.
+  virtual void move(const Move&, const State&) {}
+  virtual void dwell(double) {}  ///< Seconds.
+  virtual void spindle_speed(double) {}
+  virtual void function(int, std::span<const FunctionParameter>) {}
+  virtual void tool_change(ToolCode) {}
+  virtual void frame_changed(const State&) {}
+  virtual void exact_stop() {}
+  virtual void assign(int, double) {}  ///< Register 1 to 30; NaN: the value could not be read.
+  virtual void end() {}
+};
+
+}  // namespace isocnc::execution

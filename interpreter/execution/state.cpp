@@ -1,0 +1,20 @@
+#include "interpreter/execution/state.h"
+
+namespace isocnc::execution {
+
+State initial_state(const Setup& setup) {
+  State state;
+  state.position = setup.home;
+  return state;
+}
+
+bool judged_alike(const State& a, const State& b) {
+  return a.position == b.position && a.unknown == b.unknown && a.in_force == b.in_force && a.written == b.written &&
+         a.workpiece_origin == b.workpiece_origin && a.face == b.face && a.face_mounted == b.face_mounted &&
+         a.face_undefined == b.face_undefined && a.dismount_forgiven == b.dismount_forgiven &&
+         a.tool_selected == b.tool_selected && a.tool_reported == b.tool_reported && a.feed_given == b.feed_given &&
+         a.feed_reported == b.feed_reported && a.exact_stop_fits == b.exact_stop_fits &&
+         a.tool_awaited == b.tool_awaited && a.ended == b.ended;
+}
+
+}  // namespace isocnc::execution

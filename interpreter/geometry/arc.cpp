@@ -1,0 +1,62 @@
+#include "interpreter/geometry/arc.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace isocnc::geometry {
+
+double PlanePoint::norm() const { return std::sqrt(u * u + v * v); }
+
+static Circle problem(ArcProblem what, double found = 0, double wanted = 0) {
+  return {.problem = what, .found = found, .wanted = wanted};
+}
+
+/// The center is equally far from both ends: 2 c.d = d.d, with d from start to end.
+static Circle circle_from_center(const ArcGiven& given, double tolerance) {
+  const PlanePoint& d = given.end;
+  const double dd = d.u * d.u + d.v * d.v;
+  PlanePoint center;
+  if (given.center_u && given.center_v) {
+    center = {*given.center_u, *given.center_v};
+  } else if (given.center_u) {
+    if (std::abs(d.v) <= kEqualCoordinate) return problem(ArcProblem::CenterUndeterminedByU);
+    center = {*given.center_u, (dd - 2 * *given.center_u * d.u) / (2 * d.v)};
+  } else {
+    if (std::abs(d.u) <= kEqualCoordinate) return problem(ArcProblem::CenterUndeterminedByV);
+    center = {(dd - 2 * *given.center_v * d.v) / (2 * d.u), *given.center_v};
+  }
+  const double from_start = center.norm();
+  const double from_end = (center - d).norm();
+  if (std::abs(from_start - from_end) > tolerance || from_start <= kEqualCoordinate)
+    return problem(ArcProblem::CenterMismatch, from_start, from_end);
+  if (given.radius && !(std::abs(*given.radius - from_start) <= tolerance))
+    return problem(ArcProblem::RadiusMismatch, *given.radius, from_start);
+  return {.center = center, .found = from_start, .wanted = from_end};
+}
+
+/// Of the two circles through both ends, the one whose arc is at most half a turn (D36).
+static Circle circle_from_radius(const ArcGiven& given, double tolerance) {
+  const PlanePoint& d = given.end;
+  const double chord = d.norm();
+  const double radius = *given.radius;
+  if (!(radius > 0) || chord - 2 * radius > tolerance) return problem(ArcProblem::RadiusTooSmall, radius, chord / 2);
+  if (chord <= kEqualCoordinate) return {.found = radius, .wanted = radius, .goes_nowhere = true};
+  const double height = std::sqrt(std::fmax(0, radius * radius - chord * chord / 4)) / chord;
+  const double side = given.counterclockwise ? height : -height;  // To the left of the chord for G03.
+  return {.center = {d.u / 2 - d.v * side, d.v / 2 + d.u * side}, .found = radius, .wanted = radius};
+}
+
+Circle find_circle(const ArcGiven& given, double tolerance) {
+  return given.center_u || given.center_v ? circle_from_center(given, tolerance) : circle_from_radius(given, tolerance);
+}
+
+double sweep_deg(const PlanePoint& center, const PlanePoint& end, bool counterclockwise) {
+  if (std::abs(end.u) <= kEqualCoordinate && std::abs(end.v) <= kEqualCoordinate) return counterclockwise ? 360 : -360;
+  const PlanePoint a{-center.u, -center.v};
+  const PlanePoint b = end - center;
+  const double angle = std::atan2(a.u * b.v - a.v * b.u, a.u * b.u + a.v * b.v) * 180 / std::numbers::pi;
+  if (counterclockwise) return angle > 0 ? angle : angle + 360;
+  return angle < 0 ? angle : angle - 360;
+}
+
+}  // namespace isocnc::geometry

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace isocnc::geometry {
+
+/// A point or offset in the arc's plane, mm: u along the plane's first axis, v along the second. The plane's normal is
+/// u x v: i x j in G17, k x i in G18, j x k in G19 (D40).
+struct PlanePoint {
+  double u = 0;
+  double v = 0;
+
+  double norm() const;
+  PlanePoint operator-(const PlanePoint& other) const { return {u - other.u, v - other.v}; }
+};
+
+/// What a program says of a circle. All offsets are from the arc's start, mm.
+struct ArcGiven {
+  PlanePoint end;
+  std::optional<double> center_u;
+  std::optional<double> center_v;
+  std::optional<double> radius;
+  bool counterclockwise = false;  ///< G03.
+};
+
+enum class ArcProblem : std::uint8_t {
+  None,
+  CenterUndeterminedByU,  ///< Only u of the center is given, and the ends do not differ in v (ISO048-053).
+  CenterUndeterminedByV,
+  CenterMismatch,    ///< The center is not equally far from both ends, or is the start itself (ISO031).
+  RadiusMismatch,    ///< Radius and center contradict each other (ISO029).
+  RadiusTooSmall,    ///< Not positive, or less than half the chord (ISO030).
+};
+
+/// A circle through both ends, or why there is none; then the two values found tell what is wrong.
+struct Circle {
+  ArcProblem problem = ArcProblem::None;
+  PlanePoint center;  ///< From the start.
+  double found = 0;   ///< Distance center-start, or the radius as written.
+  double wanted = 0;  ///< Distance center-end, distance center-start, or half the chord.
+  bool goes_nowhere = false;  ///< By radius alone with start and end equal: no sweep (D36).
+};
+
+/// Ends that differ by less count as equal (D35).
+inline constexpr double kEqualCoordinate = 1e-6;
+
+/// Finds the circle (I.3.4.3.a, D35 to D38); the first problem in the order of D45. `tolerance` in mm.
+Circle find_circle(const ArcGiven& given, double tolerance);
+
+/// Degrees from start to end about the center, positive counterclockwise, in [-360, 360]; a full turn when both ends are
+/// equal (D37). `center` and `end` from the start. Arcs by radius alone never exceed 180 (D36).
+double sweep_deg(const PlanePoint& center, const PlanePoint& end, bool counterclockwise);
+
+}  // namespace isocnc::geometry

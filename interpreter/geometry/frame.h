@@ -1,0 +1,33 @@
+#pragma once
+
+#include "interpreter/geometry/vectors.h"
+
+namespace isocnc::geometry {
+
+/// Below this length an axis vector is none, and below this volume three unit vectors lie in a plane (D26).
+inline constexpr double kZeroVector = 1e-6;
+/// Two axes are orthogonal when the cosine between them is below this: CAM systems write few decimals (D26).
+inline constexpr double kOrthogonalCosine = 1e-3;
+
+/// A frame given in another one: coordinates run along unit axes that need be neither orthogonal nor right-handed (D26).
+/// P = origin + x i + y j + z k.
+struct Frame {
+  Vec3 origin = Vec3::Zero();
+  Mat3 axes = Mat3::Identity();  ///< Columns i, j, k.
+
+  Vec3 to_outer(const Vec3& p) const { return origin + axes * p; }
+  Vec3 to_inner(const Vec3& p) const;
+
+  friend bool operator==(const Frame& a, const Frame& b) { return a.origin == b.origin && a.axes == b.axes; }
+};
+
+/// Whether an axis vector is long enough to give a direction.
+bool has_direction(const Vec3& vector);
+
+/// Whether three unit vectors span no volume worth the name.
+bool are_coplanar(const Mat3& unit_axes);
+
+/// Axes of G29 (D28): i = Rz(C) Ry(B) ex, j = Rz(C) ey, k = Rz(C) Ry(B) ez; angles in degrees.
+Mat3 axes_from_angles(double b_deg, double c_deg);
+
+}  // namespace isocnc::geometry

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>  // cross()
+
+namespace isocnc::geometry {
+
+/// Positions and directions in mm, in the frame that the name or the comment says.
+using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
+
+/// A position of the tool tip with the rotary axes: X Y Z in mm in some frame, B C in degrees. B and C are machine
+/// positions in every frame (D30).
+struct Pose {
+  Vec3 tip = Vec3::Zero();
+  double b = 0;
+  double c = 0;
+
+  friend bool operator==(const Pose& a, const Pose& b) { return a.tip == b.tip && a.b == b.b && a.c == b.c; }
+};
+
+}  // namespace isocnc::geometry

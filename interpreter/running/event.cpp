@@ -1,0 +1,86 @@
+#include "interpreter/running/event.h"
+
+#include <nlohmann/json.hpp>
+
+namespace isocnc::running {
+
+using Json = nlohmann::ordered_json;
+using execution::MoveKind;
+
+namespace {
+
+template <class... Cases>
+struct Overloaded : Cases... {
+  using Cases::operator()...;
+};
+
+Json array(const geometry::Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
+Json array(const geometry::Pose& p) { return Json::array({p.tip.x(), p.tip.y(), p.tip.z(), p.b, p.c}); }
+
+void put(Json& json, const MoveEvent& move) {
+  json["from"] = array(move.from);
+  json["to"] = array(move.to);
+  if (move.kind == MoveKind::Arc) {
+    json["center"] = array(move.center);
+    json["normal"] = array(move.normal);
+    json["radius"] = move.radius;
+    json["sweepDeg"] = move.sweep_deg;
+  }
+  json["lengthMm"] = move.length;
+}
+void put(Json& json, const DwellEvent& dwell) { json["seconds"] = dwell.seconds; }
+void put(Json& json, const SpindleSpeedEvent& spindle) { json["speed"] = spindle.speed; }
+void put(Json& json, const FunctionEvent& function) {
+  json["number"] = function.number;
+  if (function.parameters.empty()) return;
+  for (const execution::FunctionParameter& parameter : function.parameters)
+    json["parameters"]["P" + std::to_string(parameter.number)] = parameter.value;
+}
+void put(Json& json, const ToolEvent& event) {
+  json["head"] = event.tool.head;
+  json["holder"] = event.tool.holder;
+  json["tool"] = event.tool.tool;
+}
+void put(Json& json, const FrameEvent& frame) {
+  json["workpiece"] = array(frame.workpiece_origin);
+  json["face"] = nullptr;
+  if (!frame.face_mounted) return;
+  json["face"] = {{"origin", array(frame.face.origin)},
+                  {"i", array(geometry::Vec3(frame.face.axes.col(0)))},
+                  {"j", array(geometry::Vec3(frame.face.axes.col(1)))},
+                  {"k", array(geometry::Vec3(frame.face.axes.col(2)))}};
+}
+void put(Json& json, const JumpEvent& jump) {
+  json["taken"] = jump.taken;
+  json["target"] = jump.target_line + 1;
+}
+void put(Json&, const EndEvent&) {}
+
+}  // namespace
+
+std::string_view kind_of(const Event& event) {
+  return std::visit(Overloaded{[](const MoveEvent& move) -> std::string_view {
+                                 constexpr std::string_view kKinds[] = {"rapid", "feed", "arc"};
+                                 return kKinds[static_cast<std::size_t>(move.kind)];
+                               },
+                               [](const DwellEvent&) -> std::string_view { return "dwell"; },
+                               [](const SpindleSpeedEvent&) -> std::string_view { return "spindle"; },
+                               [](const FunctionEvent& function) -> std::string_view {
+                                 return dialect::is_user_function(function.number) ? "m" : "spindle";
+                               },
+                               [](const ToolEvent&) -> std::string_view { return "tool"; },
+                               [](const FrameEvent&) -> std::string_view { return "frame"; },
+                               [](const JumpEvent&) -> std::string_view { return "jump"; },
+                               [](const EndEvent&) -> std::string_view { return "end"; }},
+                    event.what);
+}
+
+std::string to_json(const Event& event) {
+  Json json;
+  json["line"] = event.line + 1;
+  json["kind"] = kind_of(event);
+  std::visit([&](const auto& what) { put(json, what); }, event.what);
+  return json.dump();
+}
+
+}  // namespace isocnc::running

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "interpreter/execution/sink.h"
+
+namespace isocnc::running {
+
+/// A motion as it happened, in machine coordinates of the tool tip; mm and degrees.
+struct MoveEvent {
+  execution::MoveKind kind = execution::MoveKind::Rapid;
+  geometry::Pose from;
+  geometry::Pose to;
+  geometry::Vec3 center = geometry::Vec3::Zero();  ///< Arcs.
+  geometry::Vec3 normal = geometry::Vec3::Zero();  ///< Arcs: unit, i x j, k x i or j x k.
+  double radius = 0;
+  double sweep_deg = 0;
+  double length = 0;  ///< Of the tip's path, mm.
+};
+struct DwellEvent {
+  double seconds = 0;
+};
+struct SpindleSpeedEvent {
+  double speed = 0;  ///< Revolutions per minute.
+};
+struct FunctionEvent {
+  int number = 0;
+  std::vector<execution::FunctionParameter> parameters;
+};
+struct ToolEvent {
+  execution::ToolCode tool;
+};
+/// A frame came into force, or went.
+struct FrameEvent {
+  geometry::Vec3 workpiece_origin = geometry::Vec3::Zero();  ///< Machine frame, mm.
+  bool face_mounted = false;
+  geometry::Frame face;  ///< In the workpiece frame.
+};
+struct JumpEvent {
+  bool taken = false;
+  std::uint64_t target_line = 0;  ///< From 0; where the program goes on.
+};
+struct EndEvent {};
+
+/// Something that a program did, on its line (from 0).
+struct Event {
+  std::uint64_t line = 0;
+  std::variant<MoveEvent, DwellEvent, SpindleSpeedEvent, FunctionEvent, ToolEvent, FrameEvent, JumpEvent, EndEvent> what;
+};
+
+/// `rapid`, `feed`, `arc`, `dwell`, `spindle`, `tool`, `m`, `frame`, `jump`, `end`: how the trace calls it.
+std::string_view kind_of(const Event& event);
+
+/// The event as one line of JSON without its end, keys as docs/isorun.md lists them; lines from 1.
+std::string to_json(const Event& event);
+
+}  // namespace isocnc::running

@@ -1,0 +1,242 @@
+#include "interpreter/running/runner.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "interpreter/execution/execute.h"
+#include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/tree_store.h"
+
+namespace isocnc::running {
+
+using namespace dialect::literals;
+using geometry::Vec3;
+
+/// Length of a helix whose third axis leans over the plane of its circle; Simpson's rule on the speed, which is smooth.
+static double leaning_helix_length(double radius, double sweep, const Vec3& u, const Vec3& v, const Vec3& rise) {
+  const auto speed = [&](double t) {
+    const double angle = sweep * t;
+    return (radius * sweep * (-std::sin(angle) * u + std::cos(angle) * v) + rise).norm();
+  };
+  constexpr int kPanels = 256;
+  double sum = speed(0) + speed(1);
+  for (int i = 1; i < kPanels; ++i) sum += (i % 2 == 1 ? 4 : 2) * speed(static_cast<double>(i) / kPanels);
+  return sum / (3 * kPanels);
+}
+
+/// From the frame in force to machine coordinates.
+static MoveEvent in_machine(const execution::Move& move, const execution::State& state) {
+  MoveEvent event;
+  event.kind = move.kind;
+  event.from = {state.to_machine(move.from.tip), move.from.b, move.from.c};
+  event.to = {state.to_machine(move.to.tip), move.to.b, move.to.c};
+  event.length = (event.to.tip - event.from.tip).norm();
+  if (move.kind != execution::MoveKind::Arc) return event;
+  const auto axis = [&](int i) { return state.direction_to_machine(Vec3::Unit((move.normal_axis + i) % 3)); };
+  const Vec3 u = axis(1);
+  const Vec3 v = axis(2);
+  event.center = state.to_machine(move.center);
+  event.normal = u.cross(v).normalized();
+  event.radius = move.radius;
+  event.sweep_deg = move.sweep_deg;
+  const double sweep = std::abs(move.sweep_deg) * std::numbers::pi / 180;
+  const Vec3 rise = (move.to.tip[move.normal_axis] - move.from.tip[move.normal_axis]) * axis(0);
+  const bool leans = rise.norm() > 0 && rise.cross(event.normal).norm() > 1e-9 * rise.norm();
+  if (leans) {
+    const Vec3 start = (event.from.tip - event.center).normalized();
+    const Vec3 side = event.normal.cross(start) * (move.sweep_deg < 0 ? -1 : 1);
+    event.length = leaning_helix_length(move.radius, sweep, start, side, rise);
+  } else {
+    event.length = std::hypot(move.radius * sweep, rise.norm());
+  }
+  return event;
+}
+
+namespace {
+
+/// Gathers what one block does, so that a block in error does nothing.
+class BlockSink final : public execution::Sink {
+ public:
+  BlockSink(std::vector<Event>& events, std::array<double, dialect::kRegisterCount + 1>& registers)
+      : events_(events), registers_(registers) {}
+
+  std::uint64_t line = 0;
+  std::optional<syntax::Finding> error;
+
+  void report(const syntax::Finding& finding) override {
+    if (!error && dialect::definition(finding.id).severity == dialect::Severity::Error) error = finding;
+  }
+  bool wants_effects() const override { return true; }
+  void move(const execution::Move& move, const execution::State& state) override { add(in_machine(move, state)); }
+  void dwell(double seconds) override { add(DwellEvent{seconds}); }
+  void spindle_speed(double speed) override { add(SpindleSpeedEvent{speed}); }
+  void function(int m, std::span<const execution::FunctionParameter> parameters) override {
+    add(FunctionEvent{m, {parameters.begin(), parameters.end()}});
+  }
+  void tool_change(execution::ToolCode tool) override { add(ToolEvent{tool}); }
+  void frame_changed(const execution::State& state) override {
+    add(FrameEvent{state.workpiece_origin, state.face_mounted, state.face});
+  }
+  void assign(int reg, double value) override {
+    if (!std::isnan(value)) registers_[static_cast<std::size_t>(reg)] = value;
+  }
+  void end() override { add(EndEvent{}); }
+
+ private:
+  template <class What>
+  void add(What what) {
+    events_.push_back({line, std::move(what)});
+  }
+
+  std::vector<Event>& events_;
+  std::array<double, dialect::kRegisterCount + 1>& registers_;
+};
+
+class Runner {
+ public:
+  Runner(std::string_view text, const RunOptions& options, const std::function<void(const Event&)>& on_event)
+      : text_(text), options_(options), on_event_(on_event), sink_(events_, result_.registers) {
+    result_.state = execution::initial_state(options.setup);
+    result_.registers = options.registers;
+  }
+
+  RunResult run() {
+    const char* p = text_.data();
+    const char* const end = text_.data() + text_.size();
+    bool goes_on = true;
+    for (; p != end && goes_on; ++line_) {
+      if (options_.until && line_ >= *options_.until) {
+        result_.ending = Ending::Until;
+        result_.line = line_;
+        return result_;
+      }
+      store_.clear();
+      const char* const line_end = store_.append_line(p, end);
+      tree_ = store_.tree(0, p);
+      goes_on = step();
+      p = syntax::skip_line_end(line_end, end);
+    }
+    if (goes_on) reach_end_of_file();
+    return result_;
+  }
+
+ private:
+  /// Executes the line just read; false when the run is over.
+  bool step() {
+    if (!tree_.text.empty()) note_place(tree_.text);
+    if (waiting_for_) {
+      if (!tree_.has_label() || tree_.label != waiting_for_->target) return true;
+      land();
+    }
+    events_.clear();
+    sink_.line = line_;
+    sink_.error.reset();
+    const std::array<double, dialect::kRegisterCount + 1> registers_before = result_.registers;
+    for (const syntax::Finding& finding : tree_.findings) sink_.report(finding);
+    const execution::State before = result_.state;
+    if (!sink_.error || !options_.stop_at_errors) execution::execute(tree_, result_.state, options_.setup, sink_);
+    if (sink_.error && options_.stop_at_errors) {
+      result_.state = before;
+      result_.registers = registers_before;
+      return fail(*sink_.error);
+    }
+    if (!tree_.is_empty()) ++result_.blocks;
+    for (const Event& event : events_) on_event_(event);
+    if (result_.state.ended) {
+      result_.ending = Ending::ProgramEnd;
+      return false;
+    }
+    if (tree_.jump && tree_.jump->has_target) branch(*tree_.jump);
+    return true;
+  }
+
+  void note_place(std::string_view text) {
+    result_.line = line_;
+    result_.line_text = text;
+  }
+
+  bool fail(const syntax::Finding& error) {
+    result_.ending = Ending::Error;
+    result_.error = error;
+    return false;
+  }
+
+  struct Waiting {
+    std::uint64_t target;
+    std::uint64_t line;
+    std::string_view text;
+    syntax::Span span;
+  };
+
+  void branch(const syntax::Jump& jump) {
+    if (!holds(jump)) return on_event_({line_, JumpEvent{false, line_ + 1}});
+    waiting_for_ = Waiting{jump.target, line_, tree_.text, jump.target_span};
+  }
+
+  void land() {
+    on_event_({waiting_for_->line, JumpEvent{true, line_}});
+    waiting_for_.reset();
+  }
+
+  bool holds(const syntax::Jump& jump) const {
+    using syntax::Comparison;
+    if (!jump.condition_is_known()) return false;
+    const double left = jump.variable == syntax::Jump::kVgplVariable
+                            ? options_.vgpl
+                            : result_.registers[static_cast<std::size_t>(jump.variable)];
+    switch (jump.comparison) {
+      case Comparison::Equal: return left == jump.value;
+      case Comparison::NotEqual: return left != jump.value;
+      case Comparison::Less: return left < jump.value;
+      case Comparison::LessEqual: return left <= jump.value;
+      case Comparison::Greater: return left > jump.value;
+      case Comparison::GreaterEqual: return left >= jump.value;
+      case Comparison::Invalid: break;
+    }
+    return false;
+  }
+
+  /// No M02 (ISO045), or a jump whose label is not below it (E004, E005).
+  void reach_end_of_file() {
+    if (!waiting_for_) {
+      fail({.id = "m02-missing"_diag, .span = {0, static_cast<std::uint32_t>(result_.line_text.size())}});
+      return;
+    }
+    result_.line = waiting_for_->line;
+    result_.line_text = waiting_for_->text;
+    const bool above = label_stands_above(waiting_for_->target);
+    fail({.id = above ? "backward-jump"_diag : "label-not-found"_diag, .span = waiting_for_->span});
+  }
+
+  bool label_stands_above(std::uint64_t label) {
+    const char* p = text_.data();
+    const char* const end = text_.data() + text_.size();
+    for (std::uint64_t line = 0; line <= waiting_for_->line && p != end; ++line) {
+      store_.clear();
+      const char* const line_end = store_.append_line(p, end);
+      const syntax::LineTree tree = store_.tree(0, p);
+      if (tree.has_label() && tree.label == label) return true;
+      p = syntax::skip_line_end(line_end, end);
+    }
+    return false;
+  }
+
+  std::string_view text_;
+  const RunOptions& options_;
+  const std::function<void(const Event&)>& on_event_;
+  RunResult result_;
+  std::vector<Event> events_;  // Of one block.
+  BlockSink sink_;
+  syntax::TreeStore store_;
+  syntax::LineTree tree_;
+  std::uint64_t line_ = 0;
+  std::optional<Waiting> waiting_for_;
+};
+
+}  // namespace
+
+RunResult run(std::string_view text, const RunOptions& options, const std::function<void(const Event&)>& on_event) {
+  return Runner(text, options, on_event).run();
+}
+
+}  // namespace isocnc::running

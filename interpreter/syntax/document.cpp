@@ -1,0 +1,166 @@
+#include "interpreter/syntax/document.h"
+
+#include <algorithm>
+
+#include "interpreter/syntax/characters.h"
+
+namespace isocnc::syntax {
+
+/// Lines per chunk, when chunks are made anew. An edit copies the trees of its chunk: few enough that this costs little,
+/// many enough that the chunks of a long program are soon counted.
+static constexpr std::size_t kChunkLines = 128;
+static constexpr std::size_t kMostChunkLines = 2 * kChunkLines;
+
+struct Document::Chunk {
+  std::string text;                  // With terminators.
+  std::vector<std::uint32_t> begins;  // Of the lines in `text`.
+  TreeStore trees;
+  std::size_t first_line = 0;
+  std::uint64_t version = 0;
+
+  std::size_t lines() const { return begins.size(); }
+  std::string_view with_terminator(std::size_t line) const {
+    const std::size_t begin = begins[line];
+    const std::size_t end = line + 1 < begins.size() ? begins[line + 1] : text.size();
+    return std::string_view(text).substr(begin, end - begin);
+  }
+  LineTree tree(std::size_t line) const { return trees.tree(line, text.data() + begins[line]); }
+};
+
+Document::Document(Document&&) noexcept = default;
+Document& Document::operator=(Document&&) noexcept = default;
+Document::~Document() = default;
+
+Document::Document(std::string_view text) { rebuild(0, 0, text, true); }
+
+std::size_t Document::line_count() const { return chunks_.back()->first_line + chunks_.back()->lines(); }
+std::size_t Document::chunk_lines(std::size_t chunk) const { return chunks_[chunk]->lines(); }
+std::size_t Document::first_line_of_chunk(std::size_t chunk) const { return chunks_[chunk]->first_line; }
+LineTree Document::line_of_chunk(std::size_t chunk, std::size_t index) const { return chunks_[chunk]->tree(index); }
+std::uint64_t Document::chunk_version(std::size_t chunk) const { return chunks_[chunk]->version; }
+
+Document::Place Document::locate(std::size_t line) const {
+  const auto behind = std::upper_bound(chunks_.begin(), chunks_.end(), line, [](std::size_t wanted, const auto& chunk) {
+    return wanted < chunk->first_line;
+  });
+  const auto chunk = static_cast<std::size_t>(behind - chunks_.begin()) - 1;
+  return {chunk, line - chunks_[chunk]->first_line};
+}
+
+LineTree Document::line(std::size_t index) const {
+  const Place place = locate(index);
+  return chunks_[place.chunk]->tree(place.line);
+}
+
+std::string_view Document::line_with_terminator(std::size_t line) const {
+  const Place place = locate(line);
+  return chunks_[place.chunk]->with_terminator(place.line);
+}
+
+std::string Document::text() const {
+  std::string all;
+  for (const auto& chunk : chunks_) all += chunk->text;
+  return all;
+}
+
+Position Document::clamp(Position position) const {
+  if (position.line >= line_count()) {
+    const std::size_t last = line_count() - 1;
+    return {last, line_with_terminator(last).size()};
+  }
+  return {position.line, std::min(position.column, line_with_terminator(position.line).size())};
+}
+
+Change Document::replace(Position begin, Position end, std::string_view text) {
+  begin = clamp(begin);
+  end = std::max(begin, clamp(end));
+  std::size_t first = begin.line;
+  std::size_t last = end.line;
+  std::string fresh(line_with_terminator(first).substr(0, begin.column));
+  fresh += text;
+  fresh += line_with_terminator(last).substr(end.column);
+  // A CR and an LF that come to stand side by side are one terminator.
+  if (first > 0 && fresh.starts_with('\n') && line_with_terminator(first - 1).ends_with('\r'))
+    fresh.insert(0, line_with_terminator(--first));
+  const auto ends_line = [&] { return !fresh.empty() && is_line_end(fresh.back()); };
+  while (last + 1 < line_count() && (!ends_line() || (fresh.back() == '\r' && line_with_terminator(last + 1).starts_with('\n'))))
+    fresh += line_with_terminator(++last);
+  const std::size_t before = line_count();
+  const std::size_t removed = last - first + 1;
+  rebuild(first, removed, fresh, last + 1 == before);
+  return {first, removed, line_count() + removed - before};
+}
+
+/// Puts `text` in the place of `removed` lines. Whole lines, but for the last of the document (`is_end`), which may lack
+/// its terminator.
+void Document::rebuild(std::size_t first_line, std::size_t removed, std::string_view text, bool is_end) {
+  const bool is_new = chunks_.empty();
+  const Place from = is_new ? Place{0, 0} : locate(first_line);
+  // The first line behind the removed ones; at the end of a chunk rather than the start of the next.
+  const Place last = is_new ? Place{0, 0} : locate(first_line + removed - 1);
+  std::vector<std::unique_ptr<Chunk>> fresh;
+  const auto open_chunk = [&]() -> Chunk& {
+    if (fresh.empty() || fresh.back()->lines() >= kMostChunkLines) {
+      fresh.push_back(std::make_unique<Chunk>());
+      fresh.back()->version = next_version_++;
+    }
+    return *fresh.back();
+  };
+  const auto copy_line = [&](const Chunk& source, std::size_t line) {
+    Chunk& chunk = open_chunk();
+    chunk.begins.push_back(static_cast<std::uint32_t>(chunk.text.size()));
+    chunk.text += source.with_terminator(line);
+    chunk.trees.append_copy(source.trees, line);
+  };
+  const auto parse_line = [&](std::string_view line) {
+    Chunk& chunk = open_chunk();
+    const std::size_t begin = chunk.text.size();
+    chunk.begins.push_back(static_cast<std::uint32_t>(begin));
+    chunk.text += line;
+    chunk.trees.append_line(chunk.text.data() + begin, chunk.text.data() + chunk.text.size());
+    ++lines_parsed_;
+    if (is_new && chunk.lines() >= kChunkLines) {
+      fresh.push_back(std::make_unique<Chunk>());
+      fresh.back()->version = next_version_++;
+    }
+  };
+  if (!is_new)
+    for (std::size_t i = 0; i < from.line; ++i) copy_line(*chunks_[from.chunk], i);
+  const char* p = text.data();
+  const char* const end = text.data() + text.size();
+  while (p != end) {
+    const char* const next = skip_line_end(find_line_end(p, end), end);
+    parse_line({p, static_cast<std::size_t>(next - p)});
+    p = next;
+  }
+  if (is_end && (text.empty() || is_line_end(text.back()))) parse_line({});
+  if (!is_new) {
+    const Chunk& source = *chunks_[last.chunk];
+    for (std::size_t i = last.line + 1; i < source.lines(); ++i) copy_line(source, i);
+  }
+  if (!fresh.empty() && fresh.back()->lines() == 0) fresh.pop_back();
+  if (is_new) {
+    chunks_ = std::move(fresh);
+    return renumber(0);
+  }
+  const auto begin = chunks_.begin() + static_cast<std::ptrdiff_t>(from.chunk);
+  const auto behind = chunks_.begin() + static_cast<std::ptrdiff_t>(last.chunk) + 1;
+  const auto common = std::min(behind - begin, static_cast<std::ptrdiff_t>(fresh.size()));
+  std::move(fresh.begin(), fresh.begin() + common, begin);
+  if (common < behind - begin) {
+    chunks_.erase(begin + common, behind);
+  } else {
+    chunks_.insert(behind, std::make_move_iterator(fresh.begin() + common), std::make_move_iterator(fresh.end()));
+  }
+  renumber(from.chunk);
+}
+
+void Document::renumber(std::size_t from_chunk) {
+  std::size_t line = from_chunk == 0 ? 0 : chunks_[from_chunk - 1]->first_line + chunks_[from_chunk - 1]->lines();
+  for (std::size_t i = from_chunk; i < chunks_.size(); ++i) {
+    chunks_[i]->first_line = line;
+    line += chunks_[i]->lines();
+  }
+}
+
+}  // namespace isocnc::syntax

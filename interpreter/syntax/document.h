@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/syntax/tree_store.h"
+
+namespace isocnc::syntax {
+
+/// A place in a document: line and byte column, both from 0. The column may reach into the line's terminator.
+struct Position {
+  std::size_t line = 0;
+  std::size_t column = 0;
+
+  friend auto operator<=>(const Position&, const Position&) = default;
+};
+
+/// What an edit did to the lines.
+struct Change {
+  std::size_t first_line = 0;
+  std::size_t removed = 0;   ///< Lines that were there before and have been read anew or are gone.
+  std::size_t inserted = 0;  ///< Lines that stand in their place.
+};
+
+/// A program as it is being edited: its text with line ends as they are (CR, LF, CRLF), and the tree of each line. An edit
+/// parses the lines it touches and no others. A document always has at least one line; a terminator at the end of the
+/// text is followed by an empty line, as in an editor.
+class Document {
+ public:
+  explicit Document(std::string_view text = {});
+  Document(Document&&) noexcept;
+  Document& operator=(Document&&) noexcept;
+  ~Document();
+
+  /// Replaces what stands between the two places by `text`. Places beyond the end of a line or of the document count as its
+  /// end; `end` before `begin` counts as `begin`.
+  Change replace(Position begin, Position end, std::string_view text);
+
+  std::size_t line_count() const;
+  LineTree line(std::size_t index) const;
+  std::string text() const;
+  /// How many lines have been parsed since the document was made: what an edit costs.
+  std::uint64_t lines_parsed() const { return lines_parsed_; }
+
+  /// Lines are kept in chunks; an edit leaves the others as they are.
+  std::size_t chunk_count() const { return chunks_.size(); }
+  std::size_t chunk_lines(std::size_t chunk) const;
+  std::size_t first_line_of_chunk(std::size_t chunk) const;
+  LineTree line_of_chunk(std::size_t chunk, std::size_t index) const;
+  /// Another number whenever the lines of the chunk are others; never used twice.
+  std::uint64_t chunk_version(std::size_t chunk) const;
+
+ private:
+  struct Chunk;
+  struct Place {
+    std::size_t chunk;
+    std::size_t line;  // Within the chunk.
+  };
+
+  Place locate(std::size_t line) const;
+  Position clamp(Position position) const;
+  std::string_view line_with_terminator(std::size_t line) const;
+  void rebuild(std::size_t first_line, std::size_t removed, std::string_view text, bool is_end);
+  void renumber(std::size_t from_chunk);
+
+  std::vector<std::unique_ptr<Chunk>> chunks_;
+  std::uint64_t lines_parsed_ = 0;
+  std::uint64_t next_version_ = 1;
+};
+
+}  // namespace isocnc::syntax

@@ -1,0 +1,295 @@
+#include <cstring>
+#include <limits>
+#include <string_view>
+
+#include "interpreter/syntax/line_parser.h"
+#include "interpreter/syntax/number.h"
+
+namespace isocnc::syntax {
+
+using namespace dialect::literals;
+
+LineParser::LineParser(TreeStore& store, const char* begin, const char* end) : store_(store), begin_(begin), end_(end) {
+  line_.first_word = static_cast<std::uint32_t>(store.words_.size());
+  line_.first_instruction = static_cast<std::uint32_t>(store.instructions_.size());
+  line_.first_comment = static_cast<std::uint32_t>(store.comments_.size());
+  line_.first_finding = static_cast<std::uint32_t>(store.findings_.size());
+}
+
+const char* LineParser::lex() {
+  const char* p = begin_;
+  while (p != end_) {
+    switch (char_class(*p)) {
+      case CharClass::Blank: ++p; break;
+      case CharClass::Letter: p = lex_word(p); break;
+      case CharClass::LineEnd: return p;
+      case CharClass::Digit:
+      case CharClass::NumberSign: p = lex_number_alone(p); break;
+      case CharClass::Open: p = lex_comment(p); break;
+      case CharClass::Semicolon: {
+        const char* const line_end = find_line_end(p, end_);
+        store_.comments_.push_back({column(p), column(line_end)});
+        return line_end;
+      }
+      case CharClass::Close:
+        drop_comment_text();
+        report("unopened-comment"_diag, {column(p), column(p) + 1});
+        ++p;
+        break;
+      case CharClass::Equals: p = lex_equals(p); break;
+      case CharClass::Compare: p = in_condition_ ? lex_comparison(p) : lex_unknown(p); break;
+      case CharClass::Other: p = lex_unknown(p); break;
+    }
+    if (word_count() >= kMostWords) {
+      const char* const line_end = find_line_end(p, end_);
+      line_.flags |= LineTree::kCut;
+      report("line-too-long"_diag, {column(p), column(line_end)}, {static_cast<double>(kMostWords)});
+      return line_end;
+    }
+  }
+  return p;
+}
+
+Word& LineParser::add_word(char letter, const char* begin, const char* end) {
+  Word& added = store_.words_.emplace_back();
+  added.letter = letter;
+  added.begin = column(begin);
+  added.end = column(end);
+  added.owner = Word::kNobody;
+  return added;
+}
+
+static std::uint8_t flags_of(const Number& number) {
+  return static_cast<std::uint8_t>((number.is_signed ? Word::kSigned : 0) | (number.has_point ? Word::kPoint : 0) |
+                                   (number.malformed ? Word::kMalformed : 0));
+}
+
+/// A malformed number is reported with the letters that have a code of their own for it (D9, D12, D49).
+static bool has_own_code(char letter) { return dialect::contains(dialect::letters("GMNTV"), letter); }
+
+const char* LineParser::lex_word(const char* p) {
+  const char* const start = p;
+  ++p;
+  while (p != end_ && is_blank(*p)) ++p;
+  if (p == end_ || !is_number_char(*p)) return lex_without_number(start, p);
+  const Number number = scan_number(p, end_);
+  const char letter = upper(*start);
+  Word& added = add_word(letter, start, number.end);
+  added.value = number.value;
+  added.digits = number.digits;
+  added.flags = flags_of(number);
+  if (number.malformed && !in_condition_ && !has_own_code(letter))
+    report("malformed-number"_diag, {column(p), column(number.end)});
+  const bool only_number = number.end - p == number.digits + (number.is_signed ? 1 : 0) + (number.has_point ? 1 : 0);
+  if (!only_number) note_comments_inside(p, number.end);
+  if (behind_goto_) in_condition_ = behind_goto_ = false;
+  return number.end;
+}
+
+/// A keyword, a comment before the number, or a letter that has none.
+const char* LineParser::lex_without_number(const char* start, const char* p) {
+  const char letter = upper(*start);
+  const char* const behind = skip_space(p);
+  if (behind != p && behind != end_ && is_number_char(*behind)) {  // X(comment)10
+    const Number number = scan_number(behind, end_);
+    Word& added = add_word(letter, start, number.end);
+    added.value = number.value;
+    added.digits = number.digits;
+    added.flags = flags_of(number);
+    if (number.malformed && !in_condition_ && !has_own_code(letter))
+      report("malformed-number"_diag, {column(behind), column(number.end)});
+    note_comments_inside(start, number.end);
+    if (behind_goto_) in_condition_ = behind_goto_ = false;
+    return number.end;
+  }
+  if (const char* end = lex_keyword(start, letter)) return end;
+  Word& added = add_word(letter, start, start + 1);
+  added.value = std::numeric_limits<double>::quiet_NaN();
+  added.flags = Word::kMissing;
+  // Before a `=` the author gave the value the wrong way (ISO058), and inside a condition E003 tells.
+  const bool assigned = behind != end_ && *behind == '=' && letter != 'V';
+  if (!in_condition_ && !assigned) report("word-without-number"_diag, added.span());
+  if (behind_goto_) in_condition_ = behind_goto_ = false;
+  return start + 1;
+}
+
+/// IF, GOTO and VGPL are read where no word could be meant: I and V are then followed by a letter, and O starts none.
+const char* LineParser::lex_keyword(const char* p, char letter) {
+  if (letter == 'G') {
+    const char* const end = match_keyword(p, "GOTO");
+    if (!end) return nullptr;
+    add_word(kGoto, p, end);
+    note_comments_inside(p, end);
+    in_condition_ = behind_goto_ = true;
+    return end;
+  }
+  if (letter == 'V') {
+    const char* const end = match_keyword(p, "VGPL");
+    if (!end) return nullptr;
+    add_word(kVgpl, p, end);
+    note_comments_inside(p, end);
+    return end;
+  }
+  if (letter == 'I') {
+    const char* const end = match_keyword(p, "IF");
+    if (!end) return nullptr;
+    const char* const next = skip_space(end);
+    if (next != end_ && is_number_char(*next) && !goto_follows(next)) return nullptr;
+    add_word(kIf, p, end);
+    note_comments_inside(p, end);
+    in_condition_ = true;
+    return end;
+  }
+  return nullptr;
+}
+
+const char* LineParser::match_keyword(const char* p, const char* keyword) const {
+  const char* behind = nullptr;
+  for (; *keyword != '\0'; ++keyword) {
+    p = skip_space(p);
+    if (p == end_ || upper(*p) != *keyword) return nullptr;
+    behind = ++p;
+  }
+  return behind;
+}
+
+bool LineParser::goto_follows(const char* p) const {
+  for (; p != end_ && !is_line_end(*p) && *p != ';'; ++p)
+    if (upper(*p) == 'G' && match_keyword(p, "GOTO")) return true;
+  return false;
+}
+
+/// Behind all blanks and closed comments at `p`.
+const char* LineParser::skip_space(const char* p) const {
+  while (p != end_) {
+    if (is_blank(*p)) {
+      ++p;
+      continue;
+    }
+    if (*p != '(') break;
+    const char* close = p;
+    while (close != end_ && !is_line_end(*close) && *close != ')') ++close;
+    if (close == end_ || *close != ')') break;
+    p = close + 1;
+  }
+  return p;
+}
+
+/// Comments between the characters of one word are comments all the same.
+void LineParser::note_comments_inside(const char* p, const char* end) {
+  for (; p < end; ++p) {
+    if (*p != '(') continue;
+    const char* const open = p;
+    while (*p != ')') ++p;
+    store_.comments_.push_back({column(open), column(p) + 1});
+  }
+}
+
+const char* LineParser::lex_comment(const char* p) {
+  for (const char* close = p; close != end_ && !is_line_end(*close); ++close) {
+    if (*close != ')') continue;
+    store_.comments_.push_back({column(p), column(close) + 1});
+    return close + 1;
+  }
+  const char* const line_end = find_line_end(p, end_);
+  store_.comments_.push_back({column(p), column(line_end)});
+  report("unclosed-comment"_diag, {column(p), column(line_end)});
+  line_.flags |= LineTree::kUnclosed;
+  return line_end;
+}
+
+/// What reads as broken words before a `)` was meant as the comment's text: one mistake, not one for each letter.
+void LineParser::drop_comment_text() {
+  std::uint32_t begin = std::numeric_limits<std::uint32_t>::max();
+  while (word_count() > 0) {
+    const Word& last = store_.words_.back();
+    if (last.letter != kError && last.letter != kNumber && !last.has(Word::kMissing)) break;
+    begin = last.begin;
+    store_.words_.pop_back();
+  }
+  while (store_.findings_.size() > line_.first_finding && store_.findings_.back().span.begin >= begin)
+    store_.findings_.pop_back();
+}
+
+const char* LineParser::lex_number_alone(const char* p) {
+  const Number number = scan_number(p, end_);
+  note_comments_inside(p, number.end);
+  Word& added = add_word(kNumber, p, number.end);
+  added.value = number.value;
+  added.digits = number.digits;
+  added.flags = flags_of(number);
+  if (in_condition_) {
+    if (behind_goto_) in_condition_ = behind_goto_ = false;
+  } else if (number.digits == 0) {
+    added.letter = kError;
+    report("unknown-word"_diag, added.span());
+  } else {
+    report("number-without-letter"_diag, added.span());
+  }
+  return number.end;
+}
+
+const char* LineParser::lex_equals(const char* p) {
+  if (in_condition_ && !behind_goto_) return lex_comparison(p);
+  Word& added = add_word(kAssign, p, p + 1);
+  added.value = std::numeric_limits<double>::quiet_NaN();
+  added.flags = Word::kMissing;
+  const char* const at = skip_space(p + 1);
+  if (at == end_ || !is_number_char(*at)) return p + 1;
+  const Number number = scan_number(at, end_);
+  added.value = number.value;
+  added.digits = number.digits;
+  added.flags = flags_of(number);
+  added.end = column(number.end);
+  if (number.malformed) report("malformed-number"_diag, {column(at), column(number.end)});
+  note_comments_inside(p, number.end);
+  return number.end;
+}
+
+static Comparison comparison_of(std::string_view text) {
+  if (text == "=") return Comparison::Equal;
+  if (text == "<>") return Comparison::NotEqual;
+  if (text == "<") return Comparison::Less;
+  if (text == "<=") return Comparison::LessEqual;
+  if (text == ">") return Comparison::Greater;
+  if (text == ">=") return Comparison::GreaterEqual;
+  return Comparison::Invalid;
+}
+
+const char* LineParser::lex_comparison(const char* p) {
+  const char* const start = p;
+  const char* behind = p;
+  char text[3] = {};
+  std::size_t length = 0;
+  while (p != end_ && (char_class(*p) == CharClass::Compare || *p == '=')) {
+    if (length < sizeof text) text[length] = *p;
+    ++length;
+    behind = ++p;
+    p = skip_space(p);
+  }
+  note_comments_inside(start, behind);
+  Word& added = add_word(kOperator, start, behind);
+  added.digits = static_cast<std::uint32_t>(length > 2 ? Comparison::Invalid : comparison_of({text, length}));
+  return behind;
+}
+
+/// One finding for a run of characters that start no word, together with the number that follows (D10).
+const char* LineParser::lex_unknown(const char* p) {
+  const char* const start = p;
+  const char* behind = p;
+  for (;;) {
+    p = skip_space(behind);
+    if (p == end_) break;
+    const CharClass cls = char_class(*p);
+    if (cls != CharClass::Other && (cls != CharClass::Compare || in_condition_)) break;
+    behind = p + 1;
+  }
+  if (p != end_ && is_number_char(*p)) behind = scan_number(p, end_).end;
+  note_comments_inside(start, behind);
+  const Word& added = add_word(kError, start, behind);
+  if (!in_condition_) report("unknown-word"_diag, added.span());
+  if (behind_goto_) in_condition_ = behind_goto_ = false;
+  return behind;
+}
+
+}  // namespace isocnc::syntax

@@ -1,0 +1,254 @@
+#include <algorithm>
+#include <cmath>
+
+#include "interpreter/syntax/line_parser.h"
+
+namespace isocnc::syntax {
+
+using namespace dialect::literals;
+using dialect::contains;
+using dialect::letters;
+
+void LineParser::check() {
+  check_alone();
+  check_misplaced_modes();
+  for (std::size_t i = 0; i < instruction_count(); ++i) {
+    const Instruction& checked = instruction(i);
+    if (checked.has(Instruction::kSettled)) continue;
+    switch (checked.kind) {
+      case InstructionKind::G: check_g(checked); check_compensation(checked); break;
+      case InstructionKind::Continuation: check_motion(checked); break;
+      case InstructionKind::Function: check_parameters(checked); break;
+      default: break;
+    }
+  }
+  // What was broken off its series takes effect where its last word stands.
+  const auto first = store_.instructions_.begin() + line_.first_instruction;
+  const auto by_end = [](const Instruction& a, const Instruction& b) { return a.end < b.end; };
+  if (!std::is_sorted(first, store_.instructions_.end(), by_end))
+    std::stable_sort(first, store_.instructions_.end(), by_end);
+  const auto settled = [](const Instruction& it) {
+    return it.kind == InstructionKind::Continuation && it.has(Instruction::kSettled);
+  };
+  store_.instructions_.erase(std::remove_if(first, store_.instructions_.end(), settled), store_.instructions_.end());
+}
+
+bool LineParser::owns_any(const Instruction& owner, dialect::LetterSet set) const {
+  for (std::uint16_t i = owner.begin; i < owner.end; ++i)
+    if (word(i).owner == owner.number && i != owner.command && contains(set, word(i).letter)) return true;
+  return false;
+}
+
+/// The instructions that want a line of their own, and the code for each (D22).
+bool LineParser::must_be_alone(const Instruction& checked, dialect::DiagnosticId& diagnostic) const {
+  diagnostic = dialect::kNoDiagnostic;
+  switch (checked.kind) {
+    case InstructionKind::G:
+      if (const dialect::GCode* code = checked.g()) diagnostic = code->alone;
+      break;
+    case InstructionKind::Function:
+      if (word(checked.command).value == dialect::kProgramEnd) {
+        diagnostic = "m02-not-alone"_diag;
+      } else if (owns_any(checked, letters("P"))) {
+        diagnostic = "m-params-not-alone"_diag;
+      }
+      break;
+    case InstructionKind::Jump: diagnostic = "if-not-alone"_diag; break;
+    default: break;
+  }
+  return diagnostic != dialect::kNoDiagnostic;
+}
+
+/// Whether the line holds a right word that is neither the instruction's own nor the line number.
+bool LineParser::has_company(const Instruction& alone) const {
+  const dialect::GCode* const code = alone.kind == InstructionKind::G ? alone.g() : nullptr;
+  const bool dwell_without_time = code && code->number == 4 && !owns_any(alone, letters("P"));
+  for (std::uint16_t i = 0; i < word_count(); ++i) {
+    const Word& other = word(i);
+    if (other.letter == 'N' || other.letter == kError || other.letter == kNumber || other.has(Word::kMissing)) continue;
+    if (other.owner == alone.number) {
+      if (i == alone.command || !code || contains(code->arguments, other.letter)) continue;
+      if (dwell_without_time && !other.has(Word::kBreak)) continue;  // G04 X10: the X is where the P should be.
+    }
+    if (other.letter == kAssign && other.owner == Word::kNobody) continue;  // Reported with what it is given to.
+    return true;
+  }
+  return false;
+}
+
+void LineParser::check_alone() {
+  for (std::size_t i = 0; i < instruction_count(); ++i) {
+    const Instruction& checked = instruction(i);
+    dialect::DiagnosticId diagnostic;
+    if (checked.has(Instruction::kSettled) || !must_be_alone(checked, diagnostic) || !has_company(checked)) continue;
+    report(diagnostic, word(checked.command).span());
+    line_.flags |= LineTree::kAloneViolated;
+    return;
+  }
+}
+
+void LineParser::check_misplaced_modes() {
+  if ((line_.flags & LineTree::kAloneViolated) != 0) misplaced_count_ = 0;
+  for (int i = 0; i < misplaced_count_; ++i) {
+    const Word& mode = word(misplaced_[i]);
+    report(instruction(mode.owner).g()->misplaced, mode.span());
+  }
+}
+
+void LineParser::check_g(const Instruction& checked) {
+  const dialect::GCode* const code = checked.g();
+  if (!code) return;
+  if (code->is_motion()) return check_motion(checked);
+  switch (code->number) {
+    case 4: check_dwell(checked); break;
+    case 24: check_vectors(checked, "ABC"); break;
+    case 28: check_vectors(checked, "XYZ"); break;
+    case 29:
+      if (!owns_any(checked, code->arguments)) report_missing("missing-arguments"_diag, checked);
+      check_face_angles(checked);
+      break;
+    case 92:
+      if (!owns_any(checked, code->arguments)) report_missing("missing-origin"_diag, checked);
+      break;
+    default: break;
+  }
+}
+
+/// Whether what stands between a motion and the argument broken off it has a finding of its own.
+bool LineParser::breaker_is_reported(const Instruction& motion, std::uint16_t broken) const {
+  for (std::uint16_t i = broken; i-- > 0 && word(i).owner != motion.number;) {
+    if (word(i).letter != 'G') continue;
+    const dialect::GCode* const code = instruction(word(i).owner).g();
+    if (!code || code->number == 9 || code->group == dialect::ModalGroup::CutterCompensation ||
+        code->misplaced != dialect::kNoDiagnostic)
+      return true;
+  }
+  return false;
+}
+
+/// A motion without coordinates, or with some that stand apart from their series (D17, D18).
+void LineParser::check_motion(const Instruction& motion) {
+  if ((line_.flags & LineTree::kAloneViolated) != 0) return;
+  const bool is_g = motion.kind == InstructionKind::G;
+  bool has_arguments = false;
+  int broken = kNone;
+  for (std::uint16_t i = motion.begin; i < motion.end; ++i) {
+    if (word(i).owner != motion.number || (is_g && i == motion.command)) continue;
+    if (!word(i).has(Word::kBreak)) {
+      has_arguments = true;
+    } else if (broken == kNone) {
+      broken = i;
+    }
+  }
+  if (broken != kNone) {
+    if (breaker_is_reported(motion, static_cast<std::uint16_t>(broken))) return;
+    if (!has_arguments) return report_missing("missing-coordinate"_diag, motion);
+    return report("stray-argument"_diag, word(static_cast<std::size_t>(broken)).span(), {}, word(motion.command).span());
+  }
+  if (!is_g || owns_any(motion, dialect::kCoordinateLetters)) return;
+  // Strays without a coordinate are reported where the motion is known; a second motion G, or one that is unknown and has
+  // taken the arguments, has said it all.
+  if (owns_any(motion, dialect::kDimensionLetters & ~motion.g()->arguments)) return;
+  for (std::size_t i = motion.number + 1u; i < instruction_count(); ++i) {
+    const Instruction& other = instruction(i);
+    if (other.kind == InstructionKind::G && (!other.g() || other.g()->is_motion())) return;
+  }
+  report_missing("missing-coordinate"_diag, motion);
+}
+
+/// G24 and G28 want at least one component of each axis (D4, D27).
+void LineParser::check_vectors(const Instruction& frame, std::string_view i_letters) {
+  if (!owns_any(frame, letters(i_letters))) report_missing("missing-i-vector"_diag, frame);
+  if (!owns_any(frame, letters("IJK"))) report_missing("missing-j-vector"_diag, frame);
+  if (!owns_any(frame, letters("PQR"))) report_missing("missing-k-vector"_diag, frame);
+}
+
+void LineParser::check_face_angles(const Instruction& frame) {
+  for (std::uint16_t i = frame.begin; i < frame.end; ++i) {
+    const Word& angle = word(i);
+    if (angle.owner != frame.number || !contains(dialect::kRotaryLetters, angle.letter)) continue;
+    const double limit = angle.letter == 'B' ? 90 : 180;
+    if (std::abs(angle.value) > limit) report("face-angle-out-of-range"_diag, angle.span(), {angle.value, limit});
+  }
+}
+
+void LineParser::check_dwell(const Instruction& dwell) {
+  if (!owns_any(dwell, letters("P"))) return report_missing("dwell-time-missing"_diag, dwell);
+  for (std::uint16_t i = dwell.begin; i < dwell.end; ++i) {
+    const Word& time = word(i);
+    if (time.owner == dwell.number && time.letter == 'P' && time.value < 0)
+      report("negative-dwell"_diag, time.span(), {time.value});
+  }
+}
+
+/// M100 P1=2.5 P2=-3: P1 to P20, each at most once, each with a value; M02 to M05 take none (I.4.4, D48).
+void LineParser::check_parameters(const Instruction& function) {
+  const bool takes_parameters = dialect::is_user_function(static_cast<int>(word(function.command).value));
+  if (word(function.command).value == dialect::kProgramEnd) return;
+  std::uint32_t seen = 0;
+  for (std::uint16_t i = function.begin; i < function.end; ++i) {
+    const Word& name = word(i);
+    if (name.owner != function.number || name.letter != 'P') continue;
+    const bool has_value = i + 1 < word_count() && word(i + 1u).letter == kAssign;
+    const Span span = has_value ? hull(name.span(), word(i + 1u).span()) : name.span();
+    const bool named = name.is_plain_integer() && name.value >= 1 && name.value <= dialect::kMostFunctionParameters;
+    const std::uint32_t bit = named ? 1u << static_cast<unsigned>(name.value) : 0;
+    const bool valued = has_value && !word(i + 1u).has(Word::kMissing);
+    if (!takes_parameters || !named || !valued || (seen & bit) != 0) {
+      report("m-param-invalid"_diag, span);
+      if (!takes_parameters) return;
+    }
+    seen |= bit;
+  }
+}
+
+/// Nothing else on the line but N; what is no word at all has been reported for itself.
+bool LineParser::stands_alone(const Instruction& alone) const {
+  for (std::uint16_t i = 0; i < word_count(); ++i) {
+    const Word& other = word(i);
+    const bool counts = other.letter != 'N' && other.letter != kError && other.letter != kNumber &&
+                        !other.has(Word::kMissing);
+    if (counts && i != alone.command) return false;
+  }
+  return true;
+}
+
+/// G41/G42: alone or before a motion. G40: alone or behind the last motion (D24).
+void LineParser::check_compensation(const Instruction& checked) {
+  const dialect::GCode* const code = checked.g();
+  if (!code || code->group != dialect::ModalGroup::CutterCompensation || stands_alone(checked)) return;
+  if ((line_.flags & LineTree::kAloneViolated) != 0) return;
+  bool before_motion = false;
+  bool behind_motion = false;
+  for (std::size_t i = 0; i < instruction_count(); ++i) {
+    const Instruction& other = instruction(i);
+    const bool is_motion = other.kind == InstructionKind::Continuation
+                               ? !other.has(Instruction::kSettled)
+                               : other.kind == InstructionKind::G && other.g() && other.g()->is_motion();
+    if (!is_motion) continue;
+    before_motion |= (code->number == 40 ? other.end : other.begin) > checked.command;
+    behind_motion |= other.begin < checked.command;
+  }
+  if (code->number == 40) {
+    if (before_motion || !behind_motion) report("misplaced-g40"_diag, word(checked.command).span());
+  } else if (!before_motion) {
+    report("misplaced-g41-g42"_diag, word(checked.command).span());
+  }
+}
+
+/// Six digits: head, holder, tool. Zeros mean that nothing is mounted there (I.4.3).
+void LineParser::check_tool_number(const Word& tool) {
+  if (tool.has(Word::kMissing)) return;
+  if (!tool.is_plain_integer() || tool.digits != 6) return report("invalid-tool-number"_diag, tool.span());
+  const auto number = static_cast<std::uint32_t>(tool.value);
+  const std::uint32_t head = number / 100000;
+  const std::uint32_t holder = number / 1000 % 100;
+  const std::uint32_t index = number % 1000;
+  if (head == 0 && holder != 0) {
+    report("head-not-selected"_diag, tool.span(), {static_cast<double>(holder)});
+  } else if (holder == 0 && index != 0) {
+    report("holder-not-selected"_diag, tool.span(), {static_cast<double>(index)});
+  }
+}
+
+}  // namespace isocnc::syntax

@@ -1,0 +1,136 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "interpreter/dialect/codes.h"
+#include "interpreter/syntax/finding.h"
+
+namespace isocnc::syntax {
+
+/// Tokens that are no letter-number words have a sign of their own in Word::letter.
+inline constexpr char kAssign = '=';    ///< `=` and the number behind it, after a V or an M's P.
+inline constexpr char kIf = '?';        ///< The keyword IF.
+inline constexpr char kVgpl = '$';      ///< The keyword VGPL.
+inline constexpr char kOperator = '<';  ///< A comparison inside IF; Word::digits holds the Comparison.
+inline constexpr char kGoto = '@';      ///< The keyword GOTO.
+inline constexpr char kNumber = '#';    ///< A number without a letter.
+inline constexpr char kError = '!';     ///< Characters that start no word (ISO003).
+
+enum class Comparison : std::uint8_t { Equal, NotEqual, Less, LessEqual, Greater, GreaterEqual, Invalid };
+
+/// A letter with its number, or one of the tokens above.
+struct Word {
+  static constexpr std::uint8_t kSigned = 1;     ///< Written with + or -.
+  static constexpr std::uint8_t kPoint = 2;      ///< Written with a decimal point.
+  static constexpr std::uint8_t kMalformed = 4;  ///< Something stands where the number should be, but it is none.
+  static constexpr std::uint8_t kMissing = 8;    ///< No number at all.
+  static constexpr std::uint8_t kBreak = 16;     ///< An argument that stands apart from its command's series (D17).
+
+  double value = 0;        ///< NaN when malformed, missing or written twice.
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+  std::uint32_t digits = 0;  ///< How many digits were written.
+  std::uint16_t owner = 0;   ///< Index of the instruction that it belongs to, kNobody for none.
+  char letter = 0;           ///< Upper case.
+  std::uint8_t flags = 0;
+
+  static constexpr std::uint16_t kNobody = 0xFFFF;
+
+  constexpr Span span() const { return {begin, end}; }
+  bool known() const { return !std::isnan(value); }
+  constexpr bool has(std::uint8_t flag) const { return (flags & flag) != 0; }
+  /// Digits only: what G, M, N, T and V want.
+  constexpr bool is_plain_integer() const { return (flags & (kSigned | kPoint | kMalformed | kMissing)) == 0; }
+};
+
+enum class InstructionKind : std::uint8_t {
+  G,             ///< A G code with its arguments; `row` tells which.
+  Continuation,  ///< Coordinates without a G: the motion in force goes on.
+  Function,      ///< M but for M06, with its parameters.
+  ToolChange,    ///< M06; its T, if there is one, is its argument.
+  StrayTool,     ///< T without M06.
+  Assignment,    ///< V = value; the value is the word behind the command.
+  Jump,          ///< IF ... GOTO; details in LineTree::jump.
+};
+
+/// A command with its arguments. Its words are those in [begin, end) whose `owner` is this instruction; what else stands
+/// there (an F, which belongs to the line, or what breaks the series) belongs to others.
+struct Instruction {
+  static constexpr std::uint8_t kFollowsMotion = 1;  ///< Directly behind a motion's arguments (G09).
+  static constexpr std::uint8_t kFirst = 2;          ///< The first instruction on its line.
+  static constexpr std::uint8_t kSettled = 4;        ///< What is wrong with it has been reported with another one.
+
+  InstructionKind kind = InstructionKind::G;
+  std::uint8_t row = dialect::kUnknownGCode;  ///< Of dialect::kGCodes, for G.
+  std::uint8_t flags = 0;
+  std::uint16_t number = 0;   ///< Position in the order of writing: what Word::owner refers to.
+  std::uint16_t command = 0;  ///< Word of the command; for a continuation its first word.
+  std::uint16_t begin = 0;
+  std::uint16_t end = 0;
+
+  constexpr bool has(std::uint8_t flag) const { return (flags & flag) != 0; }
+  const dialect::GCode* g() const { return row == dialect::kUnknownGCode ? nullptr : &dialect::kGCodes[row]; }
+};
+
+/// IF left comparison value GOTO label (I.5).
+struct Jump {
+  static constexpr std::int8_t kVgplVariable = 0;
+  static constexpr std::int8_t kUnknownVariable = -1;
+
+  std::int8_t variable = kUnknownVariable;  ///< 1 to 30: a register; kVgplVariable; kUnknownVariable when malformed.
+  Comparison comparison = Comparison::Invalid;
+  double value = 0;  ///< NaN when malformed.
+  bool has_target = false;
+  std::uint64_t target = 0;
+  Span if_span;
+  Span target_span;  ///< The label behind GOTO.
+
+  bool condition_is_known() const {
+    return variable != kUnknownVariable && comparison != Comparison::Invalid && !std::isnan(value);
+  }
+};
+
+/// The tree of one line. It holds columns but no line number, and no meaning: `X10` is a word here, never a position.
+/// Hence a line inserted above changes nothing, and equal text gives equal trees. Parsing cannot fail; what is wrong with
+/// the line by itself is in `findings`, in the order of its columns, and the rest of the line is still there.
+///
+/// A view: the words and the text belong to a TreeStore and to whoever holds the text.
+struct LineTree {
+  static constexpr std::uint8_t kAloneViolated = 1;  ///< An instruction that must be alone is not; once per line (D22).
+  static constexpr std::uint8_t kHasLabel = 2;
+  static constexpr std::uint8_t kCut = 4;       ///< More words than are read (W192).
+  static constexpr std::uint8_t kUnclosed = 8;  ///< A comment is not closed: what seems missing may stand in it.
+
+  std::string_view text;  ///< Without its terminator.
+  std::span<const Word> words;
+  std::span<const Instruction> instructions;  ///< In the order in which they take effect.
+  std::span<const Span> comments;
+  std::span<const Finding> findings;
+  const Jump* jump = nullptr;
+  std::uint64_t label = 0;    ///< The line number, when there is one.
+  std::int32_t feed = -1;     ///< Index of the line's F, or -1.
+  std::int32_t spindle = -1;  ///< Index of the line's S, or -1.
+  std::uint8_t flags = 0;
+
+  constexpr bool has(std::uint8_t flag) const { return (flags & flag) != 0; }
+  constexpr bool has_label() const { return has(kHasLabel); }
+  /// Nothing but blanks, comments and N: a block that does nothing (D13).
+  bool is_empty() const { return instructions.empty() && feed < 0 && spindle < 0; }
+  const Word& command(const Instruction& instruction) const { return words[instruction.command]; }
+  /// The word that holds this column, or null.
+  const Word* word_at(std::uint32_t column) const {
+    for (const Word& word : words)
+      if (word.span().holds(column)) return &word;
+    return nullptr;
+  }
+  std::string_view text_of(Span span) const { return text.substr(span.begin, span.end - span.begin); }
+};
+
+/// Words of a line that are read; W192 tells of a line that has more.
+inline constexpr std::size_t kMostWords = 16384;
+
+}  // namespace isocnc::syntax

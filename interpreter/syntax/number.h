@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "interpreter/syntax/characters.h"
+
+namespace isocnc::syntax {
+
+/// What stands where a number should be (I.2.1, D9).
+struct Number {
+  double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN when malformed or beyond what a double can hold.
+  const char* end = nullptr;                                 ///< Behind its last character.
+  std::uint32_t digits = 0;
+  bool is_signed = false;
+  bool has_point = false;
+  bool malformed = false;
+};
+
+namespace detail {
+inline constexpr double kPowersOfTen[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11,
+                                          1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
+/// Any number: blanks and comments inside, any length, malformed ones.
+Number scan_any_number(const char* p, const char* end);
+/// Whether the number before the comment at `p` goes on behind it (D7).
+bool goes_on_behind_comment(const char* p, const char* end);
+}  // namespace detail
+
+/// Reads the number at `p`, which is a number's character. The digits are gathered in an integer and scaled once: below
+/// 2^53 and 10^22 both are exact, so that the quotient is the correctly rounded decimal.
+inline Number scan_number(const char* p, const char* end) {
+  const char* const begin = p;
+  Number number;
+  bool negative = false;
+  if (*p == '-' || *p == '+') {
+    negative = *p == '-';
+    number.is_signed = true;
+    ++p;
+  }
+  std::uint64_t mantissa = 0;
+  const char* const digits_begin = p;
+  while (p != end && is_digit(*p)) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*p++ - '0');
+  number.digits = static_cast<std::uint32_t>(p - digits_begin);
+  std::uint32_t decimals = 0;
+  if (p != end && *p == '.') {
+    const char* const decimals_begin = ++p;
+    while (p != end && is_digit(*p)) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*p++ - '0');
+    decimals = static_cast<std::uint32_t>(p - decimals_begin);
+    number.digits += decimals;
+    number.has_point = true;
+  }
+  number.end = p;
+  while (p != end && is_blank(*p)) ++p;
+  if (number.digits == 0 || number.digits > 18 || mantissa >= (std::uint64_t{1} << 53) ||
+      (p != end && (is_number_char(*p) || (*p == '(' && detail::goes_on_behind_comment(p, end)))))
+    return detail::scan_any_number(begin, end);
+  const double magnitude = static_cast<double>(mantissa) / detail::kPowersOfTen[decimals];
+  number.value = negative ? -magnitude : magnitude;
+  return number;
+}
+
+}  // namespace isocnc::syntax

@@ -1,0 +1,421 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/line_parser.h"
+
+namespace isocnc::syntax {
+
+using namespace dialect::literals;
+using dialect::contains;
+
+const char* LineParser::parse() {
+  const char* const end = lex();
+  line_.length = column(end);
+  structure();
+  if (needs_check_) check();
+  line_.words = word_count();
+  line_.instructions = static_cast<std::uint16_t>(instruction_count());
+  line_.comments = static_cast<std::uint32_t>(store_.comments_.size() - line_.first_comment);
+  line_.findings = static_cast<std::uint32_t>(store_.findings_.size() - line_.first_finding);
+  if (line_.findings > 1)
+    std::stable_sort(store_.findings_.end() - line_.findings, store_.findings_.end(),
+                     [](const Finding& a, const Finding& b) { return a.span.begin < b.span.begin; });
+  store_.lines_.push_back(line_);
+  return end;
+}
+
+void LineParser::report(dialect::DiagnosticId id, Span span, std::initializer_list<double> values, Span related) {
+  Finding& finding = store_.findings_.emplace_back();
+  finding.id = id;
+  finding.span = span;
+  finding.related = related;
+  std::copy(values.begin(), values.end(), finding.values.begin());
+}
+
+/// What is missing may stand in a comment that is not closed, which has been reported.
+void LineParser::report_missing(dialect::DiagnosticId id, const Instruction& lacking) {
+  if ((line_.flags & LineTree::kUnclosed) == 0) report(id, word(lacking.command).span());
+}
+
+void LineParser::structure() {
+  const std::uint16_t count = word_count();
+  for (std::uint16_t i = 0; i < count; ++i) {
+    const char letter = word(i).letter;
+    if (contains(dialect::kDimensionLetters, letter)) {
+      add_dimension(i);
+      behind_motion_ = true;
+      continue;
+    }
+    switch (letter) {
+      case 'F': add_feed(i); continue;  // The motion's speed: breaks nothing (D17).
+      case 'N': add_line_number(i); break;
+      case 'S': add_spindle_speed(i); behind_motion_ = false; break;
+      case 'G': add_g(i); continue;
+      case 'M': add_m(i); behind_motion_ = false; break;
+      case 'T': add_tool(i); behind_motion_ = false; break;
+      case 'V': i = add_assignment(i); behind_motion_ = false; break;
+      case kAssign: add_equals(i); continue;
+      case kIf: i = add_jump(i); behind_motion_ = false; break;
+      case kGoto: i = add_lone_goto(i); break;
+      case kVgpl: report("unknown-word"_diag, word(i).span()); continue;
+      default: continue;  // An error that has been reported breaks nothing.
+    }
+    contiguous_ = false;
+    if (letter != 'M') function_open_ = false;
+  }
+}
+
+Instruction& LineParser::add_instruction(InstructionKind kind, std::uint16_t command) {
+  const auto number = static_cast<std::uint16_t>(instruction_count());
+  Instruction& added = store_.instructions_.emplace_back();
+  added.kind = kind;
+  added.number = number;
+  added.command = command;
+  added.begin = command;
+  added.end = static_cast<std::uint16_t>(command + 1);
+  if (number == 0) added.flags = Instruction::kFirst;
+  word(command).owner = number;
+  needs_check_ |= number > 0;
+  return added;
+}
+
+void LineParser::own(Instruction& owner, std::uint16_t index) {
+  word(index).owner = owner.number;
+  owner.begin = std::min(owner.begin, index);
+  owner.end = std::max<std::uint16_t>(owner.end, static_cast<std::uint16_t>(index + 1));
+}
+
+void LineParser::add_dimension(std::uint16_t index) {
+  const char letter = word(index).letter;
+  const bool is_parameter = letter == 'P' && function_ != kNone &&
+                            (function_open_ || (index + 1 < word_count() && word(index + 1u).letter == kAssign));
+  if (is_parameter) {
+    own(instruction(static_cast<std::size_t>(function_)), index);
+    needs_check_ = true;
+    return;
+  }
+  function_open_ = false;
+  if (taker_ != kNone && !contiguous_ && instruction(static_cast<std::size_t>(taker_)).row == dialect::kUnknownGCode &&
+      instruction(static_cast<std::size_t>(taker_)).kind == InstructionKind::G)
+    taker_ = kNone;  // What an unknown G would have taken ends where its series ends.
+  if (taker_ == kNone) {
+    add_instruction(InstructionKind::Continuation, index);
+    taker_ = static_cast<int>(instruction_count()) - 1;
+    taken_ = 0;
+    contiguous_ = true;
+    dimensions_seen_ = true;
+  }
+  Instruction& taker = instruction(static_cast<std::size_t>(taker_));
+  if (!contiguous_) {
+    word(index).flags |= Word::kBreak;
+    needs_check_ = true;
+  }
+  const dialect::LetterSet bit = dialect::letter_bit(letter);
+  if ((taken_ & bit) != 0) {
+    // Which of the two was meant cannot be known: the axis counts as unknown, so that nothing follows from it.
+    Span first;
+    for (std::uint16_t i = taker.begin; i < index; ++i) {
+      if (word(i).owner != taker.number || word(i).letter != letter) continue;
+      if (first.empty()) first = word(i).span();
+      word(i).value = std::numeric_limits<double>::quiet_NaN();
+    }
+    word(index).value = std::numeric_limits<double>::quiet_NaN();
+    report("repeated-argument"_diag, word(index).span(), {}, first);
+  }
+  taken_ |= bit;
+  own(taker, index);
+}
+
+/// G1.0 and M+6 are spelled wrong, yet what they mean is plain.
+static bool is_whole(double value, double least) { return value >= least && value <= 999 && value == std::floor(value); }
+
+void LineParser::add_g(std::uint16_t index) {
+  const Word& written = word(index);
+  std::uint8_t row = dialect::kUnknownGCode;
+  const bool spelled_right = written.is_plain_integer() && written.value <= 999;
+  if (is_whole(written.value, 0)) row = dialect::kGCodeRows[static_cast<std::size_t>(written.value)];
+  if (!spelled_right) {
+    if (!written.has(Word::kMissing)) report("invalid-g-number"_diag, written.span());
+  } else if (row == dialect::kUnknownGCode) {
+    report("unsupported-g"_diag, written.span());
+  }
+  Instruction& added = add_instruction(InstructionKind::G, index);
+  added.row = row;
+  if (behind_motion_) added.flags |= Instruction::kFollowsMotion;
+  behind_motion_ = false;
+  function_open_ = false;
+  contiguous_ = false;
+  needs_check_ = true;
+  const dialect::GCode* const code = added.g();
+  if (!code) {
+    taker_ = added.number;
+    taken_ = 0;
+    contiguous_ = true;
+    return;
+  }
+  if (code->is_motion()) {
+    behind_motion_ = true;
+    if (++motions_ == 1) {
+      first_motion_ = written.span();
+    } else {
+      report("second-motion"_diag, written.span(), {}, first_motion_);
+    }
+  }
+  if (code->misplaced != dialect::kNoDiagnostic && dimensions_seen_ && misplaced_count_ < 4)
+    misplaced_[misplaced_count_++] = index;
+  if (!code->takes_arguments()) return;
+  const bool has_dimensions = code->alone != "g04-not-alone"_diag;
+  if (has_dimensions && taker_ != kNone &&
+      instruction(static_cast<std::size_t>(taker_)).kind == InstructionKind::Continuation) {
+    take_earlier_words(added);
+  } else {
+    taken_ = 0;
+  }
+  taker_ = added.number;
+  contiguous_ = true;
+  dimensions_seen_ |= has_dimensions;
+}
+
+/// `X10 G1`: arguments follow their G (D16). One finding, and the words count as the G's, for that is what was meant.
+void LineParser::take_earlier_words(Instruction& g) {
+  Instruction& earlier = instruction(static_cast<std::size_t>(taker_));
+  bool reported = false;
+  for (std::uint16_t i = earlier.begin; i < earlier.end; ++i) {
+    if (word(i).owner != earlier.number) continue;
+    if (!reported) report("stray-argument"_diag, word(i).span(), {}, word(g.command).span());
+    reported = true;
+    word(i).flags &= static_cast<std::uint8_t>(~Word::kBreak);
+    own(g, i);
+  }
+  earlier.flags |= Instruction::kSettled;
+}
+
+void LineParser::add_m(std::uint16_t index) {
+  const Word& written = word(index);
+  function_open_ = false;
+  const bool is_function = is_whole(written.value, 1);
+  if ((!written.is_plain_integer() || !is_function) && !written.has(Word::kMissing))
+    report("invalid-m-number"_diag, written.span());
+  if (written.value == dialect::kToolChange) return add_tool_change(index);
+  Instruction& added = add_instruction(InstructionKind::Function, index);
+  if (!is_function) {  // It keeps its parameters, so that nothing is said of them.
+    added.flags |= Instruction::kSettled;
+    word(index).value = std::numeric_limits<double>::quiet_NaN();
+  }
+  function_ = added.number;
+  function_open_ = true;
+  needs_check_ |= written.value == dialect::kProgramEnd;
+}
+
+void LineParser::add_tool_change(std::uint16_t index) {
+  Instruction& added = add_instruction(InstructionKind::ToolChange, index);
+  const std::uint16_t count = word_count();
+  if (index + 1 < count && word(index + 1u).letter == 'T') return own(added, static_cast<std::uint16_t>(index + 1));
+  // The T may stand before it (and has been reported) or further on; either way one thing is wrong, not two.
+  for (std::size_t i = 0; i + 1 < instruction_count(); ++i)
+    if (instruction(i).kind == InstructionKind::StrayTool) return void(added.flags |= Instruction::kSettled);
+  report_missing("tool-change-without-tool"_diag, added);
+  for (auto i = static_cast<std::uint16_t>(index + 1); i < count && word(i).letter != 'M'; ++i)
+    if (word(i).letter == 'T') return void(word(i).owner = added.number);
+}
+
+void LineParser::add_tool(std::uint16_t index) {
+  check_tool_number(word(index));
+  if (word(index).owner == Word::kNobody) {
+    add_instruction(InstructionKind::StrayTool, index);
+  } else {
+    own(instruction(word(index).owner), index);
+  }
+}
+
+/// A label may have any number of digits; beyond 2^53 it is known by a hash of them.
+static std::uint64_t label_of(const Word& number, std::string_view text) {
+  if (number.digits <= 15) return static_cast<std::uint64_t>(number.value);
+  std::uint64_t hash = 14695981039346656037ULL;
+  bool leading = true;
+  bool in_comment = false;
+  for (const char c : text) {
+    if (c == '(') in_comment = true;
+    if (c == ')') in_comment = false;
+    if (in_comment || !is_digit(c) || (leading && c == '0')) continue;
+    leading = false;
+    hash = (hash ^ static_cast<std::uint64_t>(c)) * 1099511628211ULL;
+  }
+  return leading ? 0 : hash | (std::uint64_t{1} << 63);
+}
+
+void LineParser::add_line_number(std::uint16_t index) {
+  const Word& written = word(index);
+  if (written.has(Word::kMissing)) return;
+  if (!written.is_plain_integer() || (line_.flags & LineTree::kHasLabel) != 0)
+    return report("invalid-line-number"_diag, written.span());
+  line_.flags |= LineTree::kHasLabel;
+  line_.label = label_of(written, {begin_ + written.begin, written.end - written.begin});
+}
+
+void LineParser::add_feed(std::uint16_t index) {
+  const Word& written = word(index);
+  if (written.value <= 0) report("feed-not-positive"_diag, written.span(), {written.value});
+  if (line_.feed < 0) {
+    line_.feed = index;
+  } else {
+    report("repeated-feed"_diag, written.span(), {}, word(static_cast<std::size_t>(line_.feed)).span());
+  }
+}
+
+void LineParser::add_spindle_speed(std::uint16_t index) {
+  const Word& written = word(index);
+  if (written.value <= 0) report("spindle-speed-not-positive"_diag, written.span(), {written.value});
+  if (line_.spindle < 0) {
+    line_.spindle = index;
+  } else {
+    report("repeated-spindle-speed"_diag, written.span(), {}, word(static_cast<std::size_t>(line_.spindle)).span());
+  }
+  needs_check_ |= instruction_count() > 0;
+}
+
+/// V25 = 78.99 (I.6). Returns the last word that belongs to it.
+std::uint16_t LineParser::add_assignment(std::uint16_t index) {
+  Instruction& added = add_instruction(InstructionKind::Assignment, index);
+  const Word& name = word(index);
+  const bool has_value = index + 1 < word_count() && word(index + 1u).letter == kAssign;
+  if (!name.has(Word::kMissing)) {
+    if (!name.is_plain_integer()) {
+      report("invalid-register-number"_diag, name.span());
+    } else if (!(name.value >= 1 && name.value <= dialect::kRegisterCount)) {
+      report("register-out-of-range"_diag, name.span(), {name.value});
+    } else if (!has_value || word(index + 1u).has(Word::kMissing)) {
+      report_missing("register-not-assigned"_diag, added);
+    }
+  }
+  if (!has_value) return index;
+  auto last = static_cast<std::uint16_t>(index + 1);
+  own(added, last);
+  // V1=V2, V1=X5: what stands in the value's place belongs to the same mistake.
+  if (word(last).has(Word::kMissing) && last + 1 < word_count() && word(last + 1u).begin == word(last).end &&
+      word(last + 1u).letter != kAssign)
+    own(added, ++last);
+  return last;
+}
+
+/// A `=` that no V, and no M's P, stands before (ISO058).
+void LineParser::add_equals(std::uint16_t index) {
+  if (index > 0) {
+    Word& before = word(index - 1u);
+    if (before.letter == kError || before.letter == kVgpl) return;  // #1=5: reported with what stands before.
+    const bool is_parameter = before.letter == 'P' && before.owner != Word::kNobody &&
+                              instruction(before.owner).kind == InstructionKind::Function;
+    if (is_parameter) return own(instruction(before.owner), index);
+    if (before.has(Word::kMissing)) {
+      before.value = word(index).value;
+      before.flags = word(index).flags;
+      if (before.letter == 'F' || before.letter == 'S') needs_check_ = true;
+    }
+  }
+  const Word& equals = word(index);
+  report("assignment-without-register"_diag, {equals.begin, equals.begin + 1});
+}
+
+std::uint16_t LineParser::add_jump(std::uint16_t index) {
+  Instruction& added = add_instruction(InstructionKind::Jump, index);
+  needs_check_ = true;
+  if (line_.jump >= 0) {  // A second IF on the line: neither is alone, which is reported at the first.
+    Jump ignored;
+    return read_condition(ignored, index);
+  }
+  Jump jump;
+  jump.if_span = word(index).span();
+  const std::uint16_t last = read_condition(jump, index);
+  for (auto i = static_cast<std::uint16_t>(index + 1); i <= last; ++i) own(added, i);
+  line_.jump = static_cast<std::int32_t>(store_.jumps_.size());
+  store_.jumps_.push_back(jump);
+  return last;
+}
+
+/// Reads what stands between IF and the label, both included. One finding for a malformed condition, one for a malformed
+/// label. Returns the last word that belongs to it.
+std::uint16_t LineParser::read_condition(Jump& jump, std::uint16_t index) {
+  const std::uint16_t count = word_count();
+  std::uint16_t goto_at = index;
+  while (goto_at < count && word(goto_at).letter != kGoto) ++goto_at;
+  auto at = static_cast<std::uint16_t>(index + 1);
+  const auto fail = [&](std::uint16_t where) {
+    const bool missing = where >= count || where >= goto_at;
+    report("if-malformed"_diag, missing ? word(index).span() : word(where).span());
+  };
+  bool good = false;
+  if (at >= goto_at || !read_variable(jump, word(at))) {
+    fail(at);
+  } else if (++at >= goto_at || word(at).letter != kOperator ||
+             static_cast<Comparison>(word(at).digits) == Comparison::Invalid) {
+    fail(at);
+  } else if (jump.comparison = static_cast<Comparison>(word(at).digits);
+             ++at >= goto_at || word(at).letter != kNumber || word(at).has(Word::kMalformed)) {
+    fail(at);
+  } else if (jump.value = word(at).value; goto_at >= count) {
+    report("if-malformed"_diag, word(index).span());
+  } else if (++at < goto_at) {
+    fail(at);
+  } else {
+    good = true;
+  }
+  if (!good) jump.variable = Jump::kUnknownVariable;
+  if (goto_at < count) return read_target(jump, goto_at);
+  // No GOTO: the condition is what belongs to no instruction of its own.
+  auto last = index;
+  while (last + 1 < count) {
+    const char letter = word(last + 1u).letter;
+    if (letter != kOperator && letter != kNumber && letter != kVgpl && letter != kError && letter != 'V') break;
+    ++last;
+  }
+  return last;
+}
+
+/// A bad register number keeps its own code (D50); anything else but a register or VGPL is no variable.
+bool LineParser::read_variable(Jump& jump, Word& written) {
+  if (written.letter == kVgpl) {
+    jump.variable = Jump::kVgplVariable;
+    return true;
+  }
+  if (written.letter != 'V' || written.has(Word::kMissing)) return false;
+  if (!written.is_plain_integer()) {
+    report("invalid-register-number"_diag, written.span());
+  } else if (!(written.value >= 1 && written.value <= dialect::kRegisterCount)) {
+    report("register-out-of-range"_diag, written.span(), {written.value});
+  } else {
+    jump.variable = static_cast<std::int8_t>(written.value);
+  }
+  return true;
+}
+
+/// The label behind the GOTO at `index`.
+std::uint16_t LineParser::read_target(Jump& jump, std::uint16_t index) {
+  const auto at = static_cast<std::uint16_t>(index + 1);
+  if (at >= word_count()) {
+    report("if-malformed"_diag, word(index).span());
+    return index;
+  }
+  const Word& label = word(at);
+  if (label.letter != 'N' || !label.is_plain_integer()) {
+    report("if-malformed"_diag, label.span());
+    const bool belongs = label.letter == 'N' || label.letter == kNumber || label.letter == kError;
+    return belongs ? at : index;
+  }
+  jump.has_target = true;
+  jump.target = label_of(label, {begin_ + label.begin, label.end - label.begin});
+  jump.target_span = label.span();
+  return at;
+}
+
+/// GOTO without IF.
+std::uint16_t LineParser::add_lone_goto(std::uint16_t index) {
+  report("if-malformed"_diag, word(index).span());
+  const auto at = static_cast<std::uint16_t>(index + 1);
+  if (at >= word_count()) return index;
+  const char letter = word(at).letter;
+  return letter == 'N' || letter == kNumber || letter == kError ? at : index;
+}
+
+}  // namespace isocnc::syntax

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/syntax/line_tree.h"
+
+namespace isocnc::syntax {
+
+/// Trees of successive lines, packed. Knows no line's text: whoever asks for a tree brings it.
+class TreeStore {
+ public:
+  /// Parses the line that starts at `begin` and appends its tree. Returns where the line's text ends: at its CR or LF, or
+  /// at `end`. Reads nothing beyond.
+  const char* append_line(const char* begin, const char* end);
+  /// Appends a copy of another store's tree, without parsing.
+  void append_copy(const TreeStore& other, std::size_t index);
+  void clear();
+
+  std::size_t size() const { return lines_.size(); }
+  /// `text` is the text that was parsed, at its present address.
+  LineTree tree(std::size_t index, const char* text) const {
+    const Line& line = lines_[index];
+    return {.text = {text, line.length},
+            .words = {words_.data() + line.first_word, line.words},
+            .instructions = {instructions_.data() + line.first_instruction, line.instructions},
+            .comments = {comments_.data() + line.first_comment, line.comments},
+            .findings = {findings_.data() + line.first_finding, line.findings},
+            .jump = line.jump < 0 ? nullptr : &jumps_[static_cast<std::size_t>(line.jump)],
+            .label = line.label,
+            .feed = line.feed,
+            .spindle = line.spindle,
+            .flags = line.flags};
+  }
+  /// Bytes of the line's text.
+  std::uint32_t length(std::size_t index) const { return lines_[index].length; }
+  std::size_t memory() const;
+
+ private:
+  friend class LineParser;
+
+  struct Line {
+    std::uint32_t length = 0;
+    std::uint32_t first_word = 0;
+    std::uint32_t first_instruction = 0;
+    std::uint32_t first_comment = 0;
+    std::uint32_t first_finding = 0;
+    std::uint32_t comments = 0;
+    std::uint32_t findings = 0;
+    std::uint16_t words = 0;
+    std::uint16_t instructions = 0;
+    std::int32_t jump = -1;
+    std::int32_t feed = -1;
+    std::int32_t spindle = -1;
+    std::uint64_t label = 0;
+    std::uint8_t flags = 0;
+  };
+
+  std::vector<Line> lines_;
+  std::vector<Word> words_;
+  std::vector<Instruction> instructions_;
+  std::vector<Span> comments_;
+  std::vector<Finding> findings_;
+  std::vector<Jump> jumps_;
+};
+
+/// One line with its tree, for who wants just one.
+class ParsedLine {
+ public:
+  explicit ParsedLine(std::string_view text) : text_(text) { store_.append_line(text_.data(), text_.data() + text_.size()); }
+  LineTree tree() const { return store_.tree(0, text_.data()); }
+
+ private:
+  std::string text_;
+  TreeStore store_;
+};
+
+}  // namespace isocnc::syntax

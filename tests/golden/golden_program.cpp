@@ -1,0 +1,122 @@
+#include "golden_program.h"
+
+#include <algorithm>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <stdexcept>
+
+namespace isocnc::golden {
+
+static std::size_t code_points(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+static std::map<char, double> read_axes(std::istringstream& words) {
+  std::map<char, double> axes;
+  for (;;) {
+    const std::streampos before = words.tellg();
+    std::string word;
+    if (!(words >> word)) break;
+    if (word.size() < 2 || std::string("XYZBC").find(word[0]) == std::string::npos) {
+      words.clear();
+      words.seekg(before);
+      break;
+    }
+    axes[word[0]] = std::stod(word.substr(1));
+  }
+  return axes;
+}
+
+static ExpectedEffect read_effect(const std::string& text, std::size_t line) {
+  ExpectedEffect effect{.line = line, .text = text};
+  std::istringstream words(text);
+  words >> effect.kind;
+  for (std::string word; words >> word;) {
+    double value = 0;
+    if (word == "to") {
+      effect.to = read_axes(words);
+    } else if (word == "center") {
+      effect.center = read_axes(words);
+    } else if (words >> value; word == "length") {
+      effect.length = value;
+    } else if (word == "radius") {
+      effect.radius = value;
+    } else if (word == "sweep") {
+      effect.sweep = value;
+    } else {
+      throw std::runtime_error("unknown effect: " + text);
+    }
+  }
+  return effect;
+}
+
+static void read_directive(Part& part, const std::string& what, const std::string& rest) {
+  std::istringstream words(rest);
+  std::string key;
+  words >> key;
+  if (what == "run" && key == "vgpl") {
+    words >> part.vgpl;
+  } else if (key == "arc-tolerance") {
+    words >> part.setup.arc_tolerance;
+  } else if (key == "home") {
+    for (const auto& [axis, value] : read_axes(words)) {
+      if (axis == 'B') part.setup.home.b = value;
+      if (axis == 'C') part.setup.home.c = value;
+      if (axis >= 'X') part.setup.home.tip[axis - 'X'] = value;
+    }
+  } else if (key == "tools") {
+    part.setup.tools.emplace();
+    for (std::string tool; words >> tool;) part.setup.tools->push_back(execution::tool_code(std::stoi(tool.substr(1))));
+  } else {
+    throw std::runtime_error("unknown directive: " + what + ": " + rest);
+  }
+}
+
+std::vector<Part> read_golden(const std::filesystem::path& file) {
+  static const std::regex kMarker(R"(^; *(\^+) +([A-Z]+[0-9]+)(?: +via +([0-9, ]+))? *$)");
+  static const std::regex kEffect(R"(^; *-> +(.*)$)");
+  static const std::regex kDirective(R"(^; (machine|run): (.*)$)");
+  std::ifstream input(file, std::ios::binary);
+  std::vector<Part> parts(1);
+  std::size_t lines = 0;
+  std::size_t file_line = 0;
+  const auto name = [&] { return file.filename().string() + ":" + std::to_string(file_line + 1); };
+  parts.back().name = name();
+  for (std::string line; std::getline(input, line); ++file_line) {
+    std::smatch match;
+    if (line.starts_with("; ====")) {
+      parts.emplace_back().name = name();
+      lines = 0;
+    } else if (std::regex_match(line, match, kMarker)) {
+      ExpectedFinding finding{.line = lines - 1,
+                              .begin = code_points(line.substr(0, static_cast<std::size_t>(match.position(1)))),
+                              .end = 0,
+                              .code = match[2]};
+      finding.end = finding.begin + static_cast<std::size_t>(match.length(1));
+      std::string via = match[3];
+      std::replace(via.begin(), via.end(), ',', ' ');
+      std::istringstream numbers(via);
+      for (std::size_t number; numbers >> number;) finding.via.push_back(number);
+      parts.back().findings.push_back(finding);
+    } else if (std::regex_match(line, match, kEffect)) {
+      parts.back().effects.push_back(read_effect(match[1], lines - 1));
+    } else {
+      if (std::regex_match(line, match, kDirective)) read_directive(parts.back(), match[1], match[2]);
+      parts.back().program += line + '\n';
+      ++lines;
+    }
+  }
+  return parts;
+}
+
+std::vector<std::filesystem::path> golden_files() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(ISOCNC_SOURCE_DIR "/tests/programs"))
+    if (entry.path().extension() == ".iso") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace isocnc::golden

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpreter/execution/setup.h"
+
+namespace isocnc::golden {
+
+/// A finding that a marker line under a program line expects.
+struct ExpectedFinding {
+  std::size_t line = 0;   ///< From 0, in Part::program.
+  std::size_t begin = 0;  ///< Columns from 0 in code points, end exclusive.
+  std::size_t end = 0;
+  std::string code;
+  std::vector<std::size_t> via;  ///< Lines of IFs that lead to it, from 1.
+
+  auto operator<=>(const ExpectedFinding&) const = default;
+};
+
+/// `; -> feed to X0 Y0 length 8`: what a line does.
+struct ExpectedEffect {
+  std::size_t line = 0;
+  std::string kind;
+  std::map<char, double> to;      ///< Machine coordinates by axis.
+  std::map<char, double> center;
+  std::optional<double> length, radius, sweep;
+  std::string text;
+};
+
+/// One program of a golden file, with what it expects. Files hold several, apart by a line `; ====`.
+struct Part {
+  std::string name;      ///< File and line, for messages.
+  std::string program;   ///< Without markers and effects.
+  std::vector<ExpectedFinding> findings;
+  std::vector<ExpectedEffect> effects;
+  execution::Setup setup;
+  double vgpl = 0;
+};
+
+std::vector<Part> read_golden(const std::filesystem::path& file);
+/// All golden files of the tests, sorted.
+std::vector<std::filesystem::path> golden_files();
+
+}  // namespace isocnc::golden

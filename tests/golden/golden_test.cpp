@@ -1,0 +1,131 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include "analyzer/check_text.h"
+#include "analyzer/rendering.h"
+#include "golden_program.h"
+#include "interpreter/running/runner.h"
+
+namespace isocnc::golden {
+namespace {
+
+/// A finding as a golden file would mark it, with the line's text, so that a difference can be read.
+std::string shown(const ExpectedFinding& finding, const std::string& line) {
+  return fmt::format("\n  {} at {}-{} of line {}: {}\n", finding.code, finding.begin, finding.end, finding.line + 1, line);
+}
+
+std::string line_of(const std::string& program, std::size_t index) {
+  return std::string(analyzer::LineFinder(program).line(index));
+}
+
+std::vector<std::string> found_in(const Part& part, const analyzer::Report& report) {
+  std::vector<std::string> found;
+  for (const analyzer::LocatedFinding& located : report.findings) {
+    const std::string line = line_of(part.program, located.line);
+    const syntax::Span span = located.finding.span;
+    found.push_back(shown({.line = located.line,
+                           .begin = analyzer::column_of(line, span.begin) - 1,
+                           .end = analyzer::column_of(line, span.end) - 1,
+                           .code = std::string(dialect::definition(located.finding.id).code)},
+                          line));
+  }
+  return found;
+}
+
+class Golden : public testing::TestWithParam<std::filesystem::path> {};
+
+TEST_P(Golden, FindsWhatIsMarkedAndNothingElse) {
+  for (const Part& part : read_golden(GetParam())) {
+    std::vector<std::string> expected;
+    for (const ExpectedFinding& finding : part.findings) {
+      expected.push_back(shown({finding.line, finding.begin, finding.end, finding.code, {}}, line_of(part.program, finding.line)));
+    }
+    const analyzer::Report report = analyzer::check_text(part.program, part.setup);
+    EXPECT_THAT(found_in(part, report), testing::UnorderedElementsAreArray(expected)) << part.name;
+  }
+}
+
+TEST_P(Golden, NamesTheJumpThatLeadsToAFinding) {
+  for (const Part& part : read_golden(GetParam())) {
+    const analyzer::Report report = analyzer::check_text(part.program, part.setup);
+    for (const ExpectedFinding& finding : part.findings) {
+      if (finding.via.empty()) continue;
+      bool named = false;
+      for (const analyzer::LocatedFinding& located : report.findings) {
+        if (located.line != finding.line || dialect::definition(located.finding.id).code != finding.code) continue;
+        ASSERT_GE(located.path, 0) << part.name << " line " << finding.line + 1 << ": no path";
+        std::vector<std::size_t> lines;
+        for (const analyzer::PathStep& step : report.paths[static_cast<std::size_t>(located.path)]) lines.push_back(step.line + 1);
+        EXPECT_THAT(lines, testing::IsSupersetOf(finding.via)) << part.name;
+        named = true;
+      }
+      EXPECT_TRUE(named) << part.name;
+    }
+  }
+}
+
+void expect_axes(const std::map<char, double>& expected, const geometry::Vec3& tip, double b, double c, const std::string& where) {
+  for (const auto& [axis, value] : expected) {
+    const double found = axis == 'B' ? b : axis == 'C' ? c : tip[axis - 'X'];
+    EXPECT_NEAR(found, value, 1e-6) << where << " axis " << axis;
+  }
+}
+
+void expect_effect(const ExpectedEffect& expected, const running::Event& event, const std::string& name) {
+  const std::string where = fmt::format("{} line {}: {} (found {})", name, expected.line + 1, expected.text, running::to_json(event));
+  EXPECT_EQ(running::kind_of(event), expected.kind) << where;
+  const auto* const move = std::get_if<running::MoveEvent>(&event.what);
+  if (!move) return;
+  expect_axes(expected.to, move->to.tip, move->to.b, move->to.c, where);
+  expect_axes(expected.center, move->center, 0, 0, where + " center");
+  EXPECT_NEAR(move->length, expected.length.value_or(move->length), 1e-5) << where;
+  EXPECT_NEAR(move->radius, expected.radius.value_or(move->radius), 1e-6) << where;
+  EXPECT_NEAR(move->sweep_deg, expected.sweep.value_or(move->sweep_deg), 1e-6) << where;
+}
+
+TEST_P(Golden, DoesWhatIsSaid) {
+  for (const Part& part : read_golden(GetParam())) {
+    if (part.effects.empty()) continue;
+    std::map<std::size_t, std::vector<running::Event>> events;
+    running::RunOptions options{.setup = part.setup, .vgpl = part.vgpl, .stop_at_errors = false};
+    running::run(part.program, options, [&](const running::Event& event) { events[event.line].push_back(event); });
+    for (auto effect = part.effects.begin(); effect != part.effects.end();) {
+      const auto line_end = std::find_if(effect, part.effects.end(), [&](const auto& e) { return e.line != effect->line; });
+      std::vector<running::Event> same_kinds;
+      for (const running::Event& event : events[effect->line])
+        if (std::any_of(effect, line_end, [&](const auto& e) { return e.kind == running::kind_of(event) || running::kind_of(event) == "rapid" || running::kind_of(event) == "feed" || running::kind_of(event) == "arc"; }))
+          same_kinds.push_back(event);
+      EXPECT_EQ(same_kinds.size(), static_cast<std::size_t>(line_end - effect)) << part.name << " line " << effect->line + 1;
+      for (const running::Event& event : same_kinds)
+        if (effect != line_end) expect_effect(*effect++, event, part.name);
+      effect = line_end;
+    }
+  }
+}
+
+std::string test_name(const testing::TestParamInfo<std::filesystem::path>& info) {
+  std::string name = info.param.parent_path().filename().string() + "_" + info.param.stem().string();
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Programs, Golden, testing::ValuesIn(golden_files()), test_name);
+
+/// Each code has at least two positives among the golden programs, and shows its near miss in the file named after it.
+TEST(GoldenCoverage, EveryCodeIsShown) {
+  std::map<std::string, int> shown_codes;
+  for (const auto& file : golden_files())
+    for (const Part& part : read_golden(file))
+      for (const ExpectedFinding& finding : part.findings) ++shown_codes[finding.code];
+  for (const dialect::DiagnosticDef& def : dialect::kDiagnostics) {
+    if (def.code.starts_with("W1")) continue;
+    EXPECT_GE(shown_codes[std::string(def.code)], 2) << def.code << " has too few positives";
+    EXPECT_TRUE(std::filesystem::exists(fmt::format("{}/tests/programs/codes/{}.iso", ISOCNC_SOURCE_DIR, def.code))) << def.code;
+  }
+}
+
+}  // namespace
+}  // namespace isocnc::golden

@@ -1,0 +1,102 @@
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <set>
+
+#include "analyzer/check_text.h"
+#include "analyzer/explain.h"
+#include "analyzer/rendering.h"
+
+namespace isocnc::dialect {
+namespace {
+
+using analyzer::MarkedProgram;
+using analyzer::read_marked;
+using analyzer::Report;
+
+/// The setup that the programs of the table are written for: one tool, so that ISO067 can be shown.
+execution::Setup table_setup(const DiagnosticDef& def) {
+  execution::Setup setup;
+  if (def.code == "ISO067") setup.tools = {{1, 1, 1}};
+  return setup;
+}
+
+std::string codes_of(const Report& report) {
+  std::string codes;
+  for (const auto& located : report.findings) {
+    codes += std::string(definition(located.finding.id).code) + "@" + std::to_string(located.line + 1) + ":" +
+             std::to_string(located.finding.span.begin) + "-" + std::to_string(located.finding.span.end) + " ";
+  }
+  return codes;
+}
+
+class Table : public testing::TestWithParam<DiagnosticDef> {};
+
+TEST_P(Table, WrongProgramHasThisOneFindingAtItsMark) {
+  const DiagnosticDef& def = GetParam();
+  if (def.wrong.empty()) GTEST_SKIP() << "cannot be shown in a few lines";
+  const MarkedProgram wrong = read_marked(def.wrong);
+  ASSERT_TRUE(wrong.has_mark);
+  const Report report = analyzer::check_text(wrong.text, table_setup(def));
+  ASSERT_EQ(report.findings.size(), 1u) << wrong.text << codes_of(report);
+  EXPECT_EQ(definition(report.findings[0].finding.id).code, def.code) << wrong.text;
+  EXPECT_EQ(codes_of(report), std::string(def.code) + "@" + std::to_string(wrong.line + 1) + ":" + std::to_string(wrong.begin) + "-" + std::to_string(wrong.end) + " ") << wrong.text;
+}
+
+TEST_P(Table, RightProgramHasNone) {
+  const DiagnosticDef& def = GetParam();
+  EXPECT_EQ(codes_of(analyzer::check_text(def.right.empty() ? "M02\n" : def.right, table_setup(def))), "") << def.right;
+}
+
+TEST_P(Table, TextsAreThereInBothLanguages) {
+  const DiagnosticDef& def = GetParam();
+  for (const Text& text : {def.title, def.message, def.explanation}) {
+    EXPECT_FALSE(text.en.empty());
+    EXPECT_FALSE(text.it.empty());
+  }
+  EXPECT_FALSE(def.section.empty());
+  EXPECT_FALSE(def.message.en.ends_with('.'));
+  EXPECT_FALSE(def.message.it.ends_with('.'));
+}
+
+/// A message names only what is reported with it, and both languages name the same.
+TEST_P(Table, MessagesNameTheirValues) {
+  const DiagnosticDef& def = GetParam();
+  const auto names_in = [](std::string_view message) {
+    static const std::regex kName(R"(\{([a-z]*)\})");
+    const std::string text(message);
+    std::set<std::string> names;
+    for (std::sregex_iterator it(text.begin(), text.end(), kName); it != std::sregex_iterator(); ++it) names.insert((*it)[1]);
+    return names;
+  };
+  std::set<std::string> allowed = {"text"};
+  for (const std::string_view name : def.arguments) allowed.insert(std::string(name));
+  for (const std::string& name : names_in(def.message.en)) EXPECT_TRUE(allowed.contains(name)) << name;
+  EXPECT_EQ(names_in(def.message.en), names_in(def.message.it));
+}
+
+INSTANTIATE_TEST_SUITE_P(Diagnostics, Table, testing::ValuesIn(kDiagnostics),
+                         [](const auto& row) { return std::string(row.param.code); });
+
+TEST(Diagnostics, AreFoundByCodeAndName) {
+  EXPECT_EQ(find_diagnostic("iso031"), "arc-center-mismatch"_diag);
+  EXPECT_EQ(find_diagnostic("arc-center-mismatch"), "arc-center-mismatch"_diag);
+  EXPECT_EQ(find_diagnostic("ISO069"), std::nullopt);
+}
+
+TEST(Diagnostics, CoverTheSpecification) {
+  for (int i = 1; i <= 68; ++i) EXPECT_TRUE(find_diagnostic("ISO" + std::string(i < 10 ? "00" : "0") + std::to_string(i))) << i;
+  for (int i = 1; i <= 9; ++i) EXPECT_TRUE(find_diagnostic("E00" + std::to_string(i))) << i;
+  for (int i = 1; i <= 3; ++i) EXPECT_TRUE(find_diagnostic("W00" + std::to_string(i))) << i;
+}
+
+TEST(Diagnostics, ShowValuesAsPeopleWriteThem) {
+  EXPECT_EQ(format_value(10), "10");
+  EXPECT_EQ(format_value(-0.0), "0");
+  EXPECT_EQ(format_value(2.5), "2.5");
+  EXPECT_EQ(format_value(1.0 / 3), "0.3333");
+  EXPECT_EQ(format_value(1e-7), "1e-07");
+}
+
+}  // namespace
+}  // namespace isocnc::dialect
