@@ -138,8 +138,9 @@ class PatternReader {
     return range(*first, *last);
   }
 
+  /// As in git, the first is in it even when the last comes before it.
   static ByteSet range(char first, char last) {
-    ByteSet set;
+    ByteSet set = only(first);
     for (std::size_t c = index(first); c <= index(last); ++c) set.set(c);
     return set;
   }

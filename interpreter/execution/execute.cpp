@@ -125,7 +125,7 @@ void Executor::tool_change(const Instruction& instruction) {
 void Executor::stray_tool(const Instruction& instruction) {
   const Word& word = line_.command(instruction);
   const bool follows_change = state_.tool_awaited && instruction.has(Instruction::kFirst);
-  if (!follows_change) report("tool-without-m06"_diag, word.span());
+  if (!follows_change && !word.has(Word::kMissing)) report("tool-without-m06"_diag, word.span());
   select_tool(word);
 }
 

@@ -33,9 +33,12 @@ void LineParser::check() {
   store_.instructions_.erase(std::remove_if(first, store_.instructions_.end(), settled), store_.instructions_.end());
 }
 
-bool LineParser::owns_any(const Instruction& owner, dialect::LetterSet set) const {
-  for (std::uint16_t i = owner.begin; i < owner.end; ++i)
-    if (word(i).owner == owner.number && i != owner.command && contains(set, word(i).letter)) return true;
+bool LineParser::owns_any(const Instruction& owner, dialect::LetterSet set, bool unbroken) const {
+  for (std::uint16_t i = owner.begin; i < owner.end; ++i) {
+    const Word& own_word = word(i);
+    if (own_word.owner != owner.number || i == owner.command || !contains(set, own_word.letter)) continue;
+    if (!unbroken || !own_word.has(Word::kBreak)) return true;
+  }
   return false;
 }
 
@@ -104,14 +107,27 @@ void LineParser::check_g(const Instruction& checked) {
     case 24: check_vectors(checked, "ABC"); break;
     case 28: check_vectors(checked, "XYZ"); break;
     case 29:
-      if (!owns_any(checked, code->arguments)) report_missing("missing-arguments"_diag, checked);
+      lacks_arguments(checked, "missing-arguments"_diag);
       check_face_angles(checked);
       break;
-    case 92:
-      if (!owns_any(checked, code->arguments)) report_missing("missing-origin"_diag, checked);
-      break;
+    case 92: lacks_arguments(checked, "missing-origin"_diag); break;
     default: break;
   }
+}
+
+/// Arguments that are missing, or that an N keeps from their G: the N breaks the series as an S would (D12, D17).
+bool LineParser::lacks_arguments(const Instruction& checked, dialect::DiagnosticId when_missing) {
+  const bool company_is_reported = (line_.flags & LineTree::kAloneViolated) != 0;
+  if (owns_any(checked, checked.g()->arguments, !company_is_reported)) {
+    for (std::uint16_t i = checked.begin; i < checked.end && !company_is_reported; ++i)
+      if (word(i).owner == checked.number && word(i).has(Word::kBreak)) {
+        report("stray-argument"_diag, word(i).span(), {}, word(checked.command).span());
+        break;
+      }
+    return false;
+  }
+  report_missing(when_missing, checked);
+  return true;
 }
 
 /// Whether what stands between a motion and the argument broken off it has a finding of its own.
@@ -149,6 +165,7 @@ void LineParser::check_motion(const Instruction& motion) {
   // Strays without a coordinate are reported where the motion is known; a second motion G, or one that is unknown and has
   // taken the arguments, has said it all.
   if (owns_any(motion, dialect::kDimensionLetters & ~motion.g()->arguments)) return;
+  if (word(motion.command).has(Word::kReported)) return;
   for (std::size_t i = motion.number + 1u; i < instruction_count(); ++i) {
     const Instruction& other = instruction(i);
     if (other.kind == InstructionKind::G && (!other.g() || other.g()->is_motion())) return;
@@ -173,7 +190,7 @@ void LineParser::check_face_angles(const Instruction& frame) {
 }
 
 void LineParser::check_dwell(const Instruction& dwell) {
-  if (!owns_any(dwell, letters("P"))) return report_missing("dwell-time-missing"_diag, dwell);
+  lacks_arguments(dwell, "dwell-time-missing"_diag);
   for (std::uint16_t i = dwell.begin; i < dwell.end; ++i) {
     const Word& time = word(i);
     if (time.owner == dwell.number && time.letter == 'P' && time.value < 0)

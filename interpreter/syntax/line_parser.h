@@ -70,11 +70,12 @@ class LineParser {
   void check_compensation(const Instruction& instruction);
   bool breaker_is_reported(const Instruction& motion, std::uint16_t broken) const;
   bool stands_alone(const Instruction& instruction) const;
-  bool owns_any(const Instruction& instruction, dialect::LetterSet letters) const;
+  bool owns_any(const Instruction& instruction, dialect::LetterSet letters, bool unbroken = false) const;
+  bool lacks_arguments(const Instruction& instruction, dialect::DiagnosticId when_missing);
   void check_tool_number(const Word& tool);
 
   void report(dialect::DiagnosticId id, Span span, std::initializer_list<double> values = {}, Span related = {});
-  void report_missing(dialect::DiagnosticId id, const Instruction& instruction);
+  void report_missing(dialect::DiagnosticId id, const Instruction& lacking);
   std::uint32_t column(const char* p) const { return static_cast<std::uint32_t>(p - begin_); }
   Word& word(std::size_t index) { return store_.words_[line_.first_word + index]; }
   const Word& word(std::size_t index) const { return store_.words_[line_.first_word + index]; }

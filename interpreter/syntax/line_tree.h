@@ -29,6 +29,7 @@ struct Word {
   static constexpr std::uint8_t kMalformed = 4;  ///< Something stands where the number should be, but it is none.
   static constexpr std::uint8_t kMissing = 8;    ///< No number at all.
   static constexpr std::uint8_t kBreak = 16;     ///< An argument that stands apart from its command's series (D17).
+  static constexpr std::uint8_t kReported = 32;  ///< What is wrong with it has been said (X=5): nothing more is.
 
   double value = 0;        ///< NaN when malformed, missing or written twice.
   std::uint32_t begin = 0;

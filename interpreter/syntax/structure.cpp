@@ -75,7 +75,12 @@ Instruction& LineParser::add_instruction(InstructionKind kind, std::uint16_t com
   added.command = command;
   added.begin = command;
   added.end = static_cast<std::uint16_t>(command + 1);
-  if (number == 0) added.flags = Instruction::kFirst;
+  const auto is_silent = [](const Word& before) {
+    return before.letter == 'N' || before.letter == kError || before.letter == kNumber;
+  };
+  std::uint16_t first = 0;
+  while (first < command && is_silent(word(first))) ++first;
+  if (first == command) added.flags = Instruction::kFirst;
   word(command).owner = number;
   needs_check_ |= number > 0;
   return added;
@@ -138,6 +143,7 @@ void LineParser::add_g(std::uint16_t index) {
   if (is_whole(written.value, 0)) row = dialect::kGCodeRows[static_cast<std::size_t>(written.value)];
   if (!spelled_right) {
     if (!written.has(Word::kMissing)) report("invalid-g-number"_diag, written.span());
+    word(index).flags |= Word::kReported;
   } else if (row == dialect::kUnknownGCode) {
     report("unsupported-g"_diag, written.span());
   }
@@ -311,8 +317,8 @@ void LineParser::add_equals(std::uint16_t index) {
     if (before.has(Word::kMissing)) {
       before.value = word(index).value;
       before.flags = word(index).flags;
-      if (before.letter == 'F' || before.letter == 'S') needs_check_ = true;
     }
+    before.flags |= Word::kReported;
   }
   const Word& equals = word(index);
   report("assignment-without-register"_diag, {equals.begin, equals.begin + 1});
@@ -322,7 +328,7 @@ std::uint16_t LineParser::add_jump(std::uint16_t index) {
   Instruction& added = add_instruction(InstructionKind::Jump, index);
   needs_check_ = true;
   if (line_.jump >= 0) {  // A second IF on the line: neither is alone, which is reported at the first.
-    Jump ignored;
+    Jump ignored{.if_span = word(index).span()};
     return read_condition(ignored, index);
   }
   Jump jump;
@@ -341,23 +347,25 @@ std::uint16_t LineParser::read_condition(Jump& jump, std::uint16_t index) {
   std::uint16_t goto_at = index;
   while (goto_at < count && word(goto_at).letter != kGoto) ++goto_at;
   auto at = static_cast<std::uint16_t>(index + 1);
-  const auto fail = [&](std::uint16_t where) {
-    const bool missing = where >= count || where >= goto_at;
-    report("if-malformed"_diag, missing ? word(index).span() : word(where).span());
+  // The piece in the place of what is wanted, up to what comes after it; the IF when nothing stands there.
+  const auto fail = [&](std::uint16_t where, std::string_view next_letters) {
+    auto last = where;
+    while (last < goto_at && next_letters.find(word(last).letter) == next_letters.npos) ++last;
+    report("if-malformed"_diag, last == where ? word(index).span() : hull(word(where).span(), word(last - 1u).span()));
   };
   bool good = false;
   if (at >= goto_at || !read_variable(jump, word(at))) {
-    fail(at);
+    fail(at, {&kOperator, 1});
   } else if (++at >= goto_at || word(at).letter != kOperator ||
              static_cast<Comparison>(word(at).digits) == Comparison::Invalid) {
-    fail(at);
+    fail(at, {&kNumber, 1});
   } else if (jump.comparison = static_cast<Comparison>(word(at).digits);
              ++at >= goto_at || word(at).letter != kNumber || word(at).has(Word::kMalformed)) {
-    fail(at);
+    fail(at, {});
   } else if (jump.value = word(at).value; goto_at >= count) {
     report("if-malformed"_diag, word(index).span());
   } else if (++at < goto_at) {
-    fail(at);
+    fail(at, {});
   } else {
     good = true;
   }
@@ -393,15 +401,14 @@ bool LineParser::read_variable(Jump& jump, Word& written) {
 /// The label behind the GOTO at `index`.
 std::uint16_t LineParser::read_target(Jump& jump, std::uint16_t index) {
   const auto at = static_cast<std::uint16_t>(index + 1);
-  if (at >= word_count()) {
-    report("if-malformed"_diag, word(index).span());
+  if (at >= word_count() || word(at).letter == 'G') {
+    report("if-malformed"_diag, jump.if_span);
     return index;
   }
   const Word& label = word(at);
   if (label.letter != 'N' || !label.is_plain_integer()) {
     report("if-malformed"_diag, label.span());
-    const bool belongs = label.letter == 'N' || label.letter == kNumber || label.letter == kError;
-    return belongs ? at : index;
+    return at;
   }
   jump.has_target = true;
   jump.target = label_of(label, {begin_ + label.begin, label.end - label.begin});
