@@ -78,7 +78,8 @@ Report Analysis::report() const {
     outcome.last_text_line += first;
     outcomes.push_back(std::move(outcome));
   }
-  return conclude(std::move(outcomes), end_, jumps_);
+  return conclude(std::move(outcomes), end_, jumps_,
+                  [&](std::uint64_t line) { return document_.line(static_cast<std::size_t>(line)).text; });
 }
 
 Frontier Analysis::frontier_before(std::size_t line) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analyzer/checker.h"
+#include "analyzer/rendering.h"
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
 
@@ -121,7 +122,8 @@ Report check_text(std::string_view text, const execution::Setup& setup, int jobs
     std::vector<Outcome> outcomes;
     outcomes.push_back(pass.take_outcome());
     if (jumps.is_resolved() || !has_lost_jumps(pass.checker().frontier))
-      return conclude(std::move(outcomes), pass.checker().frontier, jumps);
+      return conclude(std::move(outcomes), pass.checker().frontier, jumps,
+                      [&](std::uint64_t line) { return LineFinder(text).line(line); });
     // Rare: now that all labels are known, once more without the jumps that lead nowhere.
     jumps.resolve(label_lines(outcomes));
   }

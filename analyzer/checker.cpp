@@ -28,7 +28,7 @@ void Outcome::clear() { *this = Outcome{}; }
 /// Listens to one execution: findings to a place, assignments to the group's registers.
 class Checker::Listener final : public execution::Sink {
  public:
-  Listener(std::uint64_t line, Outcome& outcome) : line_(line), outcome_(outcome) {}
+  Listener(std::uint64_t line, Outcome& outcome) : Sink(false), line_(line), outcome_(outcome) {}
 
   void report(const Finding& finding) override { outcome_.findings.push_back({line_, finding}); }
 
@@ -46,20 +46,11 @@ Frontier Checker::start(const execution::Setup& setup, const JumpMap& jumps) {
   return frontier;
 }
 
-void Checker::note_text(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
-  const std::string_view text = line.text;
-  std::size_t begin = 0;
-  std::size_t end = text.size();
-  while (begin < end && syntax::is_blank(text[begin])) ++begin;
-  if (begin == end) return;
-  while (syntax::is_blank(text[end - 1])) --end;
-  outcome.has_text = true;
-  outcome.last_text_line = line_number;
-  outcome.last_text = {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
-}
-
 void Checker::check(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
-  note_text(line, line_number, outcome);
+  if (!line.words.empty() || !line.comments.empty() || !line.findings.empty()) {
+    outcome.has_text = true;
+    outcome.last_text_line = line_number;
+  }
   if (!jumps_.empty() && line.has_label()) arrive(line, line_number, outcome);
   Groups& live = frontier.live;
   if (live.empty()) {
@@ -104,7 +95,7 @@ void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_num
   if (!line.is_empty()) {
     class GroupListener final : public execution::Sink {
      public:
-      GroupListener(Checker& checker, std::size_t group) : checker_(checker), group_(group) {}
+      GroupListener(Checker& checker, std::size_t group) : Sink(false), checker_(checker), group_(group) {}
       void report(const Finding& finding) override { checker_.group_findings_.push_back({finding, group_}); }
       void assign(int reg, double value) override {
         if (checker_.jumps_.is_read_from(reg, checker_.frontier.next_jump))
@@ -263,16 +254,27 @@ static void add_duplicate_labels(const std::vector<Outcome>& outcomes, std::vect
         findings.push_back({label.line, {.id = "duplicate-label"_diag, .span = label.span}});
 }
 
+static syntax::Span without_blanks(std::string_view text) {
+  std::size_t begin = 0;
+  std::size_t end = text.size();
+  while (begin < end && syntax::is_blank(text[begin])) ++begin;
+  while (end > begin && syntax::is_blank(text[end - 1])) --end;
+  return {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
+}
+
 /// A path that reaches the end of the file without an M02: said on the last line with any text (D47).
-static void add_missing_end(const std::vector<Outcome>& outcomes, const Frontier& end, std::vector<Path>& paths,
-                            std::vector<LocatedFinding>& findings) {
+static void add_missing_end(const std::vector<Outcome>& outcomes, const Frontier& end,
+                            const std::function<std::string_view(std::uint64_t)>& text_of_line,
+                            std::vector<Path>& paths, std::vector<LocatedFinding>& findings) {
   if (end.live.empty()) return;
   LocatedFinding located{0, {.id = "m02-missing"_diag}};
+  bool has_text = false;
   for (const Outcome& outcome : outcomes) {
     if (!outcome.has_text) continue;
+    has_text = true;
     located.line = outcome.last_text_line;
-    located.finding.span = outcome.last_text;
   }
+  if (has_text) located.finding.span = without_blanks(text_of_line(located.line));
   Path path = end.live[0].path;
   for (const Group& group : end.live)
     std::erase_if(path, [&](const Decision& decision) {
@@ -296,7 +298,8 @@ static void keep_first_of_each(std::vector<LocatedFinding>& findings) {
   }
 }
 
-Report conclude(std::vector<Outcome> outcomes, const Frontier& end, const JumpMap& jumps) {
+Report conclude(std::vector<Outcome> outcomes, const Frontier& end, const JumpMap& jumps,
+                const std::function<std::string_view(std::uint64_t)>& text_of_line) {
   Report report;
   std::vector<Path> paths;
   for (Outcome& outcome : outcomes) {
@@ -312,7 +315,7 @@ Report conclude(std::vector<Outcome> outcomes, const Frontier& end, const JumpMa
     paths.insert(paths.end(), std::make_move_iterator(outcome.paths.begin()), std::make_move_iterator(outcome.paths.end()));
   }
   add_duplicate_labels(outcomes, report.findings);
-  add_missing_end(outcomes, end, paths, report.findings);
+  add_missing_end(outcomes, end, text_of_line, paths, report.findings);
   const auto by_place = [](const LocatedFinding& a, const LocatedFinding& b) {
     return a.line != b.line ? a.line < b.line : a.finding.span.begin < b.finding.span.begin;
   };

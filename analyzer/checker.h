@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -23,8 +25,7 @@ struct Outcome {
   std::vector<Path> paths;
   std::vector<Label> labels;             ///< Definitions of labels that some GOTO names.
   std::vector<std::uint64_t> named;      ///< Labels that a GOTO on a feasible path names.
-  std::uint64_t last_text_line = 0;      ///< Holds any text; D47.
-  syntax::Span last_text;
+  std::uint64_t last_text_line = 0;      ///< The last that holds any text (D47), if one does.
   bool has_text = false;
 
   void clear();
@@ -49,7 +50,6 @@ class Checker {
  private:
   class Listener;
 
-  void note_text(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void arrive(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void execute_in_all_groups(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void report_common_findings(std::uint64_t line_number, Outcome& outcome);
@@ -69,7 +69,9 @@ class Checker {
 
 /// Puts together what was found: sorts, adds what only the whole program shows (E006, ISO045), and leaves of the findings
 /// that are said once per program the first (D44).
-Report conclude(std::vector<Outcome> outcomes, const Frontier& end, const JumpMap& jumps);
+/// `text_of_line` gives a line's text.
+Report conclude(std::vector<Outcome> outcomes, const Frontier& end, const JumpMap& jumps,
+                const std::function<std::string_view(std::uint64_t)>& text_of_line);
 
 /// The lines on which each label that a GOTO names is defined.
 std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> label_lines(const std::vector<Outcome>& outcomes);

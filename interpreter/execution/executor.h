@@ -51,7 +51,6 @@ class Executor {
   void check_rotary_axes(const Arguments& arguments, const dialect::GCode& code, syntax::Span place);
   void take_feed();
   Feed feed_in_force() const;
-  void move_axis(Axis axis, double& position, double value, double scale);
   void move_to(const Arguments& arguments);
   void arc(const Arguments& arguments, const dialect::GCode& code, syntax::Span place, Move& move);
   bool arc_is_described(const Arguments& arguments, const Plane& plane, syntax::Span place);

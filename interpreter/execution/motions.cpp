@@ -62,7 +62,8 @@ void Executor::motion(const Instruction& instruction) {
   Move move;
   if (code.number != 0) {
     check_feed(place);
-    if (!state_.five_axis()) check_rotary_axes(arguments, code, place);
+    const bool has_only_linear = (arguments.present() & dialect::kRotaryLetters) == 0;
+    if (!has_only_linear && !state_.five_axis()) check_rotary_axes(arguments, code, place);
   }
   const bool wants_effects = sink_.wants_effects();
   if (wants_effects) {
@@ -148,27 +149,27 @@ void Executor::check_rotary_axes(const Arguments& arguments, const GCode& code, 
   if (!changed.empty()) report("five-axis-not-enabled"_diag, changed);
 }
 
-void Executor::move_axis(Axis axis, double& position, double value, double scale) {
-  const AxisSet bit = axis_bit(axis);
-  const double target = value * scale;
-  if (!std::isfinite(target)) {
-    state_.unknown |= bit;
-    position = 0;
-  } else if (!state_.incremental()) {
-    state_.unknown &= static_cast<AxisSet>(~bit);
-    position = target;
-  } else if ((state_.unknown & bit) == 0) {
-    position += target;
-  }
-}
-
 void Executor::move_to(const Arguments& arguments) {
   const double scale = state_.mm_per_unit();
-  if (arguments.has('X')) move_axis(Axis::X, state_.position.tip[0], arguments['X'], scale);
-  if (arguments.has('Y')) move_axis(Axis::Y, state_.position.tip[1], arguments['Y'], scale);
-  if (arguments.has('Z')) move_axis(Axis::Z, state_.position.tip[2], arguments['Z'], scale);
-  if (arguments.has('B')) move_axis(Axis::B, state_.position.b, arguments['B'], 1);
-  if (arguments.has('C')) move_axis(Axis::C, state_.position.c, arguments['C'], 1);
+  const bool incremental = state_.incremental();
+  const auto move_axis = [&](Axis axis, double& position, double target) {
+    const AxisSet bit = axis_bit(axis);
+    if (!std::isfinite(target)) {
+      state_.unknown |= bit;
+      position = 0;
+    } else if (!incremental) {
+      state_.unknown &= static_cast<AxisSet>(~bit);
+      position = target;
+    } else if ((state_.unknown & bit) == 0) {
+      position += target;
+    }
+  };
+  if (arguments.has('X')) move_axis(Axis::X, state_.position.tip[0], arguments['X'] * scale);
+  if (arguments.has('Y')) move_axis(Axis::Y, state_.position.tip[1], arguments['Y'] * scale);
+  if (arguments.has('Z')) move_axis(Axis::Z, state_.position.tip[2], arguments['Z'] * scale);
+  if ((arguments.present() & dialect::kRotaryLetters) == 0) return;
+  if (arguments.has('B')) move_axis(Axis::B, state_.position.b, arguments['B']);
+  if (arguments.has('C')) move_axis(Axis::C, state_.position.c, arguments['C']);
 }
 
 /// What an arc must say before its geometry can be looked at, in the order of D45.

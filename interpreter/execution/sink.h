@@ -34,11 +34,12 @@ struct FunctionParameter {
 /// alone; a simulator moves a machine.
 class Sink {
  public:
+  /// With `wants_effects` false the motions below are not worked out, nor is anyone told of them.
+  explicit Sink(bool wants_effects) : wants_effects_(wants_effects) {}
   virtual ~Sink() = default;
 
+  bool wants_effects() const { return wants_effects_; }
   virtual void report(const syntax::Finding& finding) = 0;
-  /// Whether the effects below are wanted; without them their geometry is not worked out.
-  virtual bool wants_effects() const { return false; }
 
   /// `state` is the one in which the motion runs: its frame, modes and spindle.
   virtual void move(const Move&, const State&) {}
@@ -50,6 +51,9 @@ class Sink {
   virtual void exact_stop() {}
   virtual void assign(int, double) {}  ///< Register 1 to 30; NaN: the value could not be read.
   virtual void end() {}
+
+ private:
+  bool wants_effects_;
 };
 
 }  // namespace isocnc::execution

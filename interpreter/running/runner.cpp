@@ -58,7 +58,7 @@ namespace {
 class BlockSink final : public execution::Sink {
  public:
   BlockSink(std::vector<Event>& events, std::array<double, dialect::kRegisterCount + 1>& registers)
-      : events_(events), registers_(registers) {}
+      : Sink(true), events_(events), registers_(registers) {}
 
   std::uint64_t line = 0;
   std::optional<syntax::Finding> error;
@@ -66,7 +66,6 @@ class BlockSink final : public execution::Sink {
   void report(const syntax::Finding& finding) override {
     if (!error && dialect::definition(finding.id).severity == dialect::Severity::Error) error = finding;
   }
-  bool wants_effects() const override { return true; }
   void move(const execution::Move& move, const execution::State& state) override { add(in_machine(move, state)); }
   void dwell(double seconds) override { add(DwellEvent{seconds}); }
   void spindle_speed(double speed) override { add(SpindleSpeedEvent{speed}); }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "interpreter/syntax/characters.h"
@@ -26,6 +28,55 @@ Number scan_any_number(const char* p, const char* end);
 /// Whether the number before the comment at `p` goes on behind it (D7).
 bool goes_on_behind_comment(const char* p, const char* end);
 }  // namespace detail
+
+namespace detail {
+
+/// The digits that start the eight bytes at `p`: how many there are (8: perhaps more), and what they say. Without a branch
+/// on the digits, whose number no processor can guess.
+inline std::uint32_t leading_digits(const char* p, std::uint64_t& value) {
+  static_assert(std::endian::native == std::endian::little);
+  std::uint64_t bytes;
+  std::memcpy(&bytes, p, 8);
+  bytes ^= 0x3030303030303030ULL;  // A digit becomes its value, anything else more than 9.
+  const std::uint64_t others = ((bytes + 0x7676767676767676ULL) | bytes) & 0x8080808080808080ULL;
+  const auto count = static_cast<std::uint32_t>(std::countr_zero(others)) / 8;
+  bytes = count == 0 ? 0 : bytes << (64 - 8 * count);
+  bytes = bytes * 10 + (bytes >> 8);
+  value = (((bytes & 0x000000FF000000FFULL) * 0x000F424000000064ULL) +
+           (((bytes >> 16) & 0x000000FF000000FFULL) * 0x0000271000000001ULL)) >> 32;
+  return count;
+}
+
+inline constexpr std::uint64_t kWholePowersOfTen[] = {1, 10, 100, 1'000, 10'000, 100'000, 1'000'000, 10'000'000};
+
+}  // namespace detail
+
+/// Reads a number of at most seven digits before and behind its point, without anything inside; false when it is another,
+/// or when there is too little text behind it to tell. Does not look at what follows.
+inline bool scan_short_number(const char* p, const char* end, Number& number) {
+  if (end - p < 20) return false;
+  const bool negative = *p == '-';
+  number.is_signed = negative || *p == '+';
+  p += number.is_signed ? 1 : 0;
+  std::uint64_t mantissa;
+  const std::uint32_t digits = detail::leading_digits(p, mantissa);
+  p += digits;
+  std::uint32_t decimals = 0;
+  number.has_point = *p == '.';
+  if (number.has_point) {
+    std::uint64_t fraction;
+    decimals = detail::leading_digits(++p, fraction);
+    if (decimals == 8) return false;
+    p += decimals;
+    mantissa = mantissa * detail::kWholePowersOfTen[decimals] + fraction;
+  }
+  number.digits = digits + decimals;
+  if (digits == 8 || number.digits == 0) return false;
+  const double magnitude = static_cast<double>(mantissa) / detail::kPowersOfTen[decimals];
+  number.value = negative ? -magnitude : magnitude;
+  number.end = p;
+  return true;
+}
 
 /// Reads the number at `p`, which is a number's character. The digits are gathered in an integer and scaled once: below
 /// 2^53 and 10^22 both are exact, so that the quotient is the correctly rounded decimal.

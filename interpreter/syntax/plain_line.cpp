@@ -1,0 +1,139 @@
+#include "interpreter/syntax/line_parser.h"
+#include "interpreter/syntax/number.h"
+
+namespace isocnc::syntax {
+
+/// What a plain line may hold besides N, G and F.
+static constexpr dialect::LetterSet kPlainLetters = dialect::letters("XYZBCIJKR");
+
+namespace {
+
+/// Gathers the words of a plain line before they are known to be one.
+struct PlainLine {
+  static constexpr std::size_t kMostWords = 12;  // N, G, F and each letter once.
+
+  Word words[kMostWords];
+  std::uint16_t count = 0;
+  dialect::LetterSet taken = 0;
+  int command = -1;          // The G, or the first coordinate.
+  std::uint16_t behind = 0;  // Behind the last argument.
+  std::uint8_t row = dialect::kUnknownGCode;
+  int feed = -1;
+  bool has_label = false;
+  std::uint64_t label = 0;
+
+  /// Takes the word into its place; false when the line is not plain because of it.
+  bool take(Word& word) {
+    if (dialect::contains(kPlainLetters, word.letter)) {
+      const dialect::LetterSet bit = dialect::letter_bit(word.letter);
+      if ((taken & bit) != 0) return false;
+      taken |= bit;
+      word.owner = 0;
+      if (command < 0) command = count;
+      behind = static_cast<std::uint16_t>(count + 1);
+      return true;
+    }
+    switch (word.letter) {
+      case 'F':
+        if (feed >= 0 || !(word.value > 0)) return false;
+        feed = count;
+        return true;
+      case 'G':
+        if (command >= 0 || !word.is_plain_integer() || word.value > 3) return false;
+        row = dialect::kGCodeRows[static_cast<std::size_t>(word.value)];
+        command = count;
+        behind = static_cast<std::uint16_t>(count + 1);
+        word.owner = 0;
+        return true;
+      case 'N':
+        if (count > 0 || !word.is_plain_integer()) return false;
+        has_label = true;
+        label = static_cast<std::uint64_t>(word.value);
+        return true;
+      default: return false;
+    }
+  }
+
+  /// A motion G needs a coordinate; that it has none is for the general way to tell.
+  bool is_complete() const {
+    return row == dialect::kUnknownGCode || (taken & dialect::kCoordinateLetters) != 0;
+  }
+};
+
+}  // namespace
+
+/// Most lines of most programs hold at most an N, a motion G, coordinates and F, each once and well written. They are
+/// parsed in one go, into the very tree that the general way gives them. False, with nothing changed, for any other line.
+bool LineParser::parse_plain_line(const char*& line_end) {
+  PlainLine line;
+  const char* p = begin_;
+  const auto give_up = [&] {
+    store_.comments_.resize(line_.first_comment);
+    return false;
+  };
+  for (;;) {
+    while (p != end_ && is_blank(*p)) ++p;
+    if (p == end_ || is_line_end(*p)) break;
+    const char letter = upper(*p);
+    if (letter < 'A' || letter > 'Z') {
+      if (letter == ';') {
+        const char* const comment_end = find_line_end(p, end_);
+        store_.comments_.push_back({column(p), column(comment_end)});
+        p = comment_end;
+        break;
+      }
+      if (letter != '(') return give_up();
+      const char* close = p;
+      while (close != end_ && !is_line_end(*close) && *close != ')') ++close;
+      if (close == end_ || *close != ')') return give_up();
+      store_.comments_.push_back({column(p), column(close) + 1});
+      p = close + 1;
+      continue;
+    }
+    if (line.count == PlainLine::kMostWords) return give_up();
+    const char* const start = p++;
+    while (p != end_ && is_blank(*p)) ++p;
+    Number number;
+    if (!scan_short_number(p, end_, number)) return give_up();
+    Word& word = line.words[line.count];
+    word.letter = letter;
+    word.begin = column(start);
+    word.end = column(number.end);
+    word.value = number.value;
+    word.digits = number.digits;
+    word.flags = static_cast<std::uint8_t>((number.is_signed ? Word::kSigned : 0) | (number.has_point ? Word::kPoint : 0));
+    word.owner = Word::kNobody;
+    if (!line.take(word)) return give_up();
+    ++line.count;
+    p = number.end;
+  }
+  if (!line.is_complete()) return give_up();
+  line_end = p;
+
+  line_.length = column(p);
+  line_.words = line.count;
+  line_.feed = line.feed;
+  line_.comments = static_cast<std::uint32_t>(store_.comments_.size() - line_.first_comment);
+  if (line.has_label) {
+    line_.flags = LineTree::kHasLabel;
+    line_.label = line.label;
+  }
+  store_.words_.insert(store_.words_.end(), line.words, line.words + line.count);
+  if (line.command >= 0) {
+    line_.instructions = 1;
+    const auto command = static_cast<std::uint16_t>(line.command);
+    const bool is_first = command == (line.has_label ? 1 : 0);
+    store_.instructions_.push_back(
+        {.kind = line.row == dialect::kUnknownGCode ? InstructionKind::Continuation : InstructionKind::G,
+         .row = line.row,
+         .flags = is_first ? Instruction::kFirst : std::uint8_t{0},
+         .number = 0,
+         .command = command,
+         .begin = command,
+         .end = line.behind});
+  }
+  store_.lines_.push_back(line_);
+  return true;
+}
+
+}  // namespace isocnc::syntax

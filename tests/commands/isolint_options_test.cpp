@@ -1,0 +1,131 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "programs.h"
+#include "run_command.h"
+#include "temporary_folder.h"
+
+namespace isocnc::commands {
+namespace {
+
+using testing::HasSubstr;
+using testing::MatchesRegex;
+using testing::StartsWith;
+
+TEST(IsolintStatus, TellsErrorsFromWarningsAndTrouble) {
+  EXPECT_EQ(run_command({"isolint", "-"}, {.input = std::string(kCleanProgram)}).status, 0);
+  EXPECT_EQ(run_command({"isolint", "-"}, {.input = std::string(kWarnedProgram)}).status, 0);
+  EXPECT_EQ(run_command({"isolint", "-"}, {.input = std::string(kBrokenProgram)}).status, 1);
+  EXPECT_EQ(run_command({"isolint", "no-such-file.iso"}).status, 2);
+}
+
+TEST(IsolintStatus, CountsWarningsAside) {
+  const CommandResult result = run_command({"isolint", "-"}, {.input = std::string(kWarnedProgram)});
+  EXPECT_THAT(result.out, StartsWith("warning[W001]: G71 is already in force\n"));
+  EXPECT_EQ(result.err, "0 errors, 1 warning in 1 file\n");
+}
+
+TEST(IsolintUsage, RefusesWhatItDoesNotKnow) {
+  const std::vector<std::vector<std::string>> mistakes = {
+      {"isolint", "--no-such-option"},  {"isolint", "--format", "xml", "-"},
+      {"isolint", "--lang", "de", "-"}, {"isolint", "--color", "maybe", "-"},
+      {"isolint", "--jobs", "0", "-"},  {"isolint", "--jobs", "two", "-"},
+      {"isolint", "--format"},          {"isolint", "-", "-"},
+      {"isolint", "-", "other.iso"}};
+  for (const auto& mistake : mistakes) {
+    const CommandResult result = run_command(mistake, {.input = std::string(kCleanProgram)});
+    EXPECT_EQ(result.status, 2) << testing::PrintToString(mistake);
+    EXPECT_EQ(result.out, "") << testing::PrintToString(mistake);
+    EXPECT_THAT(result.err, StartsWith("isolint: ")) << testing::PrintToString(mistake);
+  }
+}
+
+TEST(IsolintUsage, NamesItsVersion) {
+  const CommandResult result = run_command({"isolint", "--version"});
+  EXPECT_THAT(result.out, MatchesRegex("isolint [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(result.status, 0);
+}
+
+TEST(IsolintUsage, HelpNamesEveryOption) {
+  const CommandResult result = run_command({"isolint", "--help"});
+  EXPECT_EQ(result.status, 0);
+  for (const std::string option : {"--format", "--lang", "--color", "--jobs", "--stdin-filename", "--explain",
+                                   "--list-rules", "--no-config", "--version", "--help"})
+    EXPECT_THAT(result.out, HasSubstr(option));
+}
+
+TEST(IsolintExplain, TellsAllAboutACode) {
+  const CommandResult result = run_command({"isolint", "--explain", "ISO031"});
+  EXPECT_THAT(result.out, StartsWith("ISO031 arc-center-mismatch (error, specification I.3.4.3.a)\n"));
+  EXPECT_THAT(result.out, HasSubstr("\nWrong:\n"));
+  EXPECT_THAT(result.out, HasSubstr("\nRight:\n"));
+  EXPECT_EQ(result.status, 0);
+}
+
+TEST(IsolintExplain, KnowsCodesInLowerCaseAndNames) {
+  const std::string expected = run_command({"isolint", "--explain", "ISO031"}).out;
+  EXPECT_EQ(run_command({"isolint", "--explain", "iso031"}).out, expected);
+  EXPECT_EQ(run_command({"isolint", "--explain", "arc-center-mismatch"}).out, expected);
+}
+
+TEST(IsolintExplain, SpeaksItalian) {
+  const CommandResult result = run_command({"isolint", "--explain", "ISO031", "--lang", "it"});
+  EXPECT_THAT(result.out, StartsWith("ISO031 arc-center-mismatch (errore, specifica I.3.4.3.a)\n"));
+  EXPECT_THAT(result.out, HasSubstr("\nGiusto:\n"));
+}
+
+TEST(IsolintExplain, SaysSoWhenThereIsNoSuchCode) {
+  for (const std::string code : {"ISO069", "ISO31", "W", "x"}) {
+    const CommandResult result = run_command({"isolint", "--explain", code});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(result.err, "isolint: unknown code: " + code + " (--list-rules)\n");
+  }
+}
+
+TEST(IsolintListRules, ListsEveryCodeOnALine) {
+  const CommandResult result = run_command({"isolint", "--list-rules"});
+  EXPECT_EQ(result.status, 0);
+  for (const std::string code : {"ISO001", "ISO068", "E001", "E009", "W001", "W003", "W191", "W192"})
+    EXPECT_THAT("\n" + result.out, HasSubstr("\n" + code + " ")) << code;
+  EXPECT_THAT(result.out, HasSubstr("error "));
+  EXPECT_THAT(run_command({"isolint", "--list-rules", "--lang", "it"}).out, HasSubstr("errore "));
+}
+
+/// What was asked for and could not be said is no success.
+class IsolintOutput : public testing::TestWithParam<std::vector<std::string>> {};
+
+TEST_P(IsolintOutput, FailsOnAFullDisk) {
+  const CommandResult result =
+      run_command(GetParam(), {.input = std::string(kBrokenProgram), .standard_output = StandardOutput::FullDisk});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("isolint: "));
+}
+
+TEST_P(IsolintOutput, FailsOnAClosedPipe) {
+  const CommandResult result =
+      run_command(GetParam(), {.input = std::string(kBrokenProgram), .standard_output = StandardOutput::ClosedPipe});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("isolint: "));
+}
+
+INSTANTIATE_TEST_SUITE_P(Commands, IsolintOutput,
+                         testing::Values(std::vector<std::string>{"isolint", "-"},
+                                         std::vector<std::string>{"isolint", "--format", "concise", "-"},
+                                         std::vector<std::string>{"isolint", "--format", "json", "-"},
+                                         std::vector<std::string>{"isolint", "--list-rules"},
+                                         std::vector<std::string>{"isolint", "--explain", "ISO031"}));
+
+TEST(IsolintOutputMessage, SaysWhyInTheReadersLanguage) {
+  const CommandResult english = run_command(
+      {"isolint", "-"}, {.input = std::string(kBrokenProgram), .standard_output = StandardOutput::FullDisk});
+  EXPECT_EQ(english.err, "isolint: cannot write the findings: No space left on device\n");
+  const CommandResult italian =
+      run_command({"isolint", "--lang", "it", "-"},
+                  {.input = std::string(kBrokenProgram), .standard_output = StandardOutput::FullDisk});
+  EXPECT_THAT(italian.err, StartsWith("isolint: scrittura non riuscita: "));
+}
+
+}  // namespace
+}  // namespace isocnc::commands

@@ -1,0 +1,292 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "programs.h"
+#include "run_command.h"
+#include "temporary_folder.h"
+
+namespace isocnc::commands {
+namespace {
+
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsSupersetOf;
+using testing::MatchesRegex;
+using testing::StartsWith;
+
+std::vector<json> events_in(const std::string& trace) {
+  std::vector<json> events;
+  std::istringstream lines(trace);
+  for (std::string line; std::getline(lines, line);) events.push_back(json::parse(line));
+  return events;
+}
+
+std::vector<std::string> kinds_in(const std::vector<json>& events) {
+  std::vector<std::string> kinds;
+  for (const json& event : events) kinds.push_back(event.at("kind"));
+  return kinds;
+}
+
+/// Runs a program from standard input and returns its trace.
+std::vector<json> trace_of(std::string_view program, std::vector<std::string> options = {}) {
+  options.insert(options.begin(), {"isorun", "--trace", "-", "-"});
+  return events_in(run_command(options, {.input = std::string(program)}).out);
+}
+
+std::set<std::string> keys_of(const json& event) {
+  std::set<std::string> keys;
+  for (const auto& [key, value] : event.items()) keys.insert(key);
+  return keys;
+}
+
+/// The keys of each kind of event; `spindle` has a speed or a number.
+const std::map<std::string, std::set<std::string>> kKeys = {
+    {"rapid", {"line", "kind", "from", "to", "lengthMm"}},
+    {"feed", {"line", "kind", "from", "to", "lengthMm"}},
+    {"arc", {"line", "kind", "from", "to", "center", "normal", "radius", "sweepDeg", "lengthMm"}},
+    {"dwell", {"line", "kind", "seconds"}},
+    {"tool", {"line", "kind", "head", "holder", "tool"}},
+    {"frame", {"line", "kind", "workpiece", "face"}},
+    {"jump", {"line", "kind", "taken", "target"}},
+    {"end", {"line", "kind"}},
+};
+
+TEST(IsorunTrace, OfEveryExampleHasTheKeysOfEachKind) {
+  for (const auto& entry : std::filesystem::directory_iterator(ISOCNC_SOURCE_DIR "/examples")) {
+    if (entry.path().extension() != ".iso") continue;
+    const CommandResult result = run_command({"isorun", "--trace", "-", entry.path()});
+    EXPECT_EQ(result.status, 0) << entry.path() << result.err;
+    EXPECT_EQ(result.err, "");
+    const std::vector<json> events = events_in(result.out);
+    ASSERT_FALSE(events.empty()) << entry.path();
+    for (const json& event : events) {
+      const auto keys = kKeys.find(event.at("kind"));
+      if (keys != kKeys.end()) {
+        EXPECT_THAT(keys_of(event), IsSupersetOf(keys->second)) << entry.path() << event;
+      }
+    }
+    EXPECT_EQ(events.back().at("kind"), "end");
+  }
+}
+
+TEST(IsorunTrace, TellsWhatHappensInItsOrder) {
+  const std::vector<json> events = trace_of(
+      "M06 T102003\n"
+      "S12000 M03\n"
+      "G92 X100 Y200 Z-50\n"
+      "G00 X10 Y20 Z5\n"
+      "G01 Z-3 F1000\n"
+      "G03 X20 Y20 I15 J20\n"
+      "G04 P0.5\n"
+      "M101 P1=5 P2=-2.5\n"
+      "G29 Z10 B90\n"
+      "G27\n"
+      "M02\n");
+  EXPECT_THAT(kinds_in(events), ElementsAre("tool", "spindle", "spindle", "frame", "rapid", "feed", "arc", "dwell", "m",
+                                            "frame", "frame", "end"));
+  EXPECT_EQ(events[0], json::parse(R"({"line": 1, "kind": "tool", "head": 1, "holder": 2, "tool": 3})"));
+  EXPECT_EQ(events[1], json::parse(R"({"line": 2, "kind": "spindle", "speed": 12000.0})"));
+  EXPECT_EQ(events[2], json::parse(R"({"line": 2, "kind": "spindle", "number": 3})"));
+  EXPECT_EQ(events[3],
+            json::parse(R"({"line": 3, "kind": "frame", "workpiece": [100.0, 200.0, -50.0], "face": null})"));
+  EXPECT_EQ(events[4].at("from"), json::parse("[0.0, 0.0, 0.0, 0.0, 0.0]"));
+  EXPECT_EQ(events[4].at("to"), json::parse("[110.0, 220.0, -45.0, 0.0, 0.0]"));
+  EXPECT_EQ(events[5].at("lengthMm"), 8.0);
+  EXPECT_EQ(events[6].at("center"), json::parse("[115.0, 220.0, -53.0]"));
+  EXPECT_EQ(events[6].at("normal"), json::parse("[0.0, 0.0, 1.0]"));
+  EXPECT_EQ(events[6].at("radius"), 5.0);
+  EXPECT_NEAR(events[6].at("sweepDeg").get<double>(), 180, 1e-9);
+  EXPECT_EQ(events[7], json::parse(R"({"line": 7, "kind": "dwell", "seconds": 0.5})"));
+  EXPECT_EQ(events[8],
+            json::parse(R"({"line": 8, "kind": "m", "number": 101, "parameters": {"P1": 5.0, "P2": -2.5}})"));
+  EXPECT_THAT(keys_of(events[9].at("face")), ElementsAre("i", "j", "k", "origin"));
+  EXPECT_EQ(events[9].at("face").at("origin"), json::parse("[0.0, 0.0, 10.0]"));
+  EXPECT_EQ(events[10].at("face"), nullptr);
+  EXPECT_EQ(events[11], json::parse(R"({"line": 11, "kind": "end"})"));
+}
+
+TEST(IsorunTrace, ToAFileLeavesTheSummaryOnStandardOutput) {
+  const TemporaryFolder folder;
+  const std::string trace = folder.path("trace.jsonl");
+  const CommandResult result = run_command({"isorun", "--trace", trace, "-"}, {.input = std::string(kCleanProgram)});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.out, StartsWith("result: ran to M02, line 3\n"));
+  std::stringstream written;
+  written << std::ifstream(trace).rdbuf();
+  EXPECT_THAT(kinds_in(events_in(written.str())), ElementsAre("tool", "rapid", "end"));
+}
+
+TEST(IsorunTrace, ThatCannotBeWrittenIsTrouble) {
+  EXPECT_EQ(run_command({"isorun", "--trace", "/dev/full", "-"}, {.input = std::string(kCleanProgram)}).status, 2);
+  EXPECT_EQ(run_command({"isorun", "--trace", "/no/such/folder/x", "-"}, {.input = std::string(kCleanProgram)}).status,
+            2);
+  for (const StandardOutput output : {StandardOutput::FullDisk, StandardOutput::ClosedPipe}) {
+    const CommandResult result =
+        run_command({"isorun", "--trace", "-", "-"}, {.input = std::string(kCleanProgram), .standard_output = output});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, StartsWith("isorun: "));
+  }
+}
+
+TEST(IsorunSummary, AddsUpWhatWasDone) {
+  const CommandResult result = run_command({"isorun", ISOCNC_SOURCE_DIR "/examples/pocket.iso"});
+  EXPECT_EQ(result.out,
+            "result: ran to M02, line 69\n"
+            "blocks: 63\n"
+            "rapids: 8 (1083.213 mm)\n"
+            "feed moves: 32, arcs: 14 (1698.201 mm)\n"
+            "final position (machine): X350.000 Y220.000 Z-155.500 B0.000 C0.000\n");
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(result.status, 0);
+}
+
+TEST(IsorunSummary, SpeaksItalian) {
+  const Surroundings clean{.input = std::string(kCleanProgram)};
+  EXPECT_THAT(run_command({"isorun", "--lang", "it", "-"}, clean).out,
+              StartsWith("esito: eseguito fino a M02, riga 3\n"));
+  const Surroundings italian{.input = std::string(kCleanProgram), .environment = {{"LANG", "it_IT.UTF-8"}}};
+  EXPECT_THAT(run_command({"isorun", "-"}, italian).out, StartsWith("esito: "));
+}
+
+TEST(IsorunSummary, ThatCannotBeWrittenIsTrouble) {
+  for (const StandardOutput output : {StandardOutput::FullDisk, StandardOutput::ClosedPipe}) {
+    const CommandResult result =
+        run_command({"isorun", "-"}, {.input = std::string(kCleanProgram), .standard_output = output});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, StartsWith("isorun: "));
+  }
+}
+
+TEST(IsorunError, StopsTheProgramAsTheControlWould) {
+  const CommandResult result =
+      run_command({"isorun", "--trace", "-", "-"}, {.input = "M06 T101001\nG00 X10\nG01\nG00 X20\nM02\n"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(kinds_in(events_in(result.out)), ElementsAre("tool", "rapid"));
+  EXPECT_EQ(result.err, "-:3: error: no coordinate follows G01 [ISO026]\n");
+}
+
+TEST(IsorunError, IsToldBesideTheSummary) {
+  const CommandResult result = run_command({"isorun", "-"}, {.input = std::string(kBrokenProgram)});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.out, StartsWith("result: stopped by an error, line 3\n"));
+  EXPECT_THAT(result.err, HasSubstr("[ISO026]"));
+}
+
+TEST(IsorunError, OfABlockLeavesNothingOfItDone) {
+  const std::vector<json> events = trace_of("M06 T101001\nS100 G00 X10 X20\nM02\n");
+  EXPECT_THAT(kinds_in(events), ElementsAre("tool"));
+}
+
+TEST(IsorunError, LetsNoControlCharacterThrough) {
+  const CommandResult result = run_command({"isorun", "-"}, {.input = "M06 T101001\n\x1b]0;title\x07\nM02\n"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.err.find('\x1b'), std::string::npos);
+}
+
+constexpr std::string_view kForkedProgram =
+    "M06 T101001\n"
+    "G00 X0\n"
+    "IF VGPL >= 1 GOTO N10\n"
+    "G00 X1\n"
+    "N10 G00 X2\n"
+    "IF V3 = 1.5 GOTO N20\n"
+    "G00 X3\n"
+    "N20 G00 X4\n"
+    "M02\n";
+
+std::vector<double> x_positions(const std::vector<json>& events) {
+  std::vector<double> positions;
+  for (const json& event : events)
+    if (event.at("kind") == "rapid") positions.push_back(event.at("to")[0]);
+  return positions;
+}
+
+TEST(IsorunPath, FollowsVgplAndTheRegisters) {
+  EXPECT_THAT(x_positions(trace_of(kForkedProgram)), ElementsAre(0, 1, 2, 3, 4));
+  EXPECT_THAT(x_positions(trace_of(kForkedProgram, {"--vgpl", "1"})), ElementsAre(0, 2, 3, 4));
+  EXPECT_THAT(x_positions(trace_of(kForkedProgram, {"--vgpl", "-2.5"})), ElementsAre(0, 1, 2, 3, 4));
+  EXPECT_THAT(x_positions(trace_of(kForkedProgram, {"--set", "V3=1.5"})), ElementsAre(0, 1, 2, 4));
+  EXPECT_THAT(x_positions(trace_of(kForkedProgram, {"--set", "V3=1.5", "--set", "V4=2", "--vgpl", "1"})),
+              ElementsAre(0, 2, 4));
+}
+
+TEST(IsorunPath, TellsOfJumpsTakenAndNot) {
+  const std::vector<json> events = trace_of(kForkedProgram, {"--vgpl", "1"});
+  std::vector<json> jumps;
+  for (const json& event : events)
+    if (event.at("kind") == "jump") jumps.push_back(event);
+  EXPECT_THAT(jumps, ElementsAre(json::parse(R"({"line": 3, "kind": "jump", "taken": true, "target": 5})"),
+                                 json::parse(R"({"line": 6, "kind": "jump", "taken": false, "target": 7})")));
+}
+
+TEST(IsorunUntil, StopsBeforeTheLine) {
+  const CommandResult result = run_command({"isorun", "--until", "2", "-"}, {.input = std::string(kBrokenProgram)});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.out, StartsWith("result: stopped where asked, line 2\n"));
+  EXPECT_THAT(kinds_in(trace_of(kCleanProgram, {"--until", "2"})), ElementsAre("tool"));
+  EXPECT_THAT(kinds_in(trace_of(kCleanProgram, {"--until", "100"})), ElementsAre("tool", "rapid", "end"));
+}
+
+TEST(IsorunUsage, RefusesWhatItDoesNotKnow) {
+  std::vector<std::vector<std::string>> mistakes = {{"isorun"},
+                                                    {"isorun", "--no-such-option", "-"},
+                                                    {"isorun", "--vgpl", "x", "-"},
+                                                    {"isorun", "--until", "0", "-"},
+                                                    {"isorun", "--lang", "de", "-"}};
+  for (const std::string setting :
+       {"V0=1", "V31=1", "V3", "V3=", "3=1", "V3=x", "V3=1x", "V3 = 1", "V1.5=2", "V3=nan", "V3=inf"})
+    mistakes.push_back({"isorun", "--set", setting, "-"});
+  for (const auto& mistake : mistakes) {
+    const CommandResult result = run_command(mistake, {.input = std::string(kCleanProgram)});
+    EXPECT_EQ(result.status, 2) << testing::PrintToString(mistake);
+    EXPECT_EQ(result.out, "") << testing::PrintToString(mistake);
+    EXPECT_THAT(result.err, StartsWith("isorun: ")) << testing::PrintToString(mistake);
+  }
+}
+
+TEST(IsorunUsage, NamesItsVersionAndOptions) {
+  EXPECT_THAT(run_command({"isorun", "--version"}).out, MatchesRegex("isorun [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  const CommandResult help = run_command({"isorun", "--help"});
+  EXPECT_EQ(help.status, 0);
+  for (const std::string option : {"--trace", "--vgpl", "--set", "--until", "--lang"})
+    EXPECT_THAT(help.out, HasSubstr(option));
+}
+
+TEST(IsorunInput, ThatCannotBeReadIsTrouble) {
+  const TemporaryFolder folder;
+  for (const std::string& path : {folder.path("gone.iso"), folder.path()}) {
+    const CommandResult result = run_command({"isorun", path});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, StartsWith("isorun: " + path + ": "));
+  }
+}
+
+TEST(IsorunInput, MayBeginWithAByteOrderMark) {
+  EXPECT_EQ(run_command({"isorun", "-"}, {.input = "\xEF\xBB\xBF" + std::string(kCleanProgram)}).status, 0);
+}
+
+TEST(IsorunInput, InUtf16IsRefused) {
+  const TemporaryFolder folder;
+  std::string wide = "\xFF\xFE";
+  for (const char c : kCleanProgram) wide += std::string{c, '\0'};
+  const CommandResult result = run_command({"isorun", folder.write("wide.iso", wide)});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("UTF-16"));
+}
+
+TEST(IsorunInput, WithoutM02StopsAtItsEnd) {
+  const CommandResult result = run_command({"isorun", "-"}, {.input = "M06 T101001\nG00 X1\n"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, HasSubstr("[ISO045]"));
+}
+
+}  // namespace
+}  // namespace isocnc::commands

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+
+#include <fmt/format.h>
+
+#include "interpreter/dialect/diagnostic_table.h"
+#include "interpreter/syntax/document.h"
+#include "interpreter/syntax/line_tree.h"
+
+namespace isocnc::support {
+
+inline std::string text_of(syntax::Span span) { return fmt::format("{}-{}", span.begin, span.end); }
+
+/// A finding with all that it carries. Numbers are shown so that equal texts mean equal numbers, an unknown one
+/// included.
+inline std::string text_of(const syntax::Finding& finding) {
+  std::string text = fmt::format("{} at {}", dialect::definition(finding.id).code, text_of(finding.span));
+  if (!finding.related.empty()) text += " related " + text_of(finding.related);
+  for (const double value : finding.values) text += fmt::format(" {}", value + 0.0);
+  return text;
+}
+
+/// Everything that a tree holds, so that equal texts mean equal trees.
+inline std::string text_of(const syntax::LineTree& tree) {
+  std::string text = fmt::format("[{}]\n", tree.text);
+  for (const syntax::Word& word : tree.words)
+    text += fmt::format("word {} at {} = {} digits {} owner {} flags {}\n", word.letter, text_of(word.span()),
+                        word.value, word.digits, word.owner, word.flags);
+  for (const syntax::Instruction& each : tree.instructions)
+    text +=
+        fmt::format("instruction {} row {} flags {} number {} command {} words {}-{}\n", static_cast<int>(each.kind),
+                    each.row, each.flags, each.number, each.command, each.begin, each.end);
+  for (const syntax::Span comment : tree.comments) text += "comment " + text_of(comment) + '\n';
+  for (const syntax::Finding& finding : tree.findings) text += text_of(finding) + '\n';
+  if (const syntax::Jump* jump = tree.jump)
+    text +=
+        fmt::format("jump if {} {} {} at {} to {} {} at {}\n", jump->variable, static_cast<int>(jump->comparison),
+                    jump->value, text_of(jump->if_span), jump->has_target, jump->target, text_of(jump->target_span));
+  return text + fmt::format("label {} feed {} spindle {} flags {}\n", tree.label, tree.feed, tree.spindle, tree.flags);
+}
+
+/// All trees of a document.
+inline std::string text_of(const syntax::Document& document) {
+  std::string text;
+  for (std::size_t i = 0; i < document.line_count(); ++i) text += text_of(document.line(i));
+  return text;
+}
+
+}  // namespace isocnc::support

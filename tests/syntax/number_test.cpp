@@ -1,0 +1,143 @@
+#include "interpreter/syntax/number.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+#include "tests/support/random.h"
+
+namespace isocnc::syntax {
+namespace {
+
+using support::Random;
+
+Number read(const std::string& text) { return scan_number(text.data(), text.data() + text.size()); }
+
+std::size_t length_of(const Number& number, const std::string& text) {
+  return static_cast<std::size_t>(number.end - text.data());
+}
+
+std::string random_digits(Random& random, int most) {
+  std::string digits;
+  for (int i = random.between(0, most); i > 0; --i) digits += random.any_of("0123456789");
+  return digits;
+}
+
+/// A number as I.2.1 allows it, of any length.
+std::string random_decimal(Random& random) {
+  const int most = random.one_in(8) ? 400 : random.one_in(4) ? 25 : 6;
+  std::string text;
+  if (random.one_in(3)) text += random.any_of("+-");
+  const std::string whole = random_digits(random, most);
+  text += whole;
+  const bool needs_decimals = whole.empty();
+  if (needs_decimals || random.one_in(2)) {
+    text += '.';
+    if (random.one_in(6)) text += std::string(random.below(350), '0');
+    text += random_digits(random, most);
+    if (needs_decimals) text += random.any_of("0123456789");
+  }
+  return text;
+}
+
+TEST(Number, HasTheValueThatStrtodGives) {
+  for (const std::uint64_t seed : support::seeds(20'000)) {
+    Random random(seed);
+    const std::string text = random_decimal(random);
+    const double expected = std::strtod(text.c_str(), nullptr);
+    const Number number = read(text);
+    EXPECT_FALSE(number.malformed) << "seed " << seed << ": " << text;
+    EXPECT_EQ(length_of(number, text), text.size()) << "seed " << seed << ": " << text;
+    if (std::isinf(expected)) {
+      EXPECT_TRUE(std::isnan(number.value)) << "seed " << seed << ": " << text;
+    } else {
+      EXPECT_EQ(number.value, expected) << "seed " << seed << ": " << text;
+    }
+  }
+}
+
+TEST(Number, MeansTheSameWithBlanksAndCommentsInside) {
+  for (const std::uint64_t seed : support::seeds(5'000)) {
+    Random random(seed);
+    const std::string plain = random_decimal(random);
+    std::string spaced;
+    for (const char c : plain) {
+      if (!spaced.empty())
+        while (random.one_in(3)) spaced += random.any_of({" ", "\t", "(a)", "(1.5)", "()", "(;()"});
+      spaced += c;
+    }
+    const Number expected = read(plain);
+    const Number number = read(spaced);
+    EXPECT_TRUE(number.value == expected.value || (std::isnan(number.value) && std::isnan(expected.value)))
+        << "seed " << seed << ": " << spaced;
+    EXPECT_FALSE(number.malformed) << "seed " << seed << ": " << spaced;
+    EXPECT_EQ(number.digits, expected.digits) << "seed " << seed << ": " << spaced;
+    EXPECT_EQ(number.is_signed, expected.is_signed) << "seed " << seed << ": " << spaced;
+    EXPECT_EQ(number.has_point, expected.has_point) << "seed " << seed << ": " << spaced;
+    EXPECT_EQ(length_of(number, spaced), spaced.size()) << "seed " << seed << ": " << spaced;
+  }
+}
+
+struct Spelling {
+  const char* text;
+  double value;
+  std::uint32_t digits;
+  bool is_signed;
+  bool has_point;
+};
+
+class WellFormed : public testing::TestWithParam<Spelling> {};
+
+TEST_P(WellFormed, IsReadAsWritten) {
+  const Spelling& expected = GetParam();
+  const Number number = read(expected.text);
+  EXPECT_FALSE(number.malformed);
+  EXPECT_EQ(number.value, expected.value);
+  EXPECT_EQ(number.digits, expected.digits);
+  EXPECT_EQ(number.is_signed, expected.is_signed);
+  EXPECT_EQ(number.has_point, expected.has_point);
+}
+
+INSTANTIATE_TEST_SUITE_P(Spellings, WellFormed,
+                         testing::Values(Spelling{"5", 5, 1, false, false}, Spelling{"5.", 5, 1, false, true},
+                                         Spelling{".5", 0.5, 1, false, true}, Spelling{"+5", 5, 1, true, false},
+                                         Spelling{"-.5", -0.5, 1, true, true}, Spelling{"+5.", 5, 1, true, true},
+                                         Spelling{"007", 7, 3, false, false}, Spelling{"1.500", 1.5, 4, false, true},
+                                         Spelling{"0", 0, 1, false, false}, Spelling{"- 5 . 65", -5.65, 3, true, true},
+                                         Spelling{"1(a)0", 10, 2, false, false},
+                                         Spelling{"9007199254740993", 9007199254740992.0, 16, false, false},
+                                         Spelling{"000000000000000000000001", 1, 24, false, false}));
+
+class Malformed : public testing::TestWithParam<const char*> {};
+
+TEST_P(Malformed, IsNoNumberYetReadToItsEnd) {
+  const std::string text = GetParam();
+  const Number number = read(text + " X1");
+  EXPECT_TRUE(number.malformed);
+  EXPECT_TRUE(std::isnan(number.value));
+  EXPECT_EQ(length_of(read(text), text), text.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(Spellings, Malformed,
+                         testing::Values(".", "+", "-", ",", "1.2.3", "1,5", "--1", "+-1", "1-", "1+2", "-.", "+.",
+                                         "1..", "..1", "1 . 2 . 3", "1(a),(b)5", "1234567890123456789012345,6"));
+
+TEST(Number, EndsBehindItsLastCharacter) {
+  for (const std::string behind : {" ", "\t", "X", "(a)", " (a) X", "(a", ";5", "\n5", "\r5", " \n5", "(a)\n5", ")5"}) {
+    const std::string text = "12.5" + behind;
+    const Number number = read(text);
+    EXPECT_EQ(length_of(number, text), 4u) << text;
+    EXPECT_EQ(number.value, 12.5) << text;
+  }
+}
+
+TEST(Number, BeyondADoubleIsUnknownAndTooSmallIsZero) {
+  EXPECT_TRUE(std::isnan(read(std::string(400, '9')).value));
+  EXPECT_FALSE(read(std::string(400, '9')).malformed);
+  EXPECT_EQ(read("." + std::string(400, '0') + "1").value, 0);
+}
+
+}  // namespace
+}  // namespace isocnc::syntax
