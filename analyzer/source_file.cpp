@@ -188,10 +188,12 @@ std::variant<SourceFile, SourceFile::Problem> SourceFile::map(int descriptor, st
   // Files that the kernel makes up as they are read (sysfs) have a size, but cannot be mapped.
   if (bytes == MAP_FAILED && errno == ENODEV) return read_stream(descriptor, language);
   if (bytes == MAP_FAILED) return Problem{cannot_read(errno, language)};
-  ::madvise(bytes, size, MADV_SEQUENTIAL);
   SourceFile file;
   file.mapped_ = {static_cast<char*>(bytes), Unmap{size}};
-  return checked(std::move(file), language);
+  std::variant<SourceFile, Problem> result = checked(std::move(file), language);
+  // Not before the check, which may run backward through a long line.
+  if (std::holds_alternative<SourceFile>(result)) ::madvise(bytes, size, MADV_SEQUENTIAL);
+  return result;
 }
 
 /// Looks at the head before it reads on, since a device may have no end.

@@ -15,7 +15,6 @@ class Arguments {
     for (std::uint16_t i = instruction.begin; i < instruction.end; ++i) {
       const syntax::Word& word = line.words[i];
       if (word.owner != instruction.number || (is_g && i == instruction.command)) continue;
-      if (!dialect::contains(dialect::kDimensionLetters, word.letter)) continue;
       if (present_ == 0) first_ = i;
       present_ |= dialect::letter_bit(word.letter);
       index_[slot(word.letter)] = i;

@@ -31,13 +31,14 @@ struct Word {
   static constexpr std::uint8_t kBreak = 16;     ///< An argument that stands apart from its command's series (D17).
   static constexpr std::uint8_t kReported = 32;  ///< What is wrong with it has been said (X=5): nothing more is.
 
-  double value = 0;        ///< NaN when malformed, missing or written twice.
-  std::uint32_t begin = 0;
-  std::uint32_t end = 0;
-  std::uint32_t digits = 0;  ///< How many digits were written.
-  std::uint16_t owner = 0;   ///< Index of the instruction that it belongs to, kNobody for none.
-  char letter = 0;           ///< Upper case.
-  std::uint8_t flags = 0;
+  // No initializers: a million lines make millions of words, and each is filled in at once.
+  double value;          ///< NaN when malformed, missing or written twice.
+  std::uint32_t begin;
+  std::uint32_t end;
+  std::uint32_t digits;  ///< How many digits were written.
+  std::uint16_t owner;   ///< Index of the instruction that it belongs to, kNobody for none.
+  char letter;           ///< Upper case.
+  std::uint8_t flags;
 
   static constexpr std::uint16_t kNobody = 0xFFFF;
 

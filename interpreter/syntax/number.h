@@ -29,52 +29,43 @@ Number scan_any_number(const char* p, const char* end);
 bool goes_on_behind_comment(const char* p, const char* end);
 }  // namespace detail
 
-namespace detail {
-
-/// The digits that start the eight bytes at `p`: how many there are (8: perhaps more), and what they say. Without a branch
-/// on the digits, whose number no processor can guess.
-inline std::uint32_t leading_digits(const char* p, std::uint64_t& value) {
+/// Reads a number of at most seven characters behind its sign, without anything inside; false when it is another, or when
+/// there is too little text behind it to tell. Does not look at what follows. Eight bytes are taken at once, and nothing
+/// branches on how many of them are digits, which no processor can guess.
+inline bool scan_short_number(const char* p, const char* end, Number& number) {
   static_assert(std::endian::native == std::endian::little);
+  if (end - p < 9) return false;
+  const std::uint64_t negative = *p == '-' ? 1 : 0;
+  const std::uint64_t is_signed = negative | (*p == '+' ? 1 : 0);
+  p += is_signed;
   std::uint64_t bytes;
   std::memcpy(&bytes, p, 8);
   bytes ^= 0x3030303030303030ULL;  // A digit becomes its value, anything else more than 9.
   const std::uint64_t others = ((bytes + 0x7676767676767676ULL) | bytes) & 0x8080808080808080ULL;
-  const auto count = static_cast<std::uint32_t>(std::countr_zero(others)) / 8;
-  bytes = count == 0 ? 0 : bytes << (64 - 8 * count);
-  bytes = bytes * 10 + (bytes >> 8);
-  value = (((bytes & 0x000000FF000000FFULL) * 0x000F424000000064ULL) +
-           (((bytes >> 16) & 0x000000FF000000FFULL) * 0x0000271000000001ULL)) >> 32;
-  return count;
-}
-
-inline constexpr std::uint64_t kWholePowersOfTen[] = {1, 10, 100, 1'000, 10'000, 100'000, 1'000'000, 10'000'000};
-
-}  // namespace detail
-
-/// Reads a number of at most seven digits before and behind its point, without anything inside; false when it is another,
-/// or when there is too little text behind it to tell. Does not look at what follows.
-inline bool scan_short_number(const char* p, const char* end, Number& number) {
-  if (end - p < 20) return false;
-  const bool negative = *p == '-';
-  number.is_signed = negative || *p == '+';
-  p += number.is_signed ? 1 : 0;
-  std::uint64_t mantissa;
-  const std::uint32_t digits = detail::leading_digits(p, mantissa);
-  p += digits;
+  if (others == 0) return false;
+  auto length = static_cast<std::uint32_t>(std::countr_zero(others)) / 8;
+  std::uint32_t digits = length;
   std::uint32_t decimals = 0;
-  number.has_point = *p == '.';
+  number.has_point = p[length] == '.';
   if (number.has_point) {
-    std::uint64_t fraction;
-    decimals = detail::leading_digits(++p, fraction);
-    if (decimals == 8) return false;
-    p += decimals;
-    mantissa = mantissa * detail::kWholePowersOfTen[decimals] + fraction;
+    const std::uint64_t behind_point = others & (others - 1);
+    if (behind_point == 0) return false;
+    const std::uint64_t whole = (std::uint64_t{1} << (8 * length)) - 1;
+    bytes = (bytes & whole) | ((bytes >> 8) & ~whole);  // The point goes; its digits close up.
+    length = static_cast<std::uint32_t>(std::countr_zero(behind_point)) / 8;
+    decimals = length - digits - 1;
+    digits = length - 1;
   }
-  number.digits = digits + decimals;
-  if (digits == 8 || number.digits == 0) return false;
+  if (digits == 0) return false;
+  bytes <<= 64 - 8 * digits;
+  bytes = bytes * 10 + (bytes >> 8);  // Eight digits to four pairs, to two fours, to one number.
+  const std::uint64_t mantissa = (((bytes & 0x000000FF000000FFULL) * 0x000F424000000064ULL) +
+                                  (((bytes >> 16) & 0x000000FF000000FFULL) * 0x0000271000000001ULL)) >> 32;
   const double magnitude = static_cast<double>(mantissa) / detail::kPowersOfTen[decimals];
-  number.value = negative ? -magnitude : magnitude;
-  number.end = p;
+  number.value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(magnitude) | negative << 63);
+  number.is_signed = is_signed != 0;
+  number.digits = digits;
+  number.end = p + length;
   return true;
 }
 

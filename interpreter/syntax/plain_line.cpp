@@ -8,11 +8,10 @@ static constexpr dialect::LetterSet kPlainLetters = dialect::letters("XYZBCIJKR"
 
 namespace {
 
-/// Gathers the words of a plain line before they are known to be one.
+/// What the words of a line amount to as long as it may be a plain one.
 struct PlainLine {
   static constexpr std::size_t kMostWords = 12;  // N, G, F and each letter once.
 
-  Word words[kMostWords];
   std::uint16_t count = 0;
   dialect::LetterSet taken = 0;
   int command = -1;          // The G, or the first coordinate.
@@ -46,7 +45,7 @@ struct PlainLine {
         word.owner = 0;
         return true;
       case 'N':
-        if (count > 0 || !word.is_plain_integer()) return false;
+        if (count > 0 || !word.is_plain_integer() || word.digits > 15) return false;
         has_label = true;
         label = static_cast<std::uint64_t>(word.value);
         return true;
@@ -67,8 +66,12 @@ struct PlainLine {
 bool LineParser::parse_plain_line(const char*& line_end) {
   PlainLine line;
   const char* p = begin_;
+  // Words are written where they stay.
+  store_.words_.resize(line_.first_word + PlainLine::kMostWords);
+  Word* const words = store_.words_.data() + line_.first_word;
   const auto give_up = [&] {
     store_.comments_.resize(line_.first_comment);
+    store_.words_.resize(line_.first_word);
     return false;
   };
   for (;;) {
@@ -94,8 +97,14 @@ bool LineParser::parse_plain_line(const char*& line_end) {
     const char* const start = p++;
     while (p != end_ && is_blank(*p)) ++p;
     Number number;
-    if (!scan_short_number(p, end_, number)) return give_up();
-    Word& word = line.words[line.count];
+    if (!scan_short_number(p, end_, number)) {
+      if (p == end_ || !is_number_char(*p)) return give_up();
+      number = scan_number(p, end_);
+      const bool has_more_inside =
+          number.end - p != number.digits + (number.is_signed ? 1 : 0) + (number.has_point ? 1 : 0);
+      if (number.malformed || has_more_inside) return give_up();
+    }
+    Word& word = words[line.count];
     word.letter = letter;
     word.begin = column(start);
     word.end = column(number.end);
@@ -110,17 +119,22 @@ bool LineParser::parse_plain_line(const char*& line_end) {
   if (!line.is_complete()) return give_up();
   line_end = p;
 
-  line_.length = column(p);
-  line_.words = line.count;
-  line_.feed = line.feed;
-  line_.comments = static_cast<std::uint32_t>(store_.comments_.size() - line_.first_comment);
+  store_.words_.resize(line_.first_word + line.count);
+  TreeStore::Line& added = store_.lines_.emplace_back();
+  added.length = column(p);
+  added.first_word = line_.first_word;
+  added.first_instruction = line_.first_instruction;
+  added.first_comment = line_.first_comment;
+  added.first_finding = line_.first_finding;
+  added.words = line.count;
+  added.feed = line.feed;
+  added.comments = static_cast<std::uint32_t>(store_.comments_.size() - line_.first_comment);
   if (line.has_label) {
-    line_.flags = LineTree::kHasLabel;
-    line_.label = line.label;
+    added.flags = LineTree::kHasLabel;
+    added.label = line.label;
   }
-  store_.words_.insert(store_.words_.end(), line.words, line.words + line.count);
   if (line.command >= 0) {
-    line_.instructions = 1;
+    added.instructions = 1;
     const auto command = static_cast<std::uint16_t>(line.command);
     const bool is_first = command == (line.has_label ? 1 : 0);
     store_.instructions_.push_back(
@@ -132,7 +146,6 @@ bool LineParser::parse_plain_line(const char*& line_end) {
          .begin = command,
          .end = line.behind});
   }
-  store_.lines_.push_back(line_);
   return true;
 }
 

@@ -78,7 +78,7 @@ TEST(Groups, ReducingLeavesWhatFits) {
 
 TEST(Groups, ReducingKeepsToItsLimitWhateverDiffers) {
   Groups groups;
-  for (const std::uint8_t plane : {17, 18, 19}) {
+  for (const std::uint8_t plane : std::initializer_list<std::uint8_t>{17, 18, 19}) {
     Group group = group_at(1);
     group.state.set_mode(dialect::ModalGroup::Plane, plane);
     groups.add(group);
