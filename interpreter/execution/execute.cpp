@@ -13,7 +13,9 @@ using syntax::InstructionKind;
 using syntax::Word;
 
 void execute(const syntax::LineTree& line, State& state, const Setup& setup, Sink& sink) {
-  if (!line.is_empty()) Executor(line, state, setup, sink).run();
+  if (line.is_empty()) return;
+  Executor executor(line, state, setup, sink);
+  if (!executor.run_plain()) executor.run();
 }
 
 void Executor::run() {

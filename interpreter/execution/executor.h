@@ -28,6 +28,9 @@ class Executor {
       : line_(line), state_(state), setup_(setup), sink_(sink) {}
 
   void run();
+  /// Executes a line of nothing but a linear motion that changes positions and nothing else, if it is one; false, with
+  /// nothing changed, when there may be more to it.
+  bool run_plain();
 
  private:
   void execute_g(const syntax::Instruction& instruction);

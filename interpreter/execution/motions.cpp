@@ -40,6 +40,32 @@ const Plane& plane_in_force(const State& state) {
   }
 }
 
+/// Most blocks of most programs, when nobody asks for effects: a rapid or a line in force goes on, with tool and feed known
+/// to be there. All that run() would do for them is to move the axes.
+bool Executor::run_plain() {
+  if (sink_.wants_effects() || line_.instructions.size() != 1 || line_.spindle >= 0) return false;
+  const Instruction& instruction = line_.instructions.front();
+  const std::uint8_t mode = state_.mode(dialect::ModalGroup::Motion);
+  if (instruction.kind != InstructionKind::Continuation || mode > 1 || !state_.tool_selected || state_.unknown != 0)
+    return false;
+  const bool is_feed = mode == 1;
+  if (is_feed ? !state_.feed_given || state_.inverse_time() || line_.feed >= 0 : line_.feed >= 0) return false;
+  const double scale = state_.mm_per_unit();
+  const bool incremental = state_.incremental();
+  geometry::Pose target = state_.position;
+  for (std::uint16_t i = instruction.begin; i < instruction.end; ++i) {
+    const syntax::Word& word = line_.words[i];
+    const auto axis = static_cast<unsigned>(word.letter - 'X');
+    if (axis > 2 || !std::isfinite(word.value)) return false;
+    double& position = target.tip[axis];
+    position = (incremental ? position : 0) + word.value * scale;
+  }
+  state_.position = target;
+  state_.exact_stop_fits = is_feed;
+  state_.tool_awaited = false;
+  return true;
+}
+
 void Executor::motion(const Instruction& instruction) {
   const bool is_continuation = instruction.kind == InstructionKind::Continuation;
   const Arguments arguments(line_, instruction);

@@ -15,12 +15,8 @@ class LineParser {
 
   /// Returns where the line's text ends.
   const char* parse();
-  /// The same without the short cut for plain lines.
-  const char* parse_any_line();
 
  private:
-  bool parse_plain_line(const char*& line_end);
-
   // Characters into words (lexer.cpp).
   const char* lex();
   const char* lex_word(const char* p);

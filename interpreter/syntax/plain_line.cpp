@@ -1,5 +1,5 @@
-#include "interpreter/syntax/line_parser.h"
 #include "interpreter/syntax/number.h"
+#include "interpreter/syntax/tree_store.h"
 
 namespace isocnc::syntax {
 
@@ -62,44 +62,47 @@ struct PlainLine {
 }  // namespace
 
 /// Most lines of most programs hold at most an N, a motion G, coordinates and F, each once and well written. They are
-/// parsed in one go, into the very tree that the general way gives them. False, with nothing changed, for any other line.
-bool LineParser::parse_plain_line(const char*& line_end) {
+/// parsed in one go, into the very tree that the general way gives them. Null, with nothing changed, for any other line.
+const char* TreeStore::append_plain_line(const char* begin, const char* end) {
   PlainLine line;
-  const char* p = begin_;
+  const char* p = begin;
+  const std::size_t first_word = words_.size();
+  const std::size_t first_comment = comments_.size();
+  const auto column = [begin](const char* at) { return static_cast<std::uint32_t>(at - begin); };
   // Words are written where they stay.
-  store_.words_.resize(line_.first_word + PlainLine::kMostWords);
-  Word* const words = store_.words_.data() + line_.first_word;
-  const auto give_up = [&] {
-    store_.comments_.resize(line_.first_comment);
-    store_.words_.resize(line_.first_word);
-    return false;
+  words_.resize(first_word + PlainLine::kMostWords);
+  Word* const words = words_.data() + first_word;
+  const auto give_up = [&]() -> const char* {
+    comments_.resize(first_comment);
+    words_.resize(first_word);
+    return nullptr;
   };
   for (;;) {
-    while (p != end_ && is_blank(*p)) ++p;
-    if (p == end_ || is_line_end(*p)) break;
+    while (p != end && is_blank(*p)) ++p;
+    if (p == end || is_line_end(*p)) break;
     const char letter = upper(*p);
     if (letter < 'A' || letter > 'Z') {
       if (letter == ';') {
-        const char* const comment_end = find_line_end(p, end_);
-        store_.comments_.push_back({column(p), column(comment_end)});
+        const char* const comment_end = find_line_end(p, end);
+        comments_.push_back({column(p), column(comment_end)});
         p = comment_end;
         break;
       }
       if (letter != '(') return give_up();
       const char* close = p;
-      while (close != end_ && !is_line_end(*close) && *close != ')') ++close;
-      if (close == end_ || *close != ')') return give_up();
-      store_.comments_.push_back({column(p), column(close) + 1});
+      while (close != end && !is_line_end(*close) && *close != ')') ++close;
+      if (close == end || *close != ')') return give_up();
+      comments_.push_back({column(p), column(close) + 1});
       p = close + 1;
       continue;
     }
     if (line.count == PlainLine::kMostWords) return give_up();
     const char* const start = p++;
-    while (p != end_ && is_blank(*p)) ++p;
+    while (p != end && is_blank(*p)) ++p;
     Number number;
-    if (!scan_short_number(p, end_, number)) {
-      if (p == end_ || !is_number_char(*p)) return give_up();
-      number = scan_number(p, end_);
+    if (!scan_short_number(p, end, number)) {
+      if (p == end || !is_number_char(*p)) return give_up();
+      number = scan_number(p, end);
       const bool has_more_inside =
           number.end - p != number.digits + (number.is_signed ? 1 : 0) + (number.has_point ? 1 : 0);
       if (number.malformed || has_more_inside) return give_up();
@@ -117,18 +120,17 @@ bool LineParser::parse_plain_line(const char*& line_end) {
     p = number.end;
   }
   if (!line.is_complete()) return give_up();
-  line_end = p;
 
-  store_.words_.resize(line_.first_word + line.count);
-  TreeStore::Line& added = store_.lines_.emplace_back();
+  words_.resize(first_word + line.count);
+  Line& added = lines_.emplace_back();
   added.length = column(p);
-  added.first_word = line_.first_word;
-  added.first_instruction = line_.first_instruction;
-  added.first_comment = line_.first_comment;
-  added.first_finding = line_.first_finding;
+  added.first_word = static_cast<std::uint32_t>(first_word);
+  added.first_instruction = static_cast<std::uint32_t>(instructions_.size());
+  added.first_comment = static_cast<std::uint32_t>(first_comment);
+  added.first_finding = static_cast<std::uint32_t>(findings_.size());
   added.words = line.count;
   added.feed = line.feed;
-  added.comments = static_cast<std::uint32_t>(store_.comments_.size() - line_.first_comment);
+  added.comments = static_cast<std::uint32_t>(comments_.size() - first_comment);
   if (line.has_label) {
     added.flags = LineTree::kHasLabel;
     added.label = line.label;
@@ -137,7 +139,7 @@ bool LineParser::parse_plain_line(const char*& line_end) {
     added.instructions = 1;
     const auto command = static_cast<std::uint16_t>(line.command);
     const bool is_first = command == (line.has_label ? 1 : 0);
-    store_.instructions_.push_back(
+    instructions_.push_back(
         {.kind = line.row == dialect::kUnknownGCode ? InstructionKind::Continuation : InstructionKind::G,
          .row = line.row,
          .flags = is_first ? Instruction::kFirst : std::uint8_t{0},
@@ -146,7 +148,7 @@ bool LineParser::parse_plain_line(const char*& line_end) {
          .begin = command,
          .end = line.behind});
   }
-  return true;
+  return p;
 }
 
 }  // namespace isocnc::syntax

@@ -11,12 +11,6 @@ using namespace dialect::literals;
 using dialect::contains;
 
 const char* LineParser::parse() {
-  const char* plain_end;
-  if (parse_plain_line(plain_end)) return plain_end;
-  return parse_any_line();
-}
-
-const char* LineParser::parse_any_line() {
   const char* const end = lex();
   line_.length = column(end);
   structure();

@@ -4,7 +4,14 @@
 
 namespace isocnc::syntax {
 
-const char* TreeStore::append_line(const char* begin, const char* end) { return LineParser(*this, begin, end).parse(); }
+const char* TreeStore::append_line(const char* begin, const char* end) {
+  if (const char* const line_end = append_plain_line(begin, end)) return line_end;
+  return append_any_line(begin, end);
+}
+
+const char* TreeStore::append_any_line(const char* begin, const char* end) {
+  return LineParser(*this, begin, end).parse();
+}
 
 void TreeStore::append_copy(const TreeStore& other, std::size_t index) {
   Line line = other.lines_[index];

@@ -83,7 +83,7 @@ TEST(ManyPaths, DiamondsOfIncrementalMovesEnd) {
 TEST(ManyPaths, WhatIsGivenUpCausesNoFinding) {
   std::string text = std::string(kHead) + "G91\n";
   for (int i = 1; i <= 200; ++i) text += skippable(i, fmt::format("G1 X{}.{:03}", i, i));
-  text += "G90\nG2 X10 Y0 I5 J0\nG1 X0 Y0 Z0\nG2 X10 Y0 I5 J0\nG2 X20 Y0 I14 J0\nM02\n";
+  text += "G2 X10 Y0 I5 J0\nG90\nG1 X0 Y0 Z0\nG2 X10 Y0 I5 J0\nG2 X20 Y0 I14 J0\nM02\n";
   EXPECT_THAT(codes(check(text)), ElementsAre("W191", "ISO031"));
 }
 

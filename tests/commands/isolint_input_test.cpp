@@ -251,7 +251,8 @@ TEST_P(IsolintHugeLineOfMistakes, EndsInTime) {
   const TemporaryFolder folder;
   const std::string file =
       folder.write("huge.iso", "M06 T101001\n" + repeated("G00 X1 Y2 ", 100 * kMegabyte) + "\nM02\n");
-  const CommandResult result = run_command({"isolint", "--format", GetParam(), file});
+  const CommandResult result =
+      run_command({"isolint", "--format", GetParam(), file}, {.limit = std::chrono::seconds(60)});
   EXPECT_FALSE(result.timed_out);
   EXPECT_EQ(result.status, 1);
   EXPECT_THAT(result.out, HasSubstr("W192"));

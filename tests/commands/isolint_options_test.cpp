@@ -93,29 +93,38 @@ TEST(IsolintListRules, ListsEveryCodeOnALine) {
   EXPECT_THAT(run_command({"isolint", "--list-rules", "--lang", "it"}).out, HasSubstr("errore "));
 }
 
+struct Saying {
+  std::string name;
+  std::vector<std::string> command;
+};
+
 /// What was asked for and could not be said is no success.
-class IsolintOutput : public testing::TestWithParam<std::vector<std::string>> {};
+class IsolintOutput : public testing::TestWithParam<Saying> {
+ protected:
+  static CommandResult say_to(StandardOutput output) {
+    return run_command(GetParam().command, {.input = std::string(kBrokenProgram), .standard_output = output});
+  }
+};
 
 TEST_P(IsolintOutput, FailsOnAFullDisk) {
-  const CommandResult result =
-      run_command(GetParam(), {.input = std::string(kBrokenProgram), .standard_output = StandardOutput::FullDisk});
+  const CommandResult result = say_to(StandardOutput::FullDisk);
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, HasSubstr("isolint: "));
 }
 
 TEST_P(IsolintOutput, FailsOnAClosedPipe) {
-  const CommandResult result =
-      run_command(GetParam(), {.input = std::string(kBrokenProgram), .standard_output = StandardOutput::ClosedPipe});
+  const CommandResult result = say_to(StandardOutput::ClosedPipe);
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, HasSubstr("isolint: "));
 }
 
 INSTANTIATE_TEST_SUITE_P(Commands, IsolintOutput,
-                         testing::Values(std::vector<std::string>{"isolint", "-"},
-                                         std::vector<std::string>{"isolint", "--format", "concise", "-"},
-                                         std::vector<std::string>{"isolint", "--format", "json", "-"},
-                                         std::vector<std::string>{"isolint", "--list-rules"},
-                                         std::vector<std::string>{"isolint", "--explain", "ISO031"}));
+                         testing::Values(Saying{"Text", {"isolint", "-"}},
+                                         Saying{"Concise", {"isolint", "--format", "concise", "-"}},
+                                         Saying{"Json", {"isolint", "--format", "json", "-"}},
+                                         Saying{"ListRules", {"isolint", "--list-rules"}},
+                                         Saying{"Explain", {"isolint", "--explain", "ISO031"}}),
+                         [](const auto& tested) { return tested.param.name; });
 
 TEST(IsolintOutputMessage, SaysWhyInTheReadersLanguage) {
   const CommandResult english = run_command(

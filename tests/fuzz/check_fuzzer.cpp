@@ -1,0 +1,51 @@
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "analyzer/check_text.h"
+#include "interpreter/syntax/document.h"
+#include "require.h"
+#include "tests/support/report_text.h"
+
+namespace isocnc::fuzz {
+
+using analyzer::LocatedFinding;
+
+static void check_places(std::string_view text, const analyzer::Report& report) {
+  const syntax::Document document(analyzer::without_byte_order_mark(text));
+  for (const LocatedFinding& located : report.findings) {
+    require(located.line < document.line_count(), "findings stand on lines of the text");
+    const std::size_t length = document.line(located.line).text.size();
+    const syntax::Span span = located.finding.span;
+    require(span.begin <= span.end && span.end <= length, "findings lie within their line");
+    require(located.finding.related.end <= length, "related places lie within their line");
+    require(located.path < static_cast<std::int32_t>(report.paths.size()), "findings name paths of the report");
+  }
+  const auto by_place = [](const LocatedFinding& a, const LocatedFinding& b) {
+    return a.line != b.line ? a.line < b.line : a.finding.span.begin < b.finding.span.begin;
+  };
+  require(std::is_sorted(report.findings.begin(), report.findings.end(), by_place), "findings are sorted");
+}
+
+/// Repeats the text until it makes several batches, so that two jobs have something to share.
+static std::string several_batches(std::string_view text) {
+  constexpr std::size_t kBatches = 40 * 1024;
+  std::string all(text);
+  while (!text.empty() && all.size() < kBatches) all.append("\n").append(text);
+  return all;
+}
+
+static void check_program(std::string_view text) {
+  check_places(text, analyzer::check_text(text, {}));
+  if (text.size() % 16 != 0) return;  // Long texts are slow; some of them do.
+  const std::string longer = several_batches(text);
+  const auto alone = support::texts_of(analyzer::check_text(longer, {}, 1));
+  require(alone == support::texts_of(analyzer::check_text(longer, {}, 2)), "two jobs give the same report as one");
+}
+
+}  // namespace isocnc::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  isocnc::fuzz::check_program(isocnc::fuzz::as_text(data, size));
+  return 0;
+}

@@ -1,0 +1,66 @@
+#include <algorithm>
+#include <cstdint>
+
+#include "analyzer/analysis.h"
+#include "analyzer/check_text.h"
+#include "require.h"
+#include "tests/support/report_text.h"
+
+namespace isocnc::fuzz {
+
+using syntax::Document;
+using syntax::Position;
+
+/// Takes what it needs from the front of the input.
+class Input {
+ public:
+  explicit Input(std::string_view bytes) : bytes_(bytes) {}
+
+  bool empty() const { return bytes_.empty(); }
+  std::size_t number() {
+    if (bytes_.empty()) return 0;
+    const auto value = static_cast<unsigned char>(bytes_.front());
+    bytes_.remove_prefix(1);
+    return value;
+  }
+  std::string_view text(std::size_t size) {
+    const std::string_view taken = bytes_.substr(0, size);
+    bytes_.remove_prefix(taken.size());
+    return taken;
+  }
+
+ private:
+  std::string_view bytes_;
+};
+
+/// An edit is four bytes of places, one of length, and its text.
+static void edit_once(Input& input, Document& document) {
+  const Position begin{input.number() % (document.line_count() + 1), input.number() % 64};
+  const Position end{begin.line + input.number() % 8, input.number() % 64};
+  document.replace(begin, end, input.text(input.number() % 48));
+}
+
+static void check_document(std::string_view bytes) {
+  Input input(bytes);
+  const execution::Setup setup;
+  Document document(input.text(2 * input.number()));
+  analyzer::Analysis analysis(document, setup);
+  while (!input.empty()) {
+    edit_once(input, document);
+    analysis.update();
+  }
+  const std::string text = document.text();
+  require(support::text_of(document) == support::text_of(Document(text)), "an edited document equals a fresh one");
+  const auto report = support::texts_of(analysis.report());
+  require(report == support::texts_of(analyzer::Analysis(document, setup).report()),
+          "an edited analysis equals a fresh one");
+  if (analyzer::without_byte_order_mark(text).size() != text.size()) return;  // A document has none.
+  require(report == support::texts_of(analyzer::check_text(text, setup)), "an analysis equals a check of the text");
+}
+
+}  // namespace isocnc::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  isocnc::fuzz::check_document(isocnc::fuzz::as_text(data, size));
+  return 0;
+}
