@@ -46,12 +46,33 @@ Frontier Checker::start(const execution::Setup& setup, const JumpMap& jumps) {
   return frontier;
 }
 
+static void sort_by_column(std::vector<LocatedFinding>& findings, std::size_t first) {
+  if (findings.size() - first > 1)
+    std::stable_sort(findings.begin() + static_cast<std::ptrdiff_t>(first), findings.end(),
+                     [](const LocatedFinding& a, const LocatedFinding& b) {
+                       return a.finding.span.begin < b.finding.span.begin;
+                     });
+}
+
+/// A program without jumps has one path and one state.
+void Checker::check_straight(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+  if (frontier.live.empty()) return;
+  const std::size_t first = outcome.findings.size();
+  for (const Finding& finding : line.findings) outcome.findings.push_back({line_number, finding});
+  execution::State& state = frontier.live[0].state;
+  Listener listener(line_number, outcome);
+  execution::execute(line, state, setup_, listener);
+  sort_by_column(outcome.findings, first);
+  if (state.ended) frontier.live.clear();
+}
+
 void Checker::check(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   if (!line.words.empty() || !line.comments.empty() || !line.findings.empty()) {
     outcome.has_text = true;
     outcome.last_text_line = line_number;
   }
-  if (!jumps_.empty() && line.has_label()) arrive(line, line_number, outcome);
+  if (jumps_.empty()) return check_straight(line, line_number, outcome);
+  if (line.has_label()) arrive(line, line_number, outcome);
   Groups& live = frontier.live;
   if (live.empty()) {
     if (line.jump && line.jump->has_target) ++frontier.next_jump;
@@ -59,18 +80,9 @@ void Checker::check(const LineTree& line, std::uint64_t line_number, Outcome& ou
   }
   const std::size_t first = outcome.findings.size();
   for (const Finding& finding : line.findings) outcome.findings.push_back({line_number, finding});
-  if (live.size() == 1 && jumps_.empty()) {
-    Listener listener(line_number, outcome);
-    execution::execute(line, live[0].state, setup_, listener);
-  } else {
-    execute_in_all_groups(line, line_number, outcome);
-  }
+  execute_in_all_groups(line, line_number, outcome);
   if (line.jump && line.jump->has_target) branch(line, line_number, outcome);
-  if (outcome.findings.size() - first > 1)
-    std::stable_sort(outcome.findings.begin() + static_cast<std::ptrdiff_t>(first), outcome.findings.end(),
-                     [](const LocatedFinding& a, const LocatedFinding& b) {
-                       return a.finding.span.begin < b.finding.span.begin;
-                     });
+  sort_by_column(outcome.findings, first);
   if (!live.empty() && live[0].state.ended) live.clear();  // M02 ends every path through it.
 }
 

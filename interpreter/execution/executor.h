@@ -5,6 +5,7 @@
 
 #include "interpreter/execution/arguments.h"
 #include "interpreter/execution/execute.h"
+#include "interpreter/geometry/arc.h"
 
 namespace isocnc::execution {
 
@@ -55,7 +56,9 @@ class Executor {
   void take_feed();
   Feed feed_in_force() const;
   void move_to(const Arguments& arguments);
-  void arc(const Arguments& arguments, const dialect::GCode& code, syntax::Span place, Move& move);
+  void move_with_effects(const Arguments& arguments, const dialect::GCode& code, syntax::Span place);
+  void arc(const Arguments& arguments, const dialect::GCode& code, syntax::Span place, Move* move);
+  void report_circle(const Arguments& arguments, const geometry::Circle& circle, const Plane& plane);
   bool arc_is_described(const Arguments& arguments, const Plane& plane, syntax::Span place);
 
   // frames.cpp

@@ -85,26 +85,29 @@ void Executor::motion(const Instruction& instruction) {
     return;
   }
   check_first_motion(place);
-  Move move;
   if (code.number != 0) {
     check_feed(place);
     const bool has_only_linear = (arguments.present() & dialect::kRotaryLetters) == 0;
-    if (!has_only_linear && !state_.five_axis()) check_rotary_axes(arguments, code, place);
+    if (!state_.five_axis() && (!has_only_linear || (arguments.present() & dialect::kLinearLetters) == 0))
+      check_rotary_axes(arguments, code, place);
   }
-  const bool wants_effects = sink_.wants_effects();
-  if (wants_effects) {
-    move.kind = code.number == 0 ? MoveKind::Rapid : MoveKind::Feed;
-    move.from = state_.position;
-    if (code.number != 0) {
-      const Feed feed = feed_in_force();
-      const bool rotary_only = (arguments.present() & dialect::kLinearLetters) == 0;
-      move.inverse_time = state_.inverse_time();
-      move.feed = feed.number * (rotary_only || move.inverse_time ? 1 : feed.mm_per_unit);
-    }
-  }
-  if (code.is_arc()) arc(arguments, code, place, move);
+  if (sink_.wants_effects()) return move_with_effects(arguments, code, place);
+  if (code.is_arc()) arc(arguments, code, place, nullptr);
   move_to(arguments);
-  if (!wants_effects) return;
+}
+
+void Executor::move_with_effects(const Arguments& arguments, const GCode& code, Span place) {
+  Move move;
+  move.kind = code.number == 0 ? MoveKind::Rapid : MoveKind::Feed;
+  move.from = state_.position;
+  if (code.number != 0) {
+    const Feed feed = feed_in_force();
+    const bool rotary_only = (arguments.present() & dialect::kLinearLetters) == 0;
+    move.inverse_time = state_.inverse_time();
+    move.feed = feed.number * (rotary_only || move.inverse_time ? 1 : feed.mm_per_unit);
+  }
+  if (code.is_arc()) arc(arguments, code, place, &move);
+  move_to(arguments);
   move.to = state_.position;
   sink_.move(move, state_);
 }
@@ -222,7 +225,22 @@ bool Executor::arc_is_described(const Arguments& arguments, const Plane& plane, 
   return true;
 }
 
-void Executor::arc(const Arguments& arguments, const GCode& code, Span place, Move& move) {
+void Executor::report_circle(const Arguments& arguments, const geometry::Circle& circle, const Plane& plane) {
+  const Span centers = arguments.span_of(dialect::kCenterLetters);
+  switch (circle.problem) {
+    case ArcProblem::None: break;
+    case ArcProblem::CenterUndeterminedByU: return report(plane.undetermined_by_u, centers);
+    case ArcProblem::CenterUndeterminedByV: return report(plane.undetermined_by_v, centers);
+    case ArcProblem::CenterMismatch: return report("arc-center-mismatch"_diag, centers, {circle.found, circle.wanted});
+    case ArcProblem::RadiusMismatch:
+      return report("arc-radius-mismatch"_diag, arguments.word('R').span(), {circle.found, circle.wanted});
+    case ArcProblem::RadiusTooSmall:
+      return report("arc-radius-too-small"_diag, arguments.word('R').span(), {circle.found, circle.wanted});
+  }
+}
+
+/// Judges an arc, and works it out where `move` wants to know.
+void Executor::arc(const Arguments& arguments, const GCode& code, Span place, Move* move) {
   const Plane& plane = plane_in_force(state_);
   if (!arc_is_described(arguments, plane, place)) return;
   const double scale = state_.mm_per_unit();
@@ -247,27 +265,16 @@ void Executor::arc(const Arguments& arguments, const GCode& code, Span place, Mo
   if (!known) return;
 
   const geometry::Circle circle = geometry::find_circle(given, setup_.arc_tolerance);
-  const Span centers = arguments.span_of(dialect::kCenterLetters);
-  switch (circle.problem) {
-    case ArcProblem::None: break;
-    case ArcProblem::CenterUndeterminedByU: return report(plane.undetermined_by_u, centers);
-    case ArcProblem::CenterUndeterminedByV: return report(plane.undetermined_by_v, centers);
-    case ArcProblem::CenterMismatch:
-      return report("arc-center-mismatch"_diag, centers, {circle.found, circle.wanted});
-    case ArcProblem::RadiusMismatch:
-      return report("arc-radius-mismatch"_diag, arguments.word('R').span(), {circle.found, circle.wanted});
-    case ArcProblem::RadiusTooSmall:
-      return report("arc-radius-too-small"_diag, arguments.word('R').span(), {circle.found, circle.wanted});
-  }
-  if (!sink_.wants_effects() || circle.goes_nowhere) return;
-  move.kind = MoveKind::Arc;
-  move.center = state_.position.tip;
-  move.center[plane.u] += circle.center.u;
-  move.center[plane.v] += circle.center.v;
-  move.normal_axis = plane.normal;
-  move.normal = Vec3::Unit(plane.normal);
-  move.radius = circle.center.norm();
-  move.sweep_deg = geometry::sweep_deg(circle.center, given.end, given.counterclockwise);
+  if (circle.problem != ArcProblem::None) return report_circle(arguments, circle, plane);
+  if (!move || circle.goes_nowhere) return;
+  move->kind = MoveKind::Arc;
+  move->center = state_.position.tip;
+  move->center[plane.u] += circle.center.u;
+  move->center[plane.v] += circle.center.v;
+  move->normal_axis = plane.normal;
+  move->normal = Vec3::Unit(plane.normal);
+  move->radius = circle.center.norm();
+  move->sweep_deg = geometry::sweep_deg(circle.center, given.end, given.counterclockwise);
 }
 
 }  // namespace isocnc::execution

@@ -1,5 +1,6 @@
 #include "interpreter/geometry/arc.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -41,7 +42,7 @@ static Circle circle_from_radius(const ArcGiven& given, double tolerance) {
   const double radius = *given.radius;
   if (!(radius > 0) || chord - 2 * radius > tolerance) return problem(ArcProblem::RadiusTooSmall, radius, chord / 2);
   if (chord <= kEqualCoordinate) return {.found = radius, .wanted = radius, .goes_nowhere = true};
-  const double height = std::sqrt(std::fmax(0, radius * radius - chord * chord / 4)) / chord;
+  const double height = std::sqrt(std::max(0.0, radius * radius - chord * chord / 4)) / chord;
   const double side = given.counterclockwise ? height : -height;  // To the left of the chord for G03.
   return {.center = {d.u / 2 - d.v * side, d.v / 2 + d.u * side}, .found = radius, .wanted = radius};
 }

@@ -51,7 +51,7 @@ const char* LineParser::lex() {
 }
 
 Word& LineParser::add_word(char letter, const char* begin, const char* end) {
-  Word& added = store_.words_.emplace_back(Word{});
+  Word& added = store_.words_.push_back(Word{});
   added.letter = letter;
   added.begin = column(begin);
   added.end = column(end);

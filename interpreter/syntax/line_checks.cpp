@@ -23,14 +23,14 @@ void LineParser::check() {
     }
   }
   // What was broken off its series takes effect where its last word stands.
-  const auto first = store_.instructions_.begin() + line_.first_instruction;
+  Instruction* const first = store_.instructions_.data() + line_.first_instruction;
+  Instruction* const end = store_.instructions_.data() + store_.instructions_.size();
   const auto by_end = [](const Instruction& a, const Instruction& b) { return a.end < b.end; };
-  if (!std::is_sorted(first, store_.instructions_.end(), by_end))
-    std::stable_sort(first, store_.instructions_.end(), by_end);
+  if (!std::is_sorted(first, end, by_end)) std::stable_sort(first, end, by_end);
   const auto settled = [](const Instruction& it) {
     return it.kind == InstructionKind::Continuation && it.has(Instruction::kSettled);
   };
-  store_.instructions_.erase(std::remove_if(first, store_.instructions_.end(), settled), store_.instructions_.end());
+  for (auto removed = end - std::remove_if(first, end, settled); removed > 0; --removed) store_.instructions_.pop_back();
 }
 
 bool LineParser::owns_any(const Instruction& owner, dialect::LetterSet set, bool unbroken) const {

@@ -61,8 +61,8 @@ inline bool scan_short_number(const char* p, const char* end, Number& number) {
   bytes = bytes * 10 + (bytes >> 8);  // Eight digits to four pairs, to two fours, to one number.
   const std::uint64_t mantissa = (((bytes & 0x000000FF000000FFULL) * 0x000F424000000064ULL) +
                                   (((bytes >> 16) & 0x000000FF000000FFULL) * 0x0000271000000001ULL)) >> 32;
-  const double magnitude = static_cast<double>(mantissa) / detail::kPowersOfTen[decimals];
-  number.value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(magnitude) | negative << 63);
+  const auto signed_mantissa = static_cast<std::int64_t>((mantissa ^ (0 - negative)) + negative);
+  number.value = static_cast<double>(signed_mantissa) / detail::kPowersOfTen[decimals];
   number.is_signed = is_signed != 0;
   number.digits = digits;
   number.end = p + length;

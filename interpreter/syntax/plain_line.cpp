@@ -70,11 +70,9 @@ const char* TreeStore::append_plain_line(const char* begin, const char* end) {
   const std::size_t first_comment = comments_.size();
   const auto column = [begin](const char* at) { return static_cast<std::uint32_t>(at - begin); };
   // Words are written where they stay.
-  words_.resize(first_word + PlainLine::kMostWords);
-  Word* const words = words_.data() + first_word;
+  Word* const words = words_.room_for(PlainLine::kMostWords);
   const auto give_up = [&]() -> const char* {
     comments_.resize(first_comment);
-    words_.resize(first_word);
     return nullptr;
   };
   for (;;) {
@@ -121,8 +119,8 @@ const char* TreeStore::append_plain_line(const char* begin, const char* end) {
   }
   if (!line.is_complete()) return give_up();
 
-  words_.resize(first_word + line.count);
-  Line& added = lines_.emplace_back();
+  words_.add(line.count);
+  Line& added = lines_.push_back(Line{});
   added.length = column(p);
   added.first_word = static_cast<std::uint32_t>(first_word);
   added.first_instruction = static_cast<std::uint32_t>(instructions_.size());

@@ -69,7 +69,7 @@ void LineParser::structure() {
 
 Instruction& LineParser::add_instruction(InstructionKind kind, std::uint16_t command) {
   const auto number = static_cast<std::uint16_t>(instruction_count());
-  Instruction& added = store_.instructions_.emplace_back();
+  Instruction& added = store_.instructions_.push_back(Instruction{});
   added.kind = kind;
   added.number = number;
   added.command = command;

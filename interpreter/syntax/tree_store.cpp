@@ -15,15 +15,19 @@ const char* TreeStore::append_any_line(const char* begin, const char* end) {
 
 void TreeStore::append_copy(const TreeStore& other, std::size_t index) {
   Line line = other.lines_[index];
-  const auto copy = [](auto& to, const auto& from, std::uint32_t& first, std::size_t count) {
-    const auto begin = from.begin() + first;
+  const auto copy_row = [](auto& to, const auto& from, std::uint32_t& first, std::size_t count) {
+    const auto* const source = from.data() + first;
     first = static_cast<std::uint32_t>(to.size());
-    to.insert(to.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
+    if constexpr (requires { to.append(source, count); }) {
+      to.append(source, count);
+    } else {
+      to.insert(to.end(), source, source + count);
+    }
   };
-  copy(words_, other.words_, line.first_word, line.words);
-  copy(instructions_, other.instructions_, line.first_instruction, line.instructions);
-  copy(comments_, other.comments_, line.first_comment, line.comments);
-  copy(findings_, other.findings_, line.first_finding, line.findings);
+  copy_row(words_, other.words_, line.first_word, line.words);
+  copy_row(instructions_, other.instructions_, line.first_instruction, line.instructions);
+  copy_row(comments_, other.comments_, line.first_comment, line.comments);
+  copy_row(findings_, other.findings_, line.first_finding, line.findings);
   if (line.jump >= 0) {
     jumps_.push_back(other.jumps_[static_cast<std::size_t>(line.jump)]);
     line.jump = static_cast<std::int32_t>(jumps_.size()) - 1;

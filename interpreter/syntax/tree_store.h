@@ -1,29 +1,14 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
+#include "interpreter/syntax/buffer.h"
 #include "interpreter/syntax/line_tree.h"
 
 namespace isocnc::syntax {
-
-/// Leaves new elements as they are: they are filled in at once.
-template <class T>
-struct Uninitialized : std::allocator<T> {
-  template <class Other>
-  struct rebind {
-    using other = Uninitialized<Other>;
-  };
-  using std::allocator<T>::allocator;
-  template <class... Arguments>
-  void construct(T* at, Arguments&&... arguments) {
-    if constexpr (sizeof...(Arguments) > 0) ::new (static_cast<void*>(at)) T(std::forward<Arguments>(arguments)...);
-  }
-};
 
 /// Trees of successive lines, packed. Knows no line's text: whoever asks for a tree brings it.
 class TreeStore {
@@ -78,9 +63,9 @@ class TreeStore {
     std::uint8_t flags = 0;
   };
 
-  std::vector<Line> lines_;
-  std::vector<Word, Uninitialized<Word>> words_;
-  std::vector<Instruction> instructions_;
+  Buffer<Line> lines_;
+  Buffer<Word> words_;
+  Buffer<Instruction> instructions_;
   std::vector<Span> comments_;
   std::vector<Finding> findings_;
   std::vector<Jump> jumps_;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <ostream>
 #include <regex>
 #include <sstream>
 
@@ -179,6 +180,8 @@ struct NoProgram {
   std::string name;
   std::string bytes;
   std::string complaint;
+
+  friend std::ostream& operator<<(std::ostream& out, const NoProgram& file) { return out << file.name; }
 };
 
 class IsolintNoProgram : public testing::TestWithParam<NoProgram> {};

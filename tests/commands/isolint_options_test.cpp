@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "programs.h"
 #include "run_command.h"
 #include "temporary_folder.h"
@@ -96,6 +98,8 @@ TEST(IsolintListRules, ListsEveryCodeOnALine) {
 struct Saying {
   std::string name;
   std::vector<std::string> command;
+
+  friend std::ostream& operator<<(std::ostream& out, const Saying& saying) { return out << saying.name; }
 };
 
 /// What was asked for and could not be said is no success.

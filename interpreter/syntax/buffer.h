@@ -1,0 +1,69 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <type_traits>
+
+namespace isocnc::syntax {
+
+/// A growing row of plain values that can be written in place: what is not yet written is left as it is. Unlike a vector
+/// it sets nothing to zero and says nothing of elements beyond its size, which is what a parser of millions of words needs.
+template <class T>
+class Buffer {
+  static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
+
+ public:
+  Buffer() = default;
+  Buffer(const Buffer& other) { append(other.data(), other.size()); }
+  Buffer(Buffer&& other) noexcept = default;
+  Buffer& operator=(Buffer other) noexcept {
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+    std::swap(capacity_, other.capacity_);
+    return *this;
+  }
+  ~Buffer() = default;
+
+  std::size_t size() const { return size_; }
+  std::size_t capacity() const { return capacity_; }
+  const T* data() const { return data_.get(); }
+  T* data() { return data_.get(); }
+  T& operator[](std::size_t index) { return data_[index]; }
+  const T& operator[](std::size_t index) const { return data_[index]; }
+  T& back() { return data_[size_ - 1]; }
+
+  /// Where `count` more elements can be written; add() makes them part of the row.
+  T* room_for(std::size_t count) {
+    if (size_ + count > capacity_) grow(count);
+    return data_.get() + size_;
+  }
+  void add(std::size_t count) { size_ += count; }
+  T& push_back(const T& value) {
+    T* const place = room_for(1);
+    *place = value;
+    ++size_;
+    return *place;
+  }
+  void append(const T* values, std::size_t count) {
+    std::copy_n(values, count, room_for(count));
+    size_ += count;
+  }
+  void pop_back() { --size_; }
+  void clear() { size_ = 0; }
+
+ private:
+  void grow(std::size_t count) {
+    const std::size_t capacity = std::max(2 * capacity_, size_ + count);
+    auto larger = std::make_unique_for_overwrite<T[]>(capacity);
+    std::copy_n(data_.get(), size_, larger.get());
+    data_ = std::move(larger);
+    capacity_ = capacity;
+  }
+
+  std::unique_ptr<T[]> data_;
+  std::size_t size_ = 0;
+  std::size_t capacity_ = 0;
+};
+
+}  // namespace isocnc::syntax
