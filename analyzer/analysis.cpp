@@ -17,6 +17,10 @@ JumpMap Analysis::find_jumps() const {
       const syntax::LineTree line = document_.line_of_chunk(chunk, i);
       if (line.jump && line.jump->has_target) jumps.add(document_.first_line_of_chunk(chunk) + i, *line.jump);
     }
+  if (jumps.compares_registers())
+    for (std::size_t chunk = 0; chunk < document_.chunk_count(); ++chunk)
+      for (std::size_t i = 0; i < document_.chunk_lines(chunk); ++i)
+        jumps.note_registers(document_.line_of_chunk(chunk, i));
   jumps.complete();
   if (jumps.empty()) return jumps;
   std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> labels;

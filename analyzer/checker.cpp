@@ -90,7 +90,6 @@ void Checker::check(const LineTree& line, std::uint64_t line_number, Outcome& ou
 void Checker::arrive(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   if (!jumps_.names(line.label)) return;
   if (const auto waiting = frontier.waiting.find(line.label); waiting != frontier.waiting.end()) {
-    for (Group& group : waiting->second) group.registers.forget_unread(frontier.next_jump, jumps_);
     frontier.live.add_all(std::move(waiting->second));
     frontier.waiting.erase(waiting);
     bound_states(line, line_number, outcome);
@@ -110,8 +109,7 @@ void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_num
       GroupListener(Checker& checker, std::size_t group) : Sink(false), checker_(checker), group_(group) {}
       void report(const Finding& finding) override { checker_.group_findings_.push_back({finding, group_}); }
       void assign(int reg, double value) override {
-        if (checker_.jumps_.is_read_from(reg, checker_.frontier.next_jump))
-          checker_.frontier.live[group_].registers.assign(reg, value, checker_.jumps_);
+        checker_.frontier.live[group_].registers.assign(reg, value, checker_.jumps_);
       }
 
      private:
@@ -192,10 +190,11 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
   for (Group& group : frontier.live) {
     const bool on_register = jump.variable > 0 && jump.condition_is_known();
     Valuations where_true = on_register ? group.registers.where(jump, true, jumps_) : group.registers;
-    Valuations where_false = on_register ? group.registers.where(jump, false, jumps_) : group.registers;
-    if (on_register && !jumps_.is_read_from(jump.variable, frontier.next_jump)) {
-      where_true.forget_unread(frontier.next_jump, jumps_);
-      where_false.forget_unread(frontier.next_jump, jumps_);
+    Valuations where_false =
+        on_register ? group.registers.where(jump, false, jumps_) : std::move(group.registers);
+    if (jumps_.compares_registers()) {
+      where_true.keep_only(jumps_.read_at_target(ordinal), jumps_);
+      where_false.keep_only(jumps_.read_behind(ordinal), jumps_);
     }
     const bool both = where_true.possible() && where_false.possible();
     if (where_true.possible()) {
@@ -232,7 +231,7 @@ void Checker::bound_states(const LineTree& line, std::uint64_t line_number, Outc
   }
   for (Group& group : live) {
     if (group.registers.size() <= kMostValuations) continue;
-    group.registers.blur();
+    group.registers.reduce_to(kMostValuations / 2);
     reduced = true;
   }
   if (reduced) admit_reduction(line, line_number, outcome);

@@ -65,6 +65,15 @@ JumpMap::JumpMap(std::string_view text) {
     if (upper_case < at) upper_case = next_o(at, 'O');
     if (lower_case < at) lower_case = next_o(at, 'o');
   }
+  if (compares_registers()) {
+    const char* const end = text.data() + text.size();
+    for (const char* p = text.data(); p != end;) {
+      store.clear();
+      const char* const line_end = store.append_line(p, end);
+      note_registers(store.tree(0, p));
+      p = syntax::skip_line_end(line_end, end);
+    }
+  }
   complete();
 }
 
@@ -72,19 +81,46 @@ void JumpMap::add(std::uint64_t line, const syntax::Jump& jump) {
   sites_.push_back({line, jump});
   targets_.insert(jump.target);
   if (jump.variable <= 0 || !jump.condition_is_known()) return;
-  const auto reg = static_cast<std::size_t>(jump.variable);
-  constants_[reg].push_back(jump.value);
-  last_read_[reg] = static_cast<std::uint32_t>(sites_.size());
+  constants_[static_cast<std::size_t>(jump.variable)].push_back(jump.value);
+  const auto at = std::lower_bound(compared_.begin(), compared_.end(), jump.variable);
+  if (at == compared_.end() || *at != jump.variable) compared_.insert(at, jump.variable);
+}
+
+void JumpMap::note_registers(const syntax::LineTree& line) {
+  if (line.has_label() && names(line.label)) events_.push_back({Event::Kind::Label, 0, line.label});
+  for (const syntax::Instruction& instruction : line.instructions) {
+    const double reg = line.command(instruction).value;
+    if (instruction.kind == syntax::InstructionKind::Assignment && reg >= 1 && reg <= dialect::kRegisterCount)
+      events_.push_back({Event::Kind::Assignment, static_cast<std::uint8_t>(reg), 0});
+  }
+  if (line.jump && line.jump->has_target) events_.push_back({Event::Kind::Jump, 0, 0});
 }
 
 void JumpMap::complete() {
-  for (int reg = 1; reg <= dialect::kRegisterCount; ++reg) {
-    std::vector<double>& values = constants_[static_cast<std::size_t>(reg)];
-    if (values.empty()) continue;
-    compared_.push_back(reg);
+  for (std::vector<double>& values : constants_) {
     std::sort(values.begin(), values.end());
     values.erase(std::unique(values.begin(), values.end()), values.end());
   }
+  // From the end of the program to its start: all jumps go forward, so one pass tells what is still read where.
+  reads_.assign(sites_.size(), {});
+  std::unordered_map<std::uint64_t, RegisterSet> read_at_label;
+  RegisterSet read = 0;
+  std::size_t jump = sites_.size();
+  for (auto event = events_.rbegin(); event != events_.rend(); ++event) {
+    switch (event->kind) {
+      case Event::Kind::Assignment: read &= ~register_bit(event->reg); break;
+      case Event::Kind::Label: read_at_label[event->label] = read; break;
+      case Event::Kind::Jump: {
+        const syntax::Jump& condition = sites_[--jump].jump;
+        const auto target = read_at_label.find(condition.target);
+        reads_[jump] = {read, target == read_at_label.end() ? 0 : target->second};
+        read |= reads_[jump].at_target;
+        if (condition.variable > 0) read |= register_bit(condition.variable);
+        break;
+      }
+    }
+  }
+  events_ = {};
 }
 
 void JumpMap::resolve(const std::unordered_map<std::uint64_t, std::vector<std::uint64_t>>& label_lines) {
@@ -106,7 +142,7 @@ bool JumpMap::means_the_same(const JumpMap& other) const {
            a.jump.target == b.jump.target;
   };
   return std::equal(sites_.begin(), sites_.end(), other.sites_.begin(), other.sites_.end(), same) &&
-         resolved_ == other.resolved_ && targets_of_jumps_ == other.targets_of_jumps_;
+         reads_ == other.reads_ && resolved_ == other.resolved_ && targets_of_jumps_ == other.targets_of_jumps_;
 }
 
 }  // namespace isocnc::analyzer

@@ -11,6 +11,10 @@
 
 namespace isocnc::analyzer {
 
+/// A set of registers, one bit each.
+using RegisterSet = std::uint32_t;
+constexpr RegisterSet register_bit(int reg) { return RegisterSet{1} << reg; }
+
 /// What of a program's jumps must be known before its first line is checked: where the IFs stand, which labels they name,
 /// and what they compare registers with. Jumps go forward only (I.5), so this and one pass over the lines suffice.
 class JumpMap {
@@ -26,6 +30,10 @@ class JumpMap {
 
   /// Adds the jump of the next line that has one with a label.
   void add(std::uint64_t line, const syntax::Jump& jump);
+  /// Whether an IF compares a register: then every line must be noted, in order, for what complete() works out.
+  bool compares_registers() const { return !compared_.empty(); }
+  /// Notes a line's label, assignments and jump.
+  void note_registers(const syntax::LineTree& line);
   /// To be called when all have been added.
   void complete();
 
@@ -36,8 +44,10 @@ class JumpMap {
   const std::vector<double>& constants(int reg) const { return constants_[static_cast<std::size_t>(reg)]; }
   /// Registers that an IF compares, in ascending order.
   const std::vector<int>& compared_registers() const { return compared_; }
-  /// Whether an IF at or behind this one (counted from the top) compares the register.
-  bool is_read_from(int reg, std::uint32_t jump) const { return last_read_[static_cast<std::size_t>(reg)] > jump; }
+  /// Registers whose value some IF may still see, one bit each: where this jump (counted from the top) is not taken, and
+  /// where it is.
+  RegisterSet read_behind(std::uint32_t jump) const { return reads_[jump].behind; }
+  RegisterSet read_at_target(std::uint32_t jump) const { return reads_[jump].at_target; }
 
   /// Marks the jumps that have no label below them, once all definitions of labels are known (lines by label, ascending).
   void resolve(const std::unordered_map<std::uint64_t, std::vector<std::uint64_t>>& label_lines);
@@ -53,8 +63,20 @@ class JumpMap {
   std::vector<Site> sites_;
   std::unordered_set<std::uint64_t> targets_;
   std::array<std::vector<double>, dialect::kRegisterCount + 1> constants_;
-  std::array<std::uint32_t, dialect::kRegisterCount + 1> last_read_{};  // One past the ordinal of the last IF.
   std::vector<int> compared_;
+  struct Event {
+    enum class Kind : std::uint8_t { Assignment, Jump, Label } kind;
+    std::uint8_t reg;     // Assigned.
+    std::uint64_t label;  // Defined.
+  };
+  std::vector<Event> events_;  // In the order of the program.
+  struct Reads {
+    RegisterSet behind = 0;
+    RegisterSet at_target = 0;
+
+    friend bool operator==(const Reads&, const Reads&) = default;
+  };
+  std::vector<Reads> reads_;  // By jump.
   std::vector<Target> targets_of_jumps_;
   bool resolved_ = false;
 };

@@ -14,46 +14,56 @@ static std::uint32_t cell_of(double value, const std::vector<double>& constants)
 ValueSet ValueSet::of(double value, const std::vector<double>& constants) {
   if (std::isnan(value)) return everything(constants.size());
   const std::uint32_t cell = cell_of(value, constants);
-  return ValueSet{{{cell, cell}}};
+  return {cell, cell};
 }
 
 ValueSet ValueSet::satisfying(syntax::Comparison comparison, double constant, const std::vector<double>& constants) {
   const std::uint32_t cell = cell_of(constant, constants);
   const auto last = static_cast<std::uint32_t>(2 * constants.size());
   switch (comparison) {
-    case syntax::Comparison::Equal: return ValueSet{{{cell, cell}}};
-    case syntax::Comparison::NotEqual: return ValueSet{{{0, cell - 1}, {cell + 1, last}}};
-    case syntax::Comparison::Less: return ValueSet{{{0, cell - 1}}};
-    case syntax::Comparison::LessEqual: return ValueSet{{{0, cell}}};
-    case syntax::Comparison::Greater: return ValueSet{{{cell + 1, last}}};
-    case syntax::Comparison::GreaterEqual: return ValueSet{{{cell, last}}};
+    case syntax::Comparison::Equal: return {cell, cell};
+    case syntax::Comparison::NotEqual: {
+      ValueSet apart(0, cell - 1);
+      apart.append({cell + 1, last});
+      return apart;
+    }
+    case syntax::Comparison::Less: return {0, cell - 1};
+    case syntax::Comparison::LessEqual: return {0, cell};
+    case syntax::Comparison::Greater: return {cell + 1, last};
+    case syntax::Comparison::GreaterEqual: return {cell, last};
     case syntax::Comparison::Invalid: break;
   }
   return everything(constants.size());
 }
 
+void ValueSet::append(Range range) {
+  Range& last = tail_.empty() ? head_ : tail_.back();
+  if (empty()) {
+    head_ = range;
+  } else if (range.first <= last.last + 1) {
+    last.last = std::max(last.last, range.last);
+  } else {
+    tail_.push_back(range);
+  }
+}
+
 ValueSet ValueSet::intersected(const ValueSet& other) const {
   ValueSet result;
-  for (const Range& a : ranges_)
-    for (const Range& b : other.ranges_) {
-      const Range common{std::max(a.first, b.first), std::min(a.last, b.last)};
-      if (common.first <= common.last) result.ranges_.push_back(common);
-    }
-  std::sort(result.ranges_.begin(), result.ranges_.end(), [](Range a, Range b) { return a.first < b.first; });
+  for (std::size_t i = 0, j = 0; i < count() && j < other.count();) {
+    const Range a = range(i);
+    const Range b = other.range(j);
+    const Range common{std::max(a.first, b.first), std::min(a.last, b.last)};
+    if (common.first <= common.last) result.append(common);
+    ++(a.last < b.last ? i : j);
+  }
   return result;
 }
 
 ValueSet ValueSet::united(const ValueSet& other) const {
-  std::vector<Range> all = ranges_;
-  all.insert(all.end(), other.ranges_.begin(), other.ranges_.end());
-  std::sort(all.begin(), all.end(), [](Range a, Range b) { return a.first < b.first; });
   ValueSet result;
-  for (const Range& range : all) {
-    if (!result.ranges_.empty() && range.first <= result.ranges_.back().last + 1) {
-      result.ranges_.back().last = std::max(result.ranges_.back().last, range.last);
-    } else {
-      result.ranges_.push_back(range);
-    }
+  for (std::size_t i = 0, j = 0; i < count() || j < other.count();) {
+    const bool take_mine = j == other.count() || (i < count() && range(i).first < other.range(j).first);
+    result.append(take_mine ? range(i++) : other.range(j++));
   }
   return result;
 }
@@ -100,6 +110,10 @@ void Valuations::assign(int reg, double value, const JumpMap& jumps) {
   const std::optional<std::size_t> index = index_of(reg, jumps);
   if (!index) return;
   const ValueSet assigned = ValueSet::of(value, jumps.constants(reg));
+  if (all_.size() == 1) {
+    all_.front()[*index] = assigned;
+    return;
+  }
   std::vector<Valuation> before;
   before.swap(all_);
   for (Valuation& valuation : before) {
@@ -132,18 +146,26 @@ void Valuations::unite(const Valuations& other) {
   for (const Valuation& valuation : other.all_) add(valuation);
 }
 
-void Valuations::forget_unread(std::uint32_t jump, const JumpMap& jumps) {
+void Valuations::keep_only(RegisterSet read, const JumpMap& jumps) {
   const std::vector<int>& compared = jumps.compared_registers();
-  for (std::size_t k = 0; k < compared.size(); ++k)
-    if (!jumps.is_read_from(compared[k], jump)) assign(compared[k], std::nan(""), jumps);
+  bool changed = false;
+  for (std::size_t k = 0; k < compared.size(); ++k) {
+    if ((read & register_bit(compared[k])) != 0) continue;
+    const ValueSet everything = ValueSet::everything(jumps.constants(compared[k]).size());
+    for (Valuation& valuation : all_) {
+      if (valuation[k] == everything) continue;
+      valuation[k] = everything;
+      changed = true;
+    }
+  }
+  if (!changed || all_.size() < 2) return;
+  std::vector<Valuation> before;
+  before.swap(all_);
+  for (Valuation& valuation : before) add(std::move(valuation));
 }
 
-void Valuations::blur() {
-  if (all_.empty()) return;
-  Valuation joined = all_.front();
-  for (const Valuation& valuation : all_)
-    for (std::size_t k = 0; k < joined.size(); ++k) joined[k] = joined[k].united(valuation[k]);
-  all_.assign(1, std::move(joined));
+void Valuations::reduce_to(std::size_t limit) {
+  if (all_.size() > limit) all_.erase(all_.begin() + static_cast<std::ptrdiff_t>(limit), all_.end());
 }
 
 }  // namespace isocnc::analyzer

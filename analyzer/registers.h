@@ -13,12 +13,12 @@ namespace isocnc::analyzer {
 /// is the i-th constant, cell 2i what lies before it.
 class ValueSet {
  public:
-  static ValueSet everything(std::size_t constants) { return ValueSet{{{0, static_cast<std::uint32_t>(2 * constants)}}}; }
+  static ValueSet everything(std::size_t constants) { return {0, static_cast<std::uint32_t>(2 * constants)}; }
   static ValueSet of(double value, const std::vector<double>& constants);
   /// The values for which `value comparison constant` holds.
   static ValueSet satisfying(syntax::Comparison comparison, double constant, const std::vector<double>& constants);
 
-  bool empty() const { return ranges_.empty(); }
+  bool empty() const { return head_.first > head_.last; }
   ValueSet intersected(const ValueSet& other) const;
   ValueSet united(const ValueSet& other) const;
 
@@ -31,9 +31,16 @@ class ValueSet {
   };
 
   ValueSet() = default;
-  explicit ValueSet(std::vector<Range> ranges) : ranges_(std::move(ranges)) {}
+  ValueSet(std::uint32_t first, std::uint32_t last) : head_{first, last} {}
 
-  std::vector<Range> ranges_;  // Ascending, apart by at least one cell.
+  std::size_t count() const { return empty() ? 0 : 1 + tail_.size(); }
+  const Range& range(std::size_t index) const { return index == 0 ? head_ : tail_[index - 1]; }
+  /// Adds a range behind all others, joined to the last when they touch.
+  void append(Range range);
+
+  // Ascending, apart by at least one cell. Nearly always there is one, which needs no memory of its own.
+  Range head_{1, 0};
+  std::vector<Range> tail_;
 };
 
 /// What is known together of all registers that some IF compares, in the order of JumpMap::compared_registers().
@@ -50,12 +57,12 @@ class Valuations {
   /// What remains of it where the condition of a jump on a register holds, or does not.
   Valuations where(const syntax::Jump& jump, bool holds, const JumpMap& jumps) const;
   void unite(const Valuations& other);
-  /// Forgets registers that no IF from `jump` on compares: they tell no two states apart.
-  void forget_unread(std::uint32_t jump, const JumpMap& jumps);
+  /// Forgets the registers that are not in `read`: no IF will see their values, so they tell no two states apart.
+  void keep_only(RegisterSet read, const JumpMap& jumps);
   bool possible() const { return !all_.empty(); }
   std::size_t size() const { return all_.size(); }
-  /// Gives up what is known between registers, when there are too many valuations to keep apart.
-  void blur();
+  /// Drops all but the first `limit`: what the others would lead to is not followed.
+  void reduce_to(std::size_t limit);
 
   friend bool operator==(const Valuations&, const Valuations&) = default;
 

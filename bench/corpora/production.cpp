@@ -67,7 +67,7 @@ class Production {
   void write_start() {
     out_.line("(PART 4711, FIRST SIDE)");
     out_.line("; material: aluminum, clamped in the vise, zero at the upper left corner");
-    out_.line("N1 G17 G40 G71 G90 G94");
+    out_.line("N1 G17 G71 G90 G94");
     out_.line("N2 G48");
     out_.line("N3 M06 T101001 (FACE MILL D50)");
     out_.line("N4 S8000 M03");

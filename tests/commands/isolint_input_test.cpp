@@ -264,6 +264,22 @@ TEST_P(IsolintHugeLineOfMistakes, EndsInTime) {
 INSTANTIATE_TEST_SUITE_P(Formats, IsolintHugeLineOfMistakes, testing::Values("text", "concise", "json"),
                          [](const auto& tested) { return tested.param; });
 
+/// Each finding names its jump; that must not cost a walk to it from the top.
+TEST(IsolintManyPaths, FarBehindTheirJumpEndInTime) {
+  std::string program = "M06 T101001\nG01 Z5 F100\n";
+  for (int i = 0; i < 200'000; ++i) program += "X" + std::to_string(i) + " Y1 Z1\n";
+  program += "IF V3 = 1 GOTO N50\nG93\nN50 G00 X3\nG01 X1 F3\n";
+  for (int i = 0; i < 20'000; ++i) program += "X" + std::to_string(i) + "\n";
+  const TemporaryFolder folder;
+  const std::string file = folder.write("long.iso", program + "M02\n");
+  for (const std::string format : {"text", "json"}) {
+    const CommandResult result =
+        run_command({"isolint", "--format", format, file}, {.limit = std::chrono::seconds(20)});
+    EXPECT_FALSE(result.timed_out) << format;
+    EXPECT_EQ(result.status, 1) << format;
+  }
+}
+
 TEST(IsolintHugeNumber, IsANumber) {
   const std::string digits(kMegabyte, '1');
   EXPECT_EQ(check_input("M06 T101001\nG00 X0." + digits + "\nM02\n").status, 0);

@@ -33,8 +33,12 @@ static void check_instructions(const LineTree& tree) {
     require(each.begin < each.end && each.end <= tree.words.size(), "instructions hold words of the line");
     require(each.begin <= each.command && each.command < each.end, "instructions hold their command");
   }
+  const auto exists = [&](std::uint16_t number) {
+    return std::any_of(tree.instructions.begin(), tree.instructions.end(),
+                       [&](const syntax::Instruction& each) { return each.number == number; });
+  };
   for (const syntax::Word& word : tree.words)
-    require(word.owner == syntax::Word::kNobody || word.owner < tree.instructions.size(), "owners are instructions");
+    require(word.owner == syntax::Word::kNobody || exists(word.owner), "owners are instructions");
   const auto words = static_cast<std::int32_t>(tree.words.size());
   require(tree.feed < words && tree.spindle < words, "F and S are words of the line");
 }
