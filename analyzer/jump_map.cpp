@@ -13,7 +13,7 @@ namespace isocnc::analyzer {
 class LineCounter {
  public:
   explicit LineCounter(std::string_view text)
-      : text_(text), has_carriage_returns_(text.find('\r') != text.npos) {}
+      : text_(text), has_carriage_returns_(text.find('\r') != std::string_view::npos) {}
 
   std::uint64_t line_of(std::size_t offset) {
     const std::string_view passed = text_.substr(offset_, offset - offset_);
@@ -68,18 +68,38 @@ JumpMap::JumpMap(std::string_view text) {
   if (compares_registers()) {
     const char* const end = text.data() + text.size();
     for (const char* p = text.data(); p != end;) {
-      store.clear();
-      const char* const line_end = store.append_line(p, end);
-      note_registers(store.tree(0, p));
+      const char* const line_end = syntax::find_line_end(p, end);
+      if (may_matter_to_registers({p, static_cast<std::size_t>(line_end - p)})) {
+        store.clear();
+        store.append_line(p, line_end);
+        note_registers(store.tree(0, p));
+      }
       p = syntax::skip_line_end(line_end, end);
     }
   }
   complete();
 }
 
+/// Whether a line may hold an assignment, a jump or the label of one. Cheap, and wrong only on the side of yes.
+bool JumpMap::may_matter_to_registers(std::string_view line) const {
+  const auto has = [&](char letter) { return std::memchr(line.data(), letter, line.size()) != nullptr; };
+  if (has('V') || has('v') || has('O') || has('o') || has('n')) return true;
+  const std::size_t at = line.find('N');
+  if (at == std::string_view::npos) return false;
+  std::uint64_t label = 0;
+  std::size_t digits = at + 1;
+  while (digits < line.size() && syntax::is_digit(line[digits])) label = label * 10 + static_cast<std::uint64_t>(line[digits++] - '0');
+  const bool plain = digits > at + 1 && digits - at <= 15 && digits < line.size() && syntax::is_blank(line[digits]) &&
+                     digits + 1 < line.size() && syntax::char_class(line[digits + 1]) == syntax::CharClass::Letter;
+  return !plain || may_name(label) || line.find('N', at + 1) != std::string_view::npos;
+}
+
 void JumpMap::add(std::uint64_t line, const syntax::Jump& jump) {
   sites_.push_back({line, jump});
   targets_.insert(jump.target);
+  filter_.resize(1024);
+  const std::size_t bit = filter_bit(jump.target);
+  filter_[bit / 64] |= std::uint64_t{1} << (bit % 64);
   if (jump.variable <= 0 || !jump.condition_is_known()) return;
   constants_[static_cast<std::size_t>(jump.variable)].push_back(jump.value);
   const auto at = std::lower_bound(compared_.begin(), compared_.end(), jump.variable);

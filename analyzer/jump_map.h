@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstddef>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
@@ -39,7 +40,7 @@ class JumpMap {
 
   bool empty() const { return sites_.empty(); }
   const std::vector<Site>& sites() const { return sites_; }
-  bool names(std::uint64_t label) const { return targets_.contains(label); }
+  bool names(std::uint64_t label) const { return may_name(label) && targets_.contains(label); }
   /// The values that register 1 to 30 is compared with, ascending.
   const std::vector<double>& constants(int reg) const { return constants_[static_cast<std::size_t>(reg)]; }
   /// Registers that an IF compares, in ascending order.
@@ -60,8 +61,17 @@ class JumpMap {
   bool means_the_same(const JumpMap& other) const;
 
  private:
+  // Most line numbers are no targets; one bit by a hash of the number tells most of them apart.
+  static std::size_t filter_bit(std::uint64_t label) { return (label * 0x9E3779B97F4A7C15ULL) >> 48; }
+  bool may_name(std::uint64_t label) const {
+    const std::size_t bit = filter_bit(label);
+    return !filter_.empty() && (filter_[bit / 64] >> (bit % 64) & 1) != 0;
+  }
+  bool may_matter_to_registers(std::string_view line) const;
+
   std::vector<Site> sites_;
   std::unordered_set<std::uint64_t> targets_;
+  std::vector<std::uint64_t> filter_;  // 65,536 bits, once there is a jump.
   std::array<std::vector<double>, dialect::kRegisterCount + 1> constants_;
   std::vector<int> compared_;
   struct Event {

@@ -18,7 +18,7 @@ class ConciseRenderer final : public Renderer {
       const dialect::DiagnosticDef& def = dialect::definition(finding.id);
       const std::string_view marked = line.substr(finding.span.begin, finding.span.end - finding.span.begin);
       fmt::format_to(std::back_inserter(output.buffer()), "{}:{}:{}: {}: {} [{}]\n", name, located.line + 1,
-                     column_of(line, finding.span.begin), dialect::severity_name(def.severity, style_.language),
+                     lines.column(finding.span.begin), dialect::severity_name(def.severity, style_.language),
                      printable(dialect::message(finding.id, style_.language, marked, finding.values)), def.code);
       output.relieve();
     }

@@ -17,22 +17,24 @@ class JsonRenderer final : public Renderer {
 
   void file(std::string_view name, std::string_view text, const Report& report, Output& output) override {
     LineFinder lines(text);
+    const StepTexts steps(text, report, style_.language);
     for (const LocatedFinding& located : report.findings) {
       output.buffer() += first_ ? "\n  " : ",\n  ";
       first_ = false;
-      const Json object = to_json(name, text, lines.line(located.line), located, report);
+      const Json object = to_json(name, lines, located, report, steps);
       output.buffer() += object.dump(-1, ' ', false, Json::error_handler_t::replace);
       output.relieve();
     }
   }
 
  private:
-  Json to_json(std::string_view name, std::string_view text, std::string_view line, const LocatedFinding& located,
-               const Report& report) const {
+  Json to_json(std::string_view name, LineFinder& lines, const LocatedFinding& located, const Report& report,
+               const StepTexts& steps) const {
+    const std::string_view line = lines.line(located.line);
     const syntax::Finding& finding = located.finding;
     const dialect::DiagnosticDef& def = dialect::definition(finding.id);
     const std::string_view marked = line.substr(finding.span.begin, finding.span.end - finding.span.begin);
-    const std::size_t column = column_of(line, finding.span.begin);
+    const std::size_t column = lines.column(finding.span.begin);
     Json object;
     object["file"] = name;
     object["line"] = located.line + 1;
@@ -48,10 +50,8 @@ class JsonRenderer final : public Renderer {
     object["path"] = nullptr;
     if (located.path >= 0) {
       object["path"] = Json::array();
-      LineFinder path_lines(text);
       for (const PathStep& step : report.paths[static_cast<std::size_t>(located.path)])
-        object["path"].push_back({{"line", step.line + 1},
-                                  {"text", describe_step(step, path_lines.line(step.line), style_.language)}});
+        object["path"].push_back({{"line", step.line + 1}, {"text", steps.of(step)}});
     }
     return object;
   }

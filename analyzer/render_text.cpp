@@ -50,8 +50,9 @@ class TextRenderer final : public Renderer {
 
   void file(std::string_view name, std::string_view text, const Report& report, Output& output) override {
     LineFinder lines(text);
+    const StepTexts steps(text, report, style_.language);
     for (const LocatedFinding& located : report.findings) {
-      one(name, text, lines.line(located.line), located, report, output.buffer());
+      one(name, lines, located, report, steps, output.buffer());
       output.relieve();
     }
   }
@@ -59,8 +60,9 @@ class TextRenderer final : public Renderer {
  private:
   std::string_view paint(std::string_view color) const { return style_.color ? color : std::string_view(); }
 
-  void one(std::string_view name, std::string_view text, std::string_view line, const LocatedFinding& located,
-           const Report& report, std::string& out) const {
+  void one(std::string_view name, LineFinder& lines, const LocatedFinding& located, const Report& report,
+           const StepTexts& steps, std::string& out) const {
+    const std::string_view line = lines.line(located.line);
     const syntax::Finding& finding = located.finding;
     const dialect::DiagnosticDef& def = dialect::definition(finding.id);
     const std::string_view marked = line.substr(finding.span.begin, finding.span.end - finding.span.begin);
@@ -72,7 +74,7 @@ class TextRenderer final : public Renderer {
                    paint(kReset), paint(kBold),
                    printable(dialect::message(finding.id, style_.language, marked, finding.values)), paint(kReset));
     fmt::format_to(to, "{}{}-->{} {}:{}:{}\n", margin, paint(kBlue), paint(kReset), name, number,
-                   column_of(line, finding.span.begin));
+                   lines.column(finding.span.begin));
     const Excerpt excerpt = excerpt_around(line, finding.span.begin);
     fmt::format_to(to, "{} {}|{}\n", margin, paint(kBlue), paint(kReset));
     fmt::format_to(to, "{}{} |{} {}{}{}\n", paint(kBlue), number, paint(kReset), excerpt.cut_left ? "..." : "",
@@ -80,7 +82,7 @@ class TextRenderer final : public Renderer {
     fmt::format_to(to, "{} {}|{} {}\n", margin, paint(kBlue), paint(kReset), underline(excerpt, finding, color));
     fmt::format_to(to, "{} {}={} {}\n", margin, paint(kBlue), paint(kReset),
                    dialect::first_sentence(def.explanation.in(style_.language)));
-    if (located.path >= 0) path(text, report.paths[static_cast<std::size_t>(located.path)], margin, out);
+    if (located.path >= 0) path(steps, report.paths[static_cast<std::size_t>(located.path)], margin, out);
     out += '\n';
   }
 
@@ -114,12 +116,10 @@ class TextRenderer final : public Renderer {
     return result;
   }
 
-  void path(std::string_view text, const std::vector<PathStep>& steps, std::string_view margin, std::string& out) const {
-    LineFinder lines(text);
+  void path(const StepTexts& texts, const std::vector<PathStep>& steps, std::string_view margin, std::string& out) const {
     fmt::format_to(std::back_inserter(out), "{} {}={} {}\n", margin, paint(kBlue), paint(kReset), kReachedThrough.in(style_.language));
     for (const PathStep& step : steps)
-      fmt::format_to(std::back_inserter(out), "{}     {}: {}\n", margin, step.line + 1,
-                     describe_step(step, lines.line(step.line), style_.language));
+      fmt::format_to(std::back_inserter(out), "{}     {}: {}\n", margin, step.line + 1, texts.of(step));
   }
 
   Style style_;

@@ -11,14 +11,6 @@
 
 namespace isocnc::analyzer {
 
-std::string_view LineFinder::line(std::uint64_t index) {
-  const char* p = rest_.data();
-  const char* const end = rest_.data() + rest_.size();
-  for (; at_ < index; ++at_) p = syntax::skip_line_end(syntax::find_line_end(p, end), end);
-  rest_ = {p, static_cast<std::size_t>(end - p)};
-  return {p, static_cast<std::size_t>(syntax::find_line_end(p, end) - p)};
-}
-
 /// Bytes of the UTF-8 sequence that starts `text`; 0 when none does.
 static std::size_t sequence_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
@@ -39,6 +31,36 @@ std::size_t column_of(std::string_view line, std::size_t byte) {
   for (std::size_t at = 0; at < std::min(byte, line.size()); ++column)
     at += std::max<std::size_t>(1, sequence_length(line.substr(at)));
   return column;
+}
+
+std::string_view LineFinder::line(std::uint64_t index) {
+  if (found_ && index == at_) return line_;
+  const char* p = rest_.data();
+  const char* const end = rest_.data() + rest_.size();
+  for (; at_ < index; ++at_) p = syntax::skip_line_end(syntax::find_line_end(p, end), end);
+  rest_ = {p, static_cast<std::size_t>(end - p)};
+  line_ = {p, static_cast<std::size_t>(syntax::find_line_end(p, end) - p)};
+  found_ = true;
+  walked_ = 0;
+  column_ = 1;
+  return line_;
+}
+
+std::size_t LineFinder::column(std::size_t byte) {
+  if (byte < walked_) {
+    walked_ = 0;
+    column_ = 1;
+  }
+  for (; walked_ < std::min(byte, line_.size()); ++column_)
+    walked_ += std::max<std::size_t>(1, sequence_length(line_.substr(walked_)));
+  return column_;
+}
+
+StepTexts::StepTexts(std::string_view text, const Report& report, dialect::Language language) {
+  for (const std::vector<PathStep>& path : report.paths)
+    for (const PathStep& step : path) texts_[{step.line, step.taken}];
+  LineFinder lines(text);
+  for (auto& [step, words] : texts_) words = describe_step({step.first, step.second}, lines.line(step.first), language);
 }
 
 std::string printable(std::string_view text) {

@@ -1,29 +1,47 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "analyzer/report.h"
 #include "interpreter/dialect/diagnostic.h"
 
 namespace isocnc::analyzer {
 
-/// Gives the text of ever later lines.
+/// Gives the text of ever later lines, and columns in them.
 class LineFinder {
  public:
   explicit LineFinder(std::string_view text) : rest_(text) {}
   /// The text of a line without its terminator; lines must be asked for in ascending order, repeats allowed.
   std::string_view line(std::uint64_t index);
+  /// column_of() in the line asked for last. Asked for ever later bytes, it walks the line once.
+  std::size_t column(std::size_t byte);
 
  private:
   std::string_view rest_;  // From the start of line `at_`.
   std::uint64_t at_ = 0;
+  std::string_view line_;
+  bool found_ = false;
+  std::size_t walked_ = 0;  // Bytes of the line before `column_`.
+  std::size_t column_ = 1;
 };
 
 /// How findings are shown.
 struct Style {
   dialect::Language language = dialect::Language::English;
   bool color = false;
+};
+
+/// The IF of each step that a report's paths take, in words: found once, however many findings share it.
+class StepTexts {
+ public:
+  StepTexts(std::string_view text, const Report& report, dialect::Language language);
+  const std::string& of(const PathStep& step) const { return texts_.at({step.line, step.taken}); }
+
+ private:
+  std::map<std::pair<std::uint64_t, bool>, std::string> texts_;
 };
 
 /// Writes the findings of one file after another in one of the output formats.

@@ -48,8 +48,8 @@ std::string message(DiagnosticId id, Language language, std::string_view text, s
   result.reserve(pattern.size() + 32);
   for (std::size_t at = 0; at < pattern.size();) {
     const std::size_t open = pattern.find('{', at);
-    const std::size_t close = open == pattern.npos ? pattern.npos : pattern.find('}', open);
-    if (close == pattern.npos) return result.append(pattern.substr(at));
+    const std::size_t close = open == std::string_view::npos ? std::string_view::npos : pattern.find('}', open);
+    if (close == std::string_view::npos) return result.append(pattern.substr(at));
     result.append(pattern.substr(at, open - at));
     const std::string_view name = pattern.substr(open + 1, close - open - 1);
     if (name == "text") result.append(shortened(text));
@@ -66,7 +66,7 @@ std::string_view severity_name(Severity severity, Language language) {
 }
 
 std::string_view first_sentence(std::string_view explanation) {
-  for (std::size_t at = explanation.find(". "); at != explanation.npos; at = explanation.find(". ", at + 1)) {
+  for (std::size_t at = explanation.find(". "); at != std::string_view::npos; at = explanation.find(". ", at + 1)) {
     const char next = explanation[at + 2];
     const bool abbreviation = at >= 3 && explanation.substr(at - 3, 3) == "e.g";
     if (!abbreviation && !(next >= 'a' && next <= 'z')) return explanation.substr(0, at + 1);

@@ -42,7 +42,7 @@ void Executor::run() {
   if (line_.feed >= 0 && !feed_move_) apply_feed_without_motion();
   state_.exact_stop_fits = feed_move_;
   const Instruction* const last = line_.instructions.empty() ? nullptr : &line_.instructions.back();
-  state_.tool_awaited = last && last->kind == InstructionKind::ToolChange && last->end == last->command + 1 &&
+  state_.tool_awaited = last != nullptr && last->kind == InstructionKind::ToolChange && last->end == last->command + 1 &&
                         !last->has(Instruction::kSettled);
 }
 

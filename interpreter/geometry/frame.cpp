@@ -28,7 +28,10 @@ static void sin_cos_deg(double degrees, double& sine, double& cosine) {
 }
 
 Mat3 axes_from_angles(double b_deg, double c_deg) {
-  double sin_b, cos_b, sin_c, cos_c;
+  double sin_b;
+  double cos_b;
+  double sin_c;
+  double cos_c;
   sin_cos_deg(b_deg, sin_b, cos_b);
   sin_cos_deg(c_deg, sin_c, cos_c);
   Mat3 axes;

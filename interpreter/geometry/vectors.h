@@ -16,7 +16,9 @@ struct Pose {
   double b = 0;
   double c = 0;
 
-  friend bool operator==(const Pose& a, const Pose& b) { return a.tip == b.tip && a.b == b.b && a.c == b.c; }
+  friend bool operator==(const Pose& left, const Pose& right) {
+    return left.tip == right.tip && left.b == right.b && left.c == right.c;
+  }
 };
 
 }  // namespace isocnc::geometry

@@ -13,6 +13,8 @@ template <class... Cases>
 struct Overloaded : Cases... {
   using Cases::operator()...;
 };
+template <class... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;
 
 Json array(const geometry::Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
 Json array(const geometry::Pose& p) { return Json::array({p.tip.x(), p.tip.y(), p.tip.z(), p.b, p.c}); }

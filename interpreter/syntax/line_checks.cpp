@@ -65,7 +65,7 @@ bool LineParser::must_be_alone(const Instruction& checked, dialect::DiagnosticId
 /// Whether the line holds a right word that is neither the instruction's own nor the line number.
 bool LineParser::has_company(const Instruction& alone) const {
   const dialect::GCode* const code = alone.kind == InstructionKind::G ? alone.g() : nullptr;
-  const bool dwell_without_time = code && code->number == 4 && !owns_any(alone, letters("P"));
+  const bool dwell_without_time = code != nullptr && code->number == 4 && !owns_any(alone, letters("P"));
   for (std::uint16_t i = 0; i < word_count(); ++i) {
     const Word& other = word(i);
     if (other.letter == 'N' || other.letter == kError || other.letter == kNumber || other.has(Word::kMissing)) continue;

@@ -350,7 +350,7 @@ std::uint16_t LineParser::read_condition(Jump& jump, std::uint16_t index) {
   // The piece in the place of what is wanted, up to what comes after it; the IF when nothing stands there.
   const auto fail = [&](std::uint16_t where, std::string_view next_letters) {
     auto last = where;
-    while (last < goto_at && next_letters.find(word(last).letter) == next_letters.npos) ++last;
+    while (last < goto_at && next_letters.find(word(last).letter) == std::string_view::npos) ++last;
     report("if-malformed"_diag, last == where ? word(index).span() : hull(word(where).span(), word(last - 1u).span()));
   };
   bool good = false;
