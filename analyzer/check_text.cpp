@@ -4,6 +4,7 @@
 #include <atomic>
 #include <mutex>
 #include <thread>
+#include <unordered_map>
 #include <vector>
 
 #include "analyzer/checker.h"
@@ -109,8 +110,22 @@ class Pass {
 
 }  // namespace
 
-/// Whether a path still waits for its label at the end of the file: then E004 or E005 stands at its jump.
-static bool has_lost_jumps(const Frontier& end) { return !end.waiting.empty(); }
+/// The lines on which each label that a GOTO names is defined.
+static std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> label_lines(std::string_view text,
+                                                                                 const JumpMap& jumps) {
+  std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> lines;
+  TreeStore store;
+  const char* p = text.data();
+  const char* const end = text.data() + text.size();
+  for (std::uint64_t line = 0; p != end; ++line) {
+    store.clear();
+    const char* const line_end = store.append_line(p, end);
+    const syntax::LineTree tree = store.tree(0, p);
+    if (tree.has_label() && jumps.names(tree.label)) lines[tree.label].push_back(line);
+    p = syntax::skip_line_end(line_end, end);
+  }
+  return lines;
+}
 
 Report check_text(std::string_view text, const execution::Setup& setup, int jobs) {
   text = without_byte_order_mark(text);
@@ -121,11 +136,12 @@ Report check_text(std::string_view text, const execution::Setup& setup, int jobs
     pass.run(jobs);
     std::vector<Outcome> outcomes;
     outcomes.push_back(pass.take_outcome());
-    if (jumps.is_resolved() || !has_lost_jumps(pass.checker().frontier))
+    if (jumps.is_resolved() || all_jumps_land(outcomes.front(), jumps))
       return conclude(std::move(outcomes), pass.checker().frontier, jumps,
                       [&](std::uint64_t line) { return LineFinder(text).line(line); });
-    // Rare: now that all labels are known, once more without the jumps that lead nowhere.
-    jumps.resolve(label_lines(outcomes));
+    // Rare: a jump whose label is not below it (E004, E005), or not among the lines that had to be read. Once more, now
+    // with all labels known.
+    jumps.resolve(label_lines(text, jumps));
   }
 }
 

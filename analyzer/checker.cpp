@@ -171,6 +171,7 @@ void Checker::report_common_findings(std::uint64_t line_number, Outcome& outcome
 void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   const syntax::Jump& jump = *line.jump;
   const std::uint32_t ordinal = frontier.next_jump++;
+  outcome.live_jumps.push_back(ordinal);
   switch (jumps_.target_of(ordinal)) {
     case JumpMap::Target::Below: break;
     case JumpMap::Target::NotFound:
@@ -180,7 +181,6 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
       outcome.findings.push_back({line_number, {.id = "backward-jump"_diag, .span = jump.target_span}});
       return;
   }
-  outcome.named.push_back(jump.target);
   Groups staying;
   const auto decide = [&](Path path, bool taken) {
     path.insert(path.begin(), {ordinal, taken});
@@ -247,17 +247,23 @@ void Checker::admit_reduction(const LineTree& line, std::uint64_t line_number, O
       {line_number, {.id = "too-many-paths"_diag, .span = span, .values = {static_cast<double>(kMostStates)}}});
 }
 
-std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> label_lines(const std::vector<Outcome>& outcomes) {
-  std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> lines;
-  for (const Outcome& outcome : outcomes)
-    for (const Outcome::Label& label : outcome.labels) lines[label.label].push_back(label.line);
-  return lines;
+bool all_jumps_land(const Outcome& outcome, const JumpMap& jumps) {
+  std::unordered_map<std::uint64_t, std::uint64_t> last_lines;
+  for (const Outcome::Label& label : outcome.labels) last_lines[label.label] = label.line;
+  return std::all_of(outcome.live_jumps.begin(), outcome.live_jumps.end(), [&](std::uint32_t ordinal) {
+    const JumpMap::Site& site = jumps.sites()[ordinal];
+    const auto last = last_lines.find(site.jump.target);
+    return last != last_lines.end() && last->second > site.line;
+  });
 }
 
 /// A label that a GOTO names may be defined once: the second and each later one that the control reads (D50, D51).
-static void add_duplicate_labels(const std::vector<Outcome>& outcomes, std::vector<LocatedFinding>& findings) {
+static void add_duplicate_labels(const std::vector<Outcome>& outcomes, const JumpMap& jumps,
+                                 std::vector<LocatedFinding>& findings) {
   std::unordered_set<std::uint64_t> named;
-  for (const Outcome& outcome : outcomes) named.insert(outcome.named.begin(), outcome.named.end());
+  for (const Outcome& outcome : outcomes)
+    for (const std::uint32_t jump : outcome.live_jumps)
+      if (jumps.target_of(jump) == JumpMap::Target::Below) named.insert(jumps.sites()[jump].jump.target);
   std::unordered_set<std::uint64_t> seen;
   for (const Outcome& outcome : outcomes)
     for (const Outcome::Label& label : outcome.labels)
@@ -325,7 +331,7 @@ Report conclude(std::vector<Outcome> outcomes, const Frontier& end, const JumpMa
     }
     paths.insert(paths.end(), std::make_move_iterator(outcome.paths.begin()), std::make_move_iterator(outcome.paths.end()));
   }
-  add_duplicate_labels(outcomes, report.findings);
+  add_duplicate_labels(outcomes, jumps, report.findings);
   add_missing_end(outcomes, end, text_of_line, paths, report.findings);
   const auto by_place = [](const LocatedFinding& a, const LocatedFinding& b) {
     return a.line != b.line ? a.line < b.line : a.finding.span.begin < b.finding.span.begin;

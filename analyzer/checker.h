@@ -24,7 +24,7 @@ struct Outcome {
   std::vector<LocatedFinding> findings;  ///< In the order of the lines.
   std::vector<Path> paths;
   std::vector<Label> labels;             ///< Definitions of labels that some GOTO names.
-  std::vector<std::uint64_t> named;      ///< Labels that a GOTO on a feasible path names.
+  std::vector<std::uint32_t> live_jumps;  ///< Jumps on a feasible path, counted from the top of the file.
   std::uint64_t last_text_line = 0;      ///< The last that holds any text (D47), if one does.
   bool has_text = false;
 
@@ -32,7 +32,7 @@ struct Outcome {
 };
 
 /// Most machine states that are followed at once (W191).
-inline constexpr std::size_t kMostStates = 64;
+inline constexpr std::size_t kMostStates = 512;
 
 /// Checks a program line by line on every feasible path. It holds where it stands (`frontier`) and nothing else, so that a
 /// check can go on from any earlier frontier.
@@ -74,7 +74,7 @@ class Checker {
 Report conclude(std::vector<Outcome> outcomes, const Frontier& end, const JumpMap& jumps,
                 const std::function<std::string_view(std::uint64_t)>& text_of_line);
 
-/// The lines on which each label that a GOTO names is defined.
-std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> label_lines(const std::vector<Outcome>& outcomes);
+/// Whether the labels seen tell where each jump on a feasible path goes.
+bool all_jumps_land(const Outcome& outcome, const JumpMap& jumps);
 
 }  // namespace isocnc::analyzer

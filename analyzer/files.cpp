@@ -25,7 +25,8 @@ struct Place {
 static Place place_of(const fs::path& path) {
   std::error_code error;
   fs::path real = fs::canonical(path, error);
-  return {path, error ? path : std::move(real)};
+  if (error) real = path;
+  return {path, std::move(real)};
 }
 
 /// So that a file found there is `part.iso`, not `./part.iso` or `parts//part.iso`.

@@ -1,9 +1,8 @@
 #include "analyzer/gitignore.h"
 
-#include <ctype.h>
-
 #include <algorithm>
 #include <bitset>
+#include <cctype>
 #include <cstdint>
 #include <fstream>
 #include <iterator>

@@ -40,6 +40,16 @@ static bool may_belong_to_goto(std::string_view text, std::size_t offset) {
   return before == 'G' || before == ')';
 }
 
+/// Letters without which a line holds no assignment and no jump, and without which it holds no label.
+static constexpr std::uint8_t kKeywordLetter = 1;
+static constexpr std::uint8_t kLabelLetter = 2;
+static constexpr auto kLetters = [] {
+  std::array<std::uint8_t, 256> letters{};
+  for (const char letter : {'V', 'v', 'O', 'o', 'n'}) letters[static_cast<unsigned char>(letter)] = kKeywordLetter;
+  letters['N'] = kLabelLetter;
+  return letters;
+}();
+
 JumpMap::JumpMap(std::string_view text) {
   LineCounter counter(text);
   syntax::TreeStore store;
@@ -68,8 +78,11 @@ JumpMap::JumpMap(std::string_view text) {
   if (compares_registers()) {
     const char* const end = text.data() + text.size();
     for (const char* p = text.data(); p != end;) {
-      const char* const line_end = syntax::find_line_end(p, end);
-      if (may_matter_to_registers({p, static_cast<std::size_t>(line_end - p)})) {
+      const char* line_end = p;
+      std::uint8_t letters = 0;
+      while (line_end != end && !syntax::is_line_end(*line_end)) letters |= kLetters[static_cast<unsigned char>(*line_end++)];
+      const std::string_view line(p, static_cast<std::size_t>(line_end - p));
+      if ((letters & kKeywordLetter) != 0 || ((letters & kLabelLetter) != 0 && may_be_target(line))) {
         store.clear();
         store.append_line(p, line_end);
         note_registers(store.tree(0, p));
@@ -80,12 +93,9 @@ JumpMap::JumpMap(std::string_view text) {
   complete();
 }
 
-/// Whether a line may hold an assignment, a jump or the label of one. Cheap, and wrong only on the side of yes.
-bool JumpMap::may_matter_to_registers(std::string_view line) const {
-  const auto has = [&](char letter) { return std::memchr(line.data(), letter, line.size()) != nullptr; };
-  if (has('V') || has('v') || has('O') || has('o') || has('n')) return true;
+/// Whether a line with an N may hold the label of a jump. Cheap, and wrong only on the side of yes.
+bool JumpMap::may_be_target(std::string_view line) const {
   const std::size_t at = line.find('N');
-  if (at == std::string_view::npos) return false;
   std::uint64_t label = 0;
   std::size_t digits = at + 1;
   while (digits < line.size() && syntax::is_digit(line[digits])) label = label * 10 + static_cast<std::uint64_t>(line[digits++] - '0');

@@ -67,7 +67,7 @@ class JumpMap {
     const std::size_t bit = filter_bit(label);
     return !filter_.empty() && (filter_[bit / 64] >> (bit % 64) & 1) != 0;
   }
-  bool may_matter_to_registers(std::string_view line) const;
+  bool may_be_target(std::string_view line) const;
 
   std::vector<Site> sites_;
   std::unordered_set<std::uint64_t> targets_;

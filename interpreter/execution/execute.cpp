@@ -112,7 +112,9 @@ void Executor::function(const Instruction& instruction) {
   for (std::uint16_t i = instruction.begin; i + 1 < instruction.end && count < parameters.size(); ++i) {
     const Word& name = line_.words[i];
     const Word& value = line_.words[i + 1u];
-    if (name.owner == instruction.number && name.letter == 'P' && value.letter == syntax::kAssign && value.known())
+    const bool is_named = name.owner == instruction.number && name.letter == 'P' && name.is_plain_integer() &&
+                          name.value >= 1 && name.value <= dialect::kMostFunctionParameters;
+    if (is_named && value.letter == syntax::kAssign && value.known())
       parameters[count++] = {static_cast<int>(name.value), value.value};
   }
   sink_.function(m, {parameters.data(), count});

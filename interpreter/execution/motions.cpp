@@ -115,7 +115,7 @@ void Executor::move_with_effects(const Arguments& arguments, const GCode& code, 
 /// Coordinates before any motion G belong to nothing: one finding a line (D21).
 bool Executor::motion_is_in_force(const Arguments& arguments) {
   if (state_.mode(dialect::ModalGroup::Motion) != dialect::kNoMotion) return true;
-  bool reported = line_.has(syntax::LineTree::kAloneViolated) || arguments.first().has(syntax::Word::kReported);
+  bool reported = line_.has(syntax::LineTree::kAloneViolated) || arguments.first().has(syntax::Word::kReported | syntax::Word::kMissing);
   for (const syntax::Finding& finding : line_.findings) reported |= finding.id == "stray-argument"_diag;
   if (!reported) report("stray-argument"_diag, arguments.first().span());
   return false;
@@ -126,7 +126,7 @@ void Executor::report_strays(const Arguments& arguments, const GCode& code) {
   if (line_.has(syntax::LineTree::kAloneViolated)) return;
   for (char letter = 'A'; letter <= 'Z'; ++letter)
     if (dialect::contains(arguments.present() & ~code.arguments, letter) &&
-        !arguments.word(letter).has(syntax::Word::kReported))
+        !arguments.word(letter).has(syntax::Word::kReported | syntax::Word::kMissing))
       report("stray-argument"_diag, arguments.word(letter).span());
 }
 

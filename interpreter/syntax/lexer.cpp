@@ -153,10 +153,13 @@ const char* LineParser::match_keyword(const char* p, const char* keyword) const 
   return behind;
 }
 
-bool LineParser::goto_follows(const char* p) const {
-  for (; p != end_ && !is_line_end(*p) && *p != ';'; ++p)
-    if (upper(*p) == 'G' && match_keyword(p, "GOTO")) return true;
-  return false;
+bool LineParser::goto_follows(const char* p) {
+  if (!last_goto_) {  // Looked for once, however many IFs the line has.
+    last_goto_ = begin_;
+    for (const char* at = p; at != end_ && !is_line_end(*at) && *at != ';'; ++at)
+      if (upper(*at) == 'G' && match_keyword(at, "GOTO")) last_goto_ = at;
+  }
+  return last_goto_ > p;
 }
 
 /// Behind all blanks and closed comments at `p`.

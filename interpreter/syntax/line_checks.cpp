@@ -159,7 +159,10 @@ void LineParser::check_motion(const Instruction& motion) {
   if (broken != kNone) {
     if (breaker_is_reported(motion, static_cast<std::uint16_t>(broken))) return;
     if (!has_arguments) return report_missing("missing-coordinate"_diag, motion);
-    return report("stray-argument"_diag, word(static_cast<std::size_t>(broken)).span(), {}, word(motion.command).span());
+    Word& stray = word(static_cast<std::size_t>(broken));
+    stray.flags |= Word::kReported;
+    if (stray.has(Word::kMissing)) return;
+    return report("stray-argument"_diag, stray.span(), {}, word(motion.command).span());
   }
   if (!is_g || owns_any(motion, dialect::kCoordinateLetters)) return;
   // Strays without a coordinate are reported where the motion is known; a second motion G, or one that is unknown and has

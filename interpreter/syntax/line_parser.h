@@ -30,7 +30,7 @@ class LineParser {
   const char* lex_unknown(const char* p);
   const char* skip_space(const char* p) const;
   const char* match_keyword(const char* p, const char* keyword) const;
-  bool goto_follows(const char* p) const;
+  bool goto_follows(const char* p);
   void note_comments_inside(const char* begin, const char* end);
   Word& add_word(char letter, const char* begin, const char* end);
 
@@ -93,6 +93,7 @@ class LineParser {
 
   bool in_condition_ = false;  ///< Between IF and the label behind GOTO: a comparison and a bare number are right there.
   bool behind_goto_ = false;   ///< The next word is the label.
+  const char* last_goto_ = nullptr;  ///< The line's last GOTO, or its start where there is none; null before it was looked for.
 
   static constexpr int kNone = -1;
   int taker_ = kNone;                 ///< The instruction that the next argument goes to.

@@ -35,8 +35,11 @@ bool goes_on_behind_comment(const char* p, const char* end);
 inline bool scan_short_number(const char* p, const char* end, Number& number) {
   static_assert(std::endian::native == std::endian::little);
   if (end - p < 9) return false;
-  const std::uint64_t negative = *p == '-' ? 1 : 0;
-  const std::uint64_t is_signed = negative | (*p == '+' ? 1 : 0);
+  const auto is_char = [c = static_cast<unsigned char>(*p)](unsigned char wanted) {
+    return std::uint64_t{(static_cast<std::uint32_t>(c ^ wanted) - 1) >> 31};  // 1 or 0; a comparison would branch.
+  };
+  const std::uint64_t negative = is_char('-');
+  const std::uint64_t is_signed = negative | is_char('+');
   p += is_signed;
   std::uint64_t bytes;
   std::memcpy(&bytes, p, 8);

@@ -1,150 +1,157 @@
+#include <array>
+#include <string_view>
+
+#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/number.h"
 #include "interpreter/syntax/tree_store.h"
 
 namespace isocnc::syntax {
 
-/// What a plain line may hold besides N, G and F.
-static constexpr dialect::LetterSet kPlainLetters = dialect::letters("XYZBCIJKR");
-
 namespace {
 
-/// What the words of a line amount to as long as it may be a plain one.
-struct PlainLine {
-  static constexpr std::size_t kMostWords = 12;  // N, G, F and each letter once.
+/// What a letter may do on a plain line.
+enum class Role : std::uint8_t { None, Argument, Feed, Command, LineNumber };
 
-  std::uint16_t count = 0;
-  dialect::LetterSet taken = 0;
-  int command = -1;          // The G, or the first coordinate.
-  std::uint16_t behind = 0;  // Behind the last argument.
-  std::uint8_t row = dialect::kUnknownGCode;
-  int feed = -1;
-  bool has_label = false;
-  std::uint64_t label = 0;
-
-  /// Takes the word into its place; false when the line is not plain because of it.
-  bool take(Word& word) {
-    if (dialect::contains(kPlainLetters, word.letter)) {
-      const dialect::LetterSet bit = dialect::letter_bit(word.letter);
-      if ((taken & bit) != 0) return false;
-      taken |= bit;
-      word.owner = 0;
-      if (command < 0) command = count;
-      behind = static_cast<std::uint16_t>(count + 1);
-      return true;
-    }
-    switch (word.letter) {
-      case 'F':
-        if (feed >= 0 || !(word.value > 0)) return false;
-        feed = count;
-        return true;
-      case 'G':
-        if (command >= 0 || !word.is_plain_integer() || word.value > 3) return false;
-        row = dialect::kGCodeRows[static_cast<std::size_t>(word.value)];
-        command = count;
-        behind = static_cast<std::uint16_t>(count + 1);
-        word.owner = 0;
-        return true;
-      case 'N':
-        if (count > 0 || !word.is_plain_integer() || word.digits > 15) return false;
-        has_label = true;
-        label = static_cast<std::uint64_t>(word.value);
-        return true;
-      default: return false;
-    }
-  }
-
-  /// A motion G needs a coordinate; that it has none is for the general way to tell.
-  bool is_complete() const {
-    return row == dialect::kUnknownGCode || (taken & dialect::kCoordinateLetters) != 0;
-  }
+struct LetterRole {
+  dialect::LetterSet bit = 0;
+  char letter = 0;  ///< Upper case.
+  Role role = Role::None;
 };
+
+constexpr auto kRoles = [] {
+  std::array<LetterRole, 256> roles{};
+  const auto give = [&](std::string_view letters, Role role) {
+    for (const char letter : letters)
+      for (const char written : {letter, static_cast<char>(letter + ('a' - 'A'))})
+        roles[static_cast<unsigned char>(written)] = {dialect::letter_bit(letter), letter, role};
+  };
+  give("XYZBCIJKR", Role::Argument);
+  give("F", Role::Feed);
+  give("G", Role::Command);
+  give("N", Role::LineNumber);
+  return roles;
+}();
+
+/// N, G, F and each argument once.
+constexpr std::uint16_t kMostPlainWords = 12;
+
+/// With so many bytes left, a short number can be read without looking for the end.
+constexpr std::ptrdiff_t kMargin = 12;
+
+/// Behind the comment at `p`, or null when it does not end on this line.
+const char* behind_comment(const char* p, const char* end) {
+  if (*p == ';') return find_line_end(p, end);
+  while (p != end && !is_line_end(*p) && *p != ')') ++p;
+  return p != end && *p == ')' ? p + 1 : nullptr;
+}
+
+/// A number that scan_short_number() leaves alone: a longer one, but with nothing inside and not malformed.
+bool scan_long_number(const char* p, const char* end, Number& number) {
+  if (!is_number_char(*p)) return false;
+  number = scan_number(p, end);
+  const bool has_more_inside = number.end - p != number.digits + (number.is_signed ? 1 : 0) + (number.has_point ? 1 : 0);
+  return !number.malformed && !has_more_inside;
+}
 
 }  // namespace
 
 /// Most lines of most programs hold at most an N, a motion G, coordinates and F, each once and well written. They are
 /// parsed in one go, into the very tree that the general way gives them. Null, with nothing changed, for any other line.
 const char* TreeStore::append_plain_line(const char* begin, const char* end) {
-  PlainLine line;
-  const char* p = begin;
-  const std::size_t first_word = words_.size();
   const std::size_t first_comment = comments_.size();
-  const auto column = [begin](const char* at) { return static_cast<std::uint32_t>(at - begin); };
-  // Words are written where they stay.
-  Word* const words = words_.room_for(PlainLine::kMostWords);
-  const auto give_up = [&]() -> const char* {
-    comments_.resize(first_comment);
-    return nullptr;
-  };
+  Word* const words = words_.room_for(kMostPlainWords);  // Written where they stay.
+  std::uint16_t count = 0;
+  std::uint16_t behind = 0;  // Behind the last argument.
+  int command = -1;          // The G, or the first argument.
+  int feed = -1;
+  bool has_label = false;
+  std::uint8_t row = dialect::kUnknownGCode;
+  dialect::LetterSet taken = 0;
+  const char* p = begin;
   for (;;) {
-    while (p != end && is_blank(*p)) ++p;
-    if (p == end || is_line_end(*p)) break;
-    const char letter = upper(*p);
-    if (letter < 'A' || letter > 'Z') {
-      if (letter == ';') {
-        const char* const comment_end = find_line_end(p, end);
-        comments_.push_back({column(p), column(comment_end)});
-        p = comment_end;
-        break;
-      }
-      if (letter != '(') return give_up();
-      const char* close = p;
-      while (close != end && !is_line_end(*close) && *close != ')') ++close;
-      if (close == end || *close != ')') return give_up();
-      comments_.push_back({column(p), column(close) + 1});
-      p = close + 1;
+    if (end - p < kMargin || count == kMostPlainWords) break;
+    if (is_blank(*p)) {
+      ++p;
       continue;
     }
-    if (line.count == PlainLine::kMostWords) return give_up();
-    const char* const start = p++;
-    while (p != end && is_blank(*p)) ++p;
-    Number number;
-    if (!scan_short_number(p, end, number)) {
-      if (p == end || !is_number_char(*p)) return give_up();
-      number = scan_number(p, end);
-      const bool has_more_inside =
-          number.end - p != number.digits + (number.is_signed ? 1 : 0) + (number.has_point ? 1 : 0);
-      if (number.malformed || has_more_inside) return give_up();
+    const LetterRole& role = kRoles[static_cast<unsigned char>(*p)];
+    if (role.role == Role::None) {
+      if (is_line_end(*p)) goto complete;
+      const char* const behind_it = *p == ';' || *p == '(' ? behind_comment(p, end) : nullptr;
+      if (!behind_it) break;
+      comments_.push_back({static_cast<std::uint32_t>(p - begin), static_cast<std::uint32_t>(behind_it - begin)});
+      p = behind_it;
+      continue;
     }
-    Word& word = words[line.count];
-    word.letter = letter;
-    word.begin = column(start);
-    word.end = column(number.end);
+    const char* digits = p + 1;
+    if (is_blank(*digits)) ++digits;
+    Number number;
+    if (!scan_short_number(digits, end, number) && !scan_long_number(digits, end, number)) break;
+    Word& word = words[count];
     word.value = number.value;
+    word.begin = static_cast<std::uint32_t>(p - begin);
+    word.end = static_cast<std::uint32_t>(number.end - begin);
     word.digits = number.digits;
+    word.letter = role.letter;
     word.flags = static_cast<std::uint8_t>((number.is_signed ? Word::kSigned : 0) | (number.has_point ? Word::kPoint : 0));
-    word.owner = Word::kNobody;
-    if (!line.take(word)) return give_up();
-    ++line.count;
+    if (role.role == Role::Argument) {
+      if ((taken & role.bit) != 0) break;
+      taken |= role.bit;
+      word.owner = 0;
+      command = command < 0 ? count : command;
+      behind = static_cast<std::uint16_t>(count + 1);
+    } else if (role.role == Role::Feed) {
+      if (feed >= 0 || !(word.value > 0)) break;
+      word.owner = Word::kNobody;
+      feed = count;
+    } else if (role.role == Role::Command) {
+      if (command >= 0 || !word.is_plain_integer() || word.value > 3) break;
+      row = dialect::kGCodeRows[static_cast<std::size_t>(word.value)];
+      word.owner = 0;
+      command = count;
+      behind = static_cast<std::uint16_t>(count + 1);
+    } else {
+      if (count > 0 || !word.is_plain_integer() || word.digits > 15) break;
+      word.owner = Word::kNobody;
+      has_label = true;
+    }
+    ++count;
     p = number.end;
   }
-  if (!line.is_complete()) return give_up();
+  comments_.resize(first_comment);
+  return nullptr;
 
-  words_.add(line.count);
+complete:
+  // A motion G needs a coordinate; that it has none is for the general way to tell.
+  if (row != dialect::kUnknownGCode && (taken & dialect::kCoordinateLetters) == 0) {
+    comments_.resize(first_comment);
+    return nullptr;
+  }
   Line& added = lines_.push_back(Line{});
-  added.length = column(p);
-  added.first_word = static_cast<std::uint32_t>(first_word);
+  added.length = static_cast<std::uint32_t>(p - begin);
+  added.first_word = static_cast<std::uint32_t>(words_.size());
   added.first_instruction = static_cast<std::uint32_t>(instructions_.size());
   added.first_comment = static_cast<std::uint32_t>(first_comment);
   added.first_finding = static_cast<std::uint32_t>(findings_.size());
-  added.words = line.count;
-  added.feed = line.feed;
+  added.words = count;
+  added.feed = feed;
   added.comments = static_cast<std::uint32_t>(comments_.size() - first_comment);
-  if (line.has_label) {
+  if (has_label) {
     added.flags = LineTree::kHasLabel;
-    added.label = line.label;
+    added.label = static_cast<std::uint64_t>(words[0].value);
   }
-  if (line.command >= 0) {
+  words_.add(count);
+  if (command >= 0) {
     added.instructions = 1;
-    const auto command = static_cast<std::uint16_t>(line.command);
-    const bool is_first = command == (line.has_label ? 1 : 0);
-    instructions_.push_back(
-        {.kind = line.row == dialect::kUnknownGCode ? InstructionKind::Continuation : InstructionKind::G,
-         .row = line.row,
-         .flags = is_first ? Instruction::kFirst : std::uint8_t{0},
-         .number = 0,
-         .command = command,
-         .begin = command,
-         .end = line.behind});
+    Instruction& instruction = *instructions_.room_for(1);
+    instruction = {.kind = row == dialect::kUnknownGCode ? InstructionKind::Continuation : InstructionKind::G,
+                   .row = row,
+                   .flags = command == (has_label ? 1 : 0) ? Instruction::kFirst : std::uint8_t{0},
+                   .number = 0,
+                   .command = static_cast<std::uint16_t>(command),
+                   .begin = static_cast<std::uint16_t>(command),
+                   .end = behind};
+    instructions_.add(1);
   }
   return p;
 }

@@ -190,9 +190,10 @@ void LineParser::take_earlier_words(Instruction& g) {
   bool reported = false;
   for (std::uint16_t i = earlier.begin; i < earlier.end; ++i) {
     if (word(i).owner != earlier.number) continue;
-    if (!reported) report("stray-argument"_diag, word(i).span(), {}, word(g.command).span());
+    if (!reported && !word(i).has(Word::kMissing))
+      report("stray-argument"_diag, word(i).span(), {}, word(g.command).span());
     reported = true;
-    word(i).flags &= static_cast<std::uint8_t>(~Word::kBreak);
+    word(i).flags = static_cast<std::uint8_t>((word(i).flags & ~Word::kBreak) | Word::kReported);
     own(g, i);
   }
   earlier.flags |= Instruction::kSettled;
@@ -300,8 +301,8 @@ std::uint16_t LineParser::add_assignment(std::uint16_t index) {
   auto last = static_cast<std::uint16_t>(index + 1);
   own(added, last);
   // V1=V2, V1=X5: what stands in the value's place belongs to the same mistake.
-  if (word(last).has(Word::kMissing) && last + 1 < word_count() && word(last + 1u).begin == word(last).end &&
-      word(last + 1u).letter != kAssign)
+  static constexpr dialect::LetterSet kSwallowed = dialect::kDimensionLetters | dialect::letters("FSV");
+  if (word(last).has(Word::kMissing) && last + 1 < word_count() && contains(kSwallowed, word(last + 1u).letter))
     own(added, ++last);
   return last;
 }
@@ -401,8 +402,10 @@ bool LineParser::read_variable(Jump& jump, Word& written) {
 /// The label behind the GOTO at `index`.
 std::uint16_t LineParser::read_target(Jump& jump, std::uint16_t index) {
   const auto at = static_cast<std::uint16_t>(index + 1);
-  if (at >= word_count() || word(at).letter == 'G') {
-    report("if-malformed"_diag, jump.if_span);
+  if (at >= word_count() || word(at).letter == 'G' || word(at).letter == kIf) {
+    const bool said = store_.findings_.size() > line_.first_finding &&
+                      store_.findings_.back().id == "if-malformed"_diag && store_.findings_.back().span == jump.if_span;
+    if (!said) report("if-malformed"_diag, jump.if_span);
     return index;
   }
   const Word& label = word(at);
