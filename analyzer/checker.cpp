@@ -18,7 +18,7 @@ static constexpr std::size_t kLongestPath = 64;
 static constexpr std::size_t kMostValuations = 256;
 /// More than one live group is paid from a bucket that fills by two extra executions a line and holds this many: short
 /// stretches may follow all paths, endless ones only a few.
-static constexpr std::uint32_t kSpreadLimit = 100'000;
+static constexpr std::uint32_t kSpreadLimit = 1'000'000;
 static constexpr std::uint32_t kSpreadRelief = 2;
 /// Labels that may be waited for at once.
 static constexpr std::size_t kMostWaiting = 16'384;

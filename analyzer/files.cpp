@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "analyzer/gitignore.h"
-#include "analyzer/source_file.h"
+#include "interpreter/running/system_texts.h"
 
 namespace isocnc::analyzer {
 
@@ -44,7 +44,7 @@ static bool has_extension(std::string_view name, std::string_view extension) {
 }
 
 static std::string problem(const fs::path& path, const std::error_code& error, dialect::Language language) {
-  return path.native() + ": " + cannot_read(error.value(), language);
+  return path.native() + ": " + running::cannot_read(error.value(), language);
 }
 
 namespace {

@@ -1,32 +1,34 @@
 #include <algorithm>
 #include <atomic>
-#include <cerrno>
 #include <condition_variable>
 #include <csignal>
-#include <cstdio>
-#include <cstring>
+#include <cstdlib>
 #include <iostream>
 #include <mutex>
+#include <sstream>
 #include <thread>
 #include <variant>
 
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "analyzer/check_text.h"
 #include "analyzer/explain.h"
 #include "analyzer/files.h"
 #include "analyzer/renderers.h"
-#include "analyzer/source_file.h"
 #include "interpreter/dialect/locale.h"
+#include "interpreter/running/output_file.h"
+#include "interpreter/running/source_file.h"
+#include "interpreter/running/system_texts.h"
 
 namespace isocnc::analyzer {
 namespace {
 
 using dialect::Language;
 using dialect::Text;
+using running::SourceFile;
 
 enum ExitStatus { kClean = 0, kFindings = 1, kTrouble = 2 };
 
@@ -53,28 +55,33 @@ struct Options {
   }
 };
 
-void complain(std::string_view what) { std::cerr << "isolint: " << what << '\n'; }
+void complain(std::string_view what) { std::cerr << "isolint: " << printable(what) << '\n'; }
 
-/// Standard output, with the reason kept when it cannot be written.
+/// Where findings and all other answers go.
 class StandardOutput final : public Output {
  public:
-  int error() const { return error_; }
+  /// Flushes; false, after a complaint, when anything written has been lost.
+  bool finish(Language language) {
+    flush();
+    if (file_.flush() == 0) return true;
+    complain(fmt::format("<stdout>: {}", running::cannot_write(file_.error(), language)));
+    return false;
+  }
+  bool has_failed() const { return file_.error() != 0; }
 
  protected:
-  void write(std::string_view text) override {
-    while (!text.empty() && error_ == 0) {
-      const ssize_t written = ::write(STDOUT_FILENO, text.data(), text.size());
-      if (written >= 0) {
-        text.remove_prefix(static_cast<std::size_t>(written));
-      } else if (errno != EINTR) {
-        error_ = errno;
-      }
-    }
-  }
+  void write(std::string_view text) override { file_.write(text); }
 
  private:
-  int error_ = 0;
+  running::OutputFile file_{STDOUT_FILENO};
 };
+
+/// Prints an answer that is no finding.
+ExitStatus say(std::string_view text, Language language) {
+  StandardOutput output;
+  output.buffer() += text;
+  return output.finish(language) ? kClean : kTrouble;
+}
 
 struct Counts {
   std::size_t errors = 0, warnings = 0, infos = 0, files = 0;
@@ -83,9 +90,15 @@ struct Counts {
     ++files;
     for (const LocatedFinding& located : report.findings) {
       switch (dialect::definition(located.finding.id).severity) {
-        case dialect::Severity::Error: ++errors; break;
-        case dialect::Severity::Warning: ++warnings; break;
-        case dialect::Severity::Info: ++infos; break;
+        case dialect::Severity::Error:
+          ++errors;
+          break;
+        case dialect::Severity::Warning:
+          ++warnings;
+          break;
+        case dialect::Severity::Info:
+          ++infos;
+          break;
       }
     }
   }
@@ -110,12 +123,7 @@ class Run {
     work();
     for (std::thread& helper : helpers) helper.join();
     renderer_->end(output_.buffer());
-    output_.flush();
-    if (output_.error() != 0) {
-      complain(fmt::format("{}: {}", language_ == Language::Italian ? "scrittura non riuscita" : "cannot write the findings",
-                           std::strerror(output_.error())));
-      return kTrouble;
-    }
+    if (!output_.finish(language_)) return kTrouble;
     if (options_.format == "text") summarize();
     if (trouble_) return kTrouble;
     return counts_.errors > 0 ? kFindings : kClean;
@@ -142,7 +150,7 @@ class Run {
         trouble_ = true;
       } else {
         counts_.add(report);
-        if (output_.error() == 0) renderer_->file(name, text, report, output_);
+        if (!output_.has_failed()) renderer_->file(name, text, report, output_);
       }
       ++turn_;
       turn_changed_.notify_all();
@@ -154,8 +162,9 @@ class Run {
     const auto plural = [](std::size_t n, std::string_view one, std::string_view many) {
       return fmt::format("{} {}", n, n == 1 ? one : many);
     };
-    std::string line = italian ? plural(counts_.errors, "errore", "errori") + ", " + plural(counts_.warnings, "avviso", "avvisi")
-                               : plural(counts_.errors, "error", "errors") + ", " + plural(counts_.warnings, "warning", "warnings");
+    std::string line =
+        italian ? plural(counts_.errors, "errore", "errori") + ", " + plural(counts_.warnings, "avviso", "avvisi")
+                : plural(counts_.errors, "error", "errors") + ", " + plural(counts_.warnings, "warning", "warnings");
     if (counts_.infos > 0) line += ", " + plural(counts_.infos, italian ? "nota" : "note", italian ? "note" : "notes");
     line += italian ? " in " + plural(counts_.files, "file", "file") : " in " + plural(counts_.files, "file", "files");
     std::cerr << line << '\n';
@@ -195,22 +204,26 @@ int check(const Options& options) {
     trouble = !selection.problems.empty();
     files = std::move(selection.files);
     if (files.empty() && !trouble) {
-      complain(italian ? "nessun programma trovato (.iso .nc .cnc .tap .ngc)" : "no programs found (.iso .nc .cnc .tap .ngc)");
+      complain(italian ? "nessun programma trovato (.iso .nc .cnc .tap .ngc)"
+                       : "no programs found (.iso .nc .cnc .tap .ngc)");
       return kTrouble;
     }
   }
+  // Readers of JSON compare arrays, whatever order the files were named in.
+  if (options.format == "json")
+    std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.native() < b.native(); });
   return Run(options, std::move(files)).run(trouble);
 }
 
 int explain_code(const Options& options) {
   const auto id = dialect::find_diagnostic(options.explain);
   if (!id) {
-    complain(fmt::format("{} {} (--list-rules)",
-                         options.reader_language() == Language::Italian ? "codice sconosciuto:" : "unknown code:", options.explain));
+    complain(fmt::format(
+        "{} {} (--list-rules)",
+        options.reader_language() == Language::Italian ? "codice sconosciuto:" : "unknown code:", options.explain));
     return kTrouble;
   }
-  std::cout << explain(*id, options.reader_language());
-  return kClean;
+  return say(explain(*id, options.reader_language()), options.reader_language());
 }
 
 int run_main(int argc, char** argv) {
@@ -219,10 +232,13 @@ int run_main(int argc, char** argv) {
   CLI::App app{"Checks ISOCNC programs and reports what the control would stop at."};
   app.name("isolint");
   app.set_version_flag("--version", "isolint " ISOCNC_VERSION);
-  app.add_option("PATH", options.paths, "Programs, directories (searched for .iso .nc .cnc .tap .ngc), or - for standard input; else the current directory");
+  app.add_option("PATH", options.paths,
+                 "Programs, directories (searched for .iso .nc .cnc .tap .ngc), or - for standard input; else the "
+                 "current directory");
   app.add_option("--format", options.format, "How findings are shown: text, concise, json")
       ->check(CLI::IsMember({"text", "concise", "json"}));
-  app.add_option("--lang", options.language, "Language of messages: en, it (else from the locale)")->check(CLI::IsMember({"en", "it"}));
+  app.add_option("--lang", options.language, "Language of messages: en, it (else from the locale)")
+      ->check(CLI::IsMember({"en", "it"}));
   app.add_option("--color", options.color, "auto, always, never")->check(CLI::IsMember({"auto", "always", "never"}));
   app.add_option("--jobs,-j", options.jobs, "Threads (else one per core)")->check(CLI::Range(1, 1024));
   app.add_option("--stdin-filename", options.stdin_name, "Name to show for standard input");
@@ -233,14 +249,16 @@ int run_main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
-    return app.exit(success);
+    std::ostringstream said;
+    app.exit(success, said, said);
+    return say(said.str(), options.reader_language());
   } catch (const CLI::ParseError& error) {
     complain(error.what());
     std::cerr << "isolint --help\n";
     return kTrouble;
   }
-  if (options.rules_page) return std::cout << rules_page(), kClean;
-  if (options.list_rules) return std::cout << list_rules(options.reader_language()), kClean;
+  if (options.rules_page) return say(rules_page(), options.reader_language());
+  if (options.list_rules) return say(list_rules(options.reader_language()), options.reader_language());
   if (!options.explain.empty()) return explain_code(options);
   return check(options);
 }

@@ -7,8 +7,12 @@
 
 #include "analyzer/report.h"
 #include "interpreter/dialect/diagnostic.h"
+#include "interpreter/syntax/unicode.h"
 
 namespace isocnc::analyzer {
+
+using syntax::column_of;
+using syntax::printable;
 
 /// Gives the text of ever later lines, and columns in them.
 class LineFinder {
@@ -77,13 +81,9 @@ class Output {
   std::string buffer_;
 };
 
-/// Columns from 1 in Unicode code points; a byte that is no UTF-8 counts as one.
-std::size_t column_of(std::string_view line, std::size_t byte);
 /// The page of a rule.
 std::string rule_url(dialect::DiagnosticId id);
 /// `line 12: IF VGPL = 1 GOTO N30 jumps` in the reader's language.
 std::string describe_step(const PathStep& step, std::string_view line_text, dialect::Language language);
-/// Well-formed UTF-8 for the screen: control characters and stray bytes replaced, tabs as blanks.
-std::string printable(std::string_view text);
 
 }  // namespace isocnc::analyzer

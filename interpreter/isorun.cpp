@@ -1,50 +1,105 @@
-#include <cerrno>
-#include <csignal>
-#include <cstdio>
-#include <cstring>
-#include <fstream>
-#include <iostream>
-#include <iterator>
+#include <unistd.h>
 
-#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <optional>
+#include <sstream>
+
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "interpreter/dialect/locale.h"
+#include "interpreter/running/output_file.h"
 #include "interpreter/running/runner.h"
+#include "interpreter/running/source_file.h"
+#include "interpreter/running/system_texts.h"
+#include "interpreter/syntax/number.h"
+#include "interpreter/syntax/unicode.h"
 
 namespace isocnc::running {
 namespace {
 
 using dialect::Language;
+using dialect::Text;
 
 enum ExitStatus { kRan = 0, kStopped = 1, kTrouble = 2 };
 
+/// As they stand on the command line. Numbers are read later, when the language to complain in is known.
 struct Options {
   std::string file;
   std::string trace;
   std::string language;
   std::vector<std::string> settings;
-  double vgpl = 0;
-  std::uint64_t until = 0;
+  std::string vgpl = "0";
+  std::string until;
 
   Language reader_language() const {
     if (language.empty()) return dialect::language_of_environment();
     return language == "it" ? Language::Italian : Language::English;
   }
+  bool reads_stdin() const { return file == "-"; }
+  std::string shown_file() const { return reads_stdin() ? "<stdin>" : file; }
 };
 
-void complain(std::string_view what) { std::cerr << "isorun: " << what << '\n'; }
+void complain(std::string_view what) { std::cerr << "isorun: " << syntax::printable(what) << '\n'; }
+
+/// A number as programs write it, and nothing else: sign, digits, point.
+std::optional<double> read_decimal(std::string_view text) {
+  if (text.empty() || text.find_first_not_of("+-.0123456789") != std::string_view::npos) return std::nullopt;
+  const syntax::Number number = syntax::scan_number(text.data(), text.data() + text.size());
+  if (number.malformed || std::isnan(number.value)) return std::nullopt;
+  return number.value;
+}
+
+/// A number from 1, of digits alone; none when it is more than `most`.
+std::optional<std::uint64_t> read_count(std::string_view text, std::uint64_t most) {
+  std::uint64_t count = 0;
+  const char* const end = text.data() + text.size();
+  const auto [behind, error] = std::from_chars(text.data(), end, count);
+  if (error != std::errc{} || behind != end || count < 1 || count > most) return std::nullopt;
+  return count;
+}
 
 /// V3=1.5
-bool read_register(const std::string& setting, RunOptions& run) {
-  int reg = 0;
-  int length = 0;
-  double value = 0;
-  if (std::sscanf(setting.c_str(), "V%d=%lf%n", &reg, &value, &length) != 2 ||
-      static_cast<std::size_t>(length) != setting.size() || reg < 1 || reg > dialect::kRegisterCount)
-    return false;
-  run.registers[static_cast<std::size_t>(reg)] = value;
+bool read_register(std::string_view setting, RunOptions& run) {
+  const std::size_t equals = setting.find('=');
+  if (!setting.starts_with('V') || equals == std::string_view::npos) return false;
+  const auto reg = read_count(setting.substr(1, equals - 1), dialect::kRegisterCount);
+  const auto value = read_decimal(setting.substr(equals + 1));
+  if (!reg || !value) return false;
+  run.registers[*reg] = *value;
   return true;
+}
+
+constexpr Text kWrongSetting{"--set wants a register and a plain number, V1=0 to V30=-2.5, not {}",
+                             "--set vuole un registro e un numero semplice, da V1=0 a V30=-2.5, non {}"};
+constexpr Text kWrongVgpl{"--vgpl wants a plain number, such as -2.5, not {}",
+                          "--vgpl vuole un numero semplice, come -2.5, non {}"};
+constexpr Text kWrongUntil{"--until wants a line, from 1, not {}", "--until vuole una riga, da 1, non {}"};
+constexpr Text kOverwritesProgram{"the trace would overwrite the program", "la traccia sovrascriverebbe il programma"};
+
+/// What is asked of the run; nothing after a complaint.
+std::optional<RunOptions> read_run_options(const Options& options) {
+  const auto refuse = [&](const Text& why, std::string_view value) {
+    complain(fmt::format(fmt::runtime(why.in(options.reader_language())), value));
+    return std::nullopt;
+  };
+  RunOptions run;
+  for (const std::string& setting : options.settings)
+    if (!read_register(setting, run)) return refuse(kWrongSetting, setting);
+  const auto vgpl = read_decimal(options.vgpl);
+  if (!vgpl) return refuse(kWrongVgpl, options.vgpl);
+  run.vgpl = *vgpl;
+  if (!options.until.empty()) {
+    const auto until = read_count(options.until, std::numeric_limits<std::uint64_t>::max());
+    if (!until) return refuse(kWrongUntil, options.until);
+    run.until = *until - 1;
+  }
+  return run;
 }
 
 /// What a run adds up to.
@@ -56,90 +111,138 @@ struct Totals {
     const auto* const move = std::get_if<MoveEvent>(&event.what);
     if (!move) return;
     switch (move->kind) {
-      case execution::MoveKind::Rapid: ++rapids; break;
-      case execution::MoveKind::Feed: ++feeds; break;
-      case execution::MoveKind::Arc: ++arcs; break;
+      case execution::MoveKind::Rapid:
+        ++rapids;
+        break;
+      case execution::MoveKind::Feed:
+        ++feeds;
+        break;
+      case execution::MoveKind::Arc:
+        ++arcs;
+        break;
     }
     (move->kind == execution::MoveKind::Rapid ? rapid_mm : feed_mm) += move->length;
   }
 };
 
-void print_error(const std::string& file, const RunResult& result, Language language) {
+void print_error(const Options& options, const RunResult& result) {
+  const Language language = options.reader_language();
   const syntax::Span span = result.error.span;
   const std::string_view marked = result.line_text.substr(span.begin, span.end - span.begin);
-  std::cerr << fmt::format("{}:{}: {}: {} [{}]\n", file, result.line + 1,
-                           dialect::severity_name(dialect::definition(result.error.id).severity, language),
-                           dialect::message(result.error.id, language, marked, result.error.values),
-                           dialect::definition(result.error.id).code);
+  const dialect::DiagnosticDef& def = dialect::definition(result.error.id);
+  const std::string message = dialect::message(result.error.id, language, marked, result.error.values);
+  std::cerr << syntax::printable(fmt::format("{}:{}: {}: {} [{}]", options.shown_file(), result.line + 1,
+                                             dialect::severity_name(def.severity, language), message, def.code))
+            << '\n';
 }
 
-void summarize(std::ostream& out, const RunResult& result, const Totals& totals, Language language) {
-  const bool italian = language == Language::Italian;
-  const char* const endings[][2] = {{"ran to M02", "eseguito fino a M02"},
-                                    {"stopped by an error", "fermato da un errore"},
-                                    {"stopped where asked", "fermato dove richiesto"}};
-  const geometry::Vec3 tip = result.state.to_machine(result.state.position.tip);
-  out << fmt::format("{}: {}, {} {}\n", italian ? "esito" : "result",
-                     endings[static_cast<std::size_t>(result.ending)][italian ? 1 : 0], italian ? "riga" : "line", result.line + 1);
-  out << fmt::format("{}: {}\n", italian ? "blocchi" : "blocks", result.blocks);
-  out << fmt::format("{}: {} ({:.3f} mm)\n", italian ? "rapidi" : "rapids", totals.rapids, totals.rapid_mm);
-  out << fmt::format("{}: {}, {}: {} ({:.3f} mm)\n", italian ? "lineari" : "feed moves", totals.feeds,
-                     italian ? "archi" : "arcs", totals.arcs, totals.feed_mm);
-  out << fmt::format("{}: X{:.3f} Y{:.3f} Z{:.3f} B{:.3f} C{:.3f}\n", italian ? "posizione finale (macchina)" : "final position (machine)",
-                     tip.x(), tip.y(), tip.z(), result.state.position.b, result.state.position.c);
+constexpr Text kEndings[] = {{"ran to M02", "eseguito fino a M02"},
+                             {"stopped by an error", "fermato da un errore"},
+                             {"stopped where asked", "fermato dove richiesto"}};
+constexpr Text kSummary{
+    "result: {}, line {}\n"
+    "blocks: {}\n"
+    "rapids: {} ({:.3f} mm)\n"
+    "feed moves: {}, arcs: {} ({:.3f} mm)\n"
+    "final position (machine): X{:.3f} Y{:.3f} Z{:.3f} B{:.3f} C{:.3f}\n",
+    "esito: {}, riga {}\n"
+    "blocchi: {}\n"
+    "rapidi: {} ({:.3f} mm)\n"
+    "lineari: {}, archi: {} ({:.3f} mm)\n"
+    "posizione finale (macchina): X{:.3f} Y{:.3f} Z{:.3f} B{:.3f} C{:.3f}\n"};
+
+std::string summary_of(const RunResult& result, const Totals& totals, Language language) {
+  const execution::State& state = result.state;
+  const geometry::Vec3 tip = state.to_machine(state.position.tip);
+  return fmt::format(fmt::runtime(kSummary.in(language)),
+                     kEndings[static_cast<std::size_t>(result.ending)].in(language), result.line + 1, result.blocks,
+                     totals.rapids, totals.rapid_mm, totals.feeds, totals.arcs, totals.feed_mm, tip.x(), tip.y(),
+                     tip.z(), state.position.b, state.position.c);
+}
+
+/// Flushes an output; false, after a complaint, when anything written to it has been lost.
+bool finish(OutputFile& output, std::string_view name, Language language) {
+  if (output.flush() == 0) return true;
+  complain(fmt::format("{}: {}", name, cannot_write(output.error(), language)));
+  return false;
+}
+
+std::string_view without_byte_order_mark(std::string_view text) {
+  return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
+}
+
+/// Writing to the file that is being read would take the program away.
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  return std::filesystem::equivalent(a, b, ignored);
+}
+
+int run_program(std::string_view program, const Options& options, const RunOptions& run_options) {
+  const Language language = options.reader_language();
+  OutputFile standard_output(STDOUT_FILENO);
+  std::optional<OutputFile> trace_file;
+  OutputFile* trace = nullptr;
+  if (options.trace == "-") trace = &standard_output;
+  if (!options.trace.empty() && trace == nullptr) trace = &trace_file.emplace(std::filesystem::path(options.trace));
+  if (trace != nullptr && !finish(*trace, options.trace, language)) return kTrouble;
+
+  Totals totals;
+  const RunResult result = run(program, run_options, [&](const Event& event) {
+    totals.add(event);
+    if (trace != nullptr) trace->write(to_json(event) + '\n');
+  });
+  if (trace != &standard_output) standard_output.write(summary_of(result, totals, language));
+  bool is_written = finish(standard_output, "<stdout>", language);
+  if (trace_file && !finish(*trace_file, options.trace, language)) is_written = false;
+  if (result.ending == Ending::Error) print_error(options, result);
+  if (!is_written) return kTrouble;
+  return result.ending == Ending::Error ? kStopped : kRan;
 }
 
 int run_file(const Options& options) {
   const Language language = options.reader_language();
-  RunOptions run_options;
-  run_options.vgpl = options.vgpl;
-  if (options.until > 0) run_options.until = options.until - 1;
-  for (const std::string& setting : options.settings)
-    if (!read_register(setting, run_options)) return complain("--set wants V1=VALUE to V30=VALUE, not " + setting), kTrouble;
-  std::ifstream input;
-  if (options.file != "-") input.open(options.file, std::ios::binary);
-  errno = 0;
-  std::istream& source = options.file == "-" ? std::cin : input;
-  std::string text{std::istreambuf_iterator<char>(source), {}};
-  if (!input.is_open() && options.file != "-") return complain(options.file + ": " + std::strerror(ENOENT)), kTrouble;
-  if (source.bad()) return complain(options.file + ": " + std::strerror(errno ? errno : EIO)), kTrouble;
-  std::string_view program = text;
-  if (program.starts_with("\xEF\xBB\xBF")) program.remove_prefix(3);
-
-  std::ofstream trace_file;
-  if (!options.trace.empty() && options.trace != "-") {
-    trace_file.open(options.trace, std::ios::binary);
-    if (!trace_file) return complain(options.trace + ": " + std::strerror(errno)), kTrouble;
+  const std::optional<RunOptions> run_options = read_run_options(options);
+  if (!run_options) return kTrouble;
+  if (!options.reads_stdin() && is_same_file(options.file, options.trace)) {
+    complain(fmt::format("{}: {}", options.trace, kOverwritesProgram.in(language)));
+    return kTrouble;
   }
-  std::ostream* const trace = options.trace.empty() ? nullptr : options.trace == "-" ? &std::cout : &trace_file;
-  Totals totals;
-  const RunResult result = run(program, run_options, [&](const Event& event) {
-    totals.add(event);
-    if (trace) *trace << to_json(event) << '\n';
-  });
-  if (trace && !trace->flush()) return complain("cannot write the trace"), kTrouble;
-  if (trace != &std::cout) summarize(std::cout, result, totals, language);
-  if (result.ending != Ending::Error) return kRan;
-  print_error(options.file, result, language);
-  return kStopped;
+  const auto opened = options.reads_stdin() ? SourceFile::read_stream(STDIN_FILENO, language)
+                                            : SourceFile::open(options.file, language);
+  if (const auto* problem = std::get_if<SourceFile::Problem>(&opened)) {
+    complain(fmt::format("{}: {}", options.shown_file(), problem->message));
+    return kTrouble;
+  }
+  return run_program(without_byte_order_mark(std::get<SourceFile>(opened).text()), options, *run_options);
+}
+
+/// What --help and --version ask for.
+int say(std::string_view text, Language language) {
+  OutputFile standard_output(STDOUT_FILENO);
+  standard_output.write(text);
+  return finish(standard_output, "<stdout>", language) ? kRan : kTrouble;
 }
 
 int run_main(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);  // A closed pipe is a write that fails, and is told as one.
   Options options;
   CLI::App app{"Runs an ISOCNC program and tells what it does."};
   app.name("isorun");
   app.set_version_flag("--version", "isorun " ISOCNC_VERSION);
   app.add_option("FILE", options.file, "The program, or - for standard input")->required();
   app.add_option("--trace", options.trace, "Write what happens as JSON lines to this file, or - for standard output");
-  app.add_option("--vgpl", options.vgpl, "Value of VGPL (else 0)");
-  app.add_option("--set", options.settings, "Value of a register at the start: V3=1.5");
-  app.add_option("--until", options.until, "Stop before this line")->check(CLI::PositiveNumber);
+  app.add_option("--vgpl", options.vgpl, "Value of VGPL (else 0)")->type_name("VALUE");
+  app.add_option("--set", options.settings, "Value of a register at the start: V3=1.5")
+      ->type_name("V=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--until", options.until, "Stop before this line")->type_name("LINE");
   app.add_option("--lang", options.language, "en, it (else from the locale)")->check(CLI::IsMember({"en", "it"}));
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
-    return app.exit(success);
+    std::ostringstream said;
+    app.exit(success, said, said);
+    return say(said.str(), options.reader_language());
   } catch (const CLI::ParseError& error) {
     complain(error.what());
     return kTrouble;

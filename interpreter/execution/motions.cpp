@@ -40,27 +40,43 @@ const Plane& plane_in_force(const State& state) {
   }
 }
 
-/// Most blocks of most programs, when nobody asks for effects: a rapid or a line in force goes on, with tool and feed known
-/// to be there. All that run() would do for them is to move the axes.
+/// Most blocks of most programs, when nobody asks for effects: a rapid or a line in three axes, with tool and feed known to
+/// be there. All that run() would do for them is to set the mode and move the axes.
 bool Executor::run_plain() {
   if (sink_.wants_effects() || line_.instructions.size() != 1 || line_.spindle >= 0) return false;
+  if (!state_.tool_selected || state_.unknown != 0 || state_.inverse_time()) return false;
   const Instruction& instruction = line_.instructions.front();
-  const std::uint8_t mode = state_.mode(dialect::ModalGroup::Motion);
-  if (instruction.kind != InstructionKind::Continuation || mode > 1 || !state_.tool_selected || state_.unknown != 0)
+  std::uint8_t mode = state_.mode(dialect::ModalGroup::Motion);
+  std::uint16_t first = instruction.begin;
+  if (instruction.kind == InstructionKind::G) {
+    const GCode* const code = instruction.g();
+    if (!code || !code->is_motion() || instruction.command != first) return false;
+    mode = static_cast<std::uint8_t>(code->number);
+    ++first;
+  } else if (instruction.kind != InstructionKind::Continuation) {
     return false;
+  }
+  if (mode > 1) return false;
   const bool is_feed = mode == 1;
-  if (is_feed ? !state_.feed_given || state_.inverse_time() || line_.feed >= 0 : line_.feed >= 0) return false;
+  const bool has_feed = line_.feed >= 0;
+  if (has_feed && (!is_feed || !(line_.words[static_cast<std::size_t>(line_.feed)].value > 0))) return false;
+  if (is_feed && !has_feed && !state_.feed_given) return false;
   const double scale = state_.mm_per_unit();
   const bool incremental = state_.incremental();
-  geometry::Pose target = state_.position;
-  for (std::uint16_t i = instruction.begin; i < instruction.end; ++i) {
+  geometry::Vec3 target = state_.position.tip;
+  bool moves = false;
+  for (std::uint16_t i = first; i < instruction.end; ++i) {
     const syntax::Word& word = line_.words[i];
+    if (word.letter == 'F') continue;
     const auto axis = static_cast<unsigned>(word.letter - 'X');
-    if (axis > 2 || !std::isfinite(word.value)) return false;
-    double& position = target.tip[axis];
-    position = (incremental ? position : 0) + word.value * scale;
+    if (axis > 2 || word.owner != instruction.number || !std::isfinite(word.value)) return false;
+    target[axis] = (incremental ? target[axis] : 0) + word.value * scale;
+    moves = true;
   }
-  state_.position = target;
+  if (!moves) return false;
+  if (has_feed) take_feed();
+  state_.set_mode(dialect::ModalGroup::Motion, mode);
+  state_.position.tip = target;
   state_.exact_stop_fits = is_feed;
   state_.tool_awaited = false;
   return true;

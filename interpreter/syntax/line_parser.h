@@ -7,8 +7,8 @@
 
 namespace isocnc::syntax {
 
-/// Parses one line into a TreeStore: first its characters into words, then its words into instructions. What can be said
-/// of a line without knowing the lines before it is reported here: spelling, order and company on the line.
+/// Parses one line into a TreeStore: first its characters into words, then its words into instructions. What can be
+/// said of a line without knowing the lines before it is reported here: spelling, order and company on the line.
 class LineParser {
  public:
   LineParser(TreeStore& store, const char* begin, const char* end);
@@ -20,7 +20,7 @@ class LineParser {
   // Characters into words (lexer.cpp).
   const char* lex();
   const char* lex_word(const char* p);
-  const char* lex_without_number(const char* letter, const char* behind);
+  const char* lex_without_number(const char* start, const char* p);
   const char* lex_keyword(const char* p, char letter);
   const char* lex_comment(const char* p);
   void drop_comment_text();
@@ -31,7 +31,7 @@ class LineParser {
   const char* skip_space(const char* p) const;
   const char* match_keyword(const char* p, const char* keyword) const;
   bool goto_follows(const char* p);
-  void note_comments_inside(const char* begin, const char* end);
+  void note_comments_inside(const char* p, const char* end);
   Word& add_word(char letter, const char* begin, const char* end);
 
   // Words into instructions (structure.cpp).
@@ -49,29 +49,29 @@ class LineParser {
   void add_equals(std::uint16_t index);
   std::uint16_t add_jump(std::uint16_t index);
   std::uint16_t read_condition(Jump& jump, std::uint16_t index);
-  bool read_variable(Jump& jump, Word& word);
+  bool read_variable(Jump& jump, Word& written);
   std::uint16_t read_target(Jump& jump, std::uint16_t index);
   std::uint16_t add_lone_goto(std::uint16_t index);
   Instruction& add_instruction(InstructionKind kind, std::uint16_t command);
-  void own(Instruction& instruction, std::uint16_t index);
+  void own(Instruction& owner, std::uint16_t index);
 
   // What is wrong with the instructions of the line (line_checks.cpp).
   void check();
   void check_alone();
-  bool must_be_alone(const Instruction& instruction, dialect::DiagnosticId& diagnostic) const;
-  bool has_company(const Instruction& instruction) const;
+  bool must_be_alone(const Instruction& checked, dialect::DiagnosticId& diagnostic) const;
+  bool has_company(const Instruction& alone) const;
   void check_misplaced_modes();
   void check_motion(const Instruction& motion);
   void check_vectors(const Instruction& frame, std::string_view i_letters);
   void check_face_angles(const Instruction& frame);
-  void check_g(const Instruction& instruction);
+  void check_g(const Instruction& checked);
   void check_dwell(const Instruction& dwell);
   void check_parameters(const Instruction& function);
-  void check_compensation(const Instruction& instruction);
+  void check_compensation(const Instruction& checked);
   bool breaker_is_reported(const Instruction& motion, std::uint16_t broken) const;
-  bool stands_alone(const Instruction& instruction) const;
-  bool owns_any(const Instruction& instruction, dialect::LetterSet letters, bool unbroken = false) const;
-  bool lacks_arguments(const Instruction& instruction, dialect::DiagnosticId when_missing);
+  bool stands_alone(const Instruction& alone) const;
+  bool owns_any(const Instruction& owner, dialect::LetterSet set, bool unbroken = false) const;
+  bool lacks_arguments(const Instruction& checked, dialect::DiagnosticId when_missing);
   void check_tool_number(const Word& tool);
 
   void report(dialect::DiagnosticId id, Span span, std::initializer_list<double> values = {}, Span related = {});
@@ -91,23 +91,25 @@ class LineParser {
   const char* const end_;
   TreeStore::Line line_;
 
-  bool in_condition_ = false;  ///< Between IF and the label behind GOTO: a comparison and a bare number are right there.
-  bool behind_goto_ = false;   ///< The next word is the label.
-  const char* last_goto_ = nullptr;  ///< The line's last GOTO, or its start where there is none; null before it was looked for.
+  bool in_condition_ =
+      false;                  ///< Between IF and the label behind GOTO: a comparison and a bare number are right there.
+  bool behind_goto_ = false;  ///< The next word is the label.
+  const char* last_goto_ =
+      nullptr;  ///< The line's last GOTO, or its start where there is none; null before it was looked for.
 
   static constexpr int kNone = -1;
-  int taker_ = kNone;                 ///< The instruction that the next argument goes to.
-  bool contiguous_ = false;           ///< Nothing stands between it and its series so far (D17).
-  dialect::LetterSet taken_ = 0;      ///< Letters among its arguments.
-  int function_ = kNone;              ///< The last M that may have parameters.
-  bool function_open_ = false;        ///< Directly behind that M or its parameters.
+  int taker_ = kNone;             ///< The instruction that the next argument goes to.
+  bool contiguous_ = false;       ///< Nothing stands between it and its series so far (D17).
+  dialect::LetterSet taken_ = 0;  ///< Letters among its arguments.
+  int function_ = kNone;          ///< The last M that may have parameters.
+  bool function_open_ = false;    ///< Directly behind that M or its parameters.
   int motions_ = 0;
   Span first_motion_;
-  bool dimensions_seen_ = false;      ///< A G with dimensions, or a continuation, stands before (D15).
-  std::uint16_t misplaced_[4] = {};   ///< G70/G71/G90/G91 behind dimensions.
+  bool dimensions_seen_ = false;     ///< A G with dimensions, or a continuation, stands before (D15).
+  std::uint16_t misplaced_[4] = {};  ///< G70/G71/G90/G91 behind dimensions.
   int misplaced_count_ = 0;
   bool needs_check_ = false;
-  bool behind_motion_ = false;        ///< The word before belongs to a motion (G09).
+  bool behind_motion_ = false;  ///< The word before belongs to a motion (G09).
 };
 
 }  // namespace isocnc::syntax

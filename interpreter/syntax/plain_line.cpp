@@ -117,6 +117,7 @@ const char* TreeStore::append_plain_line(const char* begin, const char* end) {
     }
     ++count;
     p = number.end;
+    if (p != end && *p == ' ') ++p;  // Nearly always.
   }
   comments_.resize(first_comment);
   return nullptr;

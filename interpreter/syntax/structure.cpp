@@ -27,6 +27,9 @@ const char* LineParser::parse() {
 }
 
 void LineParser::report(dialect::DiagnosticId id, Span span, std::initializer_list<double> values, Span related) {
+  const bool said = store_.findings_.size() > line_.first_finding && store_.findings_.back().id == id &&
+                    store_.findings_.back().span == span;
+  if (said) return;  // One thing wrong may be missed in two places (IF IF).
   Finding& finding = store_.findings_.emplace_back();
   finding.id = id;
   finding.span = span;
@@ -403,9 +406,7 @@ bool LineParser::read_variable(Jump& jump, Word& written) {
 std::uint16_t LineParser::read_target(Jump& jump, std::uint16_t index) {
   const auto at = static_cast<std::uint16_t>(index + 1);
   if (at >= word_count() || word(at).letter == 'G' || word(at).letter == kIf) {
-    const bool said = store_.findings_.size() > line_.first_finding &&
-                      store_.findings_.back().id == "if-malformed"_diag && store_.findings_.back().span == jump.if_span;
-    if (!said) report("if-malformed"_diag, jump.if_span);
+    report("if-malformed"_diag, jump.if_span);
     return index;
   }
   const Word& label = word(at);

@@ -127,17 +127,20 @@ INSTANTIATE_TEST_SUITE_P(Commands, IsolintOutput,
                                          Saying{"Concise", {"isolint", "--format", "concise", "-"}},
                                          Saying{"Json", {"isolint", "--format", "json", "-"}},
                                          Saying{"ListRules", {"isolint", "--list-rules"}},
-                                         Saying{"Explain", {"isolint", "--explain", "ISO031"}}),
+                                         Saying{"Explain", {"isolint", "--explain", "ISO031"}},
+                                         Saying{"RulesPage", {"isolint", "--rules-page"}},
+                                         Saying{"Version", {"isolint", "--version"}},
+                                         Saying{"Help", {"isolint", "--help"}}),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST(IsolintOutputMessage, SaysWhyInTheReadersLanguage) {
   const CommandResult english = run_command(
       {"isolint", "-"}, {.input = std::string(kBrokenProgram), .standard_output = StandardOutput::FullDisk});
-  EXPECT_EQ(english.err, "isolint: cannot write the findings: No space left on device\n");
+  EXPECT_EQ(english.err, "isolint: <stdout>: cannot write: No space left on device\n");
   const CommandResult italian =
       run_command({"isolint", "--lang", "it", "-"},
                   {.input = std::string(kBrokenProgram), .standard_output = StandardOutput::FullDisk});
-  EXPECT_THAT(italian.err, StartsWith("isolint: scrittura non riuscita: "));
+  EXPECT_EQ(italian.err, "isolint: <stdout>: non si può scrivere: spazio su disco esaurito\n");
 }
 
 }  // namespace

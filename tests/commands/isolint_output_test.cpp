@@ -1,6 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
 #include <nlohmann/json.hpp>
 
 #include "programs.h"
@@ -114,6 +118,35 @@ TEST(IsolintJson, HasEveryKeyInItsOrder) {
                          {"path", nullptr}};
   for (const auto& [key, value] : expected.items()) EXPECT_EQ(json(findings[0][key]), value) << key;
   EXPECT_THAT(findings[0]["url"].get<std::string>(), testing::EndsWith("docs/rules.md#iso026-missing-coordinate"));
+}
+
+/// The files that findings of a format name, in their order.
+std::vector<std::string> files_named_by(const std::string& format, const std::string& folder) {
+  const CommandResult result =
+      run_command({"isolint", "--format", format, "b.iso", "sub", "a.iso", "B.iso", "a/c.iso"}, {.folder = folder});
+  std::vector<std::string> files;
+  if (format == "json") {
+    for (const json& finding : json::parse(result.out)) files.push_back(finding["file"]);
+  } else {
+    std::istringstream lines(result.out);
+    for (std::string line; std::getline(lines, line);) files.push_back(line.substr(0, line.find(':')));
+  }
+  return files;
+}
+
+TEST(IsolintJson, IsSortedByFileWhateverTheOrderGiven) {
+  const TemporaryFolder folder;
+  for (const std::string name : {"a.iso", "a/c.iso", "b.iso", "B.iso", "sub/a.iso"}) folder.write(name, kBrokenProgram);
+  EXPECT_THAT(files_named_by("json", folder.path()), ElementsAre("B.iso", "a.iso", "a/c.iso", "b.iso", "sub/a.iso"));
+  EXPECT_THAT(files_named_by("concise", folder.path()), ElementsAre("b.iso", "sub/a.iso", "a.iso", "B.iso", "a/c.iso"));
+}
+
+TEST(IsolintJson, IsSortedByLineAndColumn) {
+  const json findings = findings_in("M06 T101001\nG00 X1 U2 (é) U3\nG00 U2 X1 U1\nG01\nM02\n");
+  std::vector<std::pair<int, int>> places;
+  for (const json& finding : findings) places.emplace_back(finding["line"], finding["column"]);
+  EXPECT_GE(places.size(), 5u);
+  EXPECT_TRUE(std::is_sorted(places.begin(), places.end())) << findings;
 }
 
 TEST(IsolintJson, CountsColumnsInCodePoints) {

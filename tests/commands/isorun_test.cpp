@@ -5,6 +5,7 @@
 #include <fstream>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -125,15 +126,13 @@ TEST(IsorunTrace, ToAFileLeavesTheSummaryOnStandardOutput) {
 }
 
 TEST(IsorunTrace, ThatCannotBeWrittenIsTrouble) {
-  EXPECT_EQ(run_command({"isorun", "--trace", "/dev/full", "-"}, {.input = std::string(kCleanProgram)}).status, 2);
-  EXPECT_EQ(run_command({"isorun", "--trace", "/no/such/folder/x", "-"}, {.input = std::string(kCleanProgram)}).status,
-            2);
-  for (const StandardOutput output : {StandardOutput::FullDisk, StandardOutput::ClosedPipe}) {
-    const CommandResult result =
-        run_command({"isorun", "--trace", "-", "-"}, {.input = std::string(kCleanProgram), .standard_output = output});
-    EXPECT_EQ(result.status, 2);
-    EXPECT_THAT(result.err, StartsWith("isorun: "));
-  }
+  const auto complaint = [](const std::string& trace) {
+    const CommandResult result = run_command({"isorun", "--trace", trace, "-"}, {.input = std::string(kCleanProgram)});
+    EXPECT_EQ(result.status, 2) << trace;
+    return result.err;
+  };
+  EXPECT_EQ(complaint("/dev/full"), "isorun: /dev/full: cannot write: No space left on device\n");
+  EXPECT_EQ(complaint("/no/such/folder/x"), "isorun: /no/such/folder/x: cannot write: No such file or directory\n");
 }
 
 TEST(IsorunSummary, AddsUpWhatWasDone) {
@@ -170,7 +169,7 @@ TEST(IsorunError, StopsTheProgramAsTheControlWould) {
       run_command({"isorun", "--trace", "-", "-"}, {.input = "M06 T101001\nG00 X10\nG01\nG00 X20\nM02\n"});
   EXPECT_EQ(result.status, 1);
   EXPECT_THAT(kinds_in(events_in(result.out)), ElementsAre("tool", "rapid"));
-  EXPECT_EQ(result.err, "-:3: error: no coordinate follows G01 [ISO026]\n");
+  EXPECT_EQ(result.err, "<stdin>:3: error: no coordinate follows G01 [ISO026]\n");
 }
 
 TEST(IsorunError, IsToldBesideTheSummary) {
@@ -240,9 +239,17 @@ TEST(IsorunUsage, RefusesWhatItDoesNotKnow) {
                                                     {"isorun", "--no-such-option", "-"},
                                                     {"isorun", "--vgpl", "x", "-"},
                                                     {"isorun", "--until", "0", "-"},
+                                                    {"isorun", "--until", "-1", "-"},
+                                                    {"isorun", "--until", "1.5", "-"},
+                                                    {"isorun", "--until", "99999999999999999999", "-"},
                                                     {"isorun", "--lang", "de", "-"}};
+  for (const std::string number : {"", " ", "x", "1x", "nan", "inf", "-inf", "0x10", "1e3", "1,5", "--1", "1-", "1.2.3",
+                                   ".", "+", " 1", "1 ", "1(a)2"}) {
+    mistakes.push_back({"isorun", "--set", "V3=" + number, "-"});
+    mistakes.push_back({"isorun", "--vgpl=" + number, "-"});
+  }
   for (const std::string setting :
-       {"V0=1", "V31=1", "V3", "V3=", "3=1", "V3=x", "V3=1x", "V3 = 1", "V1.5=2", "V3=nan", "V3=inf"})
+       {"V0=1", "V31=1", "V-1=1", "V+1=1", "V=1", "V3", "3=1", "v3=1", "V3 = 1", " V3=1", "V1.5=2", "V3=1=2", "="})
     mistakes.push_back({"isorun", "--set", setting, "-"});
   for (const auto& mistake : mistakes) {
     const CommandResult result = run_command(mistake, {.input = std::string(kCleanProgram)});
@@ -260,13 +267,93 @@ TEST(IsorunUsage, NamesItsVersionAndOptions) {
     EXPECT_THAT(help.out, HasSubstr(option));
 }
 
+TEST(IsorunUsage, TakesNumbersAsProgramsWriteThem) {
+  for (const std::string number : {"1.5", "+1.5", "01.50", "1.500000000000000000000000"})
+    EXPECT_THAT(x_positions(trace_of(kForkedProgram, {"--set", "V3=" + number})), ElementsAre(0, 1, 2, 4)) << number;
+  for (const std::string number : {"-2.5", "-.5", "0", "-0", ".5"})
+    EXPECT_THAT(x_positions(trace_of(kForkedProgram, {"--vgpl", number})), ElementsAre(0, 1, 2, 3, 4)) << number;
+}
+
+TEST(IsorunUsage, TakesOneSettingAtATime) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("part.iso", kCleanProgram);
+  EXPECT_EQ(run_command({"isorun", "--set", "V1=1", file, "--until", "2"}).status, 0);
+  EXPECT_EQ(run_command({"isorun", "--set", "V1=1", "--set", "V30=-2.5", file}).status, 0);
+}
+
+TEST(IsorunUsage, ComplainsInTheReadersLanguage) {
+  const auto complaint = [](std::vector<std::string> options) {
+    options.insert(options.begin(), "isorun");
+    return run_command(options, {.input = std::string(kCleanProgram)}).err;
+  };
+  EXPECT_EQ(complaint({"--set", "V31=1", "-"}),
+            "isorun: --set wants a register and a plain number, V1=0 to V30=-2.5, not V31=1\n");
+  EXPECT_EQ(complaint({"--lang", "it", "--set", "V31=1", "-"}),
+            "isorun: --set vuole un registro e un numero semplice, da V1=0 a V30=-2.5, non V31=1\n");
+  EXPECT_EQ(complaint({"--vgpl", "nan", "-"}), "isorun: --vgpl wants a plain number, such as -2.5, not nan\n");
+  EXPECT_EQ(complaint({"--vgpl", "nan", "--lang", "it", "-"}),
+            "isorun: --vgpl vuole un numero semplice, come -2.5, non nan\n");
+  EXPECT_EQ(complaint({"--until", "0", "-"}), "isorun: --until wants a line, from 1, not 0\n");
+  EXPECT_EQ(complaint({"--until", "0", "--lang", "it", "-"}), "isorun: --until vuole una riga, da 1, non 0\n");
+}
+
+TEST(IsorunUsage, LetsNoControlCharacterThrough) {
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"isorun", "--set", "\x1b[31m", "-"}, {"isorun", "\x1b[31m.iso"}}) {
+    const CommandResult result = run_command(command, {.input = std::string(kCleanProgram)});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, HasSubstr("\xEF\xBF\xBD[31m"));
+    EXPECT_EQ(result.err.find('\x1b'), std::string::npos);
+  }
+}
+
+TEST(IsorunOutput, ThatCannotBeWrittenIsTrouble) {
+  const std::vector<std::vector<std::string>> commands = {
+      {"isorun", "-"}, {"isorun", "--trace", "-", "-"}, {"isorun", "--version"}, {"isorun", "--help"}};
+  for (const auto& command : commands) {
+    for (const auto& [output, reason] : {std::pair{StandardOutput::FullDisk, "No space left on device"},
+                                         std::pair{StandardOutput::ClosedPipe, "Broken pipe"}}) {
+      const CommandResult result =
+          run_command(command, {.input = std::string(kCleanProgram), .standard_output = output});
+      EXPECT_EQ(result.status, 2) << testing::PrintToString(command);
+      EXPECT_EQ(result.err, std::string("isorun: <stdout>: cannot write: ") + reason + "\n");
+    }
+  }
+}
+
+TEST(IsorunOutput, ThatCannotBeWrittenDoesNotHideTheErrorOfTheProgram) {
+  const CommandResult result =
+      run_command({"isorun", "-"}, {.input = std::string(kBrokenProgram), .standard_output = StandardOutput::FullDisk});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("<stdin>:3: error: no coordinate follows G01 [ISO026]\n"));
+}
+
 TEST(IsorunInput, ThatCannotBeReadIsTrouble) {
   const TemporaryFolder folder;
-  for (const std::string& path : {folder.path("gone.iso"), folder.path()}) {
-    const CommandResult result = run_command({"isorun", path});
+  const std::string gone = folder.path("gone.iso");
+  const std::string binary = folder.write("noise.iso", std::string(2000, '\x01'));
+  const auto complaint = [](std::vector<std::string> command) {
+    command.insert(command.begin(), "isorun");
+    const CommandResult result = run_command(command);
     EXPECT_EQ(result.status, 2);
-    EXPECT_THAT(result.err, StartsWith("isorun: " + path + ": "));
-  }
+    EXPECT_EQ(result.out, "");
+    return result.err;
+  };
+  EXPECT_EQ(complaint({gone}), "isorun: " + gone + ": cannot read: No such file or directory\n");
+  EXPECT_EQ(complaint({"--lang", "it", gone}),
+            "isorun: " + gone + ": non si può leggere: file o directory non esistente\n");
+  EXPECT_EQ(complaint({folder.path()}), "isorun: " + folder.path() + ": is a directory\n");
+  EXPECT_EQ(complaint({"--lang", "it", folder.path()}), "isorun: " + folder.path() + ": è una directory\n");
+  EXPECT_EQ(complaint({binary}), "isorun: " + binary + ": looks like a binary file\n");
+}
+
+TEST(IsorunInput, IsNotOverwrittenByItsTrace) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("part.iso", kCleanProgram);
+  const CommandResult result = run_command({"isorun", "--trace", "./part.iso", file}, {.folder = folder.path()});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.err, "isorun: ./part.iso: the trace would overwrite the program\n");
+  EXPECT_EQ(run_command({"isorun", file}).status, 0);
 }
 
 TEST(IsorunInput, MayBeginWithAByteOrderMark) {
@@ -279,7 +366,9 @@ TEST(IsorunInput, InUtf16IsRefused) {
   for (const char c : kCleanProgram) wide += std::string{c, '\0'};
   const CommandResult result = run_command({"isorun", folder.write("wide.iso", wide)});
   EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(result.err, HasSubstr("UTF-16"));
+  EXPECT_THAT(result.err, HasSubstr("wide.iso: is UTF-16; save it as UTF-8 or ASCII\n"));
+  EXPECT_EQ(run_command({"isorun", "--lang", "it", "-"}, {.input = wide}).err,
+            "isorun: <stdin>: è in UTF-16: va salvato in UTF-8 o ASCII\n");
 }
 
 TEST(IsorunInput, WithoutM02StopsAtItsEnd) {

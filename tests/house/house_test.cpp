@@ -41,7 +41,8 @@ const std::vector<Room> kHouse = {
       "interpreter/motion", "interpreter/running"}},
     {"interpreter", {"interpreter"}},
     {"analyzer",
-     {"interpreter/dialect", "interpreter/syntax", "interpreter/geometry", "interpreter/execution", "analyzer"}},
+     {"interpreter/dialect", "interpreter/syntax", "interpreter/geometry", "interpreter/execution",
+      "interpreter/running", "analyzer"}},
     {"lsp", {"interpreter", "analyzer", "lsp"}},
     {"debugger", {"interpreter", "analyzer", "lsp/rpc", "debugger"}},
 };

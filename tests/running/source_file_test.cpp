@@ -1,4 +1,4 @@
-#include "analyzer/source_file.h"
+#include "interpreter/running/source_file.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace isocnc::analyzer {
+namespace isocnc::running {
 namespace {
 
 namespace fs = std::filesystem;
@@ -162,10 +162,6 @@ TEST_F(SourceFiles, DirectoryIsAProblem) {
   const int descriptor = ::open(path("").c_str(), O_RDONLY | O_CLOEXEC);
   EXPECT_EQ(shown(SourceFile::read_stream(descriptor, Language::English)), "[cannot read: Is a directory]");
   ::close(descriptor);
-}
-
-TEST_F(SourceFiles, ErrorsWithoutATextOfOursHaveTheSystems) {
-  EXPECT_EQ(cannot_read(EBADF, Language::English), "cannot read: Bad file descriptor");
 }
 
 TEST_F(SourceFiles, PipeIsReadToItsEnd) {
@@ -319,4 +315,4 @@ TEST(LineLength, IsCountedBetweenLineEnds) {
 }
 
 }  // namespace
-}  // namespace isocnc::analyzer
+}  // namespace isocnc::running

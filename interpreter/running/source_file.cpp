@@ -1,4 +1,4 @@
-#include "analyzer/source_file.h"
+#include "interpreter/running/source_file.h"
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -11,51 +11,24 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <system_error>
 
-namespace isocnc::analyzer {
+#include "interpreter/running/system_texts.h"
+
+namespace isocnc::running {
 
 using dialect::Language;
 using dialect::Text;
 
-static constexpr Text kCannotRead{"cannot read: ", "non si può leggere: "};
 static constexpr Text kIsDirectory{"is a directory", "è una directory"};
 static constexpr Text kIsUtf16{"is UTF-16; save it as UTF-8 or ASCII", "è in UTF-16: va salvato in UTF-8 o ASCII"};
 static constexpr Text kIsUtf32{"is UTF-32; save it as UTF-8 or ASCII", "è in UTF-32: va salvato in UTF-8 o ASCII"};
 static constexpr Text kIsBinary{"looks like a binary file", "sembra un file binario"};
 static constexpr Text kHasEndlessLine{"has a line of 4 GiB or more", "ha una riga di 4 GiB o più"};
 
-/// The system speaks the locale's language, not the one asked for; what it says most often is said here.
-struct SystemText {
-  int error;
-  Text text;
-};
-static constexpr SystemText kSystemTexts[] = {
-    {ENOENT, {"No such file or directory", "file o directory non esistente"}},
-    {EACCES, {"Permission denied", "permesso negato"}},
-    {EPERM, {"Operation not permitted", "operazione non permessa"}},
-    {EISDIR, {"Is a directory", "è una directory"}},
-    {ENOTDIR, {"Not a directory", "non è una directory"}},
-    {ELOOP, {"Too many levels of symbolic links", "troppi livelli di collegamenti simbolici"}},
-    {ENAMETOOLONG, {"File name too long", "nome del file troppo lungo"}},
-    {ENOMEM, {"Cannot allocate memory", "memoria insufficiente"}},
-    {EMFILE, {"Too many open files", "troppi file aperti"}},
-    {EIO, {"Input/output error", "errore di input/output"}},
-    {ENXIO, {"No such device or address", "dispositivo o indirizzo non esistente"}},
-};
-
 /// What is looked at to tell a program from other things.
 static constexpr std::size_t kHeadBytes = 8 * 1024;
 static constexpr std::size_t kEncodingBytes = 4 * 1024;
 static constexpr std::size_t kLongestLine = std::numeric_limits<std::uint32_t>::max();
-
-std::string cannot_read(int error, Language language) {
-  const auto* const row =
-      std::find_if(std::begin(kSystemTexts), std::end(kSystemTexts), [&](const auto& r) { return r.error == error; });
-  std::string message{kCannotRead.in(language)};
-  if (row == std::end(kSystemTexts)) return message + std::generic_category().message(error);
-  return message.append(row->text.in(language));
-}
 
 static bool ends_line(char c) { return c == '\n' || c == '\r'; }
 
@@ -217,4 +190,4 @@ std::string_view SourceFile::text() const {
 
 void SourceFile::Unmap::operator()(char* bytes) const { ::munmap(bytes, size); }
 
-}  // namespace isocnc::analyzer
+}  // namespace isocnc::running

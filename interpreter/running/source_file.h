@@ -9,13 +9,13 @@
 
 #include "interpreter/dialect/diagnostic.h"
 
-namespace isocnc::analyzer {
+namespace isocnc::running {
 
 /// A program's bytes: the file mapped, or a stream read to its end. Never UTF-16, never binary, and no line of it is
-/// longer than 32 bits can count. Who cuts a mapped file short while it is checked takes its bytes away (SIGBUS).
+/// longer than 32 bits can count. Who cuts a mapped file short while it is read takes its bytes away (SIGBUS).
 class SourceFile {
  public:
-  /// Why a file cannot be checked, for people: `cannot read: Permission denied`. Does not name the file.
+  /// Why a file cannot be taken, for people: `cannot read: Permission denied`. Does not name the file.
   struct Problem {
     std::string message;
   };
@@ -41,11 +41,8 @@ class SourceFile {
   std::string read_;  // When nothing is mapped.
 };
 
-/// `cannot read: Permission denied`, for an errno.
-std::string cannot_read(int error, dialect::Language language);
-
 /// Whether some line has more than `limit` bytes, its end not counted. Looks at one place in `limit` bytes as long as
 /// lines are short.
 bool has_line_longer_than(std::size_t limit, std::string_view text);
 
-}  // namespace isocnc::analyzer
+}  // namespace isocnc::running

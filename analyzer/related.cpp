@@ -1,0 +1,89 @@
+#include "analyzer/related.h"
+
+#include <algorithm>
+
+#include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/tree_store.h"
+
+namespace isocnc::analyzer {
+
+using namespace dialect::literals;
+using syntax::Instruction;
+using syntax::LineTree;
+using syntax::Word;
+
+/// How far up one finding's related place is looked for.
+static constexpr std::uint64_t kReach = 20'000;
+
+static constexpr dialect::Text kMounted = {"the face frame was mounted here", "il s.d.r. di faccia è stato messo in presa qui"};
+static constexpr dialect::Text kSet = {"in force since here", "in presa da qui"};
+static constexpr dialect::Text kFirstLabel = {"the label stands here already", "l'etichetta c'è già qui"};
+
+namespace {
+
+/// What to look for.
+struct Wanted {
+  dialect::Text note;
+  bool mounts_face = false;
+  std::uint8_t code_row = dialect::kUnknownGCode;  ///< This very G.
+  bool is_label = false;
+  std::uint64_t label = 0;
+
+  /// The place on the line, or null.
+  const Word* on(const LineTree& line) const {
+    if (is_label) {
+      const auto is_it = [](const Word& word) { return word.letter == 'N' && word.owner == Word::kNobody; };
+      const auto at = std::find_if(line.words.begin(), line.words.end(), is_it);
+      return line.has_label() && line.label == label && at != line.words.end() ? &*at : nullptr;
+    }
+    for (const Instruction& instruction : line.instructions) {
+      const dialect::GCode* const code = instruction.kind == syntax::InstructionKind::G ? instruction.g() : nullptr;
+      if (!code) continue;
+      const bool mounts = code->group == dialect::ModalGroup::Face && code->number != 27;
+      if (mounts_face ? mounts : instruction.row == code_row) return &line.command(instruction);
+    }
+    return nullptr;
+  }
+};
+
+std::optional<Wanted> wanted_by(const LocatedFinding& located, std::string_view line_text) {
+  const dialect::DiagnosticId id = located.finding.id;
+  if (id == "face-already-mounted"_diag || id == "workpiece-frame-under-face"_diag)
+    return Wanted{.note = kMounted, .mounts_face = true};
+  const syntax::ParsedLine parsed(line_text);
+  const LineTree tree = parsed.tree();
+  if (id == "duplicate-label"_diag) return Wanted{.note = kFirstLabel, .is_label = true, .label = tree.label};
+  if (id != "redundant-modal"_diag) return std::nullopt;
+  for (const Instruction& instruction : tree.instructions)
+    if (tree.command(instruction).span() == located.finding.span) return Wanted{.note = kSet, .code_row = instruction.row};
+  return std::nullopt;
+}
+
+/// The line above the one that starts at `begin`; `begin` must not be the start of the text.
+std::string_view line_above(std::string_view text, std::size_t begin) {
+  std::size_t end = begin - 1;
+  if (end > 0 && text[end] == '\n' && text[end - 1] == '\r') --end;
+  std::size_t start = end;
+  while (start > 0 && !syntax::is_line_end(text[start - 1])) --start;
+  return text.substr(start, end - start);
+}
+
+}  // namespace
+
+std::optional<RelatedPlace> RelatedPlaces::of(const LocatedFinding& located, std::string_view line_text) {
+  const std::optional<Wanted> wanted = wanted_by(located, line_text);
+  if (!wanted) return std::nullopt;
+  syntax::TreeStore store;
+  std::string_view line = line_text;
+  const std::uint64_t reach = std::min({kReach, lines_left_, located.line});
+  for (std::uint64_t up = 1; up <= reach; ++up, --lines_left_) {
+    line = line_above(text_, static_cast<std::size_t>(line.data() - text_.data()));
+    store.clear();
+    store.append_line(line.data(), line.data() + line.size());
+    const LineTree tree = store.tree(0, line.data());
+    if (const Word* word = wanted->on(tree)) return RelatedPlace{located.line - up, line, word->span(), wanted->note};
+  }
+  return std::nullopt;
+}
+
+}  // namespace isocnc::analyzer

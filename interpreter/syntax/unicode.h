@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace isocnc::syntax {
+
+/// Bytes of the well-formed UTF-8 sequence that starts `text`; 0 when none does. `text` must not be empty.
+std::size_t sequence_length(std::string_view text);
+
+/// Columns from 1 in Unicode code points; a byte that is no UTF-8 counts as one.
+std::size_t column_of(std::string_view line, std::size_t byte);
+
+/// Well-formed UTF-8 for the screen: control characters and stray bytes replaced, tabs as blanks.
+std::string printable(std::string_view text);
+
+}  // namespace isocnc::syntax
