@@ -8,9 +8,9 @@
 
 namespace isocnc::analyzer {
 
-/// The check of a document that is being edited. It remembers where the check stood before each chunk of lines; after an
-/// edit it checks the chunks that changed, and those behind them until it stands where it stood before. The report is the
-/// one that a fresh check would give.
+/// The check of a document that is being edited. It remembers where the check stood before each chunk of lines; after
+/// an edit it checks the chunks that changed, and those behind them until it stands where it stood before. The report
+/// is the one that a fresh check would give.
 class Analysis {
  public:
   /// Both must outlive the analysis.

@@ -98,12 +98,12 @@ class Pass {
   }
 
   std::mutex taking_;
-  const char* next_;           // Guarded by taking_.
+  const char* next_;  // Guarded by taking_.
   const char* const end_;
   std::uint64_t next_ticket_ = 0;  // Guarded by taking_.
   std::atomic<std::uint64_t> turn_ = 0;
   std::atomic<bool> finished_ = false;
-  Checker checker_;            // With line_ and outcome_: of the thread whose turn it is.
+  Checker checker_;  // With line_ and outcome_: of the thread whose turn it is.
   std::uint64_t line_ = 0;
   Outcome outcome_;
 };

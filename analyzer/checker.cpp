@@ -48,10 +48,9 @@ Frontier Checker::start(const execution::Setup& setup, const JumpMap& jumps) {
 
 static void sort_by_column(std::vector<LocatedFinding>& findings, std::size_t first) {
   if (findings.size() - first > 1)
-    std::stable_sort(findings.begin() + static_cast<std::ptrdiff_t>(first), findings.end(),
-                     [](const LocatedFinding& a, const LocatedFinding& b) {
-                       return a.finding.span.begin < b.finding.span.begin;
-                     });
+    std::stable_sort(
+        findings.begin() + static_cast<std::ptrdiff_t>(first), findings.end(),
+        [](const LocatedFinding& a, const LocatedFinding& b) { return a.finding.span.begin < b.finding.span.begin; });
 }
 
 /// A program without jumps has one path and one state.
@@ -173,7 +172,8 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
   const std::uint32_t ordinal = frontier.next_jump++;
   outcome.live_jumps.push_back(ordinal);
   switch (jumps_.target_of(ordinal)) {
-    case JumpMap::Target::Below: break;
+    case JumpMap::Target::Below:
+      break;
     case JumpMap::Target::NotFound:
       outcome.findings.push_back({line_number, {.id = "label-not-found"_diag, .span = jump.target_span}});
       return;
@@ -190,8 +190,7 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
   for (Group& group : frontier.live) {
     const bool on_register = jump.variable > 0 && jump.condition_is_known();
     Valuations where_true = on_register ? group.registers.where(jump, true, jumps_) : group.registers;
-    Valuations where_false =
-        on_register ? group.registers.where(jump, false, jumps_) : std::move(group.registers);
+    Valuations where_false = on_register ? group.registers.where(jump, false, jumps_) : std::move(group.registers);
     if (jumps_.compares_registers()) {
       where_true.keep_only(jumps_.read_at_target(ordinal), jumps_);
       where_false.keep_only(jumps_.read_behind(ordinal), jumps_);
@@ -206,7 +205,8 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
       }
     }
     if (!where_false.possible()) continue;
-    staying.add({std::move(group.state), std::move(where_false), both ? decide(std::move(group.path), false) : std::move(group.path)});
+    staying.add({std::move(group.state), std::move(where_false),
+                 both ? decide(std::move(group.path), false) : std::move(group.path)});
   }
   frontier.live = std::move(staying);
   if (frontier.waiting.size() > kMostWaiting) {
@@ -329,7 +329,8 @@ Report conclude(std::vector<Outcome> outcomes, const Frontier& end, const JumpMa
       for (std::size_t i = first; i < report.findings.size(); ++i)
         if (report.findings[i].path >= 0) report.findings[i].path += first_path;
     }
-    paths.insert(paths.end(), std::make_move_iterator(outcome.paths.begin()), std::make_move_iterator(outcome.paths.end()));
+    paths.insert(paths.end(), std::make_move_iterator(outcome.paths.begin()),
+                 std::make_move_iterator(outcome.paths.end()));
   }
   add_duplicate_labels(outcomes, jumps, report.findings);
   add_missing_end(outcomes, end, text_of_line, paths, report.findings);

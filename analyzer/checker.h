@@ -23,9 +23,9 @@ struct Outcome {
 
   std::vector<LocatedFinding> findings;  ///< In the order of the lines.
   std::vector<Path> paths;
-  std::vector<Label> labels;             ///< Definitions of labels that some GOTO names.
+  std::vector<Label> labels;              ///< Definitions of labels that some GOTO names.
   std::vector<std::uint32_t> live_jumps;  ///< Jumps on a feasible path, counted from the top of the file.
-  std::uint64_t last_text_line = 0;      ///< The last that holds any text (D47), if one does.
+  std::uint64_t last_text_line = 0;       ///< The last that holds any text (D47), if one does.
   bool has_text = false;
 
   void clear();
@@ -34,8 +34,8 @@ struct Outcome {
 /// Most machine states that are followed at once (W191).
 inline constexpr std::size_t kMostStates = 512;
 
-/// Checks a program line by line on every feasible path. It holds where it stands (`frontier`) and nothing else, so that a
-/// check can go on from any earlier frontier.
+/// Checks a program line by line on every feasible path. It holds where it stands (`frontier`) and nothing else, so
+/// that a check can go on from any earlier frontier.
 class Checker {
  public:
   Checker(const execution::Setup& setup, const JumpMap& jumps);
@@ -68,9 +68,8 @@ class Checker {
   std::vector<GroupFinding> group_findings_;  // Of one line; kept for its memory.
 };
 
-/// Puts together what was found: sorts, adds what only the whole program shows (E006, ISO045), and leaves of the findings
-/// that are said once per program the first (D44).
-/// `text_of_line` gives a line's text.
+/// Puts together what was found: sorts, adds what only the whole program shows (E006, ISO045), and leaves of the
+/// findings that are said once per program the first (D44). `text_of_line` gives a line's text.
 Report conclude(std::vector<Outcome> outcomes, const Frontier& end, const JumpMap& jumps,
                 const std::function<std::string_view(std::uint64_t)>& text_of_line);
 

@@ -72,7 +72,8 @@ static std::string shown(std::string_view program) {
     const std::size_t end = std::min(marked.text.find('\n', at), marked.text.size());
     result += fmt::format("    {}\n", marked.text.substr(at, end - at));
     if (marked.has_mark && line == marked.line)
-      result += fmt::format("    {}{}\n", std::string(marked.begin, ' '), std::string(std::max<std::size_t>(1, marked.end - marked.begin), '^'));
+      result += fmt::format("    {}{}\n", std::string(marked.begin, ' '),
+                            std::string(std::max<std::size_t>(1, marked.end - marked.begin), '^'));
     at = end + 1;
   }
   return result;
@@ -80,9 +81,9 @@ static std::string shown(std::string_view program) {
 
 std::string explain(dialect::DiagnosticId id, Language language) {
   const DiagnosticDef& def = dialect::definition(id);
-  std::string result = fmt::format("{} {} ({}, {} {})\n{}\n\n", def.code, def.name,
-                                   dialect::severity_name(def.severity, language), kSection.in(language), def.section,
-                                   def.title.in(language));
+  std::string result =
+      fmt::format("{} {} ({}, {} {})\n{}\n\n", def.code, def.name, dialect::severity_name(def.severity, language),
+                  kSection.in(language), def.section, def.title.in(language));
   result += folded(def.explanation.in(language));
   if (!def.wrong.empty()) result += fmt::format("\n{}\n{}", kWrong.in(language), shown(def.wrong));
   if (!def.right.empty()) result += fmt::format("\n{}\n{}", kRight.in(language), shown(def.right));

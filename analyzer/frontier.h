@@ -36,8 +36,8 @@ class Groups {
   void add_all(Groups&& groups);
   /// Joins groups whose states have met.
   void converge();
-  /// Joins groups until at most `limit` are left: first those that differ in position alone, whose position then counts as
-  /// unknown; then it drops the last. Gives up completeness, never correctness.
+  /// Joins groups until at most `limit` are left: first those that differ in position alone, whose position then counts
+  /// as unknown; then it drops the last. Gives up completeness, never correctness.
   void reduce_to(std::size_t limit);
 
   friend bool operator==(const Groups&, const Groups&) = default;
@@ -49,11 +49,11 @@ class Groups {
 /// Where a check stands between two lines: all that the rest of the program's findings depend on. Knows jumps by their
 /// number and labels by their name, never a line, so that text inserted elsewhere leaves it as it is.
 struct Frontier {
-  Groups live;                             ///< Running through the next line.
+  Groups live;                              ///< Running through the next line.
   std::map<std::uint64_t, Groups> waiting;  ///< Jumped ahead, by label.
-  std::uint32_t next_jump = 0;             ///< How many IFs with a label have been passed.
-  std::uint32_t spread = 0;                ///< How much work more than one live group has cost lately.
-  bool reduced = false;                    ///< Too many states once: some are not followed (W191).
+  std::uint32_t next_jump = 0;              ///< How many IFs with a label have been passed.
+  std::uint32_t spread = 0;                 ///< How much work more than one live group has cost lately.
+  bool reduced = false;                     ///< Too many states once: some are not followed (W191).
 
   /// The whole program has been checked: no path goes on.
   bool finished() const { return live.empty() && waiting.empty(); }

@@ -80,7 +80,8 @@ JumpMap::JumpMap(std::string_view text) {
     for (const char* p = text.data(); p != end;) {
       const char* line_end = p;
       std::uint8_t letters = 0;
-      while (line_end != end && !syntax::is_line_end(*line_end)) letters |= kLetters[static_cast<unsigned char>(*line_end++)];
+      while (line_end != end && !syntax::is_line_end(*line_end))
+        letters |= kLetters[static_cast<unsigned char>(*line_end++)];
       const std::string_view line(p, static_cast<std::size_t>(line_end - p));
       if ((letters & kKeywordLetter) != 0 || ((letters & kLabelLetter) != 0 && may_be_target(line))) {
         store.clear();
@@ -98,7 +99,8 @@ bool JumpMap::may_be_target(std::string_view line) const {
   const std::size_t at = line.find('N');
   std::uint64_t label = 0;
   std::size_t digits = at + 1;
-  while (digits < line.size() && syntax::is_digit(line[digits])) label = label * 10 + static_cast<std::uint64_t>(line[digits++] - '0');
+  while (digits < line.size() && syntax::is_digit(line[digits]))
+    label = label * 10 + static_cast<std::uint64_t>(line[digits++] - '0');
   const bool plain = digits > at + 1 && digits - at <= 15 && digits < line.size() && syntax::is_blank(line[digits]) &&
                      digits + 1 < line.size() && syntax::char_class(line[digits + 1]) == syntax::CharClass::Letter;
   return !plain || may_name(label) || line.find('N', at + 1) != std::string_view::npos;
@@ -138,8 +140,12 @@ void JumpMap::complete() {
   std::size_t jump = sites_.size();
   for (auto event = events_.rbegin(); event != events_.rend(); ++event) {
     switch (event->kind) {
-      case Event::Kind::Assignment: read &= ~register_bit(event->reg); break;
-      case Event::Kind::Label: read_at_label[event->label] = read; break;
+      case Event::Kind::Assignment:
+        read &= ~register_bit(event->reg);
+        break;
+      case Event::Kind::Label:
+        read_at_label[event->label] = read;
+        break;
       case Event::Kind::Jump: {
         const syntax::Jump& condition = sites_[--jump].jump;
         const auto target = read_at_label.find(condition.target);

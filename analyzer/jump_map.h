@@ -1,8 +1,8 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
@@ -16,8 +16,9 @@ namespace isocnc::analyzer {
 using RegisterSet = std::uint32_t;
 constexpr RegisterSet register_bit(int reg) { return RegisterSet{1} << reg; }
 
-/// What of a program's jumps must be known before its first line is checked: where the IFs stand, which labels they name,
-/// and what they compare registers with. Jumps go forward only (I.5), so this and one pass over the lines suffice.
+/// What of a program's jumps must be known before its first line is checked: where the IFs stand, which labels they
+/// name, and what they compare registers with. Jumps go forward only (I.5), so this and one pass over the lines
+/// suffice.
 class JumpMap {
  public:
   struct Site {
@@ -45,18 +46,17 @@ class JumpMap {
   const std::vector<double>& constants(int reg) const { return constants_[static_cast<std::size_t>(reg)]; }
   /// Registers that an IF compares, in ascending order.
   const std::vector<int>& compared_registers() const { return compared_; }
-  /// Registers whose value some IF may still see, one bit each: where this jump (counted from the top) is not taken, and
-  /// where it is.
+  /// Registers whose value some IF may still see, one bit each: where this jump (counted from the top) is not taken,
+  /// and where it is.
   RegisterSet read_behind(std::uint32_t jump) const { return reads_[jump].behind; }
   RegisterSet read_at_target(std::uint32_t jump) const { return reads_[jump].at_target; }
 
-  /// Marks the jumps that have no label below them, once all definitions of labels are known (lines by label, ascending).
+  /// Marks the jumps that have no label below them, once all definitions of labels are known (lines by label,
+  /// ascending).
   void resolve(const std::unordered_map<std::uint64_t, std::vector<std::uint64_t>>& label_lines);
   bool is_resolved() const { return resolved_; }
   enum class Target : std::uint8_t { Below, NotFound, Above };
-  Target target_of(std::uint32_t jump) const {
-    return resolved_ ? targets_of_jumps_[jump] : Target::Below;
-  }
+  Target target_of(std::uint32_t jump) const { return resolved_ ? targets_of_jumps_[jump] : Target::Below; }
   /// Whether two programs' jumps mean the same, wherever they stand.
   bool means_the_same(const JumpMap& other) const;
 

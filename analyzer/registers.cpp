@@ -21,17 +21,23 @@ ValueSet ValueSet::satisfying(syntax::Comparison comparison, double constant, co
   const std::uint32_t cell = cell_of(constant, constants);
   const auto last = static_cast<std::uint32_t>(2 * constants.size());
   switch (comparison) {
-    case syntax::Comparison::Equal: return {cell, cell};
+    case syntax::Comparison::Equal:
+      return {cell, cell};
     case syntax::Comparison::NotEqual: {
       ValueSet apart(0, cell - 1);
       apart.append({cell + 1, last});
       return apart;
     }
-    case syntax::Comparison::Less: return {0, cell - 1};
-    case syntax::Comparison::LessEqual: return {0, cell};
-    case syntax::Comparison::Greater: return {cell + 1, last};
-    case syntax::Comparison::GreaterEqual: return {cell, last};
-    case syntax::Comparison::Invalid: break;
+    case syntax::Comparison::Less:
+      return {0, cell - 1};
+    case syntax::Comparison::LessEqual:
+      return {0, cell};
+    case syntax::Comparison::Greater:
+      return {cell + 1, last};
+    case syntax::Comparison::GreaterEqual:
+      return {cell, last};
+    case syntax::Comparison::Invalid:
+      break;
   }
   return everything(constants.size());
 }
@@ -124,8 +130,8 @@ void Valuations::assign(int reg, double value, const JumpMap& jumps) {
 
 Valuations Valuations::where(const syntax::Jump& jump, bool holds, const JumpMap& jumps) const {
   using syntax::Comparison;
-  static constexpr Comparison kOpposites[] = {Comparison::NotEqual, Comparison::Equal,       Comparison::GreaterEqual,
-                                              Comparison::Greater,  Comparison::LessEqual,   Comparison::Less,
+  static constexpr Comparison kOpposites[] = {Comparison::NotEqual, Comparison::Equal,     Comparison::GreaterEqual,
+                                              Comparison::Greater,  Comparison::LessEqual, Comparison::Less,
                                               Comparison::Invalid};
   const std::optional<std::size_t> index = index_of(jump.variable, jumps);
   if (!index || !jump.condition_is_known()) return *this;

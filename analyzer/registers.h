@@ -9,8 +9,8 @@
 namespace isocnc::analyzer {
 
 /// A set of values of one register, as far as the program's conditions can tell values apart. The constants that it is
-/// compared with cut the real line into cells: below the first, the first itself, between first and second, ... Cell 2i+1
-/// is the i-th constant, cell 2i what lies before it.
+/// compared with cut the real line into cells: below the first, the first itself, between first and second, ... Cell
+/// 2i+1 is the i-th constant, cell 2i what lies before it.
 class ValueSet {
  public:
   static ValueSet everything(std::size_t constants) { return {0, static_cast<std::uint32_t>(2 * constants)}; }
@@ -46,8 +46,8 @@ class ValueSet {
 /// What is known together of all registers that some IF compares, in the order of JumpMap::compared_registers().
 using Valuation = std::vector<ValueSet>;
 
-/// The valuations that are possible at some point. Between registers nothing is lost (if V1 is 1 then V2 is 3), so that a
-/// path is followed only where its conditions agree with each other (D52).
+/// The valuations that are possible at some point. Between registers nothing is lost (if V1 is 1 then V2 is 3), so that
+/// a path is followed only where its conditions agree with each other (D52).
 class Valuations {
  public:
   /// Nothing is known of any register.

@@ -12,10 +12,11 @@ using syntax::Instruction;
 using syntax::LineTree;
 using syntax::Word;
 
-/// How far up one finding's related place is looked for.
-static constexpr std::uint64_t kReach = 20'000;
+/// How far up one finding's related place is looked for, in bytes.
+static constexpr std::size_t kReach = 1'000'000;
 
-static constexpr dialect::Text kMounted = {"the face frame was mounted here", "il s.d.r. di faccia è stato messo in presa qui"};
+static constexpr dialect::Text kMounted = {"the face frame was mounted here",
+                                           "il s.d.r. di faccia è stato messo in presa qui"};
 static constexpr dialect::Text kSet = {"in force since here", "in presa da qui"};
 static constexpr dialect::Text kFirstLabel = {"the label stands here already", "l'etichetta c'è già qui"};
 
@@ -50,13 +51,15 @@ std::optional<Wanted> wanted_by(const LocatedFinding& located, std::string_view 
   const dialect::DiagnosticId id = located.finding.id;
   if (id == "face-already-mounted"_diag || id == "workpiece-frame-under-face"_diag)
     return Wanted{.note = kMounted, .mounts_face = true};
-  const syntax::ParsedLine parsed(line_text);
-  const LineTree tree = parsed.tree();
-  if (id == "duplicate-label"_diag) return Wanted{.note = kFirstLabel, .is_label = true, .label = tree.label};
-  if (id != "redundant-modal"_diag) return std::nullopt;
-  for (const Instruction& instruction : tree.instructions)
-    if (tree.command(instruction).span() == located.finding.span) return Wanted{.note = kSet, .code_row = instruction.row};
-  return std::nullopt;
+  const bool is_label = id == "duplicate-label"_diag;
+  if (!is_label && id != "redundant-modal"_diag) return std::nullopt;
+  // The marked word alone: the line may be huge.
+  const syntax::Span span = located.finding.span;
+  const syntax::ParsedLine parsed(line_text.substr(span.begin, span.end - span.begin));
+  const LineTree word = parsed.tree();
+  if (is_label) return Wanted{.note = kFirstLabel, .is_label = true, .label = word.label};
+  if (word.instructions.empty()) return std::nullopt;
+  return Wanted{.note = kSet, .code_row = word.instructions.front().row};
 }
 
 /// The line above the one that starts at `begin`; `begin` must not be the start of the text.
@@ -75,15 +78,22 @@ std::optional<RelatedPlace> RelatedPlaces::of(const LocatedFinding& located, std
   if (!wanted) return std::nullopt;
   syntax::TreeStore store;
   std::string_view line = line_text;
-  const std::uint64_t reach = std::min({kReach, lines_left_, located.line});
-  for (std::uint64_t up = 1; up <= reach; ++up, --lines_left_) {
+  const std::size_t reach = std::min(kReach, bytes_left_);
+  std::size_t walked = 0;
+  std::optional<RelatedPlace> place;
+  for (std::uint64_t number = located.line; number > 0 && walked < reach; --number) {
     line = line_above(text_, static_cast<std::size_t>(line.data() - text_.data()));
+    walked += line.size() + 1;
     store.clear();
     store.append_line(line.data(), line.data() + line.size());
     const LineTree tree = store.tree(0, line.data());
-    if (const Word* word = wanted->on(tree)) return RelatedPlace{located.line - up, line, word->span(), wanted->note};
+    if (const Word* word = wanted->on(tree)) {
+      place = {number - 1, line, word->span(), wanted->note};
+      break;
+    }
   }
-  return std::nullopt;
+  bytes_left_ -= std::min(bytes_left_, walked);
+  return place;
 }
 
 }  // namespace isocnc::analyzer

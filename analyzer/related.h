@@ -14,11 +14,11 @@ struct RelatedPlace {
   std::uint64_t line = 0;  ///< From 0.
   std::string_view text;   ///< Of the line.
   syntax::Span span;
-  dialect::Text note;      ///< What happened there.
+  dialect::Text note;  ///< What happened there.
 };
 
-/// Looks for the related places of a file's findings, upward from each. What it finds is the nearest line above that fits,
-/// and it gives up after a bounded stretch: a help for the reader, of which no judgment depends.
+/// Looks for the related places of a file's findings, upward from each. What it finds is the nearest line above that
+/// fits, and it gives up after a bounded stretch: a help for the reader, of which no judgment depends.
 class RelatedPlaces {
  public:
   explicit RelatedPlaces(std::string_view text) : text_(text) {}
@@ -28,7 +28,7 @@ class RelatedPlaces {
 
  private:
   std::string_view text_;
-  std::uint64_t lines_left_ = 1'000'000;  // To be looked through for all findings together.
+  std::size_t bytes_left_ = 64'000'000;  // To be looked through for all findings together.
 };
 
 }  // namespace isocnc::analyzer

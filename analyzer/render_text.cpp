@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "analyzer/related.h"
 #include "analyzer/renderers.h"
 #include "interpreter/dialect/diagnostic_id.h"
 
@@ -31,7 +32,9 @@ struct Excerpt {
 };
 
 static Excerpt excerpt_around(std::string_view line, std::size_t byte) {
-  const auto is_inside = [&](std::size_t at) { return at < line.size() && (static_cast<unsigned char>(line[at]) & 0xC0) == 0x80; };
+  const auto is_inside = [&](std::size_t at) {
+    return at < line.size() && (static_cast<unsigned char>(line[at]) & 0xC0) == 0x80;
+  };
   Excerpt excerpt;
   if (line.size() > kWidth && byte > kContext + kContext / 2) excerpt.begin = byte - kContext;
   while (excerpt.begin > 0 && is_inside(excerpt.begin)) --excerpt.begin;
@@ -51,8 +54,9 @@ class TextRenderer final : public Renderer {
   void file(std::string_view name, std::string_view text, const Report& report, Output& output) override {
     LineFinder lines(text);
     const StepTexts steps(text, report, style_.language);
+    RelatedPlaces places(text);
     for (const LocatedFinding& located : report.findings) {
-      one(name, lines, located, report, steps, output.buffer());
+      one(name, lines, places, located, report, steps, output.buffer());
       output.relieve();
     }
   }
@@ -60,8 +64,8 @@ class TextRenderer final : public Renderer {
  private:
   std::string_view paint(std::string_view color) const { return style_.color ? color : std::string_view(); }
 
-  void one(std::string_view name, LineFinder& lines, const LocatedFinding& located, const Report& report,
-           const StepTexts& steps, std::string& out) const {
+  void one(std::string_view name, LineFinder& lines, RelatedPlaces& places, const LocatedFinding& located,
+           const Report& report, const StepTexts& steps, std::string& out) const {
     const std::string_view line = lines.line(located.line);
     const syntax::Finding& finding = located.finding;
     const dialect::DiagnosticDef& def = dialect::definition(finding.id);
@@ -77,6 +81,7 @@ class TextRenderer final : public Renderer {
                    lines.column(finding.span.begin));
     const Excerpt excerpt = excerpt_around(line, finding.span.begin);
     fmt::format_to(to, "{} {}|{}\n", margin, paint(kBlue), paint(kReset));
+    if (const std::optional<RelatedPlace> place = places.of(located, line)) above(*place, located.line, margin, out);
     fmt::format_to(to, "{}{} |{} {}{}{}\n", paint(kBlue), number, paint(kReset), excerpt.cut_left ? "..." : "",
                    printable(excerpt.text), excerpt.cut_right ? "..." : "");
     fmt::format_to(to, "{} {}|{} {}\n", margin, paint(kBlue), paint(kReset), underline(excerpt, finding, color));
@@ -86,6 +91,21 @@ class TextRenderer final : public Renderer {
     out += '\n';
   }
 
+  /// The line above that the finding comes from.
+  void above(const RelatedPlace& place, std::uint64_t line, std::string_view margin, std::string& out) const {
+    const auto to = std::back_inserter(out);
+    const Excerpt excerpt = excerpt_around(place.text, place.span.begin);
+    const std::size_t begin = column_of(excerpt.text, place.span.begin - excerpt.begin);
+    const std::size_t end =
+        column_of(excerpt.text, std::min<std::size_t>(place.span.end - excerpt.begin, excerpt.text.size()));
+    fmt::format_to(to, "{}{:>{}} |{} {}{}{}\n", paint(kBlue), place.line + 1, margin.size(), paint(kReset),
+                   excerpt.cut_left ? "..." : "", printable(excerpt.text), excerpt.cut_right ? "..." : "");
+    fmt::format_to(to, "{} {}|{} {:{}}{}{:-<{}} {}{}\n", margin, paint(kBlue), paint(kReset), "",
+                   begin - 1 + (excerpt.cut_left ? 3 : 0), paint(kBlue), "", end - begin,
+                   place.note.in(style_.language), paint(kReset));
+    if (place.line + 1 < line) fmt::format_to(to, "{}...{}\n", paint(kBlue), paint(kReset));
+  }
+
   /// `^^^^` under the finding, `----` under the other place on the same line.
   std::string underline(const Excerpt& excerpt, const syntax::Finding& finding, std::string_view color) const {
     struct Mark {
@@ -93,7 +113,9 @@ class TextRenderer final : public Renderer {
       char sign;
     };
     const auto mark = [&](syntax::Span span, char sign) {
-      const auto clip = [&](std::size_t byte) { return std::min(std::max(byte, excerpt.begin), excerpt.begin + excerpt.text.size()) - excerpt.begin; };
+      const auto clip = [&](std::size_t byte) {
+        return std::min(std::max(byte, excerpt.begin), excerpt.begin + excerpt.text.size()) - excerpt.begin;
+      };
       const std::size_t begin = column_of(excerpt.text, clip(span.begin)) - 1;
       return Mark{begin, std::max(begin + 1, column_of(excerpt.text, clip(span.end)) - 1), sign};
     };
@@ -112,12 +134,16 @@ class TextRenderer final : public Renderer {
       result += paint(kReset);
       at = each.end;
     }
-    if (related_shown) fmt::format_to(std::back_inserter(result), "  {}(--- {}){}", paint(kDim), kOtherPlace.in(style_.language), paint(kReset));
+    if (related_shown)
+      fmt::format_to(std::back_inserter(result), "  {}(--- {}){}", paint(kDim), kOtherPlace.in(style_.language),
+                     paint(kReset));
     return result;
   }
 
-  void path(const StepTexts& texts, const std::vector<PathStep>& steps, std::string_view margin, std::string& out) const {
-    fmt::format_to(std::back_inserter(out), "{} {}={} {}\n", margin, paint(kBlue), paint(kReset), kReachedThrough.in(style_.language));
+  void path(const StepTexts& texts, const std::vector<PathStep>& steps, std::string_view margin,
+            std::string& out) const {
+    fmt::format_to(std::back_inserter(out), "{} {}={} {}\n", margin, paint(kBlue), paint(kReset),
+                   kReachedThrough.in(style_.language));
     for (const PathStep& step : steps)
       fmt::format_to(std::back_inserter(out), "{}     {}: {}\n", margin, step.line + 1, texts.of(step));
   }

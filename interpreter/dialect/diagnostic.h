@@ -27,16 +27,16 @@ inline constexpr int kMostArguments = 2;
 ///
 /// `message` may name `{text}` (the program text under the finding's mark) and the values in `arguments`, by name.
 struct DiagnosticDef {
-  std::string_view code;     ///< `ISO012`, `E004`, `W001`: stable, what users select and suppress.
-  std::string_view name;     ///< `head-not-selected`: stable, what our code and readers say.
+  std::string_view code;  ///< `ISO012`, `E004`, `W001`: stable, what users select and suppress.
+  std::string_view name;  ///< `head-not-selected`: stable, what our code and readers say.
   Severity severity = Severity::Error;
-  std::string_view section;  ///< Of the specification, `I.4.3`.
+  std::string_view section;                    ///< Of the specification, `I.4.3`.
   std::string_view arguments[kMostArguments];  ///< Names of the values, in the order in which they are reported.
-  Text title;                ///< A few words for lists.
-  Text message;              ///< One line, without a full stop.
-  Text explanation;          ///< Why the control stops and what to do; the first sentence stands alone.
-  std::string_view wrong;    ///< A program with this one finding; `[!` and `!]` enclose the marked text.
-  std::string_view right;    ///< The same program, mended: no finding at all.
+  Text title;                                  ///< A few words for lists.
+  Text message;                                ///< One line, without a full stop.
+  Text explanation;        ///< Why the control stops and what to do; the first sentence stands alone.
+  std::string_view wrong;  ///< A program with this one finding; `[!` and `!]` enclose the marked text.
+  std::string_view right;  ///< The same program, mended: no finding at all.
 };
 
 }  // namespace isocnc::dialect

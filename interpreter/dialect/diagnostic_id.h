@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
-#include <span>
 
 #include "interpreter/dialect/diagnostic_table.h"
 

@@ -29,21 +29,34 @@ void Executor::run() {
   }
   for (const Instruction& instruction : line_.instructions) {
     switch (instruction.kind) {
-      case InstructionKind::Continuation: motion(instruction); break;
-      case InstructionKind::G: execute_g(instruction); break;
-      case InstructionKind::Function: function(instruction); break;
-      case InstructionKind::ToolChange: tool_change(instruction); break;
-      case InstructionKind::StrayTool: stray_tool(instruction); break;
-      case InstructionKind::Assignment: assign(instruction); break;
-      case InstructionKind::Jump: break;
+      case InstructionKind::Continuation:
+        motion(instruction);
+        break;
+      case InstructionKind::G:
+        execute_g(instruction);
+        break;
+      case InstructionKind::Function:
+        function(instruction);
+        break;
+      case InstructionKind::ToolChange:
+        tool_change(instruction);
+        break;
+      case InstructionKind::StrayTool:
+        stray_tool(instruction);
+        break;
+      case InstructionKind::Assignment:
+        assign(instruction);
+        break;
+      case InstructionKind::Jump:
+        break;
     }
     if (state_.ended) return;
   }
   if (line_.feed >= 0 && !feed_move_) apply_feed_without_motion();
   state_.exact_stop_fits = feed_move_;
   const Instruction* const last = line_.instructions.empty() ? nullptr : &line_.instructions.back();
-  state_.tool_awaited = last != nullptr && last->kind == InstructionKind::ToolChange && last->end == last->command + 1 &&
-                        !last->has(Instruction::kSettled);
+  state_.tool_awaited = last != nullptr && last->kind == InstructionKind::ToolChange &&
+                        last->end == last->command + 1 && !last->has(Instruction::kSettled);
 }
 
 void Executor::report(dialect::DiagnosticId id, syntax::Span span, std::initializer_list<double> values,
@@ -64,14 +77,20 @@ void Executor::execute_g(const Instruction& instruction) {
   }
   if (code->is_motion()) return motion(instruction);
   switch (code->number) {
-    case 4: return dwell(instruction);
-    case 9: return exact_stop(instruction);
+    case 4:
+      return dwell(instruction);
+    case 9:
+      return exact_stop(instruction);
     case 24:
     case 28:
-    case 29: return mount_face(instruction, *code);
-    case 27: return dismount_face(instruction);
-    case 92: return workpiece_frame(instruction);
-    default: return set_mode(*code, line_.command(instruction));
+    case 29:
+      return mount_face(instruction, *code);
+    case 27:
+      return dismount_face(instruction);
+    case 92:
+      return workpiece_frame(instruction);
+    default:
+      return set_mode(*code, line_.command(instruction));
   }
 }
 
@@ -138,8 +157,8 @@ void Executor::select_tool(const Word& word) {
   state_.tool = {};
   if (!word.is_plain_integer() || word.digits != 6) return;
   state_.tool = tool_code(static_cast<int>(word.value));
-  const bool impossible = (state_.tool.head == 0 && state_.tool.holder != 0) ||
-                          (state_.tool.holder == 0 && state_.tool.tool != 0);
+  const bool impossible =
+      (state_.tool.head == 0 && state_.tool.holder != 0) || (state_.tool.holder == 0 && state_.tool.tool != 0);
   if (!impossible && !is_configured(state_.tool)) report("tool-not-configured"_diag, word.span());
   sink_.tool_change(state_.tool);
 }

@@ -8,8 +8,8 @@ namespace isocnc::execution {
 /// alone does not show, goes to `sink` in the order of the program; what its text shows is in `line.findings` already.
 /// Lengths in mm, angles in degrees, whatever G70/G71 said.
 ///
-/// The one step that checker, simulator, language server and debugger share. It allocates nothing, cannot fail, and knows
-/// no line number. It does not decide jumps: an IF belongs to who knows the registers (`line.jump`).
+/// The one step that checker, simulator, language server and debugger share. It allocates nothing, cannot fail, and
+/// knows no line number. It does not decide jumps: an IF belongs to who knows the registers (`line.jump`).
 void execute(const syntax::LineTree& line, State& state, const Setup& setup, Sink& sink);
 
 }  // namespace isocnc::execution

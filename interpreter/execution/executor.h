@@ -13,10 +13,10 @@ namespace isocnc::execution {
 /// u x v: i x j, k x i, j x k (D40).
 struct Plane {
   int u, v, normal;
-  char u_letter, v_letter;                    ///< Of the end point.
-  char u_center, v_center, stray_center;      ///< I, J, K.
-  dialect::DiagnosticId stray;                ///< For the center letter outside the plane (D39).
-  dialect::DiagnosticId undetermined_by_u;    ///< When u of the center alone does not fix it.
+  char u_letter, v_letter;                  ///< Of the end point.
+  char u_center, v_center, stray_center;    ///< I, J, K.
+  dialect::DiagnosticId stray;              ///< For the center letter outside the plane (D39).
+  dialect::DiagnosticId undetermined_by_u;  ///< When u of the center alone does not fix it.
   dialect::DiagnosticId undetermined_by_v;
 };
 
@@ -77,7 +77,7 @@ class Executor {
   State& state_;
   const Setup& setup_;
   Sink& sink_;
-  bool feed_move_ = false;   ///< The line has had an interpolated motion.
+  bool feed_move_ = false;  ///< The line has had an interpolated motion.
   bool rapid_move_ = false;
 };
 

@@ -16,32 +16,53 @@ using syntax::Instruction;
 using syntax::InstructionKind;
 using syntax::Span;
 
-static constexpr Plane kPlaneXY = {.u = 0, .v = 1, .normal = 2, .u_letter = 'X', .v_letter = 'Y',
-                                   .u_center = 'I', .v_center = 'J', .stray_center = 'K',
+static constexpr Plane kPlaneXY = {.u = 0,
+                                   .v = 1,
+                                   .normal = 2,
+                                   .u_letter = 'X',
+                                   .v_letter = 'Y',
+                                   .u_center = 'I',
+                                   .v_center = 'J',
+                                   .stray_center = 'K',
                                    .stray = "stray-center-k"_diag,
                                    .undetermined_by_u = "center-undetermined-g17-i"_diag,
                                    .undetermined_by_v = "center-undetermined-g17-j"_diag};
-static constexpr Plane kPlaneZX = {.u = 2, .v = 0, .normal = 1, .u_letter = 'Z', .v_letter = 'X',
-                                   .u_center = 'K', .v_center = 'I', .stray_center = 'J',
+static constexpr Plane kPlaneZX = {.u = 2,
+                                   .v = 0,
+                                   .normal = 1,
+                                   .u_letter = 'Z',
+                                   .v_letter = 'X',
+                                   .u_center = 'K',
+                                   .v_center = 'I',
+                                   .stray_center = 'J',
                                    .stray = "stray-center-j"_diag,
                                    .undetermined_by_u = "center-undetermined-g18-k"_diag,
                                    .undetermined_by_v = "center-undetermined-g18-i"_diag};
-static constexpr Plane kPlaneYZ = {.u = 1, .v = 2, .normal = 0, .u_letter = 'Y', .v_letter = 'Z',
-                                   .u_center = 'J', .v_center = 'K', .stray_center = 'I',
+static constexpr Plane kPlaneYZ = {.u = 1,
+                                   .v = 2,
+                                   .normal = 0,
+                                   .u_letter = 'Y',
+                                   .v_letter = 'Z',
+                                   .u_center = 'J',
+                                   .v_center = 'K',
+                                   .stray_center = 'I',
                                    .stray = "stray-center-i"_diag,
                                    .undetermined_by_u = "center-undetermined-g19-j"_diag,
                                    .undetermined_by_v = "center-undetermined-g19-k"_diag};
 
 const Plane& plane_in_force(const State& state) {
   switch (state.mode(dialect::ModalGroup::Plane)) {
-    case 18: return kPlaneZX;
-    case 19: return kPlaneYZ;
-    default: return kPlaneXY;
+    case 18:
+      return kPlaneZX;
+    case 19:
+      return kPlaneYZ;
+    default:
+      return kPlaneXY;
   }
 }
 
-/// Most blocks of most programs, when nobody asks for effects: a rapid or a line in three axes, with tool and feed known to
-/// be there. All that run() would do for them is to set the mode and move the axes.
+/// Most blocks of most programs, when nobody asks for effects: a rapid or a line in three axes, with tool and feed
+/// known to be there. All that run() would do for them is to set the mode and move the axes.
 bool Executor::run_plain() {
   if (sink_.wants_effects() || line_.instructions.size() != 1 || line_.spindle >= 0) return false;
   if (!state_.tool_selected || state_.unknown != 0 || state_.inverse_time()) return false;
@@ -131,7 +152,8 @@ void Executor::move_with_effects(const Arguments& arguments, const GCode& code, 
 /// Coordinates before any motion G belong to nothing: one finding a line (D21).
 bool Executor::motion_is_in_force(const Arguments& arguments) {
   if (state_.mode(dialect::ModalGroup::Motion) != dialect::kNoMotion) return true;
-  bool reported = line_.has(syntax::LineTree::kAloneViolated) || arguments.first().has(syntax::Word::kReported | syntax::Word::kMissing);
+  bool reported = line_.has(syntax::LineTree::kAloneViolated) ||
+                  arguments.first().has(syntax::Word::kReported | syntax::Word::kMissing);
   for (const syntax::Finding& finding : line_.findings) reported |= finding.id == "stray-argument"_diag;
   if (!reported) report("stray-argument"_diag, arguments.first().span());
   return false;
@@ -244,10 +266,14 @@ bool Executor::arc_is_described(const Arguments& arguments, const Plane& plane, 
 void Executor::report_circle(const Arguments& arguments, const geometry::Circle& circle, const Plane& plane) {
   const Span centers = arguments.span_of(dialect::kCenterLetters);
   switch (circle.problem) {
-    case ArcProblem::None: break;
-    case ArcProblem::CenterUndeterminedByU: return report(plane.undetermined_by_u, centers);
-    case ArcProblem::CenterUndeterminedByV: return report(plane.undetermined_by_v, centers);
-    case ArcProblem::CenterMismatch: return report("arc-center-mismatch"_diag, centers, {circle.found, circle.wanted});
+    case ArcProblem::None:
+      break;
+    case ArcProblem::CenterUndeterminedByU:
+      return report(plane.undetermined_by_u, centers);
+    case ArcProblem::CenterUndeterminedByV:
+      return report(plane.undetermined_by_v, centers);
+    case ArcProblem::CenterMismatch:
+      return report("arc-center-mismatch"_diag, centers, {circle.found, circle.wanted});
     case ArcProblem::RadiusMismatch:
       return report("arc-radius-mismatch"_diag, arguments.word('R').span(), {circle.found, circle.wanted});
     case ArcProblem::RadiusTooSmall:

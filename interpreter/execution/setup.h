@@ -21,8 +21,8 @@ constexpr ToolCode tool_code(int number) { return {number / 100000, number / 100
 
 /// What the checks must know of the machine.
 struct Setup {
-  geometry::Pose home;           ///< Machine frame.
-  double arc_tolerance = 0.01;   ///< mm (D35).
+  geometry::Pose home;          ///< Machine frame.
+  double arc_tolerance = 0.01;  ///< mm (D35).
   /// The tools that the machine file lists; without a list any tool may be mounted (D46).
   std::optional<std::vector<ToolCode>> tools;
 };

@@ -16,11 +16,12 @@ struct Move {
   geometry::Pose from;  ///< Frame in force; mm, degrees.
   geometry::Pose to;
   geometry::Vec3 center = geometry::Vec3::Zero();  ///< Arcs: frame in force; the start's coordinate along the normal.
-  geometry::Vec3 normal = geometry::Vec3::Zero();  ///< Arcs: unit, frame in force; for oblique frames along the axis cross product.
-  double radius = 0;     ///< Arcs: distance of the center from the start, mm.
-  double sweep_deg = 0;  ///< Arcs: positive counterclockwise about the normal (G03).
-  int normal_axis = 2;   ///< Arcs: the coordinate that rises along a helix: 2 in G17, 1 in G18, 0 in G19.
-  double feed = 0;       ///< mm/min (degrees/min when only rotary axes move), or 1/min in G93; 0 for rapids.
+  geometry::Vec3 normal =
+      geometry::Vec3::Zero();  ///< Arcs: unit, frame in force; for oblique frames along the axis cross product.
+  double radius = 0;           ///< Arcs: distance of the center from the start, mm.
+  double sweep_deg = 0;        ///< Arcs: positive counterclockwise about the normal (G03).
+  int normal_axis = 2;         ///< Arcs: the coordinate that rises along a helix: 2 in G17, 1 in G18, 0 in G19.
+  double feed = 0;             ///< mm/min (degrees/min when only rotary axes move), or 1/min in G93; 0 for rapids.
   bool inverse_time = false;
 };
 

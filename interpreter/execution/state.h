@@ -18,8 +18,8 @@ using AxisSet = std::uint8_t;
 constexpr AxisSet axis_bit(Axis axis) { return static_cast<AxisSet>(1u << static_cast<unsigned>(axis)); }
 inline constexpr AxisSet kLinearAxes = 0b00111;
 
-/// A feed rate as written, and what a unit of it is worth: mm per inch under G70, which holds for linear axes only; rotary
-/// axes alone move in degrees per minute under either (I.3.7).
+/// A feed rate as written, and what a unit of it is worth: mm per inch under G70, which holds for linear axes only;
+/// rotary axes alone move in degrees per minute under either (I.3.7).
 struct Feed {
   double number = 0;  ///< 0 before any F.
   double mm_per_unit = 1;
@@ -27,33 +27,33 @@ struct Feed {
   friend bool operator==(const Feed&, const Feed&) = default;
 };
 
-/// All that a program has brought about up to some point, and that anything later can depend on. A value: copy it to keep
-/// it, compare it to know whether two histories still differ. It knows neither lines nor text, so an edit elsewhere does
-/// not change it. Registers are with who follows the jumps.
+/// All that a program has brought about up to some point, and that anything later can depend on. A value: copy it to
+/// keep it, compare it to know whether two histories still differ. It knows neither lines nor text, so an edit
+/// elsewhere does not change it. Registers are with who follows the jumps.
 struct State {
-  geometry::Pose position;   ///< In the frame in force. What is unknown reads 0.
-  AxisSet unknown = 0;       ///< Axes whose position an error has left open: nothing that depends on them is checked.
+  geometry::Pose position;  ///< In the frame in force. What is unknown reads 0.
+  AxisSet unknown = 0;      ///< Axes whose position an error has left open: nothing that depends on them is checked.
   std::array<std::uint8_t, dialect::kModalGroupCount> in_force = dialect::kDefaultModes;  ///< G number by group.
   std::uint16_t written = 0;  ///< Groups of which a member has been written (D3).
 
   geometry::Vec3 workpiece_origin = geometry::Vec3::Zero();  ///< Machine frame (G92).
-  geometry::Frame face;             ///< In the workpiece frame; identity unless mounted.
+  geometry::Frame face;                                      ///< In the workpiece frame; identity unless mounted.
   bool face_mounted = false;
-  bool face_undefined = false;      ///< Mounted by a definition in error: its axes are not known.
-  bool dismount_forgiven = false;   ///< A G92 has dismounted it in error (ISO055): a G27 that follows is right (D29).
+  bool face_undefined = false;     ///< Mounted by a definition in error: its axes are not known.
+  bool dismount_forgiven = false;  ///< A G92 has dismounted it in error (ISO055): a G27 that follows is right (D29).
 
-  Feed feed_per_minute;             ///< Last F under G94.
-  Feed last_feed;                   ///< Last F under either mode (D43).
-  double spindle_speed = 0;         ///< Revolutions per minute; 0 before any S.
-  std::uint8_t spindle = 5;         ///< 3, 4 or 5, as the last M said.
+  Feed feed_per_minute;      ///< Last F under G94.
+  Feed last_feed;            ///< Last F under either mode (D43).
+  double spindle_speed = 0;  ///< Revolutions per minute; 0 before any S.
+  std::uint8_t spindle = 5;  ///< 3, 4 or 5, as the last M said.
   ToolCode tool;
   bool tool_selected = false;
-  bool tool_reported = false;       ///< ISO044 has been said.
+  bool tool_reported = false;  ///< ISO044 has been said.
   bool feed_given = false;
-  bool feed_reported = false;       ///< ISO066 has been said.
-  bool exact_stop_fits = false;     ///< A G09 at the start of the next line would follow a feed move (D23).
-  bool tool_awaited = false;        ///< The line before ended in an M06 without T (reported): a T that follows is its.
-  bool ended = false;               ///< M02 has been read.
+  bool feed_reported = false;    ///< ISO066 has been said.
+  bool exact_stop_fits = false;  ///< A G09 at the start of the next line would follow a feed move (D23).
+  bool tool_awaited = false;     ///< The line before ended in an M06 without T (reported): a T that follows is its.
+  bool ended = false;            ///< M02 has been read.
 
   std::uint8_t mode(dialect::ModalGroup group) const { return in_force[static_cast<std::size_t>(group)]; }
   void set_mode(dialect::ModalGroup group, std::uint8_t number) { in_force[static_cast<std::size_t>(group)] = number; }

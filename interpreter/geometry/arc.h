@@ -28,17 +28,17 @@ enum class ArcProblem : std::uint8_t {
   None,
   CenterUndeterminedByU,  ///< Only u of the center is given, and the ends do not differ in v (ISO048-053).
   CenterUndeterminedByV,
-  CenterMismatch,    ///< The center is not equally far from both ends, or is the start itself (ISO031).
-  RadiusMismatch,    ///< Radius and center contradict each other (ISO029).
-  RadiusTooSmall,    ///< Not positive, or less than half the chord (ISO030).
+  CenterMismatch,  ///< The center is not equally far from both ends, or is the start itself (ISO031).
+  RadiusMismatch,  ///< Radius and center contradict each other (ISO029).
+  RadiusTooSmall,  ///< Not positive, or less than half the chord (ISO030).
 };
 
 /// A circle through both ends, or why there is none; then the two values found tell what is wrong.
 struct Circle {
   ArcProblem problem = ArcProblem::None;
-  PlanePoint center;  ///< From the start.
-  double found = 0;   ///< Distance center-start, or the radius as written.
-  double wanted = 0;  ///< Distance center-end, distance center-start, or half the chord.
+  PlanePoint center;          ///< From the start.
+  double found = 0;           ///< Distance center-start, or the radius as written.
+  double wanted = 0;          ///< Distance center-end, distance center-start, or half the chord.
   bool goes_nowhere = false;  ///< By radius alone with start and end equal: no sweep (D36).
 };
 
@@ -48,8 +48,8 @@ inline constexpr double kEqualCoordinate = 1e-6;
 /// Finds the circle (I.3.4.3.a, D35 to D38); the first problem in the order of D45. `tolerance` in mm.
 Circle find_circle(const ArcGiven& given, double tolerance);
 
-/// Degrees from start to end about the center, positive counterclockwise, in [-360, 360]; a full turn when both ends are
-/// equal (D37). `center` and `end` from the start. Arcs by radius alone never exceed 180 (D36).
+/// Degrees from start to end about the center, positive counterclockwise, in [-360, 360]; a full turn when both ends
+/// are equal (D37). `center` and `end` from the start. Arcs by radius alone never exceed 180 (D36).
 double sweep_deg(const PlanePoint& center, const PlanePoint& end, bool counterclockwise);
 
 }  // namespace isocnc::geometry

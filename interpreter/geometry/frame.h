@@ -9,8 +9,8 @@ inline constexpr double kZeroVector = 1e-6;
 /// Two axes are orthogonal when the cosine between them is below this: CAM systems write few decimals (D26).
 inline constexpr double kOrthogonalCosine = 1e-3;
 
-/// A frame given in another one: coordinates run along unit axes that need be neither orthogonal nor right-handed (D26).
-/// P = origin + x i + y j + z k.
+/// A frame given in another one: coordinates run along unit axes that need be neither orthogonal nor right-handed
+/// (D26). P = origin + x i + y j + z k.
 struct Frame {
   Vec3 origin = Vec3::Zero();
   Mat3 axes = Mat3::Identity();  ///< Columns i, j, k.

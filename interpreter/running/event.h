@@ -48,7 +48,8 @@ struct EndEvent {};
 /// Something that a program did, on its line (from 0).
 struct Event {
   std::uint64_t line = 0;
-  std::variant<MoveEvent, DwellEvent, SpindleSpeedEvent, FunctionEvent, ToolEvent, FrameEvent, JumpEvent, EndEvent> what;
+  std::variant<MoveEvent, DwellEvent, SpindleSpeedEvent, FunctionEvent, ToolEvent, FrameEvent, JumpEvent, EndEvent>
+      what;
 };
 
 /// `rapid`, `feed`, `arc`, `dwell`, `spindle`, `tool`, `m`, `frame`, `jump`, `end`: how the trace calls it.

@@ -184,13 +184,20 @@ class Runner {
                             ? options_.vgpl
                             : result_.registers[static_cast<std::size_t>(jump.variable)];
     switch (jump.comparison) {
-      case Comparison::Equal: return left == jump.value;
-      case Comparison::NotEqual: return left != jump.value;
-      case Comparison::Less: return left < jump.value;
-      case Comparison::LessEqual: return left <= jump.value;
-      case Comparison::Greater: return left > jump.value;
-      case Comparison::GreaterEqual: return left >= jump.value;
-      case Comparison::Invalid: break;
+      case Comparison::Equal:
+        return left == jump.value;
+      case Comparison::NotEqual:
+        return left != jump.value;
+      case Comparison::Less:
+        return left < jump.value;
+      case Comparison::LessEqual:
+        return left <= jump.value;
+      case Comparison::Greater:
+        return left > jump.value;
+      case Comparison::GreaterEqual:
+        return left >= jump.value;
+      case Comparison::Invalid:
+        break;
     }
     return false;
   }

@@ -13,10 +13,10 @@ namespace isocnc::running {
 /// What a run is given besides the program.
 struct RunOptions {
   execution::Setup setup;
-  double vgpl = 0;                                        ///< The GPL variable that IF compares (I.5).
+  double vgpl = 0;                                              ///< The GPL variable that IF compares (I.5).
   std::array<double, dialect::kRegisterCount + 1> registers{};  ///< V1 to V30 at the start; [0] is not used.
-  std::optional<std::uint64_t> until;                     ///< Stop before this line (from 0).
-  bool stop_at_errors = true;                             ///< As the control does; else go on as a checker reads it.
+  std::optional<std::uint64_t> until;                           ///< Stop before this line (from 0).
+  bool stop_at_errors = true;  ///< As the control does; else go on as a checker reads it.
 };
 
 /// Why a run came to its end.
@@ -24,12 +24,12 @@ enum class Ending : std::uint8_t { ProgramEnd, Error, Until };
 
 struct RunResult {
   Ending ending = Ending::ProgramEnd;
-  std::uint64_t line = 0;            ///< Of the end, from 0.
+  std::uint64_t line = 0;  ///< Of the end, from 0.
   std::string_view line_text;
-  syntax::Finding error;             ///< When `ending` is Error.
-  execution::State state;            ///< At the end.
+  syntax::Finding error;   ///< When `ending` is Error.
+  execution::State state;  ///< At the end.
   std::array<double, dialect::kRegisterCount + 1> registers{};
-  std::uint64_t blocks = 0;          ///< Blocks executed.
+  std::uint64_t blocks = 0;  ///< Blocks executed.
 };
 
 /// Runs a program as the control would, one block after another; what it does goes to `on_event`. A block with an error

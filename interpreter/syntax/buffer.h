@@ -7,8 +7,9 @@
 
 namespace isocnc::syntax {
 
-/// A growing row of plain values that can be written in place: what is not yet written is left as it is. Unlike a vector
-/// it sets nothing to zero and says nothing of elements beyond its size, which is what a parser of millions of words needs.
+/// A growing row of plain values that can be written in place: what is not yet written is left as it is. Unlike a
+/// vector it sets nothing to zero and says nothing of elements beyond its size, which is what a parser of millions of
+/// words needs.
 template <class T>
 class Buffer {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);

@@ -11,7 +11,7 @@ namespace isocnc::syntax {
 
 /// What a byte can be outside comments.
 enum class CharClass : std::uint8_t {
-  Letter,     ///< Starts a word; either case (D8).
+  Letter,  ///< Starts a word; either case (D8).
   Digit,
   NumberSign,  ///< + - . and the comma, which is never right but belongs to the number it spoils (D9).
   Blank,       ///< Means nothing (D6).

@@ -6,13 +6,13 @@
 
 namespace isocnc::syntax {
 
-/// Lines per chunk, when chunks are made anew. An edit copies the trees of its chunk: few enough that this costs little,
-/// many enough that the chunks of a long program are soon counted.
+/// Lines per chunk, when chunks are made anew. An edit copies the trees of its chunk: few enough that this costs
+/// little, many enough that the chunks of a long program are soon counted.
 static constexpr std::size_t kChunkLines = 128;
 static constexpr std::size_t kMostChunkLines = 2 * kChunkLines;
 
 struct Document::Chunk {
-  std::string text;                  // With terminators.
+  std::string text;                   // With terminators.
   std::vector<std::uint32_t> begins;  // Of the lines in `text`.
   TreeStore trees;
   std::size_t first_line = 0;
@@ -83,7 +83,8 @@ Change Document::replace(Position begin, Position end, std::string_view text) {
   if (first > 0 && fresh.starts_with('\n') && line_with_terminator(first - 1).ends_with('\r'))
     fresh.insert(0, line_with_terminator(--first));
   const auto ends_line = [&] { return !fresh.empty() && is_line_end(fresh.back()); };
-  while (last + 1 < line_count() && (!ends_line() || (fresh.back() == '\r' && line_with_terminator(last + 1).starts_with('\n'))))
+  while (last + 1 < line_count() &&
+         (!ends_line() || (fresh.back() == '\r' && line_with_terminator(last + 1).starts_with('\n'))))
     fresh += line_with_terminator(++last);
   const std::size_t before = line_count();
   const std::size_t removed = last - first + 1;
@@ -91,8 +92,8 @@ Change Document::replace(Position begin, Position end, std::string_view text) {
   return {first, removed, line_count() + removed - before};
 }
 
-/// Puts `text` in the place of `removed` lines. Whole lines, but for the last of the document (`is_end`), which may lack
-/// its terminator.
+/// Puts `text` in the place of `removed` lines. Whole lines, but for the last of the document (`is_end`), which may
+/// lack its terminator.
 void Document::rebuild(std::size_t first_line, std::size_t removed, std::string_view text, bool is_end) {
   const bool is_new = chunks_.empty();
   const Place from = is_new ? Place{0, 0} : locate(first_line);

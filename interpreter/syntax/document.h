@@ -25,9 +25,9 @@ struct Change {
   std::size_t inserted = 0;  ///< Lines that stand in their place.
 };
 
-/// A program as it is being edited: its text with line ends as they are (CR, LF, CRLF), and the tree of each line. An edit
-/// parses the lines it touches and no others. A document always has at least one line; a terminator at the end of the
-/// text is followed by an empty line, as in an editor.
+/// A program as it is being edited: its text with line ends as they are (CR, LF, CRLF), and the tree of each line. An
+/// edit parses the lines it touches and no others. A document always has at least one line; a terminator at the end of
+/// the text is followed by an empty line, as in an editor.
 class Document {
  public:
   explicit Document(std::string_view text = {});
@@ -35,8 +35,8 @@ class Document {
   Document& operator=(Document&&) noexcept;
   ~Document();
 
-  /// Replaces what stands between the two places by `text`. Places beyond the end of a line or of the document count as its
-  /// end; `end` before `begin` counts as `begin`.
+  /// Replaces what stands between the two places by `text`. Places beyond the end of a line or of the document count as
+  /// its end; `end` before `begin` counts as `begin`.
   Change replace(Position begin, Position end, std::string_view text);
 
   std::size_t line_count() const;

@@ -19,12 +19,10 @@ struct Span {
 };
 
 /// The smallest span that holds both.
-constexpr Span hull(Span a, Span b) {
-  return {a.begin < b.begin ? a.begin : b.begin, a.end > b.end ? a.end : b.end};
-}
+constexpr Span hull(Span a, Span b) { return {a.begin < b.begin ? a.begin : b.begin, a.end > b.end ? a.end : b.end}; }
 
-/// Something wrong with a line, as data: its kind, its place on the line and the values found. Text is made only when it
-/// is shown, in the reader's language, with dialect::message().
+/// Something wrong with a line, as data: its kind, its place on the line and the values found. Text is made only when
+/// it is shown, in the reader's language, with dialect::message().
 struct Finding {
   dialect::DiagnosticId id = dialect::kNoDiagnostic;
   Span span;

@@ -20,12 +20,21 @@ const char* LineParser::lex() {
   const char* p = begin_;
   while (p != end_) {
     switch (char_class(*p)) {
-      case CharClass::Blank: ++p; break;
-      case CharClass::Letter: p = lex_word(p); break;
-      case CharClass::LineEnd: return p;
+      case CharClass::Blank:
+        ++p;
+        break;
+      case CharClass::Letter:
+        p = lex_word(p);
+        break;
+      case CharClass::LineEnd:
+        return p;
       case CharClass::Digit:
-      case CharClass::NumberSign: p = lex_number_alone(p); break;
-      case CharClass::Open: p = lex_comment(p); break;
+      case CharClass::NumberSign:
+        p = lex_number_alone(p);
+        break;
+      case CharClass::Open:
+        p = lex_comment(p);
+        break;
       case CharClass::Semicolon: {
         const char* const line_end = find_line_end(p, end_);
         store_.comments_.push_back({column(p), column(line_end)});
@@ -36,9 +45,15 @@ const char* LineParser::lex() {
         report("unopened-comment"_diag, {column(p), column(p) + 1});
         ++p;
         break;
-      case CharClass::Equals: p = lex_equals(p); break;
-      case CharClass::Compare: p = in_condition_ ? lex_comparison(p) : lex_unknown(p); break;
-      case CharClass::Other: p = lex_unknown(p); break;
+      case CharClass::Equals:
+        p = lex_equals(p);
+        break;
+      case CharClass::Compare:
+        p = in_condition_ ? lex_comparison(p) : lex_unknown(p);
+        break;
+      case CharClass::Other:
+        p = lex_unknown(p);
+        break;
     }
     if (word_count() >= kMostWords) {
       const char* const line_end = find_line_end(p, end_);

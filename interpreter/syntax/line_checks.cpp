@@ -16,10 +16,18 @@ void LineParser::check() {
     const Instruction& checked = instruction(i);
     if (checked.has(Instruction::kSettled)) continue;
     switch (checked.kind) {
-      case InstructionKind::G: check_g(checked); check_compensation(checked); break;
-      case InstructionKind::Continuation: check_motion(checked); break;
-      case InstructionKind::Function: check_parameters(checked); break;
-      default: break;
+      case InstructionKind::G:
+        check_g(checked);
+        check_compensation(checked);
+        break;
+      case InstructionKind::Continuation:
+        check_motion(checked);
+        break;
+      case InstructionKind::Function:
+        check_parameters(checked);
+        break;
+      default:
+        break;
     }
   }
   // What was broken off its series takes effect where its last word stands.
@@ -30,7 +38,8 @@ void LineParser::check() {
   const auto settled = [](const Instruction& it) {
     return it.kind == InstructionKind::Continuation && it.has(Instruction::kSettled);
   };
-  for (auto removed = end - std::remove_if(first, end, settled); removed > 0; --removed) store_.instructions_.pop_back();
+  for (auto removed = end - std::remove_if(first, end, settled); removed > 0; --removed)
+    store_.instructions_.pop_back();
 }
 
 bool LineParser::owns_any(const Instruction& owner, dialect::LetterSet set, bool unbroken) const {
@@ -56,8 +65,11 @@ bool LineParser::must_be_alone(const Instruction& checked, dialect::DiagnosticId
         diagnostic = "m-params-not-alone"_diag;
       }
       break;
-    case InstructionKind::Jump: diagnostic = "if-not-alone"_diag; break;
-    default: break;
+    case InstructionKind::Jump:
+      diagnostic = "if-not-alone"_diag;
+      break;
+    default:
+      break;
   }
   return diagnostic != dialect::kNoDiagnostic;
 }
@@ -103,15 +115,24 @@ void LineParser::check_g(const Instruction& checked) {
   if (!code) return;
   if (code->is_motion()) return check_motion(checked);
   switch (code->number) {
-    case 4: check_dwell(checked); break;
-    case 24: check_vectors(checked, "ABC"); break;
-    case 28: check_vectors(checked, "XYZ"); break;
+    case 4:
+      check_dwell(checked);
+      break;
+    case 24:
+      check_vectors(checked, "ABC");
+      break;
+    case 28:
+      check_vectors(checked, "XYZ");
+      break;
     case 29:
       lacks_arguments(checked, "missing-arguments"_diag);
       check_face_angles(checked);
       break;
-    case 92: lacks_arguments(checked, "missing-origin"_diag); break;
-    default: break;
+    case 92:
+      lacks_arguments(checked, "missing-origin"_diag);
+      break;
+    default:
+      break;
   }
 }
 
@@ -165,8 +186,8 @@ void LineParser::check_motion(const Instruction& motion) {
     return report("stray-argument"_diag, stray.span(), {}, word(motion.command).span());
   }
   if (!is_g || owns_any(motion, dialect::kCoordinateLetters)) return;
-  // Strays without a coordinate are reported where the motion is known; a second motion G, or one that is unknown and has
-  // taken the arguments, has said it all.
+  // Strays without a coordinate are reported where the motion is known; a second motion G, or one that is unknown and
+  // has taken the arguments, has said it all.
   if (owns_any(motion, dialect::kDimensionLetters & ~motion.g()->arguments)) return;
   if (word(motion.command).has(Word::kReported)) return;
   for (std::size_t i = motion.number + 1u; i < instruction_count(); ++i) {
@@ -226,8 +247,8 @@ void LineParser::check_parameters(const Instruction& function) {
 bool LineParser::stands_alone(const Instruction& alone) const {
   for (std::uint16_t i = 0; i < word_count(); ++i) {
     const Word& other = word(i);
-    const bool counts = other.letter != 'N' && other.letter != kError && other.letter != kNumber &&
-                        !other.has(Word::kMissing);
+    const bool counts =
+        other.letter != 'N' && other.letter != kError && other.letter != kNumber && !other.has(Word::kMissing);
     if (counts && i != alone.command) return false;
   }
   return true;

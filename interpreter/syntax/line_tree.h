@@ -32,7 +32,7 @@ struct Word {
   static constexpr std::uint8_t kReported = 32;  ///< What is wrong with it has been said (X=5): nothing more is.
 
   // No initializers: a million lines make millions of words, and each is filled in at once.
-  double value;          ///< NaN when malformed, missing or written twice.
+  double value;  ///< NaN when malformed, missing or written twice.
   std::uint32_t begin;
   std::uint32_t end;
   std::uint32_t digits;  ///< How many digits were written.
@@ -59,8 +59,8 @@ enum class InstructionKind : std::uint8_t {
   Jump,          ///< IF ... GOTO; details in LineTree::jump.
 };
 
-/// A command with its arguments. Its words are those in [begin, end) whose `owner` is this instruction; what else stands
-/// there (an F, which belongs to the line, or what breaks the series) belongs to others.
+/// A command with its arguments. Its words are those in [begin, end) whose `owner` is this instruction; what else
+/// stands there (an F, which belongs to the line, or what breaks the series) belongs to others.
 struct Instruction {
   static constexpr std::uint8_t kFollowsMotion = 1;  ///< Directly behind a motion's arguments (G09).
   static constexpr std::uint8_t kFirst = 2;          ///< The first instruction on its line.
@@ -97,8 +97,8 @@ struct Jump {
 };
 
 /// The tree of one line. It holds columns but no line number, and no meaning: `X10` is a word here, never a position.
-/// Hence a line inserted above changes nothing, and equal text gives equal trees. Parsing cannot fail; what is wrong with
-/// the line by itself is in `findings`, in the order of its columns, and the rest of the line is still there.
+/// Hence a line inserted above changes nothing, and equal text gives equal trees. Parsing cannot fail; what is wrong
+/// with the line by itself is in `findings`, in the order of its columns, and the rest of the line is still there.
 ///
 /// A view: the words and the text belong to a TreeStore and to whoever holds the text.
 struct LineTree {

@@ -12,7 +12,7 @@ namespace isocnc::syntax {
 /// What stands where a number should be (I.2.1, D9).
 struct Number {
   double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN when malformed or beyond what a double can hold.
-  const char* end = nullptr;                                 ///< Behind its last character.
+  const char* end = nullptr;                                ///< Behind its last character.
   std::uint32_t digits = 0;
   bool is_signed = false;
   bool has_point = false;
@@ -20,7 +20,7 @@ struct Number {
 };
 
 namespace detail {
-inline constexpr double kPowersOfTen[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11,
+inline constexpr double kPowersOfTen[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                           1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
 /// Any number: blanks and comments inside, any length, malformed ones.
@@ -29,9 +29,9 @@ Number scan_any_number(const char* p, const char* end);
 bool goes_on_behind_comment(const char* p, const char* end);
 }  // namespace detail
 
-/// Reads a number of at most seven characters behind its sign, without anything inside; false when it is another, or when
-/// there is too little text behind it to tell. Does not look at what follows. Eight bytes are taken at once, and nothing
-/// branches on how many of them are digits, which no processor can guess.
+/// Reads a number of at most seven characters behind its sign, without anything inside; false when it is another, or
+/// when there is too little text behind it to tell. Does not look at what follows. Eight bytes are taken at once, and
+/// nothing branches on how many of them are digits, which no processor can guess.
 inline bool scan_short_number(const char* p, const char* end, Number& number) {
   static_assert(std::endian::native == std::endian::little);
   if (end - p < 9) return false;
@@ -63,7 +63,8 @@ inline bool scan_short_number(const char* p, const char* end, Number& number) {
   bytes <<= 64 - 8 * digits;
   bytes = bytes * 10 + (bytes >> 8);  // Eight digits to four pairs, to two fours, to one number.
   const std::uint64_t mantissa = (((bytes & 0x000000FF000000FFULL) * 0x000F424000000064ULL) +
-                                  (((bytes >> 16) & 0x000000FF000000FFULL) * 0x0000271000000001ULL)) >> 32;
+                                  (((bytes >> 16) & 0x000000FF000000FFULL) * 0x0000271000000001ULL)) >>
+                                 32;
   const auto signed_mantissa = static_cast<std::int64_t>((mantissa ^ (0 - negative)) + negative);
   number.value = static_cast<double>(signed_mantissa) / detail::kPowersOfTen[decimals];
   number.is_signed = is_signed != 0;

@@ -49,14 +49,16 @@ const char* behind_comment(const char* p, const char* end) {
 bool scan_long_number(const char* p, const char* end, Number& number) {
   if (!is_number_char(*p)) return false;
   number = scan_number(p, end);
-  const bool has_more_inside = number.end - p != number.digits + (number.is_signed ? 1 : 0) + (number.has_point ? 1 : 0);
+  const bool has_more_inside =
+      number.end - p != number.digits + (number.is_signed ? 1 : 0) + (number.has_point ? 1 : 0);
   return !number.malformed && !has_more_inside;
 }
 
 }  // namespace
 
 /// Most lines of most programs hold at most an N, a motion G, coordinates and F, each once and well written. They are
-/// parsed in one go, into the very tree that the general way gives them. Null, with nothing changed, for any other line.
+/// parsed in one go, into the very tree that the general way gives them. Null, with nothing changed, for any other
+/// line.
 const char* TreeStore::append_plain_line(const char* begin, const char* end) {
   const std::size_t first_comment = comments_.size();
   Word* const words = words_.room_for(kMostPlainWords);  // Written where they stay.
@@ -93,7 +95,8 @@ const char* TreeStore::append_plain_line(const char* begin, const char* end) {
     word.end = static_cast<std::uint32_t>(number.end - begin);
     word.digits = number.digits;
     word.letter = role.letter;
-    word.flags = static_cast<std::uint8_t>((number.is_signed ? Word::kSigned : 0) | (number.has_point ? Word::kPoint : 0));
+    word.flags =
+        static_cast<std::uint8_t>((number.is_signed ? Word::kSigned : 0) | (number.has_point ? Word::kPoint : 0));
     if (role.role == Role::Argument) {
       if ((taken & role.bit) != 0) break;
       taken |= role.bit;

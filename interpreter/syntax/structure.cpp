@@ -52,18 +52,46 @@ void LineParser::structure() {
       continue;
     }
     switch (letter) {
-      case 'F': add_feed(i); continue;  // The motion's speed: breaks nothing (D17).
-      case 'N': add_line_number(i); break;
-      case 'S': add_spindle_speed(i); behind_motion_ = false; break;
-      case 'G': add_g(i); continue;
-      case 'M': add_m(i); behind_motion_ = false; break;
-      case 'T': add_tool(i); behind_motion_ = false; break;
-      case 'V': i = add_assignment(i); behind_motion_ = false; break;
-      case kAssign: add_equals(i); continue;
-      case kIf: i = add_jump(i); behind_motion_ = false; break;
-      case kGoto: i = add_lone_goto(i); break;
-      case kVgpl: report("unknown-word"_diag, word(i).span()); continue;
-      default: continue;  // An error that has been reported breaks nothing.
+      case 'F':
+        add_feed(i);
+        continue;  // The motion's speed: breaks nothing (D17).
+      case 'N':
+        add_line_number(i);
+        break;
+      case 'S':
+        add_spindle_speed(i);
+        behind_motion_ = false;
+        break;
+      case 'G':
+        add_g(i);
+        continue;
+      case 'M':
+        add_m(i);
+        behind_motion_ = false;
+        break;
+      case 'T':
+        add_tool(i);
+        behind_motion_ = false;
+        break;
+      case 'V':
+        i = add_assignment(i);
+        behind_motion_ = false;
+        break;
+      case kAssign:
+        add_equals(i);
+        continue;
+      case kIf:
+        i = add_jump(i);
+        behind_motion_ = false;
+        break;
+      case kGoto:
+        i = add_lone_goto(i);
+        break;
+      case kVgpl:
+        report("unknown-word"_diag, word(i).span());
+        continue;
+      default:
+        continue;  // An error that has been reported breaks nothing.
     }
     contiguous_ = false;
     if (letter != 'M') function_open_ = false;
@@ -137,7 +165,9 @@ void LineParser::add_dimension(std::uint16_t index) {
 }
 
 /// G1.0 and M+6 are spelled wrong, yet what they mean is plain.
-static bool is_whole(double value, double least) { return value >= least && value <= 999 && value == std::floor(value); }
+static bool is_whole(double value, double least) {
+  return value >= least && value <= 999 && value == std::floor(value);
+}
 
 void LineParser::add_g(std::uint16_t index) {
   const Word& written = word(index);
@@ -344,8 +374,8 @@ std::uint16_t LineParser::add_jump(std::uint16_t index) {
   return last;
 }
 
-/// Reads what stands between IF and the label, both included. One finding for a malformed condition, one for a malformed
-/// label. Returns the last word that belongs to it.
+/// Reads what stands between IF and the label, both included. One finding for a malformed condition, one for a
+/// malformed label. Returns the last word that belongs to it.
 std::uint16_t LineParser::read_condition(Jump& jump, std::uint16_t index) {
   const std::uint16_t count = word_count();
   std::uint16_t goto_at = index;

@@ -13,8 +13,8 @@ namespace isocnc::syntax {
 /// Trees of successive lines, packed. Knows no line's text: whoever asks for a tree brings it.
 class TreeStore {
  public:
-  /// Parses the line that starts at `begin` and appends its tree. Returns where the line's text ends: at its CR or LF, or
-  /// at `end`. Reads nothing beyond.
+  /// Parses the line that starts at `begin` and appends its tree. Returns where the line's text ends: at its CR or LF,
+  /// or at `end`. Reads nothing beyond.
   const char* append_line(const char* begin, const char* end);
   /// Appends a copy of another store's tree, without parsing.
   void append_copy(const TreeStore& other, std::size_t index);
@@ -74,7 +74,9 @@ class TreeStore {
 /// One line with its tree, for who wants just one.
 class ParsedLine {
  public:
-  explicit ParsedLine(std::string_view text) : text_(text) { store_.append_line(text_.data(), text_.data() + text_.size()); }
+  explicit ParsedLine(std::string_view text) : text_(text) {
+    store_.append_line(text_.data(), text_.data() + text_.size());
+  }
   LineTree tree() const { return store_.tree(0, text_.data()); }
 
  private:

@@ -54,6 +54,28 @@ TEST(IsolintText, TellsOfTheOtherPlaceOnTheLine) {
   EXPECT_THAT(result.out, HasSubstr("2 | G01 X10 F100 F200\n  |         ---- ^^^^  (--- the other place)\n"));
 }
 
+TEST(IsolintText, TellsOfTheLineAboveThatAFindingComesFrom) {
+  std::string program = "M06 T101001\nG24 F1\n";
+  for (int i = 0; i < 8; ++i) program += "G00 X10\n";
+  const CommandResult result = run_command({"isolint", "-"}, {.input = program + "G92 X0 Y0 Z0\nM02\n"});
+  EXPECT_THAT(result.out, HasSubstr("  --> <stdin>:11:1\n"
+                                    "   |\n"
+                                    " 2 | G24 F1\n"
+                                    "   | --- the face frame was mounted here\n"
+                                    "...\n"
+                                    "11 | G92 X0 Y0 Z0\n"
+                                    "   | ^^^\n"));
+}
+
+TEST(IsolintText, PutsNothingBetweenTheLineAboveAndTheNext) {
+  const CommandResult result = run_command(
+      {"isolint", "--lang", "it", "-"}, {.input = "M06 T101001\nIF VGPL = 1 GOTO N20\nN20 M03\n (x) N20 M05\nM02\n"});
+  EXPECT_THAT(result.out, HasSubstr("3 | N20 M03\n"
+                                    "  | --- l'etichetta c'è già qui\n"
+                                    "4 |  (x) N20 M05\n"
+                                    "  |      ^^^\n"));
+}
+
 TEST(IsolintText, ShowsAPieceOfALongLineAroundTheMark) {
   const std::string program = "M06 T101001 (" + std::string(500, 'a') + ") U5 ;" + std::string(500, 'b') + "\nM02\n";
   const CommandResult result = run_command({"isolint", "-"}, {.input = program});

@@ -25,7 +25,7 @@ struct ExpectedFinding {
 struct ExpectedEffect {
   std::size_t line = 0;
   std::string kind;
-  std::map<char, double> to;      ///< Machine coordinates by axis.
+  std::map<char, double> to;  ///< Machine coordinates by axis.
   std::map<char, double> center;
   std::optional<double> length, radius, sweep;
   std::string text;
@@ -33,8 +33,8 @@ struct ExpectedEffect {
 
 /// One program of a golden file, with what it expects. Files hold several, apart by a line `; ====`.
 struct Part {
-  std::string name;      ///< File and line, for messages.
-  std::string program;   ///< Without markers and effects.
+  std::string name;     ///< File and line, for messages.
+  std::string program;  ///< Without markers and effects.
   std::vector<ExpectedFinding> findings;
   std::vector<ExpectedEffect> effects;
   execution::Setup setup;

@@ -15,7 +15,8 @@ namespace {
 
 /// A finding as a golden file would mark it, with the line's text, so that a difference can be read.
 std::string shown(const ExpectedFinding& finding, const std::string& line) {
-  return fmt::format("\n  {} at {}-{} of line {}: {}\n", finding.code, finding.begin, finding.end, finding.line + 1, line);
+  return fmt::format("\n  {} at {}-{} of line {}: {}\n", finding.code, finding.begin, finding.end, finding.line + 1,
+                     line);
 }
 
 std::string line_of(const std::string& program, std::size_t index) {
@@ -53,7 +54,8 @@ TEST_P(Golden, FindsWhatIsMarkedAndNothingElse) {
   for (const Part& part : read_golden(GetParam())) {
     std::vector<std::string> expected;
     for (const ExpectedFinding& finding : part.findings) {
-      expected.push_back(shown({finding.line, finding.begin, finding.end, finding.code, {}}, line_of(part.program, finding.line)));
+      expected.push_back(
+          shown({finding.line, finding.begin, finding.end, finding.code, {}}, line_of(part.program, finding.line)));
     }
     const analyzer::Report report = analyzer::check_text(part.program, part.setup);
     const std::vector<std::string> found = found_in(part, report);
@@ -72,7 +74,8 @@ TEST_P(Golden, NamesTheJumpThatLeadsToAFinding) {
         if (located.line != finding.line || dialect::definition(located.finding.id).code != finding.code) continue;
         ASSERT_GE(located.path, 0) << part.name << " line " << finding.line + 1 << ": no path";
         std::vector<std::size_t> lines;
-        for (const analyzer::PathStep& step : report.paths[static_cast<std::size_t>(located.path)]) lines.push_back(step.line + 1);
+        for (const analyzer::PathStep& step : report.paths[static_cast<std::size_t>(located.path)])
+          lines.push_back(step.line + 1);
         EXPECT_THAT(lines, testing::IsSupersetOf(finding.via)) << part.name;
         named = true;
       }
@@ -81,7 +84,8 @@ TEST_P(Golden, NamesTheJumpThatLeadsToAFinding) {
   }
 }
 
-void expect_axes(const std::map<char, double>& expected, const geometry::Vec3& tip, double b, double c, const std::string& where) {
+void expect_axes(const std::map<char, double>& expected, const geometry::Vec3& tip, double b, double c,
+                 const std::string& where) {
   for (const auto& [axis, value] : expected) {
     const double found = axis == 'B' ? b : axis == 'C' ? c : tip[axis - 'X'];
     EXPECT_NEAR(found, value, 1e-6) << where << " axis " << axis;
@@ -89,7 +93,8 @@ void expect_axes(const std::map<char, double>& expected, const geometry::Vec3& t
 }
 
 void expect_effect(const ExpectedEffect& expected, const running::Event& event, const std::string& name) {
-  const std::string where = fmt::format("{} line {}: {} (found {})", name, expected.line + 1, expected.text, running::to_json(event));
+  const std::string where =
+      fmt::format("{} line {}: {} (found {})", name, expected.line + 1, expected.text, running::to_json(event));
   EXPECT_EQ(running::kind_of(event), expected.kind) << where;
   const auto* const move = std::get_if<running::MoveEvent>(&event.what);
   if (!move) return;
@@ -107,12 +112,14 @@ TEST_P(Golden, DoesWhatIsSaid) {
     running::RunOptions options{.setup = part.setup, .vgpl = part.vgpl, .stop_at_errors = false};
     running::run(part.program, options, [&](const running::Event& event) { events[event.line].push_back(event); });
     for (auto effect = part.effects.begin(); effect != part.effects.end();) {
-      const auto line_end = std::find_if(effect, part.effects.end(), [&](const auto& e) { return e.line != effect->line; });
+      const auto line_end =
+          std::find_if(effect, part.effects.end(), [&](const auto& e) { return e.line != effect->line; });
       std::vector<running::Event> same_kinds;
       for (const running::Event& event : events[effect->line])
         if (std::any_of(effect, line_end, [&](const auto& e) { return e.kind == running::kind_of(event); }))
           same_kinds.push_back(event);
-      EXPECT_EQ(same_kinds.size(), static_cast<std::size_t>(line_end - effect)) << part.name << " line " << effect->line + 1;
+      EXPECT_EQ(same_kinds.size(), static_cast<std::size_t>(line_end - effect))
+          << part.name << " line " << effect->line + 1;
       for (const running::Event& event : same_kinds)
         if (effect != line_end) expect_effect(*effect++, event, part.name);
       effect = line_end;
@@ -138,7 +145,8 @@ TEST(GoldenCoverage, EveryCodeIsShown) {
   for (const dialect::DiagnosticDef& def : dialect::kDiagnostics) {
     if (def.code.starts_with("W1")) continue;
     EXPECT_GE(shown_codes[std::string(def.code)], 2) << def.code << " has too few positives";
-    EXPECT_TRUE(std::filesystem::exists(fmt::format("{}/tests/programs/codes/{}.iso", ISOCNC_SOURCE_DIR, def.code))) << def.code;
+    EXPECT_TRUE(std::filesystem::exists(fmt::format("{}/tests/programs/codes/{}.iso", ISOCNC_SOURCE_DIR, def.code)))
+        << def.code;
   }
 }
 

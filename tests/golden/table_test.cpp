@@ -40,7 +40,9 @@ TEST_P(Table, WrongProgramHasThisOneFindingAtItsMark) {
   const Report report = analyzer::check_text(wrong.text, table_setup(def));
   ASSERT_EQ(report.findings.size(), 1u) << wrong.text << codes_of(report);
   EXPECT_EQ(definition(report.findings[0].finding.id).code, def.code) << wrong.text;
-  EXPECT_EQ(codes_of(report), std::string(def.code) + "@" + std::to_string(wrong.line + 1) + ":" + std::to_string(wrong.begin) + "-" + std::to_string(wrong.end) + " ") << wrong.text;
+  EXPECT_EQ(codes_of(report), std::string(def.code) + "@" + std::to_string(wrong.line + 1) + ":" +
+                                  std::to_string(wrong.begin) + "-" + std::to_string(wrong.end) + " ")
+      << wrong.text;
 }
 
 TEST_P(Table, RightProgramHasNone) {
@@ -66,7 +68,8 @@ TEST_P(Table, MessagesNameTheirValues) {
     static const std::regex kName(R"(\{([a-z]*)\})");
     const std::string text(message);
     std::set<std::string> names;
-    for (std::sregex_iterator it(text.begin(), text.end(), kName); it != std::sregex_iterator(); ++it) names.insert((*it)[1]);
+    for (std::sregex_iterator it(text.begin(), text.end(), kName); it != std::sregex_iterator(); ++it)
+      names.insert((*it)[1]);
     return names;
   };
   std::set<std::string> allowed = {"text"};
@@ -85,7 +88,8 @@ TEST(Diagnostics, AreFoundByCodeAndName) {
 }
 
 TEST(Diagnostics, CoverTheSpecification) {
-  for (int i = 1; i <= 68; ++i) EXPECT_TRUE(find_diagnostic("ISO" + std::string(i < 10 ? "00" : "0") + std::to_string(i))) << i;
+  for (int i = 1; i <= 68; ++i)
+    EXPECT_TRUE(find_diagnostic("ISO" + std::string(i < 10 ? "00" : "0") + std::to_string(i))) << i;
   for (int i = 1; i <= 9; ++i) EXPECT_TRUE(find_diagnostic("E00" + std::to_string(i))) << i;
   for (int i = 1; i <= 3; ++i) EXPECT_TRUE(find_diagnostic("W00" + std::to_string(i))) << i;
 }
