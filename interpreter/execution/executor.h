@@ -1,6 +1,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <optional>
 #include <string_view>
 
 #include "interpreter/execution/arguments.h"
@@ -29,7 +30,7 @@ class Executor {
       : line_(line), state_(state), setup_(setup), sink_(sink) {}
 
   void run();
-  /// Executes a line of nothing but a linear motion that changes positions and nothing else, if it is one; false, with
+  /// Executes a line of nothing but one motion that changes positions and nothing else, if it is one; false, with
   /// nothing changed, when there may be more to it.
   bool run_plain();
 
@@ -47,6 +48,16 @@ class Executor {
   void apply_feed_without_motion();
 
   // motions.cpp
+  /// What run_plain() reads of a motion, mm. `moved` and `centered` have bit 0 for X and I, 1 for Y and J, 2 for Z and
+  /// K.
+  struct PlainMotion {
+    geometry::Vec3 target;
+    geometry::Vec3 center;  ///< From the start; where `centered` says so.
+    unsigned moved = 0;
+    unsigned centered = 0;
+    std::optional<double> radius;
+  };
+  bool is_sound_arc(const PlainMotion& motion) const;
   void motion(const syntax::Instruction& instruction);
   bool motion_is_in_force(const Arguments& arguments);
   void report_strays(const Arguments& arguments, const dialect::GCode& code);

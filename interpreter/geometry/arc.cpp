@@ -51,6 +51,22 @@ Circle find_circle(const ArcGiven& given, double tolerance) {
   return given.center_u || given.center_v ? circle_from_center(given, tolerance) : circle_from_radius(given, tolerance);
 }
 
+bool surely_fits(const ArcGiven& given, double tolerance) {
+  const PlanePoint& d = given.end;
+  if (given.center_u && given.center_v && !given.radius) {
+    const PlanePoint center{*given.center_u, *given.center_v};
+    const PlanePoint from_end = center - d;
+    const double start2 = center.u * center.u + center.v * center.v;
+    const double end2 = from_end.u * from_end.u + from_end.v * from_end.v;
+    // |a - b| is |a2 - b2| / (a + b), and a + b is more than a: half the tolerance, well clear of any rounding.
+    return (start2 - end2) * (start2 - end2) <= tolerance * tolerance * start2 &&
+           start2 > 4 * kEqualCoordinate * kEqualCoordinate;
+  }
+  if (given.center_u || given.center_v || !given.radius) return false;
+  const double diameter2 = 4 * *given.radius * *given.radius;
+  return *given.radius > 0 && d.u * d.u + d.v * d.v <= diameter2 * (1 - 1e-12);
+}
+
 double sweep_deg(const PlanePoint& center, const PlanePoint& end, bool counterclockwise) {
   if (std::abs(end.u) <= kEqualCoordinate && std::abs(end.v) <= kEqualCoordinate) return counterclockwise ? 360 : -360;
   const PlanePoint a{-center.u, -center.v};

@@ -48,6 +48,10 @@ inline constexpr double kEqualCoordinate = 1e-6;
 /// Finds the circle (I.3.4.3.a, D35 to D38); the first problem in the order of D45. `tolerance` in mm.
 Circle find_circle(const ArcGiven& given, double tolerance);
 
+/// Whether find_circle() surely has no problem, told without a root: most arcs of most programs. False where it takes
+/// a closer look.
+bool surely_fits(const ArcGiven& given, double tolerance);
+
 /// Degrees from start to end about the center, positive counterclockwise, in [-360, 360]; a full turn when both ends
 /// are equal (D37). `center` and `end` from the start. Arcs by radius alone never exceed 180 (D36).
 double sweep_deg(const PlanePoint& center, const PlanePoint& end, bool counterclockwise);

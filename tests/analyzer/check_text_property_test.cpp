@@ -15,14 +15,14 @@ using support::RandomProgram;
 
 Report check(const std::string& text, int jobs = 1) { return check_text(text, {}, jobs); }
 
-/// More than 200 KB, so that threads have something to share; about one in three ends early.
+/// More than 100 KB, so that threads have something to share; about one in three ends early.
 std::string long_program(Random& random) {
   RandomProgram program(random);
-  program.jump_chances = random.one_in(2) ? 15 : 400;
+  program.jump_chances = random.one_in(2) ? 40 : 400;
   program.labels = random.one_in(2) ? 12 : 600;
   program.end_chances = random.one_in(3) ? 3'000 : 1'000'000;
   std::string text;
-  while (text.size() < 220'000) text += support::joined(program.lines(1'000 - random.between(0, 10)));
+  while (text.size() < 100'000) text += support::joined(program.lines(1'000 - random.between(0, 10)));
   if (random.one_in(2)) std::replace(text.begin(), text.end(), '\n', '\r');
   return text;
 }

@@ -197,5 +197,33 @@ TEST(FindCircle, ByRadiusFromAPointToItselfGoesNowhere) {
   EXPECT_TRUE(circle.goes_nowhere);
 }
 
+TEST(SurelyFits, IsNeverWrong) {
+  for (const std::uint64_t seed : support::seeds(20'000)) {
+    Random random(seed);
+    const KnownArc arc = random_arc(random, 359);
+    const auto nearly = [&](double value) { return value + random.real(-2, 2) * kTolerance; };
+    ArcGiven given{.end = {nearly(arc.end.u), nearly(arc.end.v)}, .counterclockwise = arc.counterclockwise()};
+    if (!random.one_in(3)) given.center_u = nearly(arc.center.u);
+    if (!random.one_in(3)) given.center_v = nearly(arc.center.v);
+    if (random.one_in(3) || (!given.center_u && !given.center_v)) given.radius = nearly(arc.radius);
+    if (!surely_fits(given, kTolerance)) continue;
+    EXPECT_EQ(find_circle(given, kTolerance).problem, ArcProblem::None) << "seed " << seed;
+  }
+  EXPECT_FALSE(surely_fits({.end = {1, 0}, .center_u = 0, .center_v = 0}, kTolerance));
+  EXPECT_FALSE(surely_fits({.end = {1, 0}, .center_u = std::nan(""), .center_v = 0}, kTolerance));
+  EXPECT_FALSE(surely_fits({.end = {1, 0}, .radius = -5}, kTolerance));
+}
+
+TEST(SurelyFits, KnowsArcsThatLieOnTheirCircle) {
+  for (const std::uint64_t seed : support::seeds(1'000)) {
+    Random random(seed);
+    const KnownArc arc = random_arc(random, 179);
+    const double rounding = 0.0005;
+    EXPECT_TRUE(
+        surely_fits({.end = arc.end, .center_u = arc.center.u + rounding, .center_v = arc.center.v}, kTolerance));
+    EXPECT_TRUE(surely_fits({.end = arc.end, .radius = arc.radius}, kTolerance));
+  }
+}
+
 }  // namespace
 }  // namespace isocnc::geometry

@@ -80,7 +80,8 @@ TEST(LineTree, WordsCarryWhatIsWrittenOfTheirNumber) {
 }
 
 TEST(LineTree, LettersAreUpperCase) {
-  for (const Word& word : ParsedLine("g1 x1 y2 f300").tree().words)
+  const ParsedLine line("g1 x1 y2 f300");
+  for (const Word& word : line.tree().words)
     EXPECT_TRUE(word.letter >= 'A' && word.letter <= 'Z');
 }
 
