@@ -12,10 +12,10 @@ namespace isocnc::analyzer {
 /// Counts the lines of a text up to ever later places.
 class LineCounter {
  public:
-  explicit LineCounter(std::string_view text)
-      : text_(text), has_carriage_returns_(text.find('\r') != std::string_view::npos) {}
+  explicit LineCounter(std::string_view text) : text_(text) {}
 
   std::uint64_t line_of(std::size_t offset) {
+    if (offset_ == 0) has_carriage_returns_ = text_.find('\r') != std::string_view::npos;
     const std::string_view passed = text_.substr(offset_, offset - offset_);
     line_ += static_cast<std::uint64_t>(std::count(passed.begin(), passed.end(), '\n'));
     if (has_carriage_returns_)
@@ -27,7 +27,7 @@ class LineCounter {
 
  private:
   std::string_view text_;
-  bool has_carriage_returns_;
+  bool has_carriage_returns_ = false;
   std::size_t offset_ = 0;
   std::uint64_t line_ = 0;
 };

@@ -142,9 +142,9 @@ class Comparison:
 
     def must_be_clean(self, file: str) -> None:
         """Where isolint finds something in a clean program, the times would be those of another task."""
-        command = [str(self.isolint), "--max-warnings", "0", "--no-config", file]
+        command = [str(self.isolint), "--format", "concise", "--no-config", file]
         found = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True, check=False)
-        if found.returncode != 0:
+        if found.returncode != 0 or found.stdout:
             first = "\n".join(found.stdout.splitlines()[:5])
             raise CannotMeasure(f"isolint ends with {found.returncode} on the clean program {file}:\n{first}")
 

@@ -51,10 +51,11 @@ class Executor {
   /// What run_plain() reads of a motion, mm. `moved` and `centered` have bit 0 for X and I, 1 for Y and J, 2 for Z and
   /// K.
   struct PlainMotion {
-    geometry::Vec3 target;
+    geometry::Pose start;
     geometry::Vec3 center;  ///< From the start; where `centered` says so.
     unsigned moved = 0;
     unsigned centered = 0;
+    bool turns = false;  ///< B or C.
     std::optional<double> radius;
   };
   bool is_sound_arc(const PlainMotion& motion) const;

@@ -61,11 +61,11 @@ const Plane& plane_in_force(const State& state) {
   }
 }
 
-/// Most blocks of most programs, when nobody asks for effects: a rapid, a line or a sound arc in three axes, with tool
+/// Most blocks of most programs, when nobody asks for effects: a rapid or a line, or a sound arc, with tool
 /// and feed known to be there. All that run() would do for them is to set the mode and move the axes.
 bool Executor::run_plain() {
   if (sink_.wants_effects() || line_.instructions.size() != 1 || line_.spindle >= 0) return false;
-  if (!state_.tool_selected || state_.unknown != 0 || state_.inverse_time()) return false;
+  if (!state_.tool_selected || state_.unknown != 0) return false;
   const Instruction& instruction = line_.instructions.front();
   std::uint8_t mode = state_.mode(dialect::ModalGroup::Motion);
   std::uint16_t first = instruction.begin;
@@ -80,45 +80,55 @@ bool Executor::run_plain() {
   const bool is_feed = mode != 0;
   const bool has_feed = line_.feed >= 0;
   if (has_feed && (!is_feed || !(line_.words[static_cast<std::size_t>(line_.feed)].value > 0))) return false;
-  if (is_feed && !has_feed && !state_.feed_given) return false;
-  PlainMotion motion{.target = state_.position.tip};
+  if (is_feed && !has_feed && (!state_.feed_given || state_.inverse_time())) return false;
+  PlainMotion motion{.start = state_.position};
+  geometry::Pose& position = state_.position;  // Written at once, and put back when there is more to the line.
+  const auto put_back = [&] {
+    position = motion.start;
+    return false;
+  };
   const double scale = state_.mm_per_unit();
   const bool incremental = state_.incremental();
   for (std::uint16_t i = first; i < instruction.end; ++i) {
     const syntax::Word& word = line_.words[i];
     if (word.letter == 'F') continue;
-    if (word.owner != instruction.number || !std::isfinite(word.value)) return false;
+    if (word.owner != instruction.number || !std::isfinite(word.value)) return put_back();
     const double value = word.value * scale;
     if (const auto axis = static_cast<unsigned>(word.letter - 'X'); axis <= 2) {
-      motion.target[axis] = (incremental ? motion.target[axis] : 0) + value;
+      position.tip[axis] = incremental ? position.tip[axis] + value : value;
       motion.moved |= 1u << axis;
     } else if (const auto center = static_cast<unsigned>(word.letter - 'I'); center <= 2) {
-      motion.center[center] = value - (incremental ? 0 : state_.position.tip[center]);
+      motion.center[center] = incremental ? value : value - motion.start.tip[center];
       motion.centered |= 1u << center;
     } else if (word.letter == 'R') {
       motion.radius = value;
+    } else if ((word.letter == 'B' || word.letter == 'C') && mode <= 1 && state_.five_axis()) {
+      motion.turns = true;
+      double& angle = word.letter == 'B' ? position.b : position.c;
+      angle = incremental ? angle + word.value : word.value;
     } else {
-      return false;
+      return put_back();
     }
   }
-  if (motion.moved == 0) return false;
-  if (mode > 1 ? !is_sound_arc(motion) : motion.centered != 0 || motion.radius) return false;
+  if (motion.moved == 0 && !motion.turns) return put_back();
+  if (mode > 1 ? !is_sound_arc(motion) : motion.centered != 0 || motion.radius) return put_back();
   if (has_feed) take_feed();
   state_.set_mode(dialect::ModalGroup::Motion, mode);
-  state_.position.tip = motion.target;
   state_.exact_stop_fits = is_feed;
   state_.tool_awaited = false;
   return true;
 }
 
-/// No more than a first look: arc() has the last word on those that fail it.
+/// Of the motion from its start to the present position. No more than a first look: arc() has the last word on those
+/// that fail it.
 bool Executor::is_sound_arc(const PlainMotion& motion) const {
   const Plane& plane = plane_in_force(state_);
   const auto has = [](unsigned set, int axis) { return (set >> axis & 1u) != 0; };
   if (state_.face_mounted || has(motion.centered, plane.normal)) return false;
   if (!has(motion.moved, plane.u) && !has(motion.moved, plane.v)) return false;
-  geometry::ArcGiven given{.end = {motion.target[plane.u] - state_.position.tip[plane.u],
-                                   motion.target[plane.v] - state_.position.tip[plane.v]},
+  const geometry::Vec3& start = motion.start.tip;
+  const geometry::Vec3& target = state_.position.tip;
+  geometry::ArcGiven given{.end = {target[plane.u] - start[plane.u], target[plane.v] - start[plane.v]},
                            .radius = motion.radius};
   if (has(motion.centered, plane.u)) given.center_u = motion.center[plane.u];
   if (has(motion.centered, plane.v)) given.center_v = motion.center[plane.v];

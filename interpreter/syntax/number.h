@@ -27,40 +27,39 @@ inline constexpr double kPowersOfTen[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e
 Number scan_any_number(const char* p, const char* end);
 /// Whether the number before the comment at `p` goes on behind it (D7).
 bool goes_on_behind_comment(const char* p, const char* end);
-
-/// 1 or 0, computed: a comparison would branch.
-inline std::uint64_t is_char(char c, char wanted) {
-  return std::uint64_t{(static_cast<std::uint32_t>(static_cast<unsigned char>(c ^ wanted)) - 1) >> 31};
-}
 }  // namespace detail
 
-/// Reads a number of at most seven characters behind its sign, without anything inside; false when it is another, or
-/// when there is too little text behind it to tell. Does not look at what follows. Eight bytes are taken at once, and
-/// nothing branches on how many of them are digits, which no processor can guess.
-inline bool scan_short_number(const char* p, const char* end, Number& number) {
+/// Bytes that must be readable where scan_short_number() starts.
+inline constexpr std::ptrdiff_t kShortNumberBytes = 9;
+
+/// Reads a number of at most seven characters behind its sign, without anything inside; false when it is another. Does
+/// not look at what follows. Eight bytes are taken at once, and nothing branches on how many of them are digits, which
+/// no processor can guess.
+inline bool scan_short_number(const char* p, Number& number) {
   static_assert(std::endian::native == std::endian::little);
-  if (end - p < 9) return false;
-  const std::uint64_t negative = detail::is_char(*p, '-');
-  const std::uint64_t is_signed = negative | detail::is_char(*p, '+');
+  // + is 0x2B and - is 0x2D. A comparison would branch.
+  const auto from_plus = static_cast<std::uint32_t>(static_cast<unsigned char>(*p - '+'));
+  const std::uint64_t is_signed = ((from_plus & ~2u) - 1u) >> 31;
+  const std::uint64_t negative = is_signed & (from_plus >> 1);
   p += is_signed;
   std::uint64_t bytes;
   std::memcpy(&bytes, p, 8);
   bytes ^= 0x3030303030303030ULL;  // A digit becomes its value, anything else more than 9.
   const std::uint64_t others = ((bytes + 0x7676767676767676ULL) | bytes) & 0x8080808080808080ULL;
   if (others == 0) return false;
-  // Behind the point, where there is one, more digits follow; it goes, and they close up. All of it with masks: whether
-  // a number has a point is a toss-up, too.
-  const int to_first_other = std::countr_zero(others) & 0x38;  // In bits.
-  const std::uint64_t has_point = detail::is_char(p[to_first_other / 8], '.');
-  const std::uint64_t at_point = 0 - has_point;
-  const std::uint64_t ends = others & ((others - 1) | ~at_point);
-  if (ends == 0) return false;
-  const std::uint64_t behind_whole = at_point << to_first_other;
-  bytes = (bytes & ~behind_whole) | ((bytes >> 8) & behind_whole);
-  const auto length = static_cast<std::uint32_t>(std::countr_zero(ends)) / 8;
-  const auto digits = length - static_cast<std::uint32_t>(has_point);
-  const auto decimals = digits - static_cast<std::uint32_t>(to_first_other / 8);
-  number.has_point = has_point != 0;
+  auto length = static_cast<std::uint32_t>(std::countr_zero(others)) / 8;
+  std::uint32_t digits = length;
+  std::uint32_t decimals = 0;
+  number.has_point = p[length] == '.';
+  if (number.has_point) {
+    const std::uint64_t behind_point = others & (others - 1);
+    if (behind_point == 0) return false;
+    const std::uint64_t whole = (std::uint64_t{1} << (8 * length)) - 1;
+    bytes = (bytes & whole) | ((bytes >> 8) & ~whole);  // The point goes; its digits close up.
+    length = static_cast<std::uint32_t>(std::countr_zero(behind_point)) / 8;
+    decimals = length - digits - 1;
+    digits = length - 1;
+  }
   if (digits == 0) return false;
   bytes <<= 64 - 8 * digits;
   bytes = bytes * 10 + (bytes >> 8);  // Eight digits to four pairs, to two fours, to one number.

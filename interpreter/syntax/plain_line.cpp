@@ -10,7 +10,7 @@ namespace isocnc::syntax {
 namespace {
 
 /// What a letter may do on a plain line.
-enum class Role : std::uint8_t { None, Argument, Feed, Command, LineNumber };
+enum class Role : std::uint8_t { None, Blank, Argument, Feed, Command, LineNumber };
 
 struct LetterRole {
   dialect::LetterSet bit = 0;
@@ -25,6 +25,7 @@ constexpr auto kRoles = [] {
       for (const char written : {letter, static_cast<char>(letter + ('a' - 'A'))})
         roles[static_cast<unsigned char>(written)] = {dialect::letter_bit(letter), letter, role};
   };
+  for (const char blank : {' ', '\t'}) roles[static_cast<unsigned char>(blank)].role = Role::Blank;
   give("XYZBCIJKR", Role::Argument);
   give("F", Role::Feed);
   give("G", Role::Command);
@@ -32,11 +33,11 @@ constexpr auto kRoles = [] {
   return roles;
 }();
 
-/// N, G, F and each argument once.
+/// N, G, F and each argument once; more never fit.
 constexpr std::uint16_t kMostPlainWords = 12;
 
-/// With so many bytes left, a short number can be read without looking for the end.
-constexpr std::ptrdiff_t kMargin = 12;
+/// With so many bytes left, a letter, a blank and a short number can be read without looking for the end.
+constexpr std::ptrdiff_t kMargin = 2 + kShortNumberBytes;
 
 /// Behind the comment at `p`, or null when it does not end on this line.
 const char* behind_comment(const char* p, const char* end) {
@@ -70,14 +71,14 @@ const char* TreeStore::append_plain_line(const char* begin, const char* end) {
   std::uint8_t row = dialect::kUnknownGCode;
   dialect::LetterSet taken = 0;
   const char* p = begin;
-  for (;;) {
-    if (end - p < kMargin || count == kMostPlainWords) break;
-    if (is_blank(*p)) {
-      ++p;
-      continue;
-    }
+  if (end - begin < kMargin) return nullptr;
+  for (const char* const last = end - kMargin; p <= last;) {
     const LetterRole& role = kRoles[static_cast<unsigned char>(*p)];
-    if (role.role == Role::None) {
+    if (role.role <= Role::Blank) {
+      if (role.role == Role::Blank) {
+        ++p;
+        continue;
+      }
       if (is_line_end(*p)) goto complete;
       const char* const behind_it = *p == ';' || *p == '(' ? behind_comment(p, end) : nullptr;
       if (!behind_it) break;
@@ -86,9 +87,9 @@ const char* TreeStore::append_plain_line(const char* begin, const char* end) {
       continue;
     }
     const char* digits = p + 1;
-    if (is_blank(*digits)) ++digits;
+    if (*digits <= ' ' && is_blank(*digits)) ++digits;
     Number number;
-    if (!scan_short_number(digits, end, number) && !scan_long_number(digits, end, number)) break;
+    if (!scan_short_number(digits, number) && !scan_long_number(digits, end, number)) break;
     Word& word = words[count];
     word.value = number.value;
     word.begin = static_cast<std::uint32_t>(p - begin);
