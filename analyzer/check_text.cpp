@@ -19,10 +19,6 @@ using syntax::TreeStore;
 /// Text that is parsed in one go: its trees should stay in the cache until they are executed.
 static constexpr std::size_t kBatchBytes = 16 * 1024;
 
-std::string_view without_byte_order_mark(std::string_view text) {
-  return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
-}
-
 namespace {
 
 /// Lines that have been parsed, not yet executed.
@@ -128,7 +124,6 @@ static std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> label_lines
 }
 
 Report check_text(std::string_view text, const execution::Setup& setup, int jobs) {
-  text = without_byte_order_mark(text);
   jobs = std::clamp<int>(jobs, 1, static_cast<int>(text.size() / kBatchBytes) + 1);
   JumpMap jumps(text);
   for (;;) {

@@ -8,11 +8,7 @@
 namespace isocnc::analyzer {
 
 /// Checks a whole program, reading it once from top to bottom; nothing of it is kept but its findings. With more than
-/// one job, lines are parsed side by side while one thread at a time executes them in order; the report is the same. A
-/// UTF-8 byte-order mark is skipped (D5); columns count from behind it.
+/// one job, lines are parsed side by side while one thread at a time executes them in order; the report is the same.
 Report check_text(std::string_view text, const execution::Setup& setup, int jobs = 1);
-
-/// The text behind a UTF-8 byte-order mark.
-std::string_view without_byte_order_mark(std::string_view text);
 
 }  // namespace isocnc::analyzer

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/tree_store.h"
 
 namespace isocnc::analyzer {
 
@@ -279,6 +280,16 @@ static syntax::Span without_blanks(std::string_view text) {
   return {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
 }
 
+/// Whether an M02 may be meant on a line that has a finding for it: (M02 and M, or MO2.
+static bool may_hide_end(std::string_view text) {
+  const syntax::ParsedLine parsed(text);
+  const LineTree tree = parsed.tree();
+  if (tree.has(LineTree::kUnclosed)) return true;
+  return std::any_of(tree.words.begin(), tree.words.end(), [](const syntax::Word& word) {
+    return word.letter == 'M' && word.has(syntax::Word::kMissing | syntax::Word::kMalformed);
+  });
+}
+
 /// A path that reaches the end of the file without an M02: said on the last line with any text (D47).
 static void add_missing_end(const std::vector<Outcome>& outcomes, const Frontier& end,
                             const std::function<std::string_view(std::uint64_t)>& text_of_line,
@@ -291,7 +302,11 @@ static void add_missing_end(const std::vector<Outcome>& outcomes, const Frontier
     has_text = true;
     located.line = outcome.last_text_line;
   }
-  if (has_text) located.finding.span = without_blanks(text_of_line(located.line));
+  if (has_text) {
+    const std::string_view text = text_of_line(located.line);
+    if (may_hide_end(text)) return;
+    located.finding.span = without_blanks(text);
+  }
   Path path = end.live[0].path;
   for (const Group& group : end.live)
     std::erase_if(path, [&](const Decision& decision) {

@@ -139,7 +139,7 @@ class Run {
       Report report;
       std::string_view text;
       if (const SourceFile* source = std::get_if<SourceFile>(&opened)) {
-        text = without_byte_order_mark(source->text());
+        text = source->text();
         const bool is_large = text.size() > kLargeFile;
         report = check_text(text, {}, files_.size() == 1 || is_large ? jobs_ : 1);
       }

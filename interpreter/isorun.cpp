@@ -167,10 +167,6 @@ bool finish(OutputFile& output, std::string_view name, Language language) {
   return false;
 }
 
-std::string_view without_byte_order_mark(std::string_view text) {
-  return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
-}
-
 /// Writing to the file that is being read would take the program away.
 bool is_same_file(const std::string& a, const std::string& b) {
   std::error_code ignored;
@@ -213,7 +209,7 @@ int run_file(const Options& options) {
     complain(fmt::format("{}: {}", options.shown_file(), problem->message));
     return kTrouble;
   }
-  return run_program(without_byte_order_mark(std::get<SourceFile>(opened).text()), options, *run_options);
+  return run_program(std::get<SourceFile>(opened).text(), options, *run_options);
 }
 
 /// What --help and --version ask for.

@@ -41,6 +41,36 @@ static std::string shortened(std::string_view text) {
   return std::string(text.substr(0, end)) + "...";
 }
 
+/// Characters that a reader cannot see, by their number: U+00A0.
+static std::string spelled_out(std::string_view text) {
+  struct Invisible {
+    std::string_view bytes, name;
+  };
+  static constexpr Invisible kInvisible[] = {
+      {"\xC2\xA0", "U+00A0"},     {"\xC2\xAD", "U+00AD"},     {"\xE2\x80\x89", "U+2009"}, {"\xE2\x80\x8B", "U+200B"},
+      {"\xE2\x80\x8C", "U+200C"}, {"\xE2\x80\x8D", "U+200D"}, {"\xE2\x80\x8E", "U+200E"}, {"\xE2\x80\x8F", "U+200F"},
+      {"\xE2\x80\xAF", "U+202F"}, {"\xE3\x80\x80", "U+3000"}, {"\xEF\xBB\xBF", "U+FEFF"},
+  };
+  std::string result;
+  while (!text.empty()) {
+    const auto invisible = std::find_if(std::begin(kInvisible), std::end(kInvisible),
+                                        [&](const Invisible& it) { return text.starts_with(it.bytes); });
+    if (invisible != std::end(kInvisible)) {
+      result += invisible->name;
+      text.remove_prefix(invisible->bytes.size());
+      continue;
+    }
+    const auto byte = static_cast<unsigned char>(text.front());
+    if (byte < 0x20 && byte != '\t') {
+      result += fmt::format("U+{:04X}", byte);
+    } else {
+      result += text.front();
+    }
+    text.remove_prefix(1);
+  }
+  return result;
+}
+
 std::string message(DiagnosticId id, Language language, std::string_view text, std::span<const double> values) {
   const DiagnosticDef& def = definition(id);
   const std::string_view pattern = def.message.in(language);
@@ -52,7 +82,7 @@ std::string message(DiagnosticId id, Language language, std::string_view text, s
     if (close == std::string_view::npos) return result.append(pattern.substr(at));
     result.append(pattern.substr(at, open - at));
     const std::string_view name = pattern.substr(open + 1, close - open - 1);
-    if (name == "text") result.append(shortened(text));
+    if (name == "text") result.append(spelled_out(shortened(text)));
     for (std::size_t i = 0; i < values.size() && i < kMostArguments; ++i)
       if (def.arguments[i] == name) result.append(format_value(values[i]));
     at = close + 1;

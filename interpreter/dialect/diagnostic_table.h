@@ -65,7 +65,7 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .section = "I.2.2",
      .arguments = {},
      .title = {.en = "Word without a number", .it = "Parola senza numero"},
-     .message = {.en = "no number follows the letter {text}", .it = "alla lettera {text} non segue un numero"},
+     .message = {.en = "no number follows {text}", .it = "a {text} non segue un numero"},
      .explanation = {.en = "A word is a letter with its number: the letter alone tells the control nothing. Write the "
                            "number after it, or delete the letter. Zero must be written too: X0, not X.",
                      .it = "Una parola è formata da una lettera e dal suo numero: la lettera da sola non dice nulla "
@@ -410,7 +410,7 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .section = "I.3.4",
      .arguments = {},
      .title = {.en = "Missing coordinate", .it = "Nessuna quota specificata"},
-     .message = {.en = "no coordinate follows {text}", .it = "alla {text} non segue alcuna quota"},
+     .message = {.en = "no coordinate comes with {text}", .it = "{text} senza alcuna quota"},
      .explanation = {.en = "A motion G needs at least one coordinate directly after it, even if it is meant for the "
                            "lines that follow. Write the coordinate right after the G. S or N in between cuts the "
                            "coordinate off from its G.",
@@ -476,8 +476,11 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .section = "I.3.4.3.a",
      .arguments = {"radius", "needed"},
      .title = {.en = "Arc radius too small", .it = "Raggio del cerchio insufficiente"},
-     .message = {.en = "radius {radius} mm is too small: it must be positive and at least {needed} mm",
-                 .it = "il raggio di {radius} mm è insufficiente: deve essere positivo e di almeno {needed} mm"},
+     .message =
+         {.en =
+              "radius {radius} mm is too small: it must be positive and at least half the way to the end, {needed} mm",
+          .it = "il raggio di {radius} mm è insufficiente: deve essere positivo e almeno metà della distanza tra gli "
+                "estremi, {needed} mm"},
      .explanation = {.en = "No circle of this radius reaches from the start of the arc to its end. Enlarge R, or "
                            "check the two points: R cannot be less than half the distance between them. R is always "
                            "positive: for an arc of more than 180° give the center, not a negative R.",

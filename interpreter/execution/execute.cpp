@@ -71,6 +71,8 @@ void Executor::execute_g(const Instruction& instruction) {
   if (!code) {
     // What an unknown G does with its arguments is unknown, and so are the axes it names.
     const Arguments arguments(line_, instruction);
+    const bool has_coordinates = (arguments.present() & dialect::kCoordinateLetters) != 0;
+    state_.motion_illegible |= has_coordinates && state_.mode(dialect::ModalGroup::Motion) == dialect::kNoMotion;
     for (int axis = 0; axis < kAxisCount; ++axis)
       if (arguments.has("XYZBC"[axis])) state_.unknown |= axis_bit(static_cast<Axis>(axis));
     return;

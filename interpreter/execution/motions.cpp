@@ -184,9 +184,15 @@ void Executor::move_with_effects(const Arguments& arguments, const GCode& code, 
 /// Coordinates before any motion G belong to nothing: one finding a line (D21).
 bool Executor::motion_is_in_force(const Arguments& arguments) {
   if (state_.mode(dialect::ModalGroup::Motion) != dialect::kNoMotion) return true;
+  // Some motion was meant: where the axes are now is not known.
+  for (int axis = 0; axis < kAxisCount; ++axis)
+    if (arguments.has("XYZBC"[axis])) state_.unknown |= axis_bit(static_cast<Axis>(axis));
+  if (state_.motion_illegible) return false;
   bool reported = line_.has(syntax::LineTree::kAloneViolated) ||
                   arguments.first().has(syntax::Word::kReported | syntax::Word::kMissing);
-  for (const syntax::Finding& finding : line_.findings) reported |= finding.id == "stray-argument"_diag;
+  for (const syntax::Finding& finding : line_.findings)
+    reported |= finding.id == "stray-argument"_diag || finding.id == "units-after-dimensions"_diag ||
+                finding.id == "distance-mode-after-dimensions"_diag;
   if (!reported) report("stray-argument"_diag, arguments.first().span());
   return false;
 }
@@ -194,10 +200,19 @@ bool Executor::motion_is_in_force(const Arguments& arguments) {
 /// Letters that the motion does not take (D16).
 void Executor::report_strays(const Arguments& arguments, const GCode& code) {
   if (line_.has(syntax::LineTree::kAloneViolated)) return;
-  for (char letter = 'A'; letter <= 'Z'; ++letter)
-    if (dialect::contains(arguments.present() & ~code.arguments, letter) &&
-        !arguments.word(letter).has(syntax::Word::kReported | syntax::Word::kMissing))
-      report("stray-argument"_diag, arguments.word(letter).span());
+  Span center;  // I5 J0 with a G01 that should be a G02 is one mistake.
+  for (char letter = 'A'; letter <= 'Z'; ++letter) {
+    if (!dialect::contains(arguments.present() & ~code.arguments, letter) ||
+        arguments.word(letter).has(syntax::Word::kReported | syntax::Word::kMissing))
+      continue;
+    const Span span = arguments.word(letter).span();
+    if (!dialect::contains(dialect::kCenterLetters | dialect::letter_bit('R'), letter)) {
+      report("stray-argument"_diag, span);
+    } else {
+      center = center.empty() ? span : syntax::hull(center, span);
+    }
+  }
+  if (!center.empty()) report("stray-argument"_diag, center);
 }
 
 void Executor::check_first_motion(Span place) {

@@ -50,10 +50,11 @@ struct State {
   bool tool_selected = false;
   bool tool_reported = false;  ///< ISO044 has been said.
   bool feed_given = false;
-  bool feed_reported = false;    ///< ISO066 has been said.
-  bool exact_stop_fits = false;  ///< A G09 at the start of the next line would follow a feed move (D23).
-  bool tool_awaited = false;     ///< The line before ended in an M06 without T (reported): a T that follows is its.
-  bool ended = false;            ///< M02 has been read.
+  bool feed_reported = false;     ///< ISO066 has been said.
+  bool exact_stop_fits = false;   ///< A G09 at the start of the next line would follow a feed move (D23).
+  bool tool_awaited = false;      ///< The line before ended in an M06 without T (reported): a T that follows is its.
+  bool motion_illegible = false;  ///< Before any motion G an unknown G had coordinates: it was meant to be one.
+  bool ended = false;             ///< M02 has been read.
 
   std::uint8_t mode(dialect::ModalGroup group) const { return in_force[static_cast<std::size_t>(group)]; }
   void set_mode(dialect::ModalGroup group, std::uint8_t number) { in_force[static_cast<std::size_t>(group)] = number; }

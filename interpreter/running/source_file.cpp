@@ -185,7 +185,9 @@ std::variant<SourceFile, SourceFile::Problem> SourceFile::checked(SourceFile fil
 }
 
 std::string_view SourceFile::text() const {
-  return mapped_ ? std::string_view(mapped_.get(), mapped_.get_deleter().size) : std::string_view(read_);
+  const std::string_view bytes =
+      mapped_ ? std::string_view(mapped_.get(), mapped_.get_deleter().size) : std::string_view(read_);
+  return bytes.starts_with("\xEF\xBB\xBF") ? bytes.substr(3) : bytes;
 }
 
 void SourceFile::Unmap::operator()(char* bytes) const { ::munmap(bytes, size); }

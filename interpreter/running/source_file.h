@@ -24,7 +24,7 @@ class SourceFile {
   /// Reads on from where `descriptor` stands, and leaves it open: standard input, pipes.
   static std::variant<SourceFile, Problem> read_stream(int descriptor, dialect::Language language);
 
-  /// Valid as long as this, and not beyond a move.
+  /// Without a byte-order mark (D5). Valid as long as this, and not beyond a move.
   std::string_view text() const;
 
  private:

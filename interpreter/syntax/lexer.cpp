@@ -121,6 +121,7 @@ const char* LineParser::lex_without_number(const char* start, const char* p) {
   Word& added = add_word(letter, start, start + 1);
   added.value = std::numeric_limits<double>::quiet_NaN();
   added.flags = Word::kMissing;
+  has_prose_ = true;
   // Before a `=` the author gave the value the wrong way (ISO058), and inside a condition E003 tells.
   const bool assigned = behind != end_ && *behind == '=' && letter != 'V';
   if (!in_condition_ && !assigned) report("word-without-number"_diag, added.span());
@@ -291,6 +292,21 @@ const char* LineParser::lex_comparison(const char* p) {
   return behind;
 }
 
+/// Whether unknown text stands where the last word's number should be (G#1, MO6), which has been said. Where it goes on
+/// a number (X1O, X1E5), that number is not known.
+bool LineParser::garbles_number(char first) {
+  if (word_count() == 0) return false;
+  Word& before = word(word_count() - 1u);
+  const bool is_word = before.letter >= 'A' && before.letter <= 'Z';
+  if (is_word && before.has(Word::kMissing)) return true;
+  const bool is_command = before.letter == 'G' || before.letter == 'M';
+  if ((is_word || before.letter == kAssign) && (first == 'O' || (first == 'E' && !is_command))) {
+    before.value = std::numeric_limits<double>::quiet_NaN();
+    before.flags |= Word::kMalformed | Word::kReported;
+  }
+  return false;
+}
+
 /// One finding for a run of characters that start no word, together with the number that follows (D10).
 const char* LineParser::lex_unknown(const char* p) {
   const char* const start = p;
@@ -304,8 +320,10 @@ const char* LineParser::lex_unknown(const char* p) {
   }
   if (p != end_ && is_number_char(*p)) behind = scan_number(p, end_).end;
   note_comments_inside(start, behind);
+  has_prose_ = true;
+  const bool in_place_of_number = !in_condition_ && garbles_number(upper(*start));
   const Word& added = add_word(kError, start, behind);
-  if (!in_condition_) report("unknown-word"_diag, added.span());
+  if (!in_condition_ && !in_place_of_number) report("unknown-word"_diag, added.span());
   if (behind_goto_) in_condition_ = behind_goto_ = false;
   return behind;
 }

@@ -77,12 +77,13 @@ bool LineParser::must_be_alone(const Instruction& checked, dialect::DiagnosticId
 /// Whether the line holds a right word that is neither the instruction's own nor the line number.
 bool LineParser::has_company(const Instruction& alone) const {
   const dialect::GCode* const code = alone.kind == InstructionKind::G ? alone.g() : nullptr;
+  const bool is_end = alone.kind == InstructionKind::Function && word(alone.command).value == dialect::kProgramEnd;
   const bool dwell_without_time = code != nullptr && code->number == 4 && !owns_any(alone, letters("P"));
   for (std::uint16_t i = 0; i < word_count(); ++i) {
     const Word& other = word(i);
     if (other.letter == 'N' || other.letter == kError || other.letter == kNumber || other.has(Word::kMissing)) continue;
     if (other.owner == alone.number) {
-      if (i == alone.command || !code || contains(code->arguments, other.letter)) continue;
+      if (i == alone.command || (!code && !is_end) || (code && contains(code->arguments, other.letter))) continue;
       if (dwell_without_time && !other.has(Word::kBreak)) continue;  // G04 X10: the X is where the P should be.
     }
     if (other.letter == kAssign && other.owner == Word::kNobody) continue;  // Reported with what it is given to.
@@ -125,11 +126,11 @@ void LineParser::check_g(const Instruction& checked) {
       check_vectors(checked, "XYZ");
       break;
     case 29:
-      lacks_arguments(checked, "missing-arguments"_diag);
+      check_arguments(checked, "missing-arguments"_diag);
       check_face_angles(checked);
       break;
     case 92:
-      lacks_arguments(checked, "missing-origin"_diag);
+      check_arguments(checked, "missing-origin"_diag);
       break;
     default:
       break;
@@ -137,18 +138,20 @@ void LineParser::check_g(const Instruction& checked) {
 }
 
 /// Arguments that are missing, or that an N keeps from their G: the N breaks the series as an S would (D12, D17).
-bool LineParser::lacks_arguments(const Instruction& checked, dialect::DiagnosticId when_missing) {
+void LineParser::check_arguments(const Instruction& checked, dialect::DiagnosticId when_missing) {
   const bool company_is_reported = (line_.flags & LineTree::kAloneViolated) != 0;
-  if (owns_any(checked, checked.g()->arguments, !company_is_reported)) {
-    for (std::uint16_t i = checked.begin; i < checked.end && !company_is_reported; ++i)
-      if (word(i).owner == checked.number && word(i).has(Word::kBreak)) {
-        report("stray-argument"_diag, word(i).span(), {}, word(checked.command).span());
-        break;
-      }
-    return false;
-  }
+  if (owns_any(checked, checked.g()->arguments, !company_is_reported)) return check_unbroken(checked);
+  // G92 C5: the C, which has been reported, stands where one of them should.
+  if (company_is_reported && owns_any(checked, dialect::kDimensionLetters)) return;
   report_missing(when_missing, checked);
-  return true;
+}
+
+/// The first argument that an N keeps from its G.
+void LineParser::check_unbroken(const Instruction& checked) {
+  if ((line_.flags & LineTree::kAloneViolated) != 0) return;
+  for (std::uint16_t i = checked.begin; i < checked.end; ++i)
+    if (word(i).owner == checked.number && word(i).has(Word::kBreak))
+      return report("stray-argument"_diag, word(i).span(), {}, word(checked.command).span());
 }
 
 /// Whether what stands between a motion and the argument broken off it has a finding of its own.
@@ -189,7 +192,7 @@ void LineParser::check_motion(const Instruction& motion) {
   // Strays without a coordinate are reported where the motion is known; a second motion G, or one that is unknown and
   // has taken the arguments, has said it all.
   if (owns_any(motion, dialect::kDimensionLetters & ~motion.g()->arguments)) return;
-  if (word(motion.command).has(Word::kReported)) return;
+  if (word(motion.command).has(Word::kReported) || word(motion.command).span() != first_motion_) return;
   for (std::size_t i = motion.number + 1u; i < instruction_count(); ++i) {
     const Instruction& other = instruction(i);
     if (other.kind == InstructionKind::G && (!other.g() || other.g()->is_motion())) return;
@@ -199,6 +202,7 @@ void LineParser::check_motion(const Instruction& motion) {
 
 /// G24 and G28 want at least one component of each axis (D4, D27).
 void LineParser::check_vectors(const Instruction& frame, std::string_view i_letters) {
+  check_unbroken(frame);
   if (!owns_any(frame, letters(i_letters))) report_missing("missing-i-vector"_diag, frame);
   if (!owns_any(frame, letters("IJK"))) report_missing("missing-j-vector"_diag, frame);
   if (!owns_any(frame, letters("PQR"))) report_missing("missing-k-vector"_diag, frame);
@@ -214,7 +218,9 @@ void LineParser::check_face_angles(const Instruction& frame) {
 }
 
 void LineParser::check_dwell(const Instruction& dwell) {
-  lacks_arguments(dwell, "dwell-time-missing"_diag);
+  bool is_garbled = false;  // G04 U1: said at the U.
+  for (std::size_t i = dwell.command + 1u; i < word_count(); ++i) is_garbled |= word(i).letter == kError;
+  if (!is_garbled) check_arguments(dwell, "dwell-time-missing"_diag);
   for (std::uint16_t i = dwell.begin; i < dwell.end; ++i) {
     const Word& time = word(i);
     if (time.owner == dwell.number && time.letter == 'P' && time.value < 0)
@@ -235,6 +241,7 @@ void LineParser::check_parameters(const Instruction& function) {
     const bool named = name.is_plain_integer() && name.value >= 1 && name.value <= dialect::kMostFunctionParameters;
     const std::uint32_t bit = named ? 1u << static_cast<unsigned>(name.value) : 0;
     const bool valued = has_value && !word(i + 1u).has(Word::kMissing);
+    if (takes_parameters && name.has(Word::kMalformed)) continue;  // Said of its number.
     if (!takes_parameters || !named || !valued || (seen & bit) != 0) {
       report("m-param-invalid"_diag, span);
       if (!takes_parameters) return;
@@ -267,8 +274,10 @@ void LineParser::check_compensation(const Instruction& checked) {
                                ? !other.has(Instruction::kSettled)
                                : other.kind == InstructionKind::G && other.g() && other.g()->is_motion();
     if (!is_motion) continue;
-    before_motion |= (code->number == 40 ? other.end : other.begin) > checked.command;
-    behind_motion |= other.begin < checked.command;
+    // Where a motion G begins is its G: words before it count as its own, but have been reported.
+    const std::uint16_t begin = other.kind == InstructionKind::G ? other.command : other.begin;
+    before_motion |= (code->number == 40 ? other.end : begin) > checked.command;
+    behind_motion |= begin < checked.command;
   }
   if (code->number == 40) {
     if (before_motion || !behind_motion) report("misplaced-g40"_diag, word(checked.command).span());
@@ -279,7 +288,7 @@ void LineParser::check_compensation(const Instruction& checked) {
 
 /// Six digits: head, holder, tool. Zeros mean that nothing is mounted there (I.4.3).
 void LineParser::check_tool_number(const Word& tool) {
-  if (tool.has(Word::kMissing)) return;
+  if (tool.has(Word::kMissing | Word::kReported)) return;
   if (!tool.is_plain_integer() || tool.digits != 6) return report("invalid-tool-number"_diag, tool.span());
   const auto number = static_cast<std::uint32_t>(tool.value);
   const std::uint32_t head = number / 100000;

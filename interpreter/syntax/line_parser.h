@@ -28,6 +28,7 @@ class LineParser {
   const char* lex_equals(const char* p);
   const char* lex_comparison(const char* p);
   const char* lex_unknown(const char* p);
+  bool garbles_number(char first);
   const char* skip_space(const char* p) const;
   const char* match_keyword(const char* p, const char* keyword) const;
   bool goto_follows(const char* p);
@@ -36,20 +37,23 @@ class LineParser {
 
   // Words into instructions (structure.cpp).
   void structure();
+  void join_prose();
+  bool stands_for_number(std::uint16_t index) const;
+  bool lacks_value(std::uint16_t assign) const;
   void add_dimension(std::uint16_t index);
   void add_g(std::uint16_t index);
   void take_earlier_words(Instruction& g);
   void add_m(std::uint16_t index);
   void add_tool_change(std::uint16_t index);
   void add_tool(std::uint16_t index);
-  void add_line_number(std::uint16_t index);
+  bool add_line_number(std::uint16_t index);
   void add_feed(std::uint16_t index);
   void add_spindle_speed(std::uint16_t index);
   std::uint16_t add_assignment(std::uint16_t index);
-  void add_equals(std::uint16_t index);
+  std::uint16_t add_equals(std::uint16_t index);
   std::uint16_t add_jump(std::uint16_t index);
   std::uint16_t read_condition(Jump& jump, std::uint16_t index);
-  bool read_variable(Jump& jump, Word& written);
+  bool read_variable(Jump& jump, const Word& written, bool has_operator);
   std::uint16_t read_target(Jump& jump, std::uint16_t index);
   std::uint16_t add_lone_goto(std::uint16_t index);
   Instruction& add_instruction(InstructionKind kind, std::uint16_t command);
@@ -71,10 +75,12 @@ class LineParser {
   bool breaker_is_reported(const Instruction& motion, std::uint16_t broken) const;
   bool stands_alone(const Instruction& alone) const;
   bool owns_any(const Instruction& owner, dialect::LetterSet set, bool unbroken = false) const;
-  bool lacks_arguments(const Instruction& checked, dialect::DiagnosticId when_missing);
+  void check_arguments(const Instruction& checked, dialect::DiagnosticId when_missing);
+  void check_unbroken(const Instruction& checked);
   void check_tool_number(const Word& tool);
 
   void report(dialect::DiagnosticId id, Span span, std::initializer_list<double> values = {}, Span related = {});
+  void take_back(dialect::DiagnosticId id, Span span);
   void report_missing(dialect::DiagnosticId id, const Instruction& lacking);
   std::uint32_t column(const char* p) const { return static_cast<std::uint32_t>(p - begin_); }
   Word& word(std::size_t index) { return store_.words_[line_.first_word + index]; }
@@ -94,6 +100,7 @@ class LineParser {
   bool in_condition_ =
       false;                  ///< Between IF and the label behind GOTO: a comparison and a bare number are right there.
   bool behind_goto_ = false;  ///< The next word is the label.
+  bool has_prose_ = false;    ///< Some letter has no number, or some text is no word.
   const char* last_goto_ =
       nullptr;  ///< The line's last GOTO, or its start where there is none; null before it was looked for.
 

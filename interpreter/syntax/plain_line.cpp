@@ -109,7 +109,7 @@ const char* TreeStore::append_plain_line(const char* begin, const char* end) {
       word.owner = Word::kNobody;
       feed = count;
     } else if (role.role == Role::Command) {
-      if (command >= 0 || !word.is_plain_integer() || word.value > 3) break;
+      if (command >= 0 || !word.is_plain_integer() || !(word.value <= 3)) break;
       row = dialect::kGCodeRows[static_cast<std::size_t>(word.value)];
       word.owner = 0;
       command = count;

@@ -37,12 +37,65 @@ void LineParser::report(dialect::DiagnosticId id, Span span, std::initializer_li
   std::copy(values.begin(), values.end(), finding.values.begin());
 }
 
+/// One mistake has been told as two.
+void LineParser::take_back(dialect::DiagnosticId id, Span span) {
+  auto& findings = store_.findings_;
+  const auto first = findings.begin() + line_.first_finding;
+  findings.erase(std::remove_if(first, findings.end(),
+                                [&](const Finding& finding) { return finding.id == id && finding.span == span; }),
+                 findings.end());
+}
+
 /// What is missing may stand in a comment that is not closed, which has been reported.
 void LineParser::report_missing(dialect::DiagnosticId id, const Instruction& lacking) {
   if ((line_.flags & LineTree::kUnclosed) == 0) report(id, word(lacking.command).span());
 }
 
+/// Text that should be a comment reads as letters without numbers, one after the other: one mistake, not one for each.
+/// `X Y Z` is no such text; it needs something that no line could want there.
+void LineParser::join_prose() {
+  const auto is_prose = [&](std::uint16_t i) {
+    const Word& it = word(i);
+    return it.letter == kError || (it.has(Word::kMissing) && it.letter >= 'A' && it.letter <= 'Z');
+  };
+  for (std::uint16_t i = 0; i < word_count(); ++i) {
+    if (word(i).letter == kIf) return;  // In a condition there is a code for it.
+    dialect::LetterSet seen = 0;
+    bool is_odd = false;
+    std::uint16_t last = i;
+    for (; last < word_count() && is_prose(last); ++last) {
+      const char letter = word(last).letter;
+      is_odd |= letter == kError || !contains(dialect::kDimensionLetters, letter) || contains(seen, letter);
+      if (letter != kError) seen |= dialect::letter_bit(letter);
+    }
+    if (last - i < 3 || !is_odd) {
+      i = std::max(i, last);
+      continue;
+    }
+    // A number behind it belongs to it: PROGRAM 12.
+    const char next = last < word_count() ? word(last).letter : '\0';
+    const bool ends_in_letter = word(last - 1u).letter != kError;
+    if (next == kNumber || (ends_in_letter && contains(dialect::kDimensionLetters | dialect::letters("NT"), next)))
+      ++last;
+    const Span span = hull(word(i).span(), word(last - 1u).span());
+    const dialect::DiagnosticId id = word(i).letter == kError ? "unknown-word"_diag : "word-without-number"_diag;
+    auto& findings = store_.findings_;
+    findings.erase(std::remove_if(findings.begin() + line_.first_finding, findings.end(),
+                                  [&](const Finding& finding) {
+                                    return finding.span.begin >= span.begin && finding.span.end <= span.end;
+                                  }),
+                   findings.end());
+    report(id, span);
+    for (; i < last; ++i) {
+      word(i).letter = kError;
+      word(i).value = std::numeric_limits<double>::quiet_NaN();
+      word(i).flags |= Word::kReported;
+    }
+  }
+}
+
 void LineParser::structure() {
+  if (has_prose_) join_prose();
   const std::uint16_t count = word_count();
   for (std::uint16_t i = 0; i < count; ++i) {
     const char letter = word(i).letter;
@@ -56,7 +109,7 @@ void LineParser::structure() {
         add_feed(i);
         continue;  // The motion's speed: breaks nothing (D17).
       case 'N':
-        add_line_number(i);
+        if (!add_line_number(i)) continue;
         break;
       case 'S':
         add_spindle_speed(i);
@@ -74,11 +127,12 @@ void LineParser::structure() {
         behind_motion_ = false;
         break;
       case 'V':
+        if (stands_for_number(i)) continue;
         i = add_assignment(i);
         behind_motion_ = false;
         break;
       case kAssign:
-        add_equals(i);
+        i = add_equals(i);
         continue;
       case kIf:
         i = add_jump(i);
@@ -90,12 +144,24 @@ void LineParser::structure() {
       case kVgpl:
         report("unknown-word"_diag, word(i).span());
         continue;
+      case kError:
+        if (taker_ != kNone && contiguous_ && !instruction(static_cast<std::size_t>(taker_)).g() &&
+            instruction(static_cast<std::size_t>(taker_)).kind == InstructionKind::G)
+          take_back("unknown-word"_diag, word(i).span());  // G43 H1: what an unknown G takes.
+        continue;
       default:
         continue;  // An error that has been reported breaks nothing.
     }
     contiguous_ = false;
     if (letter != 'M') function_open_ = false;
   }
+}
+
+/// X V1: a register where the number should be, which has been said at the X.
+bool LineParser::stands_for_number(std::uint16_t index) const {
+  const bool is_assigned = index + 1 < word_count() && word(index + 1u).letter == kAssign;
+  return index > 0 && word(index - 1u).has(Word::kMissing) && !is_assigned &&
+         contains(dialect::kDimensionLetters | dialect::letters("FS"), word(index - 1u).letter);
 }
 
 Instruction& LineParser::add_instruction(InstructionKind kind, std::uint16_t command) {
@@ -124,6 +190,9 @@ void LineParser::own(Instruction& owner, std::uint16_t index) {
 }
 
 void LineParser::add_dimension(std::uint16_t index) {
+  const bool names_register = index > 0 && word(index - 1u).letter == 'V' && word(index - 1u).has(Word::kMissing) &&
+                              index + 1 < word_count() && word(index + 1u).letter == kAssign;
+  if (names_register) return;  // VI=5: said at the V.
   const char letter = word(index).letter;
   const bool is_parameter = letter == 'P' && function_ != kNone &&
                             (function_open_ || (index + 1 < word_count() && word(index + 1u).letter == kAssign));
@@ -164,18 +233,21 @@ void LineParser::add_dimension(std::uint16_t index) {
   own(taker, index);
 }
 
-/// G1.0 and M+6 are spelled wrong, yet what they mean is plain.
-static bool is_whole(double value, double least) {
-  return value >= least && value <= 999 && value == std::floor(value);
+/// G1.0, M+6 and G-1 are spelled wrong, yet what they mean is plain: this number, else NaN.
+static double meant_number(double value, double least) {
+  const double number = std::abs(value);
+  const bool is_plain = number >= least && number <= 999 && number == std::floor(number);
+  return is_plain ? number : std::numeric_limits<double>::quiet_NaN();
 }
 
 void LineParser::add_g(std::uint16_t index) {
   const Word& written = word(index);
   std::uint8_t row = dialect::kUnknownGCode;
   const bool spelled_right = written.is_plain_integer() && written.value <= 999;
-  if (is_whole(written.value, 0)) row = dialect::kGCodeRows[static_cast<std::size_t>(written.value)];
+  const double meant = meant_number(written.value, 0);
+  if (!std::isnan(meant)) row = dialect::kGCodeRows[static_cast<std::size_t>(meant)];
   if (!spelled_right) {
-    if (!written.has(Word::kMissing)) report("invalid-g-number"_diag, written.span());
+    if (!written.has(Word::kMissing | Word::kReported)) report("invalid-g-number"_diag, written.span());
     word(index).flags |= Word::kReported;
   } else if (row == dialect::kUnknownGCode) {
     report("unsupported-g"_diag, written.span());
@@ -233,12 +305,18 @@ void LineParser::take_earlier_words(Instruction& g) {
 }
 
 void LineParser::add_m(std::uint16_t index) {
-  const Word& written = word(index);
+  Word& written = word(index);
   function_open_ = false;
-  const bool is_function = is_whole(written.value, 1);
-  if ((!written.is_plain_integer() || !is_function) && !written.has(Word::kMissing))
+  const double meant = meant_number(written.value, 1);
+  const bool is_function = !std::isnan(meant);
+  if ((!written.is_plain_integer() || !is_function) && !written.has(Word::kMissing | Word::kReported))
     report("invalid-m-number"_diag, written.span());
-  if (written.value == dialect::kToolChange) return add_tool_change(index);
+  if (is_function) written.value = meant;
+  // An M without a legible number and a T: what else can it be?
+  std::size_t next = index + 1u;
+  while (next < word_count() && word(next).letter == kError) ++next;
+  const bool before_tool = next < word_count() && word(next).letter == 'T';
+  if (meant == dialect::kToolChange || (!is_function && before_tool)) return add_tool_change(index);
   Instruction& added = add_instruction(InstructionKind::Function, index);
   if (!is_function) {  // It keeps its parameters, so that nothing is said of them.
     added.flags |= Instruction::kSettled;
@@ -252,13 +330,17 @@ void LineParser::add_m(std::uint16_t index) {
 void LineParser::add_tool_change(std::uint16_t index) {
   Instruction& added = add_instruction(InstructionKind::ToolChange, index);
   const std::uint16_t count = word_count();
-  if (index + 1 < count && word(index + 1u).letter == 'T') return own(added, static_cast<std::uint16_t>(index + 1));
+  auto next = static_cast<std::uint16_t>(index + 1);
+  while (next < count && word(next).letter == kError) ++next;
+  if (next < count && word(next).letter == 'T') return own(added, next);
   // The T may stand before it (and has been reported) or further on; either way one thing is wrong, not two.
   for (std::size_t i = 0; i + 1 < instruction_count(); ++i)
     if (instruction(i).kind == InstructionKind::StrayTool) return void(added.flags |= Instruction::kSettled);
   report_missing("tool-change-without-tool"_diag, added);
-  for (auto i = static_cast<std::uint16_t>(index + 1); i < count && word(i).letter != 'M'; ++i)
+  for (auto i = static_cast<std::uint16_t>(index + 1); i < count; ++i) {
+    if (word(i).letter == 'M' && std::abs(word(i).value) == dialect::kToolChange) return;
     if (word(i).letter == 'T') return void(word(i).owner = added.number);
+  }
 }
 
 void LineParser::add_tool(std::uint16_t index) {
@@ -286,13 +368,17 @@ static std::uint64_t label_of(const Word& number, std::string_view text) {
   return leading ? 0 : hash | (std::uint64_t{1} << 63);
 }
 
-void LineParser::add_line_number(std::uint16_t index) {
+/// False when it is none: reported, so it breaks nothing.
+bool LineParser::add_line_number(std::uint16_t index) {
   const Word& written = word(index);
-  if (written.has(Word::kMissing)) return;
-  if (!written.is_plain_integer() || (line_.flags & LineTree::kHasLabel) != 0)
-    return report("invalid-line-number"_diag, written.span());
+  if (written.has(Word::kMissing)) return false;
+  if (!written.is_plain_integer() || (line_.flags & LineTree::kHasLabel) != 0) {
+    if (!written.has(Word::kReported)) report("invalid-line-number"_diag, written.span());
+    return false;
+  }
   line_.flags |= LineTree::kHasLabel;
   line_.label = label_of(written, {begin_ + written.begin, written.end - written.begin});
+  return true;
 }
 
 void LineParser::add_feed(std::uint16_t index) {
@@ -321,7 +407,8 @@ std::uint16_t LineParser::add_assignment(std::uint16_t index) {
   Instruction& added = add_instruction(InstructionKind::Assignment, index);
   const Word& name = word(index);
   const bool has_value = index + 1 < word_count() && word(index + 1u).letter == kAssign;
-  if (!name.has(Word::kMissing)) {
+  const bool is_garbled = index + 1 < word_count() && word(index + 1u).letter == kError;  // V1 := 5
+  if (!name.has(Word::kMissing | Word::kReported) && !is_garbled) {
     if (!name.is_plain_integer()) {
       report("invalid-register-number"_diag, name.span());
     } else if (!(name.value >= 1 && name.value <= dialect::kRegisterCount)) {
@@ -333,21 +420,38 @@ std::uint16_t LineParser::add_assignment(std::uint16_t index) {
   if (!has_value) return index;
   auto last = static_cast<std::uint16_t>(index + 1);
   own(added, last);
-  // V1=V2, V1=X5: what stands in the value's place belongs to the same mistake.
-  static constexpr dialect::LetterSet kSwallowed = dialect::kDimensionLetters | dialect::letters("FSV");
-  if (word(last).has(Word::kMissing) && last + 1 < word_count() && contains(kSwallowed, word(last + 1u).letter))
-    own(added, ++last);
+  if (lacks_value(last)) own(added, ++last);
   return last;
 }
 
-/// A `=` that no V, and no M's P, stands before (ISO058).
-void LineParser::add_equals(std::uint16_t index) {
+/// Whether a `=` has no legible number, and something else in its place, which belongs to the same mistake: V1=V2,
+/// V1=X5, V1==2, V1=-V2.
+bool LineParser::lacks_value(std::uint16_t assign) const {
+  static constexpr dialect::LetterSet kInPlace = dialect::kDimensionLetters | dialect::letters("FSV");
+  if (!word(assign).has(Word::kMissing) && !(word(assign).has(Word::kMalformed) && word(assign).digits == 0))
+    return false;
+  if (assign + 1 >= word_count()) return false;
+  const char letter = word(assign + 1u).letter;
+  return letter == kAssign || contains(kInPlace, letter);
+}
+
+/// A `=` that no V, and no M's P, stands before (ISO058). Returns the last word that belongs to it.
+std::uint16_t LineParser::add_equals(std::uint16_t index) {
+  const auto last = static_cast<std::uint16_t>(index + (lacks_value(index) ? 1 : 0));
   if (index > 0) {
     Word& before = word(index - 1u);
-    if (before.letter == kError || before.letter == kVgpl) return;  // #1=5: reported with what stands before.
-    const bool is_parameter = before.letter == 'P' && before.owner != Word::kNobody &&
-                              instruction(before.owner).kind == InstructionKind::Function;
-    if (is_parameter) return own(instruction(before.owner), index);
+    if (before.letter == kError || before.letter == kVgpl) return last;  // #1=5: reported with what stands before.
+    if (index > 1 && word(index - 2u).has(Word::kMissing)) return last;  // CR=5, VI=5: said at the C or V.
+    if (before.owner != Word::kNobody) {
+      Instruction& owner = instruction(before.owner);
+      if (owner.kind == InstructionKind::Function && before.letter == 'P') {
+        own(owner, index);
+        if (last > index) own(owner, last);
+        return last;
+      }
+      // G54 P1=2: what an unknown G takes.
+      if (owner.kind == InstructionKind::G && owner.row == dialect::kUnknownGCode) return last;
+    }
     if (before.has(Word::kMissing)) {
       before.value = word(index).value;
       before.flags = word(index).flags;
@@ -356,6 +460,7 @@ void LineParser::add_equals(std::uint16_t index) {
   }
   const Word& equals = word(index);
   report("assignment-without-register"_diag, {equals.begin, equals.begin + 1});
+  return last;
 }
 
 std::uint16_t LineParser::add_jump(std::uint16_t index) {
@@ -368,6 +473,11 @@ std::uint16_t LineParser::add_jump(std::uint16_t index) {
   Jump jump;
   jump.if_span = word(index).span();
   const std::uint16_t last = read_condition(jump, index);
+  // Half an IF: what else stands on the line may well be the other half.
+  const std::vector<Finding>& findings = store_.findings_;
+  if (findings.size() > line_.first_finding && findings.back().id == "if-malformed"_diag &&
+      findings.back().span == jump.if_span)
+    added.flags |= Instruction::kSettled;
   for (auto i = static_cast<std::uint16_t>(index + 1); i <= last; ++i) own(added, i);
   line_.jump = static_cast<std::int32_t>(store_.jumps_.size());
   store_.jumps_.push_back(jump);
@@ -388,7 +498,8 @@ std::uint16_t LineParser::read_condition(Jump& jump, std::uint16_t index) {
     report("if-malformed"_diag, last == where ? word(index).span() : hull(word(where).span(), word(last - 1u).span()));
   };
   bool good = false;
-  if (at >= goto_at || !read_variable(jump, word(at))) {
+  const bool has_operator = at + 1 < goto_at && word(at + 1u).letter == kOperator;
+  if (at >= goto_at || !read_variable(jump, word(at), has_operator)) {
     fail(at, {&kOperator, 1});
   } else if (++at >= goto_at || word(at).letter != kOperator ||
              static_cast<Comparison>(word(at).digits) == Comparison::Invalid) {
@@ -416,12 +527,13 @@ std::uint16_t LineParser::read_condition(Jump& jump, std::uint16_t index) {
 }
 
 /// A bad register number keeps its own code (D50); anything else but a register or VGPL is no variable.
-bool LineParser::read_variable(Jump& jump, Word& written) {
+bool LineParser::read_variable(Jump& jump, const Word& written, bool has_operator) {
   if (written.letter == kVgpl) {
     jump.variable = Jump::kVgplVariable;
     return true;
   }
   if (written.letter != 'V' || written.has(Word::kMissing)) return false;
+  if (!has_operator) return true;  // V5 1 is V51, but what is wrong there is the operator (E003).
   if (!written.is_plain_integer()) {
     report("invalid-register-number"_diag, written.span());
   } else if (!(written.value >= 1 && written.value <= dialect::kRegisterCount)) {
@@ -450,9 +562,9 @@ std::uint16_t LineParser::read_target(Jump& jump, std::uint16_t index) {
   return at;
 }
 
-/// GOTO without IF.
+/// GOTO without IF, or a second one: then the first has company, which is said there.
 std::uint16_t LineParser::add_lone_goto(std::uint16_t index) {
-  report("if-malformed"_diag, word(index).span());
+  if (line_.jump < 0) report("if-malformed"_diag, word(index).span());
   const auto at = static_cast<std::uint16_t>(index + 1);
   if (at >= word_count()) return index;
   const char letter = word(at).letter;

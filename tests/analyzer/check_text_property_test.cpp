@@ -147,9 +147,5 @@ TEST(CheckTextProperty, OneMistakeIsToldOncePerPlace) {
   }
 }
 
-TEST(CheckText, SkipsAByteOrderMark) {
-  EXPECT_EQ(support::texts_of(check("\xEF\xBB\xBFG1 X1 X2\n")), support::texts_of(check("G1 X1 X2\n")));
-}
-
 }  // namespace
 }  // namespace isocnc::analyzer

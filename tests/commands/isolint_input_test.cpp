@@ -120,7 +120,7 @@ TEST(IsolintInput, EachFileIsCheckedOnce) {
   folder.write("a.iso", kBrokenProgram);
   const CommandResult result =
       run_command({"isolint", "--format", "concise", "a.iso", "./a.iso", "."}, {.folder = folder.path()});
-  EXPECT_EQ(result.out, "a.iso:3:1: error: no coordinate follows G01 [ISO026]\n");
+  EXPECT_EQ(result.out, "a.iso:3:1: error: no coordinate comes with G01 [ISO026]\n");
 }
 
 TEST(IsolintInput, ADirectoryWithoutProgramsIsTrouble) {

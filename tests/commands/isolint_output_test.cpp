@@ -31,7 +31,7 @@ TEST(IsolintText, ShowsTheLineItsMarkAndTheReason) {
   const CommandResult result = run_command({"isolint", "-"}, {.input = std::string(kBrokenProgram)});
   EXPECT_EQ(
       result.out,
-      "error[ISO026]: no coordinate follows G01\n"
+      "error[ISO026]: no coordinate comes with G01\n"
       " --> <stdin>:3:1\n"
       "  |\n"
       "3 | G01\n"
@@ -135,7 +135,7 @@ TEST(IsolintJson, HasEveryKeyInItsOrder) {
                          {"severity", "error"},
                          {"code", "ISO026"},
                          {"name", "missing-coordinate"},
-                         {"message", "no coordinate follows G01"},
+                         {"message", "no coordinate comes with G01"},
                          {"fix", nullptr},
                          {"path", nullptr}};
   for (const auto& [key, value] : expected.items()) EXPECT_EQ(json(findings[0][key]), value) << key;
@@ -200,7 +200,7 @@ TEST(IsolintJson, SpeaksTheReadersLanguageInMessagesAlone) {
   const json finding = findings_in(kBrokenProgram, {"--lang", "it"}).at(0);
   EXPECT_EQ(finding["severity"], "error");
   EXPECT_EQ(finding["name"], "missing-coordinate");
-  EXPECT_EQ(finding["message"], "alla G01 non segue alcuna quota");
+  EXPECT_EQ(finding["message"], "G01 senza alcuna quota");
 }
 
 constexpr std::string_view kForkedProgram =
@@ -258,7 +258,7 @@ TEST(IsolintLanguage, IsWhatTheOptionSays) {
   const Surroundings italian{.input = std::string(kBrokenProgram), .environment = {{"LC_ALL", "it_IT.UTF-8"}}};
   EXPECT_THAT(run_command({"isolint", "--lang", "en", "-"}, italian).out, StartsWith("error["));
   const CommandResult result = run_command({"isolint", "--lang", "it", "-"}, {.input = std::string(kBrokenProgram)});
-  EXPECT_THAT(result.out, StartsWith("errore[ISO026]: alla G01 non segue alcuna quota\n"));
+  EXPECT_THAT(result.out, StartsWith("errore[ISO026]: G01 senza alcuna quota\n"));
   EXPECT_EQ(result.err, "1 errore, 0 avvisi in 1 file\n");
 }
 

@@ -169,7 +169,7 @@ TEST(IsorunError, StopsTheProgramAsTheControlWould) {
       run_command({"isorun", "--trace", "-", "-"}, {.input = "M06 T101001\nG00 X10\nG01\nG00 X20\nM02\n"});
   EXPECT_EQ(result.status, 1);
   EXPECT_THAT(kinds_in(events_in(result.out)), ElementsAre("tool", "rapid"));
-  EXPECT_EQ(result.err, "<stdin>:3: error: no coordinate follows G01 [ISO026]\n");
+  EXPECT_EQ(result.err, "<stdin>:3: error: no coordinate comes with G01 [ISO026]\n");
 }
 
 TEST(IsorunError, IsToldBesideTheSummary) {
@@ -325,7 +325,7 @@ TEST(IsorunOutput, ThatCannotBeWrittenDoesNotHideTheErrorOfTheProgram) {
   const CommandResult result =
       run_command({"isorun", "-"}, {.input = std::string(kBrokenProgram), .standard_output = StandardOutput::FullDisk});
   EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(result.err, HasSubstr("<stdin>:3: error: no coordinate follows G01 [ISO026]\n"));
+  EXPECT_THAT(result.err, HasSubstr("<stdin>:3: error: no coordinate comes with G01 [ISO026]\n"));
 }
 
 TEST(IsorunInput, ThatCannotBeReadIsTrouble) {

@@ -12,7 +12,7 @@ namespace isocnc::fuzz {
 using analyzer::LocatedFinding;
 
 static void check_places(std::string_view text, const analyzer::Report& report) {
-  const syntax::Document document(analyzer::without_byte_order_mark(text));
+  const syntax::Document document(text);
   for (const LocatedFinding& located : report.findings) {
     require(located.line < document.line_count(), "findings stand on lines of the text");
     const std::size_t length = document.line(located.line).text.size();

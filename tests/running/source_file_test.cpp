@@ -115,8 +115,9 @@ class SourceFiles : public testing::Test {
   fs::path directory_;
 };
 
-TEST_F(SourceFiles, TextIsTheFileByteByByte) {
-  EXPECT_EQ(opened("\xEF\xBB\xBFG00 X1\r\n;\xE8\n\x1A"), "\xEF\xBB\xBFG00 X1\r\n;\xE8\n\x1A");
+TEST_F(SourceFiles, TextIsTheFileByteByByteBehindAByteOrderMark) {
+  EXPECT_EQ(opened("\xEF\xBB\xBFG00 X1\r\n;\xE8\n\x1A"), "G00 X1\r\n;\xE8\n\x1A");
+  EXPECT_EQ(opened("\xEF\xBB\xBF\xEF\xBB\xBFM02"), "\xEF\xBB\xBFM02");  // One is a mark, two are text.
 }
 
 TEST_F(SourceFiles, EmptyFileIsAnEmptyText) { EXPECT_EQ(opened(""), ""); }
