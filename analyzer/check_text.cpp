@@ -1,7 +1,7 @@
 #include "analyzer/check_text.h"
 
 #include <algorithm>
-#include <atomic>
+#include <condition_variable>
 #include <mutex>
 #include <thread>
 #include <unordered_map>
@@ -17,7 +17,9 @@ namespace isocnc::analyzer {
 using syntax::TreeStore;
 
 /// Text that is parsed in one go: its trees should stay in the cache until they are executed.
-static constexpr std::size_t kBatchBytes = 16 * 1024;
+static constexpr std::ptrdiff_t kBatchBytes = 16 * 1024;
+/// With several threads: so much that handing it over costs nothing beside it.
+static constexpr std::ptrdiff_t kSharedBatchBytes = 64 * 1024;
 
 namespace {
 
@@ -48,15 +50,22 @@ struct Batch {
   }
 };
 
-/// One pass over the text. Threads take batches in order, parse them side by side, and execute them one after another.
+/// One pass over the text. Threads parse batches side by side. Whoever has parsed the batch that is next to be
+/// executed, while nobody executes, does so, and goes on as long as the next one is there; the others parse ahead
+/// meanwhile.
 class Pass {
  public:
-  Pass(std::string_view text, const execution::Setup& setup, const JumpMap& jumps)
-      : next_(text.data()), end_(text.data() + text.size()), checker_(setup, jumps) {}
+  Pass(std::string_view text, const execution::Setup& setup, const JumpMap& jumps, int jobs)
+      : jobs_(jobs),
+        ring_(static_cast<std::size_t>(jobs == 1 ? 1 : kAhead * jobs)),
+        batch_bytes_(jobs == 1 ? kBatchBytes : kSharedBatchBytes),
+        next_(text.data()),
+        end_(text.data() + text.size()),
+        checker_(setup, jumps) {}
 
-  void run(int jobs) {
+  void run() {
     std::vector<std::thread> helpers;
-    for (int i = 1; i < jobs; ++i) helpers.emplace_back([this] { work(); });
+    for (int i = 1; i < jobs_; ++i) helpers.emplace_back([this] { work(); });
     work();
     for (std::thread& helper : helpers) helper.join();
   }
@@ -65,41 +74,61 @@ class Pass {
   Outcome take_outcome() { return std::move(outcome_); }
 
  private:
-  void work() {
+  /// A place in the ring: free, or being parsed, or waiting to be executed.
+  struct Slot {
     Batch batch;
-    while (!finished_.load(std::memory_order_relaxed)) {
-      const char* begin;
-      const char* batch_end;
-      std::uint64_t ticket;
-      {
-        const std::lock_guard lock(taking_);
-        if (next_ == end_) return;
-        begin = next_;
-        batch_end = syntax::skip_line_end(
-            syntax::find_line_end(next_ + std::min<std::ptrdiff_t>(kBatchBytes, end_ - next_), end_), end_);
-        next_ = batch_end;
-        ticket = next_ticket_++;
-      }
-      batch.parse(begin, batch_end, end_);
-      for (std::uint64_t turn = turn_.load(std::memory_order_acquire); turn != ticket;
-           turn = turn_.load(std::memory_order_acquire))
-        turn_.wait(turn, std::memory_order_acquire);
-      if (!finished_.load(std::memory_order_relaxed)) {
-        line_ = batch.check(checker_, line_, outcome_);
-        if (checker_.frontier.finished()) finished_.store(true, std::memory_order_relaxed);
-      }
-      turn_.store(ticket + 1, std::memory_order_release);
-      turn_.notify_all();
+    bool is_ready = false;
+  };
+
+  Slot& slot(std::uint64_t ticket) { return ring_[ticket % ring_.size()]; }
+
+  void work() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      may_take_.wait(lock, [&] { return finished_ || next_ == end_ || taken_ - executed_ < ring_.size(); });
+      if (finished_ || next_ == end_) return;
+      const char* const begin = next_;
+      const auto size = std::min<std::ptrdiff_t>(batch_bytes_, end_ - begin);
+      next_ = syntax::skip_line_end(syntax::find_line_end(begin + size, end_), end_);
+      const char* const batch_end = next_;
+      Slot& mine = slot(taken_++);
+      lock.unlock();
+      mine.batch.parse(begin, batch_end, end_);
+      lock.lock();
+      mine.is_ready = true;
+      if (!is_executing_) execute_what_is_ready(lock);
     }
   }
 
-  std::mutex taking_;
-  const char* next_;  // Guarded by taking_.
+  void execute_what_is_ready(std::unique_lock<std::mutex>& lock) {
+    is_executing_ = true;
+    while (!finished_ && executed_ < taken_ && slot(executed_).is_ready) {
+      Slot& due = slot(executed_);
+      lock.unlock();
+      line_ = due.batch.check(checker_, line_, outcome_);
+      lock.lock();
+      due.is_ready = false;
+      ++executed_;
+      finished_ = checker_.frontier.finished();
+      if (jobs_ > 1) may_take_.notify_all();
+    }
+    is_executing_ = false;
+  }
+
+  static constexpr int kAhead = 3;  // Batches for each thread.
+
+  const int jobs_;
+  std::mutex mutex_;  // Guards all below, but a slot that is not ready, and what is executed, are their thread's.
+  std::condition_variable may_take_;
+  std::vector<Slot> ring_;
+  const std::ptrdiff_t batch_bytes_;
+  const char* next_;
   const char* const end_;
-  std::uint64_t next_ticket_ = 0;  // Guarded by taking_.
-  std::atomic<std::uint64_t> turn_ = 0;
-  std::atomic<bool> finished_ = false;
-  Checker checker_;  // With line_ and outcome_: of the thread whose turn it is.
+  std::uint64_t taken_ = 0;
+  std::uint64_t executed_ = 0;
+  bool is_executing_ = false;
+  bool finished_ = false;
+  Checker checker_;
   std::uint64_t line_ = 0;
   Outcome outcome_;
 };
@@ -124,11 +153,11 @@ static std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> label_lines
 }
 
 Report check_text(std::string_view text, const execution::Setup& setup, int jobs) {
-  jobs = std::clamp<int>(jobs, 1, static_cast<int>(text.size() / kBatchBytes) + 1);
+  jobs = std::clamp<int>(jobs, 1, static_cast<int>(text.size() / kSharedBatchBytes) + 1);
   JumpMap jumps(text);
   for (;;) {
-    Pass pass(text, setup, jumps);
-    pass.run(jobs);
+    Pass pass(text, setup, jumps, jobs);
+    pass.run();
     std::vector<Outcome> outcomes;
     outcomes.push_back(pass.take_outcome());
     if (jumps.is_resolved() || all_jumps_land(outcomes.front(), jumps))

@@ -30,9 +30,6 @@ std::string codes_of(const Report& report) {
   return codes;
 }
 
-/// For the names of tests.
-void PrintTo(const DiagnosticDef& def, std::ostream* out) { *out << def.code; }
-
 class Table : public testing::TestWithParam<DiagnosticDef> {};
 
 TEST_P(Table, WrongProgramHasThisOneFindingAtItsMark) {
