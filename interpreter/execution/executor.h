@@ -1,7 +1,6 @@
 #pragma once
 
 #include <initializer_list>
-#include <optional>
 #include <string_view>
 
 #include "interpreter/execution/arguments.h"
@@ -48,17 +47,8 @@ class Executor {
   void apply_feed_without_motion();
 
   // motions.cpp
-  /// What run_plain() reads of a motion, mm. `moved` and `centered` have bit 0 for X and I, 1 for Y and J, 2 for Z and
-  /// K.
-  struct PlainMotion {
-    geometry::Pose start;
-    geometry::Vec3 center;  ///< From the start; where `centered` says so.
-    unsigned moved = 0;
-    unsigned centered = 0;
-    bool turns = false;  ///< B or C.
-    std::optional<double> radius;
-  };
-  bool is_sound_arc(const PlainMotion& motion) const;
+  void move_plainly(dialect::LetterSet given);
+  bool run_plain_arc(dialect::LetterSet given);
   void motion(const syntax::Instruction& instruction);
   bool motion_is_in_force(const Arguments& arguments);
   void report_strays(const Arguments& arguments, const dialect::GCode& code);

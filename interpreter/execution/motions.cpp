@@ -61,57 +61,27 @@ const Plane& plane_in_force(const State& state) {
   }
 }
 
-/// Most blocks of most programs, when nobody asks for effects: a rapid or a line, or a sound arc, with tool
-/// and feed known to be there. All that run() would do for them is to set the mode and move the axes.
+/// Most blocks of most programs, when nobody asks for effects: a rapid or a line, or a sound arc, with tool and feed
+/// known to be there. All that run() would do for them is to set the mode and move the axes.
 bool Executor::run_plain() {
-  if (sink_.wants_effects() || line_.instructions.size() != 1 || line_.spindle >= 0) return false;
+  const dialect::LetterSet given = line_.plain_arguments;
+  if ((given & dialect::kCoordinateLetters) == 0 || sink_.wants_effects()) return false;
   if (!state_.tool_selected || state_.unknown != 0) return false;
   const Instruction& instruction = line_.instructions.front();
-  std::uint8_t mode = state_.mode(dialect::ModalGroup::Motion);
-  std::uint16_t first = instruction.begin;
-  if (instruction.kind == InstructionKind::G) {
-    const GCode* const code = instruction.g();
-    if (!code || !code->is_motion() || instruction.command != first) return false;
-    mode = static_cast<std::uint8_t>(code->number);
-    ++first;
-  } else if (instruction.kind != InstructionKind::Continuation || mode == dialect::kNoMotion) {
-    return false;
-  }
+  const bool is_g = instruction.kind == InstructionKind::G;
+  const std::uint8_t mode =
+      is_g ? static_cast<std::uint8_t>(instruction.g()->number) : state_.mode(dialect::ModalGroup::Motion);
+  if (mode == dialect::kNoMotion) return false;
   const bool is_feed = mode != 0;
   const bool has_feed = line_.feed >= 0;
-  if (has_feed && (!is_feed || !(line_.words[static_cast<std::size_t>(line_.feed)].value > 0))) return false;
-  if (is_feed && !has_feed && (!state_.feed_given || state_.inverse_time())) return false;
-  PlainMotion motion{.start = state_.position};
-  geometry::Pose& position = state_.position;  // Written at once, and put back when there is more to the line.
-  const auto put_back = [&] {
-    position = motion.start;
-    return false;
-  };
-  const double scale = state_.mm_per_unit();
-  const bool incremental = state_.incremental();
-  for (std::uint16_t i = first; i < instruction.end; ++i) {
-    const syntax::Word& word = line_.words[i];
-    if (word.letter == 'F') continue;
-    if (word.owner != instruction.number || !std::isfinite(word.value)) return put_back();
-    const double value = word.value * scale;
-    if (const auto axis = static_cast<unsigned>(word.letter - 'X'); axis <= 2) {
-      position.tip[axis] = incremental ? position.tip[axis] + value : value;
-      motion.moved |= 1u << axis;
-    } else if (const auto center = static_cast<unsigned>(word.letter - 'I'); center <= 2) {
-      motion.center[center] = incremental ? value : value - motion.start.tip[center];
-      motion.centered |= 1u << center;
-    } else if (word.letter == 'R') {
-      motion.radius = value;
-    } else if ((word.letter == 'B' || word.letter == 'C') && mode <= 1 && state_.five_axis()) {
-      motion.turns = true;
-      double& angle = word.letter == 'B' ? position.b : position.c;
-      angle = incremental ? angle + word.value : word.value;
-    } else {
-      return put_back();
-    }
+  if (has_feed ? !is_feed : is_feed && (!state_.feed_given || state_.inverse_time())) return false;
+  if (mode > 1) {
+    if (!run_plain_arc(given)) return false;
+  } else {
+    static constexpr dialect::LetterSet kLinear = dialect::kLinearLetters;
+    if ((given & ~(state_.five_axis() ? kLinear | dialect::kRotaryLetters : kLinear)) != 0) return false;
+    move_plainly(given);
   }
-  if (motion.moved == 0 && !motion.turns) return put_back();
-  if (mode > 1 ? !is_sound_arc(motion) : motion.centered != 0 || motion.radius) return put_back();
   if (has_feed) take_feed();
   state_.set_mode(dialect::ModalGroup::Motion, mode);
   state_.exact_stop_fits = is_feed;
@@ -119,20 +89,49 @@ bool Executor::run_plain() {
   return true;
 }
 
-/// Of the motion from its start to the present position. No more than a first look: arc() has the last word on those
-/// that fail it.
-bool Executor::is_sound_arc(const PlainMotion& motion) const {
+/// Moves the axes of a plain line's coordinates.
+void Executor::move_plainly(dialect::LetterSet given) {
+  const double scale = state_.mm_per_unit();
+  const bool incremental = state_.incremental();
+  const bool turns = (given & dialect::kRotaryLetters) != 0;
+  for (const syntax::Word& word : line_.words) {
+    if (const auto axis = static_cast<unsigned>(word.letter - 'X'); axis <= 2) {
+      double& position = state_.position.tip[axis];
+      position = incremental ? position + word.value * scale : word.value * scale;
+    } else if (turns && (word.letter == 'B' || word.letter == 'C')) {
+      double& angle = word.letter == 'B' ? state_.position.b : state_.position.c;
+      angle = incremental ? angle + word.value : word.value;
+    }
+  }
+}
+
+/// Moves along a plain line's arc when a first look shows that it is sound; arc() has the last word on the others.
+bool Executor::run_plain_arc(dialect::LetterSet given) {
   const Plane& plane = plane_in_force(state_);
-  const auto has = [](unsigned set, int axis) { return (set >> axis & 1u) != 0; };
-  if (state_.face_mounted || has(motion.centered, plane.normal)) return false;
-  if (!has(motion.moved, plane.u) && !has(motion.moved, plane.v)) return false;
-  const geometry::Vec3& start = motion.start.tip;
-  const geometry::Vec3& target = state_.position.tip;
-  geometry::ArcGiven given{.end = {target[plane.u] - start[plane.u], target[plane.v] - start[plane.v]},
-                           .radius = motion.radius};
-  if (has(motion.centered, plane.u)) given.center_u = motion.center[plane.u];
-  if (has(motion.centered, plane.v)) given.center_v = motion.center[plane.v];
-  return geometry::surely_fits(given, setup_.arc_tolerance);
+  const auto has = [given](char letter) { return dialect::contains(given, letter); };
+  if ((given & dialect::kRotaryLetters) != 0 || state_.face_mounted || has(plane.stray_center)) return false;
+  if (!has(plane.u_letter) && !has(plane.v_letter)) return false;
+  const double scale = state_.mm_per_unit();
+  const bool incremental = state_.incremental();
+  geometry::ArcGiven arc;
+  for (const syntax::Word& word : line_.words) {
+    const double value = word.value * scale;
+    const auto from_start = [&](int axis) { return incremental ? value : value - state_.position.tip[axis]; };
+    if (word.letter == plane.u_letter) {
+      arc.end.u = from_start(plane.u);
+    } else if (word.letter == plane.v_letter) {
+      arc.end.v = from_start(plane.v);
+    } else if (word.letter == plane.u_center) {
+      arc.center_u = from_start(plane.u);
+    } else if (word.letter == plane.v_center) {
+      arc.center_v = from_start(plane.v);
+    } else if (word.letter == 'R') {
+      arc.radius = value;
+    }
+  }
+  if (!geometry::surely_fits(arc, setup_.arc_tolerance)) return false;
+  move_plainly(given);
+  return true;
 }
 
 void Executor::motion(const Instruction& instruction) {

@@ -117,6 +117,10 @@ struct LineTree {
   std::int32_t feed = -1;     ///< Index of the line's F, or -1.
   std::int32_t spindle = -1;  ///< Index of the line's S, or -1.
   std::uint8_t flags = 0;
+  /// Where the line is plain: the letters of its arguments. Plain is one motion, by a G of 0 to 3 or by coordinates
+  /// alone, and beside it N, F and comments at most; every value is finite, every argument the motion's. Most such
+  /// lines are known to be so, not all: it only helps to execute them quickly.
+  dialect::LetterSet plain_arguments = 0;
 
   constexpr bool has(std::uint8_t flag) const { return (flags & flag) != 0; }
   constexpr bool has_label() const { return has(kHasLabel); }

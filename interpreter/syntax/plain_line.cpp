@@ -1,4 +1,5 @@
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "interpreter/syntax/characters.h"
@@ -52,7 +53,7 @@ bool scan_long_number(const char* p, const char* end, Number& number) {
   number = scan_number(p, end);
   const bool has_more_inside =
       number.end - p != number.digits + (number.is_signed ? 1 : 0) + (number.has_point ? 1 : 0);
-  return !number.malformed && !has_more_inside;
+  return std::isfinite(number.value) && !has_more_inside;
 }
 
 }  // namespace
@@ -141,6 +142,7 @@ complete:
   added.words = count;
   added.feed = feed;
   added.comments = static_cast<std::uint32_t>(comments_.size() - first_comment);
+  added.plain_arguments = taken;
   if (has_label) {
     added.flags = LineTree::kHasLabel;
     added.label = static_cast<std::uint64_t>(words[0].value);

@@ -33,7 +33,8 @@ class TreeStore {
             .label = line.label,
             .feed = line.feed,
             .spindle = line.spindle,
-            .flags = line.flags};
+            .flags = line.flags,
+            .plain_arguments = line.plain_arguments};
   }
   /// Bytes of the line's text.
   std::uint32_t length(std::size_t index) const { return lines_[index].length; }
@@ -61,6 +62,7 @@ class TreeStore {
     std::int32_t spindle = -1;
     std::uint64_t label = 0;
     std::uint8_t flags = 0;
+    dialect::LetterSet plain_arguments = 0;
   };
 
   Buffer<Line> lines_;
