@@ -1,8 +1,14 @@
 #include "analyzer/jump_map.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
+#include <optional>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
@@ -43,12 +49,43 @@ static bool may_belong_to_goto(std::string_view text, std::size_t offset) {
 /// Letters without which a line holds no assignment and no jump, and without which it holds no label.
 static constexpr std::uint8_t kKeywordLetter = 1;
 static constexpr std::uint8_t kLabelLetter = 2;
+static constexpr std::uint8_t kLineEnd = 4;
 static constexpr auto kLetters = [] {
   std::array<std::uint8_t, 256> letters{};
   for (const char letter : {'V', 'v', 'O', 'o', 'n'}) letters[static_cast<unsigned char>(letter)] = kKeywordLetter;
   letters['N'] = kLabelLetter;
+  letters['\r'] = letters['\n'] = kLineEnd;
   return letters;
 }();
+
+/// The line number of a line that begins with one, as most that have one do. Nothing for any other line, and where it
+/// takes a closer look.
+static std::optional<std::uint64_t> plain_label(std::string_view line) {
+  if (line.size() < 3 || line[0] != 'N' || !syntax::is_digit(line[1])) return std::nullopt;
+  std::uint64_t label = 0;
+  std::size_t at = 1;
+  while (at < line.size() && syntax::is_digit(line[at]))
+    label = label * 10 + static_cast<std::uint64_t>(line[at++] - '0');
+  const bool is_plain = at <= 15 && at + 1 < line.size() && line[at] == ' ' &&
+                        syntax::char_class(line[at + 1]) == syntax::CharClass::Letter;
+  if (!is_plain || line.find('N', at) != std::string_view::npos) return std::nullopt;
+  return label;
+}
+
+/// The first letter at or behind `p` that may make its line an event for registers, or `end`.
+static const char* next_telling_letter(const char* p, const char* end) {
+#ifdef __SSE2__
+  for (; end - p >= 16; p += 16) {
+    const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
+    const __m128i n_or_o = _mm_cmpeq_epi8(_mm_or_si128(bytes, _mm_set1_epi8(0x21)), _mm_set1_epi8('o'));
+    const __m128i v = _mm_cmpeq_epi8(_mm_or_si128(bytes, _mm_set1_epi8(0x20)), _mm_set1_epi8('v'));
+    const auto found = static_cast<unsigned>(_mm_movemask_epi8(_mm_or_si128(n_or_o, v)));
+    if (found != 0) return p + std::countr_zero(found);
+  }
+#endif
+  while (p != end && (kLetters[static_cast<unsigned char>(*p)] & ~kLineEnd) == 0) ++p;
+  return p;
+}
 
 JumpMap::JumpMap(std::string_view text) {
   LineCounter counter(text);
@@ -75,41 +112,40 @@ JumpMap::JumpMap(std::string_view text) {
     if (upper_case < at) upper_case = next_o(at, 'O');
     if (lower_case < at) lower_case = next_o(at, 'o');
   }
-  if (compares_registers()) {
-    const char* const end = text.data() + text.size();
-    for (const char* p = text.data(); p != end;) {
-      const char* line_end = p;
-      std::uint8_t letters = 0;
-      while (line_end != end && !syntax::is_line_end(*line_end))
-        letters |= kLetters[static_cast<unsigned char>(*line_end++)];
-      const std::string_view line(p, static_cast<std::size_t>(line_end - p));
-      if ((letters & kKeywordLetter) != 0 || ((letters & kLabelLetter) != 0 && may_be_target(line))) {
-        store.clear();
-        store.append_line(p, line_end);
-        note_registers(store.tree(0, p));
-      }
-      p = syntax::skip_line_end(line_end, end);
-    }
-  }
+  if (compares_registers()) note_all_registers(text);
   complete();
 }
 
-/// Whether a line with an N may hold the label of a jump. Cheap, and wrong only on the side of yes.
-bool JumpMap::may_be_target(std::string_view line) const {
-  const std::size_t at = line.find('N');
-  std::uint64_t label = 0;
-  std::size_t digits = at + 1;
-  while (digits < line.size() && syntax::is_digit(line[digits]))
-    label = label * 10 + static_cast<std::uint64_t>(line[digits++] - '0');
-  const bool plain = digits > at + 1 && digits - at <= 15 && digits < line.size() && syntax::is_blank(line[digits]) &&
-                     digits + 1 < line.size() && syntax::char_class(line[digits + 1]) == syntax::CharClass::Letter;
-  return !plain || may_name(label) || line.find('N', at + 1) != std::string_view::npos;
+/// Gathers the assignments, labels and jumps of the program.
+void JumpMap::note_all_registers(std::string_view text) {
+  syntax::TreeStore store;
+  const char* const end = text.data() + text.size();
+  for (const char* p = text.data(); (p = next_telling_letter(p, end)) != end;) {
+    const char* begin = p;
+    while (begin != text.data() && !syntax::is_line_end(begin[-1])) --begin;
+    const char* line_end = p;
+    std::uint8_t letters = 0;
+    for (; line_end != end; ++line_end) {
+      const std::uint8_t letter = kLetters[static_cast<unsigned char>(*line_end)];
+      if (letter == kLineEnd) break;
+      letters |= letter;
+    }
+    const std::string_view line(begin, static_cast<std::size_t>(line_end - begin));
+    if (const auto label = letters == kLabelLetter ? plain_label(line) : std::nullopt) {
+      if (names(*label)) events_.push_back({Event::Kind::Label, 0, *label});
+    } else {
+      store.clear();
+      store.append_line(begin, end);
+      note_registers(store.tree(0, begin));
+    }
+    p = syntax::skip_line_end(line_end, end);
+  }
 }
 
 void JumpMap::add(std::uint64_t line, const syntax::Jump& jump) {
   sites_.push_back({line, jump});
   targets_.insert(jump.target);
-  filter_.resize(1024);
+  filter_.resize(16384);
   const std::size_t bit = filter_bit(jump.target);
   filter_[bit / 64] |= std::uint64_t{1} << (bit % 64);
   if (jump.variable <= 0 || !jump.condition_is_known()) return;

@@ -62,16 +62,16 @@ class JumpMap {
 
  private:
   // Most line numbers are no targets; one bit by a hash of the number tells most of them apart.
-  static std::size_t filter_bit(std::uint64_t label) { return (label * 0x9E3779B97F4A7C15ULL) >> 48; }
+  void note_all_registers(std::string_view text);
+  static std::size_t filter_bit(std::uint64_t label) { return (label * 0x9E3779B97F4A7C15ULL) >> 44; }
   bool may_name(std::uint64_t label) const {
     const std::size_t bit = filter_bit(label);
     return !filter_.empty() && (filter_[bit / 64] >> (bit % 64) & 1) != 0;
   }
-  bool may_be_target(std::string_view line) const;
 
   std::vector<Site> sites_;
   std::unordered_set<std::uint64_t> targets_;
-  std::vector<std::uint64_t> filter_;  // 65,536 bits, once there is a jump.
+  std::vector<std::uint64_t> filter_;  // 1,048,576 bits, once there is a jump.
   std::array<std::vector<double>, dialect::kRegisterCount + 1> constants_;
   std::vector<int> compared_;
   struct Event {

@@ -116,6 +116,7 @@ void Valuations::assign(int reg, double value, const JumpMap& jumps) {
   const std::optional<std::size_t> index = index_of(reg, jumps);
   if (!index) return;
   const ValueSet assigned = ValueSet::of(value, jumps.constants(reg));
+  known_ |= register_bit(reg);
   if (all_.size() == 1) {
     all_.front()[*index] = assigned;
     return;
@@ -138,6 +139,7 @@ Valuations Valuations::where(const syntax::Jump& jump, bool holds, const JumpMap
   const Comparison comparison = holds ? jump.comparison : kOpposites[static_cast<std::size_t>(jump.comparison)];
   const ValueSet wanted = ValueSet::satisfying(comparison, jump.value, jumps.constants(jump.variable));
   Valuations result;
+  result.known_ = known_ | register_bit(jump.variable);
   for (const Valuation& valuation : all_) {
     ValueSet remaining = valuation[*index].intersected(wanted);
     if (remaining.empty()) continue;
@@ -149,21 +151,24 @@ Valuations Valuations::where(const syntax::Jump& jump, bool holds, const JumpMap
 }
 
 void Valuations::unite(const Valuations& other) {
+  known_ |= other.known_;
   for (const Valuation& valuation : other.all_) add(valuation);
 }
 
 void Valuations::keep_only(RegisterSet read, const JumpMap& jumps) {
+  if ((known_ & ~read) == 0) return;
   const std::vector<int>& compared = jumps.compared_registers();
   bool changed = false;
   for (std::size_t k = 0; k < compared.size(); ++k) {
-    if ((read & register_bit(compared[k])) != 0) continue;
-    const ValueSet everything = ValueSet::everything(jumps.constants(compared[k]).size());
+    if ((known_ & ~read & register_bit(compared[k])) == 0) continue;
+    const std::size_t constants = jumps.constants(compared[k]).size();
     for (Valuation& valuation : all_) {
-      if (valuation[k] == everything) continue;
-      valuation[k] = everything;
+      if (valuation[k].is_everything(constants)) continue;
+      valuation[k] = ValueSet::everything(constants);
       changed = true;
     }
   }
+  known_ &= read;
   if (!changed || all_.size() < 2) return;
   std::vector<Valuation> before;
   before.swap(all_);

@@ -18,6 +18,7 @@ class ValueSet {
   /// The values for which `value comparison constant` holds.
   static ValueSet satisfying(syntax::Comparison comparison, double constant, const std::vector<double>& constants);
 
+  bool is_everything(std::size_t constants) const { return head_.first == 0 && head_.last == 2 * constants; }
   bool empty() const { return head_.first > head_.last; }
   ValueSet intersected(const ValueSet& other) const;
   ValueSet united(const ValueSet& other) const;
@@ -64,12 +65,13 @@ class Valuations {
   /// Drops all but the first `limit`: what the others would lead to is not followed.
   void reduce_to(std::size_t limit);
 
-  friend bool operator==(const Valuations&, const Valuations&) = default;
+  friend bool operator==(const Valuations& a, const Valuations& b) { return a.all_ == b.all_; }
 
  private:
   void add(Valuation valuation);
 
   std::vector<Valuation> all_;
+  RegisterSet known_ = 0;  ///< Registers of which something may be known in some valuation; of the others nothing is.
 };
 
 }  // namespace isocnc::analyzer

@@ -58,6 +58,53 @@ bool scan_long_number(const char* p, const char* end, Number& number) {
 
 }  // namespace
 
+/// The same for a line of nothing but `V7 = 12.215`: programs that use registers at all use them a lot.
+const char* TreeStore::append_plain_assignment(const char* begin, const char* end) {
+  const auto skip_blanks = [end](const char* p) {
+    while (p != end && is_blank(*p)) ++p;
+    return p;
+  };
+  const char* const digits = begin + 1;
+  Number name;
+  Number value;
+  if (end - digits < kShortNumberBytes || !scan_short_number(digits, name) || name.is_signed || name.has_point ||
+      !(name.value >= 1 && name.value <= dialect::kRegisterCount))
+    return nullptr;
+  const char* const equals = skip_blanks(name.end);
+  if (equals == end || *equals != '=') return nullptr;
+  const char* const number = skip_blanks(equals + 1);
+  if (end - number < kShortNumberBytes || !scan_short_number(number, value)) return nullptr;
+  const char* const line_end = skip_blanks(value.end);
+  if (line_end == end || !is_line_end(*line_end)) return nullptr;
+
+  Line& added = lines_.push_back(Line{});
+  added.length = static_cast<std::uint32_t>(line_end - begin);
+  added.first_word = static_cast<std::uint32_t>(words_.size());
+  added.first_instruction = static_cast<std::uint32_t>(instructions_.size());
+  added.first_comment = static_cast<std::uint32_t>(comments_.size());
+  added.first_finding = static_cast<std::uint32_t>(findings_.size());
+  added.words = 2;
+  added.instructions = 1;
+  const auto column = [begin](const char* p) { return static_cast<std::uint32_t>(p - begin); };
+  words_.push_back({.value = name.value,
+                    .begin = 0,
+                    .end = column(name.end),
+                    .digits = name.digits,
+                    .owner = 0,
+                    .letter = 'V',
+                    .flags = 0});
+  words_.push_back({.value = value.value,
+                    .begin = column(equals),
+                    .end = column(value.end),
+                    .digits = value.digits,
+                    .owner = 0,
+                    .letter = kAssign,
+                    .flags = static_cast<std::uint8_t>((value.is_signed ? Word::kSigned : 0) |
+                                                       (value.has_point ? Word::kPoint : 0))});
+  instructions_.push_back({.kind = InstructionKind::Assignment, .flags = Instruction::kFirst, .end = 2});
+  return line_end;
+}
+
 /// Most lines of most programs hold at most an N, a motion G, coordinates and F, each once and well written. They are
 /// parsed in one go, into the very tree that the general way gives them. Null, with nothing changed, for any other
 /// line.
@@ -81,6 +128,7 @@ const char* TreeStore::append_plain_line(const char* begin, const char* end) {
         continue;
       }
       if (is_line_end(*p)) goto complete;
+      if (p == begin && upper(*p) == 'V') return append_plain_assignment(begin, end);
       const char* const behind_it = *p == ';' || *p == '(' ? behind_comment(p, end) : nullptr;
       if (!behind_it) break;
       comments_.push_back({static_cast<std::uint32_t>(p - begin), static_cast<std::uint32_t>(behind_it - begin)});

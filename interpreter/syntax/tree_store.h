@@ -46,6 +46,7 @@ class TreeStore {
   friend class LineParser;
 
   const char* append_plain_line(const char* begin, const char* end);
+  const char* append_plain_assignment(const char* begin, const char* end);
 
   struct Line {
     std::uint32_t length = 0;
