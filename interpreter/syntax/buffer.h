@@ -35,12 +35,13 @@ class Buffer {
   T& back() { return data_[size_ - 1]; }
 
   /// Where `count` more elements can be written; add() makes them part of the row.
-  T* room_for(std::size_t count) {
-    if (size_ + count > capacity_) grow(count);
+  [[gnu::always_inline]] T* room_for(std::size_t count) {
+    if (size_ + count > capacity_) [[unlikely]]
+      grow(count);
     return data_.get() + size_;
   }
   void add(std::size_t count) { size_ += count; }
-  T& push_back(const T& value) {
+  [[gnu::always_inline]] T& push_back(const T& value) {
     T* const place = room_for(1);
     *place = value;
     ++size_;
@@ -54,7 +55,7 @@ class Buffer {
   void clear() { size_ = 0; }
 
  private:
-  void grow(std::size_t count) {
+  [[gnu::noinline]] void grow(std::size_t count) {
     const std::size_t capacity = std::max(2 * capacity_, size_ + count);
     auto larger = std::make_unique_for_overwrite<T[]>(capacity);
     std::copy_n(data_.get(), size_, larger.get());

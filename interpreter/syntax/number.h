@@ -35,7 +35,7 @@ inline constexpr std::ptrdiff_t kShortNumberBytes = 9;
 /// Reads a number of at most seven characters behind its sign, without anything inside; false when it is another. Does
 /// not look at what follows. Eight bytes are taken at once, and nothing branches on how many of them are digits, which
 /// no processor can guess.
-inline bool scan_short_number(const char* p, Number& number) {
+[[gnu::always_inline]] inline bool scan_short_number(const char* p, Number& number) {
   static_assert(std::endian::native == std::endian::little);
   // + is 0x2B and - is 0x2D. A comparison would branch.
   const auto from_plus = static_cast<std::uint32_t>(static_cast<unsigned char>(*p - '+'));

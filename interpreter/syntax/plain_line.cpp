@@ -128,7 +128,6 @@ const char* TreeStore::append_plain_line(const char* begin, const char* end) {
         continue;
       }
       if (is_line_end(*p)) goto complete;
-      if (p == begin && upper(*p) == 'V') return append_plain_assignment(begin, end);
       const char* const behind_it = *p == ';' || *p == '(' ? behind_comment(p, end) : nullptr;
       if (!behind_it) break;
       comments_.push_back({static_cast<std::uint32_t>(p - begin), static_cast<std::uint32_t>(behind_it - begin)});

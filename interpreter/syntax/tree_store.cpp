@@ -1,11 +1,13 @@
 #include "interpreter/syntax/tree_store.h"
 
+#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/line_parser.h"
 
 namespace isocnc::syntax {
 
-const char* TreeStore::append_line(const char* begin, const char* end) {
-  if (const char* const line_end = append_plain_line(begin, end)) return line_end;
+const char* TreeStore::append_rarer_line(const char* begin, const char* end) {
+  if (begin != end && upper(*begin) == 'V')
+    if (const char* const line_end = append_plain_assignment(begin, end)) return line_end;
   return append_any_line(begin, end);
 }
 

@@ -15,7 +15,10 @@ class TreeStore {
  public:
   /// Parses the line that starts at `begin` and appends its tree. Returns where the line's text ends: at its CR or LF,
   /// or at `end`. Reads nothing beyond.
-  const char* append_line(const char* begin, const char* end);
+  const char* append_line(const char* begin, const char* end) {
+    const char* const line_end = append_plain_line(begin, end);
+    return line_end ? line_end : append_rarer_line(begin, end);
+  }
   /// Appends a copy of another store's tree, without parsing.
   void append_copy(const TreeStore& other, std::size_t index);
   void clear();
@@ -46,6 +49,7 @@ class TreeStore {
   friend class LineParser;
 
   const char* append_plain_line(const char* begin, const char* end);
+  const char* append_rarer_line(const char* begin, const char* end);
   const char* append_plain_assignment(const char* begin, const char* end);
 
   struct Line {
