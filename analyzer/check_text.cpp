@@ -23,6 +23,9 @@ static constexpr std::ptrdiff_t kSharedBatchBytes = 64 * 1024;
 
 namespace {
 
+/// Nothing below is executed, and nothing is left to say of that.
+bool is_over(const Frontier& frontier) { return frontier.finished() && frontier.dead_told; }
+
 /// Lines that have been parsed, not yet executed.
 struct Batch {
   const char* text = nullptr;
@@ -42,7 +45,7 @@ struct Batch {
     const char* p = text;
     for (std::size_t i = 0; i < trees.size(); ++i) {
       checker.check(trees.tree(i, p), line++, outcome);
-      if (checker.frontier.finished()) return line;
+      if (is_over(checker.frontier)) return line;
       p += trees.length(i);
       if (i + 1 < trees.size()) p = syntax::skip_line_end(p, text + size);
     }
@@ -109,7 +112,7 @@ class Pass {
       lock.lock();
       due.is_ready = false;
       ++executed_;
-      finished_ = checker_.frontier.finished();
+      finished_ = is_over(checker_.frontier);
       if (jobs_ > 1) may_take_.notify_all();
     }
     is_executing_ = false;

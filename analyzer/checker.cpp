@@ -4,6 +4,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "analyzer/rules/rule.h"
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
 
@@ -29,12 +30,17 @@ void Outcome::clear() { *this = Outcome{}; }
 /// Listens to one execution: findings to a place, assignments to the group's registers.
 class Checker::Listener final : public execution::Sink {
  public:
-  Listener(std::uint64_t line, Outcome& outcome) : Sink(false), line_(line), outcome_(outcome) {}
+  Listener(std::uint64_t line, const execution::Setup& setup, Outcome& outcome)
+      : Sink(false), line_(line), setup_(setup), outcome_(outcome) {}
 
   void report(const Finding& finding) override { outcome_.findings.push_back({line_, finding}); }
+  void arc_fits(const geometry::Circle& circle, syntax::Span span) override {
+    rules::judge_arc(circle, span, setup_, *this);
+  }
 
  private:
   std::uint64_t line_;
+  const execution::Setup& setup_;
   Outcome& outcome_;
 };
 
@@ -56,14 +62,20 @@ static void sort_by_column(std::vector<LocatedFinding>& findings, std::size_t fi
 
 /// A program without jumps has one path and one state.
 void Checker::check_straight(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
-  if (frontier.live.empty()) return;
+  if (frontier.live.empty()) return tell_of_dead_code(line, line_number, outcome);
+  execution::State& state = frontier.live[0].state;
+  Listener listener(line_number, setup_, outcome);
+  if (execution::execute_plain(line, state, setup_, listener)) return;
   const std::size_t first = outcome.findings.size();
   for (const Finding& finding : line.findings) outcome.findings.push_back({line_number, finding});
-  execution::State& state = frontier.live[0].state;
-  Listener listener(line_number, outcome);
+  if (line.is_empty()) return;
+  const execution::State before = state;
   execution::execute(line, state, setup_, listener);
+  if (outcome.findings.size() == first) rules::ask_all({line, before, state, setup_}, listener);
   if (outcome.findings.size() > first + 1) sort_by_column(outcome.findings, first);
-  if (state.ended) frontier.live.clear();
+  if (!state.ended) return;
+  frontier.live.clear();
+  frontier.dead_told = outcome.findings.size() > first;  // M02 on a wrong line may not be meant as the end.
 }
 
 void Checker::check(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
@@ -76,14 +88,28 @@ void Checker::check(const LineTree& line, std::uint64_t line_number, Outcome& ou
   Groups& live = frontier.live;
   if (live.empty()) {
     if (line.jump && line.jump->has_target) ++frontier.next_jump;
-    return;
+    return tell_of_dead_code(line, line_number, outcome);
   }
+  frontier.dead_told = false;
   const std::size_t first = outcome.findings.size();
   for (const Finding& finding : line.findings) outcome.findings.push_back({line_number, finding});
   execute_in_all_groups(line, line_number, outcome);
   if (line.jump && line.jump->has_target) branch(line, line_number, outcome);
   sort_by_column(outcome.findings, first);
-  if (!live.empty() && live[0].state.ended) live.clear();  // M02 ends every path through it.
+  if (live.empty() || !live[0].state.ended) return;
+  live.clear();                                          // M02 ends every path through it.
+  frontier.dead_told = outcome.findings.size() > first;  // On a wrong line it may not be meant as the end.
+}
+
+/// Lines on no feasible path are never read, and nothing is said of them but that, at the first (D51).
+void Checker::tell_of_dead_code(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+  if (frontier.dead_told || line.is_empty()) return;
+  frontier.dead_told = true;
+  if (frontier.reduced) return;  // A path that is not followed may lead here.
+  syntax::Span span;
+  for (const syntax::Word& word : line.words)
+    if (word.letter != 'N') span = span.empty() ? word.span() : syntax::hull(span, word.span());
+  outcome.findings.push_back({line_number, {.id = "never-runs"_diag, .span = span}});
 }
 
 /// A label: paths that jumped here go on from here, on every feasible path or not.
@@ -108,6 +134,9 @@ void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_num
      public:
       GroupListener(Checker& checker, std::size_t group) : Sink(false), checker_(checker), group_(group) {}
       void report(const Finding& finding) override { checker_.group_findings_.push_back({finding, group_}); }
+      void arc_fits(const geometry::Circle& circle, syntax::Span span) override {
+        rules::judge_arc(circle, span, checker_.setup_, *this);
+      }
       void assign(int reg, double value) override {
         checker_.frontier.live[group_].registers.assign(reg, value, checker_.jumps_);
       }
@@ -119,7 +148,13 @@ void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_num
     group_findings_.clear();
     for (std::size_t i = 0; i < live.size(); ++i) {
       GroupListener listener(*this, i);
-      execution::execute(line, live[i].state, setup_, listener);
+      execution::State& state = live[i].state;
+      if (execution::execute_plain(line, state, setup_, listener)) continue;
+      const std::size_t first = group_findings_.size();
+      const execution::State before = state;
+      execution::execute(line, state, setup_, listener);
+      if (group_findings_.size() == first && line.findings.empty())
+        rules::ask_all({line, before, state, setup_}, listener);
     }
     if (!group_findings_.empty()) report_common_findings(line_number, outcome);
   }
@@ -183,6 +218,8 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
       return;
   }
   Groups staying;
+  bool may_jump = false;
+  bool may_stay = false;
   const auto decide = [&](Path path, bool taken) {
     path.insert(path.begin(), {ordinal, taken});
     if (path.size() > kLongestPath) path.pop_back();
@@ -197,6 +234,8 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
       where_false.keep_only(jumps_.read_behind(ordinal), jumps_);
     }
     const bool both = where_true.possible() && where_false.possible();
+    may_jump |= where_true.possible();
+    may_stay |= where_false.possible();
     if (where_true.possible()) {
       Groups& waiting = frontier.waiting[jump.target];
       waiting.add({group.state, std::move(where_true), both ? decide(group.path, true) : group.path});
@@ -210,6 +249,8 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
                  both ? decide(std::move(group.path), false) : std::move(group.path)});
   }
   frontier.live = std::move(staying);
+  if (may_jump != may_stay && !frontier.reduced)
+    outcome.findings.push_back({line_number, {.id = "condition-decided"_diag, .span = jump.if_span}});
   if (frontier.waiting.size() > kMostWaiting) {
     frontier.waiting.erase(std::prev(frontier.waiting.end()));
     admit_reduction(line, line_number, outcome);

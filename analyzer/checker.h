@@ -51,6 +51,7 @@ class Checker {
   class Listener;
 
   void check_straight(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
+  void tell_of_dead_code(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void arrive(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void execute_in_all_groups(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void report_common_findings(std::uint64_t line_number, Outcome& outcome);

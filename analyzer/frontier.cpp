@@ -25,6 +25,7 @@ static Path common_decisions(const Path& a, const Path& b) {
 
 static void join(Group& into, const Group& other) {
   into.registers.unite(other.registers);
+  into.state.knowledge &= other.state.knowledge;
   into.path = common_decisions(into.path, other.path);
 }
 

@@ -53,6 +53,7 @@ struct Frontier {
   std::map<std::uint64_t, Groups> waiting;  ///< Jumped ahead, by label.
   std::uint32_t next_jump = 0;              ///< How many IFs with a label have been passed.
   std::uint32_t spread = 0;                 ///< How much work more than one live group has cost lately.
+  bool dead_told = false;                   ///< No path leads here, which has been said (W116).
   bool reduced = false;                     ///< Too many states once: some are not followed (W191).
 
   /// The whole program has been checked: no path goes on.

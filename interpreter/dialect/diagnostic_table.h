@@ -1251,6 +1251,265 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
                            "movimento a cui serve."},
      .wrong = "M06 T101001\nG93 G01 X10 F4\nG00 Z5 [!F4!]\nM02\n",
      .right = "M06 T101001\nG93 G01 X10 F4\nG00 Z5\nM02\n"},
+    {.code = "W101",
+     .name = "modal-group-twice",
+     .severity = Severity::Warning,
+     .section = "I.3",
+     .arguments = {},
+     .title = {.en = "Two Gs of one modal group", .it = "Due G dello stesso gruppo modale"},
+     .message = {.en = "{text} replaces a G of the same modal group on this line",
+                 .it = "{text} sostituisce un'altra G dello stesso gruppo modale sulla stessa linea"},
+     .explanation = {.en = "Of two Gs of one modal group only the one written last stays in force, so the other one "
+                           "does nothing. Delete the one that is not wanted. No false alarms are known.",
+                     .it = "Di due G dello stesso gruppo modale resta in presa solo l'ultima scritta, quindi l'altra "
+                           "non serve. Togliere quella di troppo. Non si conoscono falsi allarmi."},
+     .wrong = "M06 T101001\nG90 [!G91!]\nG00 X10\nM02\n",
+     .right = "M06 T101001\nG91\nG00 X10\nM02\n"},
+    {.code = "W102",
+     .name = "spindle-stopped-feed",
+     .severity = Severity::Warning,
+     .section = "I.4.2",
+     .arguments = {},
+     .title = {.en = "Feed move with the spindle stopped", .it = "Lavorazione a mandrino fermo"},
+     .message = {.en = "feed move after M05: the spindle does not turn",
+                 .it = "movimento in lavoro dopo la M05: il mandrino è fermo"},
+     .explanation = {.en = "The spindle was stopped with M05, and nothing has started it since this feed move: in the "
+                           "material the tool breaks. Write M03 or M04 with its S before it. A false alarm where a "
+                           "probe or a drag knife is moved with the spindle stopped.",
+                     .it =
+                         "Il mandrino è stato fermato con la M05 e nulla l'ha riavviato prima di questo movimento: nel "
+                         "materiale l'utensile si rompe. Scrivere prima una M03 o una M04 con la sua S. Falso allarme "
+                         "se si lavora apposta a mandrino fermo, per esempio con un tastatore o una lama trascinata."},
+     .wrong = "M06 T101001\nS12000 M03\nG01 X10 F1000\nM05\n[!X20!]\nM02\n",
+     .right = "M06 T101001\nS12000 M03\nG01 X10 F1000\nM05\nG00 X20\nM02\n"},
+    {.code = "W103",
+     .name = "spindle-without-speed",
+     .severity = Severity::Warning,
+     .section = "I.4.2",
+     .arguments = {},
+     .title = {.en = "Spindle started without a speed", .it = "Mandrino avviato senza velocità"},
+     .message = {.en = "{text} starts the spindle, but no S has been given yet",
+                 .it = "{text} avvia il mandrino, ma nessuna S è stata ancora data"},
+     .explanation = {.en = "The spindle is started before any S says how fast. Write S on this line or before it. A "
+                           "false alarm where the machine keeps a speed of its own.",
+                     .it = "Il mandrino viene avviato prima che una S ne dica la velocità. Scrivere la S su questa "
+                           "linea o prima. Falso allarme se la macchina ha una sua velocità di partenza."},
+     .wrong = "M06 T101001\n[!M03!]\nM05\nM02\n",
+     .right = "M06 T101001\nS12000 M03\nM05\nM02\n"},
+    {.code = "W104",
+     .name = "spindle-reversed",
+     .severity = Severity::Warning,
+     .section = "I.4.2",
+     .arguments = {},
+     .title = {.en = "Spindle reversed while it turns", .it = "Inversione a mandrino in moto"},
+     .message = {.en = "{text} reverses the spindle while it turns the other way",
+                 .it = "{text} inverte il mandrino mentre gira nell'altro verso"},
+     .explanation = {.en = "The spindle has to stop before it can turn the other way, and not every drive does so by "
+                           "itself. Write M05 first. A false alarm where the drive reverses without harm.",
+                     .it =
+                         "Il mandrino deve fermarsi prima di girare nell'altro verso, e non tutti gli azionamenti lo "
+                         "fanno da soli. Scrivere prima una M05. Falso allarme se l'azionamento inverte senza danni."},
+     .wrong = "M06 T101001\nS12000 M03\n[!M04!]\nM05\nM02\n",
+     .right = "M06 T101001\nS12000 M03\nM05\nM04\nM05\nM02\n"},
+    {.code = "W105",
+     .name = "tool-change-with-spindle-on",
+     .severity = Severity::Warning,
+     .section = "I.4.3",
+     .arguments = {},
+     .title = {.en = "Tool change with the spindle running", .it = "Cambio utensile a mandrino in moto"},
+     .message = {.en = "tool change while the spindle is running", .it = "cambio utensile con il mandrino in moto"},
+     .explanation =
+         {.en = "Neither M03 nor M04 has been ended with M05 before this tool change. Write M05 before it. A false "
+                "alarm where the machine's own tool change stops the spindle.",
+          .it = "Prima di questo cambio utensile la M03 o la M04 non è stata chiusa da una M05. Scrivere prima la M05. "
+                "Falso allarme se il ciclo di cambio utensile della macchina ferma da sé il mandrino."},
+     .wrong = "M06 T101001\nS12000 M03\n[!M06!] T101002\nM05\nM02\n",
+     .right = "M06 T101001\nS12000 M03\nM05\nM06 T101002\nM02\n"},
+    {.code = "W106",
+     .name = "end-with-spindle-on",
+     .severity = Severity::Warning,
+     .section = "I.4.1",
+     .arguments = {},
+     .title = {.en = "Program end with the spindle running", .it = "Fine programma a mandrino in moto"},
+     .message = {.en = "the program ends with the spindle running",
+                 .it = "il programma finisce con il mandrino in moto"},
+     .explanation = {.en = "Nothing stops the spindle before the end of the program. Write M05 before M02. A false "
+                           "alarm where the machine stops the spindle at M02 by itself.",
+                     .it = "Nulla ferma il mandrino prima della fine del programma. Scrivere la M05 prima della M02. "
+                           "Falso allarme se alla M02 la macchina ferma da sé il mandrino."},
+     .wrong = "M06 T101001\nS12000 M03\n[!M02!]\n",
+     .right = "M06 T101001\nS12000 M03\nM05\nM02\n"},
+    {.code = "W107",
+     .name = "end-with-face-mounted",
+     .severity = Severity::Warning,
+     .section = "I.3.2",
+     .arguments = {},
+     .title = {.en = "Program end with a face frame mounted", .it = "Fine programma con la faccia in presa"},
+     .message = {.en = "the program ends with a face frame mounted",
+                 .it = "il programma finisce con un sistema di riferimento di faccia in presa"},
+     .explanation =
+         {.en = "The face frame has not been dismounted with G27 before the end of the program. Write G27 on a line of "
+                "its own before M02. No false alarms are known.",
+          .it = "Il sistema di riferimento di faccia non è stato smontato con la G27 prima della fine del programma. "
+                "Scrivere una G27 su una linea a sé prima della M02. Non si conoscono falsi allarmi."},
+     .wrong = "M06 T101001\nG29 B90\n[!M02!]\n",
+     .right = "M06 T101001\nG29 B90\nG27\nM02\n"},
+    {.code = "W108",
+     .name = "end-with-compensation",
+     .severity = Severity::Warning,
+     .section = "I.3.12",
+     .arguments = {"mode"},
+     .title = {.en = "Program end with cutter compensation on", .it = "Fine programma con la compensazione in presa"},
+     .message = {.en = "the program ends with G{mode} in force", .it = "il programma finisce con la G{mode} in presa"},
+     .explanation = {.en = "Cutter compensation has not been ended with G40 before the end of the program. Write G40 "
+                           "after the last compensated move. No false alarms are known.",
+                     .it = "La compensazione del raggio non è stata chiusa con la G40 prima della fine del programma. "
+                           "Scrivere la G40 dopo l'ultimo movimento compensato. Non si conoscono falsi allarmi."},
+     .wrong = "M06 T101001\nG41 G01 X10 F1000\n[!M02!]\n",
+     .right = "M06 T101001\nG41 G01 X10 F1000\nG40\nM02\n"},
+    {.code = "W109",
+     .name = "feed-on-rapid",
+     .severity = Severity::Warning,
+     .section = "I.3.7",
+     .arguments = {},
+     .title = {.en = "F on a rapid", .it = "F su un rapido"},
+     .message = {.en = "{text} is ignored on the line of a rapid",
+                 .it = "{text} viene ignorata sulla linea di un rapido"},
+     .explanation =
+         {.en = "A rapid runs at the machine's own speed and its F sets nothing, not even for the lines below. Delete "
+                "the F, or write it on the first feed move. No false alarms are known.",
+          .it = "Il rapido va alla velocità propria della macchina e la sua F non imposta nulla, nemmeno per le linee "
+                "seguenti. Togliere la F o scriverla sul primo movimento in lavoro. Non si conoscono falsi allarmi."},
+     .wrong = "M06 T101001\nG00 X10 [!F1000!]\nM02\n",
+     .right = "M06 T101001\nG00 X10\nM02\n"},
+    {.code = "W110",
+     .name = "feed-of-inverse-time",
+     .severity = Severity::Warning,
+     .section = "I.3.7",
+     .arguments = {"feed"},
+     .title = {.en = "Feed rate left over from G93", .it = "Velocità rimasta dalla G93"},
+     .message = {.en = "no F since G93: its {feed} now counts as mm/min",
+                 .it = "nessuna F dopo la G93: il suo {feed} ora vale in mm/min"},
+     .explanation =
+         {.en = "The last F was given under G93, where it stood for a time, and back in G94 it is read as a speed. "
+                "Write an F on the first feed move after G94. No false alarms are known.",
+          .it = "L'ultima F è stata data con la G93, dove indicava un tempo, e tornati in G94 viene letta come "
+                "velocità. Scrivere una F sul primo movimento in lavoro dopo la G94. Non si conoscono falsi allarmi."},
+     .wrong = "M06 T101001\nG93\nG01 X10 F4\nG94\n[!G01!] X20\nM02\n",
+     .right = "M06 T101001\nG93\nG01 X10 F4\nG94\nG01 X20 F1000\nM02\n"},
+    {.code = "W111",
+     .name = "arc-goes-nowhere",
+     .severity = Severity::Warning,
+     .section = "I.3.4.3.a",
+     .arguments = {},
+     .title = {.en = "Arc that goes nowhere", .it = "Arco che non si muove"},
+     .message = {.en = "an arc by radius that ends where it starts does not move: a full turn needs its center",
+                 .it = "un arco dato con il raggio che finisce dove comincia non si muove: per il giro completo serve "
+                       "il centro"},
+     .explanation =
+         {.en = "With R alone the sweep is at most 180 degrees, and from a point to itself there is none. Give the "
+                "center with I, J or K for a full turn, or check the end point. No false alarms are known.",
+          .it = "Con la sola R lo sviluppo è al massimo di 180 gradi, e da un punto a sé stesso non ce n'è. Per un "
+                "giro completo dare il centro con I, J o K, altrimenti controllare il punto finale. Non si conoscono "
+                "falsi allarmi."},
+     .wrong = "M06 T101001\nG02 X0 Y0 [!R10!] F1000\nM02\n",
+     .right = "M06 T101001\nG02 X0 Y0 I10 J0 F1000\nM02\n"},
+    {.code = "W112",
+     .name = "arc-barely-fits",
+     .severity = Severity::Warning,
+     .section = "I.3.4.3.a",
+     .arguments = {"found", "wanted"},
+     .title = {.en = "Arc that fits only by the tolerance", .it = "Arco accettato solo per la tolleranza"},
+     .message = {.en = "the arc fits only by the tolerance: {found} mm here, {wanted} mm there",
+                 .it = "l'arco passa solo per la tolleranza: {found} mm da una parte, {wanted} mm dall'altra"},
+     .explanation = {.en = "The two distances differ by more than half of what the control still accepts, so the arc "
+                           "is drawn with a visible step or not at all on a stricter control. Give center and end with "
+                           "more decimals. A false alarm where the program has only two decimals on purpose.",
+                     .it =
+                         "Le due distanze differiscono per più della metà di quanto il controllo accetta ancora: "
+                         "l'arco viene eseguito con un gradino, o rifiutato da un controllo più severo. Dare centro e "
+                         "punto finale con più decimali. Falso allarme se il programma ha apposta due soli decimali."},
+     .wrong = "M06 T101001\nG02 X20.008 Y0 [!I10 J0!] F1000\nM02\n",
+     .right = "M06 T101001\nG02 X20 Y0 I10 J0 F1000\nM02\n"},
+    {.code = "W113",
+     .name = "compensation-across-change",
+     .severity = Severity::Warning,
+     .section = "I.3.12",
+     .arguments = {"mode"},
+     .title = {.en = "Change under cutter compensation", .it = "Cambio con la compensazione in presa"},
+     .message = {.en = "{text} while G{mode} is in force", .it = "{text} con la G{mode} in presa"},
+     .explanation = {.en = "Plane, frame or tool change while the path is offset for the old one. End the compensation "
+                           "with G40 before it. A false alarm only where the shop's control is known to allow it.",
+                     .it = "Cambia il piano, il riferimento o l'utensile mentre il percorso è corretto per quello di "
+                           "prima. Chiudere prima la compensazione con la G40. Falso allarme solo se è certo che il "
+                           "controllo lo consente."},
+     .wrong = "M06 T101001\nG41 G01 X10 F1000\n[!G18!]\nX20\nG40\nM02\n",
+     .right = "M06 T101001\nG41 G01 X10 F1000\nG40\nG18\nX20\nM02\n"},
+    {.code = "W114",
+     .name = "axes-nearly-orthogonal",
+     .severity = Severity::Info,
+     .section = "I.3.2",
+     .arguments = {"angle"},
+     .title = {.en = "Face axes not quite orthogonal", .it = "Assi di faccia non proprio ortogonali"},
+     .message = {.en = "the face axes are {angle} degrees off the right angle",
+                 .it = "gli assi di faccia si scostano di {angle} gradi dall'angolo retto"},
+     .explanation = {.en = "The control takes the axes as orthogonal, but their components have so few decimals that "
+                           "the coordinates along them are slightly oblique. Write them with six decimals or more, or "
+                           "use G29 with angles. A false alarm where axes are meant to be oblique by so little.",
+                     .it = "Il controllo considera gli assi ortogonali, ma le componenti hanno così pochi decimali che "
+                           "le quote lungo di essi sono leggermente oblique. Scriverle con almeno sei decimali o usare "
+                           "la G29 con gli angoli. Falso allarme se gli assi sono davvero obliqui di così poco."},
+     .wrong = "M06 T101001\n[!G28!] X1 J1 P0.0005 R1\nG27\nM02\n",
+     .right = "M06 T101001\nG28 X1 J1 R1\nG27\nM02\n"},
+    {.code = "W115",
+     .name = "dwell-of-odd-length",
+     .severity = Severity::Warning,
+     .section = "I.3.10",
+     .arguments = {"time"},
+     .title = {.en = "Dwell of odd length", .it = "Attesa di durata insolita"},
+     .message = {.en = "a dwell of {time} s: P counts seconds", .it = "attesa di {time} s: la P è in secondi"},
+     .explanation =
+         {.en = "The dwell lasts nothing, or so long that milliseconds may have been meant. Check P, which counts "
+                "seconds. A false alarm where a long wait is wanted: for clamping or cooling an M function is clearer.",
+          .it = "L'attesa non dura nulla, oppure così a lungo da far pensare a millisecondi. Controllare la P, che è "
+                "in secondi. Falso allarme se serve davvero una lunga attesa: per bloccaggi o raffreddamento è più "
+                "chiara una funzione M."},
+     .wrong = "M06 T101001\nG04 [!P500!]\nM02\n",
+     .right = "M06 T101001\nG04 P0.5\nM02\n"},
+    {.code = "W116",
+     .name = "never-runs",
+     .severity = Severity::Warning,
+     .section = "I.5",
+     .arguments = {},
+     .title = {.en = "Code that never runs", .it = "Codice mai eseguito"},
+     .message = {.en = "no path of the program leads here: it never runs",
+                 .it = "nessun percorso del programma arriva qui: non viene mai eseguito"},
+     .explanation =
+         {.en = "All paths end before this line or jump over it, so the control never reads it and nothing below is "
+                "checked until a label that is reached. Delete it, or mend the jump or the M02 before it. A false "
+                "alarm where code is kept behind M02 on purpose: as a comment it cannot be mistaken.",
+          .it = "Tutti i percorsi finiscono prima di questa linea o la saltano: il controllo non la legge e, fino a "
+                "un'etichetta raggiungibile, nemmeno questa verifica. Cancellarla, oppure correggere il salto o la M02 "
+                "che la precede. Falso allarme se il codice dopo la M02 è tenuto apposta: come commento non può trarre "
+                "in inganno."},
+     .wrong = "M06 T101001\nG00 X10\nM02\n[!G00 X20!]\n",
+     .right = "M06 T101001\nG00 X10\nG00 X20\nM02\n"},
+    {.code = "W117",
+     .name = "condition-decided",
+     .severity = Severity::Info,
+     .section = "I.5",
+     .arguments = {},
+     .title = {.en = "Condition that is always decided", .it = "Condizione sempre decisa"},
+     .message = {.en = "with the values set above, this condition always decides the same way",
+                 .it = "con i valori impostati sopra questa condizione decide sempre allo stesso modo"},
+     .explanation = {.en = "The register's value is known here on every path, so the jump is always or never taken. "
+                           "Fine for a switch set at the top of the program, otherwise check the register and the "
+                           "value. A false alarm where the register is such a switch.",
+                     .it = "Qui il valore del registro è noto su ogni percorso, quindi il salto avviene sempre o mai. "
+                           "Va bene per un selettore impostato in testa al programma, altrimenti controllare il "
+                           "registro e il valore. Falso allarme se il registro è un selettore di questo tipo."},
+     .wrong = "M06 T101001\nV1 = 0\n[!IF!] V1 = 1 GOTO N10\nG00 X10\nN10 G00 X20\nM02\n",
+     .right = "M06 T101001\nIF V1 = 1 GOTO N10\nG00 X10\nN10 G00 X20\nM02\n"},
     {.code = "W191",
      .name = "too-many-paths",
      .severity = Severity::Info,

@@ -12,10 +12,16 @@ using syntax::Instruction;
 using syntax::InstructionKind;
 using syntax::Word;
 
+bool execute_plain(const syntax::LineTree& line, State& state, const Setup& setup, Sink& sink) {
+  if (line.plain_arguments == 0) return false;
+  const auto concerns_rules =
+      static_cast<std::uint8_t>(state.inverse_time() ? State::kStopped : State::kStopped | State::kFeedOfInverseTime);
+  return !state.knows(concerns_rules) && Executor(line, state, setup, sink).run_plain();
+}
+
 void execute(const syntax::LineTree& line, State& state, const Setup& setup, Sink& sink) {
   if (line.is_empty()) return;
-  Executor executor(line, state, setup, sink);
-  if (!executor.run_plain()) executor.run();
+  Executor(line, state, setup, sink).run();
 }
 
 void Executor::run() {
@@ -24,6 +30,7 @@ void Executor::run() {
     const double speed = line_.words[static_cast<std::size_t>(line_.spindle)].value;
     if (speed > 0) {
       state_.spindle_speed = speed;
+      state_.forget(State::kNoSpeed);
       sink_.spindle_speed(speed);
     }
   }
@@ -54,6 +61,7 @@ void Executor::run() {
   }
   if (line_.feed >= 0 && !feed_move_) apply_feed_without_motion();
   state_.exact_stop_fits = feed_move_;
+  if (feed_move_) state_.forget(state_.inverse_time() ? State::kStopped : State::kStopped | State::kFeedOfInverseTime);
   const Instruction* const last = line_.instructions.empty() ? nullptr : &line_.instructions.back();
   state_.tool_awaited = last != nullptr && last->kind == InstructionKind::ToolChange &&
                         last->end == last->command + 1 && !last->has(Instruction::kSettled);
@@ -126,7 +134,7 @@ void Executor::function(const Instruction& instruction) {
     state_.ended = true;
     return sink_.end();
   }
-  if (!dialect::is_user_function(m)) state_.spindle = static_cast<std::uint8_t>(m);
+  if (!dialect::is_user_function(m)) turn_spindle(m);
   if (!sink_.wants_effects()) return;
   std::array<FunctionParameter, dialect::kMostFunctionParameters> parameters;
   std::size_t count = 0;
@@ -141,7 +149,16 @@ void Executor::function(const Instruction& instruction) {
   sink_.function(m, {parameters.data(), count});
 }
 
+void Executor::turn_spindle(int m) {
+  const bool stops = m == 5 && state_.knows(State::kClockwise | State::kCounterclockwise);
+  state_.spindle = static_cast<std::uint8_t>(m);
+  state_.forget(State::kClockwise | State::kCounterclockwise | State::kStopped);
+  if (m != 5) state_.learn(m == 3 ? State::kClockwise : State::kCounterclockwise);
+  if (stops) state_.learn(State::kStopped);
+}
+
 void Executor::tool_change(const Instruction& instruction) {
+  state_.forget(State::kClockwise | State::kCounterclockwise);  // What it does to the spindle is the machine's affair.
   for (const Word& word : line_.words)
     if (word.letter == 'T' && word.owner == instruction.number) return select_tool(word);
   state_.tool_selected = true;  // Without its T, or with one reported elsewhere, a tool change was meant all the same.

@@ -12,4 +12,8 @@ namespace isocnc::execution {
 /// knows no line number. It does not decide jumps: an IF belongs to who knows the registers (`line.jump`).
 void execute(const syntax::LineTree& line, State& state, const Setup& setup, Sink& sink);
 
+/// execute() for most lines of most programs: a plain motion with which nothing is wrong, of which nobody wants to know
+/// more, and which concerns nothing in State::knowledge. False, with nothing done, for any other line.
+bool execute_plain(const syntax::LineTree& line, State& state, const Setup& setup, Sink& sink);
+
 }  // namespace isocnc::execution

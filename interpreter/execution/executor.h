@@ -39,6 +39,7 @@ class Executor {
   void exact_stop(const syntax::Instruction& instruction);
   void dwell(const syntax::Instruction& instruction);
   void function(const syntax::Instruction& instruction);
+  void turn_spindle(int m);
   void tool_change(const syntax::Instruction& instruction);
   void stray_tool(const syntax::Instruction& instruction);
   void select_tool(const syntax::Word& word);

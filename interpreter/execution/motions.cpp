@@ -236,12 +236,14 @@ void Executor::take_feed() {
   state_.feed_given = true;
   if (!(number > 0)) return;  // Reported; the feed before it stays.
   state_.last_feed = {number, state_.mm_per_unit()};
-  if (!state_.inverse_time()) state_.feed_per_minute = state_.last_feed;
+  if (state_.inverse_time()) return state_.learn(State::kFeedOfInverseTime);
+  state_.forget(State::kFeedOfInverseTime);
+  state_.feed_per_minute = state_.last_feed;
 }
 
 Feed Executor::feed_in_force() const {
   if (state_.inverse_time()) return line_.feed >= 0 ? state_.last_feed : Feed{};
-  return state_.feed_per_minute.number > 0 ? state_.feed_per_minute : state_.last_feed;
+  return execution::feed_in_force(state_);
 }
 
 /// Three-axis interpolation moves no rotary axis, and a G01 under it needs a linear one (I.3.4.2, I.3.5, D41).
@@ -354,6 +356,7 @@ void Executor::arc(const Arguments& arguments, const GCode& code, Span place, Mo
 
   const geometry::Circle circle = geometry::find_circle(given, setup_.arc_tolerance);
   if (circle.problem != ArcProblem::None) return report_circle(arguments, circle, plane);
+  sink_.arc_fits(circle, arguments.span_of(dialect::kCenterLetters));
   if (!move || circle.goes_nowhere) return;
   move->kind = MoveKind::Arc;
   move->center = state_.position.tip;

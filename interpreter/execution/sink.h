@@ -4,6 +4,7 @@
 #include <span>
 
 #include "interpreter/execution/state.h"
+#include "interpreter/geometry/arc.h"
 #include "interpreter/syntax/line_tree.h"
 
 namespace isocnc::execution {
@@ -44,6 +45,8 @@ class Sink {
 
   /// `state` is the one in which the motion runs: its frame, modes and spindle.
   virtual void move(const Move&, const State&) {}
+  /// An arc without a mistake, and the span of what gives its circle. Not told of plain arcs that surely fit.
+  virtual void arc_fits(const geometry::Circle&, syntax::Span) {}
   virtual void dwell(double) {}  ///< Seconds.
   virtual void spindle_speed(double) {}
   virtual void function(int, std::span<const FunctionParameter>) {}

@@ -8,13 +8,17 @@ State initial_state(const Setup& setup) {
   return state;
 }
 
+Feed feed_in_force(const State& state) {
+  return state.feed_per_minute.number > 0 ? state.feed_per_minute : state.last_feed;
+}
+
 bool judged_alike(const State& a, const State& b) {
   return a.position == b.position && a.unknown == b.unknown && a.in_force == b.in_force && a.written == b.written &&
          a.workpiece_origin == b.workpiece_origin && a.face == b.face && a.face_mounted == b.face_mounted &&
          a.face_undefined == b.face_undefined && a.dismount_forgiven == b.dismount_forgiven &&
          a.tool_selected == b.tool_selected && a.tool_reported == b.tool_reported && a.feed_given == b.feed_given &&
          a.feed_reported == b.feed_reported && a.exact_stop_fits == b.exact_stop_fits &&
-         a.tool_awaited == b.tool_awaited && a.ended == b.ended;
+         a.tool_awaited == b.tool_awaited && a.motion_illegible == b.motion_illegible && a.ended == b.ended;
 }
 
 }  // namespace isocnc::execution

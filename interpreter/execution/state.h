@@ -31,6 +31,14 @@ struct Feed {
 /// keep it, compare it to know whether two histories still differ. It knows neither lines nor text, so an edit
 /// elsewhere does not change it. Registers are with who follows the jumps.
 struct State {
+  // What is certain on every path that has led here; where paths join, what they share. Only lint rules ask.
+  static constexpr std::uint8_t kNoSpeed = 1;           ///< No S so far.
+  static constexpr std::uint8_t kClockwise = 2;         ///< M03 is in force.
+  static constexpr std::uint8_t kCounterclockwise = 4;  ///< M04 is in force.
+  static constexpr std::uint8_t kStopped = 8;           ///< M05 has stopped the spindle, and no feed move followed.
+  static constexpr std::uint8_t kFeedOfInverseTime =
+      16;  ///< The last F was given in G93; no feed move in G94 followed.
+
   geometry::Pose position;  ///< In the frame in force. What is unknown reads 0.
   AxisSet unknown = 0;      ///< Axes whose position an error has left open: nothing that depends on them is checked.
   std::array<std::uint8_t, dialect::kModalGroupCount> in_force = dialect::kDefaultModes;  ///< G number by group.
@@ -56,6 +64,11 @@ struct State {
   bool motion_illegible = false;  ///< Before any motion G an unknown G had coordinates: it was meant to be one.
   bool ended = false;             ///< M02 has been read.
 
+  std::uint8_t knowledge = kNoSpeed;
+
+  bool knows(std::uint8_t any_of) const { return (knowledge & any_of) != 0; }
+  void learn(std::uint8_t what) { knowledge |= what; }
+  void forget(std::uint8_t what) { knowledge &= static_cast<std::uint8_t>(~what); }
   std::uint8_t mode(dialect::ModalGroup group) const { return in_force[static_cast<std::size_t>(group)]; }
   void set_mode(dialect::ModalGroup group, std::uint8_t number) { in_force[static_cast<std::size_t>(group)] = number; }
   bool incremental() const { return mode(dialect::ModalGroup::Distance) == 91; }
@@ -75,8 +88,11 @@ struct State {
 /// The state in which a program starts (D32).
 State initial_state(const Setup& setup);
 
+/// The feed that an interpolated motion without F runs at (D43).
+Feed feed_in_force(const State& state);
+
 /// Whether nothing that comes later can be judged differently after `a` than after `b`: equal but for the values of
-/// feed, spindle speed and tool, on which no check of the dialect depends.
+/// feed, spindle speed and tool, on which no check of the dialect depends, and for what is only known (`knowledge`).
 bool judged_alike(const State& a, const State& b);
 
 }  // namespace isocnc::execution

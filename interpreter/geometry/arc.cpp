@@ -64,7 +64,8 @@ bool surely_fits(const ArcGiven& given, double tolerance) {
   }
   if (given.center_u || given.center_v || !given.radius) return false;
   const double diameter2 = 4 * *given.radius * *given.radius;
-  return *given.radius > 0 && d.u * d.u + d.v * d.v <= diameter2 * (1 - 1e-12);
+  const double chord2 = d.u * d.u + d.v * d.v;
+  return *given.radius > 0 && chord2 <= diameter2 * (1 - 1e-12) && chord2 > 4 * kEqualCoordinate * kEqualCoordinate;
 }
 
 double sweep_deg(const PlanePoint& center, const PlanePoint& end, bool counterclockwise) {

@@ -49,7 +49,7 @@ inline constexpr double kEqualCoordinate = 1e-6;
 Circle find_circle(const ArcGiven& given, double tolerance);
 
 /// Whether find_circle() surely has no problem, told without a root: most arcs of most programs. False where it takes
-/// a closer look.
+/// a closer look, as it does where more than half the tolerance is used up, or the arc goes nowhere.
 bool surely_fits(const ArcGiven& given, double tolerance);
 
 /// Degrees from start to end about the center, positive counterclockwise, in [-360, 360]; a full turn when both ends

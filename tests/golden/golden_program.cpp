@@ -108,6 +108,7 @@ std::vector<Part> read_golden(const std::filesystem::path& file) {
       ++lines;
     }
   }
+  for (Part& part : parts) part.is_about_rules = file.parent_path().filename() == "rules";
   return parts;
 }
 

@@ -39,6 +39,7 @@ struct Part {
   std::vector<ExpectedEffect> effects;
   execution::Setup setup;
   double vgpl = 0;
+  bool is_about_rules = false;  ///< In tests/programs/rules: lint findings are marked, too.
 };
 
 std::vector<Part> read_golden(const std::filesystem::path& file);

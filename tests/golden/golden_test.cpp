@@ -9,6 +9,7 @@
 #include "analyzer/rendering.h"
 #include "golden_program.h"
 #include "interpreter/running/runner.h"
+#include "tests/support/report_text.h"
 
 namespace isocnc::golden {
 namespace {
@@ -26,6 +27,7 @@ std::string line_of(const std::string& program, std::size_t index) {
 std::vector<std::string> found_in(const Part& part, const analyzer::Report& report) {
   std::vector<std::string> found;
   for (const analyzer::LocatedFinding& located : report.findings) {
+    if (!part.is_about_rules && support::is_lint(dialect::definition(located.finding.id).code)) continue;
     const std::string line = line_of(part.program, located.line);
     const syntax::Span span = located.finding.span;
     found.push_back(shown({.line = located.line,

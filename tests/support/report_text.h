@@ -8,6 +8,9 @@
 
 namespace isocnc::support {
 
+/// Whether a finding is an opinion: W101 to W189. Programs about the control's own codes say nothing of them.
+inline bool is_lint(std::string_view code) { return code >= "W101" && code < "W190"; }
+
 /// A report's findings with the paths that lead to them, one text each: equal texts mean that users are told the same.
 inline std::vector<std::string> texts_of(const analyzer::Report& report) {
   std::vector<std::string> texts;

@@ -81,8 +81,7 @@ TEST(LineTree, WordsCarryWhatIsWrittenOfTheirNumber) {
 
 TEST(LineTree, LettersAreUpperCase) {
   const ParsedLine line("g1 x1 y2 f300");
-  for (const Word& word : line.tree().words)
-    EXPECT_TRUE(word.letter >= 'A' && word.letter <= 'Z');
+  for (const Word& word : line.tree().words) EXPECT_TRUE(word.letter >= 'A' && word.letter <= 'Z');
 }
 
 TEST(LineTree, ErrorsAndNumbersHaveSignsOfTheirOwn) {

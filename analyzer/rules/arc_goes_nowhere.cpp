@@ -1,0 +1,25 @@
+#include <cmath>
+
+#include "analyzer/rules/rule.h"
+#include "interpreter/geometry/arc.h"
+
+namespace isocnc::analyzer::rules {
+
+/// An arc by radius that ends where it starts has no sweep (D36): a full turn was meant, and needs a center.
+static void check(const Block& block, execution::Sink& sink) {
+  const std::uint8_t motion = block.motion();
+  if ((motion != 2 && motion != 3) || block.before.unknown != 0 || block.after.unknown != 0) return;
+  const syntax::Word* radius = nullptr;
+  for (const syntax::Word& word : block.line.words) {
+    if (word.owner == syntax::Word::kNobody) continue;
+    if (word.letter == 'I' || word.letter == 'J' || word.letter == 'K') return;
+    if (word.letter == 'R') radius = &word;
+  }
+  if (!radius || !block.line.findings.empty()) return;
+  const geometry::Vec3 way = block.after.position.tip - block.before.position.tip;
+  if (way.cwiseAbs().maxCoeff() <= geometry::kEqualCoordinate) report(sink, "arc-goes-nowhere"_diag, radius->span());
+}
+
+extern const Rule arc_goes_nowhere = {kMotion, check};
+
+}  // namespace isocnc::analyzer::rules

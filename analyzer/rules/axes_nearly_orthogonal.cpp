@@ -1,0 +1,28 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "analyzer/rules/rule.h"
+#include "interpreter/geometry/frame.h"
+
+namespace isocnc::analyzer::rules {
+
+/// Face axes that are orthogonal for the control, but not quite (D26).
+static void check(const Block& block, execution::Sink& sink) {
+  const syntax::Word* word = block.g(28);
+  if (!word) word = block.g(24);
+  if (!word || !block.after.face_mounted || block.after.face_undefined) return;
+  const geometry::Mat3& axes = block.after.face.axes;
+  double worst = 0;
+  for (const auto& [a, b] : {std::pair{0, 1}, {1, 2}, {2, 0}}) {
+    const double cosine = std::abs(axes.col(a).dot(axes.col(b)));
+    if (cosine < geometry::kOrthogonalCosine) worst = std::max(worst, cosine);
+  }
+  constexpr double kExact = 1e-6;
+  if (worst > kExact)
+    report(sink, "axes-nearly-orthogonal"_diag, word->span(), std::asin(worst) * 180 / std::numbers::pi);
+}
+
+extern const Rule axes_nearly_orthogonal = {kModal, check};
+
+}  // namespace isocnc::analyzer::rules

@@ -1,0 +1,22 @@
+#include "analyzer/rules/rule.h"
+
+namespace isocnc::analyzer::rules {
+
+/// The plane, the frame or the tool changes while G41 or G42 is in force.
+static void check(const Block& block, execution::Sink& sink) {
+  if (!block.compensated()) return;
+  const double mode = block.before.mode(dialect::ModalGroup::CutterCompensation);
+  const auto tell = [&](const syntax::Word& word) {
+    report(sink, "compensation-across-change"_diag, word.span(), mode);
+  };
+  if (const syntax::Word* const change = block.m(dialect::kToolChange)) return tell(*change);
+  for (const int frame : {24, 27, 28, 29, 92})
+    if (const syntax::Word* const word = block.g(frame)) return tell(*word);
+  for (const int plane : {17, 18, 19})
+    if (const syntax::Word* const word = block.g(plane))
+      if (block.before.mode(dialect::ModalGroup::Plane) != plane) return tell(*word);
+}
+
+extern const Rule compensation_across_change = {kModal | kToolChange, check};
+
+}  // namespace isocnc::analyzer::rules

@@ -1,0 +1,13 @@
+#include "analyzer/rules/rule.h"
+
+namespace isocnc::analyzer::rules {
+
+/// M02 without G27 before it.
+static void check(const Block& block, execution::Sink& sink) {
+  const syntax::Word* const end = block.m(dialect::kProgramEnd);
+  if (end && block.before.face_mounted) report(sink, "end-with-face-mounted"_diag, end->span());
+}
+
+extern const Rule end_with_face_mounted = {kFunction, check};
+
+}  // namespace isocnc::analyzer::rules

@@ -1,0 +1,17 @@
+#include "analyzer/rules/rule.h"
+
+namespace isocnc::analyzer::rules {
+
+/// The first feed move back in G94 when the last F was given in G93 and meant a time (D43).
+static void check(const Block& block, execution::Sink& sink) {
+  const std::uint8_t motion = block.motion();
+  const bool is_feed = motion != 0 && motion != dialect::kNoMotion;
+  if (!is_feed || block.line.feed >= 0 || block.after.inverse_time()) return;
+  if (block.before.knows(execution::State::kFeedOfInverseTime))
+    report(sink, "feed-of-inverse-time"_diag, block.motion_word().span(),
+           execution::feed_in_force(block.before).number);
+}
+
+extern const Rule feed_of_inverse_time = {kMotion, check};
+
+}  // namespace isocnc::analyzer::rules

@@ -1,0 +1,82 @@
+#include "analyzer/rules/rule.h"
+
+#include <cmath>
+
+namespace isocnc::analyzer::rules {
+
+#define ISOCNC_RULE(name) extern const Rule name;
+#include <rules.inc>
+#undef ISOCNC_RULE
+
+static const Rule* const kRules[] = {
+#define ISOCNC_RULE(name) &name,
+#include <rules.inc>
+#undef ISOCNC_RULE
+};
+
+void ask_all(const Block& block, execution::Sink& sink) {
+  unsigned concerns = 0;
+  for (const syntax::Instruction& instruction : block.line.instructions) {
+    switch (instruction.kind) {
+      case syntax::InstructionKind::Continuation:
+        concerns |= kMotion;
+        break;
+      case syntax::InstructionKind::G:
+        concerns |= instruction.g() && instruction.g()->is_motion() ? kMotion : kModal;
+        break;
+      case syntax::InstructionKind::Function:
+        concerns |= kFunction;
+        break;
+      case syntax::InstructionKind::ToolChange:
+        concerns |= kToolChange;
+        break;
+      default:
+        break;
+    }
+  }
+  for (const Rule* const rule : kRules)
+    if ((rule->concerns & concerns) != 0) rule->check(block, sink);
+}
+
+void judge_arc(const geometry::Circle& circle, syntax::Span span, const execution::Setup& setup,
+               execution::Sink& sink) {
+  if (span.empty() || std::abs(circle.found - circle.wanted) <= setup.arc_tolerance / 2) return;
+  sink.report({.id = "arc-barely-fits"_diag, .span = span, .values = {circle.found, circle.wanted}});
+}
+
+static const syntax::Instruction* motion_instruction(const syntax::LineTree& line) {
+  const syntax::Instruction* found = nullptr;
+  for (const syntax::Instruction& instruction : line.instructions) {
+    const bool is_g = instruction.kind == syntax::InstructionKind::G && instruction.g() && instruction.g()->is_motion();
+    if (is_g) return &instruction;
+    if (instruction.kind == syntax::InstructionKind::Continuation) found = &instruction;
+  }
+  return found;
+}
+
+std::uint8_t Block::motion() const {
+  const syntax::Instruction* const motion = motion_instruction(line);
+  if (!motion) return dialect::kNoMotion;
+  return motion->kind == syntax::InstructionKind::G ? static_cast<std::uint8_t>(motion->g()->number)
+                                                    : before.mode(dialect::ModalGroup::Motion);
+}
+
+const syntax::Word& Block::motion_word() const { return line.command(*motion_instruction(line)); }
+
+const syntax::Word* Block::g(int number) const {
+  for (const syntax::Instruction& instruction : line.instructions)
+    if (instruction.kind == syntax::InstructionKind::G && instruction.g() && instruction.g()->number == number)
+      return &line.command(instruction);
+  return nullptr;
+}
+
+const syntax::Word* Block::m(int number) const {
+  for (const syntax::Instruction& instruction : line.instructions) {
+    const bool is_m = instruction.kind == syntax::InstructionKind::Function ||
+                      instruction.kind == syntax::InstructionKind::ToolChange;
+    if (is_m && line.command(instruction).value == number) return &line.command(instruction);
+  }
+  return nullptr;
+}
+
+}  // namespace isocnc::analyzer::rules

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "interpreter/execution/setup.h"
+#include "interpreter/execution/sink.h"
+#include "interpreter/execution/state.h"
+#include "interpreter/syntax/line_tree.h"
+
+namespace isocnc::analyzer::rules {
+
+using namespace dialect::literals;
+
+/// A line that takes effect on one path: what a lint rule judges.
+struct Block {
+  const syntax::LineTree& line;
+  const execution::State& before;
+  const execution::State& after;
+  const execution::Setup& setup;
+
+  bool compensated() const { return before.mode(dialect::ModalGroup::CutterCompensation) != 40; }
+  bool spindle_turns() const {
+    return before.knows(execution::State::kClockwise | execution::State::kCounterclockwise);
+  }
+  /// The number of the line's motion G, written or in force; kNoMotion where nothing moves.
+  std::uint8_t motion() const;
+  /// The G of this number on the line, or null.
+  const syntax::Word* g(int number) const;
+  /// The M of this number on the line, or null.
+  const syntax::Word* m(int number) const;
+  /// The line's first coordinate, or the motion's G: where a finding about the motion stands.
+  const syntax::Word& motion_word() const;
+};
+
+/// What a line can have that a rule asks about.
+inline constexpr unsigned kMotion = 1;      ///< A motion, by its G or continued.
+inline constexpr unsigned kModal = 2;       ///< Any other G.
+inline constexpr unsigned kFunction = 4;    ///< An M but for M06.
+inline constexpr unsigned kToolChange = 8;  ///< M06.
+
+/// A rule tells what it thinks of a block that has one of `concerns`. Each has a file of its name in this folder, and a
+/// row in the table of diagnostics; the build gathers them. A rule is not asked about the plain motions that nothing in
+/// State::knowledge concerns, so it must not speak of them.
+struct Rule {
+  unsigned concerns = 0;
+  void (*check)(const Block& block, execution::Sink& sink) = nullptr;
+};
+
+inline void report(execution::Sink& sink, dialect::DiagnosticId id, syntax::Span span, double value = 0,
+                   syntax::Span related = {}) {
+  sink.report({.id = id, .span = span, .related = related, .values = {value}});
+}
+
+/// Asks all rules.
+void ask_all(const Block& block, execution::Sink& sink);
+
+/// Tells of an arc that would not fit with half the tolerance.
+void judge_arc(const geometry::Circle& circle, syntax::Span span, const execution::Setup& setup, execution::Sink& sink);
+
+}  // namespace isocnc::analyzer::rules

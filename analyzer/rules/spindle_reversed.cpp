@@ -1,0 +1,15 @@
+#include "analyzer/rules/rule.h"
+
+namespace isocnc::analyzer::rules {
+
+/// M04 while M03 is in force, or the other way round.
+static void check(const Block& block, execution::Sink& sink) {
+  const syntax::Word* const against = block.before.knows(execution::State::kClockwise)          ? block.m(4)
+                                      : block.before.knows(execution::State::kCounterclockwise) ? block.m(3)
+                                                                                                : nullptr;
+  if (against && !block.m(5)) report(sink, "spindle-reversed"_diag, against->span());
+}
+
+extern const Rule spindle_reversed = {kFunction, check};
+
+}  // namespace isocnc::analyzer::rules

@@ -1,0 +1,13 @@
+#include "analyzer/rules/rule.h"
+
+namespace isocnc::analyzer::rules {
+
+/// M06 while M03 or M04 is in force.
+static void check(const Block& block, execution::Sink& sink) {
+  const syntax::Word* const change = block.m(dialect::kToolChange);
+  if (change && block.spindle_turns() && !block.m(5)) report(sink, "tool-change-with-spindle-on"_diag, change->span());
+}
+
+extern const Rule tool_change_with_spindle_on = {kToolChange, check};
+
+}  // namespace isocnc::analyzer::rules
