@@ -16,6 +16,7 @@
 #include "analyzer/explain.h"
 #include "analyzer/files.h"
 #include "analyzer/renderers.h"
+#include "analyzer/suppressions.h"
 #include "analyzer/tally.h"
 #include "interpreter/running/output_file.h"
 #include "interpreter/running/source_file.h"
@@ -109,7 +110,8 @@ class Run {
       if (const SourceFile* source = std::get_if<SourceFile>(&opened)) {
         text = source->text();
         const bool is_large = text.size() > kLargeFile;
-        report = style_.selection.shown(check_text(text, {}, files_.size() == 1 || is_large ? jobs_ : 1));
+        report = check_text(text, {}, files_.size() == 1 || is_large ? jobs_ : 1);
+        report = style_.selection.shown(suppress(std::move(report), text, style_.selection));
       }
       std::unique_lock lock(mutex_);
       turn_changed_.wait(lock, [&] { return turn_ == index; });
