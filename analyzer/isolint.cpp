@@ -2,23 +2,22 @@
 #include <atomic>
 #include <condition_variable>
 #include <csignal>
-#include <cstdlib>
 #include <iostream>
 #include <mutex>
-#include <sstream>
 #include <thread>
 #include <variant>
 
 #include <unistd.h>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "analyzer/check_text.h"
+#include "analyzer/command_line.h"
 #include "analyzer/explain.h"
 #include "analyzer/files.h"
 #include "analyzer/renderers.h"
-#include "interpreter/dialect/locale.h"
+#include "analyzer/suppressions.h"
+#include "analyzer/tally.h"
 #include "interpreter/running/output_file.h"
 #include "interpreter/running/source_file.h"
 #include "interpreter/running/system_texts.h"
@@ -27,44 +26,26 @@ namespace isocnc::analyzer {
 namespace {
 
 using dialect::Language;
-using dialect::Text;
 using running::SourceFile;
 
 enum ExitStatus { kClean = 0, kFindings = 1, kTrouble = 2 };
 
-struct Options {
-  std::vector<std::string> paths;
-  std::string format = "text";
-  std::string language;
-  std::string color = "auto";
-  std::string explain;
-  std::string stdin_name = "<stdin>";
-  int jobs = 0;
-  bool list_rules = false;
-  bool rules_page = false;
-  bool no_config = false;
-
-  Language reader_language() const {
-    if (language == "it") return Language::Italian;
-    if (language == "en") return Language::English;
-    return dialect::language_of_environment();
-  }
-  bool wants_color() const {
-    if (color != "auto") return color == "always";
-    return isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
-  }
-};
-
 void complain(std::string_view what) { std::cerr << "isolint: " << printable(what) << '\n'; }
 
 /// Where findings and all other answers go.
-class StandardOutput final : public Output {
+class Answer final : public Output {
  public:
+  explicit Answer(const Options& options)
+      : path_(options.output),
+        language_(options.reader_language()),
+        file_(path_.empty() ? running::OutputFile(STDOUT_FILENO) : running::OutputFile(std::filesystem::path(path_))) {}
+
   /// Flushes; false, after a complaint, when anything written has been lost.
-  bool finish(Language language) {
+  bool finish() {
     flush();
     if (file_.flush() == 0) return true;
-    complain(fmt::format("<stdout>: {}", running::cannot_write(file_.error(), language)));
+    complain(
+        fmt::format("{}: {}", path_.empty() ? "<stdout>" : path_, running::cannot_write(file_.error(), language_)));
     return false;
   }
   bool has_failed() const { return file_.error() != 0; }
@@ -73,49 +54,36 @@ class StandardOutput final : public Output {
   void write(std::string_view text) override { file_.write(text); }
 
  private:
-  running::OutputFile file_{STDOUT_FILENO};
+  const std::string path_;
+  const Language language_;
+  running::OutputFile file_;
 };
 
 /// Prints an answer that is no finding.
-ExitStatus say(std::string_view text, Language language) {
-  StandardOutput output;
-  output.buffer() += text;
-  return output.finish(language) ? kClean : kTrouble;
+ExitStatus say(std::string_view text, const Options& options) {
+  Answer answer(options);
+  answer.buffer() += text;
+  return answer.finish() ? kClean : kTrouble;
 }
-
-struct Counts {
-  std::size_t errors = 0, warnings = 0, infos = 0, files = 0;
-
-  void add(const Report& report) {
-    ++files;
-    for (const LocatedFinding& located : report.findings) {
-      switch (dialect::definition(located.finding.id).severity) {
-        case dialect::Severity::Error:
-          ++errors;
-          break;
-        case dialect::Severity::Warning:
-          ++warnings;
-          break;
-        case dialect::Severity::Info:
-          ++infos;
-          break;
-      }
-    }
-  }
-};
 
 /// Checks files side by side and shows what was found in their order.
 class Run {
  public:
-  Run(const Options& options, std::vector<std::filesystem::path> files)
+  Run(const Options& options, const Style& style, std::unique_ptr<Renderer> renderer,
+      std::vector<std::filesystem::path> files)
       : options_(options),
-        language_(options.reader_language()),
+        style_(style),
         files_(std::move(files)),
-        renderer_(make_renderer(options.format, {language_, options.wants_color()})),
-        jobs_(options.jobs > 0 ? options.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))) {}
+        renderer_(std::move(renderer)),
+        jobs_(options.jobs > 0 ? options.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
+        output_(options) {}
 
   int run(bool trouble) {
     trouble_ = trouble;
+    if (output_.has_failed()) {
+      output_.finish();
+      return kTrouble;
+    }
     renderer_->begin(output_.buffer());
     const auto workers = std::min<std::size_t>(static_cast<std::size_t>(jobs_), files_.size());
     std::vector<std::thread> helpers;
@@ -123,10 +91,10 @@ class Run {
     work();
     for (std::thread& helper : helpers) helper.join();
     renderer_->end(output_.buffer());
-    if (!output_.finish(language_)) return kTrouble;
+    if (!output_.finish()) return kTrouble;
     if (options_.format == "text") summarize();
     if (trouble_) return kTrouble;
-    return counts_.errors > 0 ? kFindings : kClean;
+    return options_.exit_zero || is_good_enough() ? kClean : kFindings;
   }
 
  private:
@@ -134,7 +102,8 @@ class Run {
     for (std::size_t index = next_++; index < files_.size(); index = next_++) {
       const std::filesystem::path& path = files_[index];
       const bool from_stdin = path == "-";
-      auto opened = from_stdin ? SourceFile::read_stream(STDIN_FILENO, language_) : SourceFile::open(path, language_);
+      auto opened =
+          from_stdin ? SourceFile::read_stream(STDIN_FILENO, style_.language) : SourceFile::open(path, style_.language);
       const std::string name = from_stdin ? options_.stdin_name : path.string();
       Report report;
       std::string_view text;
@@ -142,6 +111,7 @@ class Run {
         text = source->text();
         const bool is_large = text.size() > kLargeFile;
         report = check_text(text, {}, files_.size() == 1 || is_large ? jobs_ : 1);
+        report = style_.selection.shown(suppress(std::move(report), text, style_.selection));
       }
       std::unique_lock lock(mutex_);
       turn_changed_.wait(lock, [&] { return turn_ == index; });
@@ -149,7 +119,8 @@ class Run {
         complain(fmt::format("{}: {}", name, problem->message));
         trouble_ = true;
       } else {
-        counts_.add(report);
+        tally_.add(report);
+        ++files_checked_;
         if (!output_.has_failed()) renderer_->file(name, text, report, output_);
       }
       ++turn_;
@@ -157,23 +128,37 @@ class Run {
     }
   }
 
+  std::size_t count(dialect::Severity severity) const { return tally_.of(severity, style_.selection); }
+
+  bool is_good_enough() const {
+    const std::size_t warnings = count(dialect::Severity::Warning);
+    const bool too_many = options_.max_warnings && warnings > *options_.max_warnings;
+    if (too_many)
+      complain(style_.language == Language::Italian
+                   ? fmt::format("troppi avvisi: {}, ammessi {}", warnings, *options_.max_warnings)
+                   : fmt::format("too many warnings: {}, and {} allowed", warnings, *options_.max_warnings));
+    return !too_many && count(dialect::Severity::Error) == 0;
+  }
+
   void summarize() const {
-    const bool italian = language_ == Language::Italian;
+    const bool italian = style_.language == Language::Italian;
     const auto plural = [](std::size_t n, std::string_view one, std::string_view many) {
       return fmt::format("{} {}", n, n == 1 ? one : many);
     };
-    std::string line =
-        italian ? plural(counts_.errors, "errore", "errori") + ", " + plural(counts_.warnings, "avviso", "avvisi")
-                : plural(counts_.errors, "error", "errors") + ", " + plural(counts_.warnings, "warning", "warnings");
-    if (counts_.infos > 0) line += ", " + plural(counts_.infos, italian ? "nota" : "note", italian ? "note" : "notes");
-    line += italian ? " in " + plural(counts_.files, "file", "file") : " in " + plural(counts_.files, "file", "files");
+    const std::size_t errors = count(dialect::Severity::Error);
+    const std::size_t warnings = count(dialect::Severity::Warning);
+    const std::size_t infos = count(dialect::Severity::Info);
+    std::string line = italian ? plural(errors, "errore", "errori") + ", " + plural(warnings, "avviso", "avvisi")
+                               : plural(errors, "error", "errors") + ", " + plural(warnings, "warning", "warnings");
+    if (infos > 0) line += ", " + plural(infos, italian ? "nota" : "note", italian ? "note" : "notes");
+    line += " in " + plural(files_checked_, "file", italian ? "file" : "files");
     std::cerr << line << '\n';
   }
 
   static constexpr std::size_t kLargeFile = 8 * 1024 * 1024;
 
   const Options& options_;
-  const Language language_;
+  const Style& style_;
   const std::vector<std::filesystem::path> files_;
   std::unique_ptr<Renderer> renderer_;
   const int jobs_;
@@ -181,84 +166,87 @@ class Run {
   std::mutex mutex_;
   std::condition_variable turn_changed_;
   std::size_t turn_ = 0;  // With all below: guarded by mutex_.
-  StandardOutput output_;
-  Counts counts_;
+  Answer output_;
+  Tally tally_;
+  std::size_t files_checked_ = 0;
   bool trouble_ = false;
 };
 
-int check(const Options& options) {
+/// The programs to be checked; none, after a complaint, when the check cannot begin.
+std::optional<std::vector<std::filesystem::path>> find_programs(const Options& options, bool& trouble) {
   const Language language = options.reader_language();
   const bool italian = language == Language::Italian;
+  if (options.paths == std::vector<std::string>{"-"}) return {{"-"}};
+  if (std::find(options.paths.begin(), options.paths.end(), "-") != options.paths.end()) {
+    complain(italian ? "- (lo standard input) va indicato da solo" : "- (standard input) must be given alone");
+    return std::nullopt;
+  }
   const std::vector<std::string> here = {"."};
-  std::vector<std::filesystem::path> files;
-  bool trouble = false;
-  if (options.paths == std::vector<std::string>{"-"}) {
-    files.emplace_back("-");
-  } else {
-    if (std::find(options.paths.begin(), options.paths.end(), "-") != options.paths.end()) {
-      complain(italian ? "- (lo standard input) va indicato da solo" : "- (standard input) must be given alone");
-      return kTrouble;
-    }
-    FileSelection selection = select_files(options.paths.empty() ? here : options.paths, kProgramExtensions, language);
-    for (const std::string& problem : selection.problems) complain(problem);
-    trouble = !selection.problems.empty();
-    files = std::move(selection.files);
-    if (files.empty() && !trouble) {
-      complain(italian ? "nessun programma trovato (.iso .nc .cnc .tap .ngc)"
-                       : "no programs found (.iso .nc .cnc .tap .ngc)");
-      return kTrouble;
-    }
+  FileSelection found = select_files(options.paths.empty() ? here : options.paths, kProgramExtensions, language);
+  for (const std::string& problem : found.problems) complain(problem);
+  trouble = !found.problems.empty();
+  if (found.files.empty() && !trouble) {
+    complain(italian ? "nessun programma trovato (.iso .nc .cnc .tap .ngc)"
+                     : "no programs found (.iso .nc .cnc .tap .ngc)");
+    return std::nullopt;
   }
   // Readers of JSON compare arrays, whatever order the files were named in.
   if (options.format == "json")
-    std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.native() < b.native(); });
-  return Run(options, std::move(files)).run(trouble);
+    std::sort(found.files.begin(), found.files.end(),
+              [](const auto& a, const auto& b) { return a.native() < b.native(); });
+  return std::move(found.files);
+}
+
+/// To write over a program while it is checked would take its lines away, and the author's work.
+bool writes_over(const std::string& output, const std::vector<std::filesystem::path>& files) {
+  std::error_code ignored;
+  return !output.empty() && std::any_of(files.begin(), files.end(), [&](const std::filesystem::path& file) {
+    return std::filesystem::equivalent(output, file, ignored);
+  });
+}
+
+int check(const Options& options) {
+  Style style{.language = options.reader_language(), .color = options.wants_color()};
+  const bool italian = style.language == Language::Italian;
+  const std::vector<std::string> problems = style.selection.follow(options.wishes, style.language);
+  for (const std::string& problem : problems) complain(problem);
+  if (!problems.empty()) return kTrouble;
+  std::unique_ptr<Renderer> renderer =
+      options.statistics ? make_statistics_renderer(options.format, style) : make_renderer(options.format, style);
+  if (!renderer) {
+    complain(fmt::format("--statistics: {} text, concise, json", italian ? "solo con --format" : "only with --format"));
+    return kTrouble;
+  }
+  bool trouble = false;
+  auto files = find_programs(options, trouble);
+  if (!files) return kTrouble;
+  if (writes_over(options.output, *files)) {
+    complain(fmt::format("--output: {} {}", options.output,
+                         italian ? "è uno dei programmi da verificare" : "is one of the programs to be checked"));
+    return kTrouble;
+  }
+  return Run(options, style, std::move(renderer), *std::move(files)).run(trouble);
 }
 
 int explain_code(const Options& options) {
-  const auto id = dialect::find_diagnostic(options.explain);
-  if (!id) {
-    complain(fmt::format(
-        "{} {} (--list-rules)",
-        options.reader_language() == Language::Italian ? "codice sconosciuto:" : "unknown code:", options.explain));
-    return kTrouble;
-  }
-  return say(explain(*id, options.reader_language()), options.reader_language());
+  const Language language = options.reader_language();
+  if (const auto id = dialect::find_diagnostic(options.explain)) return say(explain(*id, language), options);
+  complain(unknown_code(options.explain, language));
+  return kTrouble;
 }
 
 int run_main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // A closed pipe is a write that fails, and is told as one.
-  Options options;
-  CLI::App app{"Checks ISOCNC programs and reports what the control would stop at."};
-  app.name("isolint");
-  app.set_version_flag("--version", "isolint " ISOCNC_VERSION);
-  app.add_option("PATH", options.paths,
-                 "Programs, directories (searched for .iso .nc .cnc .tap .ngc), or - for standard input; else the "
-                 "current directory");
-  app.add_option("--format", options.format, "How findings are shown: text, concise, json")
-      ->check(CLI::IsMember({"text", "concise", "json"}));
-  app.add_option("--lang", options.language, "Language of messages: en, it (else from the locale)")
-      ->check(CLI::IsMember({"en", "it"}));
-  app.add_option("--color", options.color, "auto, always, never")->check(CLI::IsMember({"auto", "always", "never"}));
-  app.add_option("--jobs,-j", options.jobs, "Threads (else one per core)")->check(CLI::Range(1, 1024));
-  app.add_option("--stdin-filename", options.stdin_name, "Name to show for standard input");
-  app.add_option("--explain", options.explain, "Tell all about a code, such as ISO031");
-  app.add_flag("--list-rules", options.list_rules, "List all codes");
-  app.add_flag("--no-config", options.no_config, "Read no isocnc.json");
-  app.add_flag("--rules-page", options.rules_page, "Print docs/rules.md")->group("");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& success) {
-    std::ostringstream said;
-    app.exit(success, said, said);
-    return say(said.str(), options.reader_language());
-  } catch (const CLI::ParseError& error) {
-    complain(error.what());
+  const CommandLine command = read_command_line(argc, argv);
+  const Options& options = command.options;
+  if (command.answer) return say(*command.answer, options);
+  if (command.complaint) {
+    complain(*command.complaint);
     std::cerr << "isolint --help\n";
     return kTrouble;
   }
-  if (options.rules_page) return say(rules_page(), options.reader_language());
-  if (options.list_rules) return say(list_rules(options.reader_language()), options.reader_language());
+  if (options.rules_page) return say(rules_page(), options);
+  if (options.list_rules) return say(list_rules(options.reader_language()), options);
   if (!options.explain.empty()) return explain_code(options);
   return check(options);
 }

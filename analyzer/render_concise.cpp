@@ -13,13 +13,9 @@ class ConciseRenderer final : public Renderer {
   void file(std::string_view name, std::string_view text, const Report& report, Output& output) override {
     LineFinder lines(text);
     for (const LocatedFinding& located : report.findings) {
-      const std::string_view line = lines.line(located.line);
-      const syntax::Finding& finding = located.finding;
-      const dialect::DiagnosticDef& def = dialect::definition(finding.id);
-      const std::string_view marked = line.substr(finding.span.begin, finding.span.end - finding.span.begin);
-      fmt::format_to(std::back_inserter(output.buffer()), "{}:{}:{}: {}: {} [{}]\n", name, located.line + 1,
-                     lines.column(finding.span.begin), dialect::severity_name(def.severity, style_.language),
-                     printable(dialect::message(finding.id, style_.language, marked, finding.values)), def.code);
+      const ShownFinding shown = show(located, lines, style_);
+      fmt::format_to(std::back_inserter(output.buffer()), "{}:{}:{}: {}: {} [{}]\n", name, shown.line, shown.column,
+                     dialect::severity_name(shown.severity, style_.language), printable(shown.message), shown.def.code);
       output.relieve();
     }
   }

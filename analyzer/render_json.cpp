@@ -30,22 +30,18 @@ class JsonRenderer final : public Renderer {
  private:
   Json to_json(std::string_view name, LineFinder& lines, const LocatedFinding& located, const Report& report,
                const StepTexts& steps) const {
-    const std::string_view line = lines.line(located.line);
-    const syntax::Finding& finding = located.finding;
-    const dialect::DiagnosticDef& def = dialect::definition(finding.id);
-    const std::string_view marked = line.substr(finding.span.begin, finding.span.end - finding.span.begin);
-    const std::size_t column = lines.column(finding.span.begin);
+    const ShownFinding shown = show(located, lines, style_);
     Json object;
     object["file"] = name;
-    object["line"] = located.line + 1;
-    object["column"] = column;
-    object["endLine"] = located.line + 1;
-    object["endColumn"] = column + column_of(marked, marked.size()) - 1;
-    object["severity"] = dialect::severity_name(def.severity, dialect::Language::English);
-    object["code"] = def.code;
-    object["name"] = def.name;
-    object["message"] = dialect::message(finding.id, style_.language, marked, finding.values);
-    object["url"] = rule_url(finding.id);
+    object["line"] = shown.line;
+    object["column"] = shown.column;
+    object["endLine"] = shown.line;
+    object["endColumn"] = shown.end_column;
+    object["severity"] = dialect::severity_name(shown.severity, dialect::Language::English);
+    object["code"] = shown.def.code;
+    object["name"] = shown.def.name;
+    object["message"] = shown.message;
+    object["url"] = rule_url(located.finding.id);
     object["fix"] = nullptr;
     object["path"] = nullptr;
     if (located.path >= 0) {

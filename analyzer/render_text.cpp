@@ -66,19 +66,16 @@ class TextRenderer final : public Renderer {
 
   void one(std::string_view name, LineFinder& lines, RelatedPlaces& places, const LocatedFinding& located,
            const Report& report, const StepTexts& steps, std::string& out) const {
-    const std::string_view line = lines.line(located.line);
+    const ShownFinding shown = show(located, lines, style_);
+    const std::string_view line = shown.line_text;
     const syntax::Finding& finding = located.finding;
-    const dialect::DiagnosticDef& def = dialect::definition(finding.id);
-    const std::string_view marked = line.substr(finding.span.begin, finding.span.end - finding.span.begin);
-    const std::string_view color = paint(kSeverityColors[static_cast<std::size_t>(def.severity)]);
-    const std::string number = fmt::format("{}", located.line + 1);
+    const std::string_view color = paint(kSeverityColors[static_cast<std::size_t>(shown.severity)]);
+    const std::string number = fmt::format("{}", shown.line);
     const std::string margin(number.size(), ' ');
     const auto to = std::back_inserter(out);
-    fmt::format_to(to, "{}{}[{}]{}{}: {}{}\n", color, dialect::severity_name(def.severity, style_.language), def.code,
-                   paint(kReset), paint(kBold),
-                   printable(dialect::message(finding.id, style_.language, marked, finding.values)), paint(kReset));
-    fmt::format_to(to, "{}{}-->{} {}:{}:{}\n", margin, paint(kBlue), paint(kReset), name, number,
-                   lines.column(finding.span.begin));
+    fmt::format_to(to, "{}{}[{}]{}{}: {}{}\n", color, dialect::severity_name(shown.severity, style_.language),
+                   shown.def.code, paint(kReset), paint(kBold), printable(shown.message), paint(kReset));
+    fmt::format_to(to, "{}{}-->{} {}:{}:{}\n", margin, paint(kBlue), paint(kReset), name, number, shown.column);
     const Excerpt excerpt = excerpt_around(line, finding.span.begin);
     fmt::format_to(to, "{} {}|{}\n", margin, paint(kBlue), paint(kReset));
     if (const std::optional<RelatedPlace> place = places.of(located, line)) above(*place, located.line, margin, out);
@@ -86,7 +83,7 @@ class TextRenderer final : public Renderer {
                    printable(excerpt.text), excerpt.cut_right ? "..." : "");
     fmt::format_to(to, "{} {}|{} {}\n", margin, paint(kBlue), paint(kReset), underline(excerpt, finding, color));
     fmt::format_to(to, "{} {}={} {}\n", margin, paint(kBlue), paint(kReset),
-                   dialect::first_sentence(def.explanation.in(style_.language)));
+                   dialect::first_sentence(shown.def.explanation.in(style_.language)));
     if (located.path >= 0) path(steps, report.paths[static_cast<std::size_t>(located.path)], margin, out);
     out += '\n';
   }

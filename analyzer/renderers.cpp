@@ -2,10 +2,25 @@
 
 namespace isocnc::analyzer {
 
+/// All formats there are.
+static constexpr struct {
+  std::string_view name;
+  std::unique_ptr<Renderer> (*make)(const Style& style);
+} kFormats[] = {
+    {"text", make_text_renderer},
+    {"concise", make_concise_renderer},
+    {"json", make_json_renderer},
+};
+
+std::vector<std::string> format_names() {
+  std::vector<std::string> names;
+  for (const auto& format : kFormats) names.emplace_back(format.name);
+  return names;
+}
+
 std::unique_ptr<Renderer> make_renderer(std::string_view format, const Style& style) {
-  if (format == "text") return make_text_renderer(style);
-  if (format == "concise") return make_concise_renderer(style);
-  if (format == "json") return make_json_renderer(style);
+  for (const auto& each : kFormats)
+    if (each.name == format) return each.make(style);
   return nullptr;
 }
 

@@ -34,6 +34,20 @@ std::size_t LineFinder::column(std::size_t byte) {
   return column_;
 }
 
+ShownFinding show(const LocatedFinding& located, LineFinder& lines, const Style& style) {
+  const syntax::Finding& finding = located.finding;
+  const std::string_view line = lines.line(located.line);
+  const std::string_view marked = line.substr(finding.span.begin, finding.span.end - finding.span.begin);
+  const std::size_t column = lines.column(finding.span.begin);
+  return {.def = dialect::definition(finding.id),
+          .severity = style.severity(finding.id),
+          .line_text = line,
+          .line = located.line + 1,
+          .column = column,
+          .end_column = column + column_of(marked, marked.size()) - 1,
+          .message = dialect::message(finding.id, style.language, marked, finding.values)};
+}
+
 StepTexts::StepTexts(std::string_view text, const Report& report, dialect::Language language) {
   for (const std::vector<PathStep>& path : report.paths)
     for (const PathStep& step : path) texts_[{step.line, step.taken}];

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "analyzer/report.h"
+#include "analyzer/selection.h"
 #include "interpreter/dialect/diagnostic.h"
 #include "interpreter/syntax/unicode.h"
 
@@ -36,7 +37,25 @@ class LineFinder {
 struct Style {
   dialect::Language language = dialect::Language::English;
   bool color = false;
+  Selection selection;
+
+  /// Of a code that is shown.
+  dialect::Severity severity(dialect::DiagnosticId id) const {
+    return selection.severity(id).value_or(dialect::definition(id).severity);
+  }
 };
+
+/// A finding as the formats tell it: lines and columns from 1, columns in code points, the end exclusive.
+struct ShownFinding {
+  const dialect::DiagnosticDef& def;
+  dialect::Severity severity;
+  std::string_view line_text;
+  std::uint64_t line = 0;
+  std::size_t column = 0;
+  std::size_t end_column = 0;
+  std::string message;  ///< May hold any byte that the program holds.
+};
+ShownFinding show(const LocatedFinding& located, LineFinder& lines, const Style& style);
 
 /// The IF of each step that a report's paths take, in words: found once, however many findings share it.
 class StepTexts {

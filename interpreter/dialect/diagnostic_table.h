@@ -1510,6 +1510,26 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
                            "registro e il valore. Falso allarme se il registro è un selettore di questo tipo."},
      .wrong = "M06 T101001\nV1 = 0\n[!IF!] V1 = 1 GOTO N10\nG00 X10\nN10 G00 X20\nM02\n",
      .right = "M06 T101001\nIF V1 = 1 GOTO N10\nG00 X10\nN10 G00 X20\nM02\n"},
+    {.code = "W190",
+     .name = "useless-suppression",
+     .severity = Severity::Warning,
+     .section = "I.2.3",
+     .arguments = {},
+     .title = {.en = "isolint comment without effect", .it = "Commento per isolint senza effetto"},
+     .message = {.en = "{text} changes nothing in what is reported",
+                 .it = "{text} non cambia nulla di ciò che viene segnalato"},
+     .explanation = {.en = "The comment names nothing that is found where it counts, or a code that does not exist. "
+                           "With ignore it counts on its own line, with disable from its line to the line before "
+                           "enable, with ignore-file in the whole program. If the program has been mended, delete the "
+                           "comment, which would hide the next mistake. Otherwise correct it, or move it to the line "
+                           "that it is meant for.",
+                     .it = "Il commento non indica nulla che venga segnalato dove esso vale, oppure indica un codice "
+                           "che non esiste. Con ignore vale sulla propria linea, con disable dalla propria linea fino "
+                           "a quella prima di enable, con ignore-file in tutto il programma. Se il programma è stato "
+                           "corretto, togliere il commento, che nasconderebbe il prossimo errore. Altrimenti "
+                           "correggerlo, o spostarlo sulla linea a cui serve."},
+     .wrong = "M06 T101001\nG00 X10 ;[!isolint: ignore ISO003!]\nM02\n",
+     .right = "M06 T101001\nG00 X10\nM02\n"},
     {.code = "W191",
      .name = "too-many-paths",
      .severity = Severity::Info,

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <ostream>
+#include <sstream>
 
 #include "programs.h"
 #include "run_command.h"
@@ -42,6 +43,21 @@ TEST(IsolintUsage, RefusesWhatItDoesNotKnow) {
   }
 }
 
+TEST(IsolintUsage, GuessesTheOptionThatWasMeant) {
+  EXPECT_THAT(run_command({"isolint", "--fromat=json"}).err,
+              StartsWith("isolint: no such option: --fromat; did you mean --format?\n"));
+  EXPECT_THAT(run_command({"isolint", "--stat"}).err, HasSubstr("did you mean --statistics?"));
+  EXPECT_THAT(run_command({"isolint", "--format", "jsno"}).err, HasSubstr("did you mean json?"));
+  EXPECT_THAT(run_command({"isolint", "--quaternion"}).err, StartsWith("isolint: no such option: --quaternion\n"));
+}
+
+TEST(IsolintUsage, HelpFitsTheScreen) {
+  std::istringstream lines(run_command({"isolint", "--help"}).out);
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) EXPECT_LE(line.size(), 80u) << line;
+  EXPECT_LE(count, 50);
+}
+
 TEST(IsolintUsage, NamesItsVersion) {
   const CommandResult result = run_command({"isolint", "--version"});
   EXPECT_THAT(result.out, MatchesRegex("isolint [0-9]+\\.[0-9]+\\.[0-9]+\n"));
@@ -53,7 +69,8 @@ TEST(IsolintUsage, HelpNamesEveryOption) {
   const CommandResult result = run_command({"isolint", "--help"});
   EXPECT_EQ(result.status, 0);
   for (const std::string option : {"--format", "--lang", "--color", "--jobs", "--stdin-filename", "--explain",
-                                   "--list-rules", "--no-config", "--version", "--help"})
+                                   "--list-rules", "--no-config", "--version", "--help", "--select", "--ignore",
+                                   "--severity", "--max-warnings", "--exit-zero", "--output", "--statistics"})
     EXPECT_THAT(result.out, HasSubstr(option));
 }
 
@@ -78,12 +95,19 @@ TEST(IsolintExplain, SpeaksItalian) {
 }
 
 TEST(IsolintExplain, SaysSoWhenThereIsNoSuchCode) {
-  for (const std::string code : {"ISO069", "ISO31", "W", "x"}) {
+  for (const std::string code : {"ISO069", "W", "x"}) {
     const CommandResult result = run_command({"isolint", "--explain", code});
     EXPECT_EQ(result.status, 2);
     EXPECT_EQ(result.out, "");
     EXPECT_EQ(result.err, "isolint: unknown code: " + code + " (--list-rules)\n");
   }
+}
+
+TEST(IsolintExplain, GuessesTheCodeThatWasMeant) {
+  EXPECT_EQ(run_command({"isolint", "--explain", "ISO31"}).err,
+            "isolint: unknown code: ISO31; did you mean ISO031? (--list-rules)\n");
+  EXPECT_EQ(run_command({"isolint", "--lang", "it", "--explain", "feed-mising"}).err,
+            "isolint: codice sconosciuto: feed-mising; forse feed-missing? (--list-rules)\n");
 }
 
 TEST(IsolintListRules, ListsEveryCodeOnALine) {

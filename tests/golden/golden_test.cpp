@@ -7,6 +7,7 @@
 
 #include "analyzer/check_text.h"
 #include "analyzer/rendering.h"
+#include "analyzer/suppressions.h"
 #include "golden_program.h"
 #include "interpreter/running/runner.h"
 #include "tests/support/report_text.h"
@@ -22,6 +23,11 @@ std::string shown(const ExpectedFinding& finding, const std::string& line) {
 
 std::string line_of(const std::string& program, std::size_t index) {
   return std::string(analyzer::LineFinder(program).line(index));
+}
+
+/// What isolint would report.
+analyzer::Report reported_in(const Part& part) {
+  return analyzer::suppress(analyzer::check_text(part.program, part.setup), part.program, {});
 }
 
 std::vector<std::string> found_in(const Part& part, const analyzer::Report& report) {
@@ -59,7 +65,7 @@ TEST_P(Golden, FindsWhatIsMarkedAndNothingElse) {
       expected.push_back(
           shown({finding.line, finding.begin, finding.end, finding.code, {}}, line_of(part.program, finding.line)));
     }
-    const analyzer::Report report = analyzer::check_text(part.program, part.setup);
+    const analyzer::Report report = reported_in(part);
     const std::vector<std::string> found = found_in(part, report);
     EXPECT_EQ(difference(expected, found), "") << "missing in " << part.name;
     EXPECT_EQ(difference(found, expected), "") << "not marked in " << part.name;
@@ -68,7 +74,7 @@ TEST_P(Golden, FindsWhatIsMarkedAndNothingElse) {
 
 TEST_P(Golden, NamesTheJumpThatLeadsToAFinding) {
   for (const Part& part : read_golden(GetParam())) {
-    const analyzer::Report report = analyzer::check_text(part.program, part.setup);
+    const analyzer::Report report = reported_in(part);
     for (const ExpectedFinding& finding : part.findings) {
       if (finding.via.empty()) continue;
       bool named = false;

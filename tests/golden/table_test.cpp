@@ -6,6 +6,7 @@
 #include "analyzer/check_text.h"
 #include "analyzer/explain.h"
 #include "analyzer/rendering.h"
+#include "analyzer/suppressions.h"
 #include "tests/support/report_text.h"
 
 namespace isocnc::dialect {
@@ -22,9 +23,9 @@ execution::Setup table_setup(const DiagnosticDef& def) {
   return setup;
 }
 
-/// Without opinions, where the row is about the control's own codes.
-Report checked(const DiagnosticDef& def, std::string_view text) {
-  Report report = analyzer::check_text(text, table_setup(def));
+/// What isolint would report; without opinions, where the row is about the control's own codes.
+Report reported_in(std::string_view program, const DiagnosticDef& def) {
+  Report report = analyzer::suppress(analyzer::check_text(program, table_setup(def)), program, {});
   if (!support::is_lint(def.code))
     std::erase_if(report.findings, [](const auto& it) { return support::is_lint(definition(it.finding.id).code); });
   return report;
@@ -46,7 +47,7 @@ TEST_P(Table, WrongProgramHasThisOneFindingAtItsMark) {
   if (def.wrong.empty()) GTEST_SKIP() << "cannot be shown in a few lines";
   const MarkedProgram wrong = read_marked(def.wrong);
   ASSERT_TRUE(wrong.has_mark);
-  const Report report = checked(def, wrong.text);
+  const Report report = reported_in(wrong.text, def);
   ASSERT_EQ(report.findings.size(), 1u) << wrong.text << codes_of(report);
   EXPECT_EQ(definition(report.findings[0].finding.id).code, def.code) << wrong.text;
   EXPECT_EQ(codes_of(report), std::string(def.code) + "@" + std::to_string(wrong.line + 1) + ":" +
@@ -56,7 +57,7 @@ TEST_P(Table, WrongProgramHasThisOneFindingAtItsMark) {
 
 TEST_P(Table, RightProgramHasNone) {
   const DiagnosticDef& def = GetParam();
-  EXPECT_EQ(codes_of(checked(def, def.right.empty() ? "M02\n" : def.right)), "") << def.right;
+  EXPECT_EQ(codes_of(reported_in(def.right.empty() ? "M02\n" : def.right, def)), "") << def.right;
 }
 
 TEST_P(Table, TextsAreThereInBothLanguages) {

@@ -1,0 +1,110 @@
+#include "analyzer/command_line.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
+
+#include "analyzer/near_names.h"
+#include "analyzer/renderers.h"
+#include "interpreter/dialect/locale.h"
+
+namespace isocnc::analyzer {
+
+using dialect::Language;
+
+Language Options::reader_language() const {
+  if (language == "it") return Language::Italian;
+  if (language == "en") return Language::English;
+  return dialect::language_of_environment();
+}
+
+bool Options::wants_color() const {
+  if (color != "auto") return color == "always";
+  return output.empty() && isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
+}
+
+/// One word behind each option of a list, so that `--select ISO031 part.iso` leaves the path alone.
+static void add_list(CLI::App& app, const std::string& name, std::vector<std::string>& list, const char* placeholder,
+                     const std::string& description) {
+  app.add_option(name, list, description)->allow_extra_args(false)->option_text(placeholder);
+}
+
+static void add_choice(CLI::App& app, const std::string& name, std::string& value, std::vector<std::string> choices,
+                       const char* placeholder, const std::string& description) {
+  const auto complain = [choices = std::move(choices)](const std::string& given) -> std::string {
+    if (std::find(choices.begin(), choices.end(), given) != choices.end()) return {};
+    return fmt::format("there is no {}, only {}{}", given, fmt::join(choices, ", "),
+                       did_you_mean(nearest_name(given, choices), Language::English));
+  };
+  app.add_option(name, value, description)->check(complain)->option_text(placeholder);
+}
+
+static void add_options(CLI::App& app, Options& options) {
+  app.add_option("PATH", options.paths,
+                 "Programs, directories (searched for .iso .nc .cnc\n.tap .ngc), or - for standard input; else the\n"
+                 "current directory")
+      ->option_text("...");
+  app.add_option("--explain", options.explain, "Tell all about a code, such as ISO031")->option_text("CODE");
+  app.add_flag("--list-rules", options.list_rules, "List all codes");
+
+  app.option_defaults()->group("What is reported");
+  add_list(app, "--select", options.wishes.select, "CODES",
+           "Only these: codes (ISO031), names, what codes\nbegin with (W1), ALL; commas between them");
+  add_list(app, "--ignore", options.wishes.ignore, "CODES", "Not these");
+  add_list(app, "--severity", options.wishes.severities, "CODE=LEVEL", "Weigh it as error, warning, info or off");
+
+  app.option_defaults()->group("How it is shown");
+  add_choice(app, "--format", options.format, format_names(), "NAME",
+             fmt::format("{}", fmt::join(format_names(), ", ")));
+  app.add_option("--output", options.output, "Write to this file, not to standard output")->option_text("FILE");
+  app.add_flag("--statistics", options.statistics, "Show how many findings each code has");
+  add_choice(app, "--lang", options.language, {"en", "it"}, "LANG", "en or it; else as the locale says");
+  add_choice(app, "--color", options.color, {"auto", "always", "never"}, "WHEN", "auto, always, never");
+  app.add_option("--stdin-filename", options.stdin_name, "What to call standard input")->option_text("NAME");
+
+  app.option_defaults()->group("How it is run");
+  app.add_option("--max-warnings", options.max_warnings, "Fail when there are more warnings than N")
+      ->check(CLI::NonNegativeNumber)
+      ->option_text("N");
+  app.add_flag("--exit-zero", options.exit_zero, "Do not fail because of findings");
+  app.add_option("--jobs,-j", options.jobs, "Threads; else one per core")->check(CLI::Range(1, 1024))->option_text("N");
+  app.add_flag("--no-config", options.no_config, "Read no isocnc.json");
+  app.add_flag("--rules-page", options.rules_page, "Print docs/rules.md")->group("");
+}
+
+/// What is wrong, with the option that was most likely meant.
+static std::string complaint_about(const CLI::ParseError& error, const CLI::App& app, Language language) {
+  const std::vector<std::string> unexpected = app.remaining();
+  if (unexpected.empty()) return error.what();
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  const std::string given = unexpected.front().substr(0, unexpected.front().find('='));
+  return fmt::format("{}: {}{}", language == Language::Italian ? "opzione sconosciuta" : "no such option", given,
+                     did_you_mean(nearest_name(given, names), language));
+}
+
+CommandLine read_command_line(int argc, const char* const* argv) {
+  CommandLine read;
+  CLI::App app{"Checks ISOCNC programs and reports what the control would stop at.", "isolint"};
+  app.set_version_flag("--version", "isolint " ISOCNC_VERSION);
+  app.get_formatter()->column_width(27);
+  add_options(app, read.options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    std::ostringstream said;
+    app.exit(success, said, said);
+    read.answer = said.str();
+  } catch (const CLI::ParseError& error) {
+    read.complaint = complaint_about(error, app, read.options.reader_language());
+  }
+  return read;
+}
+
+}  // namespace isocnc::analyzer

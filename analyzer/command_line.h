@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analyzer/selection.h"
+
+namespace isocnc::analyzer {
+
+/// What isolint has been asked for.
+struct Options {
+  std::vector<std::string> paths;
+  std::string format = "text";
+  std::string output;  ///< Empty: standard output.
+  std::string language;
+  std::string color = "auto";
+  std::string explain;
+  std::string stdin_name = "<stdin>";
+  Wishes wishes;
+  std::optional<std::size_t> max_warnings;
+  int jobs = 0;  ///< 0: one for each core.
+  bool exit_zero = false;
+  bool statistics = false;
+  bool list_rules = false;
+  bool rules_page = false;
+  bool no_config = false;
+
+  dialect::Language reader_language() const;
+  /// Whether findings are to be colored.
+  bool wants_color() const;
+};
+
+/// The options, or what is to be said in place of a check.
+struct CommandLine {
+  Options options;
+  std::optional<std::string> answer;     ///< To `--help` and `--version`.
+  std::optional<std::string> complaint;  ///< What is wrong with the command.
+};
+
+CommandLine read_command_line(int argc, const char* const* argv);
+
+}  // namespace isocnc::analyzer

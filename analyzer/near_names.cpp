@@ -1,0 +1,62 @@
+#include "analyzer/near_names.h"
+
+#include <algorithm>
+#include <cctype>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace isocnc::analyzer {
+
+static bool same_letter(char a, char b) {
+  return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+}
+
+/// Letters to insert, delete, change or swap with their neighbor to make one of the other.
+static std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before_last, last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t change = last[j - 1] + (same_letter(a[i - 1], b[j - 1]) ? 0 : 1);
+      row[j] = std::min({change, last[j] + 1, row[j - 1] + 1});
+      const bool swapped = i > 1 && j > 1 && same_letter(a[i - 1], b[j - 2]) && same_letter(a[i - 2], b[j - 1]);
+      if (swapped) row[j] = std::min(row[j], before_last[j - 2] + 1);
+    }
+    before_last = last;
+    last = row;
+  }
+  return last.back();
+}
+
+std::optional<std::string> nearest_name(std::string_view typed, std::span<const std::string> names) {
+  constexpr std::size_t kLongest = 64;  // What is longer was never a name.
+  if (typed.size() > kLongest) return std::nullopt;
+  const std::size_t limit = std::max<std::size_t>(1, typed.size() / 4);
+  std::optional<std::string> nearest;
+  std::size_t least = limit + 1;
+  for (const std::string& name : names) {
+    const std::size_t steps = distance(typed, name);
+    if (steps == least) nearest.reset();
+    if (steps < least) {
+      least = steps;
+      nearest = name;
+    }
+  }
+  if (least > limit)  // Far from all, but perhaps the beginning of one.
+    for (const std::string& name : names)
+      if (typed.size() >= 3 && begins_with(name, typed)) return name;
+  return nearest;
+}
+
+std::string did_you_mean(const std::optional<std::string>& name, dialect::Language language) {
+  static constexpr dialect::Text kQuestion = {"; did you mean {}?", "; forse {}?"};
+  return name ? fmt::format(fmt::runtime(kQuestion.in(language)), *name) : "";
+}
+
+bool begins_with(std::string_view text, std::string_view beginning) {
+  return text.size() >= beginning.size() && std::equal(beginning.begin(), beginning.end(), text.begin(), same_letter);
+}
+
+}  // namespace isocnc::analyzer
