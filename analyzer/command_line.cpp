@@ -71,6 +71,11 @@ static void add_options(CLI::App& app, Options& options) {
            "Only these: codes (ISO031), names, what codes\nbegin with (W1), ALL; commas between them");
   add_list(app, "--ignore", options.wishes.ignore, "CODES", "Not these");
   add_list(app, "--severity", options.wishes.severities, "CODE=LEVEL", "Weigh it as error, warning, info or off");
+  CLI::Option* const baseline =
+      app.add_option("--baseline", options.baseline, "Not the findings recorded in this file")->option_text("FILE");
+  app.add_option("--write-baseline", options.write_baseline, "Record all findings in this file instead")
+      ->option_text("FILE")
+      ->excludes(baseline);
 
   app.option_defaults()->group("How it is shown");
   add_choice(app, "--format", options.format, format_names(), "NAME", listed(format_names()));

@@ -68,9 +68,10 @@ TEST(IsolintUsage, NamesItsVersion) {
 TEST(IsolintUsage, HelpNamesEveryOption) {
   const CommandResult result = run_command({"isolint", "--help"});
   EXPECT_EQ(result.status, 0);
-  for (const std::string option : {"--format", "--lang", "--color", "--jobs", "--stdin-filename", "--explain",
-                                   "--list-rules", "--no-config", "--version", "--help", "--select", "--ignore",
-                                   "--severity", "--max-warnings", "--exit-zero", "--output", "--statistics"})
+  for (const std::string option :
+       {"--format", "--lang", "--color", "--jobs", "--stdin-filename", "--explain", "--list-rules", "--no-config",
+        "--version", "--help", "--select", "--ignore", "--severity", "--baseline", "--write-baseline", "--max-warnings",
+        "--exit-zero", "--output", "--statistics"})
     EXPECT_THAT(result.out, HasSubstr(option));
 }
 
