@@ -44,6 +44,20 @@ static void add_choice(CLI::App& app, const std::string& name, std::string& valu
   app.add_option(name, value, description)->check(complain)->option_text(placeholder);
 }
 
+/// `text, concise, ...`, in lines that fit beside the options.
+static std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t kWidth = 50;
+  std::string text;
+  std::size_t width = 0;
+  for (const std::string& name : names) {
+    if (!text.empty()) text += width + name.size() > kWidth ? ",\n" : ", ";
+    width = width + name.size() > kWidth ? 0 : width;
+    text += name;
+    width += name.size() + 2;
+  }
+  return text;
+}
+
 static void add_options(CLI::App& app, Options& options) {
   app.add_option("PATH", options.paths,
                  "Programs, directories (searched for .iso .nc .cnc\n.tap .ngc), or - for standard input; else the\n"
@@ -57,10 +71,14 @@ static void add_options(CLI::App& app, Options& options) {
            "Only these: codes (ISO031), names, what codes\nbegin with (W1), ALL; commas between them");
   add_list(app, "--ignore", options.wishes.ignore, "CODES", "Not these");
   add_list(app, "--severity", options.wishes.severities, "CODE=LEVEL", "Weigh it as error, warning, info or off");
+  CLI::Option* const baseline =
+      app.add_option("--baseline", options.baseline, "Not the findings recorded in this file")->option_text("FILE");
+  app.add_option("--write-baseline", options.write_baseline, "Record all findings in this file instead")
+      ->option_text("FILE")
+      ->excludes(baseline);
 
   app.option_defaults()->group("How it is shown");
-  add_choice(app, "--format", options.format, format_names(), "NAME",
-             fmt::format("{}", fmt::join(format_names(), ", ")));
+  add_choice(app, "--format", options.format, format_names(), "NAME", listed(format_names()));
   app.add_option("--output", options.output, "Write to this file, not to standard output")->option_text("FILE");
   app.add_flag("--statistics", options.statistics, "Show how many findings each code has");
   add_choice(app, "--lang", options.language, {"en", "it"}, "LANG", "en or it; else as the locale says");

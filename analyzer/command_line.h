@@ -17,6 +17,8 @@ struct Options {
   std::string color = "auto";
   std::string explain;
   std::string stdin_name = "<stdin>";
+  std::string baseline;        ///< Findings not to be reported.
+  std::string write_baseline;  ///< Where to record findings in place of reporting them.
   Wishes wishes;
   std::optional<std::size_t> max_warnings;
   int jobs = 0;  ///< 0: one for each core.

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "analyzer/baseline.h"
 #include "analyzer/check_text.h"
 #include "analyzer/command_line.h"
 #include "analyzer/explain.h"
@@ -19,6 +20,7 @@
 #include "analyzer/suppressions.h"
 #include "analyzer/tally.h"
 #include "interpreter/running/output_file.h"
+#include "interpreter/running/replace_file.h"
 #include "interpreter/running/source_file.h"
 #include "interpreter/running/system_texts.h"
 
@@ -69,10 +71,11 @@ ExitStatus say(std::string_view text, const Options& options) {
 /// Checks files side by side and shows what was found in their order.
 class Run {
  public:
-  Run(const Options& options, const Style& style, std::unique_ptr<Renderer> renderer,
+  Run(const Options& options, const Style& style, std::unique_ptr<Renderer> renderer, std::optional<Baseline> baseline,
       std::vector<std::filesystem::path> files)
       : options_(options),
         style_(style),
+        baseline_(std::move(baseline)),
         files_(std::move(files)),
         renderer_(std::move(renderer)),
         jobs_(options.jobs > 0 ? options.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
@@ -112,6 +115,11 @@ class Run {
         const bool is_large = text.size() > kLargeFile;
         report = check_text(text, {}, files_.size() == 1 || is_large ? jobs_ : 1);
         report = style_.selection.shown(suppress(std::move(report), text, style_.selection));
+        if (baseline_) {
+          const std::size_t all = report.findings.size();
+          report = baseline_->without_known(std::move(report), name, text);
+          known_ += all - report.findings.size();
+        }
       }
       std::unique_lock lock(mutex_);
       turn_changed_.wait(lock, [&] { return turn_ == index; });
@@ -152,6 +160,7 @@ class Run {
                                : plural(errors, "error", "errors") + ", " + plural(warnings, "warning", "warnings");
     if (infos > 0) line += ", " + plural(infos, italian ? "nota" : "note", italian ? "note" : "notes");
     line += " in " + plural(files_checked_, "file", italian ? "file" : "files");
+    if (baseline_) line += fmt::format("; {} {}", known_.load(), italian ? "nella baseline" : "in the baseline");
     std::cerr << line << '\n';
   }
 
@@ -159,10 +168,12 @@ class Run {
 
   const Options& options_;
   const Style& style_;
+  const std::optional<Baseline> baseline_;
   const std::vector<std::filesystem::path> files_;
   std::unique_ptr<Renderer> renderer_;
   const int jobs_;
   std::atomic<std::size_t> next_ = 0;
+  std::atomic<std::size_t> known_ = 0;  // Findings of the baseline.
   std::mutex mutex_;
   std::condition_variable turn_changed_;
   std::size_t turn_ = 0;  // With all below: guarded by mutex_.
@@ -171,6 +182,35 @@ class Run {
   std::size_t files_checked_ = 0;
   bool trouble_ = false;
 };
+
+/// Records findings in place of showing them.
+class Recorder final : public Renderer {
+ public:
+  explicit Recorder(Baseline& baseline) : baseline_(baseline) {}
+  void file(std::string_view name, std::string_view text, const Report& report, Output&) override {
+    baseline_.add(name, text, report);
+  }
+
+ private:
+  Baseline& baseline_;
+};
+
+/// Checks, and writes all that is found as a baseline, unless programs would be missing in it.
+int record(Options options, const Style& style, std::vector<std::filesystem::path> files, bool trouble) {
+  const bool italian = style.language == Language::Italian;
+  const std::string& file = options.write_baseline;
+  options.exit_zero = true;  // What is recorded is nobody's failure.
+  Baseline baseline(file);
+  if (Run(options, style, std::make_unique<Recorder>(baseline), {}, std::move(files)).run(trouble) != kClean) {
+    complain(fmt::format("{}: {}", file, italian ? "non scritto" : "not written"));
+    return kTrouble;
+  }
+  if (const int error = running::replace_file(file, baseline.to_json())) {
+    complain(fmt::format("{}: {}", file, running::cannot_write(error, style.language)));
+    return kTrouble;
+  }
+  return kClean;
+}
 
 /// The programs to be checked; none, after a complaint, when the check cannot begin.
 std::optional<std::vector<std::filesystem::path>> find_programs(const Options& options, bool& trouble) {
@@ -220,12 +260,23 @@ int check(const Options& options) {
   bool trouble = false;
   auto files = find_programs(options, trouble);
   if (!files) return kTrouble;
-  if (writes_over(options.output, *files)) {
-    complain(fmt::format("--output: {} {}", options.output,
+  for (const std::string& written : {options.output, options.write_baseline}) {
+    if (!writes_over(written, *files)) continue;
+    complain(fmt::format("{}: {}", written,
                          italian ? "è uno dei programmi da verificare" : "is one of the programs to be checked"));
     return kTrouble;
   }
-  return Run(options, style, std::move(renderer), *std::move(files)).run(trouble);
+  if (!options.write_baseline.empty()) return record(options, style, *std::move(files), trouble);
+  std::optional<Baseline> baseline;
+  if (!options.baseline.empty()) {
+    auto read = Baseline::read(options.baseline, style.language);
+    if (const auto* mistake = std::get_if<std::string>(&read)) {
+      complain(*mistake);
+      return kTrouble;
+    }
+    baseline = std::get<Baseline>(std::move(read));
+  }
+  return Run(options, style, std::move(renderer), std::move(baseline), *std::move(files)).run(trouble);
 }
 
 int explain_code(const Options& options) {

@@ -20,7 +20,6 @@ static constexpr std::string_view kDim = "\x1b[2m";
 static constexpr std::string_view kBlue = "\x1b[1;34m";
 static constexpr std::string_view kSeverityColors[] = {"\x1b[1;31m", "\x1b[1;33m", "\x1b[1;36m"};
 
-static constexpr Text kReachedThrough = {"only on this path:", "solo su questo percorso:"};
 static constexpr Text kOtherPlace = {"the other place", "l'altro punto"};
 
 /// A piece of a line that fits on the screen, and where it starts.

@@ -7,9 +7,9 @@ static constexpr struct {
   std::string_view name;
   std::unique_ptr<Renderer> (*make)(const Style& style);
 } kFormats[] = {
-    {"text", make_text_renderer},
-    {"concise", make_concise_renderer},
-    {"json", make_json_renderer},
+    {"text", make_text_renderer},   {"concise", make_concise_renderer},       {"json", make_json_renderer},
+    {"sarif", make_sarif_renderer}, {"github", make_github_renderer},         {"gitlab", make_gitlab_renderer},
+    {"junit", make_junit_renderer}, {"checkstyle", make_checkstyle_renderer},
 };
 
 std::vector<std::string> format_names() {

@@ -18,6 +18,11 @@ std::unique_ptr<Renderer> make_renderer(std::string_view format, const Style& st
 std::unique_ptr<Renderer> make_text_renderer(const Style& style);
 std::unique_ptr<Renderer> make_concise_renderer(const Style& style);
 std::unique_ptr<Renderer> make_json_renderer(const Style& style);
+std::unique_ptr<Renderer> make_sarif_renderer(const Style& style);
+std::unique_ptr<Renderer> make_github_renderer(const Style& style);
+std::unique_ptr<Renderer> make_gitlab_renderer(const Style& style);
+std::unique_ptr<Renderer> make_junit_renderer(const Style& style);
+std::unique_ptr<Renderer> make_checkstyle_renderer(const Style& style);
 
 /// Counts in place of findings, or null when the format has no way to tell them.
 std::unique_ptr<Renderer> make_statistics_renderer(std::string_view format, const Style& style);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -48,11 +49,39 @@ ShownFinding show(const LocatedFinding& located, LineFinder& lines, const Style&
           .message = dialect::message(finding.id, style.language, marked, finding.values)};
 }
 
-StepTexts::StepTexts(std::string_view text, const Report& report, dialect::Language language) {
+StepTexts::StepTexts(std::string_view text, const Report& report, dialect::Language language) : language_(language) {
   for (const std::vector<PathStep>& path : report.paths)
     for (const PathStep& step : path) texts_[{step.line, step.taken}];
   LineFinder lines(text);
   for (auto& [step, words] : texts_) words = describe_step({step.first, step.second}, lines.line(step.first), language);
+}
+
+std::string StepTexts::note(const LocatedFinding& located, const Report& report) const {
+  if (located.path < 0) return {};
+  std::string note = fmt::format("\n{}", kReachedThrough.in(language_));
+  for (const PathStep& step : report.paths[static_cast<std::size_t>(located.path)])
+    fmt::format_to(std::back_inserter(note), "\n{}: {}", step.line + 1, of(step));
+  return note;
+}
+
+std::string plain_path(std::string_view name) {
+  return std::filesystem::path(name).lexically_normal().generic_string();
+}
+
+std::string uri_of(std::string_view name) {
+  const std::string path = plain_path(name);
+  std::string uri = path.starts_with('/') ? "file://" : "";
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain =
+        byte < 0x80 && (std::isalnum(byte) != 0 || std::string_view("-._~/").find(c) != std::string_view::npos);
+    if (plain) {
+      uri += c;
+    } else {
+      fmt::format_to(std::back_inserter(uri), "%{:02X}", byte);
+    }
+  }
+  return uri;
 }
 
 std::string rule_url(dialect::DiagnosticId id) {

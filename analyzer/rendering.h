@@ -62,8 +62,11 @@ class StepTexts {
  public:
   StepTexts(std::string_view text, const Report& report, dialect::Language language);
   const std::string& of(const PathStep& step) const { return texts_.at({step.line, step.taken}); }
+  /// The path of a finding below its message, each line after a line end: nothing when every path leads to it.
+  std::string note(const LocatedFinding& located, const Report& report) const;
 
  private:
+  dialect::Language language_;
   std::map<std::pair<std::uint64_t, bool>, std::string> texts_;
 };
 
@@ -99,6 +102,14 @@ class Output {
   static constexpr std::size_t kLarge = 64 * 1024;
   std::string buffer_;
 };
+
+/// What stands before the steps of a path.
+inline constexpr dialect::Text kReachedThrough = {"only on this path:", "solo su questo percorso:"};
+
+/// A file's name without detours, as other tools call it: `./a/../part.iso` is `part.iso`.
+std::string plain_path(std::string_view name);
+/// The plain path as a URI: relative, unless the path is absolute.
+std::string uri_of(std::string_view name);
 
 /// The page of a rule.
 std::string rule_url(dialect::DiagnosticId id);

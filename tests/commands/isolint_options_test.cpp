@@ -68,9 +68,10 @@ TEST(IsolintUsage, NamesItsVersion) {
 TEST(IsolintUsage, HelpNamesEveryOption) {
   const CommandResult result = run_command({"isolint", "--help"});
   EXPECT_EQ(result.status, 0);
-  for (const std::string option : {"--format", "--lang", "--color", "--jobs", "--stdin-filename", "--explain",
-                                   "--list-rules", "--no-config", "--version", "--help", "--select", "--ignore",
-                                   "--severity", "--max-warnings", "--exit-zero", "--output", "--statistics"})
+  for (const std::string option :
+       {"--format", "--lang", "--color", "--jobs", "--stdin-filename", "--explain", "--list-rules", "--no-config",
+        "--version", "--help", "--select", "--ignore", "--severity", "--baseline", "--write-baseline", "--max-warnings",
+        "--exit-zero", "--output", "--statistics"})
     EXPECT_THAT(result.out, HasSubstr(option));
 }
 
@@ -150,6 +151,8 @@ INSTANTIATE_TEST_SUITE_P(Commands, IsolintOutput,
                          testing::Values(Saying{"Text", {"isolint", "-"}},
                                          Saying{"Concise", {"isolint", "--format", "concise", "-"}},
                                          Saying{"Json", {"isolint", "--format", "json", "-"}},
+                                         Saying{"Sarif", {"isolint", "--format", "sarif", "-"}},
+                                         Saying{"Junit", {"isolint", "--format", "junit", "-"}},
                                          Saying{"ListRules", {"isolint", "--list-rules"}},
                                          Saying{"Explain", {"isolint", "--explain", "ISO031"}},
                                          Saying{"RulesPage", {"isolint", "--rules-page"}},

@@ -153,7 +153,7 @@ TEST(IsolintOutputFile, IsNoneOfThePrograms) {
   const std::string program = folder.write("part.iso", kMixedProgram);
   const CommandResult result = run_command({"isolint", "--output", "./part.iso", "."}, {.folder = folder.path()});
   EXPECT_EQ(result.status, 2);
-  EXPECT_EQ(result.err, "isolint: --output: ./part.iso is one of the programs to be checked\n");
+  EXPECT_EQ(result.err, "isolint: ./part.iso: is one of the programs to be checked\n");
   EXPECT_EQ(read(program), kMixedProgram);
 }
 

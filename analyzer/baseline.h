@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+#include "analyzer/report.h"
+
+namespace isocnc::analyzer {
+
+/// Findings that were there before somebody began to mind them, and are not to be reported again. They are recognized
+/// as fingerprints are (fingerprint.h), so that edits elsewhere in a program do not bring them back.
+class Baseline {
+ public:
+  /// A baseline that will stand in `file`: programs are named from its folder, so that it does not matter where
+  /// isolint is started.
+  explicit Baseline(const std::filesystem::path& file);
+
+  /// What a file holds, or what is wrong with it: `FILE:LINE: reason`.
+  static std::variant<Baseline, std::string> read(const std::filesystem::path& file, dialect::Language language);
+
+  void add(std::string_view program, std::string_view text, const Report& report);
+  /// The report less the findings that the baseline knows.
+  Report without_known(Report report, std::string_view program, std::string_view text) const;
+  std::size_t size() const;
+  std::string to_json() const;
+
+ private:
+  friend class BaselineReader;
+
+  /// How many findings of a code there are on lines of one text.
+  using Counts = std::map<std::pair<dialect::DiagnosticId, std::uint64_t>, std::uint64_t>;
+
+  std::string name_of(std::string_view program) const;
+
+  std::filesystem::path folder_;
+  std::map<std::string, Counts> programs_;
+};
+
+}  // namespace isocnc::analyzer

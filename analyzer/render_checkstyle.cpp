@@ -1,0 +1,41 @@
+#include <fmt/format.h>
+
+#include "analyzer/renderers.h"
+#include "analyzer/xml.h"
+#include "interpreter/dialect/diagnostic_id.h"
+
+namespace isocnc::analyzer {
+
+/// Checkstyle's XML, which Jenkins, reviewdog and editors read.
+class CheckstyleRenderer final : public Renderer {
+ public:
+  explicit CheckstyleRenderer(const Style& style) : style_(style) {}
+
+  void begin(std::string& output) override {
+    output += "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<checkstyle version=\"4.3\">\n";
+  }
+  void end(std::string& output) override { output += "</checkstyle>\n"; }
+
+  void file(std::string_view name, std::string_view text, const Report& report, Output& output) override {
+    LineFinder lines(text);
+    output.buffer() += fmt::format("  <file name=\"{}\">\n", xml_escaped(plain_path(name)));
+    for (const LocatedFinding& located : report.findings) {
+      const ShownFinding shown = show(located, lines, style_);
+      fmt::format_to(std::back_inserter(output.buffer()),
+                     "    <error line=\"{}\" column=\"{}\" severity=\"{}\" message=\"{}\" source=\"isolint.{}\"/>\n",
+                     shown.line, shown.column, dialect::severity_name(shown.severity, dialect::Language::English),
+                     xml_escaped(shown.message), shown.def.code);
+      output.relieve();
+    }
+    output.buffer() += "  </file>\n";
+  }
+
+ private:
+  Style style_;
+};
+
+std::unique_ptr<Renderer> make_checkstyle_renderer(const Style& style) {
+  return std::make_unique<CheckstyleRenderer>(style);
+}
+
+}  // namespace isocnc::analyzer
