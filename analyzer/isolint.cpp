@@ -188,27 +188,12 @@ class Run {
 
 int check(const Options& options) {
   const Language language = options.reader_language();
-  const bool italian = language == Language::Italian;
   const std::vector<std::string> here = {"."};
-  std::vector<std::filesystem::path> files;
-  bool trouble = false;
-  if (options.paths == std::vector<std::string>{"-"}) {
-    files.emplace_back("-");
-  } else {
-    if (std::find(options.paths.begin(), options.paths.end(), "-") != options.paths.end()) {
-      complain(italian ? "- (lo standard input) va indicato da solo" : "- (standard input) must be given alone");
-      return kTrouble;
-    }
-    FileSelection selection = select_files(options.paths.empty() ? here : options.paths, kProgramExtensions, language);
-    for (const std::string& problem : selection.problems) complain(problem);
-    trouble = !selection.problems.empty();
-    files = std::move(selection.files);
-    if (files.empty() && !trouble) {
-      complain(italian ? "nessun programma trovato (.iso .nc .cnc .tap .ngc)"
-                       : "no programs found (.iso .nc .cnc .tap .ngc)");
-      return kTrouble;
-    }
-  }
+  FileSelection selection = select_programs(options.paths.empty() ? here : options.paths, language);
+  for (const std::string& problem : selection.problems) complain(problem);
+  const bool trouble = !selection.problems.empty();
+  std::vector<std::filesystem::path> files = std::move(selection.files);
+  if (selection.is_refused) return kTrouble;
   // Readers of JSON compare arrays, whatever order the files were named in.
   if (options.format == "json")
     std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.native() < b.native(); });
