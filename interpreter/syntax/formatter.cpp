@@ -208,11 +208,12 @@ void Formatter::make_room(const LineTree& tree) {
   comments_written_ = 0;
 }
 
-/// Comments between words say something of their neighbors: such lines keep their order.
+/// Comments between words say something of their neighbors: such lines keep their order. One inside the last word will
+/// stand at the end.
 void Formatter::choose_order(const LineTree& tree) {
   if (tree.words.empty()) return;
   for (const Span comment : tree.comments)
-    if (comment.begin > tree.words.front().begin && comment.begin < tree.words.back().end) return;
+    if (comment.begin > tree.words.front().begin && comment.begin < tree.words.back().begin) return;
   for (const Instruction& instruction : tree.instructions)
     if (instruction.kind == InstructionKind::G || instruction.kind == InstructionKind::Continuation)
       sort_arguments(tree, instruction);
@@ -278,8 +279,9 @@ void Formatter::write_words(const LineTree& tree, const LineChange& change) {
       write_word(tree, index);
     }
     letter_before = word.letter;
-    const bool next_joins = index + 1u < tree.words.size() && tree.words[index + 1u].letter == kAssign;
-    if (!(next_joins && word.letter == 'P')) write_comments_before(tree, word.end);
+    const bool is_last = index + 1u == tree.words.size();
+    const bool next_joins = !is_last && word.letter == 'P' && tree.words[index + 1u].letter == kAssign;
+    if (!is_last && !next_joins) write_comments_before(tree, word.end);
   }
   write_comments_before(tree, static_cast<std::uint32_t>(tree.text.size()) + 1);
 }
