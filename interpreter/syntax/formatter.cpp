@@ -32,6 +32,13 @@ static bool is_argument(const LineTree& tree, const Instruction& instruction, st
   return tree.words[index].owner == instruction.number && !is_command;
 }
 
+/// Whether nothing but its letter and the characters of its number make up the word.
+static bool is_compact(const Word& word) {
+  const std::uint32_t characters =
+      1 + word.digits + (word.has(Word::kSigned) ? 1 : 0) + (word.has(Word::kPoint) ? 1 : 0);
+  return word.letter >= 'A' && word.end - word.begin == characters;
+}
+
 /// Whether the line needs no look at its single characters: words in upper case with nothing inside, one blank between
 /// them, and at most a comment behind them.
 static bool is_tidy(const LineTree& tree) {
@@ -39,10 +46,8 @@ static bool is_tidy(const LineTree& tree) {
   std::uint32_t behind = 0;
   for (const Word& word : tree.words) {
     const std::uint32_t gap = behind == 0 ? 0 : 1;
-    const std::uint32_t characters =
-        1 + word.digits + (word.has(Word::kSigned) ? 1 : 0) + (word.has(Word::kPoint) ? 1 : 0);
-    if (word.letter < 'A' || word.begin != behind + gap || word.end - word.begin != characters ||
-        text[word.begin] != word.letter || (gap != 0 && text[behind] != ' '))
+    if (!is_compact(word) || word.begin != behind + gap || text[word.begin] != word.letter ||
+        (gap != 0 && text[behind] != ' '))
       return false;
     behind = word.end;
   }
@@ -129,8 +134,14 @@ class Rereading {
     for (std::size_t i = a.begin; i < a.end; ++i) {
       if (!is_argument(before_, a, i)) continue;
       const Word& wanted = before_.words[i];
-      std::size_t at = b.begin;
-      while (at < b.end && !(is_argument(after_, b, at) && after_.words[at].letter == wanted.letter)) ++at;
+      const auto is_wanted = [&](std::size_t at) {
+        return is_argument(after_, b, at) && after_.words[at].letter == wanted.letter;
+      };
+      std::size_t at = b.begin + (i - a.begin);  // Nearly always there.
+      if (at >= b.end || !is_wanted(at)) {
+        at = b.begin;
+        while (at < b.end && !is_wanted(at)) ++at;
+      }
       if (left == 0 || at == b.end || !is_same_number(wanted, after_.words[at])) return false;
       --left;
     }
@@ -167,14 +178,18 @@ std::string_view Formatter::format(const LineTree& tree, const LineChange& chang
   if (!tree.findings.empty()) return tree.text;
   const bool is_plain_style = !style_.most_decimals && style_.g_digits == GDigits::Keep && !style_.word_order;
   const bool changes_nothing = !change.line_number && !change.target && change.motion == LineChange::Motion::Keep;
-  if (is_plain_style && changes_nothing && is_tidy(tree)) return tree.text;
-  return rewrite(tree, change);
+  if (!is_plain_style || !changes_nothing) return rewrite(tree, change);
+  if (is_tidy(tree)) return tree.text;
+  if (!std::all_of(tree.words.begin(), tree.words.end(), is_compact)) return rewrite(tree, change);
+  // The words stay as they are but for the case of their letters: what stands between them cannot change their meaning.
+  start(tree);
+  write_words(tree, change);
+  return written();
 }
 
 /// What cannot be had without another meaning is done without; only new line numbers must not be left out, since other
 /// lines count on them.
 std::string_view Formatter::rewrite(const LineTree& tree, const LineChange& change) {
-  const auto written = [&] { return std::string_view(line_.data(), line_.size()); };
   if (write(tree, change, style_.word_order ? Order::Canonical : Order::AsWritten)) return written();
   LineChange less = change;
   less.motion = LineChange::Motion::Keep;
@@ -185,13 +200,11 @@ std::string_view Formatter::rewrite(const LineTree& tree, const LineChange& chan
 
 /// False when what has been written says something else.
 bool Formatter::write(const LineTree& tree, const LineChange& change, Order order) {
-  make_room(tree);
-  order_.resize(tree.words.size());
-  std::iota(order_.begin(), order_.end(), std::uint16_t{0});
+  start(tree);
   if (order == Order::Canonical) choose_order(tree);
   write_words(tree, change);
+  if (tree.text == written()) return true;
   const std::size_t length = line_.size();
-  if (tree.text == std::string_view(line_.data(), length)) return true;
   put(kBehind);
   written_.clear();
   const char* const end = written_.append_line(line_.data(), line_.data() + line_.size());
@@ -199,13 +212,16 @@ bool Formatter::write(const LineTree& tree, const LineChange& change, Order orde
   return end == line_.data() + length && Rereading(tree, written_.tree(0, line_.data()), change).says_the_same();
 }
 
-/// For all that write() can add: blanks up to where a comment stood, and a few characters for each word or comment.
-void Formatter::make_room(const LineTree& tree) {
+/// Begins a line, with room for all that may be added: blanks up to where a comment stood, and a few characters for
+/// each word or comment.
+void Formatter::start(const LineTree& tree) {
   constexpr std::size_t kForEach = 5;
   constexpr std::size_t kOnce = 64;
   line_.clear();
   line_.room_for(2 * tree.text.size() + kForEach * (tree.words.size() + tree.comments.size()) + kOnce + kBehind.size());
   comments_written_ = 0;
+  order_.resize(tree.words.size());
+  std::iota(order_.begin(), order_.end(), std::uint16_t{0});
 }
 
 /// Comments between words say something of their neighbors: such lines keep their order. One inside the last word will
@@ -296,6 +312,10 @@ void Formatter::write_word(const LineTree& tree, std::uint16_t index) {
     put(is_register && !word.has(Word::kMissing) ? "= " : "=");
     number = line_.size();
     write_characters(text.substr(1));
+  } else if (is_compact(word)) {
+    line_.push_back(word.letter);
+    put(text.substr(1));
+    ++number;
   } else {
     write_characters(text);
     if (word.letter != kNumber) ++number;

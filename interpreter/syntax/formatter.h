@@ -29,9 +29,9 @@ struct LineChange {
   std::uint8_t motion_in_force = 0;  ///< With Write: 0 to 3.
 };
 
-/// Writes lines as they should be written. Knows one line at a time; equal lines give equal results. What is written
-/// is parsed again, and taken only where it says the same as before, word for word; a line with a finding of its own
-/// keeps every byte.
+/// Writes lines as they should be written. Knows one line at a time; equal lines give equal results. Where more than
+/// letter case and the blanks between words changes, what is written is parsed again, and taken only when it says the
+/// same as before, word for word; a line with a finding of its own keeps every byte.
 class Formatter {
  public:
   explicit Formatter(const LineStyle& style) : style_(style) {}
@@ -44,7 +44,8 @@ class Formatter {
 
   std::string_view rewrite(const LineTree& tree, const LineChange& change);
   bool write(const LineTree& tree, const LineChange& change, Order order);
-  void make_room(const LineTree& tree);
+  void start(const LineTree& tree);
+  std::string_view written() const { return {line_.data(), line_.size()}; }
   void choose_order(const LineTree& tree);
   void sort_arguments(const LineTree& tree, const Instruction& instruction);
   void move_feed(const LineTree& tree);
