@@ -1,11 +1,11 @@
 #include "interpreter/running/replace_file.h"
 
 #include <fcntl.h>
-#include <stdlib.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 
 #include "interpreter/running/system_texts.h"
 
@@ -68,7 +68,7 @@ void FileReplacement::write(std::string_view text) {
 }
 
 /// The mode comes last, since a change of owner takes bits from it.
-bool FileReplacement::take_over_attributes() {
+bool FileReplacement::take_over_attributes() const {
   struct stat now {};
   if (::fstat(descriptor_, &now) != 0) return false;
   const bool is_others = now.st_uid != status_.st_uid || now.st_gid != status_.st_gid;

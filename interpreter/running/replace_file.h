@@ -34,7 +34,7 @@ class FileReplacement {
  private:
   std::string why_not(dialect::Language language) const;
   void make_temporary();
-  bool take_over_attributes();
+  bool take_over_attributes() const;
   bool is_unchanged() const;
   void discard();
 
