@@ -166,4 +166,22 @@ FileSelection select_files(std::span<const std::string> paths, std::span<const s
   return selector.take();
 }
 
+static constexpr dialect::Text kDashNotAlone{"- (standard input) must be given alone",
+                                             "- (lo standard input) va indicato da solo"};
+static constexpr dialect::Text kNothingFound{"no programs found (.iso .nc .cnc .tap .ngc)",
+                                             "nessun programma trovato (.iso .nc .cnc .tap .ngc)"};
+
+FileSelection select_programs(std::span<const std::string> paths, dialect::Language language) {
+  if (std::find(paths.begin(), paths.end(), "-") != paths.end()) {
+    if (paths.size() == 1) return {.files = {"-"}, .problems = {}, .is_refused = false};
+    return {.files = {}, .problems = {std::string(kDashNotAlone.in(language))}, .is_refused = true};
+  }
+  FileSelection selection = select_files(paths, kProgramExtensions, language);
+  if (selection.files.empty() && selection.problems.empty()) {
+    selection.problems.emplace_back(kNothingFound.in(language));
+    selection.is_refused = true;
+  }
+  return selection;
+}
+
 }  // namespace isocnc::analyzer

@@ -17,6 +17,7 @@ inline const std::array<std::string, 5> kProgramExtensions{".iso", ".nc", ".cnc"
 struct FileSelection {
   std::vector<std::filesystem::path> files;  ///< As the user would write them: relative stays relative.
   std::vector<std::string> problems;         ///< Paths that do not exist and directories that cannot be read.
+  bool is_refused = false;                   ///< The problem is with the command: there is nothing to go on with.
 };
 
 /// The programs that `paths` name: files as they are, whatever they are called, and directories searched for names that
@@ -28,5 +29,9 @@ struct FileSelection {
 /// to files are files.
 FileSelection select_files(std::span<const std::string> paths, std::span<const std::string> extensions,
                            dialect::Language language);
+
+/// What a command's paths name: as above, but `-` alone is standard input, and where directories hold no program that
+/// is refused.
+FileSelection select_programs(std::span<const std::string> paths, dialect::Language language);
 
 }  // namespace isocnc::analyzer

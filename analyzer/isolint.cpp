@@ -20,9 +20,9 @@
 #include "analyzer/suppressions.h"
 #include "analyzer/tally.h"
 #include "interpreter/running/output_file.h"
-#include "interpreter/running/replace_file.h"
 #include "interpreter/running/source_file.h"
 #include "interpreter/running/system_texts.h"
+#include "interpreter/running/write_atomically.h"
 
 namespace isocnc::analyzer {
 namespace {
@@ -205,7 +205,7 @@ int record(Options options, const Style& style, std::vector<std::filesystem::pat
     complain(fmt::format("{}: {}", file, italian ? "non scritto" : "not written"));
     return kTrouble;
   }
-  if (const int error = running::replace_file(file, baseline.to_json())) {
+  if (const int error = running::write_atomically(file, baseline.to_json())) {
     complain(fmt::format("{}: {}", file, running::cannot_write(error, style.language)));
     return kTrouble;
   }
@@ -215,21 +215,11 @@ int record(Options options, const Style& style, std::vector<std::filesystem::pat
 /// The programs to be checked; none, after a complaint, when the check cannot begin.
 std::optional<std::vector<std::filesystem::path>> find_programs(const Options& options, bool& trouble) {
   const Language language = options.reader_language();
-  const bool italian = language == Language::Italian;
-  if (options.paths == std::vector<std::string>{"-"}) return {{"-"}};
-  if (std::find(options.paths.begin(), options.paths.end(), "-") != options.paths.end()) {
-    complain(italian ? "- (lo standard input) va indicato da solo" : "- (standard input) must be given alone");
-    return std::nullopt;
-  }
   const std::vector<std::string> here = {"."};
-  FileSelection found = select_files(options.paths.empty() ? here : options.paths, kProgramExtensions, language);
+  FileSelection found = select_programs(options.paths.empty() ? here : options.paths, language);
   for (const std::string& problem : found.problems) complain(problem);
   trouble = !found.problems.empty();
-  if (found.files.empty() && !trouble) {
-    complain(italian ? "nessun programma trovato (.iso .nc .cnc .tap .ngc)"
-                     : "no programs found (.iso .nc .cnc .tap .ngc)");
-    return std::nullopt;
-  }
+  if (found.is_refused) return std::nullopt;
   // Readers of JSON compare arrays, whatever order the files were named in.
   if (options.format == "json")
     std::sort(found.files.begin(), found.files.end(),

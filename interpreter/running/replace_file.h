@@ -1,12 +1,50 @@
 #pragma once
 
+#include <sys/stat.h>
+
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <string_view>
+
+#include "interpreter/dialect/diagnostic.h"
+#include "interpreter/running/output_file.h"
 
 namespace isocnc::running {
 
-/// Gives a file this content at once: whoever reads it finds the old one or the new one, whole, and the old one when
-/// something fails. The text is written beside the file, which is then replaced. Returns 0 or the errno.
-int replace_file(const std::filesystem::path& path, std::string_view text);
+/// A new text in the place of a file's old one: all of it or nothing. It is written beside the file, made safe on the
+/// disk and then given the file's name, so that whoever opens the file at any moment, also after a power cut, finds the
+/// old text or the new one, whole. What has been written is thrown away unless it is committed.
+///
+/// Begin before the file is read: a file that somebody else changes from then on is left to them.
+class FileReplacement {
+ public:
+  /// Looks at the file, through symlinks, and touches nothing.
+  explicit FileReplacement(const std::filesystem::path& path);
+  FileReplacement(const FileReplacement&) = delete;
+  FileReplacement& operator=(const FileReplacement&) = delete;
+  ~FileReplacement();
+
+  /// Appends to the new text. What goes wrong is told by commit().
+  void write(std::string_view text);
+  /// Puts the new text in the file's place, with the file's mode and, where that is permitted, its owner. Returns what
+  /// stood in the way; the file is then as it was.
+  std::optional<std::string> commit(dialect::Language language);
+
+ private:
+  std::string why_not(dialect::Language language) const;
+  void make_temporary();
+  bool take_over_attributes() const;
+  bool is_unchanged() const;
+  void discard();
+
+  std::filesystem::path target_;  // Without symlinks.
+  struct stat status_ {};
+  int error_ = 0;
+  const dialect::Text* refusal_ = nullptr;
+  std::string temporary_;
+  int descriptor_ = -1;
+  std::optional<OutputFile> output_;
+};
 
 }  // namespace isocnc::running

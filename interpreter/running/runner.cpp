@@ -122,7 +122,8 @@ class Runner {
  private:
   /// Executes the line just read; false when the run is over.
   bool step() {
-    if (!tree_.text.empty()) note_place(tree_.text);
+    const bool has_text = !tree_.words.empty() || !tree_.comments.empty() || !tree_.findings.empty();
+    if (has_text) note_place(tree_.text);
     if (waiting_for_) {
       if (!tree_.has_label() || tree_.label != waiting_for_->target) return true;
       land();

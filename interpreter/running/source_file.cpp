@@ -184,10 +184,13 @@ std::variant<SourceFile, SourceFile::Problem> SourceFile::checked(SourceFile fil
   return file;
 }
 
+std::string_view SourceFile::bytes() const {
+  return mapped_ ? std::string_view(mapped_.get(), mapped_.get_deleter().size) : std::string_view(read_);
+}
+
 std::string_view SourceFile::text() const {
-  const std::string_view bytes =
-      mapped_ ? std::string_view(mapped_.get(), mapped_.get_deleter().size) : std::string_view(read_);
-  return bytes.starts_with("\xEF\xBB\xBF") ? bytes.substr(3) : bytes;
+  const std::string_view all = bytes();
+  return all.starts_with(kByteOrderMark) ? all.substr(kByteOrderMark.size()) : all;
 }
 
 void SourceFile::Unmap::operator()(char* bytes) const { ::munmap(bytes, size); }

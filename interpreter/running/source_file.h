@@ -26,6 +26,7 @@ class SourceFile {
 
   /// Without a byte-order mark (D5). Valid as long as this, and not beyond a move.
   std::string_view text() const;
+  bool has_byte_order_mark() const { return text().size() != bytes().size(); }
 
  private:
   struct Unmap {
@@ -37,9 +38,14 @@ class SourceFile {
   static std::variant<SourceFile, Problem> map(int descriptor, std::size_t size, dialect::Language language);
   static std::variant<SourceFile, Problem> checked(SourceFile file, dialect::Language language);
 
+  std::string_view bytes() const;
+
   std::unique_ptr<char, Unmap> mapped_;
   std::string read_;  // When nothing is mapped.
 };
+
+/// A UTF-8 byte-order mark, for who puts it back.
+inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 /// Whether some line has more than `limit` bytes, its end not counted. Looks at one place in `limit` bytes as long as
 /// lines are short.

@@ -1,0 +1,297 @@
+#include <unistd.h>
+
+#include <charconv>
+#include <csignal>
+#include <iostream>
+#include <optional>
+#include <sstream>
+#include <variant>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "analyzer/files.h"
+#include "analyzer/program_formatter.h"
+#include "analyzer/unified_diff.h"
+#include "interpreter/dialect/locale.h"
+#include "interpreter/running/output_file.h"
+#include "interpreter/running/replace_file.h"
+#include "interpreter/running/source_file.h"
+#include "interpreter/running/system_texts.h"
+#include "interpreter/syntax/unicode.h"
+
+namespace isocnc::analyzer {
+namespace {
+
+using dialect::Language;
+using dialect::Text;
+using running::SourceFile;
+
+enum ExitStatus { kDone = 0, kWouldChange = 1, kTrouble = 2 };
+
+enum class Mode { Check, Diff, Stdout, InPlace };
+
+/// As they stand on the command line.
+struct Options {
+  std::vector<std::string> paths;
+  bool check = false;
+  bool diff = false;
+  bool to_stdout = false;
+  bool in_place = false;
+  bool word_order = false;
+  bool renumber_all = false;
+  bool no_config = false;
+  int decimals = -1;
+  std::string renumber;
+  std::string modal = "keep";
+  std::string g_digits = "keep";
+  std::string language;
+  std::string stdin_name = "<stdin>";
+
+  Language reader_language() const {
+    if (language.empty()) return dialect::language_of_environment();
+    return language == "it" ? Language::Italian : Language::English;
+  }
+  Mode mode() const {
+    if (check) return Mode::Check;
+    if (diff) return Mode::Diff;
+    return in_place ? Mode::InPlace : Mode::Stdout;
+  }
+};
+
+void complain(std::string_view what) { std::cerr << "isofmt: " << syntax::printable(what) << '\n'; }
+
+constexpr Text kWrongRenumber{"--renumber wants a start and a step, such as 10:10 or 5:5, not {}",
+                              "--renumber vuole un inizio e un passo, come 10:10 o 5:5, non {}"};
+constexpr Text kRenumberAllAlone{"--renumber-all goes with --renumber START:STEP",
+                                 "--renumber-all va con --renumber INIZIO:PASSO"};
+constexpr Text kOneProgram{"standard output takes one program; choose --check, --diff or -i for {}",
+                           "lo standard output riceve un solo programma; per {} scegliere --check, --diff o -i"};
+constexpr Text kStandardInputInPlace{"standard input cannot be written in place (-i)",
+                                     "lo standard input non si può riscrivere sul posto (-i)"};
+constexpr Text kNotRenumbered{"not renumbered: {}", "non rinumerato: {}"};
+constexpr Text kWouldBeChanged{"{} of {} programs would be changed", "programmi da modificare: {} di {}"};
+constexpr Text kWereChanged{"{} of {} programs changed", "programmi modificati: {} di {}"};
+
+/// 10:10; the step is at least 1.
+std::optional<NumberStyle> read_numbers(std::string_view text) {
+  NumberStyle style;
+  const char* const end = text.data() + text.size();
+  const auto start = std::from_chars(text.data(), end, style.start);
+  if (start.ec != std::errc{} || start.ptr == end || *start.ptr != ':') return std::nullopt;
+  const auto step = std::from_chars(start.ptr + 1, end, style.step);
+  static constexpr std::uint64_t kMost = 1'000'000'000;
+  if (step.ec != std::errc{} || step.ptr != end || style.step < 1 || style.step > kMost || style.start > kMost)
+    return std::nullopt;
+  return style;
+}
+
+/// What programs are to look like; nothing after a complaint.
+std::optional<ProgramStyle> read_style(const Options& options) {
+  const Language language = options.reader_language();
+  ProgramStyle style;
+  if (options.decimals >= 0) style.line.most_decimals = options.decimals;
+  style.line.word_order = options.word_order;
+  if (options.g_digits == "1") style.line.g_digits = syntax::GDigits::One;
+  if (options.g_digits == "2") style.line.g_digits = syntax::GDigits::Two;
+  if (options.modal == "write") style.motions = MotionStyle::Write;
+  if (options.modal == "fold") style.motions = MotionStyle::Fold;
+  if (!options.renumber.empty()) {
+    style.numbers = read_numbers(options.renumber);
+    if (!style.numbers) {
+      complain(fmt::format(fmt::runtime(kWrongRenumber.in(language)), options.renumber));
+      return std::nullopt;
+    }
+    style.numbers->all_lines = options.renumber_all;
+  } else if (options.renumber_all) {
+    complain(kRenumberAllAlone.in(language));
+    return std::nullopt;
+  }
+  return style;
+}
+
+/// Formats programs one after another.
+class Run {
+ public:
+  Run(const Options& options, const ProgramStyle& style)
+      : options_(options), style_(style), mode_(options.mode()), language_(options.reader_language()) {}
+
+  int run(const FileSelection& selection) {
+    trouble_ = !selection.problems.empty();
+    for (const std::filesystem::path& file : selection.files) {
+      format_file(file);
+      if (output_.error() != 0) break;
+    }
+    if (output_.flush() != 0) {
+      complain(fmt::format("<stdout>: {}", running::cannot_write(output_.error(), language_)));
+      return kTrouble;
+    }
+    if (mode_ != Mode::Stdout) {
+      const Text& summary = mode_ == Mode::InPlace ? kWereChanged : kWouldBeChanged;
+      std::cerr << fmt::format(fmt::runtime(summary.in(language_)), changed_, selection.files.size()) << '\n';
+    }
+    if (trouble_) return kTrouble;
+    return changed_ > 0 && (mode_ == Mode::Check || mode_ == Mode::Diff) ? kWouldChange : kDone;
+  }
+
+ private:
+  void fail(std::string_view name, std::string_view why) {
+    complain(fmt::format("{}: {}", name, why));
+    trouble_ = true;
+  }
+
+  void format_file(const std::filesystem::path& file) {
+    const bool from_stdin = file == "-";
+    const std::string name = from_stdin ? options_.stdin_name : file.string();
+    std::optional<running::FileReplacement> replacement;
+    if (mode_ == Mode::InPlace) replacement.emplace(file);  // Before the file is read.
+    const auto opened =
+        from_stdin ? SourceFile::read_stream(STDIN_FILENO, language_) : SourceFile::open(file, language_);
+    if (const auto* problem = std::get_if<SourceFile::Problem>(&opened)) return fail(name, problem->message);
+    const auto& source = std::get<SourceFile>(opened);
+    ProgramFormatter formatter(source.text(), style_);
+    if (const auto& obstacle = formatter.obstacle())
+      return fail(name, fmt::format(fmt::runtime(kNotRenumbered.in(language_)), obstacle->message(language_)));
+    switch (mode_) {
+      case Mode::Check:
+        return check(formatter, name);
+      case Mode::Diff:
+        return show_difference(formatter, name);
+      case Mode::Stdout:
+        return print(formatter, source);
+      case Mode::InPlace:
+        return replace(formatter, source, *replacement, name);
+    }
+  }
+
+  void check(ProgramFormatter& formatter, const std::string& name) {
+    while (const auto piece = formatter.next()) {
+      if (!piece->is_changed()) continue;
+      ++changed_;
+      return output_.write(name + '\n');
+    }
+  }
+
+  void show_difference(ProgramFormatter& formatter, const std::string& name) {
+    UnifiedDiff diff(name, [&](std::string_view text) { output_.write(text); });
+    while (const auto piece = formatter.next()) diff.add(piece->before, piece->after);
+    diff.finish();
+    changed_ += diff.has_changes() ? 1 : 0;
+  }
+
+  void print(ProgramFormatter& formatter, const SourceFile& source) {
+    if (source.has_byte_order_mark()) output_.write(running::kByteOrderMark);
+    while (const auto piece = formatter.next()) output_.write(piece->after);
+  }
+
+  /// A file that is as it should be is not touched at all.
+  void replace(ProgramFormatter& formatter, const SourceFile& source, running::FileReplacement& replacement,
+               const std::string& name) {
+    bool is_changed = false;
+    while (const auto piece = formatter.next()) {
+      if (!is_changed && !piece->is_changed()) continue;
+      if (!is_changed) {
+        if (source.has_byte_order_mark()) replacement.write(running::kByteOrderMark);
+        const std::string_view text = source.text();
+        replacement.write(text.substr(0, static_cast<std::size_t>(piece->before.data() - text.data())));
+        is_changed = true;
+      }
+      replacement.write(piece->after);
+    }
+    if (!is_changed) return;
+    if (const auto why_not = replacement.commit(language_)) return fail(name, *why_not);
+    ++changed_;
+  }
+
+  const Options& options_;
+  const ProgramStyle& style_;
+  const Mode mode_;
+  const Language language_;
+  running::OutputFile output_{STDOUT_FILENO};
+  std::size_t changed_ = 0;
+  bool trouble_ = false;
+};
+
+int format(const Options& options) {
+  const Language language = options.reader_language();
+  const std::optional<ProgramStyle> style = read_style(options);
+  if (!style) return kTrouble;
+  const FileSelection selection = select_programs(options.paths, language);
+  for (const std::string& problem : selection.problems) complain(problem);
+  if (selection.is_refused) return kTrouble;
+  if (options.mode() == Mode::Stdout && selection.files.size() > 1) {
+    complain(fmt::format(fmt::runtime(kOneProgram.in(language)), selection.files.size()));
+    return kTrouble;
+  }
+  if (options.mode() == Mode::InPlace && options.paths.front() == "-") {
+    complain(kStandardInputInPlace.in(language));
+    return kTrouble;
+  }
+  return Run(options, *style).run(selection);
+}
+
+/// What --help and --version ask for.
+int say(std::string_view text, Language language) {
+  running::OutputFile output(STDOUT_FILENO);
+  output.write(text);
+  if (output.flush() == 0) return kDone;
+  complain(fmt::format("<stdout>: {}", running::cannot_write(output.error(), language)));
+  return kTrouble;
+}
+
+int run_main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);  // A closed pipe, or a file that may not grow, is a write that fails, and is told as
+  std::signal(SIGXFSZ, SIG_IGN);  // one.
+  Options options;
+  CLI::App app{"Formats ISOCNC programs. What a program does stays as it is."};
+  app.name("isofmt");
+  app.set_version_flag("--version", "isofmt " ISOCNC_VERSION);
+  app.add_option("PATH", options.paths,
+                 "Programs, directories (searched for .iso .nc .cnc .tap .ngc), or - for standard input")
+      ->required();
+  auto* const modes = app.add_option_group("Modes", "What to do; one at most");
+  modes->add_flag("--check", options.check, "Name the programs that would be changed; status 1 when there are any");
+  modes->add_flag("--diff", options.diff, "Show what would be changed; status 1 when there is anything");
+  modes->add_flag("--stdout", options.to_stdout, "Print the program formatted (what happens without a mode)");
+  modes->add_flag("-i,--in-place", options.in_place, "Rewrite the programs");
+  modes->require_option(0, 1);
+  app.add_flag("--word-order", options.word_order, "N first, arguments in the order X Y Z A B C I J K P Q R, then F");
+  app.add_option("--decimals", options.decimals,
+                 "Zeros that mean nothing dropped, .5 as 0.5; numbers are never rounded")
+      ->type_name("MOST")
+      ->check(CLI::Range(0, 15));
+  app.add_option("--g-digits", options.g_digits, "1: G1; 2: G01; keep")->check(CLI::IsMember({"1", "2", "keep"}));
+  app.add_option("--modal", options.modal, "Motion Gs: write on each line, fold where repeated, keep")
+      ->check(CLI::IsMember({"write", "fold", "keep"}));
+  app.add_option("--renumber", options.renumber, "New line numbers on lines that have one; labels of GOTO follow")
+      ->type_name("START:STEP");
+  app.add_flag("--renumber-all", options.renumber_all, "With --renumber: on every line that holds a block");
+  app.add_option("--stdin-filename", options.stdin_name, "Name to show for standard input");
+  app.add_option("--lang", options.language, "Language of messages: en, it (else from the locale)")
+      ->check(CLI::IsMember({"en", "it"}));
+  app.add_flag("--no-config", options.no_config, "Read no isocnc.json");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    std::ostringstream said;
+    app.exit(success, said, said);
+    return say(said.str(), options.reader_language());
+  } catch (const CLI::ParseError& error) {
+    complain(error.what());
+    std::cerr << "isofmt --help\n";
+    return kTrouble;
+  }
+  return format(options);
+}
+
+}  // namespace
+}  // namespace isocnc::analyzer
+
+int main(int argc, char** argv) {
+  try {
+    return isocnc::analyzer::run_main(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "isofmt: internal error: " << error.what() << '\n';
+    return 2;
+  }
+}

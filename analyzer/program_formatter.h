@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "analyzer/motion_in_force.h"
+#include "analyzer/renumbering.h"
+#include "interpreter/syntax/formatter.h"
+#include "interpreter/syntax/tree_store.h"
+
+namespace isocnc::analyzer {
+
+enum class MotionStyle : std::uint8_t {
+  Keep,
+  Write,
+  Fold
+};  ///< Motion Gs: as written, on each line, where they change.
+
+/// How a program is written.
+struct ProgramStyle {
+  syntax::LineStyle line;
+  MotionStyle motions = MotionStyle::Keep;
+  std::optional<NumberStyle> numbers;
+};
+
+/// Lines of a program as they stand, and as they should stand. There are as many of them, with the same ends.
+struct FormattedPiece {
+  std::string_view before;
+  std::string_view after;
+
+  bool is_changed() const { return before != after; }
+};
+
+/// Writes a whole program as it should be written, in pieces of whole lines, so that a program of any length takes no
+/// more memory than a short one. The program does what it did.
+class ProgramFormatter {
+ public:
+  ProgramFormatter(std::string_view text, const ProgramStyle& style);
+
+  /// Why the program cannot be renumbered; nothing of it is formatted then.
+  const std::optional<Renumbering::Obstacle>& obstacle() const { return obstacle_; }
+  /// The next piece, nothing behind the last; `after` is valid until the next call.
+  std::optional<FormattedPiece> next();
+
+ private:
+  void add_line(const syntax::LineTree& line);
+  syntax::LineChange change_of(const syntax::LineTree& line);
+  syntax::LineChange::Motion motion_change(const syntax::LineTree& line) const;
+
+  ProgramStyle style_;
+  syntax::Formatter formatter_;
+  std::optional<Renumbering> numbers_;
+  std::optional<Renumbering::Obstacle> obstacle_;
+  MotionInForce motion_;
+  const char* next_;
+  const char* const end_;
+  syntax::TreeStore store_;
+  std::string after_;             // All lines of the piece up to where the first that stays as it is begins.
+  const char* copied_ = nullptr;  // Up to here the piece has been taken over.
+};
+
+}  // namespace isocnc::analyzer

@@ -1,0 +1,110 @@
+#include "analyzer/renumbering.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/tree_store.h"
+
+namespace isocnc::analyzer {
+
+using dialect::Text;
+using syntax::LineTree;
+
+/// So that a number stays exact wherever it is read.
+static constexpr std::uint64_t kMostNumber = 999'999'999'999'999;
+
+static constexpr Text kObstacles[] = {
+    {"line {0} has an error and a line number or a jump; correct it first",
+     "la riga {0} ha un errore e un numero di "
+     "riga o un salto: va prima corretta"},
+    {"line {0} jumps to {1}, which is no line's number",
+     "la riga {0} salta a {1}, che non è il numero di nessuna riga"},
+    {"line {0} is one more {1}, to which a jump leads; which of them is meant?",
+     "la riga {0} è un'altra {1}, alla quale porta un salto: quale delle due si intende?"},
+    {"line {0} would have a number of more than 15 digits", "la riga {0} avrebbe un numero di più di 15 cifre"},
+};
+
+std::string Renumbering::Obstacle::message(dialect::Language language) const {
+  return fmt::format(fmt::runtime(kObstacles[static_cast<std::size_t>(kind)].in(language)), line + 1, label);
+}
+
+template <class Visit>
+static void for_each_line(std::string_view text, Visit visit) {
+  syntax::TreeStore store;
+  const char* p = text.data();
+  const char* const end = text.data() + text.size();
+  for (std::uint64_t line = 0; p != end; ++line) {
+    store.clear();
+    const char* const line_end = store.append_line(p, end);
+    visit(line, store.tree(0, p));
+    p = syntax::skip_line_end(line_end, end);
+  }
+}
+
+/// Blanks and letter case in a label are nobody's business.
+static std::string label_text(std::string_view written) {
+  std::string text;
+  for (const char c : written)
+    if (syntax::is_digit(c) || syntax::upper(c) == 'N') text += syntax::upper(c);
+  return text;
+}
+
+Renumbering::Renumbering(std::string_view text, const NumberStyle& style) : style_(style), next_(style.start) {
+  read_jumps(text);
+  if (!obstacle_) number_labels(text);
+  if (obstacle_) return;
+  for (const auto& [label, jump] : labels_)
+    if (!jump.is_defined && (!obstacle_ || jump.jump_line < obstacle_->line)) {
+      obstacle_.reset();
+      refuse(Obstacle::Kind::LabelMissing, jump.jump_line, jump.text);
+    }
+  next_ = style.start;
+}
+
+void Renumbering::refuse(Obstacle::Kind kind, std::uint64_t line, std::string label) {
+  if (!obstacle_) obstacle_ = {kind, line, std::move(label)};
+}
+
+void Renumbering::read_jumps(std::string_view text) {
+  for_each_line(text, [&](std::uint64_t number, const LineTree& line) {
+    const auto speaks_of_lines = [](const syntax::Word& word) {
+      return word.letter == 'N' || word.letter == syntax::kGoto;
+    };
+    if (!line.findings.empty() && std::any_of(line.words.begin(), line.words.end(), speaks_of_lines))
+      return refuse(Obstacle::Kind::Error, number);
+    if (line.jump == nullptr || !line.jump->has_target) return;
+    labels_.try_emplace(line.jump->target, Label{label_text(line.text_of(line.jump->target_span)), number});
+  });
+}
+
+void Renumbering::number_labels(std::string_view text) {
+  for_each_line(text, [&](std::uint64_t number, const LineTree& line) {
+    if (!is_numbered(line)) return;
+    if (next_ > kMostNumber) return refuse(Obstacle::Kind::TooManyDigits, number);
+    const std::uint64_t is_now = next_;
+    next_ += style_.step;
+    const auto named = line.has_label() ? labels_.find(line.label) : labels_.end();
+    if (named == labels_.end()) return;
+    Label& label = named->second;
+    if (label.is_defined) return refuse(Obstacle::Kind::LabelTwice, number, label.text);
+    label.is_defined = true;
+    label.number = is_now;
+  });
+}
+
+bool Renumbering::is_numbered(const LineTree& line) const {
+  return line.findings.empty() && (line.has_label() || (style_.all_lines && !line.is_empty()));
+}
+
+void Renumbering::change(const LineTree& line, syntax::LineChange& change) {
+  if (!is_numbered(line) && line.jump == nullptr) return;
+  if (is_numbered(line)) {
+    change.line_number = next_;
+    next_ += style_.step;
+  }
+  if (line.jump != nullptr && line.jump->has_target) change.target = labels_.at(line.jump->target).number;
+}
+
+}  // namespace isocnc::analyzer

@@ -1,0 +1,217 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "run_command.h"
+#include "temporary_folder.h"
+
+namespace isocnc::commands {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+constexpr std::string_view kUntidy = "m06t101001\ng00x10 y0z5 ; up\nM02\n";
+constexpr std::string_view kTidy = "M06 T101001\nG00 X10 Y0 Z5 ; up\nM02\n";
+
+std::string text_of(const std::filesystem::path& file) {
+  std::stringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+std::string format(std::string input, std::vector<std::string> options = {}) {
+  options.insert(options.begin(), "isofmt");
+  options.emplace_back("-");
+  const CommandResult result = run_command(options, {.input = std::move(input)});
+  EXPECT_EQ(result.status, 0) << result.err;
+  return result.out;
+}
+
+TEST(Isofmt, PrintsOneProgram) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("part.iso", kUntidy);
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"isofmt", file}, {"isofmt", "--stdout", file}}) {
+    const CommandResult result = run_command(arguments);
+    EXPECT_EQ(result.status, 0);
+    EXPECT_EQ(result.out, kTidy);
+    EXPECT_EQ(result.err, "");
+  }
+  EXPECT_EQ(text_of(file), kUntidy);
+  EXPECT_EQ(format(std::string(kUntidy)), kTidy);
+}
+
+TEST(Isofmt, WantsAModeForSeveralPrograms) {
+  const TemporaryFolder folder;
+  folder.write("a.iso", kUntidy);
+  folder.write("b.iso", kUntidy);
+  const CommandResult result = run_command({"isofmt", folder.path()});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err, HasSubstr("--check, --diff or -i"));
+}
+
+TEST(Isofmt, ChecksPrograms) {
+  const TemporaryFolder folder;
+  folder.write("a.iso", kUntidy);
+  folder.write("b.iso", kTidy);
+  folder.write("deep/c.nc", kUntidy);
+  const CommandResult result = run_command({"isofmt", "--check", "."}, {.folder = folder.path()});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.out, "a.iso\ndeep/c.nc\n");
+  EXPECT_EQ(result.err, "2 of 3 programs would be changed\n");
+  EXPECT_EQ(run_command({"isofmt", "--check", folder.path("b.iso")}).status, 0);
+  EXPECT_EQ(text_of(folder.path("a.iso")), kUntidy);
+}
+
+TEST(Isofmt, ShowsDifferences) {
+  const TemporaryFolder folder;
+  std::string text;
+  for (int i = 1; i <= 20; ++i) {
+    text += i == 2 || i == 12 || i == 19 ? 'x' : 'X';
+    text += std::to_string(i);
+    text += '\n';
+  }
+  text.pop_back();
+  folder.write("a.iso", text);
+  const CommandResult result = run_command({"isofmt", "--diff", "a.iso"}, {.folder = folder.path()});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.out,
+            "--- a.iso\n+++ a.iso\n"
+            "@@ -1,5 +1,5 @@\n X1\n-x2\n+X2\n X3\n X4\n X5\n"
+            "@@ -9,12 +9,12 @@\n X9\n X10\n X11\n-x12\n+X12\n X13\n X14\n X15\n X16\n X17\n X18\n"
+            "-x19\n+X19\n X20\n\\ No newline at end of file\n");
+  EXPECT_EQ(run_command({"isofmt", "--diff", "-"}, {.input = std::string(kTidy)}).status, 0);
+}
+
+TEST(Isofmt, RewritesProgramsInPlace) {
+  const TemporaryFolder folder;
+  const std::string untidy = folder.write("a.iso", kUntidy);
+  const std::string tidy = folder.write("b.iso", kTidy);
+  ::chmod(untidy.c_str(), 0640);
+  struct stat before {};
+  struct stat after {};
+  ::stat(tidy.c_str(), &before);
+  const CommandResult result = run_command({"isofmt", "-i", folder.path()});
+  ::stat(tidy.c_str(), &after);
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err, "1 of 2 programs changed\n");
+  EXPECT_EQ(text_of(untidy), kTidy);
+  EXPECT_EQ(before.st_ino, after.st_ino);  // Not touched.
+  ::stat(untidy.c_str(), &after);
+  EXPECT_EQ(after.st_mode & 0777u, 0640u);
+}
+
+TEST(Isofmt, KeepsByteOrderMarksLineEndsAndForeignBytes) {
+  const std::string untidy = "\xEF\xBB\xBFg1x1\r\ng1x2(caf\xE9)\rm02 ";
+  const std::string tidy = "\xEF\xBB\xBFG1 X1\r\nG1 X2 (caf\xE9)\rM02";
+  EXPECT_EQ(format(untidy), tidy);
+  const TemporaryFolder folder;
+  const std::string file = folder.write("a.iso", untidy);
+  EXPECT_EQ(run_command({"isofmt", "-i", file}).status, 0);
+  EXPECT_EQ(text_of(file), tidy);
+}
+
+/// What changes first may stand far down.
+TEST(Isofmt, RewritesLargePrograms) {
+  std::string start;
+  while (start.size() < 1'000'000) start += "G1 X1 Y2\n";
+  const TemporaryFolder folder;
+  const std::string file = folder.write("a.iso", start + "g1x5\n" + start);
+  EXPECT_EQ(run_command({"isofmt", "-i", file}).status, 0);
+  EXPECT_TRUE(text_of(file) == start + "G1 X5\n" + start);
+}
+
+TEST(Isofmt, TakesStyles) {
+  EXPECT_EQ(format("G1 Y2.50 X.5\n", {"--decimals", "3", "--word-order", "--g-digits", "2"}), "G01 X0.5 Y2.5\n");
+  EXPECT_EQ(format("G1 X1\nX2\n", {"--modal", "write"}), "G1 X1\nG01 X2\n");
+  EXPECT_EQ(format("G1 X1\nG1 X2\n", {"--modal", "fold"}), "G1 X1\nX2\n");
+  EXPECT_EQ(format("N1 X1\nX2\n", {"--renumber", "100:5"}), "N100 X1\nX2\n");
+  EXPECT_EQ(format("N1 X1\nX2\n", {"--renumber", "100:5", "--renumber-all"}), "N100 X1\nN105 X2\n");
+}
+
+TEST(Isofmt, RefusesWhatCannotBeRenumberedAndGoesOn) {
+  const TemporaryFolder folder;
+  const std::string bad = folder.write("a.iso", "if v1=1 goto n5\nn5\nn5\n");
+  const std::string good = folder.write("b.iso", "n5 x1\n");
+  const CommandResult result = run_command({"isofmt", "-i", "--renumber", "1:1", folder.path()});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("a.iso: not renumbered: line 3 is one more N5"));
+  EXPECT_EQ(text_of(bad), "if v1=1 goto n5\nn5\nn5\n");
+  EXPECT_EQ(text_of(good), "N1 X1\n");
+  EXPECT_THAT(run_command({"isofmt", "--lang", "it", "--renumber", "1:1", bad}).err,
+              HasSubstr("non rinumerato: la riga 3"));
+}
+
+TEST(Isofmt, RefusesMistakenCommands) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("a.iso", kUntidy);
+  for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
+           {},
+           {"-i", "-"},
+           {"-i", "--check", file},
+           {"--check", "-", file},
+           {"--renumber", "10", file},
+           {"--renumber", "10:0", file},
+           {"--renumber", "-1:5", file},
+           {"--renumber-all", file},
+           {"--decimals", "-1", file},
+           {"--modal", "maybe", file},
+           {"--check", folder.path("none.iso")},
+           {"-i", "/dev/null"},
+       }) {
+    std::vector<std::string> arguments = options;
+    arguments.insert(arguments.begin(), "isofmt");
+    const CommandResult result = run_command(arguments);
+    const bool changes_nothing = options == std::vector<std::string>{"-i", "/dev/null"};
+    EXPECT_EQ(result.status, changes_nothing ? 0 : 2) << testing::PrintToString(options);
+    EXPECT_EQ(result.out, "");
+    EXPECT_THAT(result.err, Not(IsEmpty()));
+  }
+  EXPECT_EQ(text_of(file), kUntidy);
+}
+
+TEST(Isofmt, TellsWhenOutputIsLost) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("a.iso", kUntidy);
+  for (const StandardOutput output : {StandardOutput::FullDisk, StandardOutput::ClosedPipe})
+    for (const std::string mode : {"--stdout", "--diff", "--check"}) {
+      const CommandResult result = run_command({"isofmt", mode, file}, {.standard_output = output});
+      EXPECT_EQ(result.status, 2) << mode;
+      EXPECT_THAT(result.err, HasSubstr("<stdout>: cannot write")) << mode;
+    }
+}
+
+TEST(Isofmt, SaysWhatItIs) {
+  EXPECT_THAT(run_command({"isofmt", "--version"}).out, StartsWith("isofmt "));
+  EXPECT_THAT(run_command({"isofmt", "--help"}).out, HasSubstr("--renumber"));
+}
+
+TEST(IsofmtExamples, DoWhatTheyDid) {
+  const std::vector<std::string> all = {"--word-order", "--decimals", "3",          "--g-digits", "2",
+                                        "--modal",      "write",      "--renumber", "10:10",      "--renumber-all"};
+  for (const auto& entry : std::filesystem::directory_iterator(ISOCNC_SOURCE_DIR "/examples")) {
+    if (entry.path().extension() != ".iso") continue;
+    const TemporaryFolder folder;
+    const std::string file = folder.write("part.iso", text_of(entry.path()));
+    std::vector<std::string> arguments = all;
+    arguments.insert(arguments.begin(), {"isofmt", "-i", file});
+    const CommandResult result = run_command(arguments);
+    EXPECT_EQ(result.err, "1 of 1 programs changed\n") << entry.path();
+    EXPECT_EQ(run_command({"isolint", "--format", "concise", file}).out, "") << entry.path();
+    const std::string events = run_command({"isorun", "--trace", "-", file}).out;
+    EXPECT_TRUE(events == run_command({"isorun", "--trace", "-", entry.path()}).out) << entry.path();
+  }
+}
+
+}  // namespace
+}  // namespace isocnc::commands

@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analyzer/check_text.h"
+#include "analyzer/program_formatter.h"
+#include "interpreter/running/runner.h"
+#include "require.h"
+
+namespace isocnc::fuzz {
+
+using analyzer::MotionStyle;
+using analyzer::NumberStyle;
+using analyzer::ProgramStyle;
+
+/// Nothing where the program cannot be renumbered.
+static std::optional<std::string> format(std::string_view text, const ProgramStyle& style) {
+  analyzer::ProgramFormatter formatter(text, style);
+  if (formatter.obstacle()) return std::nullopt;
+  std::string formatted;
+  std::size_t read = 0;
+  while (const auto piece = formatter.next()) {
+    require(piece->before.data() == text.data() + read, "pieces follow one another");
+    read += piece->before.size();
+    formatted += piece->after;
+  }
+  require(read == text.size(), "all of the program is formatted");
+  return formatted;
+}
+
+static std::string events_of(std::string_view text) {
+  std::string events;
+  const running::RunOptions options{.stop_at_errors = false};
+  const running::RunResult result = running::run(
+      text, options, [&](const running::Event& event) { events.append(running::to_json(event)).push_back('\n'); });
+  return events + std::to_string(result.line);
+}
+
+static std::vector<std::uint64_t> findings_of(std::string_view text) {
+  std::vector<std::uint64_t> all;
+  for (const analyzer::LocatedFinding& located : analyzer::check_text(text, {}).findings)
+    all.push_back(located.line * 1'000 + static_cast<std::uint64_t>(located.finding.id));
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+static std::string ends_of(std::string_view text) {
+  std::string ends;
+  std::copy_if(text.begin(), text.end(), std::back_inserter(ends), [](char c) { return c == '\r' || c == '\n'; });
+  return ends;
+}
+
+static void check_style(std::string_view text, const ProgramStyle& style) {
+  const std::optional<std::string> once = format(text, style);
+  if (!once) return;
+  require(ends_of(text) == ends_of(*once), "line ends stay");
+  require(format(*once, style) == once, "a second time changes nothing");
+  require(events_of(text) == events_of(*once), "the program does what it did");
+  require(findings_of(text) == findings_of(*once), "the same is found in it");
+}
+
+}  // namespace isocnc::fuzz
+
+/// The first byte chooses the style.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace isocnc;
+  if (size == 0) return 0;
+  const unsigned choice = data[0];
+  analyzer::ProgramStyle style;
+  if ((choice & 1u) != 0) style.line.most_decimals = 2;
+  if ((choice & 2u) != 0) style.line.word_order = true;
+  style.line.g_digits = static_cast<syntax::GDigits>((choice >> 2) % 3);
+  style.motions = static_cast<analyzer::MotionStyle>((choice >> 4) % 3);
+  if ((choice & 64u) != 0) style.numbers = analyzer::NumberStyle{.all_lines = (choice & 128u) != 0};
+  fuzz::check_style(fuzz::as_text(data + 1, size - 1), style);
+  return 0;
+}
