@@ -107,13 +107,14 @@ void Suppressions::silence(Directive& directive, Silencers& silencers) {
 
 void Suppressions::unsilence(Directive& directive, Silencers& silencers) {
   if (directive.codes.empty()) {
-    directive.useful = std::any_of(silencers.begin(), silencers.end(), [](const bool* each) { return each; });
+    directive.useful =
+        std::any_of(silencers.begin(), silencers.end(), [](const bool* each) { return each != nullptr; });
     silencers.fill(nullptr);
   }
   for (Code& code : directive.codes) {
     if (!code.id) continue;
     bool*& silencer = silencers[static_cast<std::size_t>(*code.id)];
-    code.useful = code.useful || silencer;
+    code.useful = code.useful || silencer != nullptr;
     silencer = nullptr;
   }
 }
