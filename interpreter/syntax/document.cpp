@@ -79,13 +79,13 @@ Change Document::replace(Position begin, Position end, std::string_view text) {
   std::string fresh(line_with_terminator(first).substr(0, begin.column));
   fresh += text;
   fresh += line_with_terminator(last).substr(end.column);
-  // A CR and an LF that come to stand side by side are one terminator.
-  if (first > 0 && fresh.starts_with('\n') && line_with_terminator(first - 1).ends_with('\r'))
-    fresh.insert(0, line_with_terminator(--first));
   const auto ends_line = [&] { return !fresh.empty() && is_line_end(fresh.back()); };
   while (last + 1 < line_count() &&
          (!ends_line() || (fresh.back() == '\r' && line_with_terminator(last + 1).starts_with('\n'))))
     fresh += line_with_terminator(++last);
+  // A CR and an LF that come to stand side by side, here as above, are one terminator.
+  if (first > 0 && fresh.starts_with('\n') && line_with_terminator(first - 1).ends_with('\r'))
+    fresh.insert(0, line_with_terminator(--first));
   const std::size_t before = line_count();
   const std::size_t removed = last - first + 1;
   rebuild(first, removed, fresh, last + 1 == before);

@@ -39,6 +39,7 @@ class LineParser {
   void structure();
   void join_prose();
   bool stands_for_number(std::uint16_t index) const;
+  bool is_taken_by_unknown_g(std::uint16_t index) const;
   bool lacks_value(std::uint16_t assign) const;
   void add_dimension(std::uint16_t index);
   void add_g(std::uint16_t index);

@@ -145,9 +145,7 @@ void LineParser::structure() {
         report("unknown-word"_diag, word(i).span());
         continue;
       case kError:
-        if (taker_ != kNone && contiguous_ && !instruction(static_cast<std::size_t>(taker_)).g() &&
-            instruction(static_cast<std::size_t>(taker_)).kind == InstructionKind::G)
-          take_back("unknown-word"_diag, word(i).span());  // G43 H1: what an unknown G takes.
+        if (is_taken_by_unknown_g(i)) take_back("unknown-word"_diag, word(i).span());
         continue;
       default:
         continue;  // An error that has been reported breaks nothing.
@@ -155,6 +153,15 @@ void LineParser::structure() {
     contiguous_ = false;
     if (letter != 'M') function_open_ = false;
   }
+}
+
+/// G43 H1: unknown text belongs to the unknown G before it, which has been told; not so where it spoils the G's own
+/// number (G5O).
+bool LineParser::is_taken_by_unknown_g(std::uint16_t index) const {
+  if (taker_ == kNone || !contiguous_) return false;
+  const Instruction& taker = instruction(static_cast<std::size_t>(taker_));
+  const bool spoils_number = taker.command + 1 == index && word(taker.command).has(Word::kMalformed);
+  return taker.kind == InstructionKind::G && !taker.g() && !spoils_number;
 }
 
 /// X V1: a register where the number should be, which has been said at the X.
@@ -450,7 +457,8 @@ std::uint16_t LineParser::add_equals(std::uint16_t index) {
         return last;
       }
       // G54 P1=2: what an unknown G takes.
-      if (owner.kind == InstructionKind::G && owner.row == dialect::kUnknownGCode) return last;
+      const bool is_said = index - 1 != owner.command || !before.has(Word::kMissing);  // G=5 has not been.
+      if (owner.kind == InstructionKind::G && owner.row == dialect::kUnknownGCode && is_said) return last;
     }
     if (before.has(Word::kMissing)) {
       before.value = word(index).value;

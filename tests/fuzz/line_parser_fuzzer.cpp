@@ -43,6 +43,16 @@ static void check_instructions(const LineTree& tree) {
   require(tree.feed < words && tree.spindle < words, "F and S are words of the line");
 }
 
+/// Nothing that cannot be read passes in silence.
+static void check_is_told(const LineTree& tree) {
+  const auto is_wrong = [](const syntax::Word& word) {
+    constexpr auto kWrong = syntax::Word::kMissing | syntax::Word::kMalformed;
+    return word.letter == syntax::kError || word.letter == syntax::kNumber || word.has(kWrong);
+  };
+  if (tree.jump == nullptr && std::any_of(tree.words.begin(), tree.words.end(), is_wrong))
+    require(!tree.findings.empty(), "what cannot be read is told");
+}
+
 /// Codes and places: what must not depend on upper and lower case.
 static std::vector<std::string> findings_of(const LineTree& tree) {
   std::vector<std::string> all;
@@ -62,6 +72,7 @@ static void check_line(std::string_view text) {
   const LineTree tree = line.tree();
   check_spans(tree);
   check_instructions(tree);
+  check_is_told(tree);
   require(support::text_of(tree) == support::text_of(ParsedLine(text).tree()), "equal text gives equal trees");
   require(findings_of(tree) == findings_of(ParsedLine(in_case(text, 'a', 'A' - 'a')).tree()),
           "upper case means the same");

@@ -71,6 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Replacement{"a\rX1\nb", {1, 0}, {1, 2}, "", "a\r\nb"},          // CR and LF meet.
                     Replacement{"a\rb", {1, 0}, {1, 0}, "\n", "a\r\nb"},            // An LF behind a CR.
                     Replacement{"a\nb", {0, 1}, {0, 1}, "\r", "a\r\nb"},            // A CR before an LF.
+                    Replacement{"a\rX\n\nb", {1, 0}, {2, 0}, "", "a\r\nb"},         // A line between them goes whole.
                     Replacement{"a\r", {1, 0}, {1, 0}, "\n", "a\r\n"}));            // The same at the end.
 
 INSTANTIATE_TEST_SUITE_P(PlacesOutside, Edits,
