@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -19,12 +21,31 @@ struct ToolCode {
 
 constexpr ToolCode tool_code(int number) { return {number / 100000, number / 1000 % 100, number % 1000}; }
 
+/// From where to where an axis goes, in mm or degrees.
+struct Travel {
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+};
+
+/// What the machine can do; infinite where its file does not tell.
+struct Limits {
+  std::array<Travel, 5> travel;                           ///< X, Y, Z of the tool tip in the machine frame, B and C.
+  double feed = std::numeric_limits<double>::infinity();  ///< mm/min
+  double rotary_speed = std::numeric_limits<double>::infinity();   ///< degrees/min
+  double spindle_speed = std::numeric_limits<double>::infinity();  ///< rev/min
+};
+
 /// What the checks must know of the machine.
 struct Setup {
   geometry::Pose home;          ///< Machine frame.
   double arc_tolerance = 0.01;  ///< mm (D35).
   /// The tools that the machine file lists; without a list any tool may be mounted (D46).
   std::optional<std::vector<ToolCode>> tools;
+  Limits limits;
+  /// The M functions that the machine file names; without a list any number may be one.
+  std::optional<std::vector<int>> functions;
+  /// mm: no rapid should go below this Z of the face frame.
+  std::optional<double> clearance;
 };
 
 }  // namespace isocnc::execution
