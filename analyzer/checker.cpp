@@ -30,22 +30,23 @@ void Outcome::clear() { *this = Outcome{}; }
 /// Listens to one execution: findings to a place, assignments to the group's registers.
 class Checker::Listener final : public execution::Sink {
  public:
-  Listener(std::uint64_t line, const execution::Setup& setup, Outcome& outcome)
-      : Sink(false), line_(line), setup_(setup), outcome_(outcome) {}
+  Listener(std::uint64_t line, Checker& checker, Outcome& outcome)
+      : Sink(checker.watches_moves_), line_(line), checker_(checker), outcome_(outcome) {}
 
   void report(const Finding& finding) override { outcome_.findings.push_back({line_, finding}); }
   void arc_fits(const geometry::Circle& circle, syntax::Span span) override {
-    rules::judge_arc(circle, span, setup_, *this);
+    rules::judge_arc(circle, span, checker_.setup_, *this);
   }
+  void move(const execution::Move& move, const execution::State&) override { checker_.move_ = move; }
 
  private:
   std::uint64_t line_;
-  const execution::Setup& setup_;
+  Checker& checker_;
   Outcome& outcome_;
 };
 
 Checker::Checker(const execution::Setup& setup, const JumpMap& jumps)
-    : frontier(start(setup, jumps)), setup_(setup), jumps_(jumps) {}
+    : frontier(start(setup, jumps)), setup_(setup), jumps_(jumps), watches_moves_(rules::watches_moves(setup)) {}
 
 Frontier Checker::start(const execution::Setup& setup, const JumpMap& jumps) {
   Frontier frontier;
@@ -64,14 +65,18 @@ static void sort_by_column(std::vector<LocatedFinding>& findings, std::size_t fi
 void Checker::check_straight(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   if (frontier.live.empty()) return tell_of_dead_code(line, line_number, outcome);
   execution::State& state = frontier.live[0].state;
-  Listener listener(line_number, setup_, outcome);
+  Listener listener(line_number, *this, outcome);
   if (execution::execute_plain(line, state, setup_, listener)) return;
   const std::size_t first = outcome.findings.size();
   for (const Finding& finding : line.findings) outcome.findings.push_back({line_number, finding});
   if (line.is_empty()) return;
   const execution::State before = state;
   execution::execute(line, state, setup_, listener);
-  if (outcome.findings.size() == first) rules::ask_all({line, before, state, setup_}, listener);
+  if (outcome.findings.size() == first) {
+    rules::ask_all({line, before, state, setup_}, listener);
+    judge_move(line, before, state, listener);
+  }
+  move_.reset();
   if (outcome.findings.size() > first + 1) sort_by_column(outcome.findings, first);
   if (!state.ended) return;
   frontier.live.clear();
@@ -132,29 +137,36 @@ void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_num
   if (!line.is_empty()) {
     class GroupListener final : public execution::Sink {
      public:
-      GroupListener(Checker& checker, std::size_t group) : Sink(false), checker_(checker), group_(group) {}
+      GroupListener(Checker& checker, std::size_t group, Outcome& outcome)
+          : Sink(checker.watches_moves_), checker_(checker), group_(group), outcome_(outcome) {}
       void report(const Finding& finding) override { checker_.group_findings_.push_back({finding, group_}); }
       void arc_fits(const geometry::Circle& circle, syntax::Span span) override {
         rules::judge_arc(circle, span, checker_.setup_, *this);
       }
+      void move(const execution::Move& move, const execution::State&) override { checker_.move_ = move; }
       void assign(int reg, double value) override {
+        outcome_.assigned |= register_bit(reg);
         checker_.frontier.live[group_].registers.assign(reg, value, checker_.jumps_);
       }
 
      private:
       Checker& checker_;
       std::size_t group_;
+      Outcome& outcome_;
     };
     group_findings_.clear();
     for (std::size_t i = 0; i < live.size(); ++i) {
-      GroupListener listener(*this, i);
+      GroupListener listener(*this, i, outcome);
       execution::State& state = live[i].state;
       if (execution::execute_plain(line, state, setup_, listener)) continue;
       const std::size_t first = group_findings_.size();
       const execution::State before = state;
       execution::execute(line, state, setup_, listener);
-      if (group_findings_.size() == first && line.findings.empty())
+      if (group_findings_.size() == first && line.findings.empty()) {
         rules::ask_all({line, before, state, setup_}, listener);
+        judge_move(line, before, state, listener);
+      }
+      move_.reset();
     }
     if (!group_findings_.empty()) report_common_findings(line_number, outcome);
   }
@@ -164,6 +176,12 @@ void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_num
   }
   live.converge();
   bound_states(line, line_number, outcome);
+}
+
+/// What the rules think of the line's motion, if it has one and somebody wants to know.
+void Checker::judge_move(const LineTree& line, const execution::State& before, const execution::State& after,
+                         execution::Sink& sink) {
+  if (move_) rules::ask_about_move({line, before, after, setup_}, *move_, sink);
 }
 
 /// Each finding once. One that only some groups have carries the decisions that lead to them.
@@ -313,6 +331,26 @@ static void add_duplicate_labels(const std::vector<Outcome>& outcomes, const Jum
         findings.push_back({label.line, {.id = "duplicate-label"_diag, .span = label.span}});
 }
 
+/// Registers that an IF compares and nothing assigns: said at the first such IF.
+static void add_unassigned_registers(const std::vector<Outcome>& outcomes, const JumpMap& jumps,
+                                     const std::function<std::string_view(std::uint64_t)>& text_of_line,
+                                     std::vector<LocatedFinding>& findings) {
+  RegisterSet known = 0;
+  for (const Outcome& outcome : outcomes) known |= outcome.assigned;
+  for (const Outcome& outcome : outcomes)
+    for (const std::uint32_t ordinal : outcome.live_jumps) {
+      const JumpMap::Site& site = jumps.sites()[ordinal];
+      const int reg = site.jump.variable;
+      if (reg < 1 || !site.jump.condition_is_known() || (known & register_bit(reg)) != 0) continue;
+      known |= register_bit(reg);
+      const syntax::ParsedLine parsed(text_of_line(site.line));
+      const LineTree tree = parsed.tree();
+      const auto compared = std::find_if(tree.words.begin(), tree.words.end(),
+                                         [](const syntax::Word& word) { return word.letter == 'V'; });
+      findings.push_back({site.line, {.id = "register-never-assigned"_diag, .span = compared->span()}});
+    }
+}
+
 static syntax::Span without_blanks(std::string_view text) {
   std::size_t begin = 0;
   std::size_t end = text.size();
@@ -389,6 +427,7 @@ Report conclude(std::vector<Outcome> outcomes, const Frontier& end, const JumpMa
                  std::make_move_iterator(outcome.paths.end()));
   }
   add_duplicate_labels(outcomes, jumps, report.findings);
+  if (!end.reduced) add_unassigned_registers(outcomes, jumps, text_of_line, report.findings);
   add_missing_end(outcomes, end, text_of_line, paths, report.findings);
   const auto by_place = [](const LocatedFinding& a, const LocatedFinding& b) {
     return a.line != b.line ? a.line < b.line : a.finding.span.begin < b.finding.span.begin;

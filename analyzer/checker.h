@@ -27,6 +27,7 @@ struct Outcome {
   std::vector<std::uint32_t> live_jumps;  ///< Jumps on a feasible path, counted from the top of the file.
   std::uint64_t last_text_line = 0;       ///< The last that holds any text (D47), if one does.
   bool has_text = false;
+  RegisterSet assigned = 0;  ///< Registers that have been given a value; followed only where an IF compares one.
 
   void clear();
 };
@@ -64,8 +65,13 @@ class Checker {
     std::size_t group = 0;
   };
 
+  void judge_move(const syntax::LineTree& line, const execution::State& before, const execution::State& after,
+                  execution::Sink& sink);
+
   const execution::Setup& setup_;
   const JumpMap& jumps_;
+  const bool watches_moves_;
+  std::optional<execution::Move> move_;       // Of the line, where moves are watched.
   std::vector<GroupFinding> group_findings_;  // Of one line; kept for its memory.
 };
 

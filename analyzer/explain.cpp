@@ -15,6 +15,12 @@ static constexpr Text kSection = {"specification", "specifica"};
 static constexpr Text kWrong = {"Wrong:", "Sbagliato:"};
 static constexpr Text kRight = {"Right:", "Giusto:"};
 
+/// `warning`; `info, off by default`.
+static std::string severity_text(const DiagnosticDef& def, Language language) {
+  static constexpr Text kOff = {", off by default", ", disattivata di norma"};
+  return fmt::format("{}{}", dialect::severity_name(def.severity, language), def.is_off ? kOff.in(language) : "");
+}
+
 MarkedProgram read_marked(std::string_view program) {
   MarkedProgram marked;
   std::size_t line = 0;
@@ -82,7 +88,7 @@ static std::string shown(std::string_view program) {
 std::string explain(dialect::DiagnosticId id, Language language) {
   const DiagnosticDef& def = dialect::definition(id);
   std::string result =
-      fmt::format("{} {} ({}, {} {})\n{}\n\n", def.code, def.name, dialect::severity_name(def.severity, language),
+      fmt::format("{} {} ({}, {} {})\n{}\n\n", def.code, def.name, severity_text(def, language),
                   kSection.in(language), def.section, def.title.in(language));
   result += folded(def.explanation.in(language));
   if (!def.wrong.empty()) result += fmt::format("\n{}\n{}", kWrong.in(language), shown(def.wrong));
@@ -93,7 +99,8 @@ std::string explain(dialect::DiagnosticId id, Language language) {
 std::string list_rules(Language language) {
   std::string result;
   for (const DiagnosticDef& def : dialect::kDiagnostics)
-    result += fmt::format("{:7} {:8} {:32} {}\n", def.code, dialect::severity_name(def.severity, language), def.name,
+    result += fmt::format("{:7} {:8} {:32} {}\n", def.code,
+                          def.is_off ? "off" : dialect::severity_name(def.severity, language), def.name,
                           def.title.in(language));
   return result;
 }
@@ -106,7 +113,7 @@ std::string rules_page() {
   for (const DiagnosticDef& def : dialect::kDiagnostics) {
     page += fmt::format("\n## {} {}\n\n", def.code, def.name);
     page += fmt::format("**{}** · {} · specification {}\n\n", def.title.en,
-                        dialect::severity_name(def.severity, Language::English), def.section);
+                        severity_text(def, Language::English), def.section);
     page += fmt::format("{}\n\n> **{}.** {}\n", def.explanation.en, def.title.it, def.explanation.it);
     if (!def.wrong.empty()) page += fmt::format("\nWrong:\n\n{}", shown(def.wrong));
     if (!def.right.empty()) page += fmt::format("\nRight:\n\n{}", shown(def.right));

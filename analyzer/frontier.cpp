@@ -26,6 +26,7 @@ static Path common_decisions(const Path& a, const Path& b) {
 static void join(Group& into, const Group& other) {
   into.registers.unite(other.registers);
   into.state.knowledge &= other.state.knowledge;
+  if (into.state.tool != other.state.tool) into.state.forget(execution::State::kToolKnown);
   into.path = common_decisions(into.path, other.path);
 }
 

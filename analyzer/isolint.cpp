@@ -17,6 +17,7 @@
 #include "analyzer/explain.h"
 #include "analyzer/files.h"
 #include "analyzer/renderers.h"
+#include "analyzer/style_findings.h"
 #include "analyzer/suppressions.h"
 #include "analyzer/tally.h"
 #include "interpreter/running/output_file.h"
@@ -27,6 +28,7 @@
 namespace isocnc::analyzer {
 namespace {
 
+using namespace dialect::literals;
 using dialect::Language;
 using running::SourceFile;
 
@@ -79,7 +81,9 @@ class Run {
         files_(std::move(files)),
         renderer_(std::move(renderer)),
         jobs_(options.jobs > 0 ? options.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
-        output_(options) {}
+        output_(options) {
+    setup_.every_motion = style_.selection.shows("motion-goes-nowhere"_diag);
+  }
 
   int run(bool trouble) {
     trouble_ = trouble;
@@ -113,7 +117,8 @@ class Run {
       if (const SourceFile* source = std::get_if<SourceFile>(&opened)) {
         text = source->text();
         const bool is_large = text.size() > kLargeFile;
-        report = check_text(text, {}, files_.size() == 1 || is_large ? jobs_ : 1);
+        report = check_text(text, setup_, files_.size() == 1 || is_large ? jobs_ : 1);
+        report = with_style(std::move(report), text, style_.selection);
         report = style_.selection.shown(suppress(std::move(report), text, style_.selection));
         if (baseline_) {
           const std::size_t all = report.findings.size();
@@ -170,6 +175,7 @@ class Run {
   const Style& style_;
   const std::optional<Baseline> baseline_;
   const std::vector<std::filesystem::path> files_;
+  execution::Setup setup_;
   std::unique_ptr<Renderer> renderer_;
   const int jobs_;
   std::atomic<std::size_t> next_ = 0;

@@ -81,6 +81,7 @@ class SarifRenderer final : public Renderer {
     if (const std::string url = rule_url(id); url.find("://") != std::string::npos) rule["helpUri"] = url;
     rule["help"] = {{"text", def.explanation.in(style_.language)}};
     rule["defaultConfiguration"] = {{"level", level(def.severity)}};
+    if (def.is_off) rule["defaultConfiguration"]["enabled"] = false;
     return rule;
   }
 

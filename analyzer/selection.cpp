@@ -124,7 +124,8 @@ static int exactness_for(std::size_t code, const std::vector<CodeSet>& sets) {
 }
 
 Selection::Selection() {
-  for (std::size_t i = 0; i < kDiagnosticCount; ++i) severities_[i] = dialect::kDiagnostics[i].severity;
+  for (std::size_t i = 0; i < kDiagnosticCount; ++i)
+    if (!dialect::kDiagnostics[i].is_off) severities_[i] = dialect::kDiagnostics[i].severity;
 }
 
 std::vector<std::string> Selection::follow(const Wishes& wishes, Language language) {

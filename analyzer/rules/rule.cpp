@@ -15,7 +15,7 @@ static const Rule* const kRules[] = {
 };
 
 void ask_all(const Block& block, execution::Sink& sink) {
-  unsigned concerns = 0;
+  unsigned concerns = block.line.spindle >= 0 ? kSpindle : 0;
   for (const syntax::Instruction& instruction : block.line.instructions) {
     switch (instruction.kind) {
       case syntax::InstructionKind::Continuation:
@@ -36,6 +36,16 @@ void ask_all(const Block& block, execution::Sink& sink) {
   }
   for (const Rule* const rule : kRules)
     if ((rule->concerns & concerns) != 0) rule->check(block, sink);
+}
+
+bool watches_moves(const execution::Setup& setup) {
+  return setup.every_motion || setup.clearance || setup.limits != execution::Limits{};
+}
+
+void ask_about_move(const Block& block, const execution::Move& move, execution::Sink& sink) {
+  if ((block.before.unknown | block.after.unknown) != 0 || block.after.face_undefined) return;
+  for (const Rule* const rule : kRules)
+    if (rule->check_move) rule->check_move(block, move, sink);
 }
 
 void judge_arc(const geometry::Circle& circle, syntax::Span span, const execution::Setup& setup,
@@ -62,6 +72,13 @@ std::uint8_t Block::motion() const {
 }
 
 const syntax::Word& Block::motion_word() const { return line.command(*motion_instruction(line)); }
+
+const syntax::Word* Block::argument(char letter) const {
+  const syntax::Instruction& motion = *motion_instruction(line);
+  for (std::size_t i = motion.begin; i < motion.end; ++i)
+    if (line.words[i].owner == motion.number && line.words[i].letter == letter) return &line.words[i];
+  return nullptr;
+}
 
 const syntax::Word* Block::g(int number) const {
   for (const syntax::Instruction& instruction : line.instructions)

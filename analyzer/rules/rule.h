@@ -28,6 +28,8 @@ struct Block {
   const syntax::Word* m(int number) const;
   /// The line's first coordinate, or the motion's G: where a finding about the motion stands.
   const syntax::Word& motion_word() const;
+  /// The motion's word of this letter, or null.
+  const syntax::Word* argument(char letter) const;
 };
 
 /// What a line can have that a rule asks about.
@@ -35,13 +37,16 @@ inline constexpr unsigned kMotion = 1;      ///< A motion, by its G or continued
 inline constexpr unsigned kModal = 2;       ///< Any other G.
 inline constexpr unsigned kFunction = 4;    ///< An M but for M06.
 inline constexpr unsigned kToolChange = 8;  ///< M06.
+inline constexpr unsigned kSpindle = 16;    ///< An S.
 
-/// A rule tells what it thinks of a block that has one of `concerns`. Each has a file of its name in this folder, and a
-/// row in the table of diagnostics; the build gathers them. A rule is not asked about the plain motions that nothing in
-/// State::knowledge concerns, so it must not speak of them.
+/// A rule tells what it thinks of a block that has one of `concerns`, or of the motion of a block. Each has a file of
+/// its name in this folder, and a row in the table of diagnostics; the build gathers them. `check` is not asked about
+/// the plain motions that nothing in State::knowledge concerns, so it must not speak of them; `check_move` is asked
+/// about all motions whose ends are known, but only where watches_moves().
 struct Rule {
   unsigned concerns = 0;
   void (*check)(const Block& block, execution::Sink& sink) = nullptr;
+  void (*check_move)(const Block& block, const execution::Move& move, execution::Sink& sink) = nullptr;
 };
 
 inline void report(execution::Sink& sink, dialect::DiagnosticId id, syntax::Span span, double value = 0,
@@ -51,6 +56,13 @@ inline void report(execution::Sink& sink, dialect::DiagnosticId id, syntax::Span
 
 /// Asks all rules.
 void ask_all(const Block& block, execution::Sink& sink);
+
+/// Whether motions are to be judged one by one. It takes the short cut for plain lines away, so only who has given
+/// limits, or asks for opinions on all motions, pays for it.
+bool watches_moves(const execution::Setup& setup);
+
+/// Asks all rules about the motion of a block, given in the frame in force behind it.
+void ask_about_move(const Block& block, const execution::Move& move, execution::Sink& sink);
 
 /// Tells of an arc that would not fit with half the tolerance.
 void judge_arc(const geometry::Circle& circle, syntax::Span span, const execution::Setup& setup, execution::Sink& sink);

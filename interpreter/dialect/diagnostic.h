@@ -21,7 +21,7 @@ struct Text {
 };
 
 /// The most values that one message can name.
-inline constexpr int kMostArguments = 2;
+inline constexpr int kMostArguments = 3;
 
 /// One kind of finding, as it stands in the table of diagnostics: everything that is ever said about it.
 ///
@@ -30,6 +30,7 @@ struct DiagnosticDef {
   std::string_view code;  ///< `ISO012`, `E004`, `W001`: stable, what users select and suppress.
   std::string_view name;  ///< `head-not-selected`: stable, what our code and readers say.
   Severity severity = Severity::Error;
+  bool is_off = false;                         ///< Shown only to who selects it.
   std::string_view section;                    ///< Of the specification, `I.4.3`.
   std::string_view arguments[kMostArguments];  ///< Names of the values, in the order in which they are reported.
   Text title;                                  ///< A few words for lists.

@@ -71,6 +71,15 @@ static std::string spelled_out(std::string_view text) {
   return result;
 }
 
+/// The value of this name is the number of an axis.
+static constexpr std::string_view kAxisArgument = "axis";
+
+static std::string axis_name(double axis) {
+  constexpr std::string_view kAxes = "XYZBC";
+  const auto index = static_cast<std::size_t>(axis);
+  return std::string(kAxes.substr(std::min(index, kAxes.size()), 1));
+}
+
 std::string message(DiagnosticId id, Language language, std::string_view text, std::span<const double> values) {
   const DiagnosticDef& def = definition(id);
   const std::string_view pattern = def.message.in(language);
@@ -84,7 +93,8 @@ std::string message(DiagnosticId id, Language language, std::string_view text, s
     const std::string_view name = pattern.substr(open + 1, close - open - 1);
     if (name == "text") result.append(spelled_out(shortened(text)));
     for (std::size_t i = 0; i < values.size() && i < kMostArguments; ++i)
-      if (def.arguments[i] == name) result.append(format_value(values[i]));
+      if (def.arguments[i] == name)
+        result.append(name == kAxisArgument ? axis_name(values[i]) : format_value(values[i]));
     at = close + 1;
   }
   return result;

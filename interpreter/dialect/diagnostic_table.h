@@ -1323,8 +1323,8 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
                 "alarm where the machine's own tool change stops the spindle.",
           .it = "Prima di questo cambio utensile la M03 o la M04 non è stata chiusa da una M05. Scrivere prima la M05. "
                 "Falso allarme se il ciclo di cambio utensile della macchina ferma da sé il mandrino."},
-     .wrong = "M06 T101001\nS12000 M03\n[!M06!] T101002\nM05\nM02\n",
-     .right = "M06 T101001\nS12000 M03\nM05\nM06 T101002\nM02\n"},
+     .wrong = "M06 T101001\nS12000 M03\nG01 X10 F1000\n[!M06!] T101002\nM05\nM02\n",
+     .right = "M06 T101001\nS12000 M03\nG01 X10 F1000\nM05\nM06 T101002\nM02\n"},
     {.code = "W106",
      .name = "end-with-spindle-on",
      .severity = Severity::Warning,
@@ -1509,7 +1509,340 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
                            "Va bene per un selettore impostato in testa al programma, altrimenti controllare il "
                            "registro e il valore. Falso allarme se il registro è un selettore di questo tipo."},
      .wrong = "M06 T101001\nV1 = 0\n[!IF!] V1 = 1 GOTO N10\nG00 X10\nN10 G00 X20\nM02\n",
-     .right = "M06 T101001\nIF V1 = 1 GOTO N10\nG00 X10\nN10 G00 X20\nM02\n"},
+     .right = "M06 T101001\nIF VGPL = 1 GOTO N10\nG00 X10\nN10 G00 X20\nM02\n"},
+    {.code = "W118",
+     .name = "end-in-incremental",
+     .severity = Severity::Info,
+     .is_off = true,
+     .section = "I.3.3",
+     .arguments = {},
+     .title = {.en = "Program end in incremental mode", .it = "Fine programma in incrementale"},
+     .message = {.en = "the program ends with G91 in force", .it = "il programma finisce con la G91 in presa"},
+     .explanation =
+         {.en = "Every program starts in G90, so nothing breaks on this control. Where programs are joined, or run on "
+                "a control that keeps its modes, what follows would move by offsets: write G90 before M02. Off by "
+                "default; no false alarms are known beyond that.",
+          .it = "Ogni programma parte in G90, quindi su questo controllo non succede nulla. Se però i programmi "
+                "vengono uniti, o girano su un controllo che conserva i modi, il seguito si muoverebbe a incrementi: "
+                "scrivere G90 prima della M02. Disattivata di norma; non si conoscono altri falsi allarmi."},
+     .wrong = "M06 T101001\nG91\nG00 X10\n[!M02!]\n",
+     .right = "M06 T101001\nG91\nG00 X10\nG90\nM02\n"},
+    {.code = "W119",
+     .name = "end-in-inches",
+     .severity = Severity::Info,
+     .is_off = true,
+     .section = "I.3.1",
+     .arguments = {},
+     .title = {.en = "Program end in inches", .it = "Fine programma in pollici"},
+     .message = {.en = "the program ends with G70 in force", .it = "il programma finisce con la G70 in presa"},
+     .explanation =
+         {.en = "Every program starts in G71, so nothing breaks on this control. Where programs are joined, or run on "
+                "a control that keeps its modes, millimeters that follow would be read as inches: write G71 before "
+                "M02. Off by default; no false alarms are known beyond that.",
+          .it =
+              "Ogni programma parte in G71, quindi su questo controllo non succede nulla. Se però i programmi vengono "
+              "uniti, o girano su un controllo che conserva i modi, i millimetri che seguono verrebbero letti come "
+              "pollici: scrivere G71 prima della M02. Disattivata di norma; non si conoscono altri falsi allarmi."},
+     .wrong = "M06 T101001\nG70\nG00 X1\n[!M02!]\n",
+     .right = "M06 T101001\nG70\nG00 X1\nG71\nM02\n"},
+    {.code = "W120",
+     .name = "motion-goes-nowhere",
+     .severity = Severity::Info,
+     .is_off = true,
+     .section = "I.3.4",
+     .arguments = {},
+     .title = {.en = "Motion that goes nowhere", .it = "Movimento che non si muove"},
+     .message = {.en = "the tool is there already: nothing moves", .it = "l'utensile è già lì: non si muove nulla"},
+     .explanation = {.en = "The motion ends where it starts. Often a post-processor only repeats the point, but a "
+                           "wrong coordinate can hide there, or a G91 that was forgotten. Off by default, since "
+                           "repeated points are common and harmless.",
+                     .it = "Il movimento finisce dove comincia. Spesso è solo il post-processor che ripete il punto, "
+                           "ma può nascondersi una coordinata sbagliata o una G91 dimenticata. Disattivata di norma, "
+                           "perché i punti ripetuti sono frequenti e innocui."},
+     .wrong = "M06 T101001\nG00 X10\n[!G00!] X10\nM02\n",
+     .right = "M06 T101001\nG00 X10\nG00 X20\nM02\n"},
+    {.code = "W121",
+     .name = "register-never-assigned",
+     .severity = Severity::Info,
+     .is_off = true,
+     .section = "I.6",
+     .arguments = {},
+     .title = {.en = "Register compared but never set", .it = "Registro confrontato ma mai impostato"},
+     .message = {.en = "nothing in this program sets {text}", .it = "niente in questo programma imposta {text}"},
+     .explanation = {.en = "The IF compares a register that the program gives no value anywhere. Check its number, or "
+                           "set it at the top of the program. Off by default; a false alarm where the register is set "
+                           "from outside, by the GPL or by a program that ran before.",
+                     .it = "La IF confronta un registro al quale il programma non dà mai un valore. Controllare il "
+                           "numero, o impostarlo in testa al programma. Disattivata di norma; falso allarme se il "
+                           "registro viene impostato da fuori, dal GPL o da un programma eseguito prima."},
+     .wrong = "M06 T101001\nIF [!V3!] = 1 GOTO N10\nG00 X10\nN10 G00 X20\nM02\n",
+     .right = "M06 T101001\nIF VGPL = 1 GOTO N10\nG00 X10\nN10 G00 X20\nM02\n"},
+    {.code = "W122",
+     .name = "register-never-read",
+     .severity = Severity::Info,
+     .is_off = true,
+     .section = "I.6",
+     .arguments = {},
+     .title = {.en = "Register set but never compared", .it = "Registro impostato ma mai confrontato"},
+     .message = {.en = "no IF of this program compares {text}",
+                 .it = "nessuna IF di questo programma confronta {text}"},
+     .explanation =
+         {.en = "The register is given a value that no IF looks at. It may be left over, or the IF names another "
+                "number. Off by default; a false alarm where the GPL reads the register.",
+          .it = "Al registro viene dato un valore che nessuna IF confronta. Può essere un resto, oppure la IF indica "
+                "un altro numero. Disattivata di norma; falso allarme se il registro viene letto dal GPL."},
+     .wrong = "M06 T101001\n[!V2!] = 5\nG00 X10\nM02\n",
+     .right = "M06 T101001\nG00 X10\nM02\n"},
+    {.code = "W123",
+     .name = "label-never-used",
+     .severity = Severity::Info,
+     .is_off = true,
+     .section = "I.5",
+     .arguments = {},
+     .title = {.en = "Label that no jump names", .it = "Etichetta che nessun salto indica"},
+     .message = {.en = "no GOTO leads to {text}", .it = "nessun GOTO porta a {text}"},
+     .explanation = {.en = "Only few lines of this program have a number, so a number is there to be jumped to, and to "
+                           "this one no GOTO leads. Delete it, or check the numbers behind GOTO. Off by default; a "
+                           "false alarm where a number only marks a place for the operator.",
+                     .it = "In questo programma poche righe hanno un numero, quindi il numero serve per i salti, e a "
+                           "questo non porta nessun GOTO. Toglierlo, o controllare i numeri dopo GOTO. Disattivata di "
+                           "norma; falso allarme se il numero segna solo un punto per l'operatore."},
+     .wrong = "M06 T101001\nIF VGPL = 1 GOTO N10\n[!N5!] G00 X10\nN10 G00 X20\nG00 X30\nG00 X40\nM02\n",
+     .right = "M06 T101001\nIF VGPL = 1 GOTO N10\nG00 X10\nN10 G00 X20\nG00 X30\nG00 X40\nM02\n"},
+    {.code = "W124",
+     .name = "line-number-not-growing",
+     .severity = Severity::Info,
+     .is_off = true,
+     .section = "I.2.1",
+     .arguments = {"last"},
+     .title = {.en = "Line number that does not grow", .it = "Numero di riga che non cresce"},
+     .message = {.en = "{text} comes after N{last}", .it = "{text} viene dopo N{last}"},
+     .explanation = {.en = "The number is the same as the one before, or smaller. The control does not mind, but who "
+                           "searches for a line to restart from finds the wrong one; isofmt --renumber puts them in "
+                           "order. Off by default; a false alarm where parts are numbered each from its own start.",
+                     .it = "Il numero è uguale a quello precedente, o minore. Al controllo non importa, ma chi cerca "
+                           "la riga da cui ripartire trova quella sbagliata; isofmt --renumber li rimette in ordine. "
+                           "Disattivata di norma; falso allarme se ogni parte ha una numerazione propria."},
+     .wrong = "M06 T101001\nN20 G00 X10\n[!N10!] G00 X20\nM02\n",
+     .right = "M06 T101001\nN10 G00 X10\nN20 G00 X20\nM02\n"},
+    {.code = "W125",
+     .name = "lower-case",
+     .severity = Severity::Info,
+     .is_off = true,
+     .section = "I.1",
+     .arguments = {},
+     .title = {.en = "Small letters outside comments", .it = "Lettere minuscole fuori dai commenti"},
+     .message = {.en = "small letters outside a comment", .it = "lettere minuscole fuori da un commento"},
+     .explanation =
+         {.en = "The control reads small letters as capitals and stores capitals, so a saved program differs from its "
+                "file in every such line. isofmt writes capitals. Off by default; no false alarms are known.",
+          .it = "Il controllo legge le minuscole come maiuscole e salva le maiuscole: il programma salvato è diverso "
+                "dal file in ognuna di queste righe. isofmt scrive le maiuscole. Disattivata di norma; non si "
+                "conoscono falsi allarmi."},
+     .wrong = "M06 T101001\n[!g00 x!]10\nM02\n",
+     .right = "M06 T101001\nG00 X10\nM02\n"},
+    {.code = "W126",
+     .name = "tab",
+     .severity = Severity::Info,
+     .is_off = true,
+     .section = "I.1",
+     .arguments = {},
+     .title = {.en = "Tab outside comments", .it = "Tabulazione fuori dai commenti"},
+     .message = {.en = "a tab outside a comment", .it = "una tabulazione fuori da un commento"},
+     .explanation =
+         {.en = "A tab means nothing to the control and is shown with a different width on every screen. isofmt writes "
+                "a blank. Off by default; a false alarm where the shop sets its columns with tabs.",
+          .it = "Per il controllo la tabulazione non significa nulla, e ogni schermo la mostra con una larghezza "
+                "diversa. isofmt scrive uno spazio. Disattivata di norma; falso allarme se in officina si incolonna "
+                "con le tabulazioni."},
+     .wrong = "M06 T101001\nG00[!\t!]X10\nM02\n",
+     .right = "M06 T101001\nG00 X10\nM02\n"},
+    {.code = "W127",
+     .name = "mixed-line-ends",
+     .severity = Severity::Info,
+     .is_off = true,
+     .section = "I.1",
+     .arguments = {},
+     .title = {.en = "Mixed line ends", .it = "Fini riga diversi"},
+     .message = {.en = "from here on lines end otherwise than above",
+                 .it = "da qui le righe finiscono in modo diverso dalle precedenti"},
+     .explanation =
+         {.en = "The program has lines that end in CR, in LF or in both, as happens when pieces of several files are "
+                "joined. The control reads them all; editors and version control may show lines doubled, or all as "
+                "changed. Off by default; no false alarms are known.",
+          .it =
+              "Il programma ha righe che finiscono con CR, con LF o con entrambi, come capita quando si uniscono pezzi "
+              "di più file. Il controllo le legge tutte; gli editor e il controllo di versione possono mostrare righe "
+              "doppie, o tutte come modificate. Disattivata di norma; non si conoscono falsi allarmi."},
+     .wrong = "M06 T101001\nG00 X10\n[!G00 X20!]\r\nM02\n",
+     .right = "M06 T101001\nG00 X10\nG00 X20\nM02\n"},
+    {.code = "W128",
+     .name = "axes-nearly-unit",
+     .severity = Severity::Info,
+     .section = "I.3.2",
+     .arguments = {"length"},
+     .title = {.en = "Axis vector not quite of length 1", .it = "Versore di modulo non proprio 1"},
+     .message = {.en = "this axis vector is {length} long: is a digit missing?",
+                 .it = "il modulo di questo versore è {length}: manca una cifra?"},
+     .explanation = {.en = "The control makes the vector a unit one and goes on, so only its direction counts. Its "
+                           "length is further from 1 than three decimals explain and nearer than somebody would "
+                           "choose: a component may have a wrong digit, and then the direction is wrong. A false alarm "
+                           "where the components are rounded to two decimals.",
+                     .it = "Il controllo normalizza il versore e prosegue: conta solo la direzione. Il modulo è più "
+                           "lontano da 1 di quanto spieghino tre decimali, ma troppo vicino per essere voluto: una "
+                           "componente può avere una cifra sbagliata, e allora è sbagliata la direzione. Falso allarme "
+                           "se le componenti sono arrotondate a due decimali."},
+     .wrong = "M06 T101001\nG28 [!X0.98 Y0 Z0!] I0 J1 K0 P0 Q0 R1\nG27\nM02\n",
+     .right = "M06 T101001\nG28 X1 Y0 Z0 I0 J1 K0 P0 Q0 R1\nG27\nM02\n"},
+    {.code = "W129",
+     .name = "unnamed-function",
+     .severity = Severity::Warning,
+     .section = "I.4.4",
+     .arguments = {},
+     .title = {.en = "M function that the machine file does not name",
+               .it = "Funzione M non indicata nel file macchina"},
+     .message = {.en = "the machine file names no {text}", .it = "il file macchina non indica nessuna {text}"},
+     .explanation = {.en = "The machine file lists the M functions of the shop, and this is none of them. Check the "
+                           "number, or add the function to isocnc.json. Only told where the file has such a list; a "
+                           "false alarm where the list is not complete.",
+                     .it = "Il file macchina elenca le funzioni M dell'officina, e questa non c'è. Controllare il "
+                           "numero, o aggiungere la funzione a isocnc.json. Segnalata solo se il file ha un tale "
+                           "elenco; falso allarme se l'elenco non è completo."},
+     .wrong = "M06 T101001\n[!M77!]\nM02\n",
+     .right = "M06 T101001\nM100\nM02\n"},
+    {.code = "W130",
+     .name = "travel-exceeded",
+     .severity = Severity::Warning,
+     .section = "I.3.4",
+     .arguments = {"axis", "reached", "limit"},
+     .title = {.en = "Axis travel exceeded", .it = "Corsa di un asse superata"},
+     .message = {.en = "{axis} goes to {reached}, and its travel ends at {limit}",
+                 .it = "l'asse {axis} va a {reached}, ma la sua corsa finisce a {limit}"},
+     .explanation = {.en = "On the way of this motion, the bulge of an arc included, the tool tip leaves the travel "
+                           "that the machine file gives, in machine coordinates. Check the coordinate and the "
+                           "workpiece origin, or the file. A false alarm where the file gives the travel of the joints "
+                           "of a tilting head, which is not that of the tip.",
+                     .it = "Durante questo movimento, compresa la pancia di un arco, la punta dell'utensile esce dalla "
+                           "corsa indicata nel file macchina, in coordinate macchina. Controllare la coordinata e "
+                           "l'origine pezzo, oppure il file. Falso allarme se il file indica la corsa dei carri di una "
+                           "testa orientabile, che non è quella della punta."},
+     .wrong = "M06 T101001\nG00 [!X1200!] Y10\nM02\n",
+     .right = "M06 T101001\nG00 X900 Y10\nM02\n"},
+    {.code = "W131",
+     .name = "feed-above-machine",
+     .severity = Severity::Warning,
+     .section = "I.3.7",
+     .arguments = {"feed", "limit"},
+     .title = {.en = "Feed above the machine's", .it = "Avanzamento oltre quello della macchina"},
+     .message = {.en = "{text} means {feed} mm/min, and the machine does {limit}",
+                 .it = "{text} vale {feed} mm/min, ma la macchina arriva a {limit}"},
+     .explanation =
+         {.en = "The feed is above what the machine file allows; in G93 it follows from the length of the motion. The "
+                "machine will be slower than the program asks, so the cut differs from what was planned. A false alarm "
+                "where the program counts on the machine to slow down.",
+          .it = "L'avanzamento supera quello ammesso dal file macchina; in G93 dipende dalla lunghezza del movimento. "
+                "La macchina andrà più piano di quanto chiede il programma, e la lavorazione sarà diversa da quella "
+                "prevista. Falso allarme se il programma conta sul rallentamento della macchina."},
+     .wrong = "M06 T101001\nG01 X100 [!F15000!]\nM02\n",
+     .right = "M06 T101001\nG01 X100 F1500\nM02\n"},
+    {.code = "W132",
+     .name = "rotary-speed-above-machine",
+     .severity = Severity::Warning,
+     .section = "I.3.7",
+     .arguments = {"speed", "limit"},
+     .title = {.en = "Rotary axis faster than the machine", .it = "Asse rotante oltre la velocità della macchina"},
+     .message = {.en = "{text} turns at {speed} degrees/min, and the machine does {limit}",
+                 .it = "{text} gira a {speed} gradi/min, ma la macchina arriva a {limit}"},
+     .explanation = {.en = "At this feed the rotary axis would have to turn faster than the machine file allows, as "
+                           "happens near a singular position or on short moves. Lower the feed, or spread the turn "
+                           "over a longer way. A false alarm where the program counts on the machine to slow down.",
+                     .it = "A questo avanzamento l'asse rotante dovrebbe girare più in fretta di quanto ammette il "
+                           "file macchina, come capita vicino a una posizione singolare o su tratti corti. Ridurre "
+                           "l'avanzamento, o distribuire la rotazione su un tratto più lungo. Falso allarme se il "
+                           "programma conta sul rallentamento della macchina."},
+     .wrong = "M06 T101001\nG49\nG01 X10 [!C90!] F5000\nM02\n",
+     .right = "M06 T101001\nG49\nG01 X10 C90 F100\nM02\n"},
+    {.code = "W133",
+     .name = "spindle-speed-above-machine",
+     .severity = Severity::Warning,
+     .section = "I.4.2",
+     .arguments = {"limit"},
+     .title = {.en = "Spindle speed above the machine's", .it = "Giri mandrino oltre quelli della macchina"},
+     .message = {.en = "{text} is more than the machine's {limit} rev/min",
+                 .it = "{text} supera i {limit} giri/min della macchina"},
+     .explanation = {.en = "The spindle speed is above what the machine file allows. Check the number, or the file. No "
+                           "false alarms are known, as long as the file is right.",
+                     .it = "I giri del mandrino superano quelli ammessi dal file macchina. Controllare il numero, "
+                           "oppure il file. Se il file è giusto non si conoscono falsi allarmi."},
+     .wrong = "M06 T101001\n[!S24000!]\nM02\n",
+     .right = "M06 T101001\nS12000\nM02\n"},
+    {.code = "W134",
+     .name = "rapid-below-clearance",
+     .severity = Severity::Warning,
+     .section = "I.3.4.1",
+     .arguments = {"z", "clearance"},
+     .title = {.en = "Rapid below the clearance", .it = "Rapido sotto la quota di sicurezza"},
+     .message = {.en = "a rapid at Z{z}, below the clearance of {clearance}",
+                 .it = "un rapido a Z{z}, sotto la quota di sicurezza di {clearance}"},
+     .explanation =
+         {.en = "The machine file gives a clearance height above the face, and this rapid goes down below it or "
+                "crosses the face beneath it. Approach with a feed move, or raise the tool first. A false alarm where "
+                "the way is known to be free, as between two slots.",
+          .it = "Il file macchina indica una quota di sicurezza sopra la faccia, e questo rapido scende sotto di essa "
+                "o attraversa la faccia più in basso. Avvicinarsi con un movimento in lavoro, o sollevare prima "
+                "l'utensile. Falso allarme se si sa che la strada è libera, come fra due cave."},
+     .wrong = "M06 T101001\nG00 X10 Y10 Z20\nG00 [!Z1!]\nM02\n",
+     .right = "M06 T101001\nG00 X10 Y10 Z20\nG00 Z5\nG01 Z1 F500\nM02\n"},
+    {.code = "W135",
+     .name = "tool-never-cuts",
+     .severity = Severity::Warning,
+     .section = "I.4.3",
+     .arguments = {},
+     .title = {.en = "Tool changed before it cut", .it = "Utensile cambiato prima di lavorare"},
+     .message = {.en = "the tool before this change has made no feed move",
+                 .it = "l'utensile prima di questo cambio non ha fatto alcun movimento in lavoro"},
+     .explanation =
+         {.en = "A tool was mounted and is changed for another without a single feed move or M function of the shop. "
+                "Its operation may be missing, or the tool call left over, which costs a tool change. A false alarm "
+                "where the tool was mounted to be measured or looked at.",
+          .it = "Un utensile è stato montato e viene cambiato senza un solo movimento in lavoro né una funzione M "
+                "dell'officina. Può mancare la sua lavorazione, o essere rimasta la chiamata, che costa un cambio "
+                "utensile. Falso allarme se l'utensile è stato montato per misurarlo o controllarlo."},
+     .wrong = "M06 T101001\nG00 Z50\n[!M06!] T102001\nG01 Z5 F500\nM02\n",
+     .right = "M06 T101001\nG01 Z50 F500\nM06 T102001\nG01 Z5\nM02\n"},
+    {.code = "W136",
+     .name = "tool-already-mounted",
+     .severity = Severity::Info,
+     .is_off = true,
+     .section = "I.4.3",
+     .arguments = {},
+     .title = {.en = "Tool that is mounted already", .it = "Utensile già montato"},
+     .message = {.en = "{text} is mounted already", .it = "{text} è già montato"},
+     .explanation =
+         {.en = "The change is to the tool that the spindle holds. Most machines skip it, some change it for itself; "
+                "or another tool was meant. Off by default; a false alarm where each operation calls its tool on "
+                "purpose, so that it can be run alone.",
+          .it = "Il cambio chiama l'utensile che è già nel mandrino. Molte macchine lo saltano, alcune lo depositano e "
+                "lo riprendono; oppure si voleva un altro utensile. Disattivata di norma; falso allarme se ogni "
+                "lavorazione richiama apposta il suo utensile, per poter essere eseguita da sola."},
+     .wrong = "M06 T101001\nG01 Z5 F500\nM06 [!T101001!]\nG01 Z1\nM02\n",
+     .right = "M06 T101001\nG01 Z5 F500\nG01 Z1\nM02\n"},
+    {.code = "W137",
+     .name = "compensation-begins-on-arc",
+     .severity = Severity::Warning,
+     .section = "I.3.12",
+     .arguments = {},
+     .title = {.en = "Cutter compensation that begins on an arc", .it = "Compensazione che inizia su un arco"},
+     .message = {.en = "the first motion under cutter compensation is an arc",
+                 .it = "il primo movimento in compensazione è un arco"},
+     .explanation = {.en = "The tool has to move sideways by its radius while compensation begins, which an arc cannot "
+                           "do without leaving a mark; many controls refuse it. Begin with a straight move that leads "
+                           "onto the contour. No false alarms are known.",
+                     .it = "Quando inizia la compensazione l'utensile deve spostarsi di lato del suo raggio, e su un "
+                           "arco non può farlo senza lasciare il segno; molti controlli lo rifiutano. Iniziare con un "
+                           "tratto rettilineo di ingresso sul profilo. Non si conoscono falsi allarmi."},
+     .wrong = "M06 T101001\nG01 X0 Y0 F500\nG41\n[!G02!] X20 Y0 I10 J0\nG40\nM02\n",
+     .right = "M06 T101001\nG01 X0 Y0 F500\nG41 G01 X10 Y0\nG02 X30 Y0 I20 J0\nG40\nM02\n"},
     {.code = "W190",
      .name = "useless-suppression",
      .severity = Severity::Warning,

@@ -14,8 +14,9 @@ using syntax::Word;
 
 bool execute_plain(const syntax::LineTree& line, State& state, const Setup& setup, Sink& sink) {
   if (line.plain_arguments == 0) return false;
+  constexpr std::uint8_t kAlways = State::kStopped | State::kUncut | State::kCompensationWaits;
   const auto concerns_rules =
-      static_cast<std::uint8_t>(state.inverse_time() ? State::kStopped : State::kStopped | State::kFeedOfInverseTime);
+      static_cast<std::uint8_t>(state.inverse_time() ? kAlways : kAlways | State::kFeedOfInverseTime);
   return !state.knows(concerns_rules) && Executor(line, state, setup, sink).run_plain();
 }
 
@@ -61,7 +62,11 @@ void Executor::run() {
   }
   if (line_.feed >= 0 && !feed_move_) apply_feed_without_motion();
   state_.exact_stop_fits = feed_move_;
-  if (feed_move_) state_.forget(state_.inverse_time() ? State::kStopped : State::kStopped | State::kFeedOfInverseTime);
+  if (feed_move_) {
+    constexpr std::uint8_t kEnds = State::kStopped | State::kUncut;
+    state_.forget(state_.inverse_time() ? kEnds : kEnds | State::kFeedOfInverseTime);
+  }
+  if (feed_move_ || rapid_move_) state_.forget(State::kCompensationWaits);
   const Instruction* const last = line_.instructions.empty() ? nullptr : &line_.instructions.back();
   state_.tool_awaited = last != nullptr && last->kind == InstructionKind::ToolChange &&
                         last->end == last->command + 1 && !last->has(Instruction::kSettled);
@@ -109,6 +114,13 @@ void Executor::set_mode(const dialect::GCode& code, const Word& word) {
   const auto bit = static_cast<std::uint16_t>(1u << static_cast<unsigned>(code.group));
   const bool repeats = state_.mode(code.group) == code.number && (state_.written & bit) != 0;
   if (repeats && code.repeated != dialect::kNoDiagnostic) report(code.repeated, word.span());
+  if (code.group == dialect::ModalGroup::CutterCompensation) {
+    if (code.number == 40) {
+      state_.forget(State::kCompensationWaits);
+    } else if (state_.mode(code.group) == 40) {
+      state_.learn(State::kCompensationWaits);
+    }
+  }
   state_.set_mode(code.group, static_cast<std::uint8_t>(code.number));
   state_.written |= bit;
 }
@@ -134,7 +146,11 @@ void Executor::function(const Instruction& instruction) {
     state_.ended = true;
     return sink_.end();
   }
-  if (!dialect::is_user_function(m)) turn_spindle(m);
+  if (dialect::is_user_function(m)) {
+    state_.forget(State::kUncut);
+  } else {
+    turn_spindle(m);
+  }
   if (!sink_.wants_effects()) return;
   std::array<FunctionParameter, dialect::kMostFunctionParameters> parameters;
   std::size_t count = 0;
@@ -161,6 +177,7 @@ void Executor::tool_change(const Instruction& instruction) {
   state_.forget(State::kClockwise | State::kCounterclockwise);  // What it does to the spindle is the machine's affair.
   for (const Word& word : line_.words)
     if (word.letter == 'T' && word.owner == instruction.number) return select_tool(word);
+  state_.forget(State::kUncut | State::kToolKnown);
   state_.tool_selected = true;  // Without its T, or with one reported elsewhere, a tool change was meant all the same.
 }
 
@@ -174,8 +191,10 @@ void Executor::stray_tool(const Instruction& instruction) {
 void Executor::select_tool(const Word& word) {
   state_.tool_selected = true;  // A wrong number counts as a tool change, too (D44).
   state_.tool = {};
+  state_.forget(State::kUncut | State::kToolKnown);
   if (!word.is_plain_integer() || word.digits != 6) return;
   state_.tool = tool_code(static_cast<int>(word.value));
+  if (state_.tool.head != 0) state_.learn(State::kUncut | State::kToolKnown);
   const bool impossible =
       (state_.tool.head == 0 && state_.tool.holder != 0) || (state_.tool.holder == 0 && state_.tool.tool != 0);
   if (!impossible && !is_configured(state_.tool)) report("tool-not-configured"_diag, word.span());

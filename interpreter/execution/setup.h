@@ -25,6 +25,8 @@ constexpr ToolCode tool_code(int number) { return {number / 100000, number / 100
 struct Travel {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
+
+  friend bool operator==(const Travel&, const Travel&) = default;
 };
 
 /// What the machine can do; infinite where its file does not tell.
@@ -33,6 +35,8 @@ struct Limits {
   double feed = std::numeric_limits<double>::infinity();  ///< mm/min
   double rotary_speed = std::numeric_limits<double>::infinity();   ///< degrees/min
   double spindle_speed = std::numeric_limits<double>::infinity();  ///< rev/min
+
+  friend bool operator==(const Limits&, const Limits&) = default;
 };
 
 /// What the checks must know of the machine.
@@ -46,6 +50,8 @@ struct Setup {
   std::optional<std::vector<int>> functions;
   /// mm: no rapid should go below this Z of the face frame.
   std::optional<double> clearance;
+  /// Whether opinions are wanted on every motion, plain ones too.
+  bool every_motion = false;
 };
 
 }  // namespace isocnc::execution

@@ -37,7 +37,10 @@ struct State {
   static constexpr std::uint8_t kCounterclockwise = 4;  ///< M04 is in force.
   static constexpr std::uint8_t kStopped = 8;           ///< M05 has stopped the spindle, and no feed move followed.
   static constexpr std::uint8_t kFeedOfInverseTime =
-      16;  ///< The last F was given in G93; no feed move in G94 followed.
+      16;                                         ///< The last F was given in G93; no feed move in G94 followed.
+  static constexpr std::uint8_t kUncut = 32;      ///< The tool has made no feed move, nor has an M used it.
+  static constexpr std::uint8_t kToolKnown = 64;  ///< `tool` is what a tool change has mounted.
+  static constexpr std::uint8_t kCompensationWaits = 128;  ///< G41 or G42 has been written, and no motion followed.
 
   geometry::Pose position;  ///< In the frame in force. What is unknown reads 0.
   AxisSet unknown = 0;      ///< Axes whose position an error has left open: nothing that depends on them is checked.

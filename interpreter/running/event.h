@@ -5,21 +5,11 @@
 #include <variant>
 #include <vector>
 
-#include "interpreter/execution/sink.h"
+#include "interpreter/execution/machine_move.h"
 
 namespace isocnc::running {
 
-/// A motion as it happened, in machine coordinates of the tool tip; mm and degrees.
-struct MoveEvent {
-  execution::MoveKind kind = execution::MoveKind::Rapid;
-  geometry::Pose from;
-  geometry::Pose to;
-  geometry::Vec3 center = geometry::Vec3::Zero();  ///< Arcs.
-  geometry::Vec3 normal = geometry::Vec3::Zero();  ///< Arcs: unit, i x j, k x i or j x k.
-  double radius = 0;
-  double sweep_deg = 0;
-  double length = 0;  ///< Of the tip's path, mm.
-};
+using MoveEvent = execution::MachineMove;
 struct DwellEvent {
   double seconds = 0;
 };

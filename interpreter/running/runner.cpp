@@ -1,8 +1,5 @@
 #include "interpreter/running/runner.h"
 
-#include <cmath>
-#include <numbers>
-
 #include "interpreter/execution/execute.h"
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
@@ -10,47 +7,6 @@
 namespace isocnc::running {
 
 using namespace dialect::literals;
-using geometry::Vec3;
-
-/// Length of a helix whose third axis leans over the plane of its circle; Simpson's rule on the speed, which is smooth.
-static double leaning_helix_length(double radius, double sweep, const Vec3& u, const Vec3& v, const Vec3& rise) {
-  const auto speed = [&](double t) {
-    const double angle = sweep * t;
-    return (radius * sweep * (-std::sin(angle) * u + std::cos(angle) * v) + rise).norm();
-  };
-  constexpr int kPanels = 256;
-  double sum = speed(0) + speed(1);
-  for (int i = 1; i < kPanels; ++i) sum += (i % 2 == 1 ? 4 : 2) * speed(static_cast<double>(i) / kPanels);
-  return sum / (3 * kPanels);
-}
-
-/// From the frame in force to machine coordinates.
-static MoveEvent in_machine(const execution::Move& move, const execution::State& state) {
-  MoveEvent event;
-  event.kind = move.kind;
-  event.from = {state.to_machine(move.from.tip), move.from.b, move.from.c};
-  event.to = {state.to_machine(move.to.tip), move.to.b, move.to.c};
-  event.length = (event.to.tip - event.from.tip).norm();
-  if (move.kind != execution::MoveKind::Arc) return event;
-  const auto axis = [&](int i) { return state.direction_to_machine(Vec3::Unit((move.normal_axis + i) % 3)); };
-  const Vec3 u = axis(1);
-  const Vec3 v = axis(2);
-  event.center = state.to_machine(move.center);
-  event.normal = u.cross(v).normalized();
-  event.radius = move.radius;
-  event.sweep_deg = move.sweep_deg;
-  const double sweep = std::abs(move.sweep_deg) * std::numbers::pi / 180;
-  const Vec3 rise = (move.to.tip[move.normal_axis] - move.from.tip[move.normal_axis]) * axis(0);
-  const bool leans = rise.norm() > 0 && rise.cross(event.normal).norm() > 1e-9 * rise.norm();
-  if (leans) {
-    const Vec3 start = (event.from.tip - event.center).normalized();
-    const Vec3 side = event.normal.cross(start) * (move.sweep_deg < 0 ? -1 : 1);
-    event.length = leaning_helix_length(move.radius, sweep, start, side, rise);
-  } else {
-    event.length = std::hypot(move.radius * sweep, rise.norm());
-  }
-  return event;
-}
 
 namespace {
 
@@ -66,7 +22,9 @@ class BlockSink final : public execution::Sink {
   void report(const syntax::Finding& finding) override {
     if (!error && dialect::definition(finding.id).severity == dialect::Severity::Error) error = finding;
   }
-  void move(const execution::Move& move, const execution::State& state) override { add(in_machine(move, state)); }
+  void move(const execution::Move& move, const execution::State& state) override {
+    add(execution::in_machine(move, state));
+  }
   void dwell(double seconds) override { add(DwellEvent{seconds}); }
   void spindle_speed(double speed) override { add(SpindleSpeedEvent{speed}); }
   void function(int m, std::span<const execution::FunctionParameter> parameters) override {

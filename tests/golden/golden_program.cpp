@@ -58,6 +58,25 @@ static void read_directive(Part& part, const std::string& what, const std::strin
   words >> key;
   if (what == "run" && key == "vgpl") {
     words >> part.vgpl;
+  } else if (what == "rules") {
+    for (; !key.empty(); key.clear(), words >> key) part.selected.push_back(key + "=warning");
+  } else if (key == "travel") {
+    std::string axis;
+    execution::Travel travel;
+    words >> axis >> travel.least >> travel.most;
+    part.setup.limits.travel.at(std::string("XYZBC").find(axis)) = travel;
+  } else if (key == "most-feed") {
+    words >> part.setup.limits.feed;
+  } else if (key == "most-rotary-speed") {
+    words >> part.setup.limits.rotary_speed;
+  } else if (key == "most-spindle-speed") {
+    words >> part.setup.limits.spindle_speed;
+  } else if (key == "clearance") {
+    words >> part.setup.clearance.emplace();
+  } else if (key == "functions") {
+    part.setup.functions.emplace();
+    for (std::string function; words >> function;)
+      part.setup.functions->push_back(std::stoi(function.substr(1)));
   } else if (key == "arc-tolerance") {
     words >> part.setup.arc_tolerance;
   } else if (key == "home") {
@@ -77,7 +96,7 @@ static void read_directive(Part& part, const std::string& what, const std::strin
 std::vector<Part> read_golden(const std::filesystem::path& file) {
   static const std::regex kMarker(R"(^; *(\^+) +([A-Z]+[0-9]+)(?: +via +([0-9, ]+))? *$)");
   static const std::regex kEffect(R"(^; *-> +(.*)$)");
-  static const std::regex kDirective(R"(^; (machine|run): (.*)$)");
+  static const std::regex kDirective(R"(^; (machine|run|rules): (.*)$)");
   std::ifstream input(file, std::ios::binary);
   std::vector<Part> parts(1);
   std::size_t lines = 0;

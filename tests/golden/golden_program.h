@@ -39,6 +39,7 @@ struct Part {
   std::vector<ExpectedEffect> effects;
   execution::Setup setup;
   double vgpl = 0;
+  std::vector<std::string> selected;  ///< Rules that are off by default, as `W124=warning`.
   bool is_about_rules = false;  ///< In tests/programs/rules: lint findings are marked, too.
 };
 

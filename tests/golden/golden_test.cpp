@@ -7,6 +7,7 @@
 
 #include "analyzer/check_text.h"
 #include "analyzer/rendering.h"
+#include "analyzer/style_findings.h"
 #include "analyzer/suppressions.h"
 #include "golden_program.h"
 #include "interpreter/running/runner.h"
@@ -27,7 +28,12 @@ std::string line_of(const std::string& program, std::size_t index) {
 
 /// What isolint would report.
 analyzer::Report reported_in(const Part& part) {
-  return analyzer::suppress(analyzer::check_text(part.program, part.setup), part.program, {});
+  analyzer::Selection selection;
+  EXPECT_THAT(selection.follow({.severities = part.selected}, dialect::Language::English), testing::IsEmpty());
+  execution::Setup setup = part.setup;
+  setup.every_motion = !part.selected.empty();
+  analyzer::Report report = analyzer::with_style(analyzer::check_text(part.program, setup), part.program, selection);
+  return selection.shown(analyzer::suppress(std::move(report), part.program, selection));
 }
 
 std::vector<std::string> found_in(const Part& part, const analyzer::Report& report) {

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <regex>
@@ -6,6 +7,8 @@
 #include "analyzer/check_text.h"
 #include "analyzer/explain.h"
 #include "analyzer/rendering.h"
+#include "analyzer/selection.h"
+#include "analyzer/style_findings.h"
 #include "analyzer/suppressions.h"
 #include "tests/support/report_text.h"
 
@@ -20,12 +23,24 @@ using analyzer::Report;
 execution::Setup table_setup(const DiagnosticDef& def) {
   execution::Setup setup;
   if (def.code == "ISO067") setup.tools = {{1, 1, 1}};
+  if (def.code == "W129") setup.functions = {100};
+  if (def.code == "W130") setup.limits.travel[0] = {0, 1000};
+  if (def.code == "W131") setup.limits.feed = 10'000;
+  if (def.code == "W132") setup.limits.rotary_speed = 3'600;
+  if (def.code == "W133") setup.limits.spindle_speed = 18'000;
+  if (def.code == "W134") setup.clearance = 5;
+  setup.every_motion = def.is_off;
   return setup;
 }
 
-/// What isolint would report; without opinions, where the row is about the control's own codes.
+/// What isolint would report with the row's code selected, too; without opinions, where the row is about the control's
+/// own codes.
 Report reported_in(std::string_view program, const DiagnosticDef& def) {
-  Report report = analyzer::suppress(analyzer::check_text(program, table_setup(def)), program, {});
+  analyzer::Selection selection;
+  EXPECT_THAT(selection.follow({.severities = {std::string(def.code) + "=warning"}}, Language::English),
+              testing::IsEmpty());
+  Report report = analyzer::with_style(analyzer::check_text(program, table_setup(def)), program, selection);
+  report = selection.shown(analyzer::suppress(std::move(report), program, selection));
   if (!support::is_lint(def.code))
     std::erase_if(report.findings, [](const auto& it) { return support::is_lint(definition(it.finding.id).code); });
   return report;

@@ -1,0 +1,40 @@
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "analyzer/rules/rule.h"
+
+namespace isocnc::analyzer::rules {
+
+/// More than three decimals of rounding explain, and less than a length that somebody chose: a digit is wrong.
+static constexpr double kRounding = 1e-3;
+static constexpr double kChosen = 0.1;
+
+/// A component of 1 or more is no unit vector's, or the vector is exact: somebody gave a direction.
+static void check_vector(const Block& block, std::string_view letters, execution::Sink& sink) {
+  double square = 0;
+  bool is_direction = false;
+  syntax::Span span;
+  for (const syntax::Word& word : block.line.words) {
+    if (word.owner == syntax::Word::kNobody || letters.find(word.letter) == std::string_view::npos) continue;
+    square += word.value * word.value;
+    is_direction |= std::abs(word.value) >= 1;
+    span = span.empty() ? word.span() : syntax::hull(span, word.span());
+  }
+  const double length = std::sqrt(square);
+  const double error = std::abs(length - 1);
+  if (!is_direction && error > kRounding && error < kChosen) report(sink, "axes-nearly-unit"_diag, span, length);
+}
+
+/// The axis vectors of G24 and G28, which are made unit ones whatever their length (D26).
+static void check(const Block& block, execution::Sink& sink) {
+  const bool by_plane = block.g(24) != nullptr;
+  if (!by_plane && !block.g(28)) return;
+  for (const std::string_view letters :
+       {std::string_view(by_plane ? "ABC" : "XYZ"), std::string_view("IJK"), std::string_view("PQR")})
+    check_vector(block, letters, sink);
+}
+
+extern const Rule axes_nearly_unit = {kModal, check};
+
+}  // namespace isocnc::analyzer::rules

@@ -1,0 +1,13 @@
+#include "analyzer/rules/rule.h"
+
+namespace isocnc::analyzer::rules {
+
+/// M02 with G70 in force.
+static void check(const Block& block, execution::Sink& sink) {
+  const syntax::Word* const end = block.m(dialect::kProgramEnd);
+  if (end && block.before.mode(dialect::ModalGroup::Units) == 70) report(sink, "end-in-inches"_diag, end->span());
+}
+
+extern const Rule end_in_inches = {kFunction, check};
+
+}  // namespace isocnc::analyzer::rules

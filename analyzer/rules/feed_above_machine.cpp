@@ -1,0 +1,20 @@
+#include "analyzer/rules/rule.h"
+#include "interpreter/execution/machine_move.h"
+#include "interpreter/geometry/arc.h"
+
+namespace isocnc::analyzer::rules {
+
+/// An F that drives the tool tip faster than the machine can, in mm/min; in G93 the length decides.
+static void check(const Block& block, const execution::Move& move, execution::Sink& sink) {
+  if (move.kind == execution::MoveKind::Rapid || block.line.feed < 0) return;
+  const double length = execution::in_machine(move, block.after).length;
+  if (length <= geometry::kEqualCoordinate) return;
+  const double speed = move.inverse_time ? move.feed * length : move.feed;
+  if (speed <= block.setup.limits.feed) return;
+  const syntax::Word& word = block.line.words[static_cast<std::size_t>(block.line.feed)];
+  sink.report({.id = "feed-above-machine"_diag, .span = word.span(), .values = {speed, block.setup.limits.feed}});
+}
+
+extern const Rule feed_above_machine = {.check_move = check};
+
+}  // namespace isocnc::analyzer::rules

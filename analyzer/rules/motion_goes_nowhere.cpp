@@ -1,0 +1,17 @@
+#include "analyzer/rules/rule.h"
+#include "interpreter/geometry/arc.h"
+
+namespace isocnc::analyzer::rules {
+
+/// A rapid or a straight feed move to where the tool stands; arcs have a code of their own.
+static void check(const Block& block, const execution::Move& move, execution::Sink& sink) {
+  if (move.kind == execution::MoveKind::Arc) return;
+  const double way = (move.to.tip - move.from.tip).cwiseAbs().maxCoeff();
+  const double turn = std::max(std::abs(move.to.b - move.from.b), std::abs(move.to.c - move.from.c));
+  if (std::max(way, turn) <= geometry::kEqualCoordinate)
+    report(sink, "motion-goes-nowhere"_diag, block.motion_word().span());
+}
+
+extern const Rule motion_goes_nowhere = {.check_move = check};
+
+}  // namespace isocnc::analyzer::rules

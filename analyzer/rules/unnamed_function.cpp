@@ -1,0 +1,22 @@
+#include <algorithm>
+
+#include "analyzer/rules/rule.h"
+
+namespace isocnc::analyzer::rules {
+
+/// A user's M that is not among those the machine file names.
+static void check(const Block& block, execution::Sink& sink) {
+  if (!block.setup.functions) return;
+  const auto& named = *block.setup.functions;
+  for (const syntax::Instruction& instruction : block.line.instructions) {
+    if (instruction.kind != syntax::InstructionKind::Function) continue;
+    const syntax::Word& word = block.line.command(instruction);
+    const auto number = static_cast<int>(word.value);
+    if (dialect::is_user_function(number) && std::find(named.begin(), named.end(), number) == named.end())
+      report(sink, "unnamed-function"_diag, word.span());
+  }
+}
+
+extern const Rule unnamed_function = {kFunction, check};
+
+}  // namespace isocnc::analyzer::rules

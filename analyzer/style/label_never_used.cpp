@@ -1,0 +1,39 @@
+#include <unordered_set>
+
+#include "analyzer/style/rule.h"
+
+namespace isocnc::analyzer::style {
+
+/// A line number to which no GOTO leads, in a program that has jumps and numbers few of its lines: there a number is
+/// written to be jumped to.
+class LabelNeverUsed final : public Rule {
+ public:
+  void read(const Line& line, std::vector<Remark>& remarks) override {
+    static_cast<void>(remarks);
+    if (!line.tree.is_empty()) ++blocks_;
+    if (const syntax::Word* const word = number_of(line.tree))
+      labels_.push_back({line.tree.label, line.number, word->span()});
+    if (line.tree.jump && line.tree.jump->has_target) targets_.insert(line.tree.jump->target);
+  }
+
+  void end(std::vector<Remark>& remarks) override {
+    if (targets_.empty() || 2 * labels_.size() >= blocks_) return;
+    for (const Label& label : labels_)
+      if (!targets_.contains(label.label))
+        remarks.push_back({label.line, {.id = "label-never-used"_diag, .span = label.span}});
+  }
+
+ private:
+  struct Label {
+    std::uint64_t label;
+    std::uint64_t line;
+    syntax::Span span;
+  };
+  std::vector<Label> labels_;
+  std::unordered_set<std::uint64_t> targets_;
+  std::size_t blocks_ = 0;
+};
+
+extern const RuleRow label_never_used = rule<LabelNeverUsed>("label-never-used"_diag);
+
+}  // namespace isocnc::analyzer::style

@@ -1,0 +1,23 @@
+#include "analyzer/style/rule.h"
+
+namespace isocnc::analyzer::style {
+
+/// A line number that is no greater than the one before: repeated ones are never growing ones all the way between.
+class LineNumberNotGrowing final : public Rule {
+ public:
+  void read(const Line& line, std::vector<Remark>& remarks) override {
+    const syntax::Word* const word = number_of(line.tree);
+    if (!word) return;
+    if (word->value <= last_) {
+      remarks.push_back({line.number, {.id = "line-number-not-growing"_diag, .span = word->span(), .values = {last_}}});
+    }
+    last_ = word->value;
+  }
+
+ private:
+  double last_ = -1;
+};
+
+extern const RuleRow line_number_not_growing = rule<LineNumberNotGrowing>("line-number-not-growing"_diag);
+
+}  // namespace isocnc::analyzer::style

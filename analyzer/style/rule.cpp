@@ -1,0 +1,49 @@
+#include "analyzer/style/rule.h"
+
+#include <algorithm>
+
+#include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/tree_store.h"
+
+namespace isocnc::analyzer::style {
+
+#define ISOCNC_RULE(name) extern const RuleRow name;
+#include <style_rules.inc>
+#undef ISOCNC_RULE
+
+static const RuleRow* const kRules[] = {
+#define ISOCNC_RULE(name) &name,
+#include <style_rules.inc>
+#undef ISOCNC_RULE
+};
+
+const syntax::Word* number_of(const syntax::LineTree& line) {
+  if (!line.has_label()) return nullptr;
+  const auto number = std::find_if(line.words.begin(), line.words.end(), [](const syntax::Word& word) {
+    return word.letter == 'N' && word.owner == syntax::Word::kNobody;
+  });
+  return number == line.words.end() ? nullptr : &*number;
+}
+
+std::vector<Remark> read_program(std::string_view text, const std::function<bool(dialect::DiagnosticId)>& is_wanted) {
+  std::vector<std::unique_ptr<Rule>> rules;
+  for (const RuleRow* const row : kRules)
+    if (is_wanted(row->id)) rules.push_back(row->make());
+  std::vector<Remark> remarks;
+  if (rules.empty()) return remarks;
+  syntax::TreeStore store;
+  const char* p = text.data();
+  const char* const end = text.data() + text.size();
+  for (std::uint64_t number = 0; p != end; ++number) {
+    store.clear();
+    const char* const line_end = store.append_line(p, end);
+    const char* const next = syntax::skip_line_end(line_end, end);
+    const Line line{number, store.tree(0, p), {line_end, static_cast<std::size_t>(next - line_end)}};
+    for (const std::unique_ptr<Rule>& rule : rules) rule->read(line, remarks);
+    p = next;
+  }
+  for (const std::unique_ptr<Rule>& rule : rules) rule->end(remarks);
+  return remarks;
+}
+
+}  // namespace isocnc::analyzer::style

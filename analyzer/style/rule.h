@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/syntax/line_tree.h"
+
+namespace isocnc::analyzer::style {
+
+using namespace dialect::literals;
+
+/// A line as it is written, whether it runs or not.
+struct Line {
+  std::uint64_t number = 0;  ///< From 0.
+  const syntax::LineTree& tree;
+  std::string_view terminator;  ///< CR, LF or CRLF; nothing at the end of the program.
+};
+
+struct Remark {
+  std::uint64_t line = 0;
+  syntax::Finding finding;
+};
+
+/// An opinion on how a program is written. All are off until somebody asks for them, and cost nothing till then.
+class Rule {
+ public:
+  virtual ~Rule() = default;
+  /// Reads the next line.
+  virtual void read(const Line& line, std::vector<Remark>& remarks) = 0;
+  /// There are no more.
+  virtual void end(std::vector<Remark>&) {}
+};
+
+/// What a file of this folder defines, under the file's name.
+struct RuleRow {
+  dialect::DiagnosticId id;
+  std::unique_ptr<Rule> (*make)();
+};
+
+template <class R>
+constexpr RuleRow rule(dialect::DiagnosticId id) {
+  return {id, [] { return std::unique_ptr<Rule>(std::make_unique<R>()); }};
+}
+
+/// The word that is the line's own number; null where it has none.
+const syntax::Word* number_of(const syntax::LineTree& line);
+
+/// What the wanted rules say of a program, in no order.
+std::vector<Remark> read_program(std::string_view text, const std::function<bool(dialect::DiagnosticId)>& is_wanted);
+
+}  // namespace isocnc::analyzer::style

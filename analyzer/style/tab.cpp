@@ -1,0 +1,21 @@
+#include "analyzer/style/rule.h"
+
+namespace isocnc::analyzer::style {
+
+/// The first tab of a line outside comments.
+class Tab final : public Rule {
+ public:
+  void read(const Line& line, std::vector<Remark>& remarks) override {
+    std::size_t at = line.tree.text.find('\t');
+    for (const syntax::Span comment : line.tree.comments)
+      if (at != std::string_view::npos && comment.holds(static_cast<std::uint32_t>(at)))
+        at = line.tree.text.find('\t', comment.end);
+    if (at == std::string_view::npos) return;
+    const auto column = static_cast<std::uint32_t>(at);
+    remarks.push_back({line.number, {.id = "tab"_diag, .span = {column, column + 1}}});
+  }
+};
+
+extern const RuleRow tab = rule<Tab>("tab"_diag);
+
+}  // namespace isocnc::analyzer::style

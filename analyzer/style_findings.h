@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string_view>
+
+#include "analyzer/report.h"
+#include "analyzer/selection.h"
+
+namespace isocnc::analyzer {
+
+/// The report with what the shown style rules say of how the program is written.
+Report with_style(Report report, std::string_view text, const Selection& selection);
+
+}  // namespace isocnc::analyzer

@@ -1,0 +1,78 @@
+#include "interpreter/execution/machine_move.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace isocnc::execution {
+
+using geometry::Vec3;
+
+/// Length of a helix whose third axis leans over the plane of its circle; Simpson's rule on the speed, which is smooth.
+static double leaning_helix_length(double radius, double sweep, const Vec3& u, const Vec3& v, const Vec3& rise) {
+  const auto speed = [&](double t) {
+    const double angle = sweep * t;
+    return (radius * sweep * (-std::sin(angle) * u + std::cos(angle) * v) + rise).norm();
+  };
+  constexpr int kPanels = 256;
+  double sum = speed(0) + speed(1);
+  for (int i = 1; i < kPanels; ++i) sum += (i % 2 == 1 ? 4 : 2) * speed(static_cast<double>(i) / kPanels);
+  return sum / (3 * kPanels);
+}
+
+MachineMove in_machine(const Move& move, const State& state) {
+  MachineMove result;
+  result.kind = move.kind;
+  result.from = {state.to_machine(move.from.tip), move.from.b, move.from.c};
+  result.to = {state.to_machine(move.to.tip), move.to.b, move.to.c};
+  result.length = (result.to.tip - result.from.tip).norm();
+  if (move.kind != MoveKind::Arc) return result;
+  const auto axis = [&](int i) { return state.direction_to_machine(Vec3::Unit((move.normal_axis + i) % 3)); };
+  const Vec3 u = axis(1);
+  const Vec3 v = axis(2);
+  result.center = state.to_machine(move.center);
+  result.normal = u.cross(v).normalized();
+  result.radius = move.radius;
+  result.sweep_deg = move.sweep_deg;
+  const double sweep = std::abs(move.sweep_deg) * std::numbers::pi / 180;
+  const Vec3 rise = (move.to.tip[move.normal_axis] - move.from.tip[move.normal_axis]) * axis(0);
+  const bool leans = rise.norm() > 0 && rise.cross(result.normal).norm() > 1e-9 * rise.norm();
+  if (leans) {
+    const Vec3 start = (result.from.tip - result.center).normalized();
+    const Vec3 side = result.normal.cross(start) * (move.sweep_deg < 0 ? -1 : 1);
+    result.length = leaning_helix_length(move.radius, sweep, start, side, rise);
+  } else {
+    result.length = std::hypot(move.radius * sweep, rise.norm());
+  }
+  return result;
+}
+
+/// An arc runs from its center along `out` and, a quarter turn later, `side`, while it rises.
+static std::array<geometry::Range, 3> arc_extents(const MachineMove& move) {
+  const double sweep = std::abs(move.sweep_deg) * std::numbers::pi / 180;
+  const Vec3 out = move.from.tip - move.center;
+  const Vec3 side = move.normal.cross(out) * (move.sweep_deg < 0 ? -1 : 1);
+  const Vec3 rise = move.to.tip - (move.center + std::cos(sweep) * out + std::sin(sweep) * side);
+  std::array<geometry::Range, 3> extents;
+  for (int axis = 0; axis < 3; ++axis) {
+    const geometry::Range wave = geometry::wave_range(out[axis], side[axis], rise[axis] / sweep, sweep);
+    extents[static_cast<std::size_t>(axis)] = {move.center[axis] + wave.least, move.center[axis] + wave.most};
+  }
+  return extents;
+}
+
+std::array<geometry::Range, kAxisCount> extents(const MachineMove& move) {
+  std::array<geometry::Range, kAxisCount> all;
+  const auto between = [](double a, double b) { return geometry::Range{std::min(a, b), std::max(a, b)}; };
+  for (int axis = 0; axis < 3; ++axis)
+    all[static_cast<std::size_t>(axis)] = between(move.from.tip[axis], move.to.tip[axis]);
+  all[3] = between(move.from.b, move.to.b);
+  all[4] = between(move.from.c, move.to.c);
+  if (move.kind == MoveKind::Arc && move.sweep_deg != 0) {
+    const auto arc = arc_extents(move);
+    std::copy(arc.begin(), arc.end(), all.begin());
+  }
+  return all;
+}
+
+}  // namespace isocnc::execution
