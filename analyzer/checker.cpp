@@ -333,7 +333,6 @@ static void add_duplicate_labels(const std::vector<Outcome>& outcomes, const Jum
 
 /// Registers that an IF compares and nothing assigns: said at the first such IF.
 static void add_unassigned_registers(const std::vector<Outcome>& outcomes, const JumpMap& jumps,
-                                     const std::function<std::string_view(std::uint64_t)>& text_of_line,
                                      std::vector<LocatedFinding>& findings) {
   RegisterSet known = 0;
   for (const Outcome& outcome : outcomes) known |= outcome.assigned;
@@ -343,11 +342,7 @@ static void add_unassigned_registers(const std::vector<Outcome>& outcomes, const
       const int reg = site.jump.variable;
       if (reg < 1 || !site.jump.condition_is_known() || (known & register_bit(reg)) != 0) continue;
       known |= register_bit(reg);
-      const syntax::ParsedLine parsed(text_of_line(site.line));
-      const LineTree tree = parsed.tree();
-      const auto compared = std::find_if(tree.words.begin(), tree.words.end(),
-                                         [](const syntax::Word& word) { return word.letter == 'V'; });
-      findings.push_back({site.line, {.id = "register-never-assigned"_diag, .span = compared->span()}});
+      findings.push_back({site.line, {.id = "register-never-assigned"_diag, .span = site.jump.variable_span}});
     }
 }
 
@@ -427,7 +422,7 @@ Report conclude(std::vector<Outcome> outcomes, const Frontier& end, const JumpMa
                  std::make_move_iterator(outcome.paths.end()));
   }
   add_duplicate_labels(outcomes, jumps, report.findings);
-  if (!end.reduced) add_unassigned_registers(outcomes, jumps, text_of_line, report.findings);
+  if (!end.reduced) add_unassigned_registers(outcomes, jumps, report.findings);
   add_missing_end(outcomes, end, text_of_line, paths, report.findings);
   const auto by_place = [](const LocatedFinding& a, const LocatedFinding& b) {
     return a.line != b.line ? a.line < b.line : a.finding.span.begin < b.finding.span.begin;

@@ -34,6 +34,7 @@ void ask_all(const Block& block, execution::Sink& sink) {
         break;
     }
   }
+  if (concerns == 0) return;
   for (const Rule* const rule : kRules)
     if ((rule->concerns & concerns) != 0) rule->check(block, sink);
 }

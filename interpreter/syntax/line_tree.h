@@ -89,6 +89,7 @@ struct Jump {
   bool has_target = false;
   std::uint64_t target = 0;
   Span if_span;
+  Span variable_span;  ///< The register or VGPL.
   Span target_span;  ///< The label behind GOTO.
 
   bool condition_is_known() const {

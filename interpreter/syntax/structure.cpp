@@ -536,6 +536,7 @@ std::uint16_t LineParser::read_condition(Jump& jump, std::uint16_t index) {
 
 /// A bad register number keeps its own code (D50); anything else but a register or VGPL is no variable.
 bool LineParser::read_variable(Jump& jump, const Word& written, bool has_operator) {
+  jump.variable_span = written.span();
   if (written.letter == kVgpl) {
     jump.variable = Jump::kVgplVariable;
     return true;

@@ -34,9 +34,9 @@ inline std::string text_of(const syntax::LineTree& tree) {
   for (const syntax::Span comment : tree.comments) text += "comment " + text_of(comment) + '\n';
   for (const syntax::Finding& finding : tree.findings) text += text_of(finding) + '\n';
   if (const syntax::Jump* jump = tree.jump)
-    text +=
-        fmt::format("jump if {} {} {} at {} to {} {} at {}\n", jump->variable, static_cast<int>(jump->comparison),
-                    jump->value, text_of(jump->if_span), jump->has_target, jump->target, text_of(jump->target_span));
+    text += fmt::format("jump if {} at {} {} {} at {} to {} {} at {}\n", jump->variable, text_of(jump->variable_span),
+                        static_cast<int>(jump->comparison), jump->value, text_of(jump->if_span), jump->has_target,
+                        jump->target, text_of(jump->target_span));
   return text + fmt::format("label {} feed {} spindle {} flags {}\n", tree.label, tree.feed, tree.spindle, tree.flags);
 }
 

@@ -1,0 +1,4 @@
+# Completion for bash: the programs know their options and words best.
+complete -o default -o bashdefault -C 'isolint --complete' isolint
+complete -o default -o bashdefault -C 'isofmt --complete' isofmt
+complete -o default -o bashdefault -C 'isorun --complete' isorun
