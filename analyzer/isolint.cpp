@@ -118,7 +118,7 @@ class Run {
         text = source->text();
         const bool is_large = text.size() > kLargeFile;
         report = check_text(text, setup_, files_.size() == 1 || is_large ? jobs_ : 1);
-        report = with_style(std::move(report), text, style_.selection);
+        report = with_style(style_.selection.shown(std::move(report)), text, style_.selection);
         report = style_.selection.shown(suppress(std::move(report), text, style_.selection));
         if (baseline_) {
           const std::size_t all = report.findings.size();

@@ -14,7 +14,7 @@ using syntax::Word;
 
 bool execute_plain(const syntax::LineTree& line, State& state, const Setup& setup, Sink& sink) {
   if (line.plain_arguments == 0) return false;
-  constexpr std::uint8_t kAlways = State::kStopped | State::kUncut | State::kCompensationWaits;
+  constexpr std::uint8_t kAlways = State::kStopped | State::kCompensationWaits;
   const auto concerns_rules =
       static_cast<std::uint8_t>(state.inverse_time() ? kAlways : kAlways | State::kFeedOfInverseTime);
   return !state.knows(concerns_rules) && Executor(line, state, setup, sink).run_plain();

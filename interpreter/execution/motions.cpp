@@ -86,6 +86,7 @@ bool Executor::run_plain() {
   state_.set_mode(dialect::ModalGroup::Motion, mode);
   state_.exact_stop_fits = is_feed;
   state_.tool_awaited = false;
+  if (is_feed) state_.forget(State::kUncut);
   return true;
 }
 
