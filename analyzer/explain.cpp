@@ -5,14 +5,20 @@
 
 #include <fmt/format.h>
 
+#include "analyzer/fixes/fix_table.h"
+
 namespace isocnc::analyzer {
 
 using dialect::DiagnosticDef;
+using dialect::DiagnosticId;
 using dialect::Language;
 using dialect::Text;
 
 static constexpr Text kSection = {"specification", "specifica"};
 static constexpr Text kWrong = {"Wrong:", "Sbagliato:"};
+static constexpr Text kNoFix = {"No fix", "Nessuna correzione"};
+static constexpr Text kFix = {"Fix", "Correzione"};
+static constexpr Text kUnsafeFix = {"Fix, unsafe", "Correzione non sicura"};
 static constexpr Text kRight = {"Right:", "Giusto:"};
 
 MarkedProgram read_marked(std::string_view program) {
@@ -79,6 +85,21 @@ static std::string shown(std::string_view program) {
   return result;
 }
 
+/// What the fixes of a code do, or why it has none; one line each. What they speak of depends on the program.
+static std::string fixes_of(dialect::DiagnosticId id, Language language) {
+  std::string result;
+  for (const fixes::FixDef& fix : fixes::kFixes) {
+    if (fix.diagnostic != id) continue;
+    const Text& kind = fix.safety == fixes::Safety::None   ? kNoFix
+                       : fix.safety == fixes::Safety::Safe ? kFix
+                                                           : kUnsafeFix;
+    const std::string title =
+        fmt::format(fmt::runtime(fix.title.in(language)), fmt::arg("text", "..."), fmt::arg("new", "..."));
+    result += fmt::format("{}: {}\n", kind.in(language), title);
+  }
+  return result;
+}
+
 std::string explain(dialect::DiagnosticId id, Language language) {
   const DiagnosticDef& def = dialect::definition(id);
   std::string result =
@@ -87,7 +108,7 @@ std::string explain(dialect::DiagnosticId id, Language language) {
   result += folded(def.explanation.in(language));
   if (!def.wrong.empty()) result += fmt::format("\n{}\n{}", kWrong.in(language), shown(def.wrong));
   if (!def.right.empty()) result += fmt::format("\n{}\n{}", kRight.in(language), shown(def.right));
-  return result;
+  return result + "\n" + fixes_of(id, language);
 }
 
 std::string list_rules(Language language) {
@@ -110,6 +131,10 @@ std::string rules_page() {
     page += fmt::format("{}\n\n> **{}.** {}\n", def.explanation.en, def.title.it, def.explanation.it);
     if (!def.wrong.empty()) page += fmt::format("\nWrong:\n\n{}", shown(def.wrong));
     if (!def.right.empty()) page += fmt::format("\nRight:\n\n{}", shown(def.right));
+    const std::string fixes =
+        fixes_of(DiagnosticId{static_cast<std::uint8_t>(&def - dialect::kDiagnostics)}, Language::English);
+    for (std::size_t at = 0; at < fixes.size(); at = fixes.find('\n', at) + 1)
+      page += fmt::format("{}- {}\n", at == 0 ? "\n" : "", fixes.substr(at, fixes.find('\n', at) - at));
   }
   return page;
 }
