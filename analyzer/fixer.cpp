@@ -1,6 +1,7 @@
 #include "analyzer/fixer.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <set>
@@ -62,9 +63,11 @@ class Taken {
 
  private:
   bool meets(std::size_t begin, std::size_t end) const {
-    auto next = taken_.lower_bound(begin);
+    const auto next = taken_.lower_bound(begin);
     if (next != taken_.end() && conflict(begin, end, next->first, next->second)) return true;
-    return next != taken_.begin() && conflict((--next)->first, next->second, begin, end);
+    if (next == taken_.begin()) return false;
+    const auto before = std::prev(next);
+    return conflict(before->first, before->second, begin, end);
   }
   static bool conflict(std::size_t begin, std::size_t end, std::size_t next_begin, std::size_t next_end) {
     return next_begin < end || (next_begin == end && (begin == end || next_begin == next_end));

@@ -155,6 +155,7 @@ Draft center_completed(const Request& request) {
   const double missing = has_u ? arc->in_program(center.v, arc->start.v) : arc->in_program(center.u, arc->start.u);
   const char letter = has_u ? arc->plane.v_center : arc->plane.u_center;
   std::string word = letter + written(missing, 6);
+  if (letter < given.letter) return {{inserted(request, given.begin, word + " ")}, word};
   return {{inserted(request, given.end, " " + word)}, word};
 }
 

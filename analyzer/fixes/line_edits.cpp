@@ -32,17 +32,20 @@ Edit removed(const Request& request, Span span) {
   return replaced(request, wide, {});
 }
 
-Edit removed_line(const Program& program, std::uint64_t line, std::size_t length, std::size_t length_above) {
+/// The line, which holds `length` bytes, with its end. Where it is the last and has none, the end of the line above
+/// goes, and blank lines between, so that the program still ends without one.
+static Edit removed_line(Program& program, std::uint64_t line, std::size_t length) {
   if (line + 1 < program.line_count()) return {{line, 0}, {line + 1, 0}, {}};
-  if (line > 0) return {{line - 1, length_above}, {line, length}, {}};
-  return {{line, 0}, {line, length}, {}};
+  std::uint64_t above = line;
+  while (above > 0 && program.text(above - 1).empty()) --above;
+  if (above > 0) return {{above - 1, program.text(above - 1).size()}, {line, length}, {}};
+  return {{0, 0}, {line, length}, {}};
 }
 
 Edit removed_with_line(const Request& request, Span span) {
   const std::string_view line = request.line.text;
   if (!is_blank(line.substr(0, span.begin)) || !is_blank(line.substr(span.end))) return removed(request, span);
-  const std::size_t above = request.number > 0 ? request.program.text(request.number - 1).size() : 0;
-  return removed_line(request.program, request.number, line.size(), above);
+  return removed_line(request.program, request.number, line.size());
 }
 
 bool is_blank(std::string_view text) {

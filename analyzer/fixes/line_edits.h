@@ -14,7 +14,6 @@ Edit inserted(const Request& request, std::uint32_t column, std::string text);
 Edit removed(const Request& request, syntax::Span span);
 /// As removed(); the whole line when nothing else stands on it.
 Edit removed_with_line(const Request& request, syntax::Span span);
-Edit removed_line(const Program& program, std::uint64_t line, std::size_t length, std::size_t length_above);
 
 /// The blanks that the line starts with.
 std::string_view indentation(std::string_view line);

@@ -67,11 +67,20 @@ static bool speeds_stay_with_motions(const LineTree& line, Extent alone) {
   return true;
 }
 
+/// G91 G28 Z0: who lacks its arguments may be the instruction of another control.
+static bool has_another_finding(const Request& request) {
+  const auto is_another = [&](const syntax::Finding& finding) {
+    return finding.span == request.finding.span && finding.id != request.finding.id;
+  };
+  return std::any_of(request.line.findings.begin(), request.line.findings.end(), is_another);
+}
+
 /// G00 Z50 M02 on two lines, S5000 M03 G04 P2 G01 X5 on three: what takes effect, and in which order, stays as it is.
 Draft on_its_own_line(const Request& request) {
   const LineTree& line = request.line;
   const Instruction* const alone = marked_instruction(request);
   if (!alone || (alone->kind == InstructionKind::G && !alone->g()) || !takes_all_its_words(line, *alone)) return {};
+  if (has_another_finding(request)) return {};
   const std::optional<Extent> extent = extent_of(line, *alone);
   if (!extent || !speeds_stay_with_motions(line, *extent)) return {};
   const bool may_be_followed =

@@ -128,7 +128,8 @@ Draft removed_suppression(const Request& request) {
     // an unknown one, or W190.
     const std::optional<dialect::DiagnosticId> code = dialect::find_diagnostic(text);
     if (!code || names_w190(line)) return {};
-    return {{removed(request, span)}};
+    const bool has_comma = span.end < line.size() && line[span.end] == ',';
+    return {{removed(request, {span.begin, span.end + (has_comma ? 1u : 0u)})}};
   }
   const std::string_view words = trimmed(text.substr(kCall.size()));
   const std::string_view verb = words.substr(0, words.find_first_of(" \t,"));

@@ -94,8 +94,8 @@ TEST_P(FixCase, BecomesWhatItShould) {
 TEST_P(FixCase, HasTheFindingBeforeAndNoneOfAnyKindAfter) {
   const Case& tested = GetParam();
   EXPECT_GT(codes_of(tested.before).count(tested.code), 0u) << tested.name;
-  if (tested.safety != fixes::Safety::None)
-    EXPECT_THAT(codes_of(tested.after), testing::IsEmpty()) << tested.name << "\n" << tested.after;
+  if (tested.safety == fixes::Safety::None) return;
+  EXPECT_THAT(codes_of(tested.after), testing::IsEmpty()) << tested.name << "\n" << tested.after;
 }
 
 /// CR, LF or CRLF: what is inserted ends like what is there.
@@ -169,7 +169,8 @@ TEST(FixTitles, NameWhatIsMarkedAndWhatIsNew) {
     for (const LocatedFinding& located : report.findings) {
       const auto fix = fixes.of(located);
       if (!fix) continue;
-      if (fix->title.en.find("{new}") != std::string_view::npos) EXPECT_FALSE(fix->what.empty()) << tested.name;
+      const bool names_new = fix->title.en.find("{new}") != std::string_view::npos;
+      EXPECT_TRUE(!names_new || !fix->what.empty()) << tested.name;
       EXPECT_EQ(fix->title_in(dialect::Language::Italian).find('{'), std::string::npos);
     }
   }
