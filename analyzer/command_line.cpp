@@ -83,15 +83,19 @@ static void add_options(CLI::App& app, Options& options) {
           ->excludes(baseline);
 
   app.option_defaults()->group("What is mended");
-  app.add_flag("--fix", options.fix, "Rewrite programs with their safe fixes")->excludes(write_baseline);
+  app.add_flag("--fix", options.fix, "Rewrite programs with their safe fixes")
+      ->option_text(" ")
+      ->excludes(write_baseline);
   app.add_flag("--unsafe-fixes", options.unsafe_fixes, "Count fixes as well that are likely, not certain");
   CLI::Option* const diff = app.add_flag("--diff", options.diff, "Show what --fix would change, and change nothing");
-  diff->excludes(write_baseline);
+  diff->option_text(" ")->excludes(write_baseline);
 
   app.option_defaults()->group("How it is shown");
   diff->excludes(add_choice(app, "--format", options.format, format_names(), "NAME", listed(format_names())));
   app.add_option("--output", options.output, "Write to this file, not to standard output")->option_text("FILE");
-  app.add_flag("--statistics", options.statistics, "Show how many findings each code has")->excludes(diff);
+  app.add_flag("--statistics", options.statistics, "Show how many findings each code has")
+      ->option_text(" ")
+      ->excludes(diff);
   add_choice(app, "--lang", options.language, {"en", "it"}, "LANG", "en or it; else as the locale says");
   add_choice(app, "--color", options.color, {"auto", "always", "never"}, "WHEN", "auto, always, never");
   app.add_option("--stdin-filename", options.stdin_name, "What to call standard input")->option_text("NAME");

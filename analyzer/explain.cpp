@@ -2,10 +2,15 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "analyzer/check_text.h"
+#include "analyzer/finding_fixes.h"
 #include "analyzer/fixes/fix_table.h"
+#include "analyzer/suppressions.h"
 
 namespace isocnc::analyzer {
 
@@ -16,9 +21,6 @@ using dialect::Text;
 
 static constexpr Text kSection = {"specification", "specifica"};
 static constexpr Text kWrong = {"Wrong:", "Sbagliato:"};
-static constexpr Text kNoFix = {"No fix", "Nessuna correzione"};
-static constexpr Text kFix = {"Fix", "Correzione"};
-static constexpr Text kUnsafeFix = {"Fix, unsafe", "Correzione non sicura"};
 static constexpr Text kRight = {"Right:", "Giusto:"};
 
 MarkedProgram read_marked(std::string_view program) {
@@ -85,19 +87,31 @@ static std::string shown(std::string_view program) {
   return result;
 }
 
-/// What the fixes of a code do, or why it has none; one line each. What they speak of depends on the program.
-static std::string fixes_of(dialect::DiagnosticId id, Language language) {
-  std::string result;
-  for (const fixes::FixDef& fix : fixes::kFixes) {
-    if (fix.diagnostic != id) continue;
-    const Text& kind = fix.safety == fixes::Safety::None   ? kNoFix
-                       : fix.safety == fixes::Safety::Safe ? kFix
-                                                           : kUnsafeFix;
-    const std::string title =
-        fmt::format(fmt::runtime(fix.title.in(language)), fmt::arg("text", "..."), fmt::arg("new", "..."));
-    result += fmt::format("{}: {}\n", kind.in(language), title);
+/// The fix of the table's wrong program, when it has one.
+static std::optional<fixes::Fix> fix_of_wrong_program(DiagnosticId id) {
+  const std::string wrong = read_marked(dialect::definition(id).wrong).text;
+  const execution::Setup setup;
+  const Report report = suppress(check_text(wrong, setup), wrong, {});
+  FindingFixes fixes(wrong, report, setup);
+  for (const LocatedFinding& located : report.findings)
+    if (located.finding.id == id) return fixes.of(located);
+  return std::nullopt;
+}
+
+/// What the fixes of a code do, in the wrong program or with `...` for what others hold, or why it has none.
+static std::vector<std::string> fixes_of(DiagnosticId id, Language language) {
+  static constexpr Text kKinds[] = {
+      {"No fix", "Nessuna correzione"}, {"Safe fix", "Correzione sicura"}, {"Unsafe fix", "Correzione non sicura"}};
+  const std::optional<fixes::Fix> example = fix_of_wrong_program(id);
+  std::vector<std::string> lines;
+  for (const fixes::FixDef& def : fixes::kFixes) {
+    if (def.diagnostic != id) continue;
+    const bool is_shown = example && example->title.en == def.title.en;
+    const fixes::Fix any{.title = def.title, .marked = "...", .what = "..."};
+    lines.push_back(fmt::format("{}: {}", kKinds[static_cast<std::size_t>(def.safety)].in(language),
+                                (is_shown ? *example : any).title_in(language)));
   }
-  return result;
+  return lines;
 }
 
 std::string explain(dialect::DiagnosticId id, Language language) {
@@ -108,7 +122,9 @@ std::string explain(dialect::DiagnosticId id, Language language) {
   result += folded(def.explanation.in(language));
   if (!def.wrong.empty()) result += fmt::format("\n{}\n{}", kWrong.in(language), shown(def.wrong));
   if (!def.right.empty()) result += fmt::format("\n{}\n{}", kRight.in(language), shown(def.right));
-  return result + "\n" + fixes_of(id, language);
+  result += '\n';
+  for (const std::string& fix : fixes_of(id, language)) result += fix + '\n';
+  return result;
 }
 
 std::string list_rules(Language language) {
@@ -131,10 +147,9 @@ std::string rules_page() {
     page += fmt::format("{}\n\n> **{}.** {}\n", def.explanation.en, def.title.it, def.explanation.it);
     if (!def.wrong.empty()) page += fmt::format("\nWrong:\n\n{}", shown(def.wrong));
     if (!def.right.empty()) page += fmt::format("\nRight:\n\n{}", shown(def.right));
-    const std::string fixes =
-        fixes_of(DiagnosticId{static_cast<std::uint8_t>(&def - dialect::kDiagnostics)}, Language::English);
-    for (std::size_t at = 0; at < fixes.size(); at = fixes.find('\n', at) + 1)
-      page += fmt::format("{}- {}\n", at == 0 ? "\n" : "", fixes.substr(at, fixes.find('\n', at) - at));
+    page += '\n';
+    const auto row = static_cast<std::uint8_t>(&def - dialect::kDiagnostics);
+    for (const std::string& fix : fixes_of(DiagnosticId{row}, Language::English)) page += fmt::format("- {}\n", fix);
   }
   return page;
 }

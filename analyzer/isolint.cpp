@@ -148,7 +148,10 @@ class Run {
     if (options_.fix || options_.diff) {
       fix(checked);
       if (fixing) checked.why_not_fixed = fixing->finish(*source, *checked.fixed, style_.language);
-      if (!checked.why_not_fixed) return checked;
+      if (!checked.why_not_fixed) {
+        known_ += checked.fixed->unconcerned;
+        return checked;
+      }
       checked.fixed.reset();
     }
     const std::string_view text = source->text();
@@ -171,7 +174,6 @@ class Run {
                            }};
     checked.fixed = fix_text(text, wishes);
     checked.report = checked.fixed->report;
-    known_ += checked.fixed->unconcerned;
   }
 
   int jobs_for(std::string_view text) const { return files_.size() == 1 || text.size() > kLargeFile ? jobs_ : 1; }

@@ -46,8 +46,11 @@ const std::vector<std::size_t>& TextProgram::starts() const {
 std::uint64_t TextProgram::line_count() const { return starts().size(); }
 
 std::string_view TextProgram::text(std::uint64_t line) {
-  const char* const begin = text_.data() + starts()[line];
-  return {begin, static_cast<std::size_t>(syntax::find_line_end(begin, text_.data() + text_.size()) - begin)};
+  const std::vector<std::size_t>& all = starts();
+  const bool is_last = line + 1 == all.size();
+  std::size_t end = is_last ? text_.size() : all[line + 1];
+  if (!is_last) end -= line_end(line).size();
+  return text_.substr(all[line], end - all[line]);
 }
 
 LineTree TextProgram::line(std::uint64_t line) {

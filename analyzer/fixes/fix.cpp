@@ -20,6 +20,10 @@ static constexpr auto kFirstRows = [] {
 }();
 static_assert(kFixes.size() < 255);
 
+/// Longer lines have lost their line ends; they may have thousands of findings, and to look through them for each would
+/// take long.
+static constexpr std::size_t kLongestLine = 1'000;
+
 std::string Fix::title_in(dialect::Language language) const {
   return fmt::format(fmt::runtime(title.in(language)), fmt::arg("text", marked), fmt::arg("new", what));
 }
@@ -28,6 +32,7 @@ std::optional<Fix> fix_of(const Place& place, Program& program) {
   const DiagnosticId id = place.finding.id;
   std::size_t row = kFirstRows[static_cast<std::size_t>(id)];
   if (row == kFixes.size() || kFixes[row].make == nullptr) return std::nullopt;
+  if (program.text(place.line).size() > kLongestLine) return std::nullopt;
   const Request request{place.line, place.finding, place.on_every_path, program.line(place.line), program};
   for (; row < kFixes.size() && kFixes[row].diagnostic == id; ++row) {
     Draft draft = kFixes[row].make(request);

@@ -64,7 +64,7 @@ struct Place {
   bool on_every_path = true;
 };
 
-/// The fix of a finding, when there is one.
+/// The fix of a finding, when there is one. Lines of more than 1000 bytes have none.
 std::optional<Fix> fix_of(const Place& place, Program& program);
 
 }  // namespace isocnc::analyzer::fixes

@@ -27,6 +27,7 @@ inline constexpr Text kRepetition = {"remove {text}, which is there already", "t
 inline constexpr Text kIgnored = {"remove {text}, which is ignored", "togliere {text}, che viene ignorata"};
 inline constexpr Text kTogether = {"move {new} to the other arguments", "spostare {new} vicino agli altri argomenti"};
 inline constexpr Text kWrite = {"write {new}", "scrivere {new}"};
+inline constexpr Text kWholeNumber = {"write {new}, without sign and point", "scrivere {new}, senza segno né punto"};
 inline constexpr Text kZero = {"write the digit 0 for the letter O", "scrivere la cifra 0 al posto della lettera O"};
 inline constexpr Text kComment = {"put the text in a comment", "mettere il testo in un commento"};
 inline constexpr Text kAbove = {"insert {new} above", "inserire {new} sulla linea prima"};
@@ -71,9 +72,9 @@ inline constexpr auto kFixes = [] {
       {"word-without-number"_diag, Unsafe, kComment, text_as_comment},
       {"number-without-letter"_diag, None, kMeaningUnknown},
       {"malformed-number"_diag, Unsafe, kWrite, point_for_comma},
-      {"invalid-g-number"_diag, Unsafe, kWrite, whole_number},
-      {"invalid-m-number"_diag, Unsafe, kWrite, whole_number},
-      {"invalid-tool-number"_diag, Unsafe, kWrite, whole_number},
+      {"invalid-g-number"_diag, Unsafe, kWholeNumber, whole_number},
+      {"invalid-m-number"_diag, Unsafe, kWholeNumber, whole_number},
+      {"invalid-tool-number"_diag, Unsafe, kWholeNumber, whole_number},
       {"units-after-dimensions"_diag, Unsafe, kModeFirst, mode_first},
       {"stray-argument"_diag, Safe, kTogether, arguments_together},
       {"stray-argument"_diag,
@@ -130,7 +131,7 @@ inline constexpr auto kFixes = [] {
        {"move {new} behind the motion", "spostare {new} dopo il movimento"},
        behind_motion},
       {"misplaced-g40"_diag, Safe, kOwnLine, on_its_own_line},
-      {"negative-dwell"_diag, Unsafe, kWrite, without_sign},
+      {"negative-dwell"_diag, Unsafe, {"write {new}, without the sign", "scrivere {new}, senza segno"}, without_sign},
       {"g04-not-alone"_diag, Safe, kOwnLine, on_its_own_line},
       {"stray-center-k"_diag, Unsafe, kStrayCenter, removed_stray_center},
       {"stray-center-j"_diag, Unsafe, kStrayCenter, removed_stray_center},
@@ -152,8 +153,8 @@ inline constexpr auto kFixes = [] {
       {"tool-without-m06"_diag, Unsafe, {"write M06 before {text}", "scrivere M06 prima di {text}"}, m06_before_tool},
       {"workpiece-frame-under-face"_diag, Unsafe, kAbove, g27_above},
       {"invalid-line-number"_diag, Safe, kRepetition, removed_repetition},
-      {"invalid-line-number"_diag, Unsafe, kWrite, whole_number},
-      {"invalid-register-number"_diag, Unsafe, kWrite, whole_number},
+      {"invalid-line-number"_diag, Unsafe, kWholeNumber, whole_number},
+      {"invalid-register-number"_diag, Unsafe, kWholeNumber, whole_number},
       {"assignment-without-register"_diag, Unsafe, {"remove the =", "togliere il segno ="}, without_equals},
       {"register-out-of-range"_diag, None, kMeaningUnknown},
       {"face-angle-out-of-range"_diag,
@@ -188,7 +189,10 @@ inline constexpr auto kFixes = [] {
        {"put the jump on a line of its own", "mettere il salto su una linea a sé"},
        on_its_own_line},
       {"if-malformed"_diag, Unsafe, kWrite, comparison},
-      {"if-malformed"_diag, Unsafe, kWrite, label_with_letter},
+      {"if-malformed"_diag,
+       Unsafe,
+       {"write {new}: labels begin with N", "scrivere {new}: le etichette iniziano con N"},
+       label_with_letter},
       {"label-not-found"_diag, None, kLabelUnknown},
       {"backward-jump"_diag, None, kLabelUnknown},
       {"duplicate-label"_diag,

@@ -50,7 +50,7 @@ const std::vector<Room> kHouse = {
 };
 
 /// The part of the house that knows no file, screen, thread or protocol.
-const std::vector<std::string> kQuietFolders = {"interpreter/dialect", "interpreter/syntax", "interpreter/geometry",
+const std::vector<std::string> kQuietFolders = {"interpreter/dialect",   "interpreter/syntax", "interpreter/geometry",
                                                 "interpreter/execution", "interpreter/motion", "analyzer/fixes"};
 const std::set<std::string> kLoudHeaders = {"iostream", "fstream", "filesystem", "thread", "cstdio"};
 
