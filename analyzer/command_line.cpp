@@ -25,8 +25,11 @@ Language Options::reader_language() const {
 
 bool Options::wants_color() const {
   if (color != "auto") return color == "always";
-  return output.empty() && isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
+  const int descriptor = prints_program() ? STDERR_FILENO : STDOUT_FILENO;
+  return output.empty() && isatty(descriptor) != 0 && std::getenv("NO_COLOR") == nullptr;
 }
+
+bool Options::prints_program() const { return fix && !diff && paths.size() == 1 && paths.front() == "-"; }
 
 /// One word behind each option of a list, so that `--select ISO031 part.iso` leaves the path alone.
 static void add_list(CLI::App& app, const std::string& name, std::vector<std::string>& list, const char* placeholder,
@@ -34,14 +37,15 @@ static void add_list(CLI::App& app, const std::string& name, std::vector<std::st
   app.add_option(name, list, description)->allow_extra_args(false)->option_text(placeholder);
 }
 
-static void add_choice(CLI::App& app, const std::string& name, std::string& value, std::vector<std::string> choices,
-                       const char* placeholder, const std::string& description) {
+static CLI::Option* add_choice(CLI::App& app, const std::string& name, std::string& value,
+                               std::vector<std::string> choices, const char* placeholder,
+                               const std::string& description) {
   const auto complain = [choices = std::move(choices)](const std::string& given) -> std::string {
     if (std::find(choices.begin(), choices.end(), given) != choices.end()) return {};
     return fmt::format("there is no {}, only {}{}", given, fmt::join(choices, ", "),
                        did_you_mean(nearest_name(given, choices), Language::English));
   };
-  app.add_option(name, value, description)->check(complain)->option_text(placeholder);
+  return app.add_option(name, value, description)->check(complain)->option_text(placeholder);
 }
 
 /// `text, concise, ...`, in lines that fit beside the options.
@@ -73,14 +77,25 @@ static void add_options(CLI::App& app, Options& options) {
   add_list(app, "--severity", options.wishes.severities, "CODE=LEVEL", "Weigh it as error, warning, info or off");
   CLI::Option* const baseline =
       app.add_option("--baseline", options.baseline, "Not the findings recorded in this file")->option_text("FILE");
-  app.add_option("--write-baseline", options.write_baseline, "Record all findings in this file instead")
-      ->option_text("FILE")
-      ->excludes(baseline);
+  CLI::Option* const write_baseline =
+      app.add_option("--write-baseline", options.write_baseline, "Record all findings in this file instead")
+          ->option_text("FILE")
+          ->excludes(baseline);
+
+  app.option_defaults()->group("What is mended");
+  app.add_flag("--fix", options.fix, "Rewrite programs with their safe fixes")
+      ->option_text(" ")
+      ->excludes(write_baseline);
+  app.add_flag("--unsafe-fixes", options.unsafe_fixes, "Count fixes as well that are likely, not certain");
+  CLI::Option* const diff = app.add_flag("--diff", options.diff, "Show what --fix would change, and change nothing");
+  diff->option_text(" ")->excludes(write_baseline);
 
   app.option_defaults()->group("How it is shown");
-  add_choice(app, "--format", options.format, format_names(), "NAME", listed(format_names()));
+  diff->excludes(add_choice(app, "--format", options.format, format_names(), "NAME", listed(format_names())));
   app.add_option("--output", options.output, "Write to this file, not to standard output")->option_text("FILE");
-  app.add_flag("--statistics", options.statistics, "Show how many findings each code has");
+  app.add_flag("--statistics", options.statistics, "Show how many findings each code has")
+      ->option_text(" ")
+      ->excludes(diff);
   add_choice(app, "--lang", options.language, {"en", "it"}, "LANG", "en or it; else as the locale says");
   add_choice(app, "--color", options.color, {"auto", "always", "never"}, "WHEN", "auto, always, never");
   app.add_option("--stdin-filename", options.stdin_name, "What to call standard input")->option_text("NAME");

@@ -23,6 +23,9 @@ struct Options {
   std::optional<std::size_t> max_warnings;
   int jobs = 0;  ///< 0: one for each core.
   bool exit_zero = false;
+  bool fix = false;           ///< Safe fixes, in place.
+  bool unsafe_fixes = false;  ///< Unsafe fixes count as well.
+  bool diff = false;          ///< Shows what the fixes would change, and changes nothing.
   bool statistics = false;
   bool list_rules = false;
   bool rules_page = false;
@@ -31,6 +34,8 @@ struct Options {
   dialect::Language reader_language() const;
   /// Whether findings are to be colored.
   bool wants_color() const;
+  /// Whether standard output is for the fixed program, and findings go to standard error.
+  bool prints_program() const;
 };
 
 /// The options, or what is to be said in place of a check.

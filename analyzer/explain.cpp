@@ -2,12 +2,20 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
+#include <vector>
 
 #include <fmt/format.h>
+
+#include "analyzer/check_text.h"
+#include "analyzer/finding_fixes.h"
+#include "analyzer/fixes/fix_table.h"
+#include "analyzer/suppressions.h"
 
 namespace isocnc::analyzer {
 
 using dialect::DiagnosticDef;
+using dialect::DiagnosticId;
 using dialect::Language;
 using dialect::Text;
 
@@ -85,6 +93,33 @@ static std::string shown(std::string_view program) {
   return result;
 }
 
+/// The fix of the table's wrong program, when it has one.
+static std::optional<fixes::Fix> fix_of_wrong_program(DiagnosticId id) {
+  const std::string wrong = read_marked(dialect::definition(id).wrong).text;
+  const execution::Setup setup;
+  const Report report = suppress(check_text(wrong, setup), wrong, {});
+  FindingFixes fixes(wrong, report, setup);
+  for (const LocatedFinding& located : report.findings)
+    if (located.finding.id == id) return fixes.of(located);
+  return std::nullopt;
+}
+
+/// What the fixes of a code do, in the wrong program or with `...` for what others hold, or why it has none.
+static std::vector<std::string> fixes_of(DiagnosticId id, Language language) {
+  static constexpr Text kKinds[] = {
+      {"No fix", "Nessuna correzione"}, {"Safe fix", "Correzione sicura"}, {"Unsafe fix", "Correzione non sicura"}};
+  const std::optional<fixes::Fix> example = fix_of_wrong_program(id);
+  std::vector<std::string> lines;
+  for (const fixes::FixDef& def : fixes::kFixes) {
+    if (def.diagnostic != id) continue;
+    const bool is_shown = example && example->title.en == def.title.en;
+    const fixes::Fix any{.title = def.title, .marked = "...", .what = "..."};
+    lines.push_back(fmt::format("{}: {}", kKinds[static_cast<std::size_t>(def.safety)].in(language),
+                                (is_shown ? *example : any).title_in(language)));
+  }
+  return lines;
+}
+
 std::string explain(dialect::DiagnosticId id, Language language) {
   const DiagnosticDef& def = dialect::definition(id);
   std::string result =
@@ -93,6 +128,8 @@ std::string explain(dialect::DiagnosticId id, Language language) {
   result += folded(def.explanation.in(language));
   if (!def.wrong.empty()) result += fmt::format("\n{}\n{}", kWrong.in(language), shown(def.wrong));
   if (!def.right.empty()) result += fmt::format("\n{}\n{}", kRight.in(language), shown(def.right));
+  result += '\n';
+  for (const std::string& fix : fixes_of(id, language)) result += fix + '\n';
   return result;
 }
 
@@ -117,6 +154,9 @@ std::string rules_page() {
     page += fmt::format("{}\n\n> **{}.** {}\n", def.explanation.en, def.title.it, def.explanation.it);
     if (!def.wrong.empty()) page += fmt::format("\nWrong:\n\n{}", shown(def.wrong));
     if (!def.right.empty()) page += fmt::format("\nRight:\n\n{}", shown(def.right));
+    page += '\n';
+    const auto row = static_cast<std::uint8_t>(&def - dialect::kDiagnostics);
+    for (const std::string& fix : fixes_of(DiagnosticId{row}, Language::English)) page += fmt::format("- {}\n", fix);
   }
   return page;
 }

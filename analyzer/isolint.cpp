@@ -16,6 +16,8 @@
 #include "analyzer/command_line.h"
 #include "analyzer/explain.h"
 #include "analyzer/files.h"
+#include "analyzer/fixer.h"
+#include "analyzer/program_fixing.h"
 #include "analyzer/renderers.h"
 #include "analyzer/style_findings.h"
 #include "analyzer/suppressions.h"
@@ -42,14 +44,15 @@ class Answer final : public Output {
   explicit Answer(const Options& options)
       : path_(options.output),
         language_(options.reader_language()),
-        file_(path_.empty() ? running::OutputFile(STDOUT_FILENO) : running::OutputFile(std::filesystem::path(path_))) {}
+        descriptor_(options.prints_program() ? STDERR_FILENO : STDOUT_FILENO),
+        file_(path_.empty() ? running::OutputFile(descriptor_) : running::OutputFile(std::filesystem::path(path_))) {}
 
   /// Flushes; false, after a complaint, when anything written has been lost.
   bool finish() {
     flush();
     if (file_.flush() == 0) return true;
-    complain(
-        fmt::format("{}: {}", path_.empty() ? "<stdout>" : path_, running::cannot_write(file_.error(), language_)));
+    const std::string standard = descriptor_ == STDOUT_FILENO ? "<stdout>" : "<stderr>";
+    complain(fmt::format("{}: {}", path_.empty() ? standard : path_, running::cannot_write(file_.error(), language_)));
     return false;
   }
   bool has_failed() const { return file_.error() != 0; }
@@ -60,6 +63,7 @@ class Answer final : public Output {
  private:
   const std::string path_;
   const Language language_;
+  const int descriptor_;
   running::OutputFile file_;
 };
 
@@ -81,9 +85,7 @@ class Run {
         files_(std::move(files)),
         renderer_(std::move(renderer)),
         jobs_(options.jobs > 0 ? options.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
-        output_(options) {
-    setup_.every_motion = style_.selection.shows("motion-goes-nowhere"_diag);
-  }
+        output_(options) {}
 
   int run(bool trouble) {
     trouble_ = trouble;
@@ -99,46 +101,116 @@ class Run {
     for (std::thread& helper : helpers) helper.join();
     renderer_->end(output_.buffer());
     if (!output_.finish()) return kTrouble;
-    if (options_.format == "text") summarize();
+    if (program_.flush() != 0) {
+      complain(fmt::format("<stdout>: {}", running::cannot_write(program_.error(), style_.language)));
+      return kTrouble;
+    }
+    if (options_.format == "text") {
+      summarize();
+    } else if (options_.fix) {
+      std::cerr << fixed_in_words() << '\n';
+    }
     if (trouble_) return kTrouble;
     return options_.exit_zero || is_good_enough() ? kClean : kFindings;
   }
 
  private:
+  /// A program and what was found in it.
+  struct Checked {
+    std::string name;
+    std::variant<SourceFile, SourceFile::Problem> opened;
+    Report report = {};
+    std::optional<FixedText> fixed = {};
+    std::optional<std::string> why_not_fixed = {};
+
+    std::string_view original() const { return std::get<SourceFile>(opened).text(); }
+    std::string_view text() const { return fixed ? fixed->text : original(); }
+  };
+
   void work() {
     for (std::size_t index = next_++; index < files_.size(); index = next_++) {
-      const std::filesystem::path& path = files_[index];
-      const bool from_stdin = path == "-";
-      auto opened =
-          from_stdin ? SourceFile::read_stream(STDIN_FILENO, style_.language) : SourceFile::open(path, style_.language);
-      const std::string name = from_stdin ? options_.stdin_name : path.string();
-      Report report;
-      std::string_view text;
-      if (const SourceFile* source = std::get_if<SourceFile>(&opened)) {
-        text = source->text();
-        const bool is_large = text.size() > kLargeFile;
-        report = check_text(text, setup_, files_.size() == 1 || is_large ? jobs_ : 1);
-        report = with_style(style_.selection.shown(std::move(report)), text, style_.selection);
-        report = style_.selection.shown(suppress(std::move(report), text, style_.selection));
-        if (baseline_) {
-          const std::size_t all = report.findings.size();
-          report = baseline_->without_known(std::move(report), name, text);
-          known_ += all - report.findings.size();
-        }
-      }
+      const Checked checked = check(files_[index]);
       std::unique_lock lock(mutex_);
       turn_changed_.wait(lock, [&] { return turn_ == index; });
-      if (const auto* problem = std::get_if<SourceFile::Problem>(&opened)) {
-        complain(fmt::format("{}: {}", name, problem->message));
-        trouble_ = true;
-      } else {
-        tally_.add(report);
-        ++files_checked_;
-        if (!output_.has_failed()) renderer_->file(name, text, report, output_);
-      }
+      show(checked);
       ++turn_;
       turn_changed_.notify_all();
     }
+  }
+
+  Checked check(const std::filesystem::path& path) {
+    const bool from_stdin = path == "-";
+    std::optional<FileFixing> fixing;
+    if (options_.fix && !options_.diff && !from_stdin) fixing.emplace(path);  // Before the file is read.
+    Checked checked{
+        from_stdin ? options_.stdin_name : path.string(),
+        from_stdin ? SourceFile::read_stream(STDIN_FILENO, style_.language) : SourceFile::open(path, style_.language)};
+    const auto* const source = std::get_if<SourceFile>(&checked.opened);
+    if (!source) return checked;
+    if (options_.fix || options_.diff) {
+      fix(checked);
+      if (fixing) checked.why_not_fixed = fixing->finish(*source, *checked.fixed, style_.language);
+      if (!checked.why_not_fixed) {
+        known_ += checked.fixed->unconcerned;
+        return checked;
+      }
+      checked.fixed.reset();
+    }
+    const std::string_view text = source->text();
+    Report report = style_.selection.shown(check_text(text, style_.setup, jobs_for(text)));
+    report = with_style(std::move(report), text, style_.selection);
+    report = style_.selection.shown(suppress(std::move(report), text, style_.selection));
+    const std::size_t all = report.findings.size();
+    checked.report = without_known(std::move(report), checked.name, text);
+    known_ += all - checked.report.findings.size();
+    return checked;
+  }
+
+  void fix(Checked& checked) {
+    const std::string_view text = checked.original();
+    const FixWishes wishes{.selection = style_.selection,
+                           .setup = style_.setup,
+                           .unsafe = options_.unsafe_fixes,
+                           .jobs = jobs_for(text),
+                           .concern = [&](Report report, std::string_view version) {
+                             return without_known(std::move(report), checked.name, version);
+                           }};
+    checked.fixed = fix_text(text, wishes);
+    checked.report = checked.fixed->report;
+  }
+
+  int jobs_for(std::string_view text) const { return files_.size() == 1 || text.size() > kLargeFile ? jobs_ : 1; }
+
+  Report without_known(Report report, const std::string& name, std::string_view text) const {
+    return baseline_ ? baseline_->without_known(std::move(report), name, text) : report;
+  }
+
+  void show(const Checked& checked) {
+    if (const auto* problem = std::get_if<SourceFile::Problem>(&checked.opened)) {
+      complain(fmt::format("{}: {}", checked.name, problem->message));
+      trouble_ = true;
+      return;
+    }
+    if (checked.why_not_fixed) {
+      complain(fmt::format("{}: {}", checked.name, *checked.why_not_fixed));
+      trouble_ = true;
+    }
+    tally_.add(checked.report);
+    ++files_checked_;
+    if (checked.fixed) fixed_ += checked.fixed->fixed;
+    if (options_.prints_program())
+      write_fixed(std::get<SourceFile>(checked.opened), *checked.fixed,
+                  [&](std::string_view text) { program_.write(text); });
+    if (output_.has_failed()) return;
+    if (options_.diff) return show_difference(checked);
+    renderer_->file(checked.name, checked.text(), checked.report, output_);
+  }
+
+  void show_difference(const Checked& checked) {
+    has_difference_ |= write_diff(checked.name, checked.original(), *checked.fixed, [&](std::string_view text) {
+      output_.buffer() += text;
+      output_.relieve();
+    });
   }
 
   std::size_t count(dialect::Severity severity) const { return tally_.of(severity, style_.selection); }
@@ -150,7 +222,14 @@ class Run {
       complain(style_.language == Language::Italian
                    ? fmt::format("troppi avvisi: {}, ammessi {}", warnings, *options_.max_warnings)
                    : fmt::format("too many warnings: {}, and {} allowed", warnings, *options_.max_warnings));
-    return !too_many && count(dialect::Severity::Error) == 0;
+    return !too_many && !has_difference_ && count(dialect::Severity::Error) == 0;
+  }
+
+  /// `3 fixed`.
+  std::string fixed_in_words() const {
+    const bool italian = style_.language == Language::Italian;
+    if (options_.diff) return fmt::format("{} {}", fixed_, italian ? "correggibili" : "would be fixed");
+    return fmt::format("{} {}", fixed_, italian ? (fixed_ == 1 ? "corretto" : "corretti") : "fixed");
   }
 
   void summarize() const {
@@ -166,6 +245,7 @@ class Run {
     if (infos > 0) line += ", " + plural(infos, italian ? "nota" : "note", italian ? "note" : "notes");
     line += " in " + plural(files_checked_, "file", italian ? "file" : "files");
     if (baseline_) line += fmt::format("; {} {}", known_.load(), italian ? "nella baseline" : "in the baseline");
+    if (options_.fix || options_.diff) line += "; " + fixed_in_words();
     std::cerr << line << '\n';
   }
 
@@ -175,7 +255,6 @@ class Run {
   const Style& style_;
   const std::optional<Baseline> baseline_;
   const std::vector<std::filesystem::path> files_;
-  execution::Setup setup_;
   std::unique_ptr<Renderer> renderer_;
   const int jobs_;
   std::atomic<std::size_t> next_ = 0;
@@ -185,7 +264,10 @@ class Run {
   std::size_t turn_ = 0;  // With all below: guarded by mutex_.
   Answer output_;
   Tally tally_;
+  running::OutputFile program_{STDOUT_FILENO};  // With --fix -.
   std::size_t files_checked_ = 0;
+  std::size_t fixed_ = 0;
+  bool has_difference_ = false;
   bool trouble_ = false;
 };
 
@@ -242,7 +324,8 @@ bool writes_over(const std::string& output, const std::vector<std::filesystem::p
 }
 
 int check(const Options& options) {
-  Style style{.language = options.reader_language(), .color = options.wants_color()};
+  Style style{
+      .language = options.reader_language(), .color = options.wants_color(), .unsafe_fixes = options.unsafe_fixes};
   const bool italian = style.language == Language::Italian;
   const std::vector<std::string> problems = style.selection.follow(options.wishes, style.language);
   for (const std::string& problem : problems) complain(problem);

@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "analyzer/finding_fixes.h"
 #include "analyzer/renderers.h"
 #include "interpreter/dialect/diagnostic_id.h"
 
@@ -18,10 +19,11 @@ class JsonRenderer final : public Renderer {
   void file(std::string_view name, std::string_view text, const Report& report, Output& output) override {
     LineFinder lines(text);
     const StepTexts steps(text, report, style_.language);
+    FindingFixes fixes(text, report, style_.setup);
     for (const LocatedFinding& located : report.findings) {
       output.buffer() += first_ ? "\n  " : ",\n  ";
       first_ = false;
-      const Json object = to_json(name, lines, located, report, steps);
+      const Json object = to_json(name, lines, located, report, steps, fixes);
       output.buffer() += object.dump(-1, ' ', false, Json::error_handler_t::replace);
       output.relieve();
     }
@@ -29,7 +31,7 @@ class JsonRenderer final : public Renderer {
 
  private:
   Json to_json(std::string_view name, LineFinder& lines, const LocatedFinding& located, const Report& report,
-               const StepTexts& steps) const {
+               const StepTexts& steps, FindingFixes& fixes) const {
     const ShownFinding shown = show(located, lines, style_);
     Json object;
     object["file"] = name;
@@ -42,7 +44,7 @@ class JsonRenderer final : public Renderer {
     object["name"] = shown.def.name;
     object["message"] = shown.message;
     object["url"] = rule_url(located.finding.id);
-    object["fix"] = nullptr;
+    object["fix"] = fix_of(located, fixes);
     object["path"] = nullptr;
     if (located.path >= 0) {
       object["path"] = Json::array();
@@ -50,6 +52,19 @@ class JsonRenderer final : public Renderer {
         object["path"].push_back({{"line", step.line + 1}, {"text", steps.of(step)}});
     }
     return object;
+  }
+
+  Json fix_of(const LocatedFinding& located, FindingFixes& fixes) const {
+    const std::optional<fixes::Fix> fix = fixes.of(located);
+    if (!fix) return nullptr;
+    Json edits = Json::array();
+    for (const ShownEdit& edit : fixes.shown(*fix))
+      edits.push_back({{"line", edit.line},
+                       {"column", edit.column},
+                       {"endLine", edit.end_line},
+                       {"endColumn", edit.end_column},
+                       {"text", edit.text}});
+    return {{"title", fix->title_in(style_.language)}, {"safe", fix->safety == fixes::Safety::Safe}, {"edits", edits}};
   }
 
   Style style_;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analyzer/finding_fixes.h"
 #include "analyzer/fingerprint.h"
 #include "analyzer/renderers.h"
 #include "interpreter/dialect/diagnostic_id.h"
@@ -47,6 +48,7 @@ class SarifRenderer final : public Renderer {
     LineFinder lines(text);
     const StepTexts steps(text, report, style_.language);
     Fingerprints fingerprints;
+    FindingFixes fixes(text, report, style_.setup);
     for (const LocatedFinding& located : report.findings) {
       output.buffer() += first_ ? "\n" : ",\n";
       first_ = false;
@@ -56,6 +58,8 @@ class SarifRenderer final : public Renderer {
       object["partialFingerprints"]["primaryLocationLineHash"] =
           fmt::format("{:016x}:{}", print.line_hash, print.occurrence);
       if (located.path >= 0) object["codeFlows"] = code_flows(located, report, steps, shown, artifact);
+      if (const std::optional<fixes::Fix> fix = fixes.of(located))
+        object["fixes"] = Json::array({fix_of(*fix, fixes, artifact)});
       output.buffer() += dumped(object);
       output.relieve();
     }
@@ -119,6 +123,19 @@ class SarifRenderer final : public Renderer {
     Json flows = Json::array();
     flows.push_back({{"threadFlows", thread_flows}});
     return flows;
+  }
+
+  Json fix_of(const fixes::Fix& fix, FindingFixes& fixes, const Json& artifact) const {
+    Json replacements = Json::array();
+    for (const ShownEdit& edit : fixes.shown(fix))
+      replacements.push_back({{"deletedRegion",
+                               {{"startLine", edit.line},
+                                {"startColumn", edit.column},
+                                {"endLine", edit.end_line},
+                                {"endColumn", edit.end_column}}},
+                              {"insertedContent", {{"text", edit.text}}}});
+    const Json change = {{"artifactLocation", artifact}, {"replacements", replacements}};
+    return {{"description", {{"text", fix.title_in(style_.language)}}}, {"artifactChanges", Json::array({change})}};
   }
 
   Style style_;

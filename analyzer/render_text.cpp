@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "analyzer/finding_fixes.h"
 #include "analyzer/related.h"
 #include "analyzer/renderers.h"
 #include "interpreter/dialect/diagnostic_id.h"
@@ -19,6 +20,10 @@ static constexpr std::string_view kBold = "\x1b[1m";
 static constexpr std::string_view kDim = "\x1b[2m";
 static constexpr std::string_view kBlue = "\x1b[1;34m";
 static constexpr std::string_view kSeverityColors[] = {"\x1b[1;31m", "\x1b[1;33m", "\x1b[1;36m"};
+
+static constexpr Text kHelp = {"help", "aiuto"};
+/// A line that would be longer is not shown beside its help.
+static constexpr std::size_t kShortLine = 60;
 
 static constexpr Text kOtherPlace = {"the other place", "l'altro punto"};
 
@@ -54,8 +59,11 @@ class TextRenderer final : public Renderer {
     LineFinder lines(text);
     const StepTexts steps(text, report, style_.language);
     RelatedPlaces places(text);
+    FindingFixes fixes(text, report, style_.setup);
     for (const LocatedFinding& located : report.findings) {
       one(name, lines, places, located, report, steps, output.buffer());
+      if (const std::optional<fixes::Fix> fix = fixes.of(located)) help(located, *fix, fixes, output.buffer());
+      output.buffer() += '\n';
       output.relieve();
     }
   }
@@ -84,6 +92,18 @@ class TextRenderer final : public Renderer {
     fmt::format_to(to, "{} {}={} {}\n", margin, paint(kBlue), paint(kReset),
                    dialect::first_sentence(shown.def.explanation.in(style_.language)));
     if (located.path >= 0) path(steps, report.paths[static_cast<std::size_t>(located.path)], margin, out);
+  }
+
+  /// What would mend it, by which option, and what the line would be.
+  void help(const LocatedFinding& located, const fixes::Fix& fix, FindingFixes& fixes, std::string& out) const {
+    const std::string margin(fmt::format("{}", located.line + 1).size(), ' ');
+    const bool needs_more = fix.safety == fixes::Safety::Unsafe && !style_.unsafe_fixes;
+    fmt::format_to(std::back_inserter(out), "{} {}={} {}: {} ({})", margin, paint(kBlue), paint(kReset),
+                   kHelp.in(style_.language), printable(fix.title_in(style_.language)),
+                   needs_more ? "--fix --unsafe-fixes" : "--fix");
+    const std::optional<std::string> line = fixes.changed_line(located, fix);
+    if (line && !line->empty() && line->size() <= kShortLine)
+      fmt::format_to(std::back_inserter(out), ": {}", printable(*line));
     out += '\n';
   }
 

@@ -8,6 +8,7 @@
 #include "analyzer/report.h"
 #include "analyzer/selection.h"
 #include "interpreter/dialect/diagnostic.h"
+#include "interpreter/execution/setup.h"
 #include "interpreter/syntax/unicode.h"
 
 namespace isocnc::analyzer {
@@ -38,6 +39,8 @@ struct Style {
   dialect::Language language = dialect::Language::English;
   bool color = false;
   Selection selection;
+  bool unsafe_fixes = false;  ///< Whether --fix would make unsafe fixes, too.
+  execution::Setup setup;     ///< Of the check, and so of the fixes.
 
   /// Of a code that is shown.
   dialect::Severity severity(dialect::DiagnosticId id) const {

@@ -31,55 +31,82 @@ void UnifiedDiff::add(std::string_view before, std::string_view after) {
     before.remove_prefix(old_line.size());
     after.remove_prefix(new_line.size());
     add_line(old_line, new_line);
-    ++line_;
   }
 }
 
 void UnifiedDiff::add_line(std::string_view before, std::string_view after) {
-  if (before != after) {
-    if (removed_.empty()) {
-      if (hunk_lines_ == 0) hunk_first_ = line_ - context_.size();
-      for (const std::string& line : context_) append(hunk_, ' ', line);
-      hunk_lines_ += context_.size();
-      context_.clear();
-    }
-    append(removed_, '-', before);
-    append(added_, '+', after);
-    ++hunk_lines_;
-    has_changes_ = true;
-    return;
+  if (before == after) return keep(before);
+  remove(before);
+  insert(after);
+}
+
+void UnifiedDiff::remove(std::string_view line) {
+  begin_change();
+  append(removed_, '-', line);
+  ++before_.line;
+  ++before_.hunk_lines;
+}
+
+void UnifiedDiff::insert(std::string_view line) {
+  begin_change();
+  append(added_, '+', line);
+  ++after_.line;
+  ++after_.hunk_lines;
+}
+
+/// The lines kept before the change belong to its hunk.
+void UnifiedDiff::begin_change() {
+  has_changes_ = true;
+  for (Side* const side : {&before_, &after_}) {
+    if (!in_hunk_) side->hunk_first = side->line - context_.size();
+    side->hunk_lines += context_.size();
   }
+  in_hunk_ = true;
+  for (const std::string& line : context_) append(hunk_, ' ', line);
+  context_.clear();
+}
+
+void UnifiedDiff::keep(std::string_view line) {
   hunk_ += removed_;
   hunk_ += added_;
   removed_.clear();
   added_.clear();
-  context_.emplace_back(before);
+  context_.emplace_back(line);
+  ++before_.line;
+  ++after_.line;
   // Two hunks that would touch are one.
-  if (hunk_lines_ > 0 && context_.size() > 2 * kContext) write_hunk();
-  if (hunk_lines_ == 0 && context_.size() > kContext) context_.erase(context_.begin());
+  if (in_hunk_ && context_.size() > 2 * kContext) write_hunk();
+  if (!in_hunk_ && context_.size() > kContext) context_.erase(context_.begin());
+}
+
+/// `12,7`: as diff counts, a hunk without lines stands behind the line before it.
+std::string UnifiedDiff::Side::range() const {
+  if (hunk_lines == 1) return fmt::format("{}", hunk_first + 1);
+  return fmt::format("{},{}", hunk_first + (hunk_lines == 0 ? 0 : 1), hunk_lines);
 }
 
 /// With the first lines behind it; what is left may stand before the next one.
 void UnifiedDiff::write_hunk() {
   const std::size_t behind = std::min(kContext, context_.size());
   for (std::size_t i = 0; i < behind; ++i) append(hunk_, ' ', context_[i]);
-  hunk_lines_ += behind;
+  for (Side* const side : {&before_, &after_}) side->hunk_lines += behind;
   const std::size_t gone = std::max(behind, context_.size() - std::min(kContext, context_.size()));
   context_.erase(context_.begin(), context_.begin() + static_cast<std::ptrdiff_t>(gone));
   if (!name_.empty()) write_(fmt::format("--- {0}\n+++ {0}\n", name_));
   name_.clear();
-  const std::string range =
-      hunk_lines_ == 1 ? fmt::format("{}", hunk_first_ + 1) : fmt::format("{},{}", hunk_first_ + 1, hunk_lines_);
-  write_(fmt::format("@@ -{0} +{0} @@\n", range));
+  write_(fmt::format("@@ -{} +{} @@\n", before_.range(), after_.range()));
   write_(hunk_);
   hunk_.clear();
-  hunk_lines_ = 0;
+  in_hunk_ = false;
+  before_.hunk_lines = after_.hunk_lines = 0;
 }
 
 void UnifiedDiff::finish() {
   hunk_ += removed_;
   hunk_ += added_;
-  if (hunk_lines_ > 0) write_hunk();
+  removed_.clear();
+  added_.clear();
+  if (in_hunk_) write_hunk();
 }
 
 }  // namespace isocnc::analyzer

@@ -8,8 +8,7 @@
 
 namespace isocnc::analyzer {
 
-/// Writes a unified diff of two texts that have the same lines but for some that were changed in place, as they come
-/// along: what is kept is a few lines.
+/// Writes a unified diff of two texts whose lines come along side by side: what is kept is a few lines.
 class UnifiedDiff {
  public:
   /// Parts of the diff go to `write`.
@@ -18,12 +17,17 @@ class UnifiedDiff {
 
   /// The next lines, whole ones with their ends, as many before as after.
   void add(std::string_view before, std::string_view after);
+  /// A line with its end that only one of the texts has.
+  void remove(std::string_view line);
+  void insert(std::string_view line);
   /// Behind the last line.
   void finish();
   bool has_changes() const { return has_changes_; }
 
  private:
   void add_line(std::string_view before, std::string_view after);
+  void begin_change();
+  void keep(std::string_view line);
   void write_hunk();
 
   static constexpr std::size_t kContext = 3;
@@ -31,15 +35,23 @@ class UnifiedDiff {
   std::string name_;
   std::function<void(std::string_view)> write_;
   bool has_changes_ = false;
-  std::uint64_t line_ = 0;  // From 0: the next one.
+  /// Lines of one of the texts.
+  struct Side {
+    std::uint64_t line = 0;  // From 0: the next one.
+    std::uint64_t hunk_first = 0;
+    std::uint64_t hunk_lines = 0;
+
+    std::string range() const;
+  };
+  Side before_;
+  Side after_;
 
   // The hunk that is being gathered, and the unchanged lines before or behind it.
   std::vector<std::string> context_;
   std::string hunk_;
   std::string removed_;  // A run of changed lines: all old ones are shown before the new ones.
   std::string added_;
-  std::uint64_t hunk_first_ = 0;
-  std::uint64_t hunk_lines_ = 0;
+  bool in_hunk_ = false;
 };
 
 }  // namespace isocnc::analyzer

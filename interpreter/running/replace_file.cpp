@@ -15,8 +15,8 @@ using dialect::Language;
 using dialect::Text;
 
 static constexpr Text kNotRegular{"is no regular file", "non è un file regolare"};
-static constexpr Text kHasOtherNames{"has other names (hard links), which would keep the old text; use --stdout",
-                                     "ha altri nomi (hard link), che terrebbero il testo vecchio: usare --stdout"};
+static constexpr Text kHasOtherNames{"has other names (hard links), which would keep the old text; left as it is",
+                                     "ha altri nomi (hard link), che terrebbero il testo vecchio: resta com'è"};
 static constexpr Text kHasChanged{"has been changed meanwhile by another program; left as it is",
                                   "è stato modificato nel frattempo da un altro programma: resta com'è"};
 

@@ -1,0 +1,100 @@
+#include "analyzer/finding_fixes.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/syntax/unicode.h"
+
+namespace isocnc::analyzer {
+
+using namespace dialect::literals;
+using fixes::Edit;
+using fixes::Fix;
+using syntax::Position;
+
+static std::uint64_t first_reduced_line(const Report& report) {
+  for (const LocatedFinding& located : report.findings)
+    if (located.finding.id == "too-many-paths"_diag) return located.line;
+  return std::numeric_limits<std::uint64_t>::max();
+}
+
+FindingFixes::FindingFixes(std::string_view text, const Report& report, const execution::Setup& setup)
+    : program_(text, setup), reduced_from_(first_reduced_line(report)) {}
+
+std::optional<Fix> FindingFixes::of(const LocatedFinding& located) {
+  const bool on_every_path = located.path < 0 && located.line < reduced_from_;
+  return fixes::fix_of({located.line, located.finding, on_every_path}, program_);
+}
+
+/// Nothing but the program's own line ends.
+static std::string with_line_ends(std::string_view text, std::string_view line_end) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '\n') {
+      result += line_end;
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+std::size_t FindingFixes::column(const Position& position) {
+  if (counted_columns_ == 0 || position.line != counted_line_ || position.column < counted_bytes_) {
+    counted_line_ = position.line;
+    counted_bytes_ = 0;
+    counted_columns_ = 1;
+  }
+  const std::string_view passed = program_.text(position.line).substr(counted_bytes_, position.column - counted_bytes_);
+  counted_columns_ += syntax::column_of(passed, passed.size()) - 1;
+  counted_bytes_ = position.column;
+  return counted_columns_;
+}
+
+std::vector<ShownEdit> FindingFixes::shown(const Fix& fix) {
+  std::vector<ShownEdit> edits;
+  for (const Edit& edit : fix.edits) {
+    ShownEdit each{.line = edit.begin.line + 1, .column = column(edit.begin)};
+    each.end_line = edit.end.line + 1;
+    each.end_column = column(edit.end);
+    each.text = with_line_ends(edit.text, program_.line_end(edit.begin.line));
+    edits.push_back(std::move(each));
+  }
+  return edits;
+}
+
+static bool stands_before(const Edit& a, const Edit& b) {
+  return a.begin != b.begin ? a.begin < b.begin : a.end < b.end;
+}
+
+std::optional<std::string> FindingFixes::changed_line(const LocatedFinding& located, const Fix& fix) {
+  const auto stays_on_line = [&](const Edit& edit) {
+    return edit.begin.line == located.line && edit.end.line == located.line &&
+           edit.text.find('\n') == std::string::npos;
+  };
+  if (!std::all_of(fix.edits.begin(), fix.edits.end(), stays_on_line)) return std::nullopt;
+  std::vector<Edit> edits = fix.edits;
+  std::sort(edits.begin(), edits.end(), stands_before);
+  std::string line(program_.text(located.line));
+  for (auto edit = edits.rbegin(); edit != edits.rend(); ++edit)
+    line.replace(edit->begin.column, edit->end.column - edit->begin.column, edit->text);
+  return line;
+}
+
+std::string edited(std::string_view text, std::vector<Edit>& edits, const TextProgram& program) {
+  std::sort(edits.begin(), edits.end(), stands_before);
+  std::string result;
+  result.reserve(text.size() + 16 * edits.size());
+  std::size_t copied = 0;
+  for (const Edit& edit : edits) {
+    const std::size_t begin = program.offset(edit.begin);
+    result += text.substr(copied, begin - copied);
+    result += with_line_ends(edit.text, program.line_end(edit.begin.line));
+    copied = program.offset(edit.end);
+  }
+  result += text.substr(copied);
+  return result;
+}
+
+}  // namespace isocnc::analyzer

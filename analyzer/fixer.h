@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analyzer/report.h"
+#include "analyzer/selection.h"
+#include "interpreter/execution/setup.h"
+
+namespace isocnc::analyzer {
+
+/// What is to be fixed.
+struct FixWishes {
+  const Selection& selection;
+  const execution::Setup& setup;
+  bool unsafe = false;  ///< Unsafe fixes, too.
+  int jobs = 1;
+  /// Of what is found and selected in a text, what is somebody's concern; the rest is not fixed. None: all is.
+  std::function<Report(Report, std::string_view)> concern = {};
+};
+
+/// A text with its fixes.
+struct FixedText {
+  static constexpr std::uint64_t kNew = UINT64_MAX;
+
+  std::string text;
+  Report report;                       ///< What remains.
+  std::size_t fixed = 0;               ///< Findings that are gone.
+  std::size_t unconcerned = 0;         ///< What remains and is nobody's concern.
+  std::vector<std::uint64_t> origins;  ///< Of each line: the line of the original text that it was, or kNew.
+};
+
+/// Applies the fixes of what is found, round by round, until nothing changes. Of two that overlap the first in the
+/// program comes first. A fix counts only when its finding is gone and no code is found more often than before,
+/// whether it is selected or not; else it is undone. Fixing the result again changes nothing, unless it was so long,
+/// with so many fixes undone, that there was no time for all of them.
+FixedText fix_text(std::string_view text, const FixWishes& wishes);
+
+}  // namespace isocnc::analyzer

@@ -1,0 +1,99 @@
+#include "analyzer/fixes/line_edits.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "interpreter/syntax/characters.h"
+
+namespace isocnc::analyzer::fixes {
+
+using syntax::Instruction;
+using syntax::LineTree;
+using syntax::Span;
+using syntax::Word;
+
+Edit replaced(const Request& request, Span span, std::string text) {
+  return {{request.number, span.begin}, {request.number, span.end}, std::move(text)};
+}
+
+Edit inserted(const Request& request, std::uint32_t column, std::string text) {
+  return replaced(request, {column, column}, std::move(text));
+}
+
+Edit removed(const Request& request, Span span) {
+  const std::string_view line = request.line.text;
+  Span wide = span;
+  while (wide.begin > 0 && syntax::is_blank(line[wide.begin - 1])) --wide.begin;
+  if (wide.begin == 0) {  // The indentation stays.
+    wide = span;
+    while (wide.end < line.size() && syntax::is_blank(line[wide.end])) ++wide.end;
+  }
+  return replaced(request, wide, {});
+}
+
+/// The line, which holds `length` bytes, with its end. Where it is the last and has none, the end of the line above
+/// goes, and blank lines between, so that the program still ends without one.
+static Edit removed_line(Program& program, std::uint64_t line, std::size_t length) {
+  if (line + 1 < program.line_count()) return {{line, 0}, {line + 1, 0}, {}};
+  std::uint64_t above = line;
+  while (above > 0 && program.text(above - 1).empty()) --above;
+  if (above > 0) return {{above - 1, program.text(above - 1).size()}, {line, length}, {}};
+  return {{0, 0}, {line, length}, {}};
+}
+
+Edit removed_with_line(const Request& request, Span span) {
+  const std::string_view line = request.line.text;
+  if (!is_blank(line.substr(0, span.begin)) || !is_blank(line.substr(span.end))) return removed(request, span);
+  return removed_line(request.program, request.number, line.size());
+}
+
+bool is_blank(std::string_view text) {
+  return std::all_of(text.begin(), text.end(), [](char c) { return syntax::is_blank(c); });
+}
+
+std::string_view indentation(std::string_view line) {
+  std::size_t blanks = 0;
+  while (blanks < line.size() && syntax::is_blank(line[blanks])) ++blanks;
+  return line.substr(0, blanks);
+}
+
+std::string_view trimmed(std::string_view text) {
+  text.remove_prefix(indentation(text).size());
+  while (!text.empty() && syntax::is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+const Word* word_at(const LineTree& line, Span span) {
+  const auto at = std::lower_bound(line.words.begin(), line.words.end(), span.begin,
+                                   [](const Word& word, std::uint32_t begin) { return word.begin < begin; });
+  return at != line.words.end() && at->begin == span.begin ? &*at : nullptr;
+}
+
+const Instruction* owner_of(const LineTree& line, const Word& word) {
+  const auto owner = std::find_if(line.instructions.begin(), line.instructions.end(),
+                                  [&](const Instruction& each) { return each.number == word.owner; });
+  return owner != line.instructions.end() ? &*owner : nullptr;
+}
+
+const Word* first_word(const LineTree& line) {
+  const auto first =
+      std::find_if(line.words.begin(), line.words.end(), [](const Word& word) { return word.letter != 'N'; });
+  return first != line.words.end() ? &*first : nullptr;
+}
+
+bool is_motion(const Instruction& instruction) {
+  if (instruction.kind == syntax::InstructionKind::Continuation) return true;
+  return instruction.kind == syntax::InstructionKind::G && instruction.g() != nullptr && instruction.g()->is_motion();
+}
+
+std::string written(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  if (text.find('.') != std::string::npos) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+  }
+  return text == "-0" ? "0" : text;
+}
+
+}  // namespace isocnc::analyzer::fixes

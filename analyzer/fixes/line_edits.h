@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "analyzer/fixes/makers.h"
+
+namespace isocnc::analyzer::fixes {
+
+Edit replaced(const Request& request, syntax::Span span, std::string text);
+Edit inserted(const Request& request, std::uint32_t column, std::string text);
+/// Takes a word out with the blanks before it, or behind it at the start of the line.
+Edit removed(const Request& request, syntax::Span span);
+/// As removed(); the whole line when nothing else stands on it.
+Edit removed_with_line(const Request& request, syntax::Span span);
+
+/// The blanks that the line starts with.
+std::string_view indentation(std::string_view line);
+bool is_blank(std::string_view text);
+/// Without blanks at both ends.
+std::string_view trimmed(std::string_view text);
+
+/// The word that starts where the span does, or null.
+const syntax::Word* word_at(const syntax::LineTree& line, syntax::Span span);
+/// The instruction that the word belongs to, or null.
+const syntax::Instruction* owner_of(const syntax::LineTree& line, const syntax::Word& word);
+/// The first word that is no line number, or null.
+const syntax::Word* first_word(const syntax::LineTree& line);
+bool is_motion(const syntax::Instruction& instruction);
+
+/// A number as programs write it: at most `decimals`, without zeros at the end.
+std::string written(double value, int decimals);
+
+}  // namespace isocnc::analyzer::fixes

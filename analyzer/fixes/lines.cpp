@@ -1,0 +1,120 @@
+#include <optional>
+
+#include "analyzer/fixes/line_edits.h"
+#include "interpreter/syntax/tree_store.h"
+
+namespace isocnc::analyzer::fixes {
+
+using dialect::ModalGroup;
+using execution::State;
+using syntax::Instruction;
+using syntax::InstructionKind;
+using syntax::LineTree;
+using syntax::Word;
+
+/// Blank lines and comments that are looked over for the block above or below.
+static constexpr std::uint64_t kReach = 20;
+
+/// Who jumps to the line would pass over what is inserted above it.
+static bool is_jumped_to(const LineTree& line, Program& program) {
+  return line.has_label() && program.is_jumped_to(line.label);
+}
+
+static Draft line_above(const Request& request, std::string_view block) {
+  if (!request.on_every_path || is_jumped_to(request.line, request.program)) return {};
+  std::string text(indentation(request.line.text));
+  text += block;
+  return {{inserted(request, 0, text + "\n")}, std::string(block)};
+}
+
+Draft g27_above(const Request& request) { return line_above(request, "G27"); }
+Draft g40_above(const Request& request) { return line_above(request, "G40"); }
+Draft g49_above(const Request& request) { return line_above(request, "G49"); }
+Draft m05_above(const Request& request) { return line_above(request, "M05"); }
+Draft g90_above(const Request& request) { return line_above(request, "G90"); }
+Draft g71_above(const Request& request) { return line_above(request, "G71"); }
+
+/// What has to end before the program does: compensation, face frame, spindle.
+static std::string blocks_before_end(const State& state, const std::string& line_start) {
+  std::string blocks;
+  if (state.mode(ModalGroup::CutterCompensation) != 40) blocks += line_start + "G40";
+  if (state.face_mounted) blocks += line_start + "G27";
+  if (state.knows(State::kClockwise | State::kCounterclockwise)) blocks += line_start + "M05";
+  return blocks;
+}
+
+Draft end_of_program(const Request& request) {
+  const std::string_view line = request.line.text;
+  if (is_blank(line)) return {};
+  const std::string line_start = "\n" + std::string(indentation(line));
+  const std::optional<State> state = request.program.state_before(request.program.line_count());
+  std::string text = state ? blocks_before_end(*state, line_start) : "";
+  text += line_start + "M02";
+  return {{inserted(request, static_cast<std::uint32_t>(line.size()), std::move(text))}};
+}
+
+/// A line above (step -1) or below (1) that holds a block.
+static std::optional<std::uint64_t> block_beside(const Request& request, int step) {
+  std::uint64_t number = request.number;
+  for (std::uint64_t i = 0; i < kReach; ++i) {
+    if (step < 0 ? number == 0 : number + 1 >= request.program.line_count()) return std::nullopt;
+    number += static_cast<std::uint64_t>(step);
+    const syntax::ParsedLine parsed(request.program.text(number));
+    if (!parsed.tree().is_empty()) return number;
+  }
+  return std::nullopt;
+}
+
+static bool waits_for_tool(const LineTree& line) {
+  for (const Instruction& each : line.instructions)
+    if (each.kind == InstructionKind::ToolChange && each.end == each.command + 1) return true;
+  return false;
+}
+
+/// A T alone; an M06 on the line above or below is to have it.
+Draft m06_before_tool(const Request& request) {
+  if (waits_for_tool(request.line)) return {};
+  for (const int step : {-1, 1}) {
+    const std::optional<std::uint64_t> beside = block_beside(request, step);
+    if (beside && waits_for_tool(syntax::ParsedLine(request.program.text(*beside)).tree())) return {};
+  }
+  return {{inserted(request, request.finding.span.begin, "M06 ")}};
+}
+
+/// M06 on one line, T101001 alone on the next or on the one above.
+Draft tool_of_other_line(const Request& request) {
+  for (const int step : {1, -1}) {
+    const std::optional<std::uint64_t> number = block_beside(request, step);
+    if (!number) continue;
+    const syntax::ParsedLine parsed(request.program.text(*number));
+    const LineTree other = parsed.tree();
+    const bool has_tool_alone = other.instructions.size() == 1 && other.feed < 0 && other.spindle < 0 &&
+                                other.instructions.front().kind == InstructionKind::StrayTool;
+    const LineTree& lower = step > 0 ? other : request.line;
+    if (!has_tool_alone || !other.findings.empty() || is_jumped_to(lower, request.program)) continue;
+    const syntax::Finding at_tool{.span = other.command(other.instructions.front()).span()};
+    const Request there{*number, at_tool, true, other, request.program};
+    const std::string tool(there.marked());
+    return {{inserted(request, request.finding.span.end, " " + tool), removed_with_line(there, at_tool.span)}, tool};
+  }
+  return {};
+}
+
+/// G01 alone, and its coordinates on the next line.
+Draft command_to_next_line(const Request& request) {
+  const std::string command(request.marked());
+  const std::optional<std::uint64_t> number = block_beside(request, 1);
+  if (!number || command.find('(') != std::string::npos) return {};
+  const syntax::ParsedLine parsed(request.program.text(*number));
+  const LineTree next = parsed.tree();
+  const Word* const first = first_word(next);
+  const Word* const own = word_at(request.line, request.finding.span);
+  const bool goes_on = first != nullptr && !next.instructions.empty() &&
+                       next.instructions.front().kind == InstructionKind::Continuation &&
+                       dialect::contains(dialect::kCoordinateLetters, first->letter);
+  if (!goes_on || own == nullptr || own->letter != 'G' || is_jumped_to(next, request.program)) return {};
+  const Edit there{{*number, first->begin}, {*number, first->begin}, command + " "};
+  return {{removed_with_line(request, request.finding.span), there}};
+}
+
+}  // namespace isocnc::analyzer::fixes

@@ -1,0 +1,209 @@
+#include <algorithm>
+#include <optional>
+
+#include "analyzer/fixes/line_edits.h"
+#include "interpreter/syntax/characters.h"
+
+namespace isocnc::analyzer::fixes {
+
+using syntax::Instruction;
+using syntax::InstructionKind;
+using syntax::LineTree;
+using syntax::Span;
+using syntax::Word;
+
+static bool is_g(const Instruction& instruction, int number) {
+  return instruction.kind == InstructionKind::G && instruction.g() != nullptr && instruction.g()->number == number;
+}
+
+/// The instruction whose command is marked, or null.
+static const Instruction* marked_instruction(const Request& request) {
+  const Word* const command = word_at(request.line, request.finding.span);
+  return command ? owner_of(request.line, *command) : nullptr;
+}
+
+/// Takes the span from its place and writes it at another one.
+static Draft moved(const Request& request, Span span, std::uint32_t column, bool before) {
+  const std::string text(request.line.text_of(span));
+  return {{removed(request, span), inserted(request, column, before ? text + " " : " " + text)}, text};
+}
+
+/// A line end in place of the blanks before the word at `column`.
+static Edit line_end_before(const Request& request, std::uint32_t column) {
+  const std::string_view line = request.line.text;
+  std::uint32_t begin = column;
+  while (begin > 0 && syntax::is_blank(line[begin - 1])) --begin;
+  return replaced(request, {begin, column}, "\n" + std::string(indentation(line)));
+}
+
+/// Where on its line an instruction's words stand: [first, last], nothing of others between them.
+struct Extent {
+  std::size_t first = 0;
+  std::size_t last = 0;
+};
+
+static std::optional<Extent> extent_of(const LineTree& line, const Instruction& instruction) {
+  for (std::size_t i = instruction.begin; i < instruction.end; ++i)
+    if (line.words[i].owner != instruction.number) return std::nullopt;
+  return Extent{instruction.begin, instruction.end - 1u};
+}
+
+/// Words that the instruction does not take show that something else was meant.
+static bool takes_all_its_words(const LineTree& line, const Instruction& instruction) {
+  if (instruction.kind != InstructionKind::G) return true;
+  for (std::size_t i = instruction.begin; i < instruction.end; ++i)
+    if (i != instruction.command && !dialect::contains(instruction.g()->arguments, line.words[i].letter)) return false;
+  return true;
+}
+
+/// F and S belong to the motion of their line, wherever they stand: they must stay with it.
+static bool speeds_stay_with_motions(const LineTree& line, Extent alone) {
+  const auto part_of = [&](std::size_t word) { return word < alone.first ? 0 : 1; };
+  for (const Instruction& instruction : line.instructions) {
+    if (!is_motion(instruction)) continue;
+    for (const std::int32_t speed : {line.feed, line.spindle})
+      if (speed >= 0 && part_of(static_cast<std::size_t>(speed)) != part_of(instruction.command)) return false;
+  }
+  return true;
+}
+
+/// G91 G28 Z0: who lacks its arguments may be the instruction of another control.
+static bool has_another_finding(const Request& request) {
+  const auto is_another = [&](const syntax::Finding& finding) {
+    return finding.span == request.finding.span && finding.id != request.finding.id;
+  };
+  return std::any_of(request.line.findings.begin(), request.line.findings.end(), is_another);
+}
+
+/// G00 Z50 M02 on two lines, S5000 M03 G04 P2 G01 X5 on three: what takes effect, and in which order, stays as it is.
+Draft on_its_own_line(const Request& request) {
+  const LineTree& line = request.line;
+  const Instruction* const alone = marked_instruction(request);
+  if (!alone || (alone->kind == InstructionKind::G && !alone->g()) || !takes_all_its_words(line, *alone)) return {};
+  if (has_another_finding(request)) return {};
+  const std::optional<Extent> extent = extent_of(line, *alone);
+  if (!extent || !speeds_stay_with_motions(line, *extent)) return {};
+  const bool may_be_followed =
+      alone->kind != InstructionKind::Jump && line.command(*alone).value != dialect::kProgramEnd;
+  const auto is_label = [](const Word& word) { return word.letter == 'N'; };
+  const auto behind = line.words.subspan(extent->last + 1);
+  if (std::any_of(behind.begin(), behind.end(), is_label)) return {};
+  if (!behind.empty() && alone->kind == InstructionKind::Function && !may_be_followed) return {};
+  if (!behind.empty() && alone->kind == InstructionKind::Jump) return {};
+  Draft draft;
+  const auto before = line.words.first(extent->first);
+  if (!std::all_of(before.begin(), before.end(), is_label))
+    draft.edits.push_back(line_end_before(request, line.words[extent->first].begin));
+  if (!behind.empty()) draft.edits.push_back(line_end_before(request, behind.front().begin));
+  return draft;
+}
+
+/// G00 X2 Y3 G70.
+Draft mode_first(const Request& request) {
+  const Word* const first = first_word(request.line);
+  if (!first || first->begin >= request.finding.span.begin) return {};
+  return moved(request, request.finding.span, first->begin, true);
+}
+
+/// G1 X1 S500 Z5: the Z goes to the X. S and N may stand anywhere, so that they are no reason to move what they part.
+Draft arguments_together(const Request& request) {
+  const LineTree& line = request.line;
+  const Instruction* const motion = marked_instruction(request);
+  if (!motion || !is_motion(*motion)) return {};
+  Draft draft;
+  std::size_t last = motion->kind == InstructionKind::G ? motion->command : motion->begin;
+  std::string strays;
+  for (std::size_t i = motion->begin; i < motion->end; ++i) {
+    const Word& word = line.words[i];
+    if (word.owner == motion->number && i != motion->command && word.has(Word::kBreak)) {
+      strays += ' ';
+      strays += line.text_of(word.span());
+      draft.edits.push_back(removed(request, word.span()));
+    } else if (word.owner == motion->number) {
+      last = i;
+    } else if (word.letter != 'S' && word.letter != 'N' && word.letter != 'F') {
+      return {};
+    }
+  }
+  if (draft.edits.empty()) return {};
+  draft.what = trimmed(strays);
+  draft.edits.insert(draft.edits.begin(), inserted(request, line.words[last].end, strays));
+  return draft;
+}
+
+/// X10 G1.
+Draft command_first(const Request& request) {
+  const Span command = request.finding.related;
+  if (command.empty() || command.begin < request.finding.span.begin) return {};
+  return moved(request, command, request.finding.span.begin, true);
+}
+
+/// The first word of the line's first motion, or null.
+static const Word* motion_begin(const LineTree& line) {
+  const auto motion = std::find_if(line.instructions.begin(), line.instructions.end(), is_motion);
+  if (motion == line.instructions.end()) return nullptr;
+  return &line.words[motion->kind == InstructionKind::G ? motion->command : motion->begin];
+}
+
+/// G01 X10 G41.
+Draft compensation_before_motion(const Request& request) {
+  const Word* const motion = motion_begin(request.line);
+  if (!motion || motion->begin > request.finding.span.begin) return {};
+  return moved(request, request.finding.span, motion->begin, true);
+}
+
+/// The line's last motion, or null.
+static const Instruction* last_motion(const LineTree& line) {
+  const Instruction* last = nullptr;
+  for (const Instruction& each : line.instructions)
+    if (is_motion(each)) last = &each;
+  return last;
+}
+
+/// G40 G01 Y20: behind the last coordinate.
+Draft behind_motion(const Request& request) {
+  const Instruction* const motion = last_motion(request.line);
+  if (!motion) return {};
+  return moved(request, request.finding.span, request.line.words[motion->end - 1u].end, false);
+}
+
+/// G09 G01 X10; a rapid stops at its end by itself.
+Draft behind_feed_motion(const Request& request) {
+  const Instruction* const motion = last_motion(request.line);
+  return motion && !is_g(*motion, 0) ? behind_motion(request) : Draft{};
+}
+
+/// T101001 M06.
+Draft change_before_tool(const Request& request) {
+  const LineTree& line = request.line;
+  for (const Instruction& change : line.instructions) {
+    const Word& command = line.command(change);
+    if (change.kind != InstructionKind::ToolChange || command.begin < request.finding.span.begin) continue;
+    return moved(request, command.span(), request.finding.span.begin, true);
+  }
+  return {};
+}
+
+/// M06 S5000 T101001.
+Draft tool_behind_change(const Request& request) {
+  const LineTree& line = request.line;
+  const Instruction* const change = marked_instruction(request);
+  if (!change) return {};
+  for (const Word& word : line.words)
+    if (word.letter == 'T' && word.owner == change->number)
+      return moved(request, word.span(), request.finding.span.end, false);
+  return {};
+}
+
+/// G00 X10 G01 Z-3 F1000.
+Draft motions_on_two_lines(const Request& request) {
+  const LineTree& line = request.line;
+  const Instruction* const second = marked_instruction(request);
+  const Word* const first_command = word_at(line, request.finding.related);
+  const Instruction* const first = first_command ? owner_of(line, *first_command) : nullptr;
+  if (!first || !second || first->end == first->command + 1 || second->end == second->command + 1) return {};
+  if (first->end > second->command) return {};
+  return {{line_end_before(request, request.finding.span.begin)}};
+}
+
+}  // namespace isocnc::analyzer::fixes

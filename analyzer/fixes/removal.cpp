@@ -1,0 +1,147 @@
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "analyzer/fixes/line_edits.h"
+#include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/tree_store.h"
+
+namespace isocnc::analyzer::fixes {
+
+using namespace dialect::literals;
+using syntax::Instruction;
+using syntax::LineTree;
+using syntax::Span;
+using syntax::Word;
+
+/// A comment inside a word (`X(left)10`) is not to be lost with it.
+static bool holds_comment(std::string_view text) { return text.find('(') != std::string_view::npos; }
+
+Draft removed_mark(const Request& request) {
+  if (holds_comment(request.marked())) return {};
+  return {{removed_with_line(request, request.finding.span)}};
+}
+
+/// What changes nothing on one path may be needed on another.
+Draft removed_on_every_path(const Request& request) { return request.on_every_path ? removed_mark(request) : Draft{}; }
+
+/// The word that the marked one repeats.
+static Span first_of_two(const Request& request) {
+  if (!request.finding.related.empty()) return request.finding.related;
+  const Word* const marked = word_at(request.line, request.finding.span);
+  if (!marked) return {};
+  const auto is_first = [&](const Word& word) { return word.letter == marked->letter && word.owner == marked->owner; };
+  const auto first = std::find_if(request.line.words.begin(), request.line.words.end(), is_first);
+  return first->begin < marked->begin ? first->span() : Span{};
+}
+
+static double value_of(std::string_view word) {
+  const syntax::ParsedLine parsed(word);
+  const LineTree tree = parsed.tree();
+  return tree.words.size() == 1 ? tree.words.front().value : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// The same word once more: X10 X10.0. Which of two different ones is meant, nobody knows.
+Draft removed_repetition(const Request& request) {
+  const Span first = first_of_two(request);
+  if (first.empty() || !(value_of(request.line.text_of(first)) == value_of(request.marked()))) return {};
+  return removed_mark(request);
+}
+
+/// G90 G91: the first one takes no effect, as long as nothing between them runs under it.
+Draft removed_earlier_mode(const Request& request) {
+  const Span earlier = request.finding.related;
+  const auto matters = [&](const Word& word) {
+    if (word.begin <= earlier.begin || word.begin >= request.finding.span.begin) return false;
+    const Instruction* const owner = owner_of(request.line, word);
+    return owner != nullptr && (owner->kind != syntax::InstructionKind::G || is_motion(*owner) || !owner->g() ||
+                                owner->g()->takes_arguments());
+  };
+  if (earlier.empty() || holds_comment(request.line.text_of(earlier))) return {};
+  if (std::any_of(request.line.words.begin(), request.line.words.end(), matters)) return {};
+  return {{removed(request, earlier)}, std::string(request.line.text_of(earlier))};
+}
+
+/// `%` and O1234, which frame the programs of other controls.
+Draft removed_foreign_frame(const Request& request) {
+  const std::string_view text = request.marked();
+  const bool is_percent = text.find_first_not_of('%') == std::string_view::npos;
+  const bool is_number = text.size() > 1 && syntax::upper(text.front()) == 'O' &&
+                         text.find_first_not_of("0123456789", 1) == std::string_view::npos;
+  if ((!is_percent && !is_number) || request.line.words.size() > 1) return {};
+  return removed_mark(request);
+}
+
+/// There are no canned cycles that G80 could end.
+Draft removed_canned_cycle_end(const Request& request) {
+  const Word* const word = word_at(request.line, request.finding.span);
+  return word && word->value == 80 && word->is_plain_integer() ? removed_mark(request) : Draft{};
+}
+
+/// K0 in G17: the circle is given without it.
+Draft removed_stray_center(const Request& request) {
+  const Word* const stray = word_at(request.line, request.finding.span);
+  if (!stray) return {};
+  dialect::LetterSet given = 0;
+  for (const Word& word : request.line.words)
+    if (word.owner == stray->owner && word.letter >= 'A' && word.letter <= 'Z')
+      given |= dialect::letter_bit(word.letter);
+  const dialect::LetterSet others = dialect::kCenterLetters & ~dialect::letter_bit(stray->letter);
+  const bool is_complete = (given & others) == others || dialect::contains(given, 'R');
+  return is_complete ? removed_mark(request) : Draft{};
+}
+
+/// G00 G01 X10: the first G moves nothing.
+Draft removed_first_motion(const Request& request) {
+  const Span first = request.finding.related;
+  const Word* const word = first.empty() ? nullptr : word_at(request.line, first);
+  const Instruction* const motion = word ? owner_of(request.line, *word) : nullptr;
+  if (!motion || motion->end != motion->command + 1 || holds_comment(request.line.text_of(first))) return {};
+  return {{removed(request, first)}, std::string(request.line.text_of(first))};
+}
+
+static bool is_one_of(std::string_view word, std::initializer_list<std::string_view> names) {
+  return std::any_of(names.begin(), names.end(), [&](std::string_view name) {
+    return std::equal(word.begin(), word.end(), name.begin(), name.end(),
+                      [](char a, char b) { return syntax::upper(a) == syntax::upper(b); });
+  });
+}
+
+static bool names_w190(std::string_view line) {
+  const dialect::DiagnosticDef& def = dialect::definition("useless-suppression"_diag);
+  std::string upper(line);
+  std::transform(upper.begin(), upper.end(), upper.begin(), syntax::upper);
+  std::string name(def.name);
+  std::transform(name.begin(), name.end(), name.begin(), syntax::upper);
+  return upper.find(def.code) != std::string::npos || upper.find(name) != std::string::npos;
+}
+
+/// `isolint: ignore ISO003`, or one code of several. A misspelt verb or code was meant for something.
+Draft removed_suppression(const Request& request) {
+  static constexpr std::string_view kCall = "isolint:";
+  const std::string_view line = request.line.text;
+  const Span span = request.finding.span;
+  const std::string_view text = request.marked();
+  const bool is_whole = text.size() > kCall.size() && is_one_of(text.substr(0, kCall.size()), {kCall});
+  if (!is_whole) {
+    // Without its last code the comment would silence everything. Known codes are told one by one beside a useful one,
+    // an unknown one, or W190.
+    const std::optional<dialect::DiagnosticId> code = dialect::find_diagnostic(text);
+    if (!code || names_w190(line)) return {};
+    const bool has_comma = span.end < line.size() && line[span.end] == ',';
+    return {{removed(request, {span.begin, span.end + (has_comma ? 1u : 0u)})}};
+  }
+  const std::string_view words = trimmed(text.substr(kCall.size()));
+  const std::string_view verb = words.substr(0, words.find_first_of(" \t,"));
+  if (!is_one_of(verb, {"ignore", "disable", "enable", "ignore-file"})) return {};
+  const auto holds = [&](Span comment) { return comment.holds(span.begin); };
+  const auto comment = std::find_if(request.line.comments.begin(), request.line.comments.end(), holds);
+  if (comment == request.line.comments.end()) return {};
+  const bool is_closed = line[comment->end - 1] == ')';
+  const std::string_view before = trimmed(line.substr(comment->begin + 1, span.begin - comment->begin - 1));
+  const std::string_view behind = trimmed(line.substr(span.end, comment->end - (is_closed ? 1 : 0) - span.end));
+  const bool is_all = before.empty() && (behind.empty() || behind.front() == '-');
+  return {{is_all ? removed_with_line(request, *comment) : removed(request, span)}};
+}
+
+}  // namespace isocnc::analyzer::fixes

@@ -1,0 +1,213 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "analyzer/fixes/line_edits.h"
+#include "interpreter/syntax/characters.h"
+
+namespace isocnc::analyzer::fixes {
+
+using syntax::Instruction;
+using syntax::Span;
+using syntax::Word;
+
+static bool is_letter_o(char c) { return syntax::upper(c) == 'O'; }
+
+static bool holds_only(std::string_view text, std::string_view characters) {
+  return text.find_first_not_of(characters) == std::string_view::npos;
+}
+
+/// The marked text with something else in its place.
+static Draft rewritten(const Request& request, std::string text) {
+  Draft draft{{replaced(request, request.finding.span, text)}};
+  draft.what = std::move(text);
+  return draft;
+}
+
+/// MO6 and X1O: the finding stands at the M, or at the O behind the number.
+Draft zero_for_letter_o(const Request& request) {
+  const std::string_view line = request.line.text;
+  Span zeros = request.finding.span;
+  const bool is_behind_number = is_letter_o(line[zeros.begin]);
+  if (is_behind_number) {
+    const bool goes_on = zeros.begin > 0 && (syntax::is_digit(line[zeros.begin - 1]) || line[zeros.begin - 1] == '.');
+    if (!goes_on || !holds_only(request.marked(), "Oo0123456789.")) return {};
+  } else {
+    if (request.marked().size() != 1) return {};
+    zeros.begin = zeros.end;
+  }
+  zeros.end = zeros.begin;
+  while (zeros.end < line.size() && is_letter_o(line[zeros.end])) ++zeros.end;
+  if (zeros.empty()) return {};
+  return {{replaced(request, zeros, std::string(zeros.end - zeros.begin, '0'))}};
+}
+
+/// 10,5; separators of thousands, as in 1.000,5, are left to who wrote them.
+Draft point_for_comma(const Request& request) {
+  std::string text(request.marked());
+  if (std::count(text.begin(), text.end(), ',') != 1 || text.find('.') != std::string::npos) return {};
+  std::replace(text.begin(), text.end(), ',', '.');
+  return rewritten(request, std::move(text));
+}
+
+/// G1.0 and G-91: G1 and G91. Also for M, N, T and V.
+Draft whole_number(const Request& request) {
+  const std::string_view text = request.marked();
+  const char letter = syntax::upper(text.front());
+  std::string_view number = trimmed(text.substr(1));
+  if (!number.empty() && (number.front() == '-' || number.front() == '+')) number.remove_prefix(1);
+  const std::size_t point = std::min(number.find('.'), number.size());
+  const std::string_view digits = number.substr(0, point);
+  if (digits.empty() || !holds_only(digits, "0123456789") || !holds_only(number.substr(point), ".0")) return {};
+  if (std::count(number.begin(), number.end(), '.') > 1 || digits.size() == text.size() - 1) return {};
+  int value = 0;
+  std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const bool is_known_g =
+      letter != 'G' || (value <= 999 && dialect::kGCodeRows[static_cast<std::size_t>(value)] != dialect::kUnknownGCode);
+  if (!is_known_g || (letter == 'M' && value == 0) || (letter == 'T' && digits.size() != 6)) return {};
+  return rewritten(request, std::string(1, text.front()) + std::string(digits));
+}
+
+Draft without_sign(const Request& request) {
+  std::string text(request.marked());
+  const std::size_t minus = text.find('-');
+  if (minus == std::string::npos || text.find('(') != std::string::npos) return {};
+  text.erase(minus, 1);
+  return rewritten(request, std::move(text));
+}
+
+/// X=5, which other controls read.
+Draft without_equals(const Request& request) {
+  const std::string_view line = request.line.text;
+  const std::uint32_t at = request.finding.span.begin;
+  const std::string_view before = trimmed(line.substr(0, at));
+  const std::string_view behind = trimmed(line.substr(at + 1));
+  if (before.empty() || syntax::char_class(before.back()) != syntax::CharClass::Letter) return {};
+  if (behind.empty() || !syntax::is_number_char(behind.front())) return {};
+  return {{replaced(request, {at, at + 1}, {})}};
+}
+
+static int decimals_of(std::string_view number) {
+  const std::size_t point = number.find('.');
+  if (point == std::string_view::npos) return 0;
+  return static_cast<int>(std::min<std::size_t>(number.size() - point - 1, 9));
+}
+
+/// C270 is the direction of C-90.
+Draft angle_in_range(const Request& request) {
+  const double angle = std::remainder(request.finding.values[0], 360);
+  if (!(std::abs(angle) <= request.finding.values[1]) || request.marked().find('(') != std::string_view::npos)
+    return {};
+  return rewritten(request, request.marked().front() + written(angle, decimals_of(request.marked())));
+}
+
+Draft comparison(const Request& request) {
+  static constexpr std::pair<std::string_view, std::string_view> kMeant[] = {
+      {"==", "="}, {"=<", "<="}, {"=>", ">="}, {"!=", "<>"}, {"><", "<>"}};
+  for (const auto& [text, meant] : kMeant)
+    if (request.marked() == text) return rewritten(request, std::string(meant));
+  return {};
+}
+
+/// GOTO 30.
+Draft label_with_letter(const Request& request) {
+  const std::string_view before = trimmed(request.line.text.substr(0, request.finding.span.begin));
+  const bool is_label = !before.empty() && is_letter_o(before.back()) && request.line.jump != nullptr;
+  if (!is_label || !holds_only(request.marked(), "0123456789")) return {};
+  return rewritten(request, "N" + std::string(request.marked()));
+}
+
+/// What other controls call inches and millimeters.
+Draft code_of_this_control(const Request& request) {
+  const Word* const word = word_at(request.line, request.finding.span);
+  if (!word || !word->is_plain_integer()) return {};
+  if (word->value == 20) return rewritten(request, "G70");
+  if (word->value == 21) return rewritten(request, "G71");
+  return {};
+}
+
+/// G04 X2, as other controls write it.
+Draft time_by_p(const Request& request) {
+  const Word* const command = word_at(request.line, request.finding.span);
+  const Instruction* const dwell = command ? owner_of(request.line, *command) : nullptr;
+  if (!dwell || dwell->end != dwell->command + 2) return {};
+  const Word& time = request.line.words[dwell->command + 1u];
+  if (time.letter != 'X' || time.owner != dwell->number || !time.known()) return {};
+  return {{replaced(request, {time.begin, time.begin + 1}, "P")}};
+}
+
+/// G04 P500.
+Draft seconds_of_milliseconds(const Request& request) {
+  const double milliseconds = request.finding.values[0];
+  if (!(milliseconds > 0) || request.marked().find('(') != std::string_view::npos) return {};
+  return rewritten(request, request.marked().front() + written(milliseconds / 1000, 6));
+}
+
+Draft free_label(const Request& request) {
+  const std::optional<std::uint64_t> number = request.program.free_line_number();
+  if (!number || request.marked().find('(') != std::string_view::npos) return {};
+  return rewritten(request, fmt::format("{}{}", request.marked().front(), *number));
+}
+
+Draft closed_comment(const Request& request) {
+  const auto end = request.finding.span.begin + static_cast<std::uint32_t>(trimmed(request.marked()).size());
+  return {{inserted(request, end, ")")}};
+}
+
+/// OP 10): the text before the ) was meant as the comment; else there is one ) too many.
+Draft opened_comment(const Request& request) {
+  const syntax::ParsedLine before(request.line.text.substr(0, request.finding.span.begin));
+  const syntax::LineTree tree = before.tree();
+  std::optional<std::uint32_t> begin;
+  for (auto word = tree.words.rbegin(); word != tree.words.rend(); ++word) {
+    const bool is_prose =
+        word->letter == syntax::kError || word->letter == syntax::kNumber || word->has(Word::kMissing);
+    if (!is_prose) break;
+    begin = word->begin;
+  }
+  if (!begin) return {};
+  return {{inserted(request, *begin, "(")}};
+}
+
+static bool is_letter(char c) {
+  return (syntax::upper(c) >= 'A' && syntax::upper(c) <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
+}
+
+/// The span with the letters that it cuts off from a word, and the number behind that: PROGRA M 12.
+static Span whole_words(std::string_view line, Span span) {
+  while (span.begin > 0 && is_letter(line[span.begin - 1])) --span.begin;
+  const std::uint32_t end = span.end;
+  while (span.end < line.size() && is_letter(line[span.end])) ++span.end;
+  if (span.end == end) return span;
+  std::uint32_t number = span.end;
+  while (number < line.size() && syntax::is_blank(line[number])) ++number;
+  while (number < line.size() && syntax::is_digit(line[number])) span.end = ++number;
+  return span;
+}
+
+/// Words that people read, where words of the program should be.
+Draft text_as_comment(const Request& request) {
+  const Span span = whole_words(request.line.text, request.finding.span);
+  const std::string_view text = request.line.text_of(span);
+  static constexpr std::string_view kSigns = "()%#=;";
+  if (std::count_if(text.begin(), text.end(), is_letter) < 3 || text.find_first_of(kSigns) != std::string_view::npos)
+    return {};
+  return {{inserted(request, span.begin, "("), inserted(request, span.end, ")")}};
+}
+
+/// A comment inside the marked words stays as it is.
+Draft capitals(const Request& request) {
+  std::string text(request.marked());
+  for (std::uint32_t i = 0; i < text.size(); ++i) {
+    const auto is_here = [&](Span comment) { return comment.holds(request.finding.span.begin + i); };
+    if (std::none_of(request.line.comments.begin(), request.line.comments.end(), is_here))
+      text[i] = syntax::upper(text[i]);
+  }
+  return {{replaced(request, request.finding.span, std::move(text))}};
+}
+
+Draft blank_for_tab(const Request& request) { return {{replaced(request, request.finding.span, " ")}}; }
+
+}  // namespace isocnc::analyzer::fixes

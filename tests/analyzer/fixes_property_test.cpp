@@ -1,0 +1,130 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <regex>
+#include <variant>
+
+#include "interpreter/running/runner.h"
+#include "interpreter/syntax/tree_store.h"
+#include "tests/support/fixed_program.h"
+#include "tests/support/random_program.h"
+
+namespace isocnc::analyzer {
+namespace {
+
+using support::codes_of;
+using support::fixed;
+using support::Random;
+using support::RandomProgram;
+
+struct Sample {
+  std::string text;
+  std::string line_end;
+};
+
+/// What people write who have worked at other controls.
+std::string with_habits(Random& random, std::string line) {
+  switch (random.between(0, 40)) {
+    case 0:
+      return line + " M02";
+    case 1:
+      return line + " ;isolint: ignore W001, ISO003";
+    case 2:
+      return "(isolint: disable ISO011 W109) " + line;
+    case 3:
+      return "G21 " + line;
+    case 4:
+      return line + " G40";
+    case 5:
+      return line + " G71 G71";
+    case 6:
+      return line + " F500 F500";
+    case 7:
+      return "T101001 M06";
+    case 8:
+      return "%";
+    case 9:
+      return "G90 G91 " + line;
+    case 10:
+      return line + " (isolint: ignore) (isolint: enable)";
+    default:
+      return line;
+  }
+}
+
+/// Half of the programs have few mistakes, so that more than a few blocks run.
+Sample random_sample(Random& random) {
+  RandomProgram program(random);
+  program.labels = random.one_in(2) ? 12 : 100;
+  program.end_chances = random.one_in(2) ? 60 : 1'000;
+  std::vector<std::string> lines = program.lines(random.between(1, 40));
+  if (random.one_in(2))
+    std::erase_if(lines, [](const std::string& line) { return !syntax::ParsedLine(line).tree().findings.empty(); });
+  for (std::string& line : lines) line = with_habits(random, std::move(line));
+  const std::string line_end(random.any_of({"\n", "\r\n", "\r"}));
+  Sample sample{support::joined(lines, line_end), line_end};
+  if (random.one_in(4) && !sample.text.empty()) sample.text.resize(sample.text.size() - line_end.size());
+  return sample;
+}
+
+TEST(FixesProperty, AddNoFindingAndComeToAnEnd) {
+  std::size_t changed = 0;
+  for (const std::uint64_t seed : support::seeds(2'000)) {
+    Random random(seed);
+    const std::string text = random_sample(random).text;
+    const std::multiset<std::string> before = codes_of(text);
+    for (const bool unsafe : {false, true}) {
+      const std::string once = fixed(text, unsafe);
+      const std::multiset<std::string> after = codes_of(once);
+      ASSERT_TRUE(std::includes(before.begin(), before.end(), after.begin(), after.end()))
+          << "seed " << seed << (unsafe ? ", unsafe\n" : "\n") << text << "\n---\n"
+          << once;
+      ASSERT_EQ(fixed(once, unsafe), once) << "seed " << seed << "\n" << text;
+      changed += once != text ? 1 : 0;
+    }
+  }
+  EXPECT_GT(changed, 2'000u);
+}
+
+TEST(FixesProperty, KeepLineEndsAndTheLastOnesState) {
+  for (const std::uint64_t seed : support::seeds(4'000)) {
+    Random random(seed);
+    const auto [text, line_end] = random_sample(random);
+    const std::string once = fixed(text, true);
+    const std::string without = std::regex_replace(once, std::regex(line_end), "");
+    ASSERT_EQ(without.find_first_of("\r\n"), std::string::npos) << "seed " << seed;
+    // A program of nothing but a word that is removed has no line left to end.
+    if (once.empty()) continue;
+    ASSERT_EQ(once.ends_with(line_end), text.ends_with(line_end)) << "seed " << seed << "\n" << text;
+  }
+}
+
+/// What a program does to the machine, wherever in the text it says so; nothing where it does not run to its M02.
+std::string motions_of(const std::string& text, double vgpl) {
+  std::string motions;
+  const running::RunResult result = running::run(text, {.vgpl = vgpl}, [&](running::Event event) {
+    const bool is_about_text = std::holds_alternative<running::JumpEvent>(event.what) ||
+                               std::holds_alternative<running::FrameEvent>(event.what);
+    event.line = 0;
+    if (!is_about_text) motions += running::to_json(event) + "\n";
+  });
+  return result.ending == running::Ending::ProgramEnd ? motions : std::string();
+}
+
+TEST(FixesProperty, SafeOnesLeaveWhatTheProgramDoes) {
+  std::size_t compared = 0;
+  for (const std::uint64_t seed : support::seeds(10'000)) {
+    Random random(seed);
+    std::string text = random_sample(random).text;
+    const double vgpl = random.between(0, 4);
+    const std::string motions = motions_of(text, vgpl);
+    const std::string once = fixed(text, false);
+    if (motions.empty() || once == text) continue;
+    ++compared;
+    ASSERT_EQ(motions_of(once, vgpl), motions) << "seed " << seed << "\n" << text << "\n---\n" << once;
+  }
+  EXPECT_GT(compared, 200u);
+}
+
+}  // namespace
+}  // namespace isocnc::analyzer

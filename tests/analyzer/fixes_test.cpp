@@ -1,0 +1,192 @@
+#include "analyzer/fixes/fix_table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "analyzer/check_text.h"
+#include "analyzer/finding_fixes.h"
+#include "analyzer/fixer.h"
+#include "analyzer/suppressions.h"
+#include "tests/support/fixed_program.h"
+
+namespace isocnc::analyzer {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A program of tests/analyzer/fixes and what becomes of it. Lines that begin with `; ----` divide a file: `before,
+/// safe` or `before, unsafe`, then `after`; or `unchanged`. `; ====` stands between programs. A section that ends with
+/// `; ---- no line end` has none at its end, nor has what becomes of it.
+struct Case {
+  std::string name;  ///< File and line, for messages.
+  std::string code;
+  fixes::Safety safety = fixes::Safety::None;
+  std::string before;
+  std::string after;
+};
+
+void finish(std::vector<Case>& cases, Case& read, bool has_no_line_end) {
+  if (read.safety == fixes::Safety::None) read.after = read.before;
+  if (has_no_line_end) {
+    read.before.pop_back();
+    read.after.pop_back();
+  }
+  cases.push_back(read);
+}
+
+std::vector<Case> read_cases(const fs::path& file) {
+  std::vector<Case> cases;
+  std::ifstream input(file, std::ios::binary);
+  Case read;
+  std::string* section = nullptr;
+  bool has_no_line_end = false;
+  std::size_t number = 0;
+  for (std::string line; std::getline(input, line);) {
+    ++number;
+    if (line == "; ====") {
+      finish(cases, read, has_no_line_end);
+      section = nullptr;
+    } else if (line.starts_with("; ---- before") || line == "; ---- unchanged") {
+      const bool is_safe = line.ends_with(", safe");
+      read = {.name = file.filename().string() + ":" + std::to_string(number), .code = file.stem()};
+      if (line != "; ---- unchanged") read.safety = is_safe ? fixes::Safety::Safe : fixes::Safety::Unsafe;
+      section = &read.before;
+      has_no_line_end = false;
+    } else if (line == "; ---- no line end") {
+      has_no_line_end = true;
+    } else if (line == "; ---- after") {
+      section = &read.after;
+    } else if (section != nullptr) {
+      *section += line + "\n";
+    }
+  }
+  finish(cases, read, has_no_line_end);
+  return cases;
+}
+
+std::vector<Case> all_cases() {
+  std::vector<Case> cases;
+  for (const auto& entry : fs::directory_iterator(ISOCNC_SOURCE_DIR "/tests/analyzer/fixes"))
+    for (Case& each : read_cases(entry.path())) cases.push_back(std::move(each));
+  std::sort(cases.begin(), cases.end(), [](const Case& a, const Case& b) { return a.name < b.name; });
+  return cases;
+}
+
+using support::codes_of;
+using support::fixed;
+
+class FixCase : public testing::TestWithParam<Case> {};
+
+TEST_P(FixCase, BecomesWhatItShould) {
+  const Case& tested = GetParam();
+  EXPECT_EQ(fixed(tested.before, true, tested.code), tested.after) << tested.name;
+  EXPECT_EQ(fixed(tested.before, false, tested.code), tested.safety == fixes::Safety::Safe ? tested.after : tested.before)
+      << tested.name;
+}
+
+TEST_P(FixCase, HasTheFindingBeforeAndNoneOfAnyKindAfter) {
+  const Case& tested = GetParam();
+  EXPECT_GT(codes_of(tested.before, tested.code).count(tested.code), 0u) << tested.name;
+  if (tested.safety == fixes::Safety::None) return;
+  EXPECT_THAT(codes_of(tested.after, tested.code), testing::IsEmpty()) << tested.name << "\n" << tested.after;
+}
+
+/// CR, LF or CRLF: what is inserted ends like what is there.
+TEST_P(FixCase, KeepsLineEnds) {
+  const Case& tested = GetParam();
+  for (const std::string line_end : {"\r\n", "\r"}) {
+    const auto with = [&](const std::string& text) { return std::regex_replace(text, std::regex("\n"), line_end); };
+    EXPECT_EQ(fixed(with(tested.before), true, tested.code), with(tested.after)) << tested.name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, FixCase, testing::ValuesIn(all_cases()), [](const auto& tested) {
+  return std::regex_replace(tested.param.name, std::regex("[^A-Za-z0-9]"), "_");
+});
+
+/// The rows that made a fix for some finding of the cases, by their titles.
+TEST(FixTable, HasACaseForEachRow) {
+  std::set<std::pair<dialect::DiagnosticId, std::string_view>> made;
+  const execution::Setup setup;
+  for (const Case& tested : all_cases()) {
+    const Report report = support::found_in(tested.before, tested.code);
+    FindingFixes fixes(tested.before, report, setup);
+    for (const LocatedFinding& located : report.findings)
+      if (const auto fix = fixes.of(located)) made.emplace(located.finding.id, fix->title.en);
+  }
+  for (const fixes::FixDef& row : fixes::kFixes) {
+    if (row.make == nullptr) continue;
+    EXPECT_TRUE(made.contains({row.diagnostic, row.title.en}))
+        << dialect::definition(row.diagnostic).code << ": " << row.title.en;
+  }
+}
+
+TEST(FixTable, DecidesOnEachCode) {
+  for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
+    const dialect::DiagnosticId id{static_cast<std::uint8_t>(i)};
+    const auto is_its = [&](const fixes::FixDef& row) { return row.diagnostic == id; };
+    const auto first = std::find_if(fixes::kFixes.begin(), fixes::kFixes.end(), is_its);
+    EXPECT_NE(first, fixes::kFixes.end()) << dialect::definition(id).code << " is neither fixed nor told why not";
+    // All of a code's rows follow one another.
+    const auto behind = std::find_if_not(first, fixes::kFixes.end(), is_its);
+    EXPECT_TRUE(std::none_of(behind, fixes::kFixes.end(), is_its)) << dialect::definition(id).code;
+  }
+}
+
+TEST(FixTable, SpeaksBothLanguages) {
+  const auto names_in = [](std::string_view title) {
+    static const std::regex kName(R"(\{([a-z]*)\})");
+    const std::string text(title);
+    std::set<std::string> names;
+    for (std::sregex_iterator it(text.begin(), text.end(), kName); it != std::sregex_iterator(); ++it)
+      names.insert((*it)[1]);
+    return names;
+  };
+  for (const fixes::FixDef& row : fixes::kFixes) {
+    EXPECT_FALSE(row.title.en.empty());
+    EXPECT_FALSE(row.title.it.empty());
+    EXPECT_EQ(row.make == nullptr, row.safety == fixes::Safety::None) << row.title.en;
+    EXPECT_EQ(row.title.en.ends_with('.'), row.make == nullptr) << row.title.en;
+    EXPECT_EQ(row.title.it.ends_with('.'), row.make == nullptr) << row.title.it;
+    EXPECT_EQ(names_in(row.title.en), names_in(row.title.it));
+    for (const std::string& name : names_in(row.title.en)) EXPECT_TRUE(name == "text" || name == "new") << name;
+  }
+}
+
+/// What a title speaks of is there.
+TEST(FixTitles, NameWhatIsMarkedAndWhatIsNew) {
+  const execution::Setup setup;
+  for (const Case& tested : all_cases()) {
+    const Report report = support::found_in(tested.before, tested.code);
+    FindingFixes fixes(tested.before, report, setup);
+    for (const LocatedFinding& located : report.findings) {
+      const auto fix = fixes.of(located);
+      if (!fix) continue;
+      const bool names_new = fix->title.en.find("{new}") != std::string_view::npos;
+      EXPECT_TRUE(!names_new || !fix->what.empty()) << tested.name;
+      EXPECT_EQ(fix->title_in(dialect::Language::Italian).find('{'), std::string::npos);
+    }
+  }
+}
+
+/// The table's wrong programs, too, become better, never worse.
+TEST(FixTable, MendsTheTablesOwnPrograms) {
+  for (const dialect::DiagnosticDef& def : dialect::kDiagnostics) {
+    const std::string wrong = std::regex_replace(std::string(def.wrong), std::regex(R"(\[!|!\])"), "");
+    const std::multiset<std::string> before = codes_of(wrong, def.code);
+    const std::string text = fixed(wrong, true, def.code);
+    const std::multiset<std::string> after = codes_of(text, def.code);
+    EXPECT_TRUE(std::includes(before.begin(), before.end(), after.begin(), after.end())) << def.code << "\n" << text;
+    EXPECT_EQ(text == wrong, after == before) << def.code << "\n" << text;
+  }
+}
+
+}  // namespace
+}  // namespace isocnc::analyzer

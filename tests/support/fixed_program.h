@@ -1,0 +1,43 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "analyzer/check_text.h"
+#include "analyzer/fixer.h"
+#include "analyzer/style_findings.h"
+#include "analyzer/suppressions.h"
+
+namespace isocnc::support {
+
+/// What is shown by default, and one code more.
+inline analyzer::Selection selection_with(std::string_view code) {
+  analyzer::Selection selection;
+  if (!code.empty()) selection.follow({.severities = {std::string(code) + "=warning"}}, dialect::Language::English);
+  return selection;
+}
+
+/// The text with all that can be fixed; `code` is selected, too.
+inline std::string fixed(std::string_view text, bool unsafe, std::string_view code = {}) {
+  const analyzer::Selection selection = selection_with(code);
+  const execution::Setup setup;
+  return analyzer::fix_text(text, {.selection = selection, .setup = setup, .unsafe = unsafe}).text;
+}
+
+/// What is found and shown.
+inline analyzer::Report found_in(std::string_view text, std::string_view code = {}) {
+  const analyzer::Selection selection = selection_with(code);
+  analyzer::Report report = analyzer::with_style(analyzer::check_text(text, {}), text, selection);
+  return selection.shown(analyzer::suppress(std::move(report), text, selection));
+}
+
+/// What is found and shown, by its codes.
+inline std::multiset<std::string> codes_of(std::string_view text, std::string_view code = {}) {
+  std::multiset<std::string> codes;
+  for (const analyzer::LocatedFinding& located : found_in(text, code).findings)
+    codes.emplace(dialect::definition(located.finding.id).code);
+  return codes;
+}
+
+}  // namespace isocnc::support
