@@ -21,7 +21,7 @@ class JunitRenderer final : public Renderer {
 
   void file(std::string_view name, std::string_view text, const Report& report, Output& output) override {
     const auto failures = std::count_if(report.findings.begin(), report.findings.end(), [&](const auto& located) {
-      return style_.severity(located.finding.id) == dialect::Severity::Error;
+      return located.severity() == dialect::Severity::Error;
     });
     const std::string file = xml_escaped(plain_path(name));
     fmt::format_to(std::back_inserter(output.buffer()), "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n",

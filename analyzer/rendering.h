@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "analyzer/report.h"
-#include "analyzer/selection.h"
 #include "interpreter/dialect/diagnostic.h"
 #include "interpreter/syntax/unicode.h"
 
@@ -37,12 +36,6 @@ class LineFinder {
 struct Style {
   dialect::Language language = dialect::Language::English;
   bool color = false;
-  Selection selection;
-
-  /// Of a code that is shown.
-  dialect::Severity severity(dialect::DiagnosticId id) const {
-    return selection.severity(id).value_or(dialect::definition(id).severity);
-  }
 };
 
 /// A finding as the formats tell it: lines and columns from 1, columns in code points, the end exclusive.

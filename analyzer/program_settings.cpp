@@ -1,0 +1,38 @@
+#include "analyzer/program_settings.h"
+
+namespace isocnc::analyzer {
+
+using configuration::CodeWishes;
+using configuration::Configuration;
+using configuration::FileWishes;
+
+static Wishes wishes_of(const CodeWishes& wishes) {
+  Wishes result{.select = wishes.select, .ignore = wishes.ignore, .severities = {}};
+  for (const auto& [code, severity] : wishes.severity) result.severities.push_back(code + "=" + severity);
+  return result;
+}
+
+static Selection selection_of(const Configuration& configuration, const std::vector<bool>& holds,
+                              const Wishes& command_line) {
+  static constexpr auto kLanguage = dialect::Language::English;  // Of complaints, which have been made before.
+  Selection selection;
+  selection.follow(wishes_of(configuration.lint.wishes), kLanguage);
+  for (std::size_t i = 0; i < holds.size(); ++i)
+    if (holds[i]) selection.follow(wishes_of(configuration.lint.files[i].wishes), kLanguage);
+  selection.follow(command_line, kLanguage);
+  return selection;
+}
+
+ProgramSettings SettingsFinder::of(const std::filesystem::path& program) {
+  const Configuration& configuration = configurations_.in_folder(program.parent_path());
+  std::vector<bool> holds;
+  if (!configuration.lint.files.empty()) {
+    const std::filesystem::path real = configuration::real_path(program.parent_path()) / program.filename();
+    for (const FileWishes& files : configuration.lint.files) holds.push_back(files.patterns.match(real));
+  }
+  std::unique_ptr<const Selection>& selection = selections_[{&configuration, holds}];
+  if (!selection) selection = std::make_unique<Selection>(selection_of(configuration, holds, command_line_));
+  return {configuration.machine.setup, *selection};
+}
+
+}  // namespace isocnc::analyzer
