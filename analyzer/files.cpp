@@ -202,4 +202,8 @@ FileSelection select_programs(std::span<const std::string> paths, configuration:
   return selection;
 }
 
+fs::path place_of_program(const fs::path& path, const std::string& stdin_name) {
+  return path == "-" ? fs::path(stdin_name) : path;
+}
+
 }  // namespace isocnc::analyzer

@@ -45,4 +45,7 @@ FileSelection select_files(std::span<const std::string> paths, std::span<const s
 FileSelection select_programs(std::span<const std::string> paths, configuration::Configurations& configurations,
                               dialect::Language language);
 
+/// Where the configuration of a program is looked for: standard input has the name that it was given.
+std::filesystem::path place_of_program(const std::filesystem::path& path, const std::string& stdin_name);
+
 }  // namespace isocnc::analyzer

@@ -237,22 +237,18 @@ class Run {
   bool trouble_ = false;
 };
 
-/// The program that a path of the command is; standard input has the name that it was given.
-std::filesystem::path program_path(const std::filesystem::path& path, const Options& options) {
-  return path == "-" ? std::filesystem::path(options.stdin_name) : path;
-}
-
 /// Takes the first path's configuration for the language, too: one command speaks one.
 int format(Options options) {
   configuration::Configurations configurations(options.source, options.reader_language());
-  const auto& first = configurations.of(program_path(options.paths.front(), options));
+  const auto& first = configurations.of(place_of_program(options.paths.front(), options.stdin_name));
   if (options.language.empty() && first.language) options.language = configuration::name_of(*first.language);
   const Language language = options.reader_language();
   if (!check_options(options)) return kTrouble;
   const FileSelection selection = select_programs(options.paths, configurations, language);
   std::vector<ProgramStyle> styles;
   for (const std::filesystem::path& file : selection.files)
-    styles.push_back(style_by(configurations.in_folder(program_path(file, options).parent_path()).format, options));
+    styles.push_back(
+        style_by(configurations.in_folder(place_of_program(file, options.stdin_name).parent_path()).format, options));
   const std::vector<std::string> mistakes = configurations.mistakes(language);
   for (const std::string& mistake : mistakes) std::cerr << mistake << '\n';
   if (!mistakes.empty()) return kTrouble;

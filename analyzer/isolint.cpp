@@ -43,11 +43,6 @@ bool complain_of(const configuration::Configurations& configurations, Language l
   return !mistakes.empty();
 }
 
-/// The program or folder that a path of the command is; standard input has the name that it was given.
-const std::string& program_path(const std::string& path, const Options& options) {
-  return path == "-" ? options.stdin_name : path;
-}
-
 /// Where findings and all other answers go.
 class Answer final : public Output {
  public:
@@ -246,7 +241,7 @@ std::optional<Programs> find_programs(const Options& options, configuration::Con
               [](const auto& a, const auto& b) { return a.native() < b.native(); });
   Programs programs{.files = std::move(found.files), .settings = {}};
   for (const std::filesystem::path& file : programs.files)
-    programs.settings.push_back(settings.of(program_path(file, options)));
+    programs.settings.push_back(settings.of(place_of_program(file, options.stdin_name)));
   if (complain_of(configurations, language)) return std::nullopt;
   for (const std::string& problem : found.problems) complain(problem);
   trouble = !found.problems.empty();
@@ -266,7 +261,7 @@ bool writes_over(const std::string& output, const std::vector<std::filesystem::p
 int check(Options options) {
   if (options.paths.empty()) options.paths = {"."};
   configuration::Configurations configurations(options.source, options.reader_language());
-  options.follow(configurations.of(program_path(options.paths.front(), options)));
+  options.follow(configurations.of(place_of_program(options.paths.front(), options.stdin_name)));
   const Style style{.language = options.reader_language(), .color = options.wants_color()};
   const bool italian = style.language == Language::Italian;
   const std::vector<std::string> problems = Selection().follow(options.wishes, style.language);
@@ -316,7 +311,8 @@ int show_config(Options options) {
   static constexpr dialect::Text kOnePath = {"--show-config takes one path", "--show-config vuole un solo percorso"};
   if (options.paths.empty()) options.paths = {"."};
   configuration::Configurations configurations(options.source, options.reader_language());
-  const configuration::Configuration& shown = configurations.of(program_path(options.paths.front(), options));
+  const configuration::Configuration& shown =
+      configurations.of(place_of_program(options.paths.front(), options.stdin_name));
   options.follow(shown);
   const Language language = options.reader_language();
   if (complain_of(configurations, language)) return kTrouble;

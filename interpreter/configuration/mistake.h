@@ -15,7 +15,7 @@ struct Named {
   std::string en;
   std::string it;
 
-  Named(std::string name) : en(name), it(std::move(name)) {}  // NOLINT(google-explicit-constructor)
+  Named(std::string name) : en(name), it(std::move(name)) {}
   Named(const dialect::Text& text) : en(text.en), it(text.it) {}
 };
 

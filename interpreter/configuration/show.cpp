@@ -233,9 +233,11 @@ static std::string kind_of(const Key& key) {
 
 std::string key_page() {
   std::string page = "| Key | Value | Default | |\n|---|---|---|---|\n";
-  for (const Key& key : all_keys())
+  for (const Key& key : all_keys()) {
+    if (key.kind == KeyKind::Object && !key.slot) continue;  // Only its keys mean anything.
     fmt::format_to(std::back_inserter(page), "| `{}` | {} | {} | {} |\n", key.path, kind_of(key), default_of(key),
-                   description_of(key));
+                   key.documentation);
+  }
   return page;
 }
 

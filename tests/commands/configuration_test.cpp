@@ -250,9 +250,9 @@ TEST_F(ConfigurationFile, TellsIsofmtItsStyle) {
   EXPECT_EQ(formatted({"--renumber", "10:10", "--modal", "keep", "--decimals", "keep", "--g-digits", "1"}),
             "N10 G1 X1 Y2.50 F100\nN20 X3.0\nN30 M02\n");
   EXPECT_EQ(formatted({"--renumber", "keep", "--no-word-order", "--decimals", "1", "--g-digits", "keep"}),
-            "N1 G1 Y2.5 X1 F100\nN2 G1 X3\nN3 M02\n");
+            "N1 G1 Y2.5 X1 F100\nN2 G01 X3\nN3 M02\n");
   EXPECT_EQ(formatted({"--no-config"}), "N1 G1 Y2.50 X1 F100\nN2 X3.0\nN3 M02\n");
-  EXPECT_EQ(run({"isofmt", "--stdin-filename", "x.iso", "-"}, "g0\n").out, "G00\n");
+  EXPECT_EQ(run({"isofmt", "--stdin-filename", "x.iso", "-"}, "g0 x1\n").out, "G00 X1\n");
 }
 
 TEST_F(ConfigurationFile, TellsIsorunItsMachine) {

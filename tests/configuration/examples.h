@@ -108,7 +108,7 @@ inline constexpr WrongText kWrongTexts[] = {
     {R"({} {})", "1:4: nothing may follow the end of the configuration", kOnlyWeCanTell},
     {"{\"language\": \"en\n\"}", "1:14: a text without its closing quote", kOnlyWeCanTell},
     {"{\"language\": \"e\tn\"}", "1:14: a tab within a text; write \\t", kOnlyWeCanTell},
-    {R"({"language": "C:\iso"})", "1:14: a backslash that JSON does not know; write \\ for a backslash",
+    {R"({"language": "C:\iso"})", "1:14: a backslash that JSON does not know; write \\\\ for a backslash",
      kOnlyWeCanTell},
     {R"({"machine": {"maxFeed": 1e999}})", "1:25: a number too large to count with", kOnlyWeCanTell},
     {R"({"machine": {"maxFeed": 01}})", "1:26: 1 is out of place here", kOnlyWeCanTell},

@@ -3,13 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <set>
+#include <cstdint>
+#include <iterator>
 #include <string>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "examples.h"
 #include "interpreter/configuration/show.h"
+#include "tests/support/random.h"
 
 namespace isocnc::configuration {
 namespace {
@@ -63,8 +66,8 @@ TEST(ReadConfiguration, IsReadAgainFromWhatIsShown) {
 }
 
 TEST(ReadConfiguration, CountsColumnsInCodePoints) {
-  EXPECT_EQ(said_of("{\"machine\": {/* à */ \"x\": 1}}"), "1:22: machine.x: unknown key");
-  EXPECT_EQ(said_of("{\r\"x\": 1,\r\n\"y\": 2}"), "2:1: x: unknown key\n3:1: y: unknown key");
+  EXPECT_EQ(said_of("{\"machine\": {/* à */ \"u\": 1}}"), "1:22: machine.u: unknown key");
+  EXPECT_EQ(said_of("{\r\"u\": 1,\r\n\"v\": 2}"), "2:1: u: unknown key\n3:1: v: unknown key");
 }
 
 TEST(ReadConfiguration, LeavesTheSetupOpenWhereTheFileIsSilent) {
@@ -127,6 +130,22 @@ TEST(ReadConfiguration, RefusesAbsurdNesting) {
   const std::string deep(100'000, '[');
   EXPECT_EQ(said_of("{\"lint\": " + deep), "1:41: nested too deeply");
   EXPECT_EQ(said_of("{\"lint\": " + deep + std::string(deep.size(), ']') + "}"), "1:41: nested too deeply");
+}
+
+TEST(ReadConfigurationProperty, AnyTextIsReadOrRefusedWithinItself) {
+  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+    support::Random random(seed);
+    std::string text(kRightTexts[random.below(std::size(kRightTexts))]);
+    for (int edit = 0; edit < 4; ++edit)
+      text.replace(random.below(text.size() + 1), random.below(3), random.below(2),
+                   random.any_of("{}[]\",:/*\\ \n\r\t0-1.eEtnu\x01\xC3\xA8"));
+    const ReadConfiguration read = read_configuration(text, "/");
+    for (const Mistake& mistake : read.mistakes) {
+      EXPECT_LE(mistake.at, text.size()) << seed << ": " << text;
+      EXPECT_FALSE(mistake.message(Language::English).empty()) << seed << ": " << text;
+    }
+    EXPECT_TRUE(nlohmann::json::accept(text, true) || !read.mistakes.empty()) << seed << ": " << text;
+  }
 }
 
 TEST(ReadConfiguration, ShortensWhatItRepeats) {
