@@ -102,17 +102,17 @@ ProgramStyle style_by(const configuration::Format& format) {
   return style;
 }
 
+/// Puts what an option says in the place of what the configuration does: a number, or `keep` for none.
+void outweigh(std::optional<int>& value, const std::string& option) {
+  if (option.empty()) return;
+  value = option == "keep" ? std::nullopt : std::optional(std::stoi(option));
+}
+
 /// The configuration's style with what the command line says in its place. The options have been checked.
 ProgramStyle style_by(configuration::Format format, const Options& options) {
   if (options.word_order || options.no_word_order) format.word_order = options.word_order;
-  if (options.decimals == "keep")
-    format.decimals.reset();
-  else if (!options.decimals.empty())
-    format.decimals = std::stoi(options.decimals);
-  if (options.g_digits == "keep")
-    format.g_digits.reset();
-  else if (!options.g_digits.empty())
-    format.g_digits = options.g_digits == "1" ? 1 : 2;
+  outweigh(format.decimals, options.decimals);
+  outweigh(format.g_digits, options.g_digits);
   if (!options.modal.empty()) format.modal = options.modal;
   ProgramStyle style = style_by(format);
   if (!options.renumber.empty()) style.numbers = read_numbers(options.renumber);
@@ -133,6 +133,14 @@ bool check_options(const Options& options) {
     return false;
   }
   return true;
+}
+
+/// 0 to 15, and keep.
+std::vector<std::string> decimals_choices() {
+  std::vector<std::string> choices;
+  for (int most = 0; most <= 15; ++most) choices.push_back(std::to_string(most));
+  choices.emplace_back("keep");
+  return choices;
 }
 
 /// Formats programs one after another.
@@ -296,8 +304,8 @@ int run_main(int argc, char** argv) {
       ->excludes(word_order);
   app.add_option("--decimals", options.decimals,
                  "Zeros that mean nothing dropped, .5 as 0.5; numbers are never rounded; or keep")
-      ->type_name("MOST")
-      ->check(CLI::Range(0, 15) | CLI::IsMember({"keep"}));
+      ->option_text("MOST")
+      ->check(CLI::IsMember(decimals_choices()));
   app.add_option("--g-digits", options.g_digits, "1: G1; 2: G01; keep")->check(CLI::IsMember({"1", "2", "keep"}));
   app.add_option("--modal", options.modal, "Motion Gs: write on each line, fold where repeated, keep")
       ->check(CLI::IsMember({"write", "fold", "keep"}));
