@@ -65,7 +65,7 @@ class Search {
       std::error_code error;
       const bool is_link = entry.is_symlink(error);
       const bool is_folder = !is_link && entry.is_directory(error);
-      if (rules.excluded && rules.excluded->name(directory.real / name, is_folder)) continue;
+      if (rules.excluded != nullptr && rules.excluded->name(directory.real / name, is_folder)) continue;
       if (is_folder) {
         enter(directory / name, ignored);
       } else if (is_program(entry, rules.extensions) && !ignored.ignores(directory.real / name, false)) {

@@ -1,5 +1,7 @@
 #include "analyzer/program_settings.h"
 
+#include <fmt/format.h>
+
 namespace isocnc::analyzer {
 
 using configuration::CodeWishes;
@@ -8,7 +10,8 @@ using configuration::FileWishes;
 
 static Wishes wishes_of(const CodeWishes& wishes) {
   Wishes result{.select = wishes.select, .ignore = wishes.ignore, .severities = {}};
-  for (const auto& [code, severity] : wishes.severity) result.severities.push_back(code + "=" + severity);
+  for (const auto& [code, severity] : wishes.severity)
+    result.severities.push_back(fmt::format("{}={}", code, severity));
   return result;
 }
 

@@ -64,35 +64,35 @@ const Configuration& Configurations::nearest(const fs::path& folder) {
   return *(folders_[folder.native()] = found);
 }
 
-const Configuration& Configurations::load(const fs::path& path, const fs::path& shown) {
-  File& file = *files_.emplace_back(std::make_unique<File>());
-  file.configuration.file = shown;
+const Configuration& Configurations::load(const fs::path& file, const fs::path& shown) {
+  File& loaded = *files_.emplace_back(std::make_unique<File>());
+  loaded.configuration.file = shown;
   std::error_code error;
   const auto complain = [&](Mistake mistake, std::string_view text) {
-    file.mistakes.emplace_back(place_of(mistake.at, text), std::move(mistake));
+    loaded.mistakes.emplace_back(place_of(mistake.at, text), std::move(mistake));
   };
   // A pipe that happens to have the name would be waited for; one that is asked for may well be meant.
-  const fs::file_status status = fs::status(path, error);
+  const fs::file_status status = fs::status(file, error);
   if (!source_.file && fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) {
-    file.problem = mistakes::kNoFile.in(language_);
-    return file.configuration;
+    loaded.problem = mistakes::kNoFile.in(language_);
+    return loaded.configuration;
   }
-  const auto opened = SourceFile::open(path, language_);
+  const auto opened = SourceFile::open(file, language_);
   if (const auto* const problem = std::get_if<SourceFile::Problem>(&opened)) {
-    file.problem = problem->message;
-    return file.configuration;
+    loaded.problem = problem->message;
+    return loaded.configuration;
   }
   const auto& source = std::get<SourceFile>(opened);
   if (source.has_byte_order_mark()) complain({.text = mistakes::kByteOrderMark}, {});
   if (source.text().size() > kLongestFile) {
     complain({.text = mistakes::kTooLarge}, {});
-    return file.configuration;
+    return loaded.configuration;
   }
-  ReadConfiguration read = read_configuration(source.text(), real_path(path.parent_path()));
+  ReadConfiguration read = read_configuration(source.text(), real_path(file.parent_path()));
   for (Mistake& mistake : read.mistakes) complain(std::move(mistake), source.text());
-  file.configuration = std::move(read.configuration);
-  file.configuration.file = shown;
-  return file.configuration;
+  loaded.configuration = std::move(read.configuration);
+  loaded.configuration.file = shown;
+  return loaded.configuration;
 }
 
 std::vector<std::string> Configurations::mistakes(Language language) const {

@@ -93,6 +93,7 @@ static std::optional<std::string> same_name_elsewhere(std::string_view name) {
 
 static std::optional<std::string> meant_key(std::string_view written, const std::vector<const Key*>& keys) {
   std::vector<std::string> names;
+  names.reserve(keys.size());
   for (const Key* key : keys) names.emplace_back(key->name());
   if (auto near = dialect::nearest_name(written, names)) return near;
   return same_name_elsewhere(written);
