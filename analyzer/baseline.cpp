@@ -10,6 +10,7 @@
 #include "analyzer/fingerprint.h"
 #include "analyzer/rendering.h"
 #include "analyzer/selection.h"
+#include "interpreter/running/counted_bytes.h"
 #include "interpreter/running/source_file.h"
 
 namespace isocnc::analyzer {
@@ -18,6 +19,7 @@ namespace fs = std::filesystem;
 using dialect::DiagnosticId;
 using dialect::Language;
 using dialect::Text;
+using running::CountedBytes;
 
 static constexpr std::uint64_t kVersion = 1;
 
@@ -71,29 +73,6 @@ std::string Baseline::to_json() const {
     }
   return text + (first ? "]\n}\n" : "\n  ]\n}\n");
 }
-
-/// Where the parser has got to, for the lines of mistakes.
-class CountedBytes {
- public:
-  using iterator_category = std::input_iterator_tag;
-  using value_type = char;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const char*;
-  using reference = const char&;
-
-  CountedBytes(const char* at, const char*& furthest) : at_(at), furthest_(&furthest) {}
-  reference operator*() const { return *at_; }
-  CountedBytes& operator++() {
-    *furthest_ = std::max(*furthest_, ++at_);
-    return *this;
-  }
-  friend bool operator==(const CountedBytes& a, const CountedBytes& b) { return a.at_ == b.at_; }
-  friend bool operator!=(const CountedBytes& a, const CountedBytes& b) { return a.at_ != b.at_; }
-
- private:
-  const char* at_;
-  const char** furthest_;
-};
 
 /// Takes a baseline from its JSON, one value after the other, and stops at the first that has no business there.
 class BaselineReader final : public nlohmann::json_sax<nlohmann::json> {

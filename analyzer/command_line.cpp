@@ -9,18 +9,23 @@
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
-#include "analyzer/near_names.h"
 #include "analyzer/renderers.h"
 #include "interpreter/dialect/locale.h"
+#include "interpreter/dialect/near_names.h"
 
 namespace isocnc::analyzer {
 
 using dialect::Language;
+using dialect::nearest_name;
 
 Language Options::reader_language() const {
   if (language == "it") return Language::Italian;
   if (language == "en") return Language::English;
   return dialect::language_of_environment();
+}
+
+void Options::follow(const configuration::Configuration& configuration) {
+  if (language.empty() && configuration.language) language = configuration::name_of(*configuration.language);
 }
 
 bool Options::wants_color() const {
@@ -106,7 +111,13 @@ static void add_options(CLI::App& app, Options& options) {
       ->option_text("N");
   app.add_flag("--exit-zero", options.exit_zero, "Do not fail because of findings");
   app.add_option("--jobs,-j", options.jobs, "Threads; else one per core")->check(CLI::Range(1, 1024))->option_text("N");
-  app.add_flag("--no-config", options.no_config, "Read no isocnc.json");
+  CLI::Option* const config =
+      app.add_option("--config", options.source.file, "Read this, not the isocnc.json above each program")
+          ->option_text("FILE");
+  app.add_flag("--no-config", options.source.none, "Read no isocnc.json")->excludes(config);
+  app.add_flag("--show-config", options.show_config, "Print the configuration of PATH, and where it is");
+  app.add_flag("--config-schema", options.config_schema, "Print docs/isocnc.schema.json")->group("");
+  app.add_flag("--config-keys", options.config_keys, "Print the keys for docs/configuration.md")->group("");
   app.add_flag("--rules-page", options.rules_page, "Print docs/rules.md")->group("");
 }
 

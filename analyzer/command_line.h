@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analyzer/selection.h"
+#include "interpreter/configuration/configurations.h"
 
 namespace isocnc::analyzer {
 
@@ -29,9 +30,14 @@ struct Options {
   bool statistics = false;
   bool list_rules = false;
   bool rules_page = false;
-  bool no_config = false;
+  bool show_config = false;
+  bool config_schema = false;
+  bool config_keys = false;
+  configuration::Source source;
 
   dialect::Language reader_language() const;
+  /// Speaks the configuration's language from now on, unless the command line names one.
+  void follow(const configuration::Configuration& configuration);
   /// Whether findings are to be colored.
   bool wants_color() const;
   /// Whether standard output is for the fixed program, and findings go to standard error.

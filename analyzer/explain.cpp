@@ -122,9 +122,8 @@ static std::vector<std::string> fixes_of(DiagnosticId id, Language language) {
 
 std::string explain(dialect::DiagnosticId id, Language language) {
   const DiagnosticDef& def = dialect::definition(id);
-  std::string result =
-      fmt::format("{} {} ({}, {} {})\n{}\n\n", def.code, def.name, severity_text(def, language),
-                  kSection.in(language), def.section, def.title.in(language));
+  std::string result = fmt::format("{} {} ({}, {} {})\n{}\n\n", def.code, def.name, severity_text(def, language),
+                                   kSection.in(language), def.section, def.title.in(language));
   result += folded(def.explanation.in(language));
   if (!def.wrong.empty()) result += fmt::format("\n{}\n{}", kWrong.in(language), shown(def.wrong));
   if (!def.right.empty()) result += fmt::format("\n{}\n{}", kRight.in(language), shown(def.right));
@@ -149,8 +148,8 @@ std::string rules_page() {
       "This page is made from the table in `interpreter/dialect/diagnostic_table.h` (`isolint --rules-page`).\n";
   for (const DiagnosticDef& def : dialect::kDiagnostics) {
     page += fmt::format("\n## {} {}\n\n", def.code, def.name);
-    page += fmt::format("**{}** · {} · specification {}\n\n", def.title.en,
-                        severity_text(def, Language::English), def.section);
+    page += fmt::format("**{}** · {} · specification {}\n\n", def.title.en, severity_text(def, Language::English),
+                        def.section);
     page += fmt::format("{}\n\n> **{}.** {}\n", def.explanation.en, def.title.it, def.explanation.it);
     if (!def.wrong.empty()) page += fmt::format("\nWrong:\n\n{}", shown(def.wrong));
     if (!def.right.empty()) page += fmt::format("\nRight:\n\n{}", shown(def.right));

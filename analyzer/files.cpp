@@ -6,6 +6,9 @@
 #include <unordered_set>
 #include <utility>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "analyzer/gitignore.h"
 #include "interpreter/running/system_texts.h"
 
@@ -52,18 +55,20 @@ namespace {
 /// The search of one directory that the user named.
 class Search {
  public:
-  Search(std::span<const std::string> extensions, dialect::Language language)
-      : extensions_(extensions), language_(language) {}
+  Search(const RulesOfFolder& rules, dialect::Language language) : rules_(rules), language_(language) {}
 
-  void search(const Place& directory, const GitIgnore& rules) {
+  void search(const Place& directory, const GitIgnore& ignored) {
+    const SearchRules rules = rules_(directory.real);
     // The directory is closed before those in it are opened, however deep they go.
     for (const fs::directory_entry& entry : entries(directory)) {
       const fs::path name = entry.path().filename();
       std::error_code error;
       const bool is_link = entry.is_symlink(error);
-      if (!is_link && entry.is_directory(error)) {
-        enter(directory / name, rules);
-      } else if (is_program(entry) && !rules.ignores(directory.real / name, false)) {
+      const bool is_folder = !is_link && entry.is_directory(error);
+      if (rules.excluded != nullptr && rules.excluded->name(directory.real / name, is_folder)) continue;
+      if (is_folder) {
+        enter(directory / name, ignored);
+      } else if (is_program(entry, rules.extensions) && !ignored.ignores(directory.real / name, false)) {
         add(directory / name, is_link);
       }
     }
@@ -91,15 +96,15 @@ class Search {
     return result;
   }
 
-  void enter(const Place& directory, const GitIgnore& rules) {
-    if (directory.real.filename().native().starts_with(".git") || rules.ignores(directory.real, true)) return;
-    search(directory, rules.entering(directory.real));
+  void enter(const Place& directory, const GitIgnore& ignored) {
+    if (directory.real.filename().native().starts_with(".git") || ignored.ignores(directory.real, true)) return;
+    search(directory, ignored.entering(directory.real));
   }
 
   /// Not a pipe, which would be waited for, nor a symlink to nothing, which some editors leave as a lock.
-  bool is_program(const fs::directory_entry& entry) const {
+  static bool is_program(const fs::directory_entry& entry, std::span<const std::string> extensions) {
     const std::string name = entry.path().filename();
-    if (std::none_of(extensions_.begin(), extensions_.end(),
+    if (std::none_of(extensions.begin(), extensions.end(),
                      [&](const std::string& extension) { return has_extension(name, extension); })) {
       return false;
     }
@@ -112,7 +117,7 @@ class Search {
     programs_.push_back(std::move(file));
   }
 
-  std::span<const std::string> extensions_;
+  const RulesOfFolder& rules_;
   dialect::Language language_;
   std::vector<Place> programs_;
   std::vector<std::string> problems_;
@@ -121,8 +126,7 @@ class Search {
 /// Takes paths one after another, each file once.
 class Selector {
  public:
-  Selector(std::span<const std::string> extensions, dialect::Language language)
-      : extensions_(extensions), language_(language) {}
+  Selector(const RulesOfFolder& rules, dialect::Language language) : rules_(rules), language_(language) {}
 
   void select(const std::string& path) {
     std::error_code error;
@@ -141,7 +145,7 @@ class Selector {
  private:
   void select_directory(const std::string& path) {
     const Place directory{as_prefix(path), place_of(path).real};
-    Search search(extensions_, language_);
+    Search search(rules_, language_);
     search.search(directory, GitIgnore::at(directory.real));
     for (Place& program : search.take_programs()) add(std::move(program));
     for (std::string& text : search.take_problems()) selection_.problems.push_back(std::move(text));
@@ -151,7 +155,7 @@ class Selector {
     if (taken_.insert(file.real.native()).second) selection_.files.push_back(std::move(file.shown));
   }
 
-  std::span<const std::string> extensions_;
+  const RulesOfFolder& rules_;
   dialect::Language language_;
   std::unordered_set<std::string> taken_;
   FileSelection selection_;
@@ -159,29 +163,47 @@ class Selector {
 
 }  // namespace
 
-FileSelection select_files(std::span<const std::string> paths, std::span<const std::string> extensions,
-                           dialect::Language language) {
-  Selector selector(extensions, language);
+FileSelection select_files(std::span<const std::string> paths, const RulesOfFolder& rules, dialect::Language language) {
+  Selector selector(rules, language);
   for (const std::string& path : paths) selector.select(path);
   return selector.take();
 }
 
+FileSelection select_files(std::span<const std::string> paths, std::span<const std::string> extensions,
+                           dialect::Language language) {
+  return select_files(
+      paths,
+      [&](const fs::path&) {
+        return SearchRules{extensions, nullptr};
+      },
+      language);
+}
+
 static constexpr dialect::Text kDashNotAlone{"- (standard input) must be given alone",
                                              "- (lo standard input) va indicato da solo"};
-static constexpr dialect::Text kNothingFound{"no programs found (.iso .nc .cnc .tap .ngc)",
-                                             "nessun programma trovato (.iso .nc .cnc .tap .ngc)"};
+static constexpr dialect::Text kNothingFound{"no programs found", "nessun programma trovato"};
 
-FileSelection select_programs(std::span<const std::string> paths, dialect::Language language) {
+FileSelection select_programs(std::span<const std::string> paths, configuration::Configurations& configurations,
+                              dialect::Language language) {
   if (std::find(paths.begin(), paths.end(), "-") != paths.end()) {
     if (paths.size() == 1) return {.files = {"-"}, .problems = {}, .is_refused = false};
     return {.files = {}, .problems = {std::string(kDashNotAlone.in(language))}, .is_refused = true};
   }
-  FileSelection selection = select_files(paths, kProgramExtensions, language);
+  const auto rules = [&](const fs::path& folder) -> SearchRules {
+    const configuration::Lint& lint = configurations.in_folder(folder).lint;
+    return {lint.extensions, &lint.excluded};
+  };
+  FileSelection selection = select_files(paths, rules, language);
   if (selection.files.empty() && selection.problems.empty()) {
-    selection.problems.emplace_back(kNothingFound.in(language));
+    const auto& extensions = configurations.of(paths.front()).lint.extensions;
+    selection.problems.push_back(fmt::format("{} ({})", kNothingFound.in(language), fmt::join(extensions, " ")));
     selection.is_refused = true;
   }
   return selection;
+}
+
+fs::path place_of_program(const fs::path& path, const std::string& stdin_name) {
+  return path == "-" ? fs::path(stdin_name) : path;
 }
 
 }  // namespace isocnc::analyzer

@@ -175,6 +175,10 @@ class Fixer {
     Version version{.text = std::move(text)};
     version.found = check_text(version.text, wishes_.setup, wishes_.jobs);
     version.found = with_style(std::move(version.found), version.text, wishes_.selection);
+    std::erase_if(version.found.findings, [&](const LocatedFinding& located) {
+      const dialect::DiagnosticId id = located.finding.id;
+      return dialect::definition(id).is_off && !wishes_.selection.shows(id);  // Nobody looks for it.
+    });
     version.found = suppress(std::move(version.found), version.text, wishes_.selection);
     version.concerned = wishes_.selection.shown(version.found);
     const std::size_t selected = version.concerned.findings.size();

@@ -13,6 +13,7 @@
 #include "analyzer/files.h"
 #include "analyzer/program_formatter.h"
 #include "analyzer/unified_diff.h"
+#include "interpreter/configuration/configurations.h"
 #include "interpreter/dialect/locale.h"
 #include "interpreter/running/output_file.h"
 #include "interpreter/running/replace_file.h"
@@ -39,13 +40,14 @@ struct Options {
   bool to_stdout = false;
   bool in_place = false;
   bool word_order = false;
+  bool no_word_order = false;
   bool renumber_all = false;
-  bool no_config = false;
-  int decimals = -1;
+  std::string decimals;  // Empty, as the others: by the configuration.
   std::string renumber;
-  std::string modal = "keep";
-  std::string g_digits = "keep";
+  std::string modal;
+  std::string g_digits;
   std::string language;
+  configuration::Source source;
   std::string stdin_name = "<stdin>";
 
   Language reader_language() const {
@@ -61,8 +63,8 @@ struct Options {
 
 void complain(std::string_view what) { std::cerr << "isofmt: " << syntax::printable(what) << '\n'; }
 
-constexpr Text kWrongRenumber{"--renumber wants a start and a step, such as 10:10 or 5:5, not {}",
-                              "--renumber vuole un inizio e un passo, come 10:10 o 5:5, non {}"};
+constexpr Text kWrongRenumber{"--renumber wants a start and a step, such as 10:10 or 5:5, or keep, not {}",
+                              "--renumber vuole un inizio e un passo, come 10:10 o 5:5, oppure keep, non {}"};
 constexpr Text kRenumberAllAlone{"--renumber-all goes with --renumber START:STEP",
                                  "--renumber-all va con --renumber INIZIO:PASSO"};
 constexpr Text kOneProgram{"standard output takes one program; choose --check, --diff or -i for {}",
@@ -86,40 +88,72 @@ std::optional<NumberStyle> read_numbers(std::string_view text) {
   return style;
 }
 
-/// What programs are to look like; nothing after a complaint.
-std::optional<ProgramStyle> read_style(const Options& options) {
-  const Language language = options.reader_language();
+/// What a configuration wants programs to look like.
+ProgramStyle style_by(const configuration::Format& format) {
   ProgramStyle style;
-  if (options.decimals >= 0) style.line.most_decimals = options.decimals;
-  style.line.word_order = options.word_order;
-  if (options.g_digits == "1") style.line.g_digits = syntax::GDigits::One;
-  if (options.g_digits == "2") style.line.g_digits = syntax::GDigits::Two;
-  if (options.modal == "write") style.motions = MotionStyle::Write;
-  if (options.modal == "fold") style.motions = MotionStyle::Fold;
-  if (!options.renumber.empty()) {
-    style.numbers = read_numbers(options.renumber);
-    if (!style.numbers) {
-      complain(fmt::format(fmt::runtime(kWrongRenumber.in(language)), options.renumber));
-      return std::nullopt;
-    }
-    style.numbers->all_lines = options.renumber_all;
-  } else if (options.renumber_all) {
-    complain(kRenumberAllAlone.in(language));
-    return std::nullopt;
-  }
+  style.line.most_decimals = format.decimals;
+  style.line.word_order = format.word_order;
+  if (format.g_digits) style.line.g_digits = *format.g_digits == 1 ? syntax::GDigits::One : syntax::GDigits::Two;
+  if (format.modal == "write") style.motions = MotionStyle::Write;
+  if (format.modal == "fold") style.motions = MotionStyle::Fold;
+  if (const auto& renumber = format.renumber)
+    style.numbers = {static_cast<std::uint64_t>(renumber->start), static_cast<std::uint64_t>(renumber->step),
+                     renumber->all_lines};
   return style;
+}
+
+/// Puts what an option says in the place of what the configuration does: a number, or `keep` for none.
+void outweigh(std::optional<int>& value, const std::string& option) {
+  if (option.empty()) return;
+  value = option == "keep" ? std::nullopt : std::optional(std::stoi(option));
+}
+
+/// The configuration's style with what the command line says in its place. The options have been checked.
+ProgramStyle style_by(configuration::Format format, const Options& options) {
+  if (options.word_order || options.no_word_order) format.word_order = options.word_order;
+  outweigh(format.decimals, options.decimals);
+  outweigh(format.g_digits, options.g_digits);
+  if (!options.modal.empty()) format.modal = options.modal;
+  ProgramStyle style = style_by(format);
+  if (!options.renumber.empty()) style.numbers = read_numbers(options.renumber);
+  if (style.numbers && options.renumber_all) style.numbers->all_lines = true;
+  return style;
+}
+
+/// Whether the options say what can be done; else false, after a complaint.
+bool check_options(const Options& options) {
+  const Language language = options.reader_language();
+  const bool renumbers = !options.renumber.empty() && options.renumber != "keep";
+  if (renumbers && !read_numbers(options.renumber)) {
+    complain(fmt::format(fmt::runtime(kWrongRenumber.in(language)), options.renumber));
+    return false;
+  }
+  if (options.renumber_all && !renumbers) {
+    complain(kRenumberAllAlone.in(language));
+    return false;
+  }
+  return true;
+}
+
+/// 0 to 15, and keep.
+std::vector<std::string> decimals_choices() {
+  std::vector<std::string> choices;
+  for (int most = 0; most <= 15; ++most) choices.push_back(std::to_string(most));
+  choices.emplace_back("keep");
+  return choices;
 }
 
 /// Formats programs one after another.
 class Run {
  public:
-  Run(const Options& options, const ProgramStyle& style)
-      : options_(options), style_(style), mode_(options.mode()), language_(options.reader_language()) {}
+  explicit Run(const Options& options)
+      : options_(options), mode_(options.mode()), language_(options.reader_language()) {}
 
-  int run(const FileSelection& selection) {
+  /// `styles` has one for each file.
+  int run(const FileSelection& selection, const std::vector<ProgramStyle>& styles) {
     trouble_ = !selection.problems.empty();
-    for (const std::filesystem::path& file : selection.files) {
-      format_file(file);
+    for (std::size_t i = 0; i < selection.files.size(); ++i) {
+      format_file(selection.files[i], styles[i]);
       if (output_.error() != 0) break;
     }
     if (output_.flush() != 0) {
@@ -140,7 +174,7 @@ class Run {
     trouble_ = true;
   }
 
-  void format_file(const std::filesystem::path& file) {
+  void format_file(const std::filesystem::path& file, const ProgramStyle& style) {
     const bool from_stdin = file == "-";
     const std::string name = from_stdin ? options_.stdin_name : file.string();
     std::optional<running::FileReplacement> replacement;
@@ -149,7 +183,7 @@ class Run {
         from_stdin ? SourceFile::read_stream(STDIN_FILENO, language_) : SourceFile::open(file, language_);
     if (const auto* problem = std::get_if<SourceFile::Problem>(&opened)) return fail(name, problem->message);
     const auto& source = std::get<SourceFile>(opened);
-    ProgramFormatter formatter(source.text(), style_);
+    ProgramFormatter formatter(source.text(), style);
     if (const auto& obstacle = formatter.obstacle())
       return fail(name, fmt::format(fmt::runtime(kNotRenumbered.in(language_)), obstacle->message(language_)));
     switch (mode_) {
@@ -204,7 +238,6 @@ class Run {
   }
 
   const Options& options_;
-  const ProgramStyle& style_;
   const Mode mode_;
   const Language language_;
   running::OutputFile output_{STDOUT_FILENO};
@@ -212,11 +245,21 @@ class Run {
   bool trouble_ = false;
 };
 
-int format(const Options& options) {
+/// Takes the first path's configuration for the language, too: one command speaks one.
+int format(Options options) {
+  configuration::Configurations configurations(options.source, options.reader_language());
+  const auto& first = configurations.of(place_of_program(options.paths.front(), options.stdin_name));
+  if (options.language.empty() && first.language) options.language = configuration::name_of(*first.language);
   const Language language = options.reader_language();
-  const std::optional<ProgramStyle> style = read_style(options);
-  if (!style) return kTrouble;
-  const FileSelection selection = select_programs(options.paths, language);
+  if (!check_options(options)) return kTrouble;
+  const FileSelection selection = select_programs(options.paths, configurations, language);
+  std::vector<ProgramStyle> styles;
+  for (const std::filesystem::path& file : selection.files)
+    styles.push_back(
+        style_by(configurations.in_folder(place_of_program(file, options.stdin_name).parent_path()).format, options));
+  const std::vector<std::string> mistakes = configurations.mistakes(language);
+  for (const std::string& mistake : mistakes) std::cerr << mistake << '\n';
+  if (!mistakes.empty()) return kTrouble;
   for (const std::string& problem : selection.problems) complain(problem);
   if (selection.is_refused) return kTrouble;
   if (options.mode() == Mode::Stdout && selection.files.size() > 1) {
@@ -227,7 +270,7 @@ int format(const Options& options) {
     complain(kStandardInputInPlace.in(language));
     return kTrouble;
   }
-  return Run(options, *style).run(selection);
+  return Run(options).run(selection, styles);
 }
 
 /// What --help and --version ask for.
@@ -255,21 +298,28 @@ int run_main(int argc, char** argv) {
   modes->add_flag("--stdout", options.to_stdout, "Print the program formatted (what happens without a mode)");
   modes->add_flag("-i,--in-place", options.in_place, "Rewrite the programs");
   modes->require_option(0, 1);
-  app.add_flag("--word-order", options.word_order, "N first, arguments in the order X Y Z A B C I J K P Q R, then F");
+  CLI::Option* const word_order = app.add_flag("--word-order", options.word_order,
+                                               "N first, arguments in the order X Y Z A B C I J K P Q R, then F");
+  app.add_flag("--no-word-order", options.no_word_order, "Words in the order in which they stand")
+      ->excludes(word_order);
   app.add_option("--decimals", options.decimals,
-                 "Zeros that mean nothing dropped, .5 as 0.5; numbers are never rounded")
-      ->type_name("MOST")
-      ->check(CLI::Range(0, 15));
+                 "Zeros that mean nothing dropped, .5 as 0.5; numbers are never rounded; or keep")
+      ->option_text("MOST")
+      ->check(CLI::IsMember(decimals_choices()));
   app.add_option("--g-digits", options.g_digits, "1: G1; 2: G01; keep")->check(CLI::IsMember({"1", "2", "keep"}));
   app.add_option("--modal", options.modal, "Motion Gs: write on each line, fold where repeated, keep")
       ->check(CLI::IsMember({"write", "fold", "keep"}));
-  app.add_option("--renumber", options.renumber, "New line numbers on lines that have one; labels of GOTO follow")
+  app.add_option("--renumber", options.renumber,
+                 "New line numbers on lines that have one; labels of GOTO follow; or keep")
       ->type_name("START:STEP");
   app.add_flag("--renumber-all", options.renumber_all, "With --renumber: on every line that holds a block");
   app.add_option("--stdin-filename", options.stdin_name, "Name to show for standard input");
   app.add_option("--lang", options.language, "Language of messages: en, it (else from the locale)")
       ->check(CLI::IsMember({"en", "it"}));
-  app.add_flag("--no-config", options.no_config, "Read no isocnc.json");
+  CLI::Option* const config =
+      app.add_option("--config", options.source.file, "Read this, not the isocnc.json above each program")
+          ->type_name("FILE");
+  app.add_flag("--no-config", options.source.none, "Read no isocnc.json")->excludes(config);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {

@@ -2,6 +2,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <csignal>
+#include <functional>
 #include <iostream>
 #include <mutex>
 #include <thread>
@@ -18,10 +19,12 @@
 #include "analyzer/files.h"
 #include "analyzer/fixer.h"
 #include "analyzer/program_fixing.h"
+#include "analyzer/program_settings.h"
 #include "analyzer/renderers.h"
 #include "analyzer/style_findings.h"
 #include "analyzer/suppressions.h"
 #include "analyzer/tally.h"
+#include "interpreter/configuration/show.h"
 #include "interpreter/running/output_file.h"
 #include "interpreter/running/source_file.h"
 #include "interpreter/running/system_texts.h"
@@ -37,6 +40,13 @@ using running::SourceFile;
 enum ExitStatus { kClean = 0, kFindings = 1, kTrouble = 2 };
 
 void complain(std::string_view what) { std::cerr << "isolint: " << printable(what) << '\n'; }
+
+/// Tells what is wrong with the configurations read so far; false when there is nothing.
+bool complain_of(const configuration::Configurations& configurations, Language language) {
+  const std::vector<std::string> mistakes = configurations.mistakes(language);
+  for (const std::string& mistake : mistakes) std::cerr << mistake << '\n';
+  return !mistakes.empty();
+}
 
 /// Where findings and all other answers go.
 class Answer final : public Output {
@@ -74,15 +84,22 @@ ExitStatus say(std::string_view text, const Options& options) {
   return answer.finish() ? kClean : kTrouble;
 }
 
+/// What is to be checked, and how: one for each file.
+struct Programs {
+  std::vector<std::filesystem::path> files;
+  std::vector<std::reference_wrapper<const ProgramSettings>> settings;
+};
+
 /// Checks files side by side and shows what was found in their order.
 class Run {
  public:
   Run(const Options& options, const Style& style, std::unique_ptr<Renderer> renderer, std::optional<Baseline> baseline,
-      std::vector<std::filesystem::path> files)
+      Programs programs)
       : options_(options),
         style_(style),
         baseline_(std::move(baseline)),
-        files_(std::move(files)),
+        files_(std::move(programs.files)),
+        settings_(std::move(programs.settings)),
         renderer_(std::move(renderer)),
         jobs_(options.jobs > 0 ? options.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
         output_(options) {}
@@ -119,6 +136,7 @@ class Run {
   struct Checked {
     std::string name;
     std::variant<SourceFile, SourceFile::Problem> opened;
+    const ProgramSettings& settings;
     Report report = {};
     std::optional<FixedText> fixed = {};
     std::optional<std::string> why_not_fixed = {};
@@ -129,7 +147,7 @@ class Run {
 
   void work() {
     for (std::size_t index = next_++; index < files_.size(); index = next_++) {
-      const Checked checked = check(files_[index]);
+      const Checked checked = check(files_[index], settings_[index]);
       std::unique_lock lock(mutex_);
       turn_changed_.wait(lock, [&] { return turn_ == index; });
       show(checked);
@@ -138,13 +156,14 @@ class Run {
     }
   }
 
-  Checked check(const std::filesystem::path& path) {
+  Checked check(const std::filesystem::path& path, const ProgramSettings& settings) {
     const bool from_stdin = path == "-";
     std::optional<FileFixing> fixing;
     if (options_.fix && !options_.diff && !from_stdin) fixing.emplace(path);  // Before the file is read.
     Checked checked{
         from_stdin ? options_.stdin_name : path.string(),
-        from_stdin ? SourceFile::read_stream(STDIN_FILENO, style_.language) : SourceFile::open(path, style_.language)};
+        from_stdin ? SourceFile::read_stream(STDIN_FILENO, style_.language) : SourceFile::open(path, style_.language),
+        settings};
     const auto* const source = std::get_if<SourceFile>(&checked.opened);
     if (!source) return checked;
     if (options_.fix || options_.diff) {
@@ -157,9 +176,9 @@ class Run {
       checked.fixed.reset();
     }
     const std::string_view text = source->text();
-    Report report = style_.selection.shown(check_text(text, style_.setup, jobs_for(text)));
-    report = with_style(std::move(report), text, style_.selection);
-    report = style_.selection.shown(suppress(std::move(report), text, style_.selection));
+    Report report = settings.selection.shown(check_text(text, settings.setup, jobs_for(text)));
+    report = with_style(std::move(report), text, settings.selection);
+    report = settings.selection.shown(suppress(std::move(report), text, settings.selection));
     const std::size_t all = report.findings.size();
     checked.report = without_known(std::move(report), checked.name, text);
     known_ += all - checked.report.findings.size();
@@ -168,8 +187,8 @@ class Run {
 
   void fix(Checked& checked) {
     const std::string_view text = checked.original();
-    const FixWishes wishes{.selection = style_.selection,
-                           .setup = style_.setup,
+    const FixWishes wishes{.selection = checked.settings.selection,
+                           .setup = checked.settings.setup,
                            .unsafe = options_.unsafe_fixes,
                            .jobs = jobs_for(text),
                            .concern = [&](Report report, std::string_view version) {
@@ -203,7 +222,7 @@ class Run {
                   [&](std::string_view text) { program_.write(text); });
     if (output_.has_failed()) return;
     if (options_.diff) return show_difference(checked);
-    renderer_->file(checked.name, checked.text(), checked.report, output_);
+    renderer_->file({checked.name, checked.text(), checked.report, checked.settings.setup}, output_);
   }
 
   void show_difference(const Checked& checked) {
@@ -213,7 +232,7 @@ class Run {
     });
   }
 
-  std::size_t count(dialect::Severity severity) const { return tally_.of(severity, style_.selection); }
+  std::size_t count(dialect::Severity severity) const { return tally_.of(severity); }
 
   bool is_good_enough() const {
     const std::size_t warnings = count(dialect::Severity::Warning);
@@ -255,6 +274,7 @@ class Run {
   const Style& style_;
   const std::optional<Baseline> baseline_;
   const std::vector<std::filesystem::path> files_;
+  const std::vector<std::reference_wrapper<const ProgramSettings>> settings_;
   std::unique_ptr<Renderer> renderer_;
   const int jobs_;
   std::atomic<std::size_t> next_ = 0;
@@ -275,7 +295,10 @@ class Run {
 class Recorder final : public Renderer {
  public:
   explicit Recorder(Baseline& baseline) : baseline_(baseline) {}
-  void file(std::string_view name, std::string_view text, const Report& report, Output&) override {
+  void file(const CheckedProgram& program, Output&) override {
+    const std::string_view name = program.name;
+    const std::string_view text = program.text;
+    const Report& report = program.report;
     baseline_.add(name, text, report);
   }
 
@@ -284,12 +307,12 @@ class Recorder final : public Renderer {
 };
 
 /// Checks, and writes all that is found as a baseline, unless programs would be missing in it.
-int record(Options options, const Style& style, std::vector<std::filesystem::path> files, bool trouble) {
+int record(Options options, const Style& style, Programs programs, bool trouble) {
   const bool italian = style.language == Language::Italian;
   const std::string& file = options.write_baseline;
   options.exit_zero = true;  // What is recorded is nobody's failure.
   Baseline baseline(file);
-  if (Run(options, style, std::make_unique<Recorder>(baseline), {}, std::move(files)).run(trouble) != kClean) {
+  if (Run(options, style, std::make_unique<Recorder>(baseline), {}, std::move(programs)).run(trouble) != kClean) {
     complain(fmt::format("{}: {}", file, italian ? "non scritto" : "not written"));
     return kTrouble;
   }
@@ -301,18 +324,22 @@ int record(Options options, const Style& style, std::vector<std::filesystem::pat
 }
 
 /// The programs to be checked; none, after a complaint, when the check cannot begin.
-std::optional<std::vector<std::filesystem::path>> find_programs(const Options& options, bool& trouble) {
+std::optional<Programs> find_programs(const Options& options, configuration::Configurations& configurations,
+                                      SettingsFinder& settings, bool& trouble) {
   const Language language = options.reader_language();
-  const std::vector<std::string> here = {"."};
-  FileSelection found = select_programs(options.paths.empty() ? here : options.paths, language);
-  for (const std::string& problem : found.problems) complain(problem);
-  trouble = !found.problems.empty();
-  if (found.is_refused) return std::nullopt;
+  FileSelection found = select_programs(options.paths, configurations, language);
   // Readers of JSON compare arrays, whatever order the files were named in.
   if (options.format == "json")
     std::sort(found.files.begin(), found.files.end(),
               [](const auto& a, const auto& b) { return a.native() < b.native(); });
-  return std::move(found.files);
+  Programs programs{.files = std::move(found.files), .settings = {}};
+  for (const std::filesystem::path& file : programs.files)
+    programs.settings.push_back(settings.of(place_of_program(file, options.stdin_name)));
+  if (complain_of(configurations, language)) return std::nullopt;
+  for (const std::string& problem : found.problems) complain(problem);
+  trouble = !found.problems.empty();
+  if (found.is_refused) return std::nullopt;
+  return programs;
 }
 
 /// To write over a program while it is checked would take its lines away, and the author's work.
@@ -323,11 +350,15 @@ bool writes_over(const std::string& output, const std::vector<std::filesystem::p
   });
 }
 
-int check(const Options& options) {
-  Style style{
+/// Takes the first path's configuration for the language, too: one command speaks one.
+int check(Options options) {
+  if (options.paths.empty()) options.paths = {"."};
+  configuration::Configurations configurations(options.source, options.reader_language());
+  options.follow(configurations.of(place_of_program(options.paths.front(), options.stdin_name)));
+  const Style style{
       .language = options.reader_language(), .color = options.wants_color(), .unsafe_fixes = options.unsafe_fixes};
   const bool italian = style.language == Language::Italian;
-  const std::vector<std::string> problems = style.selection.follow(options.wishes, style.language);
+  const std::vector<std::string> problems = Selection().follow(options.wishes, style.language);
   for (const std::string& problem : problems) complain(problem);
   if (!problems.empty()) return kTrouble;
   std::unique_ptr<Renderer> renderer =
@@ -337,15 +368,16 @@ int check(const Options& options) {
     return kTrouble;
   }
   bool trouble = false;
-  auto files = find_programs(options, trouble);
-  if (!files) return kTrouble;
+  SettingsFinder settings(configurations, options.wishes);
+  auto programs = find_programs(options, configurations, settings, trouble);
+  if (!programs) return kTrouble;
   for (const std::string& written : {options.output, options.write_baseline}) {
-    if (!writes_over(written, *files)) continue;
+    if (!writes_over(written, programs->files)) continue;
     complain(fmt::format("{}: {}", written,
                          italian ? "è uno dei programmi da verificare" : "is one of the programs to be checked"));
     return kTrouble;
   }
-  if (!options.write_baseline.empty()) return record(options, style, *std::move(files), trouble);
+  if (!options.write_baseline.empty()) return record(options, style, *std::move(programs), trouble);
   std::optional<Baseline> baseline;
   if (!options.baseline.empty()) {
     auto read = Baseline::read(options.baseline, style.language);
@@ -355,7 +387,7 @@ int check(const Options& options) {
     }
     baseline = std::get<Baseline>(std::move(read));
   }
-  return Run(options, style, std::move(renderer), std::move(baseline), *std::move(files)).run(trouble);
+  return Run(options, style, std::move(renderer), std::move(baseline), *std::move(programs)).run(trouble);
 }
 
 int explain_code(const Options& options) {
@@ -363,6 +395,28 @@ int explain_code(const Options& options) {
   if (const auto id = dialect::find_diagnostic(options.explain)) return say(explain(*id, language), options);
   complain(unknown_code(options.explain, language));
   return kTrouble;
+}
+
+/// Prints a configuration as its file could say it, and tells where it comes from.
+int show_config(Options options) {
+  static constexpr dialect::Text kFrom = {"configuration: {}", "configurazione: {}"};
+  static constexpr dialect::Text kDefaults = {"no isocnc.json: these are the defaults",
+                                              "nessun isocnc.json: valgono questi valori predefiniti"};
+  static constexpr dialect::Text kOnePath = {"--show-config takes one path", "--show-config vuole un solo percorso"};
+  if (options.paths.empty()) options.paths = {"."};
+  configuration::Configurations configurations(options.source, options.reader_language());
+  const configuration::Configuration& shown =
+      configurations.of(place_of_program(options.paths.front(), options.stdin_name));
+  options.follow(shown);
+  const Language language = options.reader_language();
+  if (complain_of(configurations, language)) return kTrouble;
+  if (options.paths.size() > 1) {
+    complain(kOnePath.in(language));
+    return kTrouble;
+  }
+  complain(shown.file.empty() ? std::string(kDefaults.in(language))
+                              : fmt::format(fmt::runtime(kFrom.in(language)), shown.file.string()));
+  return say(configuration::to_json(shown), options);
 }
 
 int run_main(int argc, char** argv) {
@@ -376,6 +430,9 @@ int run_main(int argc, char** argv) {
     return kTrouble;
   }
   if (options.rules_page) return say(rules_page(), options);
+  if (options.config_schema) return say(configuration::json_schema(), options);
+  if (options.config_keys) return say(configuration::key_page(), options);
+  if (options.show_config) return show_config(options);
   if (options.list_rules) return say(list_rules(options.reader_language()), options);
   if (!options.explain.empty()) return explain_code(options);
   return check(options);

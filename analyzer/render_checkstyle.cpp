@@ -16,7 +16,10 @@ class CheckstyleRenderer final : public Renderer {
   }
   void end(std::string& output) override { output += "</checkstyle>\n"; }
 
-  void file(std::string_view name, std::string_view text, const Report& report, Output& output) override {
+  void file(const CheckedProgram& program, Output& output) override {
+    const std::string_view name = program.name;
+    const std::string_view text = program.text;
+    const Report& report = program.report;
     LineFinder lines(text);
     output.buffer() += fmt::format("  <file name=\"{}\">\n", xml_escaped(plain_path(name)));
     for (const LocatedFinding& located : report.findings) {

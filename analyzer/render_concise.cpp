@@ -10,7 +10,10 @@ class ConciseRenderer final : public Renderer {
  public:
   explicit ConciseRenderer(const Style& style) : style_(style) {}
 
-  void file(std::string_view name, std::string_view text, const Report& report, Output& output) override {
+  void file(const CheckedProgram& program, Output& output) override {
+    const std::string_view name = program.name;
+    const std::string_view text = program.text;
+    const Report& report = program.report;
     LineFinder lines(text);
     for (const LocatedFinding& located : report.findings) {
       const ShownFinding shown = show(located, lines, style_);

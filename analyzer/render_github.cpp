@@ -24,7 +24,10 @@ class GithubRenderer final : public Renderer {
  public:
   explicit GithubRenderer(const Style& style) : style_(style) {}
 
-  void file(std::string_view name, std::string_view text, const Report& report, Output& output) override {
+  void file(const CheckedProgram& program, Output& output) override {
+    const std::string_view name = program.name;
+    const std::string_view text = program.text;
+    const Report& report = program.report;
     static constexpr std::string_view kCommands[] = {"error", "warning", "notice"};
     const std::string file = escaped(printable(plain_path(name)), true);
     LineFinder lines(text);

@@ -17,7 +17,10 @@ class GitlabRenderer final : public Renderer {
   void begin(std::string& output) override { output += "["; }
   void end(std::string& output) override { output += first_ ? "]\n" : "\n]\n"; }
 
-  void file(std::string_view name, std::string_view text, const Report& report, Output& output) override {
+  void file(const CheckedProgram& program, Output& output) override {
+    const std::string_view name = program.name;
+    const std::string_view text = program.text;
+    const Report& report = program.report;
     static constexpr std::string_view kSeverities[] = {"major", "minor", "info"};
     const std::string path = plain_path(name);
     LineFinder lines(text);

@@ -16,10 +16,13 @@ class JsonRenderer final : public Renderer {
   void begin(std::string& output) override { output += "["; }
   void end(std::string& output) override { output += first_ ? "]\n" : "\n]\n"; }
 
-  void file(std::string_view name, std::string_view text, const Report& report, Output& output) override {
+  void file(const CheckedProgram& program, Output& output) override {
+    const std::string_view name = program.name;
+    const std::string_view text = program.text;
+    const Report& report = program.report;
     LineFinder lines(text);
     const StepTexts steps(text, report, style_.language);
-    FindingFixes fixes(text, report, style_.setup);
+    FindingFixes fixes(text, report, program.setup);
     for (const LocatedFinding& located : report.findings) {
       output.buffer() += first_ ? "\n  " : ",\n  ";
       first_ = false;

@@ -19,9 +19,12 @@ class JunitRenderer final : public Renderer {
   }
   void end(std::string& output) override { output += "</testsuites>\n"; }
 
-  void file(std::string_view name, std::string_view text, const Report& report, Output& output) override {
+  void file(const CheckedProgram& program, Output& output) override {
+    const std::string_view name = program.name;
+    const std::string_view text = program.text;
+    const Report& report = program.report;
     const auto failures = std::count_if(report.findings.begin(), report.findings.end(), [&](const auto& located) {
-      return style_.severity(located.finding.id) == dialect::Severity::Error;
+      return located.severity() == dialect::Severity::Error;
     });
     const std::string file = xml_escaped(plain_path(name));
     fmt::format_to(std::back_inserter(output.buffer()), "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n",

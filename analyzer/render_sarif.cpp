@@ -42,13 +42,16 @@ class SarifRenderer final : public Renderer {
     output += "\",\n\"columnKind\":\"unicodeCodePoints\",\n\"results\":[";
   }
 
-  void file(std::string_view name, std::string_view text, const Report& report, Output& output) override {
+  void file(const CheckedProgram& program, Output& output) override {
+    const std::string_view name = program.name;
+    const std::string_view text = program.text;
+    const Report& report = program.report;
     const Json artifact = {{"uri", uri_of(name)}, {"index", artifacts_.size()}};
     artifacts_.push_back({{"location", {{"uri", uri_of(name)}}}, {"roles", {"analysisTarget"}}});
     LineFinder lines(text);
     const StepTexts steps(text, report, style_.language);
     Fingerprints fingerprints;
-    FindingFixes fixes(text, report, style_.setup);
+    FindingFixes fixes(text, report, program.setup);
     for (const LocatedFinding& located : report.findings) {
       output.buffer() += first_ ? "\n" : ",\n";
       first_ = false;

@@ -13,7 +13,7 @@ class StatisticsRenderer final : public Renderer {
  public:
   StatisticsRenderer(const Style& style, bool as_json) : style_(style), as_json_(as_json) {}
 
-  void file(std::string_view, std::string_view, const Report& report, Output&) override { tally_.add(report); }
+  void file(const CheckedProgram& program, Output&) override { tally_.add(program.report); }
 
   void end(std::string& output) override { output += as_json_ ? json() : table(); }
 
@@ -33,7 +33,7 @@ class StatisticsRenderer final : public Renderer {
     for (const dialect::DiagnosticId id : found()) {
       const dialect::DiagnosticDef& def = dialect::definition(id);
       fmt::format_to(std::back_inserter(text), "{:6}  {:6}  {:7}  {}\n", tally_.of(id), def.code,
-                     dialect::severity_name(style_.severity(id), style_.language), def.title.in(style_.language));
+                     dialect::severity_name(tally_.heaviest(id), style_.language), def.title.in(style_.language));
     }
     return text;
   }
@@ -44,7 +44,7 @@ class StatisticsRenderer final : public Renderer {
       const dialect::DiagnosticDef& def = dialect::definition(id);
       array.push_back({{"code", def.code},
                        {"name", def.name},
-                       {"severity", dialect::severity_name(style_.severity(id), dialect::Language::English)},
+                       {"severity", dialect::severity_name(tally_.heaviest(id), dialect::Language::English)},
                        {"title", def.title.in(style_.language)},
                        {"count", tally_.of(id)}});
     }

@@ -55,11 +55,14 @@ class TextRenderer final : public Renderer {
  public:
   explicit TextRenderer(const Style& style) : style_(style) {}
 
-  void file(std::string_view name, std::string_view text, const Report& report, Output& output) override {
+  void file(const CheckedProgram& program, Output& output) override {
+    const std::string_view name = program.name;
+    const std::string_view text = program.text;
+    const Report& report = program.report;
     LineFinder lines(text);
     const StepTexts steps(text, report, style_.language);
     RelatedPlaces places(text);
-    FindingFixes fixes(text, report, style_.setup);
+    FindingFixes fixes(text, report, program.setup);
     for (const LocatedFinding& located : report.findings) {
       one(name, lines, places, located, report, steps, output.buffer());
       if (const std::optional<fixes::Fix> fix = fixes.of(located)) help(located, *fix, fixes, output.buffer());

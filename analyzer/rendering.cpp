@@ -41,7 +41,7 @@ ShownFinding show(const LocatedFinding& located, LineFinder& lines, const Style&
   const std::string_view marked = line.substr(finding.span.begin, finding.span.end - finding.span.begin);
   const std::size_t column = lines.column(finding.span.begin);
   return {.def = dialect::definition(finding.id),
-          .severity = style.severity(finding.id),
+          .severity = located.severity(),
           .line_text = line,
           .line = located.line + 1,
           .column = column,

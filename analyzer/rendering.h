@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "analyzer/report.h"
-#include "analyzer/selection.h"
 #include "interpreter/dialect/diagnostic.h"
 #include "interpreter/execution/setup.h"
 #include "interpreter/syntax/unicode.h"
@@ -38,14 +37,7 @@ class LineFinder {
 struct Style {
   dialect::Language language = dialect::Language::English;
   bool color = false;
-  Selection selection;
   bool unsafe_fixes = false;  ///< Whether --fix would make unsafe fixes, too.
-  execution::Setup setup;     ///< Of the check, and so of the fixes.
-
-  /// Of a code that is shown.
-  dialect::Severity severity(dialect::DiagnosticId id) const {
-    return selection.severity(id).value_or(dialect::definition(id).severity);
-  }
 };
 
 /// A finding as the formats tell it: lines and columns from 1, columns in code points, the end exclusive.
@@ -73,6 +65,14 @@ class StepTexts {
   std::map<std::pair<std::uint64_t, bool>, std::string> texts_;
 };
 
+/// A program and what is to be told of it.
+struct CheckedProgram {
+  std::string_view name;
+  std::string_view text;
+  const Report& report;
+  const execution::Setup& setup;  ///< Of the check, and so of the fixes.
+};
+
 /// Writes the findings of one file after another in one of the output formats.
 class Renderer {
  public:
@@ -80,7 +80,7 @@ class Renderer {
   /// Appends to `output` whatever precedes the first file.
   virtual void begin(std::string&) {}
   /// Appends the file's findings to `output`, which is handed to `flush` whenever it has grown long.
-  virtual void file(std::string_view name, std::string_view text, const Report& report, class Output& output) = 0;
+  virtual void file(const CheckedProgram& program, class Output& output) = 0;
   virtual void end(std::string&) {}
 };
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/syntax/finding.h"
 
 namespace isocnc::analyzer {
@@ -24,7 +26,10 @@ struct LocatedFinding {
 
   std::uint64_t line = 0;  ///< From 0.
   syntax::Finding finding;
-  std::int32_t path = kEveryPath;  ///< Of Report::paths.
+  std::int32_t path = kEveryPath;             ///< Of Report::paths.
+  std::optional<dialect::Severity> selected;  ///< What a selection has made of its severity.
+
+  dialect::Severity severity() const { return selected.value_or(dialect::definition(finding.id).severity); }
 
   friend bool operator==(const LocatedFinding&, const LocatedFinding&) = default;
 };

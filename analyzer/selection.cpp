@@ -1,26 +1,21 @@
 #include "analyzer/selection.h"
 
 #include <algorithm>
-#include <bitset>
 
 #include <fmt/format.h>
 
-#include "analyzer/near_names.h"
+#include "interpreter/dialect/code_set.h"
+#include "interpreter/dialect/near_names.h"
 #include "interpreter/syntax/characters.h"
 
 namespace isocnc::analyzer {
 
-using dialect::DiagnosticId;
+using dialect::CodeSet;
+using dialect::equal_words;
 using dialect::kDiagnosticCount;
 using dialect::Language;
 using dialect::Severity;
 using dialect::Text;
-
-/// The codes that one word names.
-struct CodeSet {
-  std::bitset<kDiagnosticCount> codes;
-  std::size_t exactness = 0;  ///< How many letters of the code were given; `ALL` gives none.
-};
 
 struct SeverityWish {
   CodeSet set;
@@ -46,40 +41,17 @@ static std::vector<std::string_view> words_of(const std::vector<std::string>& li
   return words;
 }
 
-static bool equal(std::string_view a, std::string_view b) { return a.size() == b.size() && begins_with(a, b); }
-
-static std::optional<CodeSet> codes_of(std::string_view word) {
-  CodeSet set;
-  if (equal(word, "ALL")) {
-    set.codes.set();
-    return set;
-  }
-  for (std::size_t i = 0; i < kDiagnosticCount; ++i)
-    if (begins_with(dialect::kDiagnostics[i].code, word)) set.codes.set(i);
-  set.exactness = word.size();
-  if (const std::optional<DiagnosticId> id = dialect::find_diagnostic(word)) {
-    set.codes.set(static_cast<std::size_t>(*id));
-    set.exactness = dialect::definition(*id).code.size();
-  }
-  return set.codes.any() ? std::optional(set) : std::nullopt;
-}
-
 std::string unknown_code(std::string_view code, Language language) {
   static constexpr Text kUnknown = {"unknown code:", "codice sconosciuto:"};
-  std::vector<std::string> names;
-  for (const dialect::DiagnosticDef& def : dialect::kDiagnostics) {
-    names.emplace_back(def.code);
-    names.emplace_back(def.name);
-  }
   return fmt::format("{} {}{} (--list-rules)", kUnknown.in(language), code,
-                     did_you_mean(nearest_name(code, names), language));
+                     dialect::did_you_mean(dialect::nearest_code(code), language));
 }
 
 static std::vector<CodeSet> code_sets(const std::vector<std::string>& lists, Language language,
                                       std::vector<std::string>& problems) {
   std::vector<CodeSet> sets;
   for (const std::string_view word : words_of(lists)) {
-    if (const std::optional<CodeSet> set = codes_of(word)) {
+    if (const std::optional<CodeSet> set = dialect::find_codes(word)) {
       sets.push_back(*set);
     } else {
       problems.push_back(unknown_code(word, language));
@@ -97,13 +69,13 @@ static std::optional<SeverityWish> severity_wish(std::string_view word, Language
   const std::string_view code = trimmed(word.substr(0, equals));
   const std::string_view level = trimmed(word.substr(std::min(equals + 1, word.size())));
   SeverityWish wish;
-  bool known = equal(level, "off");
+  bool known = equal_words(level, "off");
   for (const Severity severity : {Severity::Error, Severity::Warning, Severity::Info}) {
-    if (!equal(level, dialect::severity_name(severity, Language::English))) continue;
+    if (!equal_words(level, dialect::severity_name(severity, Language::English))) continue;
     wish.severity = severity;
     known = true;
   }
-  const std::optional<CodeSet> set = codes_of(code);
+  const std::optional<CodeSet> set = dialect::find_codes(code);
   if (!known) {
     problems.push_back(fmt::format(fmt::runtime(kForm.in(language)), word));
   } else if (!set) {
@@ -159,6 +131,7 @@ std::vector<std::string> Selection::follow(const Wishes& wishes, Language langua
 
 Report Selection::shown(Report report) const {
   std::erase_if(report.findings, [&](const LocatedFinding& located) { return !shows(located.finding.id); });
+  for (LocatedFinding& located : report.findings) located.selected = severity(located.finding.id);
   return report;
 }
 

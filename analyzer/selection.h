@@ -35,7 +35,7 @@ class Selection {
     return severities_[static_cast<std::size_t>(id)];
   }
   bool shows(dialect::DiagnosticId id) const { return severity(id).has_value(); }
-  /// The report without findings that are off.
+  /// The report without findings that are off, and each of the others with its severity.
   Report shown(Report report) const;
 
  private:

@@ -1,28 +1,40 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <numeric>
 
-#include "analyzer/selection.h"
+#include "analyzer/report.h"
 
 namespace isocnc::analyzer {
 
-/// How often each code was found.
+/// How often each code was found, and how much it weighed: not the same in every program.
 class Tally {
  public:
   void add(const Report& report) {
-    for (const LocatedFinding& located : report.findings) ++counts_[static_cast<std::size_t>(located.finding.id)];
+    for (const LocatedFinding& located : report.findings)
+      ++counts_[static_cast<std::size_t>(located.finding.id)][static_cast<std::size_t>(located.severity())];
   }
-  std::size_t of(dialect::DiagnosticId id) const { return counts_[static_cast<std::size_t>(id)]; }
-  /// Findings that weigh so much by this selection.
-  std::size_t of(dialect::Severity severity, const Selection& selection) const {
+  std::size_t of(dialect::DiagnosticId id) const {
+    const Counts& counts = counts_[static_cast<std::size_t>(id)];
+    return std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+  }
+  std::size_t of(dialect::Severity severity) const {
     std::size_t sum = 0;
-    for (std::size_t i = 0; i < counts_.size(); ++i)
-      if (selection.severity(dialect::DiagnosticId{static_cast<std::uint8_t>(i)}) == severity) sum += counts_[i];
+    for (const Counts& counts : counts_) sum += counts[static_cast<std::size_t>(severity)];
     return sum;
+  }
+  /// The most that a code weighed where it was found.
+  dialect::Severity heaviest(dialect::DiagnosticId id) const {
+    const Counts& counts = counts_[static_cast<std::size_t>(id)];
+    const auto first = std::find_if(counts.begin(), counts.end(), [](std::size_t count) { return count > 0; });
+    return first == counts.end() ? dialect::definition(id).severity : dialect::Severity(first - counts.begin());
   }
 
  private:
-  std::array<std::size_t, dialect::kDiagnosticCount> counts_{};
+  using Counts = std::array<std::size_t, 3>;  // By severity, the heaviest first.
+
+  std::array<Counts, dialect::kDiagnosticCount> counts_{};
 };
 
 }  // namespace isocnc::analyzer

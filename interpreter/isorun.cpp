@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "interpreter/configuration/configurations.h"
 #include "interpreter/dialect/locale.h"
 #include "interpreter/running/output_file.h"
 #include "interpreter/running/runner.h"
@@ -36,6 +37,8 @@ struct Options {
   std::vector<std::string> settings;
   std::string vgpl = "0";
   std::string until;
+  configuration::Source source;
+  std::optional<std::string> machine;
 
   Language reader_language() const {
     if (language.empty()) return dialect::language_of_environment();
@@ -195,10 +198,35 @@ int run_program(std::string_view program, const Options& options, const RunOptio
   return result.ending == Ending::Error ? kStopped : kRan;
 }
 
-int run_file(const Options& options) {
+/// What the checks know of the machine; none, after a complaint, when a file is wrong. The program's configuration also
+/// tells the language to speak, unless the command line does.
+std::optional<execution::Setup> read_machine(Options& options) {
+  using configuration::Configurations;
   const Language language = options.reader_language();
-  const std::optional<RunOptions> run_options = read_run_options(options);
+  Configurations found(options.source, language);
+  Configurations given({.file = options.machine, .none = !options.machine}, language);
+  const std::filesystem::path program = options.reads_stdin() ? "" : options.file;
+  const configuration::Configuration& configuration = found.in_folder(program.parent_path());
+  const configuration::Configuration& machine =
+      options.machine ? given.in_folder(program.parent_path()) : configuration;
+  if (options.language.empty() && configuration.language)
+    options.language = configuration::name_of(*configuration.language);
+  bool is_right = true;
+  for (const Configurations* read : {&found, &given})
+    for (const std::string& mistake : read->mistakes(options.reader_language())) {
+      std::cerr << mistake << '\n';
+      is_right = false;
+    }
+  return is_right ? std::optional(machine.machine.setup) : std::nullopt;
+}
+
+int run_file(Options options) {
+  const std::optional<execution::Setup> setup = read_machine(options);
+  if (!setup) return kTrouble;
+  const Language language = options.reader_language();
+  std::optional<RunOptions> run_options = read_run_options(options);
   if (!run_options) return kTrouble;
+  run_options->setup = *setup;
   if (!options.reads_stdin() && is_same_file(options.file, options.trace)) {
     complain(fmt::format("{}: {}", options.trace, kOverwritesProgram.in(language)));
     return kTrouble;
@@ -231,6 +259,12 @@ int run_main(int argc, char** argv) {
   app.add_option("--set", options.settings, "Value of a register at the start: V3=1.5")
       ->type_name("V=VALUE")
       ->allow_extra_args(false);
+  app.add_option("--machine", options.machine, "The machine of this file, not of the program's isocnc.json")
+      ->type_name("FILE");
+  CLI::Option* const config =
+      app.add_option("--config", options.source.file, "Read this, not the isocnc.json above the program")
+          ->type_name("FILE");
+  app.add_flag("--no-config", options.source.none, "Read no isocnc.json")->excludes(config);
   app.add_option("--until", options.until, "Stop before this line")->type_name("LINE");
   app.add_option("--lang", options.language, "en, it (else from the locale)")->check(CLI::IsMember({"en", "it"}));
   try {

@@ -161,7 +161,8 @@ Draft center_completed(const Request& request) {
 
 /// R9.999 where half the way is 10: a rounding.
 Draft radius_large_enough(const Request& request) {
-  const auto [radius, needed] = request.finding.values;
+  const double radius = request.finding.values[0];
+  const double needed = request.finding.values[1];
   const Instruction* const motion = marked_motion(request);
   const std::optional<State> state = motion ? state_at_motion(request, *motion) : std::nullopt;
   if (!state || !(radius > 0) || needed - radius > needed / 20) return {};

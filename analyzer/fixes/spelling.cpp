@@ -208,6 +208,16 @@ Draft capitals(const Request& request) {
   return {{replaced(request, request.finding.span, std::move(text))}};
 }
 
-Draft blank_for_tab(const Request& request) { return {{replaced(request, request.finding.span, " ")}}; }
+/// All of the line: it has one finding.
+Draft blank_for_tab(const Request& request) {
+  Draft draft;
+  for (std::uint32_t at = request.finding.span.begin; at < request.line.text.size(); ++at) {
+    const auto is_here = [&](Span comment) { return comment.holds(at); };
+    if (request.line.text[at] == '\t' &&
+        std::none_of(request.line.comments.begin(), request.line.comments.end(), is_here))
+      draft.edits.push_back(replaced(request, {at, at + 1}, " "));
+  }
+  return draft;
+}
 
 }  // namespace isocnc::analyzer::fixes

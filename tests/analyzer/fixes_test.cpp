@@ -87,7 +87,8 @@ class FixCase : public testing::TestWithParam<Case> {};
 TEST_P(FixCase, BecomesWhatItShould) {
   const Case& tested = GetParam();
   EXPECT_EQ(fixed(tested.before, true, tested.code), tested.after) << tested.name;
-  EXPECT_EQ(fixed(tested.before, false, tested.code), tested.safety == fixes::Safety::Safe ? tested.after : tested.before)
+  EXPECT_EQ(fixed(tested.before, false, tested.code),
+            tested.safety == fixes::Safety::Safe ? tested.after : tested.before)
       << tested.name;
 }
 

@@ -69,9 +69,10 @@ TEST(IsolintUsage, HelpNamesEveryOption) {
   const CommandResult result = run_command({"isolint", "--help"});
   EXPECT_EQ(result.status, 0);
   for (const std::string option :
-       {"--format", "--lang", "--color", "--jobs", "--stdin-filename", "--explain", "--list-rules", "--no-config",
-        "--version", "--help", "--select", "--ignore", "--severity", "--baseline", "--write-baseline", "--max-warnings",
-        "--exit-zero", "--output", "--statistics"})
+       {"--format",     "--lang",      "--color",          "--jobs",         "--stdin-filename", "--explain",
+        "--list-rules", "--no-config", "--version",        "--help",         "--select",         "--ignore",
+        "--severity",   "--baseline",  "--write-baseline", "--max-warnings", "--exit-zero",      "--output",
+        "--statistics", "--config",    "--show-config"})
     EXPECT_THAT(result.out, HasSubstr(option));
 }
 

@@ -39,6 +39,9 @@ const std::vector<Room> kHouse = {
     {"interpreter/running",
      {"interpreter/dialect", "interpreter/syntax", "interpreter/geometry", "interpreter/execution",
       "interpreter/motion", "interpreter/running"}},
+    {"interpreter/configuration",
+     {"interpreter/dialect", "interpreter/syntax", "interpreter/geometry", "interpreter/execution",
+      "interpreter/running", "interpreter/configuration"}},
     {"interpreter", {"interpreter"}},
     {"analyzer/rules",
      {"interpreter/dialect", "interpreter/syntax", "interpreter/geometry", "interpreter/execution", "analyzer/rules"}},
@@ -47,7 +50,7 @@ const std::vector<Room> kHouse = {
      {"interpreter/dialect", "interpreter/syntax", "interpreter/geometry", "interpreter/execution", "analyzer/fixes"}},
     {"analyzer",
      {"interpreter/dialect", "interpreter/syntax", "interpreter/geometry", "interpreter/execution",
-      "interpreter/running", "analyzer"}},
+      "interpreter/running", "interpreter/configuration", "analyzer"}},
     {"lsp", {"interpreter", "analyzer", "lsp"}},
     {"debugger", {"interpreter", "analyzer", "lsp/rpc", "debugger"}},
 };

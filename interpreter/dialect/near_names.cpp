@@ -1,4 +1,4 @@
-#include "analyzer/near_names.h"
+#include "interpreter/dialect/near_names.h"
 
 #include <algorithm>
 #include <cctype>
@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace isocnc::analyzer {
+namespace isocnc::dialect {
 
 static bool same_letter(char a, char b) {
   return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
@@ -52,8 +52,8 @@ std::optional<std::string> nearest_name(std::string_view typed, std::span<const 
   return nearest;
 }
 
-std::string did_you_mean(const std::optional<std::string>& name, dialect::Language language) {
-  static constexpr dialect::Text kQuestion = {"; did you mean {}?", "; forse {}?"};
+std::string did_you_mean(const std::optional<std::string>& name, Language language) {
+  static constexpr Text kQuestion = {"; did you mean {}?", "; forse {}?"};
   return name ? fmt::format(fmt::runtime(kQuestion.in(language)), *name) : "";
 }
 
@@ -61,4 +61,4 @@ bool begins_with(std::string_view text, std::string_view beginning) {
   return text.size() >= beginning.size() && std::equal(beginning.begin(), beginning.end(), text.begin(), same_letter);
 }
 
-}  // namespace isocnc::analyzer
+}  // namespace isocnc::dialect

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "interpreter/configuration/path_patterns.h"
+#include "interpreter/dialect/diagnostic.h"
+#include "interpreter/execution/setup.h"
+
+namespace isocnc::configuration {
+
+/// What programs are called, unless a configuration says otherwise.
+inline const std::array<std::string, 5> kProgramExtensions{".iso", ".nc", ".cnc", ".tap", ".ngc"};
+
+/// A tool of the machine. Lengths in mm.
+struct Tool {
+  execution::ToolCode code;
+  std::string name;
+  std::optional<double> length;
+  std::optional<double> radius;
+};
+
+/// An M function of the shop.
+struct NamedFunction {
+  int number = 0;
+  std::string name;
+};
+
+struct Machine {
+  execution::Setup setup;  ///< Its tools and functions are those below.
+  std::optional<std::vector<Tool>> tools;
+  std::optional<std::vector<NamedFunction>> functions;
+};
+
+/// Codes as a selection names them.
+struct CodeWishes {
+  std::vector<std::string> select;
+  std::vector<std::string> ignore;
+  std::vector<std::pair<std::string, std::string>> severity;  ///< A code; error, warning, info or off.
+};
+
+/// What holds for some programs alone.
+struct FileWishes {
+  std::vector<std::string> paths;
+  PathPatterns patterns;  ///< Of `paths`.
+  CodeWishes wishes;
+};
+
+struct Lint {
+  CodeWishes wishes;
+  std::vector<FileWishes> files;  ///< The later ones outweigh the earlier ones.
+  std::vector<std::string> extensions{kProgramExtensions.begin(), kProgramExtensions.end()};  ///< With their point.
+  std::vector<std::string> exclude;
+  PathPatterns excluded;  ///< Of `exclude`.
+};
+
+struct Renumber {
+  int start = 10;
+  int step = 10;
+  bool all_lines = false;
+};
+
+/// How programs are formatted, where the command does not tell.
+struct Format {
+  bool word_order = false;
+  std::optional<int> decimals;
+  std::optional<int> g_digits;
+  std::string modal = "keep";
+  std::optional<Renumber> renumber;
+};
+
+/// What an isocnc.json says; what it leaves out, and without a file all, is as it was ever since.
+struct Configuration {
+  Machine machine;
+  Lint lint;
+  Format format;
+  std::optional<dialect::Language> language;
+  std::filesystem::path file;  ///< As shown to people; empty without one.
+};
+
+/// A language by the name that files and commands give it, and the other way around.
+std::optional<dialect::Language> language_named(std::string_view name);
+std::string_view name_of(dialect::Language language);
+
+}  // namespace isocnc::configuration

@@ -1,0 +1,112 @@
+#include "interpreter/configuration/configurations.h"
+
+#include <system_error>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "interpreter/configuration/read.h"
+#include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/running/source_file.h"
+#include "interpreter/syntax/unicode.h"
+
+namespace isocnc::configuration {
+
+namespace fs = std::filesystem;
+using dialect::Language;
+using running::SourceFile;
+
+fs::path real_path(const fs::path& path) {
+  std::error_code error;
+  fs::path real = fs::weakly_canonical(path.empty() ? "." : path, error);
+  if (error) real = fs::absolute(path, error).lexically_normal();
+  // What does not exist stays relative.
+  if (real.is_relative()) real = (fs::current_path(error) / real).lexically_normal();
+  return real;
+}
+
+/// As people would write it: from where they are, when it is below.
+static fs::path shown_path(const fs::path& file) {
+  std::error_code error;
+  const fs::path relative = file.lexically_relative(fs::current_path(error));
+  return error || relative.empty() || *relative.begin() == ".." ? file : relative;
+}
+
+Configurations::Configurations(Source source, Language language) : source_(std::move(source)), language_(language) {}
+
+const Configuration& Configurations::in_folder(const fs::path& folder) {
+  const auto [known, is_new] = asked_.try_emplace(folder.native(), &none_);
+  if (!is_new || source_.none) return *known->second;
+  const bool is_loaded = source_.file && !files_.empty();
+  const Configuration& found = is_loaded      ? files_.front()->configuration
+                               : source_.file ? load(*source_.file, *source_.file)
+                                              : nearest(real_path(folder));
+  return *(asked_[folder.native()] = &found);
+}
+
+const Configuration& Configurations::of(const fs::path& path) {
+  std::error_code error;
+  return in_folder(fs::is_directory(path, error) ? path : path.parent_path());
+}
+
+const Configuration& Configurations::nearest(const fs::path& folder) {
+  if (const auto known = folders_.find(folder.native()); known != folders_.end()) return *known->second;
+  const fs::path file = folder / kFileName;
+  std::error_code error;
+  const bool is_here = fs::exists(fs::symlink_status(file, error));  // A link that leads nowhere is to be told of.
+  const Configuration* found = &none_;
+  if (is_here) {
+    found = &load(file, shown_path(file));
+  } else if (folder.has_relative_path()) {
+    found = &nearest(folder.parent_path());
+  }
+  return *(folders_[folder.native()] = found);
+}
+
+const Configuration& Configurations::load(const fs::path& file, const fs::path& shown) {
+  File& loaded = *files_.emplace_back(std::make_unique<File>());
+  loaded.configuration.file = shown;
+  std::error_code error;
+  const auto complain = [&](Mistake mistake, std::string_view text) {
+    loaded.mistakes.emplace_back(place_of(mistake.at, text), std::move(mistake));
+  };
+  // A pipe that happens to have the name would be waited for; one that is asked for may well be meant.
+  const fs::file_status status = fs::status(file, error);
+  if (!source_.file && fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) {
+    loaded.problem = mistakes::kNoFile.in(language_);
+    return loaded.configuration;
+  }
+  const auto opened = SourceFile::open(file, language_);
+  if (const auto* const problem = std::get_if<SourceFile::Problem>(&opened)) {
+    loaded.problem = problem->message;
+    return loaded.configuration;
+  }
+  const auto& source = std::get<SourceFile>(opened);
+  if (source.has_byte_order_mark()) complain({.text = mistakes::kByteOrderMark}, {});
+  if (source.text().size() > kLongestFile) {
+    complain({.text = mistakes::kTooLarge}, {});
+    return loaded.configuration;
+  }
+  ReadConfiguration read = read_configuration(source.text(), real_path(file.parent_path()));
+  for (Mistake& mistake : read.mistakes) complain(std::move(mistake), source.text());
+  loaded.configuration = std::move(read.configuration);
+  loaded.configuration.file = shown;
+  return loaded.configuration;
+}
+
+std::vector<std::string> Configurations::mistakes(Language language) const {
+  std::vector<std::string> lines;
+  const std::string_view error = dialect::severity_name(dialect::Severity::Error, language);
+  for (const std::unique_ptr<File>& file : files_) {
+    const std::string name = file->configuration.file.string();
+    if (!file->problem.empty())
+      lines.push_back(syntax::printable(fmt::format("{}: {}: {}", name, error, file->problem)));
+    for (const auto& [place, mistake] : file->mistakes)
+      lines.push_back(syntax::printable(
+          fmt::format("{}:{}:{}: {}: {}", name, place.line, place.column, error, mistake.message(language))));
+  }
+  return lines;
+}
+
+}  // namespace isocnc::configuration

@@ -1,0 +1,330 @@
+#include "interpreter/configuration/keys.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+namespace isocnc::configuration {
+
+using dialect::Language;
+using Kind = KeyKind;
+
+static constexpr std::string_view kSeverities[] = {"error", "warning", "info", "off"};
+static constexpr std::string_view kLanguages[] = {"en", "it"};
+static constexpr std::string_view kModal[] = {"keep", "write", "fold"};
+
+/// Farther than any machine reaches, and close enough to compute with.
+static constexpr Range kLength = {-1e6, 1e6};
+static constexpr Range kAngle = {-1e5, 1e5};
+static constexpr Range kSpeed = {0, 1e7, true};
+
+std::span<const std::string_view> severity_choices() { return kSeverities; }
+
+std::optional<Language> language_named(std::string_view name) {
+  if (name == kLanguages[0]) return Language::English;
+  if (name == kLanguages[1]) return Language::Italian;
+  return std::nullopt;
+}
+
+std::string_view name_of(Language language) { return kLanguages[language == Language::Italian ? 1 : 0]; }
+
+std::optional<int> function_number(std::string_view name) {
+  if (name.size() < 2 || name.size() > 4 || name.front() != 'M') return std::nullopt;
+  int number = 0;
+  const auto read = std::from_chars(name.data() + 1, name.data() + name.size(), number);
+  if (read.ec != std::errc() || read.ptr != name.data() + name.size()) return std::nullopt;
+  return number < 1 || (number >= 2 && number <= 6) ? std::nullopt : std::optional(number);
+}
+
+/// The keys of an axis: of its home, or of its travel.
+struct Axis {
+  std::string_view letter;
+  bool is_rotary;
+  std::size_t index;
+
+  std::string_view unit() const { return is_rotary ? "degrees" : "mm"; }
+  Range range() const { return is_rotary ? kAngle : kLength; }
+};
+static constexpr std::array<Axis, 5> kAxes = {
+    {{"X", false, 0}, {"Y", false, 1}, {"Z", false, 2}, {"B", true, 3}, {"C", true, 4}}};
+
+static double& home_of(Configuration& configuration, const Axis& axis) {
+  geometry::Pose& home = configuration.machine.setup.home;
+  if (axis.is_rotary) return axis.letter == "B" ? home.b : home.c;
+  return home.tip[static_cast<Eigen::Index>(axis.index)];
+}
+
+static std::string lower(std::string_view letter) { return {static_cast<char>(letter.front() - 'A' + 'a')}; }
+
+static void add_home(std::vector<Key>& keys) {
+  keys.push_back({.path = "machine.home",
+                  .documentation = "Where the machine stands when a program begins, in machine coordinates."});
+  for (const Axis& axis : kAxes)
+    keys.push_back({.path = "machine.home." + lower(axis.letter),
+                    .kind = Kind::Number,
+                    .range = axis.range(),
+                    .unit = axis.unit(),
+                    .documentation = "The coordinate at home.",
+                    .slot = [axis](Configuration& c, std::size_t) -> Slot { return &home_of(c, axis); }});
+}
+
+static std::optional<Objection> min_above_max(const execution::Travel& travel) {
+  if (travel.least <= travel.most) return std::nullopt;
+  return Objection{"max", mistakes::kMinAboveMax};
+}
+
+static void add_axes(std::vector<Key>& keys) {
+  keys.push_back({.path = "machine.axes", .documentation = "From where to where the axes go, in machine coordinates."});
+  for (const Axis& axis : kAxes) {
+    const std::string path = "machine.axes." + std::string(axis.letter);
+    const auto travel = [axis](Configuration& c) -> execution::Travel& {
+      return c.machine.setup.limits.travel[axis.index];
+    };
+    keys.push_back({.path = path,
+                    .documentation = "The travel of the axis; open where an end is left out.",
+                    .objection = [axis](const Configuration& c, std::size_t) {
+                      return min_above_max(c.machine.setup.limits.travel[axis.index]);
+                    }});
+    keys.push_back({.path = path + ".min",
+                    .kind = Kind::Number,
+                    .range = axis.range(),
+                    .unit = axis.unit(),
+                    .documentation = "The least coordinate.",
+                    .slot = [travel](Configuration& c, std::size_t) -> Slot { return &travel(c).least; }});
+    keys.push_back({.path = path + ".max",
+                    .kind = Kind::Number,
+                    .range = axis.range(),
+                    .unit = axis.unit(),
+                    .documentation = "The greatest coordinate.",
+                    .slot = [travel](Configuration& c, std::size_t) -> Slot { return &travel(c).most; }});
+  }
+}
+
+static void add_limits(std::vector<Key>& keys) {
+  keys.push_back({.path = "machine.maxFeed",
+                  .kind = Kind::Number,
+                  .range = kSpeed,
+                  .unit = "mm/min",
+                  .documentation = "The greatest feed rate.",
+                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.setup.limits.feed; }});
+  keys.push_back({.path = "machine.maxRotarySpeed",
+                  .kind = Kind::Number,
+                  .range = kSpeed,
+                  .unit = "degrees/min",
+                  .documentation = "How fast B and C turn at most.",
+                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.setup.limits.rotary_speed; }});
+  keys.push_back({.path = "machine.maxSpindleSpeed",
+                  .kind = Kind::Number,
+                  .range = kSpeed,
+                  .unit = "rev/min",
+                  .documentation = "The greatest S.",
+                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.setup.limits.spindle_speed; }});
+  keys.push_back({.path = "machine.tolerances", .documentation = "How exact the control wants programs to be."});
+  keys.push_back({.path = "machine.tolerances.arc",
+                  .kind = Kind::Number,
+                  .range = {0, 10, true},
+                  .unit = "mm",
+                  .documentation = "How far the given points of an arc may be from a circle (ISO029, ISO030, ISO031).",
+                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.setup.arc_tolerance; }});
+  keys.push_back({.path = "machine.clearance",
+                  .kind = Kind::Number,
+                  .range = kLength,
+                  .unit = "mm",
+                  .documentation = "The Z of the face frame below which no rapid should go.",
+                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.setup.clearance; }});
+}
+
+static std::optional<Objection> tool_twice(const Configuration& configuration, std::size_t index) {
+  const std::vector<Tool>& tools = *configuration.machine.tools;
+  const auto here = tools.begin() + static_cast<std::ptrdiff_t>(index);
+  if (std::none_of(tools.begin(), here, [&](const Tool& tool) { return tool.code == here->code; })) return std::nullopt;
+  return Objection{"", mistakes::kToolTwice};
+}
+
+static void add_tools(std::vector<Key>& keys) {
+  const auto add = [&](std::string_view name, Range range, std::string_view documentation, auto member) {
+    keys.push_back({.path = "machine.tools[]." + std::string(name),
+                    .kind = Kind::Integer,
+                    .range = range,
+                    .documentation = documentation,
+                    .is_required = true,
+                    .slot = [member](Configuration& c, std::size_t index) -> Slot {
+                      return &((*c.machine.tools)[index].code.*member);
+                    }});
+  };
+  keys.push_back({.path = "machine.tools",
+                  .kind = Kind::Objects,
+                  .documentation = "The tools that the machine has; without this list M06 takes any (ISO067).",
+                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.tools; },
+                  .objection = tool_twice});
+  add("head", {1, 9}, "The head: the first digit of the T.", &execution::ToolCode::head);
+  add("holder", {1, 99}, "The holder: the second and third digit.", &execution::ToolCode::holder);
+  add("tool", {1, 999}, "The tool: the last three digits.", &execution::ToolCode::tool);
+  keys.push_back({.path = "machine.tools[].name",
+                  .kind = Kind::Text,
+                  .documentation = "What the shop calls the tool.",
+                  .slot = [](Configuration& c, std::size_t i) -> Slot { return &(*c.machine.tools)[i].name; }});
+  keys.push_back({.path = "machine.tools[].length",
+                  .kind = Kind::Number,
+                  .range = {0, 1e4, true},
+                  .unit = "mm",
+                  .documentation = "From the spindle nose to the tip.",
+                  .slot = [](Configuration& c, std::size_t i) -> Slot { return &(*c.machine.tools)[i].length; }});
+  keys.push_back({.path = "machine.tools[].radius",
+                  .kind = Kind::Number,
+                  .range = {0, 1e4, true},
+                  .unit = "mm",
+                  .documentation = "The radius of what cuts.",
+                  .slot = [](Configuration& c, std::size_t i) -> Slot { return &(*c.machine.tools)[i].radius; }});
+}
+
+static std::optional<Objection> function_twice(const Configuration& configuration, std::size_t index) {
+  const std::vector<NamedFunction>& all = *configuration.machine.functions;
+  const auto here = all.begin() + static_cast<std::ptrdiff_t>(index);
+  if (std::none_of(all.begin(), here, [&](const NamedFunction& each) { return each.number == here->number; }))
+    return std::nullopt;
+  return Objection{"", mistakes::kFunctionTwice};
+}
+
+static void add_functions(std::vector<Key>& keys) {
+  keys.push_back({.path = "machine.functions",
+                  .kind = Kind::Named,
+                  .text = TextKind::Function,
+                  .documentation = "The M functions of the shop, each by its M: \"M100\".",
+                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.functions; },
+                  .objection = function_twice});
+  keys.push_back({.path = "machine.functions.*.name",
+                  .kind = Kind::Text,
+                  .documentation = "What the function does.",
+                  .slot = [](Configuration& c, std::size_t i) -> Slot { return &(*c.machine.functions)[i].name; }});
+}
+
+using WishesOf = CodeWishes& (*)(Configuration& configuration, std::size_t index);
+
+static void add_wishes(std::vector<Key>& keys, const std::string& path, WishesOf wishes) {
+  keys.push_back({.path = path + ".select",
+                  .kind = Kind::Texts,
+                  .text = TextKind::Code,
+                  .documentation = "Shows these codes alone: codes, names, beginnings of codes, ALL.",
+                  .slot = [wishes](Configuration& c, std::size_t i) -> Slot { return &wishes(c, i).select; }});
+  keys.push_back({.path = path + ".ignore",
+                  .kind = Kind::Texts,
+                  .text = TextKind::Code,
+                  .documentation = "Does not show these codes.",
+                  .slot = [wishes](Configuration& c, std::size_t i) -> Slot { return &wishes(c, i).ignore; }});
+  keys.push_back({.path = path + ".severity",
+                  .kind = Kind::Severities,
+                  .text = TextKind::Code,
+                  .choices = kSeverities,
+                  .documentation = "How much codes weigh.",
+                  .slot = [wishes](Configuration& c, std::size_t i) -> Slot { return &wishes(c, i).severity; }});
+}
+
+static void add_lint(std::vector<Key>& keys) {
+  keys.push_back({.path = "lint", .documentation = "What isolint reports, and which files are programs."});
+  add_wishes(keys, "lint", [](Configuration& c, std::size_t) -> CodeWishes& { return c.lint.wishes; });
+  keys.push_back({.path = "lint.files",
+                  .kind = Kind::Objects,
+                  .documentation = "What holds for some programs alone; the later outweighs the earlier.",
+                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.lint.files; }});
+  keys.push_back({.path = "lint.files[].paths",
+                  .kind = Kind::Texts,
+                  .text = TextKind::Pattern,
+                  .documentation = "Which programs: patterns of paths from the folder of this file.",
+                  .is_required = true,
+                  .slot = [](Configuration& c, std::size_t i) -> Slot { return &c.lint.files[i].paths; }});
+  add_wishes(keys, "lint.files[]",
+             [](Configuration& c, std::size_t i) -> CodeWishes& { return c.lint.files[i].wishes; });
+  keys.push_back({.path = "lint.extensions",
+                  .kind = Kind::Texts,
+                  .text = TextKind::Extension,
+                  .documentation = "What the names of programs end in; a search of a folder takes these files.",
+                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.lint.extensions; }});
+  keys.push_back({.path = "lint.exclude",
+                  .kind = Kind::Texts,
+                  .text = TextKind::Pattern,
+                  .documentation = "What a search passes over: patterns of paths from the folder of this file.",
+                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.lint.exclude; }});
+}
+
+static void add_format(std::vector<Key>& keys) {
+  keys.push_back({.path = "format", .documentation = "How isofmt writes programs."});
+  keys.push_back({.path = "format.wordOrder",
+                  .kind = Kind::Boolean,
+                  .documentation = "N first, arguments in the usual order, then F; as --word-order.",
+                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.word_order; }});
+  keys.push_back({.path = "format.decimals",
+                  .kind = Kind::Integer,
+                  .range = {0, 15},
+                  .documentation = "Drops zeros from numbers that need no more decimals than this; as --decimals.",
+                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.decimals; }});
+  keys.push_back({.path = "format.gDigits",
+                  .kind = Kind::Integer,
+                  .range = {1, 2},
+                  .documentation = "1 writes G1, 2 writes G01; as --g-digits.",
+                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.g_digits; }});
+  keys.push_back({.path = "format.modal",
+                  .kind = Kind::Choice,
+                  .choices = kModal,
+                  .documentation = "Motion Gs on each line, where they change, or as written; as --modal.",
+                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.modal; }});
+  keys.push_back({.path = "format.renumber",
+                  .documentation = "Gives lines new numbers; as --renumber.",
+                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.renumber; }});
+  keys.push_back({.path = "format.renumber.start",
+                  .kind = Kind::Integer,
+                  .range = {0, 1e9},
+                  .documentation = "The first number.",
+                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.renumber->start; }});
+  keys.push_back({.path = "format.renumber.step",
+                  .kind = Kind::Integer,
+                  .range = {1, 1e9},
+                  .documentation = "From one number to the next.",
+                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.renumber->step; }});
+  keys.push_back({.path = "format.renumber.allLines",
+                  .kind = Kind::Boolean,
+                  .documentation = "Numbers all lines that hold a block; as --renumber-all.",
+                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.renumber->all_lines; }});
+}
+
+static std::vector<Key> make_keys() {
+  std::vector<Key> keys;
+  keys.push_back(
+      {.path = "$schema", .kind = Kind::Text, .documentation = "Where editors find the schema of this file."});
+  keys.push_back({.path = "language",
+                  .kind = Kind::Choice,
+                  .choices = kLanguages,
+                  .documentation = "The language of messages; as --lang.",
+                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.language; }});
+  keys.push_back({.path = "machine", .documentation = "The machine that programs are written for."});
+  add_home(keys);
+  add_axes(keys);
+  add_limits(keys);
+  add_tools(keys);
+  add_functions(keys);
+  add_lint(keys);
+  add_format(keys);
+  return keys;
+}
+
+const std::vector<Key>& all_keys() {
+  static const std::vector<Key> kKeys = make_keys();
+  return kKeys;
+}
+
+static std::string prefix_of(const Key* key) {
+  if (key == nullptr) return "";
+  if (key->kind == Kind::Objects) return key->path + "[].";
+  return key->path + (key->kind == Kind::Named ? ".*." : ".");
+}
+
+std::vector<const Key*> keys_below(const Key* key) {
+  const std::string prefix = prefix_of(key);
+  std::vector<const Key*> below;
+  for (const Key& each : all_keys())
+    if (each.path.starts_with(prefix) && each.path.find('.', prefix.size()) == std::string::npos)
+      below.push_back(&each);
+  return below;
+}
+
+}  // namespace isocnc::configuration

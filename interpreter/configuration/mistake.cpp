@@ -1,0 +1,48 @@
+#include "interpreter/configuration/mistake.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "interpreter/dialect/near_names.h"
+#include "interpreter/syntax/unicode.h"
+
+namespace isocnc::configuration {
+
+using dialect::Language;
+
+std::string Mistake::message(Language language) const {
+  const auto name = [&](std::size_t i) -> std::string_view {
+    if (i >= names.size()) return {};
+    return language == Language::Italian ? names[i].it : names[i].en;
+  };
+  const std::string said = fmt::format(fmt::runtime(text.in(language)), name(0), name(1));
+  return fmt::format("{}{}{}{}", key, key.empty() ? "" : ": ", said, dialect::did_you_mean(meant, language));
+}
+
+LineColumn place_of(std::size_t at, std::string_view text) {
+  LineColumn place;
+  std::size_t begin = 0;
+  at = std::min(at, text.size());
+  for (std::size_t i = 0; i < at; ++i) {
+    const bool ends_line = text[i] == '\n' || (text[i] == '\r' && (i + 1 == text.size() || text[i + 1] != '\n'));
+    if (!ends_line) continue;
+    ++place.line;
+    begin = i + 1;
+  }
+  place.column = syntax::column_of(text.substr(begin, std::min(text.size() - begin, at - begin + 4)), at - begin);
+  return place;
+}
+
+std::string shortened(std::string_view text) {
+  static constexpr std::size_t kLongest = 60;
+  if (text.size() <= kLongest) return std::string(text);
+  std::size_t end = 0;
+  for (std::size_t next = 0; next <= kLongest;
+       next += std::max<std::size_t>(1, syntax::sequence_length(text.substr(next))))
+    end = next;
+  return std::string(text.substr(0, end)) + "...";
+}
+
+}  // namespace isocnc::configuration

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/dialect/diagnostic.h"
+
+namespace isocnc::configuration {
+
+/// What a message names: the same in both languages, or not.
+struct Named {
+  std::string en;
+  std::string it;
+
+  Named(std::string name) : en(name), it(std::move(name)) {}
+  Named(const dialect::Text& text) : en(text.en), it(text.it) {}
+};
+
+/// What is wrong with a configuration file, as data: text is made when it is shown.
+struct Mistake {
+  std::size_t at = 0;  ///< The byte, from 0.
+  std::string key;     ///< `machine.axes.X.min`; empty when it is the file as a whole.
+  dialect::Text text;  ///< With {0} and {1} for `names`.
+  std::vector<Named> names;
+  std::optional<std::string> meant;  ///< What the author may have wanted to write.
+
+  /// `machine.axes.X.min: 400 is more than max, 300`
+  std::string message(dialect::Language language) const;
+};
+
+/// A place in a text, from 1; columns in code points.
+struct LineColumn {
+  std::size_t line = 1;
+  std::size_t column = 1;
+};
+LineColumn place_of(std::size_t at, std::string_view text);
+
+/// Text of the file, short enough for a message.
+std::string shortened(std::string_view text);
+
+/// All that can be wrong.
+namespace mistakes {
+inline constexpr dialect::Text kByteOrderMark = {"a byte-order mark stands here; save the file as UTF-8 without it",
+                                                 "qui c'è un byte-order mark: il file va salvato in UTF-8 senza BOM"};
+inline constexpr dialect::Text kNoUtf8 = {"this is no UTF-8; save the file as UTF-8",
+                                          "questo non è UTF-8: il file va salvato in UTF-8"};
+inline constexpr dialect::Text kControl = {"a control character, where only text may stand",
+                                           "un carattere di controllo, dove ci può essere solo testo"};
+inline constexpr dialect::Text kTooLarge = {"larger than any configuration", "troppo grande per una configurazione"};
+inline constexpr dialect::Text kNoFile = {"not a file", "non è un file"};
+inline constexpr dialect::Text kTooDeep = {"nested too deeply", "troppi livelli, uno dentro l'altro"};
+inline constexpr dialect::Text kEndsEarly = {"the file ends here, but a bracket is still open or a value missing",
+                                             "il file finisce qui, ma c'è una parentesi aperta o manca un valore"};
+inline constexpr dialect::Text kCommaTooMany = {"there is a comma before this {0}, with nothing behind it",
+                                                "prima di questa {0} c'è una virgola di troppo"};
+inline constexpr dialect::Text kOutOfPlace = {"{0} is out of place here", "{0} qui è fuori posto"};
+inline constexpr dialect::Text kMoreBehind = {"nothing may follow the end of the configuration",
+                                              "dopo la fine della configurazione non ci può essere altro"};
+inline constexpr dialect::Text kStringOpen = {"a text without its closing quote", "testo senza virgolette di chiusura"};
+inline constexpr dialect::Text kStringEscape = {
+    "a backslash that JSON does not know; write \\\\ for a backslash",
+    "una barra rovesciata che JSON non prevede: per una barra scrivere \\\\"};
+inline constexpr dialect::Text kStringTab = {"a tab within a text; write \\t", "tabulatore nel testo: scrivere \\t"};
+inline constexpr dialect::Text kCommentOpen = {"a comment without its end", "commento senza fine"};
+inline constexpr dialect::Text kBadComment = {"a comment begins with // or /*", "un commento inizia con // o /*"};
+inline constexpr dialect::Text kBadNumber = {"not a number as JSON writes it", "non è un numero come li scrive JSON"};
+inline constexpr dialect::Text kHugeNumber = {"a number too large to count with", "numero troppo grande"};
+
+inline constexpr dialect::Text kWrongKind = {"this is {0}; {1} is wanted", "questo è {0}; ci vuole {1}"};
+inline constexpr dialect::Text kUnknownKey = {"unknown key", "chiave sconosciuta"};
+inline constexpr dialect::Text kKeyTwice = {"this key stands on line {0} already", "chiave già presente alla riga {0}"};
+inline constexpr dialect::Text kKeyMissing = {"the key {0} is missing", "manca la chiave {0}"};
+inline constexpr dialect::Text kNotWhole = {"{0} is not a whole number", "{0} non è un numero intero"};
+inline constexpr dialect::Text kTooSmall = {"{0} is too small: at least {1}", "{0} è troppo piccolo: almeno {1}"};
+inline constexpr dialect::Text kNotAbove = {"{0} is too small: more than {1}", "{0} è troppo piccolo: più di {1}"};
+inline constexpr dialect::Text kTooBig = {"{0} is too large: at most {1}", "{0} è troppo grande: al massimo {1}"};
+inline constexpr dialect::Text kNoChoice = {"{0} is none of {1}", "{0} non è fra {1}"};
+inline constexpr dialect::Text kUnknownCode = {"there is no code {0} (isolint --list-rules)",
+                                               "il codice {0} non esiste (isolint --list-rules)"};
+inline constexpr dialect::Text kBadGlob = {"{0} is no pattern of paths", "{0} non è un modello di percorso"};
+inline constexpr dialect::Text kNegatedGlob = {"{0}: a ! means nothing here; write \\! for a name that begins so",
+                                               "{0}: qui il ! non ha significato; per un nome che inizia così "
+                                               "scrivere \\!"};
+inline constexpr dialect::Text kBadExtension = {"{0} is no extension, such as .iso",
+                                                "{0} non è un'estensione, come .iso"};
+inline constexpr dialect::Text kBadFunction = {"{0} is no user M: those are M1 to M999, less M2 to M6",
+                                               "{0} non è una M dell'utente: vanno da M1 a M999, escluse M2-M6"};
+inline constexpr dialect::Text kEmpty = {"the text is empty", "il testo è vuoto"};
+inline constexpr dialect::Text kMinAboveMax = {"min is more than max", "min è maggiore di max"};
+inline constexpr dialect::Text kToolTwice = {"this tool is listed already", "utensile già in elenco"};
+inline constexpr dialect::Text kFunctionTwice = {"this M is named already", "questa M ha già un nome"};
+}  // namespace mistakes
+
+}  // namespace isocnc::configuration

@@ -1,0 +1,53 @@
+#include "interpreter/configuration/path_patterns.h"
+
+#include <algorithm>
+
+namespace isocnc::configuration {
+
+namespace fs = std::filesystem;
+
+std::optional<PathPatterns::Pattern> PathPatterns::parse(std::string_view text) {
+  Pattern pattern;
+  pattern.only_directories = text.ends_with('/');
+  if (pattern.only_directories) text.remove_suffix(1);
+  if (text.starts_with("./")) text.remove_prefix(1);
+  pattern.whole_path = text.find('/') != std::string_view::npos;
+  if (text.starts_with('/')) text.remove_prefix(1);
+  if (text.empty()) return std::nullopt;
+  std::optional<running::Glob> glob = running::Glob::parse(text, pattern.whole_path);
+  if (!glob) return std::nullopt;
+  pattern.glob = std::move(*glob);
+  return pattern;
+}
+
+bool PathPatterns::is_well_formed(std::string_view pattern) { return parse(pattern).has_value(); }
+
+PathPatterns::PathPatterns(fs::path folder, const std::vector<std::string>& patterns) : folder_(std::move(folder)) {
+  for (const std::string& text : patterns)
+    if (std::optional<Pattern> pattern = parse(text)) patterns_.push_back(std::move(*pattern));
+}
+
+bool PathPatterns::name(const fs::path& path, bool is_directory) const {
+  if (patterns_.empty()) return false;
+  const fs::path below = path.lexically_relative(folder_);
+  const bool is_below = !below.empty() && *below.begin() != "..";
+  return std::any_of(patterns_.begin(), patterns_.end(), [&](const Pattern& pattern) {
+    if (pattern.only_directories && !is_directory) return false;
+    if (!pattern.whole_path) return pattern.glob.matches(path.filename().native());
+    return is_below && pattern.glob.matches(below.native());
+  });
+}
+
+bool PathPatterns::match(const fs::path& file) const {
+  if (name(file, false)) return true;
+  const auto is_above_folder = [&](const fs::path& path) {
+    const fs::path up = folder_.lexically_relative(path);
+    return path == folder_ || (!up.empty() && *up.begin() != "..");
+  };
+  for (fs::path above = file.parent_path(); above.has_relative_path() && !is_above_folder(above);
+       above = above.parent_path())
+    if (name(above, true)) return true;
+  return false;
+}
+
+}  // namespace isocnc::configuration

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <string_view>
+
+namespace isocnc::configuration {
+
+/// Configurations with nothing wrong.
+inline constexpr std::string_view kRightTexts[] = {
+    "{}",
+    "// Nothing but comments.\n/* and */ { // this\n}",
+    R"({"$schema": "isocnc.schema.json", "language": "it"})",
+    R"({"machine": {"home": {"x": -350.5, "b": 0, "c": 1e2}, "tolerances": {"arc": 0.05}}})",
+    R"({"machine": {"axes": {"X": {"min": -10, "max": 3200}, "B": {"min": -100}, "C": {}}}})",
+    R"({"machine": {"maxFeed": 20000, "maxRotarySpeed": 6e3, "maxSpindleSpeed": 18000, "clearance": 2}})",
+    R"({"machine": {"tools": [], "functions": {}}})",
+    R"({"machine": {"tools": [{"head": 1, "holder": 1.0, "tool": 999, "name": "\u00d8 8", "length": 80, "radius": 4},
+                              {"head": 1, "holder": 2, "tool": 999}]}})",
+    R"({"machine": {"functions": {"M1": {}, "M07": {"name": "aria"}, "M100": {}, "M999": {"name": "m"}}}})",
+    R"({"lint": {"select": ["iso", "W1", "arc-center-mismatch", "ALL"], "ignore": ["W003"], "severity": {"W": "off"}}})",
+    R"({"lint": {"files": [{"paths": ["old/**", "*.tmp.iso", "\\!x"], "ignore": ["ALL"]}, {"paths": []}]}})",
+    R"({"lint": {"extensions": [".iso", "out.nc"], "exclude": ["archive/", "[a-c]?.iso"]}})",
+    R"({"format": {"wordOrder": true, "decimals": 3, "gDigits": 2, "modal": "fold", "renumber": {}}})",
+    R"({"format": {"renumber": {"start": 0, "step": 5, "allLines": true}}})",
+};
+
+/// A configuration with a mistake, and what is said of it in English.
+struct WrongText {
+  std::string_view text;
+  std::string_view said;        ///< `LINE:COLUMN: MESSAGE`, one a line.
+  bool schema_can_tell = true;  ///< Else it takes more than a schema, or is no JSON.
+};
+
+inline constexpr bool kOnlyWeCanTell = false;
+
+inline constexpr WrongText kWrongTexts[] = {
+    // Values that are not what they should be.
+    {"[]", "1:1: this is a list [ ]; an object { } is wanted"},
+    {R"({"machine": 3})", "1:13: machine: this is a number; an object { } is wanted"},
+    {"{\"language\":\n  null}", "2:3: language: this is null; text is wanted"},
+    {R"({"language": "de"})", "1:14: language: de is none of en, it"},
+    {R"({"machine": {"home": {"x": "1"}}})", "1:28: machine.home.x: this is text; a number is wanted"},
+    {R"({"machine": {"home": {"x": 1e7}}})", "1:28: machine.home.x: 10000000 is too large: at most 1000000 mm"},
+    {R"({"machine": {"home": {"b": -1e7}}})", "1:28: machine.home.b: -10000000 is too small: at least -100000 degrees"},
+    {R"({"machine": {"maxFeed": 0}})", "1:25: machine.maxFeed: 0 is too small: more than 0 mm/min"},
+    {R"({"machine": {"tools": {}}})", "1:23: machine.tools: this is an object { }; a list [ ] is wanted"},
+    {R"({"machine": {"tools": [7]}})", "1:24: machine.tools[0]: this is a number; an object { } is wanted"},
+    {R"({"machine": {"tools": [{"head": 1, "holder": 0, "tool": 2.5}]}})",
+     "1:46: machine.tools[0].holder: 0 is too small: at least 1\n"
+     "1:57: machine.tools[0].tool: 2.5 is not a whole number"},
+    {R"({"machine": {"tools": [{"head": 1, "tool": 2, "name": ""}]}})",
+     "1:24: machine.tools[0]: the key holder is missing\n1:55: machine.tools[0].name: the text is empty"},
+    {R"({"machine": {"functions": {"M5": {}}}})",
+     "1:28: machine.functions.M5: M5 is no user M: those are M1 to M999, less M2 to M6"},
+    {R"({"machine": {"functions": {"M100": "a"}}})",
+     "1:36: machine.functions.M100: this is text; an object { } is wanted"},
+    {R"({"lint": {"select": "W1"}})", "1:21: lint.select: this is text; a list [ ] is wanted"},
+    {R"({"lint": {"select": [3, "ISO003,W001"]}})",
+     "1:22: lint.select[0]: this is a number; text is wanted\n"
+     "1:25: lint.select[1]: there is no code ISO003,W001 (isolint --list-rules)"},
+    {R"({"lint": {"severity": {"W001": "fatal"}}})",
+     "1:32: lint.severity.W001: fatal is none of error, warning, info, off"},
+    {R"({"lint": {"files": [{"ignore": []}]}})", "1:21: lint.files[0]: the key paths is missing"},
+    {R"({"lint": {"exclude": ["!a", ""]}})",
+     "1:23: lint.exclude[0]: !a: a ! means nothing here; write \\! for a name that begins so\n"
+     "1:29: lint.exclude[1]:  is no pattern of paths"},
+    {R"({"lint": {"extensions": ["*.iso", "."]}})",
+     "1:26: lint.extensions[0]: *.iso is no extension, such as .iso\n"
+     "1:35: lint.extensions[1]: . is no extension, such as .iso"},
+    {R"({"format": {"wordOrder": 1}})", "1:26: format.wordOrder: this is a number; true or false is wanted"},
+    {R"({"format": {"decimals": 16, "gDigits": 3}})",
+     "1:25: format.decimals: 16 is too large: at most 15\n1:40: format.gDigits: 3 is too large: at most 2"},
+    {R"({"format": {"modal": "folded"}})", "1:22: format.modal: folded is none of keep, write, fold"},
+    {R"({"format": {"renumber": {"step": 0}}})", "1:34: format.renumber.step: 0 is too small: at least 1"},
+    // Keys.
+    {R"({"lintt": {}})", "1:2: lintt: unknown key; did you mean lint?"},
+    {R"({"machine": {"axes": {"A": {}}}})", "1:23: machine.axes.A: unknown key"},
+    {R"({"machine": {"axes": {"x": {}}}})", "1:23: machine.axes.x: unknown key; did you mean X?"},
+    {R"({"arc": 0.1})", "1:2: arc: unknown key; did you mean machine.tolerances.arc?"},
+    {R"({"machine": {"functions": {"M100": {"nam": "a"}}}})",
+     "1:37: machine.functions.M100.nam: unknown key; did you mean name?"},
+    {"{\"lint\": {},\n\"lint\": {}}", "2:1: lint: this key stands on line 1 already", kOnlyWeCanTell},
+    {"{\"machine\": {\"functions\": {\"M100\": {},\n \"M100\": {}}}}",
+     "2:2: machine.functions.M100: this key stands on line 1 already", kOnlyWeCanTell},
+    {R"({"lint": {"severity": {"W1": "off", "W1": "off"}}})",
+     "1:37: lint.severity.W1: this key stands on line 1 already", kOnlyWeCanTell},
+    // What takes two values.
+    {R"({"machine": {"axes": {"Z": {"max": -1, "min": 0}}}})", "1:36: machine.axes.Z.max: min is more than max",
+     kOnlyWeCanTell},
+    {R"({"machine": {"tools": [{"head": 1, "holder": 2, "tool": 3}, {"tool": 3, "head": 1, "holder": 2}]}})",
+     "1:61: machine.tools[1]: this tool is listed already", kOnlyWeCanTell},
+    {R"({"machine": {"functions": {"M7": {}, "M07": {}}}})", "1:45: machine.functions.M07: this M is named already",
+     kOnlyWeCanTell},
+    // What only the table of codes, and the reader of patterns, knows.
+    {R"({"lint": {"ignore": ["ISO31"]}})",
+     "1:22: lint.ignore[0]: there is no code ISO31 (isolint --list-rules); did you mean ISO031?", kOnlyWeCanTell},
+    {R"({"lint": {"exclude": ["a[", "/"]}})",
+     "1:23: lint.exclude[0]: a[ is no pattern of paths\n1:29: lint.exclude[1]: / is no pattern of paths",
+     kOnlyWeCanTell},
+    // What is no JSON.
+    {"", "1:1: the file ends here, but a bracket is still open or a value missing", kOnlyWeCanTell},
+    {"{\n  \"lint\": {\n", "3:1: the file ends here, but a bracket is still open or a value missing", kOnlyWeCanTell},
+    {R"({"lint": {}, // one, two
+})",
+     "2:1: there is a comma before this }, with nothing behind it", kOnlyWeCanTell},
+    {R"({"lint" {}})", "1:9: { is out of place here", kOnlyWeCanTell},
+    {R"({"lint":: {}})", "1:9: : is out of place here", kOnlyWeCanTell},
+    {R"({lint: {}})", "1:2: lint is out of place here", kOnlyWeCanTell},
+    {R"({} {})", "1:4: nothing may follow the end of the configuration", kOnlyWeCanTell},
+    {"{\"language\": \"en\n\"}", "1:14: a text without its closing quote", kOnlyWeCanTell},
+    {"{\"language\": \"e\tn\"}", "1:14: a tab within a text; write \\t", kOnlyWeCanTell},
+    {R"({"language": "C:\iso"})", "1:14: a backslash that JSON does not know; write \\\\ for a backslash",
+     kOnlyWeCanTell},
+    {R"({"machine": {"maxFeed": 1e999}})", "1:25: a number too large to count with", kOnlyWeCanTell},
+    {R"({"machine": {"maxFeed": 01}})", "1:26: 1 is out of place here", kOnlyWeCanTell},
+    {R"({"machine": {"maxFeed": 1.}})", "1:25: not a number as JSON writes it", kOnlyWeCanTell},
+    {R"({"machine": {"maxFeed": NaN}})", "1:25: NaN is out of place here", kOnlyWeCanTell},
+    {"{ /* ", "1:3: a comment without its end", kOnlyWeCanTell},
+    {"{ # }", "1:3: # is out of place here", kOnlyWeCanTell},
+    {"{ / }", "1:3: a comment begins with // or /*", kOnlyWeCanTell},
+    {"{} // \xC3\xA8 \xE8", "1:9: this is no UTF-8; save the file as UTF-8", kOnlyWeCanTell},
+    {"{}\r\n\x01", "2:1: a control character, where only text may stand", kOnlyWeCanTell},
+};
+
+}  // namespace isocnc::configuration

@@ -1,0 +1,118 @@
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "examples.h"
+#include "interpreter/configuration/keys.h"
+#include "interpreter/configuration/read.h"
+#include "interpreter/configuration/show.h"
+
+namespace isocnc::configuration {
+namespace {
+
+using nlohmann::json;
+
+const std::filesystem::path kRoot = ISOCNC_SOURCE_DIR;
+
+std::string read_file(const std::filesystem::path& file) {
+  std::stringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+json parsed(std::string_view text) { return json::parse(text, nullptr, true, true); }
+
+/// The first example of docs/configuration.md.
+std::string complete_example() {
+  const std::string page = read_file(kRoot / "docs/configuration.md");
+  static constexpr std::string_view kFence = "```jsonc\n";
+  const std::size_t begin = page.find(kFence) + kFence.size();
+  return page.substr(begin, page.find("```", begin) - begin);
+}
+
+/// What a command prints.
+std::string output_of(const std::string& command) {
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(::popen(command.c_str(), "r"), &::pclose);
+  std::string text;
+  for (int c = std::fgetc(pipe.get()); c != EOF; c = std::fgetc(pipe.get())) text.push_back(static_cast<char>(c));
+  return text;
+}
+
+/// What a validator of JSON Schema has to say; it needs python3-jsonschema.
+std::string validate(const json& documents) {
+  std::string name = std::filesystem::temp_directory_path() / "isocnc-schema-XXXXXX";
+  ::close(::mkstemp(name.data()));
+  std::ofstream(name) << json{{"schema", json::parse(json_schema())}, {"documents", documents}};
+  std::string said =
+      output_of(fmt::format("python3 '{}' '{}' 2>&1", (kRoot / "tests/configuration/validate.py").string(), name));
+  std::filesystem::remove(name);
+  return said;
+}
+
+TEST(Schema, AgreesWithTheReader) {
+  json documents = json::array();
+  const auto add = [&](std::string_view text, bool valid) {
+    documents.push_back({{"document", parsed(text)}, {"valid", valid}});
+  };
+  add(complete_example(), true);
+  add(to_json({}), true);
+  for (const std::string_view text : kRightTexts) {
+    add(text, true);
+    add(to_json(read_configuration(text, "/").configuration), true);
+  }
+  for (const WrongText& wrong : kWrongTexts)
+    if (wrong.schema_can_tell) add(wrong.text, false);
+  EXPECT_EQ(validate(documents), fmt::format("{} documents\n", documents.size()));
+}
+
+TEST(Schema, IsShipped) {
+  const bool same = read_file(kRoot / "docs/isocnc.schema.json") == json_schema();
+  EXPECT_TRUE(same) << "isolint --config-schema > docs/isocnc.schema.json";
+}
+
+TEST(Documentation, ListsAllKeys) {
+  const bool listed = read_file(kRoot / "docs/configuration.md").find("\n" + key_page()) != std::string::npos;
+  EXPECT_TRUE(listed) << "the table of docs/configuration.md is what isolint --config-keys prints";
+}
+
+/// Expects every key that the table knows.
+void expect_all_keys(const json& object, const Key* key) {
+  for (const Key* each : keys_below(key)) {
+    ASSERT_TRUE(object.contains(std::string(each->name()))) << each->path;
+    const json& value = object[std::string(each->name())];
+    if (each->kind == KeyKind::Object) expect_all_keys(value, each);
+    if (each->kind == KeyKind::Objects || each->kind == KeyKind::Named) {
+      ASSERT_FALSE(value.empty()) << each->path;
+      expect_all_keys(value.is_array() ? value.front() : value.begin().value(), each);
+    }
+  }
+}
+
+TEST(Documentation, HasACompleteExample) {
+  const std::string text = complete_example();
+  for (const Mistake& mistake : read_configuration(text, "/").mistakes)
+    ADD_FAILURE() << place_of(mistake.at, text).line << ": " << mistake.message(dialect::Language::English);
+  expect_all_keys(parsed(text), nullptr);
+}
+
+TEST(Documentation, ExampleIsReadAsItStands) {
+  // All that the example says comes back, and nothing else: no key is read into another one's place.
+  const std::string text = complete_example();
+  json said = parsed(text);
+  said.erase("$schema");
+  EXPECT_EQ(json::parse(to_json(read_configuration(text, "/").configuration)), said);
+}
+
+}  // namespace
+}  // namespace isocnc::configuration
