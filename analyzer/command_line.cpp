@@ -3,20 +3,17 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <sstream>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <CLI/CLI.hpp>
 
 #include "analyzer/renderers.h"
+#include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/dialect/locale.h"
-#include "interpreter/dialect/near_names.h"
+#include "interpreter/running/program_app.h"
 
 namespace isocnc::analyzer {
 
 using dialect::Language;
-using dialect::nearest_name;
 
 Language Options::reader_language() const {
   if (language == "it") return Language::Italian;
@@ -42,17 +39,6 @@ static void add_list(CLI::App& app, const std::string& name, std::vector<std::st
   app.add_option(name, list, description)->allow_extra_args(false)->option_text(placeholder);
 }
 
-static CLI::Option* add_choice(CLI::App& app, const std::string& name, std::string& value,
-                               std::vector<std::string> choices, const char* placeholder,
-                               const std::string& description) {
-  const auto complain = [choices = std::move(choices)](const std::string& given) -> std::string {
-    if (std::find(choices.begin(), choices.end(), given) != choices.end()) return {};
-    return fmt::format("there is no {}, only {}{}", given, fmt::join(choices, ", "),
-                       did_you_mean(nearest_name(given, choices), Language::English));
-  };
-  return app.add_option(name, value, description)->check(complain)->option_text(placeholder);
-}
-
 /// `text, concise, ...`, in lines that fit beside the options.
 static std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t kWidth = 50;
@@ -67,7 +53,8 @@ static std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-static void add_options(CLI::App& app, Options& options) {
+static void add_options(running::ProgramApp& program, Options& options) {
+  CLI::App& app = program.options();
   app.add_option("PATH", options.paths,
                  "Programs, directories (searched for .iso .nc .cnc\n.tap .ngc), or - for standard input; else the\n"
                  "current directory")
@@ -96,13 +83,13 @@ static void add_options(CLI::App& app, Options& options) {
   diff->option_text(" ")->excludes(write_baseline);
 
   app.option_defaults()->group("How it is shown");
-  diff->excludes(add_choice(app, "--format", options.format, format_names(), "NAME", listed(format_names())));
+  diff->excludes(program.add_choice("--format", options.format, format_names(), "NAME", listed(format_names())));
   app.add_option("--output", options.output, "Write to this file, not to standard output")->option_text("FILE");
   app.add_flag("--statistics", options.statistics, "Show how many findings each code has")
       ->option_text(" ")
       ->excludes(diff);
-  add_choice(app, "--lang", options.language, {"en", "it"}, "LANG", "en or it; else as the locale says");
-  add_choice(app, "--color", options.color, {"auto", "always", "never"}, "WHEN", "auto, always, never");
+  program.add_choice("--lang", options.language, {"en", "it"}, "LANG", "en or it; else as the locale says");
+  program.add_choice("--color", options.color, {"auto", "always", "never"}, "WHEN", "auto, always, never");
   app.add_option("--stdin-filename", options.stdin_name, "What to call standard input")->option_text("NAME");
 
   app.option_defaults()->group("How it is run");
@@ -119,35 +106,35 @@ static void add_options(CLI::App& app, Options& options) {
   app.add_flag("--config-schema", options.config_schema, "Print docs/isocnc.schema.json")->group("");
   app.add_flag("--config-keys", options.config_keys, "Print the keys for docs/configuration.md")->group("");
   app.add_flag("--rules-page", options.rules_page, "Print docs/rules.md")->group("");
-}
 
-/// What is wrong, with the option that was most likely meant.
-static std::string complaint_about(const CLI::ParseError& error, const CLI::App& app, Language language) {
-  const std::vector<std::string> unexpected = app.remaining();
-  if (unexpected.empty()) return error.what();
-  std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  const std::string given = unexpected.front().substr(0, unexpected.front().find('='));
-  return fmt::format("{}: {}{}", language == Language::Italian ? "opzione sconosciuta" : "no such option", given,
-                     did_you_mean(nearest_name(given, names), language));
+  std::vector<std::string> codes;
+  for (const dialect::DiagnosticDef& def : dialect::kDiagnostics) codes.emplace_back(def.code);
+  for (const char* const option : {"--explain", "--select", "--ignore", "--severity"}) program.suggest(option, codes);
 }
 
 CommandLine read_command_line(int argc, const char* const* argv) {
   CommandLine read;
-  CLI::App app{"Checks ISOCNC programs and reports what the control would stop at.", "isolint"};
-  app.set_version_flag("--version", "isolint " ISOCNC_VERSION);
-  app.get_formatter()->column_width(27);
-  add_options(app, read.options);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& success) {
-    std::ostringstream said;
-    app.exit(success, said, said);
-    read.answer = said.str();
-  } catch (const CLI::ParseError& error) {
-    read.complaint = complaint_about(error, app, read.options.reader_language());
-  }
+  running::ProgramApp program(
+      "Checks ISOCNC programs and reports what the control would stop at.",
+      {.program = "isolint",
+       .version = ISOCNC_VERSION,
+       .purpose = "check ISOCNC programs",
+       .operands = "[PATH...]",
+       .paragraphs =
+           {"isolint reports what the ISOCNC control would stop at (codes ISO and E), and what a machinist would frown "
+            "at (W), at the place where it stands, on every path through IF and GOTO.",
+            "Comments in a program silence findings: (isolint: ignore ISO031) its line, (isolint: disable ISO031) and "
+            "(isolint: enable ISO031) a stretch, (isolint: ignore-file) the program.",
+            "What is reported, and the machine that programs are checked for, may be written into an isocnc.json "
+            "beside the programs or above them."},
+       .exit = {{"0", "No errors; there may be warnings, within --max-warnings, and notes."},
+                {"1", "Errors were found, or too many warnings, or with --diff a difference."},
+                {"2", "A mistake in the command or in an isocnc.json, or something could not be read or written."}},
+       .see_also = {"isofmt", "isorun"}});
+  add_options(program, read.options);
+  auto said = program.read(argc, argv, [&] { return read.options.reader_language(); });
+  read.answer = std::move(said.answer);
+  read.complaint = std::move(said.complaint);
   return read;
 }
 

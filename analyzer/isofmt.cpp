@@ -4,11 +4,9 @@
 #include <csignal>
 #include <iostream>
 #include <optional>
-#include <sstream>
 #include <variant>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "analyzer/files.h"
 #include "analyzer/program_formatter.h"
@@ -16,6 +14,7 @@
 #include "interpreter/configuration/configurations.h"
 #include "interpreter/dialect/locale.h"
 #include "interpreter/running/output_file.h"
+#include "interpreter/running/program_app.h"
 #include "interpreter/running/replace_file.h"
 #include "interpreter/running/source_file.h"
 #include "interpreter/running/system_texts.h"
@@ -282,52 +281,73 @@ int say(std::string_view text, Language language) {
   return kTrouble;
 }
 
+void add_options(running::ProgramApp& program, Options& options) {
+  CLI::App& app = program.options();
+  app.add_option("PATH", options.paths,
+                 "Programs, directories (searched for .iso .nc .cnc\n.tap .ngc), or - for standard input")
+      ->required()
+      ->option_text("...");
+
+  app.option_defaults()->group("What to do");
+  CLI::Option* const modes[] = {
+      app.add_flag("--check", options.check, "Name the programs that would be changed"),
+      app.add_flag("--diff", options.diff, "Show what would be changed"),
+      app.add_flag("--stdout", options.to_stdout, "Print the program formatted; so without any of these"),
+      app.add_flag("-i,--in-place", options.in_place, "Rewrite the programs"),
+  };
+  for (CLI::Option* const mode : modes)
+    for (CLI::Option* const other : modes)
+      if (mode != other) mode->excludes(other)->option_text(" ");
+
+  app.option_defaults()->group("What programs are to look like");
+  CLI::Option* const word_order =
+      app.add_flag("--word-order", options.word_order, "N first, arguments as X Y Z A B C I J K P Q R,\nthen F")->option_text(" ");
+  app.add_flag("--no-word-order", options.no_word_order, "Words in the order in which they stand")
+      ->excludes(word_order)
+      ->option_text(" ");
+  program.add_choice("--decimals", options.decimals, decimals_choices(), "MOST",
+                     "Zeros that mean nothing dropped, .5 as 0.5;\nnumbers are never rounded; or keep");
+  program.add_choice("--g-digits", options.g_digits, {"1", "2", "keep"}, "WIDTH", "1: G1; 2: G01; keep");
+  program.add_choice("--modal", options.modal, {"write", "fold", "keep"}, "HOW",
+                     "Motion Gs: write on each line, fold where\nrepeated, keep");
+  app.add_option("--renumber", options.renumber,
+                 "New line numbers where there are some; labels of\nGOTO follow; or keep")
+      ->option_text("START:STEP");
+  app.add_flag("--renumber-all", options.renumber_all, "With --renumber: on every line with a block");
+
+  app.option_defaults()->group("How it is run");
+  app.add_option("--stdin-filename", options.stdin_name, "What to call standard input")->option_text("NAME");
+  program.add_choice("--lang", options.language, {"en", "it"}, "LANG", "en or it; else as the locale says");
+  CLI::Option* const config =
+      app.add_option("--config", options.source.file, "Read this, not the isocnc.json above each program")
+          ->option_text("FILE");
+  app.add_flag("--no-config", options.source.none, "Read no isocnc.json")->excludes(config)->option_text(" ");
+}
+
 int run_main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // A closed pipe, or a file that may not grow, is a write that fails, and is told as
   std::signal(SIGXFSZ, SIG_IGN);  // one.
   Options options;
-  CLI::App app{"Formats ISOCNC programs. What a program does stays as it is."};
-  app.name("isofmt");
-  app.set_version_flag("--version", "isofmt " ISOCNC_VERSION);
-  app.add_option("PATH", options.paths,
-                 "Programs, directories (searched for .iso .nc .cnc .tap .ngc), or - for standard input")
-      ->required();
-  auto* const modes = app.add_option_group("Modes", "What to do; one at most");
-  modes->add_flag("--check", options.check, "Name the programs that would be changed; status 1 when there are any");
-  modes->add_flag("--diff", options.diff, "Show what would be changed; status 1 when there is anything");
-  modes->add_flag("--stdout", options.to_stdout, "Print the program formatted (what happens without a mode)");
-  modes->add_flag("-i,--in-place", options.in_place, "Rewrite the programs");
-  modes->require_option(0, 1);
-  CLI::Option* const word_order = app.add_flag("--word-order", options.word_order,
-                                               "N first, arguments in the order X Y Z A B C I J K P Q R, then F");
-  app.add_flag("--no-word-order", options.no_word_order, "Words in the order in which they stand")
-      ->excludes(word_order);
-  app.add_option("--decimals", options.decimals,
-                 "Zeros that mean nothing dropped, .5 as 0.5; numbers are never rounded; or keep")
-      ->option_text("MOST")
-      ->check(CLI::IsMember(decimals_choices()));
-  app.add_option("--g-digits", options.g_digits, "1: G1; 2: G01; keep")->check(CLI::IsMember({"1", "2", "keep"}));
-  app.add_option("--modal", options.modal, "Motion Gs: write on each line, fold where repeated, keep")
-      ->check(CLI::IsMember({"write", "fold", "keep"}));
-  app.add_option("--renumber", options.renumber,
-                 "New line numbers on lines that have one; labels of GOTO follow; or keep")
-      ->type_name("START:STEP");
-  app.add_flag("--renumber-all", options.renumber_all, "With --renumber: on every line that holds a block");
-  app.add_option("--stdin-filename", options.stdin_name, "Name to show for standard input");
-  app.add_option("--lang", options.language, "Language of messages: en, it (else from the locale)")
-      ->check(CLI::IsMember({"en", "it"}));
-  CLI::Option* const config =
-      app.add_option("--config", options.source.file, "Read this, not the isocnc.json above each program")
-          ->type_name("FILE");
-  app.add_flag("--no-config", options.source.none, "Read no isocnc.json")->excludes(config);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& success) {
-    std::ostringstream said;
-    app.exit(success, said, said);
-    return say(said.str(), options.reader_language());
-  } catch (const CLI::ParseError& error) {
-    complain(error.what());
+  running::ProgramApp program(
+      "Formats ISOCNC programs. What a program does stays as it is.",
+      {.program = "isofmt",
+       .version = ISOCNC_VERSION,
+       .purpose = "format ISOCNC programs",
+       .operands = "PATH...",
+       .paragraphs = {"isofmt writes words in upper case with one blank between them. Comments, line ends and the end "
+                      "of the last "
+                      "line stay as they are, and so does all that a program does.",
+                      "A program that is rewritten in place is either the old or the new one, whole, whatever happens "
+                      "meanwhile."},
+       .exit = {{"0", "Done; with --check and --diff, nothing would be changed."},
+                {"1", "With --check or --diff: a program would be changed."},
+                {"2", "A mistake in the command or in an isocnc.json, or something could not be read or written."}},
+       .see_also = {"isolint", "isorun"}});
+  add_options(program, options);
+  const auto said = program.read(argc, argv, [&] { return options.reader_language(); });
+  if (said.answer) return say(*said.answer, options.reader_language());
+  if (said.complaint) {
+    complain(*said.complaint);
     std::cerr << "isofmt --help\n";
     return kTrouble;
   }

@@ -7,14 +7,13 @@
 #include <iostream>
 #include <limits>
 #include <optional>
-#include <sstream>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "interpreter/configuration/configurations.h"
 #include "interpreter/dialect/locale.h"
 #include "interpreter/running/output_file.h"
+#include "interpreter/running/program_app.h"
 #include "interpreter/running/runner.h"
 #include "interpreter/running/source_file.h"
 #include "interpreter/running/system_texts.h"
@@ -250,31 +249,37 @@ int say(std::string_view text, Language language) {
 int run_main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // A closed pipe is a write that fails, and is told as one.
   Options options;
-  CLI::App app{"Runs an ISOCNC program and tells what it does."};
-  app.name("isorun");
-  app.set_version_flag("--version", "isorun " ISOCNC_VERSION);
-  app.add_option("FILE", options.file, "The program, or - for standard input")->required();
-  app.add_option("--trace", options.trace, "Write what happens as JSON lines to this file, or - for standard output");
-  app.add_option("--vgpl", options.vgpl, "Value of VGPL (else 0)")->type_name("VALUE");
+  ProgramApp program(
+      "Runs an ISOCNC program and tells what it does.",
+      {.program = "isorun",
+       .version = ISOCNC_VERSION,
+       .purpose = "run an ISOCNC program",
+       .operands = "FILE",
+       .paragraphs = {"isorun runs a program block by block as the control would, up to M02 or to the first error, "
+                      "and tells what it does."},
+       .exit = {{"0", "The program ran to its M02, or to the line of --until."},
+                {"1", "An error stopped the program, as it would stop the control."},
+                {"2", "A mistake in the command or in an isocnc.json, or something could not be read or written."}},
+       .see_also = {"isolint", "isofmt"}});
+  CLI::App& app = program.options();
+  app.add_option("FILE", options.file, "The program, or - for standard input")->required()->option_text(" ");
+  app.add_option("--trace", options.trace, "What happens, as JSON lines; - for standard output")->option_text("FILE");
+  app.add_option("--vgpl", options.vgpl, "Value of VGPL (else 0)")->option_text("VALUE");
   app.add_option("--set", options.settings, "Value of a register at the start: V3=1.5")
-      ->type_name("V=VALUE")
+      ->option_text("V=VALUE")
       ->allow_extra_args(false);
-  app.add_option("--machine", options.machine, "The machine of this file, not of the program's isocnc.json")
-      ->type_name("FILE");
+  app.add_option("--machine", options.machine, "The machine of this file, not of the isocnc.json")->option_text("FILE");
   CLI::Option* const config =
       app.add_option("--config", options.source.file, "Read this, not the isocnc.json above the program")
-          ->type_name("FILE");
-  app.add_flag("--no-config", options.source.none, "Read no isocnc.json")->excludes(config);
-  app.add_option("--until", options.until, "Stop before this line")->type_name("LINE");
-  app.add_option("--lang", options.language, "en, it (else from the locale)")->check(CLI::IsMember({"en", "it"}));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& success) {
-    std::ostringstream said;
-    app.exit(success, said, said);
-    return say(said.str(), options.reader_language());
-  } catch (const CLI::ParseError& error) {
-    complain(error.what());
+          ->option_text("FILE");
+  app.add_flag("--no-config", options.source.none, "Read no isocnc.json")->excludes(config)->option_text(" ");
+  app.add_option("--until", options.until, "Stop before this line")->option_text("LINE");
+  program.add_choice("--lang", options.language, {"en", "it"}, "LANG", "en or it; else as the locale says");
+  const ProgramApp::Said said = program.read(argc, argv, [&] { return options.reader_language(); });
+  if (said.answer) return say(*said.answer, options.reader_language());
+  if (said.complaint) {
+    complain(*said.complaint);
+    std::cerr << "isorun --help\n";
     return kTrouble;
   }
   return run_file(options);

@@ -1,0 +1,80 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "run_command.h"
+
+namespace isocnc::commands {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// What all our programs answer in the same way.
+class Program : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(All, Program, testing::Values("isolint", "isofmt", "isorun"),
+                         [](const auto& program) { return program.param; });
+
+TEST_P(Program, HelpFitsTheScreen) {
+  const std::vector<std::string> lines = lines_of(run_command({GetParam(), "--help"}).out);
+  for (const std::string& line : lines) EXPECT_LE(line.size(), 80u) << line;
+  EXPECT_LE(lines.size(), 60u);
+  EXPECT_GE(lines.size(), 10u);
+}
+
+TEST_P(Program, GuessesTheOptionThatWasMeant) {
+  const CommandResult result = run_command({GetParam(), "--stdin-filenam=a", "--langg"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(run_command({GetParam(), "--langg=it"}).err,
+              StartsWith(GetParam() + ": no such option: --langg; did you mean --lang?\n" + GetParam() + " --help\n"));
+}
+
+TEST_P(Program, ManualPageIsTheOneThatIsInstalled) {
+  const std::string file = ISOCNC_SOURCE_DIR "/docs/man/" + GetParam() + ".1";
+  std::stringstream installed;
+  installed << std::ifstream(file, std::ios::binary).rdbuf();
+  EXPECT_EQ(run_command({GetParam(), "--manual-page"}).out, installed.str())
+      << "write it anew: " << GetParam() << " --manual-page > docs/man/" << GetParam() << ".1";
+}
+
+TEST_P(Program, CompletesOptionsAndLanguages) {
+  const auto complete = [&](const std::string& word, const std::string& previous) {
+    return lines_of(run_command({GetParam(), "--complete", GetParam(), word, previous}).out);
+  };
+  EXPECT_THAT(complete("--la", GetParam()), testing::ElementsAre("--lang"));
+  EXPECT_THAT(complete("", "--lang"), testing::ElementsAre("en", "it"));
+  EXPECT_THAT(complete("i", "--lang"), testing::ElementsAre("it"));
+  EXPECT_THAT(complete("part", GetParam()), testing::IsEmpty());  // The shell names files.
+  EXPECT_THAT(complete("", "--config"), testing::IsEmpty());
+  EXPECT_THAT(complete("--config-", GetParam()), testing::IsEmpty());  // Hidden ones.
+}
+
+TEST(IsolintCompletion, KnowsCodesAndFormats) {
+  const auto complete = [&](const std::string& word, const std::string& previous) {
+    return lines_of(run_command({"isolint", "--complete", "isolint", word, previous}).out);
+  };
+  EXPECT_THAT(complete("ISO06", "--explain"), testing::SizeIs(9));
+  EXPECT_THAT(complete("ISO001,W00", "--ignore"), testing::ElementsAre("ISO001,W001", "ISO001,W002", "ISO001,W003"));
+  EXPECT_THAT(complete("js", "--format"), testing::ElementsAre("json"));
+  EXPECT_THAT(complete("--fi", "part.iso"), testing::ElementsAre("--fix"));
+}
+
+/// As bash calls it.
+TEST(IsolintCompletion, ManualPagesSpeakOfEachOption) {
+  const std::string page = run_command({"isolint", "--manual-page"}).out;
+  EXPECT_THAT(page, StartsWith(".TH ISOLINT 1 "));
+  EXPECT_THAT(page, HasSubstr("\\fB\\-\\-unsafe\\-fixes\\fR"));
+  EXPECT_THAT(page, testing::Not(HasSubstr("rules\\-page")));
+}
+
+}  // namespace
+}  // namespace isocnc::commands
