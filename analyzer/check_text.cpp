@@ -58,10 +58,13 @@ struct Batch {
 /// meanwhile.
 class Pass {
  public:
-  Pass(std::string_view text, const execution::Setup& setup, const JumpMap& jumps, int jobs)
-      : jobs_(jobs),
+  Pass(std::string_view text, const execution::Setup& setup, const JumpMap& jumps, int jobs,
+       const std::function<void(std::size_t)>& on_progress)
+      : on_progress_(on_progress),
+        jobs_(jobs),
         ring_(static_cast<std::size_t>(jobs == 1 ? 1 : kAhead * jobs)),
         batch_bytes_(jobs == 1 ? kBatchBytes : kSharedBatchBytes),
+        begin_(text.data()),
         next_(text.data()),
         end_(text.data() + text.size()),
         checker_(setup, jumps) {}
@@ -113,6 +116,7 @@ class Pass {
       due.is_ready = false;
       ++executed_;
       finished_ = is_over(checker_.frontier);
+      if (on_progress_) on_progress_(static_cast<std::size_t>(due.batch.text - begin_) + due.batch.size);
       if (jobs_ > 1) may_take_.notify_all();
     }
     is_executing_ = false;
@@ -120,11 +124,13 @@ class Pass {
 
   static constexpr int kAhead = 3;  // Batches for each thread.
 
+  const std::function<void(std::size_t)>& on_progress_;
   const int jobs_;
   std::mutex mutex_;  // Guards all below, but a slot that is not ready, and what is executed, are their thread's.
   std::condition_variable may_take_;
   std::vector<Slot> ring_;
   const std::ptrdiff_t batch_bytes_;
+  const char* const begin_;
   const char* next_;
   const char* const end_;
   std::uint64_t taken_ = 0;
@@ -155,11 +161,12 @@ static std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> label_lines
   return lines;
 }
 
-Report check_text(std::string_view text, const execution::Setup& setup, int jobs) {
+Report check_text(std::string_view text, const execution::Setup& setup, int jobs,
+                  const std::function<void(std::size_t)>& on_progress) {
   jobs = std::clamp<int>(jobs, 1, static_cast<int>(text.size() / kSharedBatchBytes) + 1);
   JumpMap jumps(text);
   for (;;) {
-    Pass pass(text, setup, jumps, jobs);
+    Pass pass(text, setup, jumps, jobs, on_progress);
     pass.run();
     std::vector<Outcome> outcomes;
     outcomes.push_back(pass.take_outcome());

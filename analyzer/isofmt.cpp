@@ -301,7 +301,8 @@ void add_options(running::ProgramApp& program, Options& options) {
 
   app.option_defaults()->group("What programs are to look like");
   CLI::Option* const word_order =
-      app.add_flag("--word-order", options.word_order, "N first, arguments as X Y Z A B C I J K P Q R,\nthen F")->option_text(" ");
+      app.add_flag("--word-order", options.word_order, "N first, arguments as X Y Z A B C I J K P Q R,\nthen F")
+          ->option_text(" ");
   app.add_flag("--no-word-order", options.no_word_order, "Words in the order in which they stand")
       ->excludes(word_order)
       ->option_text(" ");

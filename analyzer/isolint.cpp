@@ -20,6 +20,7 @@
 #include "analyzer/fixer.h"
 #include "analyzer/program_fixing.h"
 #include "analyzer/program_settings.h"
+#include "analyzer/progress.h"
 #include "analyzer/renderers.h"
 #include "analyzer/style_findings.h"
 #include "analyzer/suppressions.h"
@@ -90,6 +91,17 @@ struct Programs {
   std::vector<std::reference_wrapper<const ProgramSettings>> settings;
 };
 
+/// Those that cannot be told, as of standard input, count as nothing.
+std::uint64_t bytes_of(const std::vector<std::filesystem::path>& files) {
+  std::uint64_t bytes = 0;
+  for (const std::filesystem::path& file : files) {
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    if (!error) bytes += size;
+  }
+  return bytes;
+}
+
 /// Checks files side by side and shows what was found in their order.
 class Run {
  public:
@@ -102,6 +114,7 @@ class Run {
         settings_(std::move(programs.settings)),
         renderer_(std::move(renderer)),
         jobs_(options.jobs > 0 ? options.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
+        progress_(terminal_writer(), bytes_of(files_)),
         output_(options) {}
 
   int run(bool trouble) {
@@ -116,6 +129,7 @@ class Run {
     for (std::size_t i = 1; i < workers; ++i) helpers.emplace_back([this] { work(); });
     work();
     for (std::thread& helper : helpers) helper.join();
+    progress_.clear();
     renderer_->end(output_.buffer());
     if (!output_.finish()) return kTrouble;
     if (program_.flush() != 0) {
@@ -176,7 +190,9 @@ class Run {
       checked.fixed.reset();
     }
     const std::string_view text = source->text();
-    Report report = settings.selection.shown(check_text(text, settings.setup, jobs_for(text)));
+    std::size_t told = 0;
+    const auto tell = [&](std::size_t bytes) { progress_.add(bytes - std::exchange(told, bytes)); };
+    Report report = settings.selection.shown(check_text(text, settings.setup, jobs_for(text), tell));
     report = with_style(std::move(report), text, settings.selection);
     report = settings.selection.shown(suppress(std::move(report), text, settings.selection));
     const std::size_t all = report.findings.size();
@@ -205,6 +221,7 @@ class Run {
   }
 
   void show(const Checked& checked) {
+    progress_.clear();
     if (const auto* problem = std::get_if<SourceFile::Problem>(&checked.opened)) {
       complain(fmt::format("{}: {}", checked.name, problem->message));
       trouble_ = true;
@@ -277,6 +294,7 @@ class Run {
   const std::vector<std::reference_wrapper<const ProgramSettings>> settings_;
   std::unique_ptr<Renderer> renderer_;
   const int jobs_;
+  Progress progress_;
   std::atomic<std::size_t> next_ = 0;
   std::atomic<std::size_t> known_ = 0;  // Findings of the baseline.
   std::mutex mutex_;
