@@ -27,6 +27,13 @@ static constexpr std::size_t kShortLine = 60;
 
 static constexpr Text kOtherPlace = {"the other place", "l'altro punto"};
 
+/// Nobody reads the help of more findings in one file; --diff shows all that can be mended.
+static constexpr std::size_t kMostHelp = 1'000;
+
+static void append(std::string& out, std::initializer_list<std::string_view> pieces) {
+  for (const std::string_view piece : pieces) out += piece;
+}
+
 /// A piece of a line that fits on the screen, and where it starts.
 struct Excerpt {
   std::string_view text;
@@ -63,9 +70,14 @@ class TextRenderer final : public Renderer {
     const StepTexts steps(text, report, style_.language);
     RelatedPlaces places(text);
     FindingFixes fixes(text, report, program.setup);
+    std::size_t helps = 0;
     for (const LocatedFinding& located : report.findings) {
       one(name, lines, places, located, report, steps, output.buffer());
-      if (const std::optional<fixes::Fix> fix = fixes.of(located)) help(located, *fix, fixes, output.buffer());
+      if (helps < kMostHelp)
+        if (const std::optional<fixes::Fix> fix = fixes.of(located)) {
+          help(located, *fix, fixes, output.buffer());
+          ++helps;
+        }
       output.buffer() += '\n';
       output.relieve();
     }
@@ -80,20 +92,21 @@ class TextRenderer final : public Renderer {
     const std::string_view line = shown.line_text;
     const syntax::Finding& finding = located.finding;
     const std::string_view color = paint(kSeverityColors[static_cast<std::size_t>(shown.severity)]);
-    const std::string number = fmt::format("{}", shown.line);
+    const std::string number = std::to_string(shown.line);
     const std::string margin(number.size(), ' ');
-    const auto to = std::back_inserter(out);
-    fmt::format_to(to, "{}{}[{}]{}{}: {}{}\n", color, dialect::severity_name(shown.severity, style_.language),
-                   shown.def.code, paint(kReset), paint(kBold), printable(shown.message), paint(kReset));
-    fmt::format_to(to, "{}{}-->{} {}:{}:{}\n", margin, paint(kBlue), paint(kReset), name, number, shown.column);
+    const std::string_view reset = paint(kReset);
+    const std::string_view blue = paint(kBlue);
+    append(out, {color, dialect::severity_name(shown.severity, style_.language), "[", shown.def.code, "]", reset,
+                 paint(kBold), ": ", printable(shown.message), reset, "\n"});
+    append(out, {margin, blue, "-->", reset, " ", name, ":", number, ":", std::to_string(shown.column), "\n"});
     const Excerpt excerpt = excerpt_around(line, finding.span.begin);
-    fmt::format_to(to, "{} {}|{}\n", margin, paint(kBlue), paint(kReset));
+    append(out, {margin, " ", blue, "|", reset, "\n"});
     if (const std::optional<RelatedPlace> place = places.of(located, line)) above(*place, located.line, margin, out);
-    fmt::format_to(to, "{}{} |{} {}{}{}\n", paint(kBlue), number, paint(kReset), excerpt.cut_left ? "..." : "",
-                   printable(excerpt.text), excerpt.cut_right ? "..." : "");
-    fmt::format_to(to, "{} {}|{} {}\n", margin, paint(kBlue), paint(kReset), underline(excerpt, finding, color));
-    fmt::format_to(to, "{} {}={} {}\n", margin, paint(kBlue), paint(kReset),
-                   dialect::first_sentence(shown.def.explanation.in(style_.language)));
+    append(out, {blue, number, " |", reset, " ", excerpt.cut_left ? "..." : "", printable(excerpt.text),
+                 excerpt.cut_right ? "..." : "", "\n"});
+    append(out, {margin, " ", blue, "|", reset, " ", underline(excerpt, finding, color), "\n"});
+    append(out, {margin, " ", blue, "=", reset, " ", dialect::first_sentence(shown.def.explanation.in(style_.language)),
+                 "\n"});
     if (located.path >= 0) path(steps, report.paths[static_cast<std::size_t>(located.path)], margin, out);
   }
 

@@ -28,7 +28,13 @@ std::size_t column_of(std::string_view line, std::size_t byte) {
 std::string printable(std::string_view text) {
   std::string result;
   result.reserve(text.size());
+  const auto is_plain = [](char c) { return c >= 0x20 && c < 0x7F; };
   for (std::size_t at = 0; at < text.size();) {
+    const auto behind = std::find_if_not(text.begin() + static_cast<std::ptrdiff_t>(at), text.end(), is_plain);
+    const auto plain = static_cast<std::size_t>(behind - text.begin()) - at;
+    result.append(text.substr(at, plain));
+    at += plain;
+    if (at == text.size()) break;
     const std::size_t length = sequence_length(text.substr(at));
     const auto c = static_cast<unsigned char>(text[at]);
     if (c == '\t') {
