@@ -94,7 +94,13 @@ static void add_options(running::ProgramApp& program, Options& options) {
 
   app.option_defaults()->group("How it is run");
   app.add_option("--max-warnings", options.max_warnings, "Fail when there are more warnings than N")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Validator(
+          [](const std::string& given) {
+            const bool is_count =
+                !given.empty() && given.size() <= 9 && given.find_first_not_of("0123456789") == std::string::npos;
+            return is_count ? std::string() : given + " is no count of warnings";
+          },
+          ""))
       ->option_text("N");
   app.add_flag("--exit-zero", options.exit_zero, "Do not fail because of findings");
   app.add_option("--jobs,-j", options.jobs, "Threads; else one per core")->check(CLI::Range(1, 1024))->option_text("N");

@@ -242,7 +242,7 @@ inline constexpr auto kFixes = [] {
       {"motion-goes-nowhere"_diag, None, kMeaningUnknown},
       {"register-never-assigned"_diag, None, kMeaningUnknown},
       {"register-never-read"_diag, None, kMeaningUnknown},
-      {"label-never-used"_diag, Safe, {"remove {text}", "togliere {text}"}, removed_mark},
+      {"label-never-used"_diag, Safe, {"remove the number", "togliere il numero"}, removed_mark},
       {"line-number-not-growing"_diag,
        None,
        {"isofmt --renumber numbers all lines anew.", "isofmt --renumber rinumera tutte le righe."}},

@@ -15,6 +15,15 @@ static void check(const Block& block, const execution::Move& move, execution::Si
   sink.report({.id = "feed-above-machine"_diag, .span = word.span(), .values = {speed, block.setup.limits.feed}});
 }
 
-extern const Rule feed_above_machine = {.check_move = check};
+/// An F on a line of its own, for the moves that follow.
+static void check_alone(const Block& block, execution::Sink& sink) {
+  if (block.motion() != dialect::kNoMotion || block.before.inverse_time()) return;
+  const syntax::Word& word = block.line.words[static_cast<std::size_t>(block.line.feed)];
+  const double speed = word.value * block.before.mm_per_unit();
+  if (speed > block.setup.limits.feed)
+    sink.report({.id = "feed-above-machine"_diag, .span = word.span(), .values = {speed, block.setup.limits.feed}});
+}
+
+extern const Rule feed_above_machine = {kFeed, check_alone, check};
 
 }  // namespace isocnc::analyzer::rules

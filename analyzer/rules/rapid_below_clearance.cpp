@@ -3,21 +3,20 @@
 
 namespace isocnc::analyzer::rules {
 
-/// A rapid that goes below the clearance, or crosses the face beneath it; not one that only rises.
+/// A rapid that goes below the clearance, or crosses the face beneath it; not one that rises to it.
 static void check(const Block& block, const execution::Move& move, execution::Sink& sink) {
   if (move.kind != execution::MoveKind::Rapid || !block.setup.clearance) return;
   const double clearance = *block.setup.clearance - geometry::kEqualCoordinate;
   const geometry::Vec3 way = move.to.tip - move.from.tip;
-  const bool goes_down = way.z() < 0 && move.to.tip.z() < clearance;
+  if (move.to.tip.z() >= clearance) return;
   const bool crosses = way.head<2>().cwiseAbs().maxCoeff() > geometry::kEqualCoordinate;
   // The first motion leaves the home position, which is the machine's affair.
-  const bool begins_below =
-      block.before.mode(dialect::ModalGroup::Motion) != dialect::kNoMotion && move.from.tip.z() < clearance;
-  if (!goes_down && !(crosses && begins_below)) return;
-  const syntax::Word* const word = goes_down ? block.argument('Z') : nullptr;
+  const bool leaves_home = block.before.mode(dialect::ModalGroup::Motion) == dialect::kNoMotion;
+  if (way.z() >= 0 && (!crosses || leaves_home)) return;
+  const syntax::Word* const word = block.argument('Z');
   sink.report({.id = "rapid-below-clearance"_diag,
                .span = word ? word->span() : block.motion_word().span(),
-               .values = {goes_down ? move.to.tip.z() : move.from.tip.z(), *block.setup.clearance}});
+               .values = {move.to.tip.z(), *block.setup.clearance}});
 }
 
 extern const Rule rapid_below_clearance = {.check_move = check};

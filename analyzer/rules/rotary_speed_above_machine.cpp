@@ -22,7 +22,7 @@ static void check(const Block& block, const execution::Move& move, execution::Si
   const syntax::Word* const word = block.argument(b >= c ? 'B' : 'C');
   sink.report({.id = "rotary-speed-above-machine"_diag,
                .span = word ? word->span() : block.motion_word().span(),
-               .values = {turn / minutes, most}});
+               .values = {std::round(turn / minutes), most}});
 }
 
 extern const Rule rotary_speed_above_machine = {.check_move = check};

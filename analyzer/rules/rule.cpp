@@ -15,7 +15,7 @@ static const Rule* const kRules[] = {
 };
 
 void ask_all(const Block& block, execution::Sink& sink) {
-  unsigned concerns = block.line.spindle >= 0 ? kSpindle : 0;
+  unsigned concerns = (block.line.spindle >= 0 ? kSpindle : 0) | (block.line.feed >= 0 ? kFeed : 0);
   for (const syntax::Instruction& instruction : block.line.instructions) {
     switch (instruction.kind) {
       case syntax::InstructionKind::Continuation:

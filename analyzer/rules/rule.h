@@ -38,6 +38,7 @@ inline constexpr unsigned kModal = 2;       ///< Any other G.
 inline constexpr unsigned kFunction = 4;    ///< An M but for M06.
 inline constexpr unsigned kToolChange = 8;  ///< M06.
 inline constexpr unsigned kSpindle = 16;    ///< An S.
+inline constexpr unsigned kFeed = 32;       ///< An F.
 
 /// A rule tells what it thinks of a block that has one of `concerns`, or of the motion of a block. Each has a file of
 /// its name in this folder, and a row in the table of diagnostics; the build gathers them. `check` is not asked about

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 
 #include "analyzer/rules/rule.h"
@@ -7,22 +8,19 @@ namespace isocnc::analyzer::rules {
 
 using execution::Travel;
 
-static bool within(double value, const Travel& travel) {
-  constexpr double kSlack = 1e-6;
-  return value >= travel.least - kSlack && value <= travel.most + kSlack;
-}
-
-/// Where an axis leaves its travel: at the end of a motion, or at the bulge of an arc. That it stays outside, and comes
-/// back, is part of the same mistake.
+/// Where an axis goes beyond its travel, at the end of a motion or at the bulge of an arc. What starts outside is told
+/// only where it goes further out: the way back is part of the same mistake.
 static void check(const Block& block, const execution::Move& move, execution::Sink& sink) {
+  constexpr double kSlack = 1e-6;
   const geometry::Vec3 from = block.after.to_machine(move.from.tip);
   const std::array<double, execution::kAxisCount> start = {from.x(), from.y(), from.z(), move.from.b, move.from.c};
   const auto extents = execution::extents(execution::in_machine(move, block.after));
   for (std::size_t axis = 0; axis < start.size(); ++axis) {
     const Travel& travel = block.setup.limits.travel[axis];
     const geometry::Range& reached = extents[axis];
-    if (!within(start[axis], travel) || (within(reached.least, travel) && within(reached.most, travel))) continue;
-    const bool below = !within(reached.least, travel);
+    const bool below = reached.least < std::min(travel.least, start[axis]) - kSlack;
+    const bool above = reached.most > std::max(travel.most, start[axis]) + kSlack;
+    if (!below && !above) continue;
     // In a face frame another coordinate may be what moves the machine's axis.
     const syntax::Word* const word = block.after.face_mounted && axis < 3 ? nullptr : block.argument("XYZBC"[axis]);
     sink.report({.id = "travel-exceeded"_diag,

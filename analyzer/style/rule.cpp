@@ -1,6 +1,7 @@
 #include "analyzer/style/rule.h"
 
 #include <algorithm>
+#include <unordered_set>
 
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
@@ -25,6 +26,28 @@ const syntax::Word* number_of(const syntax::LineTree& line) {
   return number == line.words.end() ? nullptr : &*number;
 }
 
+namespace {
+
+/// Whether the control reads a line: behind M02 only from a label on that a GOTO above names (D47).
+class Liveness {
+ public:
+  bool is_read(const syntax::LineTree& line) {
+    if (line.has_label() && targets_.contains(line.label)) ended_ = false;
+    if (ended_) return false;
+    if (line.jump && line.jump->has_target) targets_.insert(line.jump->target);
+    ended_ = std::any_of(line.instructions.begin(), line.instructions.end(), [&](const syntax::Instruction& each) {
+      return each.kind == syntax::InstructionKind::Function && line.command(each).value == dialect::kProgramEnd;
+    });
+    return true;
+  }
+
+ private:
+  std::unordered_set<std::uint64_t> targets_;
+  bool ended_ = false;
+};
+
+}  // namespace
+
 std::vector<Remark> read_program(std::string_view text, const std::function<bool(dialect::DiagnosticId)>& is_wanted) {
   std::vector<std::unique_ptr<Rule>> rules;
   for (const RuleRow* const row : kRules)
@@ -32,6 +55,7 @@ std::vector<Remark> read_program(std::string_view text, const std::function<bool
   std::vector<Remark> remarks;
   if (rules.empty()) return remarks;
   syntax::TreeStore store;
+  Liveness liveness;
   const char* p = text.data();
   const char* const end = text.data() + text.size();
   for (std::uint64_t number = 0; p != end; ++number) {
@@ -39,7 +63,8 @@ std::vector<Remark> read_program(std::string_view text, const std::function<bool
     const char* const line_end = store.append_line(p, end);
     const char* const next = syntax::skip_line_end(line_end, end);
     const Line line{number, store.tree(0, p), {line_end, static_cast<std::size_t>(next - line_end)}};
-    for (const std::unique_ptr<Rule>& rule : rules) rule->read(line, remarks);
+    if (liveness.is_read(line.tree))
+      for (const std::unique_ptr<Rule>& rule : rules) rule->read(line, remarks);
     p = next;
   }
   for (const std::unique_ptr<Rule>& rule : rules) rule->end(remarks);

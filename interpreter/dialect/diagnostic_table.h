@@ -1387,14 +1387,16 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .severity = Severity::Warning,
      .section = "I.3.7",
      .arguments = {"feed"},
-     .title = {.en = "Feed rate left over from G93", .it = "Velocità rimasta dalla G93"},
-     .message = {.en = "no F since G93: its {feed} now counts as mm/min",
-                 .it = "nessuna F dopo la G93: il suo {feed} ora vale in mm/min"},
+     .title = {.en = "No F since G93", .it = "Nessuna F dopo la G93"},
+     .message = {.en = "no F since G93: the feed is {feed} mm/min from here on",
+                 .it = "nessuna F dopo la G93: da qui l'avanzamento è di {feed} mm/min"},
      .explanation =
-         {.en = "The last F was given under G93, where it stood for a time, and back in G94 it is read as a speed. "
-                "Write an F on the first feed move after G94. No false alarms are known.",
-          .it = "L'ultima F è stata data con la G93, dove indicava un tempo, e tornati in G94 viene letta come "
-                "velocità. Scrivere una F sul primo movimento in lavoro dopo la G94. Non si conoscono falsi allarmi."},
+         {.en = "Back in G94 without a new F the last F of G94 holds again; where there was none, the F of G93, which "
+                "stood for a time, is read as a speed. Write an F on the first feed move after G94. A false alarm "
+                "where the F from before G93 is meant.",
+          .it = "Tornati in G94 senza una nuova F vale di nuovo l'ultima F data in G94; se non ce n'era, la F della "
+                "G93, che indicava un tempo, viene letta come velocità. Scrivere una F sul primo movimento in lavoro "
+                "dopo la G94. Falso allarme se si intende proprio la F precedente alla G93."},
      .wrong = "M06 T101001\nG93\nG01 X10 F4\nG94\n[!G01!] X20\nM02\n",
      .right = "M06 T101001\nG93\nG01 X10 F4\nG94\nG01 X20 F1000\nM02\n"},
     {.code = "W111",
@@ -1716,8 +1718,8 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .section = "I.3.4",
      .arguments = {"axis", "reached", "limit"},
      .title = {.en = "Axis travel exceeded", .it = "Corsa di un asse superata"},
-     .message = {.en = "{axis} goes to {reached}, and its travel ends at {limit}",
-                 .it = "l'asse {axis} va a {reached}, ma la sua corsa finisce a {limit}"},
+     .message = {.en = "the machine's {axis} goes to {reached}, and its travel ends at {limit}",
+                 .it = "l'asse {axis} della macchina va a {reached}, ma la sua corsa finisce a {limit}"},
      .explanation = {.en = "On the way of this motion, the bulge of an arc included, the tool tip leaves the travel "
                            "that the machine file gives, in machine coordinates. Check the coordinate and the "
                            "workpiece origin, or the file. A false alarm where the file gives the travel of the joints "
@@ -1782,15 +1784,16 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .section = "I.3.4.1",
      .arguments = {"z", "clearance"},
      .title = {.en = "Rapid below the clearance", .it = "Rapido sotto la quota di sicurezza"},
-     .message = {.en = "a rapid at Z{z}, below the clearance of {clearance}",
-                 .it = "un rapido a Z{z}, sotto la quota di sicurezza di {clearance}"},
+     .message = {.en = "a rapid to Z = {z} mm of the face, below the clearance of {clearance} mm",
+                 .it = "un rapido a Z = {z} mm della faccia, sotto la quota di sicurezza di {clearance} mm"},
      .explanation =
-         {.en = "The machine file gives a clearance height above the face, and this rapid goes down below it or "
-                "crosses the face beneath it. Approach with a feed move, or raise the tool first. A false alarm where "
-                "the way is known to be free, as between two slots.",
+         {.en = "The machine file gives a clearance height above the face, and this rapid goes down below it or moves "
+                "across the face beneath it. Approach with a feed move, or raise the tool first. A false alarm where "
+                "the way is known to be free, as between two slots, or right after another face has been mounted.",
           .it = "Il file macchina indica una quota di sicurezza sopra la faccia, e questo rapido scende sotto di essa "
-                "o attraversa la faccia più in basso. Avvicinarsi con un movimento in lavoro, o sollevare prima "
-                "l'utensile. Falso allarme se si sa che la strada è libera, come fra due cave."},
+                "o si sposta sopra la faccia a quota inferiore. Avvicinarsi con un movimento in lavoro, o sollevare "
+                "prima l'utensile. Falso allarme se si sa che la strada è libera, come fra due cave, o subito dopo "
+                "aver montato un'altra faccia."},
      .wrong = "M06 T101001\nG00 X10 Y10 Z20\nG00 [!Z1!]\nM02\n",
      .right = "M06 T101001\nG00 X10 Y10 Z20\nG00 Z5\nG01 Z1 F500\nM02\n"},
     {.code = "W135",

@@ -66,10 +66,18 @@ void Executor::run() {
     constexpr std::uint8_t kEnds = State::kStopped | State::kUncut;
     state_.forget(state_.inverse_time() ? kEnds : kEnds | State::kFeedOfInverseTime);
   }
-  if (feed_move_ || rapid_move_) state_.forget(State::kCompensationWaits);
+  if (state_.knows(State::kCompensationWaits) && (feed_move_ || rapid_move_) && moves_in_plane())
+    state_.forget(State::kCompensationWaits);
   const Instruction* const last = line_.instructions.empty() ? nullptr : &line_.instructions.back();
   state_.tool_awaited = last != nullptr && last->kind == InstructionKind::ToolChange &&
                         last->end == last->command + 1 && !last->has(Instruction::kSettled);
+}
+
+/// Whether the line has a coordinate of the plane in force.
+bool Executor::moves_in_plane() const {
+  const Plane& plane = plane_in_force(state_);
+  return std::any_of(line_.words.begin(), line_.words.end(),
+                     [&](const Word& word) { return word.letter == plane.u_letter || word.letter == plane.v_letter; });
 }
 
 void Executor::report(dialect::DiagnosticId id, syntax::Span span, std::initializer_list<double> values,

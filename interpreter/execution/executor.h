@@ -34,6 +34,7 @@ class Executor {
   bool run_plain();
 
  private:
+  bool moves_in_plane() const;
   void execute_g(const syntax::Instruction& instruction);
   void set_mode(const dialect::GCode& code, const syntax::Word& word);
   void exact_stop(const syntax::Instruction& instruction);

@@ -71,7 +71,7 @@ std::string ProgramApp::completions(std::string_view word, std::string_view prev
     if (words == words_.end()) return lines;
     const std::size_t last = word.find_last_of(',') + 1;  // 0 where there is no comma.
     for (const std::string_view each : words->second)
-      if (each.starts_with(word.substr(last))) lines += fmt::format("{}{}\n", word.substr(0, last), each);
+      if (dialect::begins_with(each, word.substr(last))) lines += fmt::format("{}{}\n", word.substr(0, last), each);
     return lines;
   }
   if (!word.starts_with('-')) return lines;
