@@ -90,7 +90,7 @@ struct Jump {
   std::uint64_t target = 0;
   Span if_span;
   Span variable_span;  ///< The register or VGPL.
-  Span target_span;  ///< The label behind GOTO.
+  Span target_span;    ///< The label behind GOTO.
 
   bool condition_is_known() const {
     return variable != kUnknownVariable && comparison != Comparison::Invalid && !std::isnan(value);

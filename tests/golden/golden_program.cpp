@@ -75,8 +75,7 @@ static void read_directive(Part& part, const std::string& what, const std::strin
     words >> part.setup.clearance.emplace();
   } else if (key == "functions") {
     part.setup.functions.emplace();
-    for (std::string function; words >> function;)
-      part.setup.functions->push_back(std::stoi(function.substr(1)));
+    for (std::string function; words >> function;) part.setup.functions->push_back(std::stoi(function.substr(1)));
   } else if (key == "arc-tolerance") {
     words >> part.setup.arc_tolerance;
   } else if (key == "home") {

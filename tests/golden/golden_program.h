@@ -40,7 +40,7 @@ struct Part {
   execution::Setup setup;
   double vgpl = 0;
   std::vector<std::string> selected;  ///< Rules that are off by default, as `W124=warning`.
-  bool is_about_rules = false;  ///< In tests/programs/rules: lint findings are marked, too.
+  bool is_about_rules = false;        ///< In tests/programs/rules: lint findings are marked, too.
 };
 
 std::vector<Part> read_golden(const std::filesystem::path& file);
