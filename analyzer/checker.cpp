@@ -61,6 +61,11 @@ static void sort_by_column(std::vector<LocatedFinding>& findings, std::size_t fi
         [](const LocatedFinding& a, const LocatedFinding& b) { return a.finding.span.begin < b.finding.span.begin; });
 }
 
+/// Opinions on a line are asked for unless something is an error there: a remark does not make it unclear.
+static bool is_error(const Finding& finding) {
+  return dialect::definition(finding.id).severity == dialect::Severity::Error;
+}
+
 /// A program without jumps has one path and one state.
 void Checker::check_straight(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   if (frontier.live.empty()) return tell_of_dead_code(line, line_number, outcome);
@@ -72,7 +77,9 @@ void Checker::check_straight(const LineTree& line, std::uint64_t line_number, Ou
   if (line.is_empty()) return;
   const execution::State before = state;
   execution::execute(line, state, setup_, listener);
-  if (outcome.findings.size() == first) {
+  const auto is_error_here = [](const LocatedFinding& located) { return is_error(located.finding); };
+  if (std::none_of(outcome.findings.begin() + static_cast<std::ptrdiff_t>(first), outcome.findings.end(),
+                   is_error_here)) {
     rules::ask_all({line, before, state, setup_}, listener);
     judge_move(line, before, state, listener);
   }
@@ -154,15 +161,17 @@ void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_num
       std::size_t group_;
       Outcome& outcome_;
     };
+    const auto is_error_here = [](const GroupFinding& found) { return is_error(found.finding); };
+    const bool is_wrong = std::any_of(line.findings.begin(), line.findings.end(), is_error);
     group_findings_.clear();
     for (std::size_t i = 0; i < live.size(); ++i) {
       GroupListener listener(*this, i, outcome);
       execution::State& state = live[i].state;
       if (execution::execute_plain(line, state, setup_, listener)) continue;
-      const std::size_t first = group_findings_.size();
+      const auto first = static_cast<std::ptrdiff_t>(group_findings_.size());
       const execution::State before = state;
       execution::execute(line, state, setup_, listener);
-      if (group_findings_.size() == first && line.findings.empty()) {
+      if (!is_wrong && std::none_of(group_findings_.begin() + first, group_findings_.end(), is_error_here)) {
         rules::ask_all({line, before, state, setup_}, listener);
         judge_move(line, before, state, listener);
       }

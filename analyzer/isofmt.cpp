@@ -115,7 +115,8 @@ ProgramStyle style_by(configuration::Format format, const Options& options) {
   if (!options.modal.empty()) format.modal = options.modal;
   ProgramStyle style = style_by(format);
   if (!options.renumber.empty()) style.numbers = read_numbers(options.renumber);
-  if (style.numbers && options.renumber_all) style.numbers->all_lines = true;
+  const bool numbers_all = options.renumber_all || (format.renumber && format.renumber->all_lines);
+  if (style.numbers && numbers_all) style.numbers->all_lines = true;
   return style;
 }
 

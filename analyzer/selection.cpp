@@ -101,8 +101,11 @@ Selection::Selection() {
 }
 
 std::vector<std::string> Selection::follow(const Wishes& wishes, Language language) {
+  static constexpr Text kSelectsNothing = {"select names no code; ALL names them all",
+                                           "select non indica alcun codice; ALL li indica tutti"};
   std::vector<std::string> problems;
   const std::vector<CodeSet> select = code_sets(wishes.select, language, problems);
+  if (!wishes.select.empty() && select.empty() && problems.empty()) problems.emplace_back(kSelectsNothing.in(language));
   const std::vector<CodeSet> ignore = code_sets(wishes.ignore, language, problems);
   std::vector<SeverityWish> severities;
   for (const std::string_view word : words_of(wishes.severities))

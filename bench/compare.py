@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Times isolint on generated programs, mostly against the bare tokenizer, and holds the figures against their targets.
+"""Times isolint and isofmt on generated programs and holds the figures against their targets.
 
-Whole processes are timed, in pairs that take turns, so that a machine whose speed drifts does not tilt the ratio. Prints a
-Markdown table. Exit status: 0 every target met, 1 some missed, 2 could not measure.
+Whole processes are timed, mostly against the bare tokenizer, in pairs that take turns, so that a machine whose speed drifts
+does not tilt the ratio. Prints a Markdown table. Exit status: 0 every target met, 1 some missed, 2 could not measure.
 """
 
 import argparse
@@ -25,6 +25,7 @@ TOKENIZER_RATIO = 1.5  # CPU of jobs 1 against the tokenizer, on each clean kind
 NO_LOSS_RATIO = 1.05  # Wall time of jobs 2 against jobs 1; "no loss", and the noise of a measurement.
 BIG_RATIO = 0.75  # The same at --big lines.
 PATH_RATIOS = {"production-if": 1.2, "hostile-if": 3.0}  # CPU against production.
+FORMATTER_RATIO = 2.0  # CPU of isofmt against isolint's.
 ERRORS_RATIO = 30  # CPU against the tokenizer.
 ERRORS_MIB = 500
 ANONYMOUS_MIB = 32
@@ -113,9 +114,8 @@ class Comparison:
     def __init__(self, options: argparse.Namespace, work: Path):
         self.options = options
         self.work = work
-        self.isolint = options.bin / "isolint"
-        if not os.access(self.isolint, os.X_OK):
-            raise CannotMeasure(f"{self.isolint} is missing: build the release preset first, or name its folder by --bin")
+        self.isolint = self.program("isolint")
+        self.isofmt = self.program("isofmt")
         self.tokenizer = self.program("isocnc_tokenizer")
         self.generator = self.program("isocnc_corpus")
         self.rows: list[Row] = []
@@ -125,7 +125,7 @@ class Comparison:
         for folder in (self.options.bin, self.options.bin.parent / "bench"):
             if os.access(folder / name, os.X_OK):
                 return str(folder / name)
-        raise CannotMeasure(f"{name} is missing in {self.options.bin.parent}/bench: build the release preset first")
+        raise CannotMeasure(f"{name} is missing: build the release preset first, or name the programs' folder by --bin")
 
     def corpus(self, kind: str, lines: int) -> str:
         """The generated program, written unless a present one is younger than the generator."""
@@ -138,11 +138,11 @@ class Comparison:
         return str(file)
 
     def check(self, file: str, jobs: int = 1) -> list[str]:
-        return [str(self.isolint), "--jobs", str(jobs), "--no-config", file]
+        return [self.isolint, "--jobs", str(jobs), "--no-config", file]
 
     def must_be_clean(self, file: str) -> None:
         """Where isolint finds something in a clean program, the times would be those of another task."""
-        command = [str(self.isolint), "--format", "concise", "--no-config", file]
+        command = [self.isolint, "--format", "concise", "--no-config", file]
         found = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True, check=False)
         if found.returncode != 0 or found.stdout:
             first = "\n".join(found.stdout.splitlines()[:5])
@@ -175,6 +175,12 @@ class Comparison:
         )
         self.add(self.title(kind), "jobs 1 / the same on production, CPU", text, ratio, PATH_RATIOS[kind])
 
+    def formatter(self, kind: str) -> None:
+        file = self.corpus(kind, self.options.lines)
+        formatting = [self.isofmt, "--stdout", "--no-config", file]
+        ratio, text = median_ratio(*take_turns(formatting, self.check(file), self.options.runs), figure="cpu")
+        self.add(self.title(kind), "isofmt / isolint, CPU", text, ratio, FORMATTER_RATIO)
+
     def memory(self, kind: str, lines: int, jobs: int) -> None:
         peak = anonymous_peak(self.check(self.corpus(kind, lines), jobs))
         self.add(self.title(kind, lines), f"jobs {jobs}, RssAnon", f"{peak:.1f} MiB", peak, ANONYMOUS_MIB, " MiB")
@@ -189,7 +195,7 @@ class Comparison:
 
     def tiny(self) -> None:
         file = self.corpus("short", TINY_LINES)
-        command = [str(self.isolint), "--no-config", file]
+        command = [self.isolint, "--no-config", file]
         run(command)
         wall = statistics.median(run(command).wall for _ in range(max(self.options.runs, 20))) * 1000
         self.add(f"short, {TINY_LINES} lines", "wall", f"{wall:.1f} ms", wall, TINY_MS, " ms")
@@ -207,6 +213,7 @@ class Comparison:
             self.against_production(kind)
         else:
             self.against_tokenizer(kind)
+            self.formatter(kind)
         self.two_jobs(kind, self.options.lines, NO_LOSS_RATIO)
         self.memory(kind, self.options.lines, 1)
         if kind in BIG_KINDS and self.options.big:
@@ -234,7 +241,7 @@ def kinds(text: str) -> list[str]:
 def parse_options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     root = Path(__file__).resolve().parent.parent
-    parser.add_argument("--bin", type=Path, default=root / "build/release/bin", help="folder of isolint")
+    parser.add_argument("--bin", type=Path, default=root / "build/release/bin", help="folder of the programs")
     parser.add_argument("--work", type=Path, help="folder that keeps the generated programs (else a temporary one)")
     parser.add_argument("--runs", type=int, default=15, help="counted runs of each command, default 15")
     parser.add_argument("--lines", type=int, default=1_000_000, help="lines of a program, default 1000000")

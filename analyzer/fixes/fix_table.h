@@ -30,7 +30,7 @@ inline constexpr Text kWrite = {"write {new}", "scrivere {new}"};
 inline constexpr Text kWholeNumber = {"write {new}, without sign and point", "scrivere {new}, senza segno né punto"};
 inline constexpr Text kZero = {"write the digit 0 for the letter O", "scrivere la cifra 0 al posto della lettera O"};
 inline constexpr Text kComment = {"put the text in a comment", "mettere il testo in un commento"};
-inline constexpr Text kAbove = {"insert {new} above", "inserire {new} sulla linea prima"};
+inline constexpr Text kAbove = {"insert {new} above", "inserire {new} sulla linea precedente"};
 inline constexpr Text kMeantCenter = {"write {new}: the center was given with the other origin (G90, G91)",
                                       "scrivere {new}: il centro era riferito all'altra origine (G90, G91)"};
 inline constexpr Text kNearestCenter = {"move the center to {new}, equally far from both ends",

@@ -10,8 +10,10 @@ static void check(const Block& block, execution::Sink& sink) {
     report(sink, "compensation-across-change"_diag, word.span(), mode);
   };
   if (const syntax::Word* const change = block.m(dialect::kToolChange)) return tell(*change);
-  for (const int frame : {24, 27, 28, 29, 92})
+  for (const int frame : {24, 27, 28, 29, 92}) {
+    if (frame == 27 && !block.before.face_mounted) continue;  // W002: it does nothing.
     if (const syntax::Word* const word = block.g(frame)) return tell(*word);
+  }
   for (const int plane : {17, 18, 19})
     if (const syntax::Word* const word = block.g(plane))
       if (block.before.mode(dialect::ModalGroup::Plane) != plane) return tell(*word);

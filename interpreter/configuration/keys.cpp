@@ -232,6 +232,7 @@ static void add_lint(std::vector<Key>& keys) {
                   .text = TextKind::Pattern,
                   .documentation = "Which programs: patterns of paths from the folder of this file.",
                   .is_required = true,
+                  .is_never_empty = true,
                   .slot = [](Configuration& c, std::size_t i) -> Slot { return &c.lint.files[i].paths; }});
   add_wishes(keys, "lint.files[]",
              [](Configuration& c, std::size_t i) -> CodeWishes& { return c.lint.files[i].wishes; });
@@ -239,6 +240,7 @@ static void add_lint(std::vector<Key>& keys) {
                   .kind = Kind::Texts,
                   .text = TextKind::Extension,
                   .documentation = "What the names of programs end in; a search of a folder takes these files.",
+                  .is_never_empty = true,
                   .slot = [](Configuration& c, std::size_t) -> Slot { return &c.lint.extensions; }});
   keys.push_back({.path = "lint.exclude",
                   .kind = Kind::Texts,

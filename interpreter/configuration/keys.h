@@ -64,6 +64,7 @@ struct Key {
   std::span<const std::string_view> choices;
   std::string_view documentation;
   bool is_required = false;
+  bool is_never_empty = false;  ///< A list that would mean nothing without an element.
   /// Below a list, `index` is the element's.
   std::function<Slot(Configuration& configuration, std::size_t index)> slot;
   std::function<std::optional<Objection>(const Configuration& configuration, std::size_t index)> objection;

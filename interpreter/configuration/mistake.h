@@ -81,6 +81,9 @@ inline constexpr dialect::Text kNoChoice = {"{0} is none of {1}", "{0} non è fr
 inline constexpr dialect::Text kUnknownCode = {"there is no code {0} (isolint --list-rules)",
                                                "il codice {0} non esiste (isolint --list-rules)"};
 inline constexpr dialect::Text kBadGlob = {"{0} is no pattern of paths", "{0} non è un modello di percorso"};
+inline constexpr dialect::Text kLeavesFolder = {"{0}: only programs in the folder of this file, or below, have it",
+                                                "{0}: questo file vale solo per i programmi nella sua cartella o "
+                                                "nelle sue sottocartelle"};
 inline constexpr dialect::Text kNegatedGlob = {"{0}: a ! means nothing here; write \\! for a name that begins so",
                                                "{0}: qui il ! non ha significato; per un nome che inizia così "
                                                "scrivere \\!"};
@@ -88,6 +91,7 @@ inline constexpr dialect::Text kBadExtension = {"{0} is no extension, such as .i
                                                 "{0} non è un'estensione, come .iso"};
 inline constexpr dialect::Text kBadFunction = {"{0} is no user M: those are M1 to M999, less M2 to M6",
                                                "{0} non è una M dell'utente: vanno da M1 a M999, escluse M2-M6"};
+inline constexpr dialect::Text kEmptyList = {"the list is empty", "l'elenco è vuoto"};
 inline constexpr dialect::Text kEmpty = {"the text is empty", "il testo è vuoto"};
 inline constexpr dialect::Text kMinAboveMax = {"min is more than max", "min è maggiore di max"};
 inline constexpr dialect::Text kToolTwice = {"this tool is listed already", "utensile già in elenco"};

@@ -52,8 +52,10 @@ struct Fault {
 
 static std::optional<Fault> pattern_fault(std::string_view text) {
   if (text.starts_with('!')) return Fault{mistakes::kNegatedGlob, {}};
-  if (PathPatterns::is_well_formed(text)) return std::nullopt;
-  return Fault{mistakes::kBadGlob, {}};
+  if (!PathPatterns::is_well_formed(text)) return Fault{mistakes::kBadGlob, {}};
+  if (text == ".." || text.starts_with("../") || text.ends_with("/..") || text.find("/../") != std::string_view::npos)
+    return Fault{mistakes::kLeavesFolder, {}};
+  return std::nullopt;
 }
 
 static std::optional<Fault> extension_fault(std::string_view text) {
@@ -284,6 +286,7 @@ class Reader {
   }
 
   void read_texts(const Key& key, const JsonValue& list, const std::string& path, std::vector<std::string>& texts) {
+    if (list.elements.empty() && key.is_never_empty) complain(list.at, path, mistakes::kEmptyList);
     texts.clear();
     for (std::size_t i = 0; i < list.elements.size() && !is_full(); ++i) {
       const JsonValue& element = list.elements[i];

@@ -110,7 +110,7 @@ static Json text_schema(TextKind kind) {
       schema["pattern"] = "^M(0{0,2}[17-9]|0?[1-9][0-9]|[1-9][0-9]{2})$";
       break;
     case TextKind::Pattern:
-      schema["pattern"] = "^[^!]";
+      schema["pattern"] = R"(^(?!(.*/)?\.\.(/|$))[^!])";
       break;
     case TextKind::Any:
       schema["minLength"] = 1;
@@ -186,6 +186,7 @@ static Json schema_of(const Key* key) {
     case KeyKind::Texts:
       schema["type"] = "array";
       schema["items"] = text_schema(key->text);
+      if (key->is_never_empty) schema["minItems"] = 1;
       break;
     case KeyKind::Severities:
       schema["type"] = "object";

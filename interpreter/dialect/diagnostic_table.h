@@ -587,12 +587,13 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .title = {.en = "G04 not alone on its line", .it = "G04 non da sola sulla linea"},
      .message = {.en = "{text} must stand alone on its line, with nothing but its P",
                  .it = "{text} deve stare da sola sulla linea, con la sola P"},
-     .explanation = {.en = "A dwell needs a line of its own: it could otherwise come before or after the other words "
-                           "of the line. Move them to the line before or after, as they should be executed. A line "
-                           "number N may stay.",
-                     .it = "L'attesa vuole una linea a sé: altrimenti non sarebbe chiaro se viene prima o dopo le "
-                           "altre parole. Spostarle sulla linea prima o su quella dopo, nell'ordine voluto. Il "
-                           "numero di riga N può restare."},
+     .explanation =
+         {.en = "A dwell needs a line of its own: it could otherwise come before or after the other words "
+                "of the line. Move them to the line before or after, as they should be executed. A line "
+                "number N may stay.",
+          .it = "L'attesa vuole una linea a sé: altrimenti non sarebbe chiaro se viene prima o dopo le "
+                "altre parole. Spostarle sulla linea precedente o su quella successiva, nell'ordine voluto. Il "
+                "numero di riga N può restare."},
      .wrong = "S5000 M03 [!G04!] P2\nM02\n",
      .right = "S5000 M03\nG04 P2\nM02\n"},
     {.code = "ISO038",
@@ -1166,11 +1167,12 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .title = {.en = "M with parameters not alone on its line", .it = "M con parametri non da sola sulla linea"},
      .message = {.en = "{text} has parameters and must stand alone on its line",
                  .it = "{text} ha dei parametri e deve stare da sola sulla linea"},
-     .explanation = {.en = "The control runs an M with parameters only if it is the single instruction on its line. "
-                           "Move the other instructions to the line before or after it. A line number N may stay.",
-                     .it = "Il controllo esegue una M con parametri solo se è l'unica istruzione della linea. "
-                           "Spostare le altre istruzioni sulla linea prima o su quella dopo. Il numero di riga N può "
-                           "restare."},
+     .explanation =
+         {.en = "The control runs an M with parameters only if it is the single instruction on its line. "
+                "Move the other instructions to the line before or after it. A line number N may stay.",
+          .it = "Il controllo esegue una M con parametri solo se è l'unica istruzione della linea. "
+                "Spostare le altre istruzioni sulla linea precedente o su quella successiva. Il numero di riga N può "
+                "restare."},
      .wrong = "M06 T101001\nG00 X10 [!M100!] P1=5\nM02\n",
      .right = "M06 T101001\nG00 X10\nM100 P1=5\nM02\n"},
     {.code = "E008",

