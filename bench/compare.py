@@ -59,10 +59,11 @@ class Row:
 
 
 def spawn(argv: list[str]) -> int:
-    """Starts a process that reads nothing and whose findings go nowhere."""
+    """Starts a process that reads nothing and whose findings and summary go nowhere."""
     streams = [
         (os.POSIX_SPAWN_OPEN, 0, os.devnull, os.O_RDONLY, 0),
         (os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0),
+        (os.POSIX_SPAWN_OPEN, 2, os.devnull, os.O_WRONLY, 0),
     ]
     return os.posix_spawn(argv[0], argv, os.environ, file_actions=streams)
 
