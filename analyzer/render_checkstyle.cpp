@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "analyzer/renderers.h"
-#include "analyzer/xml.h"
 #include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/running/xml.h"
 
 namespace isocnc::analyzer {
 
@@ -21,13 +21,13 @@ class CheckstyleRenderer final : public Renderer {
     const std::string_view text = program.text;
     const Report& report = program.report;
     LineFinder lines(text);
-    output.buffer() += fmt::format("  <file name=\"{}\">\n", xml_escaped(plain_path(name)));
+    output.buffer() += fmt::format("  <file name=\"{}\">\n", running::xml_escaped(plain_path(name)));
     for (const LocatedFinding& located : report.findings) {
       const ShownFinding shown = show(located, lines, style_);
       fmt::format_to(std::back_inserter(output.buffer()),
                      "    <error line=\"{}\" column=\"{}\" severity=\"{}\" message=\"{}\" source=\"isolint.{}\"/>\n",
                      shown.line, shown.column, dialect::severity_name(shown.severity, dialect::Language::English),
-                     xml_escaped(shown.message), shown.def.code);
+                     running::xml_escaped(shown.message), shown.def.code);
       output.relieve();
     }
     output.buffer() += "  </file>\n";

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "analyzer/renderers.h"
-#include "analyzer/xml.h"
 #include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/running/xml.h"
 
 namespace isocnc::analyzer {
 
@@ -26,7 +26,7 @@ class JunitRenderer final : public Renderer {
     const auto failures = std::count_if(report.findings.begin(), report.findings.end(), [&](const auto& located) {
       return located.severity() == dialect::Severity::Error;
     });
-    const std::string file = xml_escaped(plain_path(name));
+    const std::string file = running::xml_escaped(plain_path(name));
     fmt::format_to(std::back_inserter(output.buffer()), "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n",
                    file, std::max<std::size_t>(1, report.findings.size()), failures);
     // A suite without a case would count as one that was not run.
@@ -44,7 +44,7 @@ class JunitRenderer final : public Renderer {
  private:
   void one(std::string_view file, const ShownFinding& shown, std::string_view path, std::string& out) const {
     const auto to = std::back_inserter(out);
-    const std::string message = xml_escaped(shown.message);
+    const std::string message = running::xml_escaped(shown.message);
     const std::string body =
         fmt::format("{}:{}:{}: {}: {} [{}]", file, shown.line, shown.column,
                     dialect::severity_name(shown.severity, style_.language), message, shown.def.code);
@@ -67,7 +67,7 @@ class JunitRenderer final : public Renderer {
     if (!text.empty()) text.remove_prefix(1);
     while (!text.empty()) {
       const std::size_t end = std::min(text.find('\n'), text.size());
-      out += "\n" + xml_escaped(text.substr(0, end));
+      out += "\n" + running::xml_escaped(text.substr(0, end));
       text.remove_prefix(std::min(end + 1, text.size()));
     }
   }

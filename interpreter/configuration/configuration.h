@@ -11,6 +11,7 @@
 #include "interpreter/configuration/path_patterns.h"
 #include "interpreter/dialect/diagnostic.h"
 #include "interpreter/execution/setup.h"
+#include "interpreter/running/timing.h"
 
 namespace isocnc::configuration {
 
@@ -29,10 +30,18 @@ struct Tool {
 struct NamedFunction {
   int number = 0;
   std::string name;
+  double seconds = 0;  ///< How long the machine waits for it.
 };
+
+/// Rapids of the default machine, mm/min and degrees/min.
+std::array<double, execution::kAxisCount> default_rapids();
 
 struct Machine {
   execution::Setup setup;  ///< Its tools and functions are those below.
+  /// How it moves. Travel, rapids and kind are those of `setup` and below; its tools and functions those below.
+  running::TimedMachine timed;
+  std::array<double, execution::kAxisCount> rapids = default_rapids();  ///< mm/min, degrees/min.
+  std::string kind = "head";                                            ///< `three-axis`, `head`, `table`.
   std::optional<std::vector<Tool>> tools;
   std::optional<std::vector<NamedFunction>> functions;
 };

@@ -12,6 +12,7 @@ using Kind = KeyKind;
 static constexpr std::string_view kSeverities[] = {"error", "warning", "info", "off"};
 static constexpr std::string_view kLanguages[] = {"en", "it"};
 static constexpr std::string_view kModal[] = {"keep", "write", "fold"};
+static constexpr std::string_view kMachineKinds[] = {"three-axis", "head", "table"};
 
 /// Farther than any machine reaches, and close enough to compute with.
 static constexpr Range kLength = {-1e6, 1e6};
@@ -97,6 +98,20 @@ static void add_axes(std::vector<Key>& keys) {
                     .unit = axis.unit(),
                     .documentation = "The greatest coordinate.",
                     .slot = [travel](Configuration& c, std::size_t) -> Slot { return &travel(c).most; }});
+    keys.push_back({.path = path + ".rapid",
+                    .kind = Kind::Number,
+                    .range = kSpeed,
+                    .unit = axis.is_rotary ? "degrees/min" : "mm/min",
+                    .documentation = "How fast the axis goes at most, in rapids and else.",
+                    .slot = [axis](Configuration& c, std::size_t) -> Slot { return &c.machine.rapids[axis.index]; }});
+    keys.push_back({.path = path + ".acceleration",
+                    .kind = Kind::Number,
+                    .range = {0, 1e6, true},
+                    .unit = axis.is_rotary ? "degrees/s^2" : "mm/s^2",
+                    .documentation = "How fast the axis gathers and loses speed at most.",
+                    .slot = [axis](Configuration& c, std::size_t) -> Slot {
+                      return &c.machine.timed.motion.axes[axis.index].acceleration;
+                    }});
   }
 }
 
@@ -126,12 +141,89 @@ static void add_limits(std::vector<Key>& keys) {
                   .unit = "mm",
                   .documentation = "How far the given points of an arc may be from a circle (ISO029, ISO030, ISO031).",
                   .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.setup.arc_tolerance; }});
+  keys.push_back(
+      {.path = "machine.tolerances.chord",
+       .kind = Kind::Number,
+       .range = {0, 10, true},
+       .unit = "mm",
+       .documentation = "How far the lines that replace an arc in G49 may be from it (I.3.4.3.a).",
+       .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.timed.motion.chord_tolerance; }});
+  keys.push_back(
+      {.path = "machine.tolerances.corner",
+       .kind = Kind::Number,
+       .range = {0, 10, true},
+       .unit = "mm",
+       .documentation = "How far from the programmed path the tip may round a corner.",
+       .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.timed.motion.corner_tolerance; }});
   keys.push_back({.path = "machine.clearance",
                   .kind = Kind::Number,
                   .range = kLength,
                   .unit = "mm",
                   .documentation = "The Z of the face frame below which no rapid should go.",
                   .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.setup.clearance; }});
+}
+
+static geometry::Vec3& head_offset(Configuration& configuration, bool is_spindle) {
+  motion::Kinematics& kinematics = configuration.machine.timed.motion.kinematics;
+  return is_spindle ? kinematics.spindle_from_b : kinematics.b_from_c;
+}
+
+static geometry::Vec3& table_point(Configuration& configuration, bool is_of_c) {
+  motion::Kinematics& kinematics = configuration.machine.timed.motion.kinematics;
+  return is_of_c ? kinematics.c_point : kinematics.b_point;
+}
+
+static void add_point(std::vector<Key>& keys, const std::string& path, std::string_view documentation,
+                      geometry::Vec3& (*point)(Configuration&, bool), bool which) {
+  keys.push_back({.path = path, .documentation = documentation});
+  for (int axis = 0; axis < 3; ++axis)
+    keys.push_back(
+        {.path = path + "." + std::string(1, static_cast<char>('x' + axis)),
+         .kind = Kind::Number,
+         .range = kLength,
+         .unit = "mm",
+         .documentation = "The coordinate.",
+         .slot = [point, which, axis](Configuration& c, std::size_t) -> Slot { return &point(c, which)[axis]; }});
+}
+
+static void add_kinematics(std::vector<Key>& keys) {
+  keys.push_back({.path = "machine.kinematics", .documentation = "How B and C carry the tool or the workpiece."});
+  keys.push_back({.path = "machine.kinematics.type",
+                  .kind = Kind::Choice,
+                  .choices = kMachineKinds,
+                  .documentation = "No rotary axes; a head that C turns and B tilts; a table that B tilts and C turns.",
+                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.kind; }});
+  keys.push_back(
+      {.path = "machine.kinematics.pivot",
+       .kind = Kind::Number,
+       .range = {0, 1e4},
+       .unit = "mm",
+       .documentation = "Head: from the B axis to the spindle nose.",
+       .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.timed.motion.kinematics.pivot; }});
+  add_point(keys, "machine.kinematics.bFromC", "Head: from the C axis to the B axis, with B and C at 0.", head_offset,
+            false);
+  add_point(keys, "machine.kinematics.spindleFromB", "Head: from the B axis to the spindle's, beside the pivot.",
+            head_offset, true);
+  add_point(keys, "machine.kinematics.bPoint", "Table: a point of the B axis, in machine coordinates.", table_point,
+            false);
+  add_point(keys, "machine.kinematics.cPoint", "Table: a point of the C axis, in machine coordinates, with B at 0.",
+            table_point, true);
+}
+
+static void add_times(std::vector<Key>& keys) {
+  const auto add = [&](std::string_view name, std::string_view documentation, auto member) {
+    keys.push_back(
+        {.path = "machine.times." + std::string(name),
+         .kind = Kind::Number,
+         .range = {0, 1e5},
+         .unit = "s",
+         .documentation = documentation,
+         .slot = [member](Configuration& c, std::size_t) -> Slot { return &(c.machine.timed.durations.*member); }});
+  };
+  keys.push_back({.path = "machine.times", .documentation = "How long the machine takes for what is no motion."});
+  add("toolChange", "An M06, from rest to rest.", &running::Durations::tool_change);
+  add("spindle", "An M03, M04 or M05, until the spindle has its speed or stands.", &running::Durations::spindle);
+  add("channel", "A G09 in G48, until the interpolation channel is full again (I.3.8).", &running::Durations::channel);
 }
 
 static std::optional<Objection> tool_twice(const Configuration& configuration, std::size_t index) {
@@ -197,6 +289,12 @@ static void add_functions(std::vector<Key>& keys) {
                   .kind = Kind::Text,
                   .documentation = "What the function does.",
                   .slot = [](Configuration& c, std::size_t i) -> Slot { return &(*c.machine.functions)[i].name; }});
+  keys.push_back({.path = "machine.functions.*.time",
+                  .kind = Kind::Number,
+                  .range = {0, 1e5},
+                  .unit = "s",
+                  .documentation = "How long the machine waits for it.",
+                  .slot = [](Configuration& c, std::size_t i) -> Slot { return &(*c.machine.functions)[i].seconds; }});
 }
 
 using WishesOf = CodeWishes& (*)(Configuration& configuration, std::size_t index);
@@ -302,6 +400,8 @@ static std::vector<Key> make_keys() {
   add_home(keys);
   add_axes(keys);
   add_limits(keys);
+  add_kinematics(keys);
+  add_times(keys);
   add_tools(keys);
   add_functions(keys);
   add_lint(keys);

@@ -243,7 +243,7 @@ class Reader {
         complain(member.value.at, below, mistakes::kWrongKind, {name_of(member.value.kind), name_of(Json::Object)});
         continue;
       }
-      functions.push_back({*function_number(member.key), {}});
+      functions.push_back({.number = *function_number(member.key)});
       read_object(key, member.value, below, functions.size() - 1);
     }
   }
@@ -321,6 +321,23 @@ class Reader {
 
 }  // namespace
 
+/// What the simulated machine is told, in its units.
+static void derive_motion(Machine& machine) {
+  motion::Machine& motion = machine.timed.motion;
+  motion.kinematics.kind = machine.kind == "head"    ? motion::MachineKind::Head
+                           : machine.kind == "table" ? motion::MachineKind::Table
+                                                     : motion::MachineKind::ThreeAxis;
+  for (std::size_t i = 0; i < motion.axes.size(); ++i) {
+    motion.axes[i].least = machine.setup.limits.travel[i].least;
+    motion.axes[i].most = machine.setup.limits.travel[i].most;
+    motion.axes[i].speed = machine.rapids[i] / 60;
+  }
+  for (const Tool& tool : machine.tools.value_or(std::vector<Tool>()))
+    if (tool.length) machine.timed.tool_lengths[tool.code] = *tool.length;
+  for (const NamedFunction& function : machine.functions.value_or(std::vector<NamedFunction>()))
+    machine.timed.durations.functions[function.number] = function.seconds;
+}
+
 /// What is kept in a second form, for those who use it.
 static void derive(Configuration& configuration, const std::filesystem::path& folder) {
   Machine& machine = configuration.machine;
@@ -332,9 +349,17 @@ static void derive(Configuration& configuration, const std::filesystem::path& fo
     machine.setup.functions.emplace();
     for (const NamedFunction& function : *machine.functions) machine.setup.functions->push_back(function.number);
   }
+  derive_motion(machine);
   Lint& lint = configuration.lint;
   lint.excluded = PathPatterns(folder, lint.exclude);
   for (FileWishes& files : lint.files) files.patterns = PathPatterns(folder, files.paths);
+}
+
+std::array<double, execution::kAxisCount> default_rapids() {
+  const motion::Machine machine = motion::default_machine();
+  std::array<double, execution::kAxisCount> rapids{};
+  for (std::size_t i = 0; i < rapids.size(); ++i) rapids[i] = machine.axes[i].speed * 60;
+  return rapids;
 }
 
 ReadConfiguration read_configuration(std::string_view text, const std::filesystem::path& folder) {

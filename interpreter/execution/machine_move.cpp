@@ -26,6 +26,9 @@ MachineMove in_machine(const Move& move, const State& state) {
   result.from = {state.to_machine(move.from.tip), move.from.b, move.from.c};
   result.to = {state.to_machine(move.to.tip), move.to.b, move.to.c};
   result.length = (result.to.tip - result.from.tip).norm();
+  result.feed = move.feed;
+  result.inverse_time = move.inverse_time;
+  result.five_axis = state.five_axis();
   if (move.kind != MoveKind::Arc) return result;
   const auto axis = [&](int i) { return state.direction_to_machine(Vec3::Unit((move.normal_axis + i) % 3)); };
   const Vec3 u = axis(1);

@@ -16,7 +16,10 @@ struct MachineMove {
   geometry::Vec3 normal = geometry::Vec3::Zero();  ///< Arcs: unit, i x j, k x i or j x k.
   double radius = 0;
   double sweep_deg = 0;
-  double length = 0;  ///< Of the tip's path, mm.
+  double length = 0;          ///< Of the tip's path, mm.
+  double feed = 0;            ///< As in Move.
+  bool inverse_time = false;  ///< G93.
+  bool five_axis = false;     ///< G49.
 };
 
 /// From the frame in force in `state`, the one in which the motion runs, to the machine frame.

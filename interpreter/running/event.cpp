@@ -56,6 +56,7 @@ void put(Json& json, const JumpEvent& jump) {
   json["taken"] = jump.taken;
   json["target"] = jump.target_line + 1;
 }
+void put(Json&, const ExactStopEvent&) {}
 void put(Json&, const EndEvent&) {}
 
 }  // namespace
@@ -73,15 +74,19 @@ std::string_view kind_of(const Event& event) {
                                [](const ToolEvent&) -> std::string_view { return "tool"; },
                                [](const FrameEvent&) -> std::string_view { return "frame"; },
                                [](const JumpEvent&) -> std::string_view { return "jump"; },
+                               [](const ExactStopEvent&) -> std::string_view { return "stop"; },
                                [](const EndEvent&) -> std::string_view { return "end"; }},
                     event.what);
 }
 
-std::string to_json(const Event& event) {
+std::string to_json(const Event& event) { return to_json(event, {}); }
+
+std::string to_json(const Event& event, std::span<const std::pair<std::string_view, double>> more) {
   Json json;
   json["line"] = event.line + 1;
   json["kind"] = kind_of(event);
   std::visit([&](const auto& what) { put(json, what); }, event.what);
+  for (const auto& [key, value] : more) json[std::string(key)] = value;
   return json.dump();
 }
 

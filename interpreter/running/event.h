@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -33,12 +36,15 @@ struct JumpEvent {
   bool taken = false;
   std::uint64_t target_line = 0;  ///< From 0; where the program goes on.
 };
+/// A G09: the axes stop at the end of the last motion (I.3.8). Not in traces.
+struct ExactStopEvent {};
 struct EndEvent {};
 
 /// Something that a program did, on its line (from 0).
 struct Event {
   std::uint64_t line = 0;
-  std::variant<MoveEvent, DwellEvent, SpindleSpeedEvent, FunctionEvent, ToolEvent, FrameEvent, JumpEvent, EndEvent>
+  std::variant<MoveEvent, DwellEvent, SpindleSpeedEvent, FunctionEvent, ToolEvent, FrameEvent, JumpEvent,
+               ExactStopEvent, EndEvent>
       what;
 };
 
@@ -47,5 +53,8 @@ std::string_view kind_of(const Event& event);
 
 /// The event as one line of JSON without its end, keys as docs/isorun.md lists them; lines from 1.
 std::string to_json(const Event& event);
+
+/// The same, with these further keys and numbers.
+std::string to_json(const Event& event, std::span<const std::pair<std::string_view, double>> more);
 
 }  // namespace isocnc::running

@@ -37,6 +37,7 @@ class BlockSink final : public execution::Sink {
   void assign(int reg, double value) override {
     if (!std::isnan(value)) registers_[static_cast<std::size_t>(reg)] = value;
   }
+  void exact_stop() override { add(ExactStopEvent{}); }
   void end() override { add(EndEvent{}); }
 
  private:

@@ -41,7 +41,7 @@ const std::vector<Room> kHouse = {
       "interpreter/motion", "interpreter/running"}},
     {"interpreter/configuration",
      {"interpreter/dialect", "interpreter/syntax", "interpreter/geometry", "interpreter/execution",
-      "interpreter/running", "interpreter/configuration"}},
+      "interpreter/motion", "interpreter/running", "interpreter/configuration"}},
     {"interpreter", {"interpreter"}},
     {"analyzer/rules",
      {"interpreter/dialect", "interpreter/syntax", "interpreter/geometry", "interpreter/execution", "analyzer/rules"}},

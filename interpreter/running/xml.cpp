@@ -1,8 +1,8 @@
-#include "analyzer/xml.h"
+#include "interpreter/running/xml.h"
 
 #include "interpreter/syntax/unicode.h"
 
-namespace isocnc::analyzer {
+namespace isocnc::running {
 
 std::string xml_escaped(std::string_view text) {
   std::string rest = syntax::printable(text);
@@ -34,4 +34,4 @@ std::string xml_escaped(std::string_view text) {
   return result;
 }
 
-}  // namespace isocnc::analyzer
+}  // namespace isocnc::running

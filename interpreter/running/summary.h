@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpreter/dialect/diagnostic.h"
+#include "interpreter/running/runner.h"
+#include "interpreter/running/timing.h"
+
+namespace isocnc::running {
+
+/// What was done with one tool, from its M06 to the next.
+struct ToolShare {
+  std::optional<execution::ToolCode> tool;  ///< None: before the first M06.
+  double seconds = 0;                       ///< Its own M06 included.
+  double feed_mm = 0;
+  double rapid_mm = 0;
+};
+
+/// A joint that would leave its travel.
+struct TravelBreach {
+  std::uint64_t line = 0;  ///< Where it first does so, from 0.
+  double farthest = 0;     ///< mm or degrees.
+  double limit = 0;
+};
+
+/// What a run adds up to.
+class Summary {
+ public:
+  explicit Summary(const TimedMachine& machine);
+
+  void add(const TimedEvent& timed);
+  /// A piece of the motion that is told of next.
+  void add(const motion::Stretch& stretch);
+  void finish(const RunResult& result, double seconds);
+
+  std::string text(dialect::Language language) const;
+  /// One line; `error` is null or what stopped the program.
+  std::string json(std::string_view file, dialect::Language language) const;
+
+ private:
+  struct Travelled {
+    std::size_t count = 0;
+    double mm = 0;
+    double seconds = 0;
+  };
+
+  ToolShare& share();
+  void add_move(const MoveEvent& move, double seconds);
+  void keep_breaches(std::uint64_t line);
+
+  const TimedMachine& machine_;
+  std::array<Travelled, 3> moves_;  ///< By MoveKind.
+  std::optional<std::array<geometry::Range, execution::kAxisCount>> extents_;
+  std::vector<ToolShare> tools_;
+  /// Below and above each axis: of all motions, and of the one that is told of next.
+  using Breaches = std::array<std::optional<TravelBreach>, 2 * execution::kAxisCount>;
+  Breaches breaches_;
+  Breaches new_breaches_;
+  bool checks_travel_;
+  RunResult result_;
+  double seconds_ = 0;
+};
+
+}  // namespace isocnc::running
