@@ -17,9 +17,9 @@ using execution::State;
 static constexpr Text kNoSuchLine{"there is no line {}: the last one is {}", "la riga {} non esiste: l'ultima è la {}"};
 static constexpr Text kBehindEnd{"line {} is not run: the program ends at line {}",
                                  "la riga {} non viene eseguita: il programma termina alla riga {}"};
-static constexpr Text kJumpedOver{
-    "line {} is not run: the IF of line {} jumps over it (--vgpl and --set choose the way)",
-    "la riga {} non viene eseguita: la scavalca l'IF della riga {} (--vgpl e --set scelgono il percorso)"};
+static constexpr Text kJumpedOver{"line {} is not run: the IF of line {} jumps over it",
+                                  "la riga {} non viene eseguita: la scavalca l'IF della riga {}"};
+static constexpr Text kChoice{" (--vgpl and --set choose the way)", " (--vgpl e --set scelgono il percorso)"};
 static constexpr Text kUnsafe{"no safe restart before line {}: {}", "nessuna ripresa sicura dalla riga {}: {}"};
 static constexpr Text kCompensation{"cutter compensation (G{}) is in force",
                                     "è in presa la correzione raggio fresa (G{})"};
@@ -30,8 +30,8 @@ static constexpr Text kChangedLow{
     "il sistema di riferimento è cambiato con l'utensile nel pezzo, senza un rapido dopo"};
 static constexpr Text kLooksDown{"the face in force looks down and cannot be reached from above",
                                  "la faccia in presa guarda in basso e non si raggiunge dall'alto"};
-static constexpr Text kExactStop{"its G09 belongs to the motion above",
-                                 "la sua G09 appartiene al movimento che precede"};
+static constexpr Text kExactStop{"the G09 that comes next belongs to the motion above",
+                                 "la G09 che segue appartiene al movimento che precede"};
 static constexpr Text kArcContinues{"it goes on with the G{:02} above it, which only an arc can bring into force",
                                     "prosegue con la G{:02} che precede, che solo un arco può mettere in presa"};
 static constexpr Text kNotProved{"a trial of the restart program does not come to the same state",
@@ -110,7 +110,8 @@ bool is_proved(std::string_view program, std::uint64_t preamble_lines, const Res
       comes_to_state = is_same(block.state, point.state, point.continues_motion) && block.registers == point.registers;
   };
   const RunResult result = run(program, trial, [](const Event&) {});
-  return comes_to_state && result.ending == Ending::ProgramEnd && is_same(result.state, survey.run().state, point.continues_motion);
+  return comes_to_state && result.ending == Ending::ProgramEnd &&
+         is_same(result.state, survey.run().state, point.continues_motion);
 }
 
 void propose_lines(const RestartSurvey& survey, RestartRefusal& refusal) {
@@ -124,6 +125,7 @@ RestartRefusal refuse(Obstacle obstacle, const RestartSurvey& survey, std::uint6
   RestartRefusal refusal{.obstacle = obstacle, .line = line};
   refusal.cause = survey.line_of_cause(line);
   refusal.run = survey.run();
+  refusal.has_choices = survey.has_choices();
   const State& state = survey.point().state;
   refusal.g = state.mode(obstacle == Obstacle::Compensation ? ModalGroup::CutterCompensation : ModalGroup::Motion);
   if (obstacle != Obstacle::ProgramError) propose_lines(survey, refusal);
@@ -155,7 +157,7 @@ std::string what_is_wrong(const RestartRefusal& refusal, Language language) {
   };
   switch (refusal.obstacle) {
     case Obstacle::NoSuchLine:
-      return say(kNoSuchLine, refusal.line + 1, refusal.cause + 1);
+      return say(kNoSuchLine, refusal.line + 1, refusal.cause);
     case Obstacle::BehindEnd:
       return say(kBehindEnd, refusal.line + 1, refusal.cause + 1);
     case Obstacle::JumpedOver:
@@ -169,10 +171,8 @@ std::string what_is_wrong(const RestartRefusal& refusal, Language language) {
 
 std::variant<std::string, RestartRefusal> restart_program(std::string_view text, const RestartOptions& options) {
   const LineStart start = find_line(text, options.line);
-  if (!start.is_there) {
-    const std::uint64_t lines = count_lines(text);
-    return RestartRefusal{.obstacle = Obstacle::NoSuchLine, .line = options.line, .cause = lines == 0 ? 0 : lines - 1};
-  }
+  if (!start.is_there)
+    return RestartRefusal{.obstacle = Obstacle::NoSuchLine, .line = options.line, .cause = count_lines(text)};
   const RestartSurvey survey(text, options.run, options.line);
   const Obstacle obstacle = survey.obstacle(options.line);
   if (obstacle != Obstacle::None) return refuse(obstacle, survey, options.line);
@@ -185,6 +185,8 @@ std::variant<std::string, RestartRefusal> restart_program(std::string_view text,
 
 std::string message(const RestartRefusal& refusal, Language language) {
   std::string text = what_is_wrong(refusal, language);
+  const bool is_not_run = refusal.obstacle == Obstacle::BehindEnd || refusal.obstacle == Obstacle::JumpedOver;
+  if (is_not_run && refusal.has_choices) text += kChoice.in(language);
   const auto add = [&](const Text& nearest, auto... lines) {
     text += "; " + fmt::format(fmt::runtime(nearest.in(language)), (lines + 1)...);
   };

@@ -12,9 +12,10 @@ namespace isocnc::running {
 /// Why there is no restart program, and from where there would be one. Lines from 0.
 struct RestartRefusal {
   Obstacle obstacle = Obstacle::None;
-  std::uint64_t line = 0;   ///< That was asked for.
-  std::uint64_t cause = 0;  ///< The IF or M02 by which it is not run; of a program too short, its last line.
-  int g = 0;                ///< The G that is in force and in the way: 2, 3, 41 or 42.
+  std::uint64_t line = 0;    ///< That was asked for.
+  std::uint64_t cause = 0;   ///< The IF or M02 by which it is not run; of a program too short, how many lines it has.
+  bool has_choices = false;  ///< Another VGPL or register might lead elsewhere.
+  int g = 0;                 ///< The G that is in force and in the way: 2, 3, 41 or 42.
   std::optional<std::uint64_t> before;  ///< The nearest line above that is safe.
   std::optional<std::uint64_t> behind;  ///< The nearest below.
   RunResult run;                        ///< ProgramError: with the error; points into the program.

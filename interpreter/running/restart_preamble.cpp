@@ -19,7 +19,7 @@ using execution::State;
 using geometry::Vec3;
 
 static constexpr Text kTitle{"; restart of {} before its line {}", "; ripresa di {} dalla riga {}"};
-static constexpr Text kAssumed{"; assumed on the way there: {}", "; presupposto fin li': {}"};
+static constexpr Text kAssumed{"; assumed on the way there: {}", "; ipotesi sul percorso: {}"};
 static constexpr Text kNotRepeated{"; not repeated: {} of line {}", "; non ripetuta: {} della riga {}"};
 static constexpr Text kApproach{"; approach", "; avvicinamento"};
 static constexpr Text kRest{"; the program from line {} on", "; il programma dalla riga {} in poi"};
@@ -180,7 +180,7 @@ class Preamble {
     rapid_to(entry.z());
     mount_face();
     if (target_.face_mounted) {
-      add(across(tip) + " " + length('Z', above));
+      add("G00 " + across(tip) + " " + length('Z', above));
       rapid_to(height());
     }
     feed_down();

@@ -77,7 +77,7 @@ void RestartSurvey::follow(const State& before, const State& after) {
   now_.turns = now_.turns || after.position.b != before.position.b || after.position.c != before.position.c;
   now_.highest = std::max(now_.highest, after.to_machine(after.position.tip).z());
   if (!same_frame(before, after)) {
-    changed_low_ = changed_low_ || before.position.tip.z() < now_.highest_feed - kSame;
+    changed_low_ = changed_low_ || looks_down(before) || before.position.tip.z() < now_.highest_feed - kSame;
     now_.highest_in_frame = z;
     now_.highest_feed = -std::numeric_limits<double>::infinity();
   } else {
@@ -130,6 +130,9 @@ std::uint16_t RestartSurvey::traits_of(const Block& block) const {
   for (const Instruction& instruction : block.tree.instructions) {
     const dialect::GCode* const g = instruction.kind == InstructionKind::G ? instruction.g() : nullptr;
     if (instruction.kind == InstructionKind::Continuation) traits |= kContinues;
+    // Behind M02 nothing is left to be done.
+    if (instruction.kind == InstructionKind::Function && block.tree.command(instruction).value == dialect::kProgramEnd)
+      traits |= kIdle;
     if (g != nullptr && g->is_motion()) traits |= kNamesMotion;
     if (g != nullptr && g->number == 9 && instruction.has(Instruction::kFirst)) traits |= kStopsExactly;
   }
@@ -160,6 +163,10 @@ std::uint64_t RestartSurvey::line_of_cause(std::uint64_t line) const {
   for (const auto& [from, to] : jumps_)
     if (from < line && line < to) return from;
   return run_.line;
+}
+
+bool RestartSurvey::has_choices() const {
+  return std::any_of(traits_.begin(), traits_.end(), [](std::uint16_t traits) { return (traits & kJumps) != 0; });
 }
 
 /// Blank lines and comments between a feed move and its G09 do not count.

@@ -56,6 +56,8 @@ class RestartSurvey {
   std::uint64_t line_of_cause(std::uint64_t line) const;
   /// Whether it is a line to propose: without an obstacle, and with something to do.
   bool is_safe(std::uint64_t line) const;
+  /// Whether an IF on the way could send the run elsewhere.
+  bool has_choices() const;
   /// Lines that the run has come to lie before this one.
   std::uint64_t end() const { return traits_.size(); }
   /// Where obstacle() is None, or something that only concerns the way.
