@@ -80,9 +80,9 @@ class Preamble {
     } else {
       comment(kApproach.in(options_.language));
       approach();
-      restore_feed();
-      restore_motion();
     }
+    restore_feed();
+    restore_motion();
     restore_rest();
     comment(fmt::format(fmt::runtime(kRest.in(options_.language)), options_.line + 1));
     return std::move(text_);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "analyzer/check_text.h"
 #include "interpreter/running/restart.h"
@@ -223,7 +224,8 @@ std::multiset<std::string> errors_from(std::string_view text, std::uint64_t line
   std::multiset<std::string> codes;
   for (const analyzer::LocatedFinding& located : analyzer::check_text(text, {}).findings) {
     const dialect::DiagnosticDef& def = dialect::definition(located.finding.id);
-    if (def.severity == dialect::Severity::Error && located.line >= line) codes.emplace(def.code);
+    if (def.severity == dialect::Severity::Error && located.line >= line)
+      codes.emplace(def.code == "E005" ? "E004" : def.code);  // The label above is gone.
   }
   return codes;
 }
@@ -236,22 +238,33 @@ void expect_no_new_errors(const std::string& program, const std::string& restart
                                                                              << program << restarted;
 }
 
-/// Nothing else goes down before the tool is above its place, and it goes down the last of the way in feed.
-void expect_safe_approach(const std::string& restarted, const RestartOptions& options) {
-  const std::uint64_t preamble =
-      1 + static_cast<std::uint64_t>(std::count(
-              restarted.begin(),
-              restarted.begin() + static_cast<std::ptrdiff_t>(restarted.find("\n; the program from")), '\n'));
-  run(restarted, options.run, [&](const Event& event) {
+/// Straight up, across at the height then reached, straight down, along the axis of the face: nothing else. No rapid
+/// goes below the clearance where one is given and an F is known; the last of the way is feed.
+void expect_safe_approach(const std::string& program, const std::string& restarted, const RestartOptions& options) {
+  const std::uint64_t preamble = line_count(restarted) - line_count(rest_of(program, options.line));
+  RunOptions watched = options.run;
+  watched.until = preamble;
+  execution::State before;
+  const auto clearance = options.clearance ? options.clearance : options.run.setup.clearance;
+  watched.before_block = [&](const Block& block) { before = block.state; };
+  const execution::State wanted = course_of(program, options.run, options.line).states.front();
+  run(restarted, watched, [&](const Event& event) {
     const auto* const move = std::get_if<MoveEvent>(&event.what);
-    if (move == nullptr || event.line >= preamble) return;
+    if (move == nullptr) return;
+    ASSERT_NE(move->kind, execution::MoveKind::Arc);
     const geometry::Vec3 way = move->to.tip - move->from.tip;
-    const bool goes_down = way.z() < -1e-6;
-    const bool goes_across = way.head<2>().norm() > 1e-2;
-    EXPECT_NE(move->kind, execution::MoveKind::Arc);
-    EXPECT_FALSE(goes_across && goes_down && move->kind == execution::MoveKind::Rapid &&
-                 restarted.find("G29") == std::string::npos && restarted.find("G24") == std::string::npos)
-        << restarted;
+    const geometry::Vec3 axis = before.direction_to_machine(geometry::Vec3::UnitZ());
+    constexpr double kRounding = 2e-3;  // The place above a face is told to a thousandth.
+    const bool is_level = std::abs(way.z()) < kRounding;
+    const bool is_along_axis = way.cross(axis).norm() < 2 * kRounding;
+    ASSERT_TRUE(is_level || is_along_axis) << event.line + 1 << '\n' << restarted;
+    if (move->kind != execution::MoveKind::Rapid || !clearance || feed_in_force(wanted).number == 0) return;
+    const geometry::Vec3 end = before.face_mounted ? before.face.to_inner(move->to.tip - before.workpiece_origin)
+                                                   : geometry::Vec3(move->to.tip - before.workpiece_origin);
+    const double least = std::min(*clearance, before.position.tip.z());
+    if (before.face_mounted == wanted.face_mounted) {
+      EXPECT_GE(end.z(), least - kRounding) << event.line + 1 << '\n' << restarted;
+    }
   });
 }
 
@@ -269,7 +282,7 @@ std::pair<int, int> try_lines(const std::string& program, const RunOptions& run_
       ++count.first;
       expect_same_course(program, *restarted, options);
       expect_no_new_errors(program, *restarted, options.line);
-      expect_safe_approach(*restarted, options);
+      expect_safe_approach(program, *restarted, options);
       continue;
     }
     const auto& refusal = std::get<RestartRefusal>(made);
@@ -296,7 +309,7 @@ RunOptions random_options(Random& random) {
 TEST(RestartProperty, OfJobsGoesOnAsTheProgramDoes) {
   int made = 0;
   int tried = 0;
-  for (const std::uint64_t seed : seeds(600)) {
+  for (const std::uint64_t seed : seeds(1500)) {
     SCOPED_TRACE(seed);
     Random random(seed);
     const RunOptions options = random_options(random);
@@ -312,7 +325,7 @@ TEST(RestartProperty, OfJobsGoesOnAsTheProgramDoes) {
 TEST(RestartProperty, OfAnyProgramGoesOnAsTheProgramDoes) {
   int made = 0;
   int tried = 0;
-  for (const std::uint64_t seed : seeds(600)) {
+  for (const std::uint64_t seed : seeds(1500)) {
     SCOPED_TRACE(seed);
     Random random(seed);
     const RunOptions options = random_options(random);
@@ -322,7 +335,7 @@ TEST(RestartProperty, OfAnyProgramGoesOnAsTheProgramDoes) {
     tried += more_tried;
     if (testing::Test::HasFailure()) return;
   }
-  EXPECT_GT(made, tried / 5);
+  EXPECT_GT(made, tried / 2);
 }
 
 }  // namespace
