@@ -220,9 +220,9 @@ void expect_same_course(const std::string& program, const std::string& restarted
 }
 
 /// Codes of the errors that isolint finds from a line on.
-std::multiset<std::string> errors_from(std::string_view text, std::uint64_t line) {
+std::multiset<std::string> errors_from(std::string_view text, std::uint64_t line, const execution::Setup& setup) {
   std::multiset<std::string> codes;
-  for (const analyzer::LocatedFinding& located : analyzer::check_text(text, {}).findings) {
+  for (const analyzer::LocatedFinding& located : analyzer::check_text(text, setup).findings) {
     const dialect::DiagnosticDef& def = dialect::definition(located.finding.id);
     if (def.severity == dialect::Severity::Error && located.line >= line)
       codes.emplace(def.code == "E005" ? "E004" : def.code);  // The label above is gone.
@@ -231,9 +231,9 @@ std::multiset<std::string> errors_from(std::string_view text, std::uint64_t line
 }
 
 /// The preamble has no error, and the rest none that it did not have.
-void expect_no_new_errors(const std::string& program, const std::string& restarted, std::uint64_t line) {
-  const auto old = errors_from(program, line);
-  const auto now = errors_from(restarted, 0);
+void expect_no_new_errors(const std::string& program, const std::string& restarted, const RestartOptions& options) {
+  const auto old = errors_from(program, options.line, options.run.setup);
+  const auto now = errors_from(restarted, 0, options.run.setup);
   EXPECT_TRUE(std::includes(old.begin(), old.end(), now.begin(), now.end())) << testing::PrintToString(now) << '\n'
                                                                              << program << restarted;
 }
@@ -281,7 +281,7 @@ std::pair<int, int> try_lines(const std::string& program, const RunOptions& run_
     if (const auto* const restarted = std::get_if<std::string>(&made)) {
       ++count.first;
       expect_same_course(program, *restarted, options);
-      expect_no_new_errors(program, *restarted, options.line);
+      expect_no_new_errors(program, *restarted, options);
       expect_safe_approach(program, *restarted, options);
       continue;
     }
