@@ -28,7 +28,7 @@ static constexpr Text kRest{"; the program from line {} on", "; il programma dal
 static std::string exact(double value) {
   std::array<char, 400> digits;
   if (value == 0) value = 0;  // No -0.
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed).ptr;
+  char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed).ptr;
   return {digits.data(), end};
 }
 
