@@ -14,9 +14,11 @@
 #include "interpreter/dialect/locale.h"
 #include "interpreter/running/output_file.h"
 #include "interpreter/running/program_app.h"
+#include "interpreter/running/restart.h"
 #include "interpreter/running/runner.h"
 #include "interpreter/running/source_file.h"
 #include "interpreter/running/system_texts.h"
+#include "interpreter/running/write_atomically.h"
 #include "interpreter/syntax/number.h"
 #include "interpreter/syntax/unicode.h"
 
@@ -36,6 +38,10 @@ struct Options {
   std::vector<std::string> settings;
   std::string vgpl = "0";
   std::string until;
+  std::optional<std::string> restart_at;
+  std::string output;
+  std::optional<std::string> clearance;
+  std::string approach_feed = "1000";
   configuration::Source source;
   std::optional<std::string> machine;
 
@@ -82,26 +88,55 @@ constexpr Text kWrongSetting{"--set wants a register and a plain number, V1=0 to
 constexpr Text kWrongVgpl{"--vgpl wants a plain number, such as -2.5, not {}",
                           "--vgpl vuole un numero semplice, come -2.5, non {}"};
 constexpr Text kWrongUntil{"--until wants a line, from 1, not {}", "--until vuole una riga, da 1, non {}"};
+constexpr Text kWrongRestart{"--restart-at wants a line, from 1, not {}", "--restart-at vuole una riga, da 1, non {}"};
+constexpr Text kWrongClearance{"--clearance wants a plain number of mm, such as 30, not {}",
+                               "--clearance vuole un numero semplice in mm, come 30, non {}"};
+constexpr Text kWrongApproachFeed{
+    "--approach-feed wants a plain number of mm/min above 0, such as 1000, not {}",
+    "--approach-feed vuole un numero semplice in mm/min maggiore di 0, come 1000, non {}"};
+constexpr Text kRestartOverwrites{"the restart program would overwrite the program",
+                                  "il programma di ripresa sovrascriverebbe il programma"};
 constexpr Text kOverwritesProgram{"the trace would overwrite the program", "la traccia sovrascriverebbe il programma"};
+
+/// Nothing, after a complaint.
+std::nullopt_t refuse(const Text& why, std::string_view value, const Options& options) {
+  complain(fmt::format(fmt::runtime(why.in(options.reader_language())), value));
+  return std::nullopt;
+}
 
 /// What is asked of the run; nothing after a complaint.
 std::optional<RunOptions> read_run_options(const Options& options) {
-  const auto refuse = [&](const Text& why, std::string_view value) {
-    complain(fmt::format(fmt::runtime(why.in(options.reader_language())), value));
-    return std::nullopt;
-  };
   RunOptions run;
   for (const std::string& setting : options.settings)
-    if (!read_register(setting, run)) return refuse(kWrongSetting, setting);
+    if (!read_register(setting, run)) return refuse(kWrongSetting, setting, options);
   const auto vgpl = read_decimal(options.vgpl);
-  if (!vgpl) return refuse(kWrongVgpl, options.vgpl);
+  if (!vgpl) return refuse(kWrongVgpl, options.vgpl, options);
   run.vgpl = *vgpl;
   if (!options.until.empty()) {
     const auto until = read_count(options.until, std::numeric_limits<std::uint64_t>::max());
-    if (!until) return refuse(kWrongUntil, options.until);
+    if (!until) return refuse(kWrongUntil, options.until, options);
     run.until = *until - 1;
   }
   return run;
+}
+
+/// How the program is to be taken up again; nothing after a complaint.
+std::optional<RestartOptions> read_restart_options(const Options& options, const RunOptions& run) {
+  RestartOptions restart;
+  restart.run = run;
+  restart.language = options.reader_language();
+  restart.name = options.reads_stdin() ? "<stdin>" : std::filesystem::path(options.file).filename().string();
+  const auto line = read_count(*options.restart_at, std::numeric_limits<std::uint64_t>::max());
+  if (!line) return refuse(kWrongRestart, *options.restart_at, options);
+  restart.line = *line - 1;
+  if (options.clearance) {
+    restart.clearance = read_decimal(*options.clearance);
+    if (!restart.clearance) return refuse(kWrongClearance, *options.clearance, options);
+  }
+  const auto feed = read_decimal(options.approach_feed);
+  if (!feed || !(*feed > 0)) return refuse(kWrongApproachFeed, options.approach_feed, options);
+  restart.approach_feed = *feed;
+  return restart;
 }
 
 /// What a run adds up to.
@@ -197,6 +232,34 @@ int run_program(std::string_view program, const Options& options, const RunOptio
   return result.ending == Ending::Error ? kStopped : kRan;
 }
 
+/// To a file all at once, so that nobody ever loads half of a program.
+bool write_restart(std::string_view program, const Options& options) {
+  const Language language = options.reader_language();
+  if (options.output.empty() || options.output == "-") {
+    OutputFile standard_output(STDOUT_FILENO);
+    standard_output.write(program);
+    return finish(standard_output, "<stdout>", language);
+  }
+  const int error = write_atomically(options.output, program);
+  if (error != 0) complain(fmt::format("{}: {}", options.output, cannot_write(error, language)));
+  return error == 0;
+}
+
+int restart(const SourceFile& source, const Options& options, const RestartOptions& restart_options) {
+  const auto made = restart_program(source.text(), restart_options);
+  if (const auto* const program = std::get_if<std::string>(&made)) {
+    const std::string_view mark = source.has_byte_order_mark() ? kByteOrderMark : "";
+    return write_restart(std::string(mark) + *program, options) ? kRan : kTrouble;
+  }
+  const auto& refusal = std::get<RestartRefusal>(made);
+  if (refusal.obstacle == Obstacle::ProgramError) {
+    print_error(options, refusal.run);
+    return kStopped;
+  }
+  complain(fmt::format("{}: {}", options.shown_file(), message(refusal, options.reader_language())));
+  return refusal.obstacle == Obstacle::NoSuchLine ? kTrouble : kStopped;
+}
+
 /// What the checks know of the machine; none, after a complaint, when a file is wrong. The program's configuration also
 /// tells the language to speak, unless the command line does.
 std::optional<execution::Setup> read_machine(Options& options) {
@@ -230,13 +293,24 @@ int run_file(Options options) {
     complain(fmt::format("{}: {}", options.trace, kOverwritesProgram.in(language)));
     return kTrouble;
   }
+  std::optional<RestartOptions> restart_options;
+  if (options.restart_at) {
+    restart_options = read_restart_options(options, *run_options);
+    if (!restart_options) return kTrouble;
+  }
+  if (!options.reads_stdin() && is_same_file(options.file, options.output)) {
+    complain(fmt::format("{}: {}", options.output, kRestartOverwrites.in(language)));
+    return kTrouble;
+  }
   const auto opened = options.reads_stdin() ? SourceFile::read_stream(STDIN_FILENO, language)
                                             : SourceFile::open(options.file, language);
   if (const auto* problem = std::get_if<SourceFile::Problem>(&opened)) {
     complain(fmt::format("{}: {}", options.shown_file(), problem->message));
     return kTrouble;
   }
-  return run_program(std::get<SourceFile>(opened).text(), options, *run_options);
+  const auto& source = std::get<SourceFile>(opened);
+  if (restart_options) return restart(source, options, *restart_options);
+  return run_program(source.text(), options, *run_options);
 }
 
 /// What --help and --version ask for.
@@ -256,14 +330,22 @@ int run_main(int argc, char** argv) {
        .purpose = "run an ISOCNC program",
        .operands = "FILE",
        .paragraphs = {"isorun runs a program block by block as the control would, up to M02 or to the first error, "
-                      "and tells what it does."},
-       .exit = {{"0", "The program ran to its M02, or to the line of --until."},
-                {"1", "An error stopped the program, as it would stop the control."},
+                      "and tells what it does.",
+                      "With --restart-at it writes a program that brings the machine into the state before that line, "
+                      "approaches from above, and goes on with the lines from there. Where that is not safe it says "
+                      "why, and names the nearest lines where it is."},
+       .exit = {{"0",
+                 "The program ran to its M02, or to the line of --until; or the restart program has been written."},
+                {"1",
+                 "An error stopped the program, as it would stop the control; or there is no safe restart before the "
+                 "line."},
                 {"2", "A mistake in the command or in an isocnc.json, or something could not be read or written."}},
        .see_also = {"isolint", "isofmt"}});
   CLI::App& app = program.options();
   app.add_option("FILE", options.file, "The program, or - for standard input")->required()->option_text(" ");
-  app.add_option("--trace", options.trace, "What happens, as JSON lines; - for standard output")->option_text("FILE");
+  CLI::Option* const trace =
+      app.add_option("--trace", options.trace, "What happens, as JSON lines; - for standard output")
+          ->option_text("FILE");
   app.add_option("--vgpl", options.vgpl, "Value of VGPL (else 0)")->option_text("VALUE");
   app.add_option("--set", options.settings, "Value of a register at the start: V3=1.5")
       ->option_text("V=VALUE")
@@ -273,7 +355,23 @@ int run_main(int argc, char** argv) {
       app.add_option("--config", options.source.file, "Read this, not the isocnc.json above the program")
           ->option_text("FILE");
   app.add_flag("--no-config", options.source.none, "Read no isocnc.json")->excludes(config)->option_text(" ");
-  app.add_option("--until", options.until, "Stop before this line")->option_text("LINE");
+  CLI::Option* const until = app.add_option("--until", options.until, "Stop before this line")->option_text("LINE");
+  CLI::Option* const restart_at =
+      app.add_option("--restart-at", options.restart_at, "Write a program that goes on from before this line")
+          ->option_text("LINE")
+          ->excludes(until)
+          ->excludes(trace);
+  app.add_option("-o,--output", options.output, "Where the restart program goes; else to standard output")
+      ->option_text("FILE")
+      ->needs(restart_at);
+  app.add_option("--clearance", options.clearance,
+                 "Z above the work to which a restart goes in rapid, mm; else machine.clearance")
+      ->option_text("Z")
+      ->needs(restart_at);
+  app.add_option("--approach-feed", options.approach_feed,
+                 "At most how fast a restart goes on down, mm/min (else 1000)")
+      ->option_text("F")
+      ->needs(restart_at);
   program.add_choice("--lang", options.language, {"en", "it"}, "LANG", "en or it; else as the locale says");
   const ProgramApp::Said said = program.read(argc, argv, [&] { return options.reader_language(); });
   if (said.answer) return say(*said.answer, options.reader_language());

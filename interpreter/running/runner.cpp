@@ -13,8 +13,7 @@ namespace {
 /// Gathers what one block does, so that a block in error does nothing.
 class BlockSink final : public execution::Sink {
  public:
-  BlockSink(std::vector<Event>& events, std::array<double, dialect::kRegisterCount + 1>& registers)
-      : Sink(true), events_(events), registers_(registers) {}
+  BlockSink(std::vector<Event>& events, Registers& registers) : Sink(true), events_(events), registers_(registers) {}
 
   std::uint64_t line = 0;
   std::optional<syntax::Finding> error;
@@ -47,7 +46,7 @@ class BlockSink final : public execution::Sink {
   }
 
   std::vector<Event>& events_;
-  std::array<double, dialect::kRegisterCount + 1>& registers_;
+  Registers& registers_;
 };
 
 class Runner {
@@ -87,10 +86,11 @@ class Runner {
       if (!tree_.has_label() || tree_.label != waiting_for_->target) return true;
       land();
     }
+    if (options_.before_block) options_.before_block({line_, tree_, result_.state, result_.registers});
     events_.clear();
     sink_.line = line_;
     sink_.error.reset();
-    const std::array<double, dialect::kRegisterCount + 1> registers_before = result_.registers;
+    const Registers registers_before = result_.registers;
     for (const syntax::Finding& finding : tree_.findings) sink_.report(finding);
     const execution::State before = result_.state;
     if (!sink_.error || !options_.stop_at_errors) execution::execute(tree_, result_.state, options_.setup, sink_);

@@ -7,16 +7,29 @@
 #include <string_view>
 
 #include "interpreter/running/event.h"
+#include "interpreter/syntax/line_tree.h"
 
 namespace isocnc::running {
+
+/// V1 to V30; [0] is not used.
+using Registers = std::array<double, dialect::kRegisterCount + 1>;
+
+/// A line that a run is about to execute. Lines that a jump passes over are none.
+struct Block {
+  std::uint64_t line = 0;  ///< From 0.
+  const syntax::LineTree& tree;
+  const execution::State& state;  ///< Before it.
+  const Registers& registers;     ///< Before it.
+};
 
 /// What a run is given besides the program.
 struct RunOptions {
   execution::Setup setup;
-  double vgpl = 0;                                              ///< The GPL variable that IF compares (I.5).
-  std::array<double, dialect::kRegisterCount + 1> registers{};  ///< V1 to V30 at the start; [0] is not used.
-  std::optional<std::uint64_t> until;                           ///< Stop before this line (from 0).
-  bool stop_at_errors = true;  ///< As the control does; else go on as a checker reads it.
+  double vgpl = 0;                                 ///< The GPL variable that IF compares (I.5).
+  Registers registers{};                           ///< At the start.
+  std::optional<std::uint64_t> until;              ///< Stop before this line (from 0).
+  bool stop_at_errors = true;                      ///< As the control does; else go on as a checker reads it.
+  std::function<void(const Block&)> before_block;  ///< Where somebody wants to follow the state.
 };
 
 /// Why a run came to its end.
@@ -28,7 +41,7 @@ struct RunResult {
   std::string_view line_text;
   syntax::Finding error;   ///< When `ending` is Error.
   execution::State state;  ///< At the end.
-  std::array<double, dialect::kRegisterCount + 1> registers{};
+  Registers registers{};
   std::uint64_t blocks = 0;  ///< Blocks executed.
 };
 

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <string>
 
+#include "interpreter/running/restart.h"
 #include "interpreter/running/runner.h"
 #include "require.h"
 
@@ -28,11 +29,26 @@ static void run_program(std::string_view text, bool stop_at_errors) {
   require(stop_at_errors || result.ending != running::Ending::Until, "nothing but `until` ends a run there");
 }
 
+static void restart_program(std::string_view text) {
+  running::RestartOptions options;
+  options.line = text.size() % most_lines(text);
+  const auto made = running::restart_program(text, options);
+  if (const auto* const program = std::get_if<std::string>(&made)) {
+    const auto result = running::run(*program, options.run, [](const running::Event&) {});
+    require(result.ending == running::Ending::ProgramEnd, "a restart program ends");
+    require(text.empty() || program->back() == text.back(), "and as the text does");
+    return;
+  }
+  const auto& refusal = std::get<running::RestartRefusal>(made);
+  require(!running::message(refusal, dialect::Language::Italian).empty(), "a refusal has its reason");
+}
+
 }  // namespace isocnc::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text = isocnc::fuzz::as_text(data, size);
   isocnc::fuzz::run_program(text, true);
   isocnc::fuzz::run_program(text, false);
+  isocnc::fuzz::restart_program(text);
   return 0;
 }

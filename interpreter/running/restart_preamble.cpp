@@ -1,0 +1,284 @@
+#include "interpreter/running/restart_preamble.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "interpreter/execution/execute.h"
+#include "interpreter/geometry/arc.h"
+#include "interpreter/syntax/tree_store.h"
+
+namespace isocnc::running {
+
+using dialect::ModalGroup;
+using dialect::Text;
+using execution::State;
+using geometry::Vec3;
+
+static constexpr Text kTitle{"; restart of {} before its line {}", "; ripresa di {} dalla riga {}"};
+static constexpr Text kAssumed{"; assumed on the way there: {}", "; ipotesi sul percorso: {}"};
+static constexpr Text kNotRepeated{"; not repeated: {} of line {}", "; non ripetuta: {} della riga {}"};
+static constexpr Text kApproach{"; approach", "; avvicinamento"};
+static constexpr Text kRest{"; the program from line {} on", "; il programma dalla riga {} in poi"};
+
+/// A number as programs write it, exact: no exponent, as few digits as bring it back.
+static std::string exact(double value) {
+  std::array<char, 400> digits;
+  if (value == 0) value = 0;  // No -0.
+  char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed).ptr;
+  return {digits.data(), end};
+}
+
+/// A coordinate to a billionth, which hides what sums of G91 lose and no tolerance sees.
+static std::string coordinate(double value) { return exact(std::round(value * 1e9) / 1e9); }
+
+/// Letters, digits and signs; what else a file may be called has no place in a program.
+static std::string ascii(std::string_view name) {
+  std::string shown(name);
+  for (char& c : shown)
+    if (c < ' ' || c > '~') c = '?';
+  return shown;
+}
+
+static std::string shown(const FunctionEvent& function) {
+  std::string text = fmt::format("M{}", function.number);
+  for (const execution::FunctionParameter& parameter : function.parameters)
+    text += fmt::format(" P{}={}", parameter.number, exact(parameter.value));
+  return text;
+}
+
+namespace {
+
+/// Nobody asks what the lines of a preamble do: they are right, or the trial run finds out.
+class SilentSink final : public execution::Sink {
+ public:
+  SilentSink() : Sink(false) {}
+  void report(const syntax::Finding&) override {}
+};
+
+/// Writes line by line, and knows what the machine is like behind the last one: so nothing is said twice.
+class Preamble {
+ public:
+  Preamble(const RestartPoint& point, const RestartOptions& options, std::string_view line_end)
+      : point_(point),
+        options_(options),
+        line_end_(line_end),
+        target_(point.state),
+        state_(execution::initial_state(options.run.setup)) {}
+
+  std::string text() {
+    comment_on_the_way();
+    set_modes();
+    assign_registers();
+    if (target_.workpiece_origin != Vec3::Zero()) add("G92" + lengths(target_.workpiece_origin));
+    change_tool();
+    if (target_.mode(ModalGroup::Motion) == dialect::kNoMotion) {
+      mount_face();
+    } else {
+      comment(kApproach.in(options_.language));
+      approach();
+    }
+    restore_feed();
+    restore_motion();
+    restore_rest();
+    comment(fmt::format(fmt::runtime(kRest.in(options_.language)), options_.line + 1));
+    return std::move(text_);
+  }
+
+ private:
+  void add(const std::string& line) {
+    text_.append(line).append(line_end_);
+    SilentSink sink;
+    execution::execute(syntax::ParsedLine(line).tree(), state_, options_.run.setup, sink);
+  }
+  void comment(std::string_view text) { text_.append(text).append(line_end_); }
+
+  void comment_on_the_way() {
+    const dialect::Language language = options_.language;
+    comment(fmt::format(fmt::runtime(kTitle.in(language)), ascii(options_.name), options_.line + 1));
+    std::string assumed;
+    for (const int variable : point_.assumed) {
+      const double value = variable == syntax::Jump::kVgplVariable
+                               ? options_.run.vgpl
+                               : options_.run.registers[static_cast<std::size_t>(variable)];
+      const std::string name = variable == syntax::Jump::kVgplVariable ? "VGPL" : fmt::format("V{}", variable);
+      assumed += fmt::format("{}{} = {}", assumed.empty() ? "" : ", ", name, exact(value));
+    }
+    if (!assumed.empty()) comment(fmt::format(fmt::runtime(kAssumed.in(language)), assumed));
+    for (const Event& event : point_.functions)
+      comment(fmt::format(fmt::runtime(kNotRepeated.in(language)), shown(std::get<FunctionEvent>(event.what)),
+                          event.line + 1));
+  }
+
+  bool is_written(ModalGroup group) const { return (target_.written >> static_cast<unsigned>(group) & 1u) != 0; }
+  bool differs(ModalGroup group) const { return state_.mode(group) != target_.mode(group); }
+  /// Only G93 has had an F, which a later G94 takes over (D43).
+  bool has_only_inverse_feeds() const { return target_.feed_per_minute.number == 0 && target_.last_feed.number > 0; }
+
+  /// What the program has written is written here as well, defaults too: written again further down it would else be
+  /// no repetition (W001).
+  void set_modes() {
+    std::string first;
+    const auto write = [&](int g) { first += fmt::format("{}G{}", first.empty() ? "" : " ", g); };
+    if (is_written(ModalGroup::Plane)) write(target_.mode(ModalGroup::Plane));
+    if (is_written(ModalGroup::Units)) write(target_.mode(ModalGroup::Units));
+    if (is_written(ModalGroup::Distance)) write(90);
+    if (is_written(ModalGroup::FeedMode) && !target_.inverse_time() && !has_only_inverse_feeds()) write(94);
+    if (differs(ModalGroup::ProfileReduction)) write(target_.mode(ModalGroup::ProfileReduction));
+    if (!first.empty()) add(first);
+    if (is_written(ModalGroup::Interpolation)) add(fmt::format("G{}", target_.mode(ModalGroup::Interpolation)));
+  }
+
+  void assign_registers() {
+    std::string line;
+    for (int number = 1; number <= dialect::kRegisterCount; ++number)
+      if ((point_.known_registers >> static_cast<unsigned>(number) & 1u) != 0)
+        line += fmt::format("{}V{}={}", line.empty() ? "" : " ", number,
+                            exact(point_.registers[static_cast<std::size_t>(number)]));
+    if (!line.empty()) add(line);
+  }
+
+  void change_tool() {
+    const execution::ToolCode& tool = target_.tool;
+    if (target_.tool_selected) add(fmt::format("M06 T{}{:02}{:03}", tool.head, tool.holder, tool.tool));
+    // A tool change stops the spindle: what turned before it does not turn behind it.
+    const bool turns = target_.knows(State::kClockwise | State::kCounterclockwise);
+    std::string line;
+    if (target_.spindle_speed > 0) line = "S" + exact(target_.spindle_speed);
+    if (turns) line += fmt::format("{}M{:02}", line.empty() ? "" : " ", target_.spindle);
+    if (!line.empty()) add(line);
+  }
+
+  std::string length(char letter, double mm) const { return letter + coordinate(mm / state_.mm_per_unit()); }
+  std::string lengths(const Vec3& point) const {
+    std::string text;
+    for (int axis = 0; axis < 3; ++axis) text += " " + length("XYZ"[axis], point[axis]);
+    return text;
+  }
+  std::string across(const Vec3& point) const { return length('X', point.x()) + " " + length('Y', point.y()); }
+
+  /// The height from which the tool feeds down, Z of the frame in force.
+  double height() const {
+    const double depth = target_.position.tip.z();
+    const std::optional<double>& machine = options_.run.setup.clearance;
+    if (options_.clearance) return std::max(*options_.clearance, depth);
+    return std::max(machine ? *machine : point_.highest_feed, depth);
+  }
+
+  void approach() {
+    const Vec3& tip = target_.position.tip;
+    const double above = std::max(height(), point_.highest_in_frame);
+    Vec3 entry(tip.x(), tip.y(), target_.face_mounted ? above : height());
+    if (target_.face_mounted) entry = (target_.face.to_outer(entry) * 1000).array().round() / 1000;
+    const double top = std::max(point_.highest - target_.workpiece_origin.z(), entry.z());
+    add("G00 " + length('Z', top));
+    if (point_.turns) add("B" + coordinate(target_.position.b) + " C" + coordinate(target_.position.c));
+    add(across(entry));
+    rapid_to(entry.z());
+    mount_face();
+    if (target_.face_mounted) {
+      add("G00 " + across(tip) + " " + length('Z', above));
+      rapid_to(height());
+    }
+    feed_down();
+  }
+
+  void rapid_to(double z) {
+    if (std::abs(state_.position.tip.z() - z) > geometry::kEqualCoordinate) add(length('Z', z));
+  }
+
+  /// A program without any F has come here in rapid.
+  void feed_down() {
+    const double z = target_.position.tip.z();
+    const double way = state_.position.tip.z() - z;
+    if (!(way > geometry::kEqualCoordinate)) return;
+    const execution::Feed& feed = target_.feed_per_minute;
+    if (feed.number > 0) {
+      const double unit = state_.mm_per_unit();
+      const double least = std::min(options_.approach_feed, feed.number * feed.mm_per_unit) / unit;
+      const bool is_feed = feed.mm_per_unit == unit && feed.number <= least;
+      add("G01 " + length('Z', z) + " F" + (is_feed ? exact(feed.number) : rounded_feed(least)));
+    } else if (target_.last_feed.number > 0) {
+      set_feed_mode(93);
+      add("G01 " + length('Z', z) + " F" + rounded_feed(options_.approach_feed / way));
+    } else {
+      add(length('Z', z));
+    }
+  }
+
+  /// To three significant digits, and never to 0.
+  static std::string rounded_feed(double feed) {
+    const double digit = std::pow(10, std::floor(std::log10(feed)) - 2);
+    return coordinate(std::max(std::round(feed / digit) * digit, 1e-9));
+  }
+
+  /// The frame as the program wrote it. A G28, whose origin is where the tip was, becomes the G24 of that origin.
+  void mount_face() {
+    if (!target_.face_mounted) return;
+    const syntax::ParsedLine parsed(point_.face_line);
+    const syntax::LineTree& tree = parsed.tree();
+    const int g = target_.mode(ModalGroup::Face);
+    std::string line = (g == 29 ? "G29" : "G24") + lengths(target_.face.origin);
+    for (const syntax::Word& word : tree.words) {
+      const bool is_origin = g != 28 && word.letter >= 'X' && word.letter <= 'Z';
+      if (is_origin || word.letter == 'N' || word.letter == 'G') continue;
+      const bool is_first_axis = word.letter >= 'X' && word.letter <= 'Z';
+      const char letter = is_first_axis ? static_cast<char>(word.letter - 'X' + 'A') : word.letter;
+      line += fmt::format(" {}{}", letter, exact(word.value));
+    }
+    add(line);
+  }
+
+  void set_units(double mm_per_unit) {
+    if (state_.mm_per_unit() != mm_per_unit) add(mm_per_unit == 1 ? "G71" : "G70");
+  }
+  void set_feed_mode(int g) {
+    if (state_.mode(ModalGroup::FeedMode) != g) add(fmt::format("G{}", g));
+  }
+
+  void restore_feed() {
+    const double units = target_.mm_per_unit();
+    if (has_only_inverse_feeds()) {
+      // In G93 an F needs a motion: one that goes nowhere.
+      set_feed_mode(93);
+      set_units(target_.last_feed.mm_per_unit);
+      add("G91 G01 Z0 F" + exact(target_.last_feed.number));
+      if (!target_.incremental()) add("G90");
+    } else if (target_.feed_per_minute.number > 0 && state_.feed_per_minute != target_.feed_per_minute) {
+      set_units(target_.feed_per_minute.mm_per_unit);
+      add("F" + exact(target_.feed_per_minute.number));
+    }
+    set_units(units);
+  }
+
+  /// A motion that goes nowhere, where coordinates without a G may follow. There is none for arcs (ArcContinues).
+  void restore_motion() {
+    const int motion = target_.mode(ModalGroup::Motion);
+    if (!point_.continues_motion || motion > 1 || !differs(ModalGroup::Motion)) return;
+    add(fmt::format("G{:02} ", motion) + (state_.incremental() ? "Z0" : length('Z', target_.position.tip.z())));
+  }
+
+  void restore_rest() {
+    if (state_.inverse_time() != target_.inverse_time()) set_feed_mode(target_.inverse_time() ? 93 : 94);
+    if (differs(ModalGroup::Distance)) add(fmt::format("G{}", target_.mode(ModalGroup::Distance)));
+    if (point_.waits_at_end) add("G200");
+  }
+
+  const RestartPoint& point_;
+  const RestartOptions& options_;
+  const std::string_view line_end_;
+  const State& target_;
+  State state_;  // Behind the last line written.
+  std::string text_;
+};
+
+}  // namespace
+
+std::string restart_preamble(const RestartPoint& point, const RestartOptions& options, std::string_view line_end) {
+  return Preamble(point, options, line_end).text();
+}
+
+}  // namespace isocnc::running

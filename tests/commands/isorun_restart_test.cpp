@@ -1,0 +1,223 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "programs.h"
+#include "run_command.h"
+#include "temporary_folder.h"
+
+namespace isocnc::commands {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr std::string_view kCutting =
+    "M06 T101001\n"
+    "S12000 M03\n"
+    "G00 X10 Y20 Z40\n"
+    "Z3\n"
+    "G01 Z-5 F2000\n"
+    "X100\n"
+    "G41\n"
+    "X150 Y40\n"
+    "G40\n"
+    "G00 Z40\n"
+    "M02\n";
+
+constexpr std::string_view kRestarted =
+    "; restart of <stdin> before its line 6\n"
+    "M06 T101001\n"
+    "S12000 M03\n"
+    "; approach\n"
+    "G00 Z40\n"
+    "X10 Y20\n"
+    "Z3\n"
+    "G01 Z-5 F1000\n"
+    "F2000\n"
+    "; the program from line 6 on\n"
+    "X100\n"
+    "G41\n"
+    "X150 Y40\n"
+    "G40\n"
+    "G00 Z40\n"
+    "M02\n";
+
+CommandResult restart(std::vector<std::string> options, std::string_view program = kCutting) {
+  options.insert(options.begin(), {"isorun", "-"});
+  return run_command(options, {.input = std::string(program)});
+}
+
+std::string content_of(const std::string& path) {
+  std::stringstream content;
+  content << std::ifstream(path, std::ios::binary).rdbuf();
+  return content.str();
+}
+
+TEST(IsorunRestart, WritesTheProgramToStandardOutput) {
+  const CommandResult result = restart({"--restart-at", "6"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.out, kRestarted);
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(restart({"--restart-at", "6", "-o", "-"}).out, kRestarted);
+}
+
+TEST(IsorunRestart, WritesTheProgramToAFile) {
+  const TemporaryFolder folder;
+  const std::string output = folder.write("again.iso", "what stood there before");
+  const CommandResult result = restart({"--restart-at", "6", "-o", output});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(content_of(output), kRestarted);
+}
+
+TEST(IsorunRestart, NamesTheProgram) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("part.iso", kCutting);
+  EXPECT_THAT(run_command({"isorun", "--restart-at", "6", file}).out,
+              StartsWith("; restart of part.iso before its line 6\n"));
+  EXPECT_THAT(run_command({"isorun", "--lang", "it", "--restart-at", "6", file}).out,
+              StartsWith("; ripresa di part.iso dalla riga 6\n"));
+}
+
+TEST(IsorunRestart, KeepsMarkAndLineEnds) {
+  std::string windows = "\xEF\xBB\xBF";
+  std::string expected = windows;
+  for (const char c : kCutting) windows += c == '\n' ? "\r\n" : std::string(1, c);
+  for (const char c : kRestarted) expected += c == '\n' ? "\r\n" : std::string(1, c);
+  EXPECT_EQ(restart({"--restart-at", "6"}, windows).out, expected);
+  windows.resize(windows.size() - 2);
+  expected.resize(expected.size() - 2);
+  EXPECT_EQ(restart({"--restart-at", "6"}, windows).out, expected);
+}
+
+TEST(IsorunRestart, GoesDownAsAsked) {
+  EXPECT_THAT(restart({"--restart-at", "6", "--clearance", "25.5", "--approach-feed", "300"}).out,
+              HasSubstr("\nZ25.5\nG01 Z-5 F300\nF2000\n"));
+  const TemporaryFolder folder;
+  const std::string machine = folder.write("machine.json", R"({"machine": {"clearance": 12}})");
+  EXPECT_THAT(restart({"--restart-at", "6", "--machine", machine}).out, HasSubstr("\nZ12\nG01 Z-5 F1000\nF2000\n"));
+  EXPECT_THAT(restart({"--restart-at", "6", "--machine", machine, "--clearance", "8"}).out, HasSubstr("\nZ8\nG01 "));
+}
+
+TEST(IsorunRestart, WhereItIsNotSafeNamesTheNearestLines) {
+  const CommandResult english = restart({"--restart-at", "8"});
+  EXPECT_EQ(english.status, 1);
+  EXPECT_EQ(english.out, "");
+  EXPECT_EQ(english.err,
+            "isorun: <stdin>: no safe restart before line 8: cutter compensation (G41) is in force; "
+            "nearest safe line: 7\n");
+  EXPECT_EQ(restart({"--restart-at", "8", "--lang", "it"}).err,
+            "isorun: <stdin>: nessuna ripresa sicura dalla riga 8: è in presa la correzione raggio fresa (G41); "
+            "riga sicura più vicina: 7\n");
+}
+
+TEST(IsorunRestart, ThatIsRefusedLeavesTheFileAlone) {
+  const TemporaryFolder folder;
+  const std::string output = folder.write("again.iso", "what stood there before");
+  EXPECT_EQ(restart({"--restart-at", "8", "-o", output}).status, 1);
+  EXPECT_EQ(content_of(output), "what stood there before");
+}
+
+TEST(IsorunRestart, OfAProgramInErrorTellsTheError) {
+  const CommandResult result = restart({"--restart-at", "2"}, kBrokenProgram);
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err, "<stdin>:3: error: no coordinate comes with G01 [ISO026]\n");
+}
+
+TEST(IsorunRestart, BeyondTheLastLineIsTrouble) {
+  const CommandResult result = restart({"--restart-at", "12"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.err, "isorun: <stdin>: there is no line 12: the last one is 11\n");
+}
+
+TEST(IsorunRestart, RefusesWhatItDoesNotUnderstand) {
+  std::vector<std::vector<std::string>> mistakes = {{"-o", "x.iso"},
+                                                    {"--clearance", "5"},
+                                                    {"--approach-feed", "5"},
+                                                    {"--restart-at", "6", "--until", "7"},
+                                                    {"--restart-at", "6", "--trace", "-"},
+                                                    {"--restart-at", "6", "--approach-feed", "0"},
+                                                    {"--restart-at", "6", "--approach-feed=-5"}};
+  for (const std::string line : {"", "0", "-1", "1.5", "x", "N6", "99999999999999999999"})
+    mistakes.push_back({"--restart-at=" + line});
+  for (const std::string number : {"x", "1e3", "1,5", "nan"}) {
+    mistakes.push_back({"--restart-at", "6", "--clearance", number});
+    mistakes.push_back({"--restart-at", "6", "--approach-feed", number});
+  }
+  for (const auto& mistake : mistakes) {
+    const CommandResult result = restart(mistake);
+    EXPECT_EQ(result.status, 2) << testing::PrintToString(mistake);
+    EXPECT_EQ(result.out, "") << testing::PrintToString(mistake);
+    EXPECT_THAT(result.err, StartsWith("isorun: ")) << testing::PrintToString(mistake);
+  }
+}
+
+TEST(IsorunRestart, ComplainsInTheReadersLanguage) {
+  EXPECT_EQ(restart({"--restart-at", "0"}).err, "isorun: --restart-at wants a line, from 1, not 0\n");
+  EXPECT_EQ(restart({"--restart-at", "0", "--lang", "it"}).err, "isorun: --restart-at vuole una riga, da 1, non 0\n");
+  EXPECT_EQ(restart({"--restart-at", "1", "--clearance", "x"}).err,
+            "isorun: --clearance wants a plain number of mm, such as 30, not x\n");
+  EXPECT_EQ(restart({"--restart-at", "1", "--clearance", "x", "--lang", "it"}).err,
+            "isorun: --clearance vuole un numero semplice in mm, come 30, non x\n");
+  EXPECT_EQ(restart({"--restart-at", "1", "--approach-feed", "0"}).err,
+            "isorun: --approach-feed wants a plain number of mm/min above 0, such as 1000, not 0\n");
+  EXPECT_EQ(restart({"--restart-at", "1", "--approach-feed", "0", "--lang", "it"}).err,
+            "isorun: --approach-feed vuole un numero semplice in mm/min maggiore di 0, come 1000, non 0\n");
+}
+
+TEST(IsorunRestart, DoesNotOverwriteTheProgram) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("part.iso", kCutting);
+  const CommandResult english =
+      run_command({"isorun", "--restart-at", "6", "-o", "./part.iso", file}, {.folder = folder.path()});
+  EXPECT_EQ(english.status, 2);
+  EXPECT_EQ(english.err, "isorun: ./part.iso: the restart program would overwrite the program\n");
+  EXPECT_EQ(run_command({"isorun", "--lang", "it", "--restart-at", "6", "-o", file, file}).err,
+            "isorun: " + file + ": il programma di ripresa sovrascriverebbe il programma\n");
+  EXPECT_EQ(content_of(file), kCutting);
+}
+
+TEST(IsorunRestart, ThatCannotBeWrittenIsTrouble) {
+  EXPECT_EQ(restart({"--restart-at", "6", "-o", "/no/such/folder/x"}).status, 2);
+  const CommandResult full = restart({"--restart-at", "6", "-o", "/dev/full"});
+  EXPECT_EQ(full.status, 2);
+  EXPECT_EQ(full.err, "isorun: /dev/full: cannot write: No space left on device\n");
+  const CommandResult closed =
+      run_command({"isorun", "--restart-at", "6", "-"},
+                  {.input = std::string(kCutting), .standard_output = StandardOutput::ClosedPipe});
+  EXPECT_EQ(closed.status, 2);
+}
+
+/// Each example is taken up again at every line; isolint has no error to tell of what comes out, and the control runs
+/// it to its end.
+TEST(IsorunRestart, OfEveryExampleHasNoErrors) {
+  const TemporaryFolder folder;
+  std::size_t written = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(ISOCNC_SOURCE_DIR "/examples")) {
+    if (entry.path().extension() != ".iso") continue;
+    const std::string program = content_of(entry.path());
+    const auto lines = std::count(program.begin(), program.end(), '\n');
+    for (auto line = 1; line <= lines; line += 3) {
+      const std::string output = folder.path(entry.path().stem().string() + "-" + std::to_string(line) + ".iso");
+      const CommandResult result =
+          run_command({"isorun", "--restart-at", std::to_string(line), "-o", output, entry.path()});
+      EXPECT_LE(result.status, 1) << entry.path() << line << result.err;
+      EXPECT_EQ(result.status == 0, std::filesystem::exists(output)) << entry.path() << line;
+      if (result.status == 0) ++written;
+    }
+  }
+  EXPECT_GT(written, 200u);
+  const CommandResult checked =
+      run_command({"isolint", "--no-config", "--ignore", "W1", "--max-warnings", "0", folder.path()});
+  EXPECT_EQ(checked.status, 0) << checked.out;
+}
+
+}  // namespace
+}  // namespace isocnc::commands
