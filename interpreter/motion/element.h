@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "interpreter/motion/machine.h"
+#include "interpreter/motion/move.h"
+#include "interpreter/motion/path.h"
+
+namespace isocnc::motion {
+
+/// In which space a path is given and rounded.
+enum class Space : std::uint8_t {
+  Either,  ///< B and C rest: what is straight for the tip is so for the joints.
+  Joints,
+  Tip,
+};
+
+/// A line or a quarter of a turn at most: what moves are made of before their corners are rounded.
+struct Element {
+  Path path;
+  double begin = 0;  ///< Of the path's parameter; grows where the corner before is rounded.
+  double end = 0;
+  double length = 0;     ///< Before any rounding.
+  double curvature = 0;  ///< Of the path, 1/mm.
+  Space space = Space::Either;
+  bool joints_are_straight = true;
+  bool only_turns = false;                                ///< s counts degrees.
+  double feed = std::numeric_limits<double>::infinity();  ///< Most speed of the tip, or of B and C; per second.
+  double steepest = 1;                                    ///< Most length of the tip's way per unit of s.
+  std::uint64_t tag = 0;
+  bool ends_move = false;
+  bool stops = false;  ///< At its end.
+};
+
+/// Cuts a move into elements, one at a time, so that a thread of a thousand turns takes no more memory than a line.
+class Splitter {
+ public:
+  void take(const Machine& machine, const Move& move);
+  bool has_more() const { return index_ < count_; }
+  /// Only while has_more().
+  Element next(const Machine& machine);
+
+ private:
+  Element line(const Machine& machine, const geometry::Pose& from, const geometry::Pose& to, double feed) const;
+  Element chord(const Machine& machine) const;
+  Element arc() const;
+
+  Move move_;
+  Path circle_;
+  double length_ = 0;
+  int count_ = 0;
+  int index_ = 0;
+};
+
+}  // namespace isocnc::motion

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+
+#include "interpreter/motion/machine.h"
+#include "interpreter/motion/path.h"
+
+namespace isocnc::motion {
+
+enum class Direction : std::int8_t { Forward = 1, Backward = -1 };
+
+/// What the axes allow on a piece of a curve, in x, the square of ds/dt, and a, the second derivative of s: for each
+/// axis |q'' x + q' a| <= its acceleration, wherever on the piece. q'' and q' are taken at both ends; what they stray
+/// from the straight line between them is at most h^2/8 times the next derivative but one, and added.
+///
+/// x stays below the speed that can be held: a = 0 is always possible.
+class CurveLimits {
+ public:
+  CurveLimits(const Machine& machine, const Path& path, double from, double to);
+
+  /// Most x by the limits of the axes.
+  double cap() const { return cap_; }
+  /// Most x at one end with x at the other: after it in Direction::Forward, before it in Direction::Backward.
+  double reach(double x, double length, Direction direction) const;
+  /// Most |a| that is possible at x and all the way to the larger `peak`.
+  double acceleration(double x, double peak, Direction direction) const;
+
+ private:
+  /// Of one axis at one end of the piece, as parts of its acceleration.
+  struct Terms {
+    double first = 0;
+    double second = 0;
+    double first_slack = 0;
+    double second_slack = 0;
+  };
+  template <typename Visit>
+  void for_each_bound(Direction direction, Visit&& visit) const;
+
+  std::array<Terms, std::size_t{2} * kAxisCount> terms_;
+  int count_ = 0;
+  double cap_ = 0;
+};
+
+/// What the axes allow on a line of joints.
+struct LineLimits {
+  double cap = 0;           ///< Most x.
+  double acceleration = 0;  ///< Most |a|.
+};
+
+LineLimits line_limits(const Machine& machine, const Coordinates& joint_slope);
+
+}  // namespace isocnc::motion

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include "interpreter/geometry/vectors.h"
+
+namespace isocnc::motion {
+
+enum Axis : std::uint8_t { kX, kY, kZ, kB, kC };
+inline constexpr int kAxisCount = 5;
+
+/// What a joint can do: mm, mm/s and mm/s^2, or degrees, deg/s and deg/s^2.
+struct AxisLimits {
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+  double speed = 0;         ///< Of rapids too. Positive.
+  double acceleration = 0;  ///< Positive.
+};
+
+enum class MachineKind : std::uint8_t {
+  ThreeAxis,  ///< B and C are carried along, and turn nothing.
+  Head,       ///< C turns the head about Z, and carries B, which tilts it about Y.
+  Table,      ///< B tilts the table about Y, and carries C, which turns the workpiece about Z. The tool keeps upright.
+};
+
+/// How the joints carry the tool. X, Y and Z stand where the spindle nose is with B = C = 0, whatever the kind: for a
+/// tool of length l upright at the tip t they are t + l ez. In the workpiece's eyes the tool axis, from tip to
+/// spindle, is Rz(C) Ry(B) ez for heads and tables alike, as in G29 (D28), so one program suits both.
+struct Kinematics {
+  MachineKind kind = MachineKind::ThreeAxis;
+  double pivot = 0;                                        ///< Head: from the B axis to the spindle nose, mm.
+  geometry::Vec3 b_from_c = geometry::Vec3::Zero();        ///< Head: from the C axis to the B axis, at B = C = 0.
+  geometry::Vec3 spindle_from_b = geometry::Vec3::Zero();  ///< Head: from the B axis to the spindle's, beside `pivot`.
+  geometry::Vec3 b_point = geometry::Vec3::Zero();         ///< Table: a point of the B axis, machine frame.
+  geometry::Vec3 c_point = geometry::Vec3::Zero();         ///< Table: a point of the C axis at B = 0, machine frame.
+};
+
+struct Machine {
+  std::array<AxisLimits, kAxisCount> axes;
+  Kinematics kinematics;
+  double chord_tolerance = 0.01;       ///< Of arcs that are split into lines (I.3.4.3.a), mm.
+  double corner_tolerance = 0.02;      ///< How far from the programmed path the tip may round a corner, mm.
+  double corner_tolerance_deg = 0.05;  ///< The same for B and C, degrees.
+};
+
+/// A router of 3200 x 1600 x 500 mm, 60 m/min and 3 to 5 m/s^2. X and Y grow from the table's corner; Z is 0 at the
+/// table.
+Machine three_axis_router();
+/// The same with a head: C +-360 degrees, B +-120, pivot 180 mm.
+Machine head_router();
+/// A smaller one with a tilting table.
+Machine table_router();
+/// What serves where none is described: head_router().
+Machine default_machine();
+
+}  // namespace isocnc::motion

@@ -1,0 +1,183 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "tests/motion/programs.h"
+
+namespace isocnc::motion {
+namespace {
+
+using geometry::Vec3;
+
+constexpr double kRelative = 1 + 1e-6;
+
+struct Case {
+  std::string name;
+  Machine machine;
+};
+
+class RandomMoves : public testing::TestWithParam<Case> {
+ protected:
+  const Machine& machine() const { return GetParam().machine; }
+
+  /// Calls `check(moves, stretches)` for many programs.
+  template <typename Check>
+  void for_programs(Check&& check) const {
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+      SCOPED_TRACE("seed " + std::to_string(seed));
+      const std::vector<Move> moves = random_moves(seed, 40);
+      check(moves, plan(machine(), moves));
+      if (HasFailure()) return;
+    }
+  }
+
+  template <typename Check>
+  static void for_samples(const Kinematics& kinematics, const Stretch& stretch, Check&& check) {
+    constexpr int kParts = 12;
+    for (int i = 0; i <= kParts; ++i) check(stretch.at(kinematics, stretch.start + stretch.duration * i / kParts));
+    double start = stretch.start;
+    for (int i = 0; i < stretch.phase_count; ++i) {
+      const double duration = stretch.phases[static_cast<std::size_t>(i)].duration;
+      check(stretch.at(kinematics, start + 1e-9 * duration));
+      check(stretch.at(kinematics, start + (1 - 1e-9) * duration));
+      start += duration;
+    }
+  }
+};
+
+TEST_P(RandomMoves, KeepTheLimitsOfTheAxes) {
+  double fullest = 0;
+  for_programs([&](const std::vector<Move>&, const std::vector<Stretch>& stretches) {
+    for (const Stretch& stretch : stretches) {
+      for_samples(machine().kinematics, stretch, [&](const Sample& sample) {
+        for (int axis = 0; axis < kAxisCount; ++axis) {
+          const AxisLimits& limits = machine().axes[static_cast<std::size_t>(axis)];
+          ASSERT_LE(std::abs(sample.joint_speeds[axis]), limits.speed * kRelative) << axis << " move " << stretch.tag;
+          ASSERT_LE(std::abs(sample.joint_accelerations[axis]), limits.acceleration * kRelative)
+              << axis << " move " << stretch.tag;
+          fullest = std::max(fullest, std::abs(sample.joint_accelerations[axis]) / limits.acceleration);
+        }
+      });
+    }
+  });
+  EXPECT_GT(fullest, 0.999999) << "the limits are not used";
+}
+
+TEST_P(RandomMoves, KeepTheFeed) {
+  for_programs([&](const std::vector<Move>& moves, const std::vector<Stretch>& stretches) {
+    for (const Stretch& stretch : stretches) {
+      const Move& move = moves[stretch.tag];
+      if (move.feed.kind != FeedKind::Speed) continue;
+      const bool only_turns = move.from.tip == move.to.tip && !move.is_arc;
+      for_samples(machine().kinematics, stretch, [&](const Sample& sample) {
+        const double speed = only_turns ? sample.joint_speeds.tail<2>().norm() : sample.speed;
+        ASSERT_LE(speed, move.feed.value * kRelative + 1e-9) << "move " << stretch.tag;
+      });
+    }
+  });
+}
+
+TEST_P(RandomMoves, GoOnWhereTheyWereAsFast) {
+  for_programs([&](const std::vector<Move>&, const std::vector<Stretch>& stretches) {
+    for (std::size_t i = 1; i < stretches.size(); ++i) {
+      const Stretch& before = stretches[i - 1];
+      const double time = stretches[i].start;
+      ASSERT_NEAR(before.start + before.duration, time, 1e-9);
+      const Sample end = before.at(machine().kinematics, time);
+      const Sample begin = stretches[i].at(machine().kinematics, time);
+      ASSERT_LT((end.joints - begin.joints).cwiseAbs().maxCoeff(), 1e-7) << "move " << before.tag;
+      ASSERT_LT((coordinates(end.tip) - coordinates(begin.tip)).cwiseAbs().maxCoeff(), 1e-7) << "move " << before.tag;
+      ASSERT_LT((end.joint_speeds - begin.joint_speeds).cwiseAbs().maxCoeff(), 1e-5) << "move " << before.tag;
+    }
+  });
+}
+
+/// Speeds are the slopes of places, and accelerations those of speeds.
+TEST_P(RandomMoves, SamplesIntegrate) {
+  for_programs([&](const std::vector<Move>&, const std::vector<Stretch>& stretches) {
+    for (const Stretch& stretch : stretches) {
+      double start = stretch.start;
+      for (int i = 0; i < stretch.phase_count; ++i) {
+        const double duration = stretch.phases[static_cast<std::size_t>(i)].duration;
+        const double half = std::min(1e-5, duration / 3);
+        const double middle = start + duration / 2;
+        start += duration;
+        if (half < 1e-5) continue;
+        const Sample a = stretch.at(machine().kinematics, middle - half);
+        const Sample b = stretch.at(machine().kinematics, middle);
+        const Sample c = stretch.at(machine().kinematics, middle + half);
+        const Coordinates speeds = (c.joints - a.joints) / (2 * half);
+        const Coordinates accelerations = (c.joint_speeds - a.joint_speeds) / (2 * half);
+        ASSERT_LT((speeds - b.joint_speeds).norm(), 1e-4 * (1 + b.joint_speeds.norm())) << stretch.tag;
+        ASSERT_LT((accelerations - b.joint_accelerations).norm(), 1e-3 * (1 + b.joint_accelerations.norm()))
+            << stretch.tag;
+        ASSERT_NEAR((c.speed - a.speed) / (2 * half), b.acceleration, 1e-3 * (1 + b.joint_accelerations.norm()));
+        ASSERT_NEAR((c.tip.tip - a.tip.tip).norm() / (2 * half), b.speed, 1e-4 * (1 + b.joint_speeds.norm()));
+      }
+    }
+  });
+}
+
+/// The move of the stretch is asked first: mostly it is the nearest.
+double off_path(const Machine& machine, const std::vector<Move>& moves, std::size_t tag, const Vec3& tip) {
+  double off = distance(machine, moves[tag], tip);
+  if (off < 1e-6) return off;
+  if (tag > 0) off = std::min(off, distance(machine, moves[tag - 1], tip));
+  if (tag + 1 < moves.size()) off = std::min(off, distance(machine, moves[tag + 1], tip));
+  return off;
+}
+
+double allowed(const Machine& machine, const std::vector<Move>& moves, std::size_t tag) {
+  const bool has_chords = moves[tag].splits_arcs || (tag > 0 && moves[tag - 1].splits_arcs) ||
+                          (tag + 1 < moves.size() && moves[tag + 1].splits_arcs);
+  return (machine.corner_tolerance + (has_chords ? machine.chord_tolerance : 0)) * kRelative + 1e-7;
+}
+
+TEST_P(RandomMoves, StayWithinTheCornerTolerance) {
+  double farthest = 0;
+  for_programs([&](const std::vector<Move>& moves, const std::vector<Stretch>& stretches) {
+    for (std::size_t i = 0; i < stretches.size(); ++i) {
+      const Stretch& stretch = stretches[i];
+      if (i % 5 != 0 && stretch.path.kind == PathKind::Circle) continue;  // Many, and slow to compare.
+      for (const double part : {0.0, 0.5, 0.8, 1.0}) {
+        const Sample sample = stretch.at(machine().kinematics, stretch.start + part * stretch.duration);
+        const double off = off_path(machine(), moves, stretch.tag, sample.tip.tip);
+        ASSERT_LE(off, allowed(machine(), moves, stretch.tag)) << "move " << stretch.tag;
+        farthest = std::max(farthest, off);
+      }
+    }
+  });
+  EXPECT_GT(farthest, machine().corner_tolerance * 0.99) << "the tolerance is not used";
+}
+
+TEST_P(RandomMoves, HaveTheirStretchesInOrderAndEndWhereProgrammed) {
+  for_programs([&](const std::vector<Move>& moves, const std::vector<Stretch>& stretches) {
+    std::size_t ended = 0;
+    for (const Stretch& stretch : stretches) {
+      ASSERT_EQ(stretch.tag, ended);
+      if (!stretch.ends_move) continue;
+      ++ended;
+      const Sample end = stretch.at(machine().kinematics, stretch.start + stretch.duration);
+      const Move& move = moves[stretch.tag];
+      const bool stops = move.exact_stop || ended == moves.size();
+      ASSERT_LE((end.tip.tip - move.to.tip).norm(), stops ? 1e-7 : machine().corner_tolerance * kRelative)
+          << stretch.tag;
+      ASSERT_NEAR(end.tip.b, move.to.b, stops ? 1e-7 : machine().corner_tolerance_deg * kRelative);
+      ASSERT_NEAR(end.tip.c, move.to.c, stops ? 1e-7 : machine().corner_tolerance_deg * kRelative);
+      if (stops) {
+        ASSERT_LT(end.joint_speeds.norm(), 1e-4);
+      }
+    }
+    ASSERT_EQ(ended, moves.size());
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Machines, RandomMoves,
+                         testing::Values(Case{"ThreeAxis", three_axis_router()}, Case{"Head", head_router()},
+                                         Case{"Table", table_router()}),
+                         [](const auto& each) { return each.param.name; });
+
+}  // namespace
+}  // namespace isocnc::motion

@@ -1,0 +1,271 @@
+#include "interpreter/motion/planner.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/motion/programs.h"
+
+namespace isocnc::motion {
+namespace {
+
+using geometry::Vec3;
+
+const Vec3 kOrigin = Vec3::Zero();
+
+double time_of(const Machine& machine, const std::vector<Move>& moves) { return cycle_time(plan(machine, moves)); }
+
+/// From rest to rest over `length` with speed v and acceleration a.
+double trapezoid(double length, double v, double a) {
+  return v * v / a <= length ? length / v + v / a : 2 * std::sqrt(length / a);
+}
+
+TEST(Planner, OneMoveIsATrapezoid) {
+  const Machine machine = uniform_machine(1000, 2000);
+  const auto stretches = plan(machine, {line(kOrigin, {100, 0, 0}, speed(100))});
+  ASSERT_EQ(stretches.size(), 1U);
+  EXPECT_NEAR(cycle_time(stretches), 1 + 0.05, 1e-12);
+  ASSERT_EQ(stretches[0].phase_count, 3);
+  EXPECT_NEAR(stretches[0].phases[0].duration, 0.05, 1e-12);
+  EXPECT_NEAR(stretches[0].phases[1].speed, 100, 1e-12);
+  const Sample middle = stretches[0].at(machine.kinematics, 1.05 / 2);
+  EXPECT_NEAR(middle.tip.tip.x(), 50, 1e-9);
+  EXPECT_NEAR(middle.speed, 100, 1e-9);
+  EXPECT_EQ(middle.acceleration, 0);
+}
+
+TEST(Planner, AShortMoveIsATriangle) {
+  const Machine machine = uniform_machine(1000, 2000);
+  const auto stretches = plan(machine, {line(kOrigin, {0, 2, 0}, speed(100))});
+  EXPECT_NEAR(cycle_time(stretches), 2 * std::sqrt(2 / 2000.0), 1e-12);
+  EXPECT_EQ(stretches[0].phase_count, 2);
+}
+
+TEST(Planner, TheSlowestAxisLimitsALine) {
+  Machine machine = uniform_machine(1000, 2000);
+  machine.axes[kY].acceleration = 300;
+  machine.axes[kZ].speed = 50;
+  // Along (2, 1, 2) / 3: Y allows 3 * 300 along the path, Z a speed of 75.
+  EXPECT_NEAR(time_of(machine, {line(kOrigin, {40, 20, 40}, kRapid)}), trapezoid(60, 75, 900), 1e-12);
+}
+
+TEST(Planner, CollinearMovesAreOne) {
+  const Machine machine = uniform_machine(1000, 2000);
+  std::vector<Move> moves;
+  const Vec3 step = Vec3(3, -2, 1) / 7;
+  for (int i = 0; i < 5000; ++i) moves.push_back(line(i * step, (i + 1) * step, speed(300)));
+  const double one = time_of(machine, {line(kOrigin, 5000 * step, speed(300))});
+  EXPECT_NEAR(time_of(machine, moves), one, 1e-9);
+}
+
+TEST(Planner, ExactStopsStopOnThePoint) {
+  const Machine machine = uniform_machine(1000, 2000);
+  std::vector<Move> moves = {line(kOrigin, {10, 0, 0}, speed(100)), line({10, 0, 0}, {10, 10, 0}, speed(100))};
+  moves[0].exact_stop = true;
+  const auto stretches = plan(machine, moves);
+  ASSERT_EQ(stretches.size(), 2U);
+  EXPECT_NEAR(cycle_time(stretches), 2 * trapezoid(10, 100, 2000), 1e-12);
+  const Sample corner = stretches[0].at(machine.kinematics, stretches[1].start);
+  EXPECT_NEAR((corner.tip.tip - Vec3(10, 0, 0)).norm(), 0, 1e-9);
+  EXPECT_NEAR(corner.speed, 0, 1e-9);
+}
+
+TEST(Planner, ARestTakesItsTime) {
+  const Machine machine = uniform_machine(1000, 2000);
+  Planner planner(machine);
+  planner.push(line(kOrigin, {10, 0, 0}, speed(100)));
+  planner.rest(2.5);
+  planner.push(line({10, 0, 0}, {20, 0, 0}, speed(100)));
+  planner.rest();
+  double start = 0;
+  while (const Stretch* stretch = planner.next()) start = stretch->start;
+  EXPECT_NEAR(start, trapezoid(10, 100, 2000) + 2.5, 1e-12);
+  EXPECT_NEAR(planner.time(), 2 * trapezoid(10, 100, 2000) + 2.5, 1e-12);
+}
+
+/// A parabola that cuts d = 4 tolerance / |e2 - e1| from both sides, at v^2 = 2 d a / |e2 - e1| by axis.
+TEST(Planner, ARightAngleIsRoundedWithinTheTolerance) {
+  Machine machine = uniform_machine(1000, 2000);
+  machine.corner_tolerance = 0.05;
+  std::vector<Move> moves = {line(kOrigin, {50, 0, 0}, speed(500)), line({50, 0, 0}, {50, 50, 0}, speed(500))};
+  moves[1].tag = 1;
+  const auto stretches = plan(machine, moves);
+  const double cut = 4 * 0.05 / std::sqrt(2);
+  const double corner_speed = std::sqrt(2 * cut * 2000);
+  ASSERT_EQ(stretches.size(), 4U);
+  const Sample middle = stretches[1].at(machine.kinematics, stretches[2].start);
+  EXPECT_NEAR((middle.tip.tip - Vec3(50, 0, 0)).norm(), 0.05, 1e-9);
+  EXPECT_NEAR(stretches[1].phases[0].speed, corner_speed, 1e-9);
+  EXPECT_NEAR(stretches[1].duration + stretches[2].duration, 2 * cut / corner_speed, 1e-12);
+  // Speeds up over 50 - cut to a peak, and down to the corner's.
+  const double peak = std::sqrt(corner_speed * corner_speed / 2 + 2000 * (50 - cut));
+  const double side = (2 * peak - corner_speed) / 2000;
+  EXPECT_NEAR(cycle_time(stretches), 2 * side + 2 * cut / corner_speed, 1e-9);
+  EXPECT_EQ(stretches[1].tag, 0U);
+  EXPECT_TRUE(stretches[1].ends_move);
+  EXPECT_EQ(stretches[2].tag, 1U);
+  EXPECT_FALSE(stretches[2].ends_move);
+}
+
+TEST(Planner, ACircleBelowTheCentripetalLimitKeepsItsFeed) {
+  const Machine machine = uniform_machine(1000, 2000);
+  // 20^2 / 50 = 8 mm/s^2 leaves nearly all for speeding up.
+  const double length = 100 * std::numbers::pi;
+  const double time = time_of(machine, {arc_xy(kOrigin, {50, 0, 0}, 360, 0, speed(20))});
+  EXPECT_NEAR(time, trapezoid(length, 20, 2000), 1e-4 * time);
+  EXPECT_GE(time, trapezoid(length, 20, 2000));
+}
+
+/// All axes alike: where an axis takes all of the centripetal acceleration, v = sqrt(a r), as in the closed form; and
+/// between them, v reaches up to the fourth root of 2 times that.
+TEST(Planner, ACircleBeyondTheCentripetalLimitGoesAsFastAsItAllows) {
+  const Machine machine = uniform_machine(10000, 2000);
+  const auto stretches = plan(machine, {arc_xy({-20, 0, 0}, kOrigin, 3600, 0, speed(5000))});
+  const double closed = std::sqrt(2000.0 * 20);
+  double fastest = 0;
+  for (const Stretch& stretch : stretches) {
+    const Sample sample = stretch.at(machine.kinematics, stretch.start);
+    fastest = std::max(fastest, sample.speed);
+    const Vec3& p = sample.tip.tip;
+    const bool is_at_axis = std::min(std::abs(p.x()), std::abs(p.y())) < 1e-6;
+    const bool is_far_from_ends = stretch.start > 0.5 && stretch.start < cycle_time(stretches) - 0.5;
+    if (is_at_axis && is_far_from_ends) {
+      EXPECT_NEAR(sample.speed, closed, 0.005 * closed);
+    }
+  }
+  EXPECT_GT(fastest, closed * 1.05);
+  EXPECT_LE(fastest, closed * std::pow(2, 0.25) * (1 + 1e-6));
+}
+
+TEST(Planner, InverseTimeSetsTheSpeedUnlessTheAxesForbid) {
+  const Machine machine = uniform_machine(100, 2000);
+  EXPECT_NEAR(time_of(machine, {line(kOrigin, {40, 0, 0}, duration(1))}), 1 + 40 / 2000.0, 1e-12);
+  EXPECT_NEAR(time_of(machine, {line(kOrigin, {400, 0, 0}, duration(1))}), trapezoid(400, 100, 2000), 1e-12);
+}
+
+TEST(Planner, RotaryAxesAloneMoveInDegrees) {
+  for (Machine machine : {three_axis_router(), head_router()}) {
+    machine.axes[kB].acceleration = 500;
+    machine.axes[kC].acceleration = 500;
+    Move move;
+    move.to.c = 30;
+    move.to.b = 40;
+    move.controls_tool_point = false;
+    move.feed = speed(10);
+    const double most = 500 / 0.8;  // B takes 4/5 of it.
+    if (machine.kinematics.kind == MachineKind::ThreeAxis) {
+      EXPECT_NEAR(time_of(machine, {move}), trapezoid(50, 10, most), 1e-12);
+    } else {
+      EXPECT_NEAR(time_of(machine, {move}), trapezoid(50, 10, most), 0.05);
+    }
+  }
+}
+
+/// The carrier has to run around a tip that rests: it takes its limits as well.
+TEST(Planner, APivotThatSwingsIsLimitedByTheLinearAxes) {
+  Machine machine = uniform_machine(100, 1000);
+  machine.kinematics.kind = MachineKind::Head;
+  machine.kinematics.pivot = 200;
+  Move move;
+  move.to.c = 90;
+  move.from.b = move.to.b = 90;
+  const auto stretches = plan(machine, {move});
+  double fastest = 0;
+  for (const Stretch& stretch : stretches)
+    fastest = std::max(
+        fastest, stretch.at(machine.kinematics, stretch.start + stretch.duration / 2).joint_speeds.head<3>().norm());
+  EXPECT_LE(fastest, 100 * std::sqrt(2) * (1 + 1e-6));
+  EXPECT_GT(fastest, 100);
+}
+
+TEST(Planner, SplitArcsStayWithinTheChordTolerance) {
+  Machine machine = uniform_machine(1000, 2000);
+  machine.chord_tolerance = 0.02;
+  machine.corner_tolerance = 0.001;
+  Move arc = arc_xy(kOrigin, {30, 0, 0}, -180, 0, speed(50));
+  arc.splits_arcs = true;
+  double least = 100;
+  double most = 0;
+  for (const Stretch& stretch : plan(machine, {arc})) {
+    ASSERT_EQ(stretch.path.kind, PathKind::Polynomial);
+    const double middle =
+        (stretch.at(machine.kinematics, stretch.start + stretch.duration / 2).tip.tip - arc.center).norm();
+    least = std::min(least, middle);
+    most = std::max(most, middle);
+  }
+  EXPECT_NEAR(most, 30, 0.001);
+  EXPECT_LT(least, 30 - 0.01);
+  EXPECT_GE(least, 30 - 0.021);
+}
+
+TEST(Planner, AMoveThatGoesNowhereHasNoStretch) {
+  const Machine machine = uniform_machine(1000, 2000);
+  Move nowhere = line({10, 0, 0}, {10, 0, 0}, speed(100));
+  const auto through =
+      plan(machine, {line(kOrigin, {10, 0, 0}, speed(100)), nowhere, line({10, 0, 0}, {20, 0, 0}, speed(100))});
+  EXPECT_EQ(through.size(), 2U);
+  EXPECT_NEAR(cycle_time(through), trapezoid(20, 100, 2000), 1e-12);
+  nowhere.exact_stop = true;
+  const auto stopped =
+      plan(machine, {line(kOrigin, {10, 0, 0}, speed(100)), nowhere, line({10, 0, 0}, {20, 0, 0}, speed(100))});
+  EXPECT_NEAR(cycle_time(stopped), 2 * trapezoid(10, 100, 2000), 1e-12);
+}
+
+TEST(Planner, AGapIsAStop) {
+  const Machine machine = uniform_machine(1000, 2000);
+  const double time =
+      time_of(machine, {line(kOrigin, {10, 0, 0}, speed(100)), line({11, 0, 0}, {21, 0, 0}, speed(100))});
+  EXPECT_NEAR(time, 2 * trapezoid(10, 100, 2000), 1e-12);
+}
+
+bool equal(const Stretch& a, const Stretch& b) {
+  if (a.tag != b.tag || a.ends_move != b.ends_move || a.start != b.start || a.duration != b.duration) return false;
+  if (a.phase_count != b.phase_count || a.path.c != b.path.c) return false;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(a.phase_count); ++i)
+    if (a.phases[i].from != b.phases[i].from || a.phases[i].acceleration != b.phases[i].acceleration) return false;
+  return true;
+}
+
+/// Whoever asks for stretches late, or goes on with a copy, gets the same.
+TEST(Planner, CopiesAndLateReadersGetTheSame) {
+  const Machine machine = head_router();
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const std::vector<Move> moves = random_moves(seed, 300);
+    const std::vector<Stretch> expected = plan(machine, moves);
+    std::vector<Stretch> stretches;
+    Planner planner(machine);
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+      planner.push(moves[i]);
+      const std::size_t some = (i * 7 + seed) % 40;
+      for (std::size_t k = 0; k < some; ++k)
+        if (const Stretch* stretch = planner.next()) stretches.push_back(*stretch);
+      Planner copy = planner;
+      planner = Planner(three_axis_router());
+      planner = copy;
+    }
+    planner.rest();
+    while (const Stretch* stretch = planner.next()) stretches.push_back(*stretch);
+    ASSERT_EQ(stretches.size(), expected.size()) << seed;
+    for (std::size_t i = 0; i < stretches.size(); ++i)
+      ASSERT_TRUE(equal(stretches[i], expected[i])) << seed << " " << i;
+  }
+}
+
+/// What is out before the program ends is what a planner with all of it makes.
+TEST(Planner, GivesOutWhatNothingCanChange) {
+  const Machine machine = uniform_machine(1000, 2000);
+  Planner planner(machine);
+  std::size_t out = 0;
+  std::size_t most_behind = 0;
+  for (std::size_t i = 0; i < 20000; ++i) {
+    const double x = static_cast<double>(i);
+    planner.push(line({x, 0, 0}, {x + 1, 0, 0}, speed(200)));
+    while (planner.next()) ++out;
+    most_behind = std::max(most_behind, i + 1 - out);
+  }
+  EXPECT_LE(most_behind, 600U);
+}
+
+}  // namespace
+}  // namespace isocnc::motion
