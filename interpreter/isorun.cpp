@@ -15,6 +15,7 @@
 #include "interpreter/running/output_file.h"
 #include "interpreter/running/program_app.h"
 #include "interpreter/running/restart.h"
+#include "interpreter/running/run_report.h"
 #include "interpreter/running/runner.h"
 #include "interpreter/running/source_file.h"
 #include "interpreter/running/system_texts.h"
@@ -34,6 +35,10 @@ enum ExitStatus { kRan = 0, kStopped = 1, kTrouble = 2 };
 struct Options {
   std::string file;
   std::string trace;
+  std::string samples;
+  std::string sample_seconds = "0.01";
+  std::string plot;
+  bool json = false;
   std::string language;
   std::vector<std::string> settings;
   std::string vgpl = "0";
@@ -96,7 +101,13 @@ constexpr Text kWrongApproachFeed{
     "--approach-feed vuole un numero semplice in mm/min maggiore di 0, come 1000, non {}"};
 constexpr Text kRestartOverwrites{"the restart program would overwrite the program",
                                   "il programma di ripresa sovrascriverebbe il programma"};
-constexpr Text kOverwritesProgram{"the trace would overwrite the program", "la traccia sovrascriverebbe il programma"};
+constexpr Text kOverwritesProgram{"this would overwrite the program", "così si sovrascriverebbe il programma"};
+constexpr Text kWrongSeconds{"--dt wants a plain number of seconds, from 0.0001, such as 0.01, not {}",
+                             "--dt vuole un numero semplice di secondi, da 0.0001, come 0.01, non {}"};
+constexpr Text kWrongPlot{"--plot writes SVG, so the name has to end in .svg, unlike {}",
+                          "--plot scrive SVG: il nome deve finire in .svg, non come {}"};
+constexpr Text kOneStandardOutput{"--trace - and --samples - both want standard output",
+                                  "--trace - e --samples - vogliono tutti e due lo standard output"};
 
 /// Nothing, after a complaint.
 std::nullopt_t refuse(const Text& why, std::string_view value, const Options& options) {
@@ -120,6 +131,23 @@ std::optional<RunOptions> read_run_options(const Options& options) {
   return run;
 }
 
+/// What is to be written, and where; nothing after a complaint.
+std::optional<RunOutputs> read_outputs(const Options& options) {
+  constexpr double kShortest = 1e-4;
+  RunOutputs outputs{.trace = options.trace,
+                     .samples = options.samples,
+                     .plot = options.plot,
+                     .json = options.json,
+                     .program_name = options.shown_file(),
+                     .language = options.reader_language()};
+  const auto seconds = read_decimal(options.sample_seconds);
+  if (!seconds || !(*seconds >= kShortest)) return refuse(kWrongSeconds, options.sample_seconds, options);
+  outputs.sample_seconds = *seconds;
+  if (!options.plot.empty() && !options.plot.ends_with(".svg")) return refuse(kWrongPlot, options.plot, options);
+  if (options.trace == "-" && options.samples == "-") return refuse(kOneStandardOutput, "", options);
+  return outputs;
+}
+
 /// How the program is to be taken up again; nothing after a complaint.
 std::optional<RestartOptions> read_restart_options(const Options& options, const RunOptions& run) {
   RestartOptions restart;
@@ -139,29 +167,6 @@ std::optional<RestartOptions> read_restart_options(const Options& options, const
   return restart;
 }
 
-/// What a run adds up to.
-struct Totals {
-  std::size_t rapids = 0, feeds = 0, arcs = 0;
-  double rapid_mm = 0, feed_mm = 0;
-
-  void add(const Event& event) {
-    const auto* const move = std::get_if<MoveEvent>(&event.what);
-    if (!move) return;
-    switch (move->kind) {
-      case execution::MoveKind::Rapid:
-        ++rapids;
-        break;
-      case execution::MoveKind::Feed:
-        ++feeds;
-        break;
-      case execution::MoveKind::Arc:
-        ++arcs;
-        break;
-    }
-    (move->kind == execution::MoveKind::Rapid ? rapid_mm : feed_mm) += move->length;
-  }
-};
-
 void print_error(const Options& options, const RunResult& result) {
   const Language language = options.reader_language();
   const syntax::Span span = result.error.span;
@@ -171,30 +176,6 @@ void print_error(const Options& options, const RunResult& result) {
   std::cerr << syntax::printable(fmt::format("{}:{}: {}: {} [{}]", options.shown_file(), result.line + 1,
                                              dialect::severity_name(def.severity, language), message, def.code))
             << '\n';
-}
-
-constexpr Text kEndings[] = {{"ran to M02", "eseguito fino a M02"},
-                             {"stopped by an error", "fermato da un errore"},
-                             {"stopped where asked", "fermato dove richiesto"}};
-constexpr Text kSummary{
-    "result: {}, line {}\n"
-    "blocks: {}\n"
-    "rapids: {} ({:.3f} mm)\n"
-    "feed moves: {}, arcs: {} ({:.3f} mm)\n"
-    "final position (machine): X{:.3f} Y{:.3f} Z{:.3f} B{:.3f} C{:.3f}\n",
-    "esito: {}, riga {}\n"
-    "blocchi: {}\n"
-    "rapidi: {} ({:.3f} mm)\n"
-    "lineari: {}, archi: {} ({:.3f} mm)\n"
-    "posizione finale (macchina): X{:.3f} Y{:.3f} Z{:.3f} B{:.3f} C{:.3f}\n"};
-
-std::string summary_of(const RunResult& result, const Totals& totals, Language language) {
-  const execution::State& state = result.state;
-  const geometry::Vec3 tip = state.to_machine(state.position.tip);
-  return fmt::format(fmt::runtime(kSummary.in(language)),
-                     kEndings[static_cast<std::size_t>(result.ending)].in(language), result.line + 1, result.blocks,
-                     totals.rapids, totals.rapid_mm, totals.feeds, totals.arcs, totals.feed_mm, tip.x(), tip.y(),
-                     tip.z(), state.position.b, state.position.c);
 }
 
 /// Flushes an output; false, after a complaint, when anything written to it has been lost.
@@ -210,26 +191,18 @@ bool is_same_file(const std::string& a, const std::string& b) {
   return std::filesystem::equivalent(a, b, ignored);
 }
 
-int run_program(std::string_view program, const Options& options, const RunOptions& run_options) {
-  const Language language = options.reader_language();
-  OutputFile standard_output(STDOUT_FILENO);
-  std::optional<OutputFile> trace_file;
-  OutputFile* trace = nullptr;
-  if (options.trace == "-") trace = &standard_output;
-  if (!options.trace.empty() && trace == nullptr) trace = &trace_file.emplace(std::filesystem::path(options.trace));
-  if (trace != nullptr && !finish(*trace, options.trace, language)) return kTrouble;
-
-  Totals totals;
-  const RunResult result = run(program, run_options, [&](const Event& event) {
-    totals.add(event);
-    if (trace != nullptr) trace->write(to_json(event) + '\n');
-  });
-  if (trace != &standard_output) standard_output.write(summary_of(result, totals, language));
-  bool is_written = finish(standard_output, "<stdout>", language);
-  if (trace_file && !finish(*trace_file, options.trace, language)) is_written = false;
-  if (result.ending == Ending::Error) print_error(options, result);
-  if (!is_written) return kTrouble;
-  return result.ending == Ending::Error ? kStopped : kRan;
+int run_program(std::string_view program, const Options& options, const RunOptions& run_options,
+                const RunOutputs& outputs, const TimedMachine& machine) {
+  RunReport report(outputs, machine);
+  std::optional<RunResult> result;
+  if (report.is_ready()) {
+    result = run(program, run_options, [&](const Event& event) { report.take(event); });
+    report.finish(*result);
+    if (result->ending == Ending::Error) print_error(options, *result);
+  }
+  for (const std::string& problem : report.problems()) complain(problem);
+  if (!report.problems().empty()) return kTrouble;
+  return result->ending == Ending::Error ? kStopped : kRan;
 }
 
 /// To a file all at once, so that nobody ever loads half of a program.
@@ -262,7 +235,7 @@ int restart(const SourceFile& source, const Options& options, const RestartOptio
 
 /// What the checks know of the machine; none, after a complaint, when a file is wrong. The program's configuration also
 /// tells the language to speak, unless the command line does.
-std::optional<execution::Setup> read_machine(Options& options) {
+std::optional<configuration::Machine> read_machine(Options& options) {
   using configuration::Configurations;
   const Language language = options.reader_language();
   Configurations found(options.source, language);
@@ -279,20 +252,23 @@ std::optional<execution::Setup> read_machine(Options& options) {
       std::cerr << mistake << '\n';
       is_right = false;
     }
-  return is_right ? std::optional(machine.machine.setup) : std::nullopt;
+  return is_right ? std::optional(machine.machine) : std::nullopt;
 }
 
 int run_file(Options options) {
-  const std::optional<execution::Setup> setup = read_machine(options);
-  if (!setup) return kTrouble;
+  const std::optional<configuration::Machine> machine = read_machine(options);
+  if (!machine) return kTrouble;
   const Language language = options.reader_language();
   std::optional<RunOptions> run_options = read_run_options(options);
   if (!run_options) return kTrouble;
-  run_options->setup = *setup;
-  if (!options.reads_stdin() && is_same_file(options.file, options.trace)) {
-    complain(fmt::format("{}: {}", options.trace, kOverwritesProgram.in(language)));
-    return kTrouble;
-  }
+  run_options->setup = machine->setup;
+  const std::optional<RunOutputs> outputs = read_outputs(options);
+  if (!outputs) return kTrouble;
+  for (const std::string* const file : {&options.trace, &options.samples, &options.plot})
+    if (!options.reads_stdin() && is_same_file(options.file, *file)) {
+      complain(fmt::format("{}: {}", *file, kOverwritesProgram.in(language)));
+      return kTrouble;
+    }
   std::optional<RestartOptions> restart_options;
   if (options.restart_at) {
     restart_options = read_restart_options(options, *run_options);
@@ -310,7 +286,7 @@ int run_file(Options options) {
   }
   const auto& source = std::get<SourceFile>(opened);
   if (restart_options) return restart(source, options, *restart_options);
-  return run_program(source.text(), options, *run_options);
+  return run_program(source.text(), options, *run_options, *outputs, machine->timed);
 }
 
 /// What --help and --version ask for.
@@ -346,6 +322,15 @@ int run_main(int argc, char** argv) {
   CLI::Option* const trace =
       app.add_option("--trace", options.trace, "What happens, as JSON lines; - for standard output")
           ->option_text("FILE");
+  CLI::Option* const samples =
+      app.add_option("--samples", options.samples, "Where the machine is, in steps of time, as JSON lines")
+          ->option_text("FILE");
+  app.add_option("--dt", options.sample_seconds, "The step of --samples in seconds (else 0.01)")
+      ->option_text("SECONDS")
+      ->needs(samples);
+  CLI::Option* const plot =
+      app.add_option("--plot", options.plot, "A picture of the path: FILE.svg")->option_text("FILE");
+  CLI::Option* const json = app.add_flag("--json", options.json, "The summary as JSON")->option_text(" ");
   app.add_option("--vgpl", options.vgpl, "Value of VGPL (else 0)")->option_text("VALUE");
   app.add_option("--set", options.settings, "Value of a register at the start: V3=1.5")
       ->option_text("V=VALUE")
@@ -360,7 +345,10 @@ int run_main(int argc, char** argv) {
       app.add_option("--restart-at", options.restart_at, "Write a program that goes on from before this line")
           ->option_text("LINE")
           ->excludes(until)
-          ->excludes(trace);
+          ->excludes(trace)
+          ->excludes(samples)
+          ->excludes(plot)
+          ->excludes(json);
   app.add_option("-o,--output", options.output, "Where the restart program goes; else to standard output")
       ->option_text("FILE")
       ->needs(restart_at);

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "interpreter/motion/travel.h"
+
 namespace isocnc::running {
 
 using dialect::Language;
@@ -24,16 +26,21 @@ Summary::Summary(const TimedMachine& machine)
         return std::isfinite(axis.least) || std::isfinite(axis.most);
       })) {}
 
+/// The share of the tool that is mounted; before the first M06 of none.
 ToolShare& Summary::share() {
-  if (tools_.empty()) tools_.emplace_back();
-  return tools_.back();
+  if (share_ == kNoShare) mount(std::nullopt);
+  return tools_[share_];
+}
+
+void Summary::mount(std::optional<execution::ToolCode> tool) {
+  const auto known =
+      std::find_if(tools_.begin(), tools_.end(), [&](const ToolShare& share) { return share.tool == tool; });
+  share_ = static_cast<std::size_t>(known - tools_.begin());
+  if (known == tools_.end()) tools_.push_back({.tool = tool});
 }
 
 void Summary::add(const TimedEvent& timed) {
-  if (const auto* const tool = std::get_if<ToolEvent>(&timed.event.what)) {
-    tools_.push_back({.tool = tool->tool, .seconds = timed.duration});
-    return;
-  }
+  if (const auto* const tool = std::get_if<ToolEvent>(&timed.event.what)) mount(tool->tool);
   if (timed.duration > 0) share().seconds += timed.duration;
   if (const auto* const move = std::get_if<MoveEvent>(&timed.event.what)) add_move(*move, timed.duration);
   if (checks_travel_) keep_breaches(timed.event.line);

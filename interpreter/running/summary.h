@@ -12,7 +12,7 @@
 
 namespace isocnc::running {
 
-/// What was done with one tool, from its M06 to the next.
+/// What was done with one tool, from its M06s to the next ones.
 struct ToolShare {
   std::optional<execution::ToolCode> tool;  ///< None: before the first M06.
   double seconds = 0;                       ///< Its own M06 included.
@@ -42,6 +42,8 @@ class Summary {
   std::string json(std::string_view file, dialect::Language language) const;
 
  private:
+  static constexpr std::size_t kNoShare = static_cast<std::size_t>(-1);
+
   struct Travelled {
     std::size_t count = 0;
     double mm = 0;
@@ -49,13 +51,15 @@ class Summary {
   };
 
   ToolShare& share();
+  void mount(std::optional<execution::ToolCode> tool);
   void add_move(const MoveEvent& move, double seconds);
   void keep_breaches(std::uint64_t line);
 
   const TimedMachine& machine_;
   std::array<Travelled, 3> moves_;  ///< By MoveKind.
   std::optional<std::array<geometry::Range, execution::kAxisCount>> extents_;
-  std::vector<ToolShare> tools_;
+  std::vector<ToolShare> tools_;  ///< In the order of their first use.
+  std::size_t share_ = kNoShare;  ///< Of the tool that is mounted.
   /// Below and above each axis: of all motions, and of the one that is told of next.
   using Breaches = std::array<std::optional<TravelBreach>, 2 * execution::kAxisCount>;
   Breaches breaches_;

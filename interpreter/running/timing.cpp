@@ -2,12 +2,22 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
 namespace isocnc::running {
 
 using execution::MoveKind;
+
+motion::Machine unbounded_machine() {
+  motion::Machine machine = motion::default_machine();
+  for (motion::AxisLimits& axis : machine.axes) {
+    axis.least = -std::numeric_limits<double>::infinity();
+    axis.most = std::numeric_limits<double>::infinity();
+  }
+  return machine;
+}
 
 static constexpr double kSecondsPerMinute = 60;
 

@@ -19,9 +19,12 @@ struct Durations {
   std::map<int, double> functions;  ///< User Ms; those that are not named take no time.
 };
 
+/// motion::default_machine(), with axes that have no end: where a machine is not described, nothing is outside it.
+motion::Machine unbounded_machine();
+
 /// The machine that a program is timed on.
 struct TimedMachine {
-  motion::Machine motion = motion::default_machine();
+  motion::Machine motion = unbounded_machine();
   Durations durations;
   std::map<execution::ToolCode, double> tool_lengths;  ///< mm; 0 for others.
 };
