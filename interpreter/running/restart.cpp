@@ -1,6 +1,8 @@
 #include "interpreter/running/restart.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 

@@ -106,7 +106,6 @@ void RestartSurvey::note(const Block& block) {
     now_.waits_at_end = now_.waits_at_end || g->number == 200;
     if (g->group != ModalGroup::Face || g->number == 27) continue;
     now_.face_line = block.tree.text;
-    now_.face_mm_per_unit = block.state.mm_per_unit();
   }
   if (block.tree.jump == nullptr) return;
   const int variable = block.tree.jump->variable;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "interpreter/running/runner.h"
@@ -31,8 +32,7 @@ struct RestartPoint {
   execution::State state;
   Registers registers{};
   std::uint32_t known_registers = 0;  ///< Bit n: Vn was assigned by the program, or set at the start.
-  std::string face_line;              ///< The G24, G28 or G29 in force as written, and under which units.
-  double face_mm_per_unit = 1;
+  std::string face_line;              ///< The G24, G28 or G29 in force as written.
   double highest = 0;           ///< The highest that the tip has been, home included: Z of the machine frame, mm.
   double highest_in_frame = 0;  ///< Since the frame in force is so: its Z, mm.
   /// The highest that a feed move has begun or ended since then; -infinity before any.
