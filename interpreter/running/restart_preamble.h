@@ -25,7 +25,8 @@ struct RestartOptions {
 /// `line_end`. First what moves nothing: modes, registers, workpiece frame, tool, spindle. Then the approach: straight
 /// up to the highest point that the program has come to, B and C, across, down to the clearance in rapid, and down to
 /// the depth in feed. A face frame is approached from above the point at which the program has stood highest in it, and
-/// then along its Z. A program that has not moved yet is not approached. Last F, the motion G, G91 and G93.
+/// then along its Z; a tool that B tilts without a face frame goes down beside the work, and then along itself. A
+/// program that has not moved yet is not approached. Last F, the motion G, G91 and G93.
 std::string restart_preamble(const RestartPoint& point, const RestartOptions& options, std::string_view line_end);
 
 }  // namespace isocnc::running

@@ -50,6 +50,7 @@ class RandomJob {
       face();
       add("G00 Z40");
     }
+    if (!tilts && random_.one_in(3)) add(fmt::format("B{} C{}", random_.between(-95, 95), random_.between(-180, 180)));
     for (int i = random_.between(1, 3); i > 0; --i) pass();
     if (random_.one_in(3)) fork();
     add("G00 Z50");
@@ -268,13 +269,16 @@ void expect_safe_approach(const std::string& program, const std::string& restart
     const geometry::Vec3 axis = before.direction_to_machine(geometry::Vec3::UnitZ());
     constexpr double kRounding = 2e-3;  // The place above a face is told to a thousandth.
     const bool is_level = std::abs(way.z()) < kRounding;
+    const geometry::Vec3 tool = geometry::axes_from_angles(move->to.b, move->to.c).col(2);
     const bool is_along_axis = way.cross(axis).norm() < 2 * kRounding;
-    ASSERT_TRUE(is_level || is_along_axis) << event.line + 1 << '\n' << restarted;
+    const bool is_along_tool = way.cross(tool).norm() < 2 * kRounding && move->kind == execution::MoveKind::Feed;
+    ASSERT_TRUE(is_level || is_along_axis || is_along_tool) << event.line + 1 << '\n' << restarted;
     if (move->kind != execution::MoveKind::Rapid || !clearance || feed_in_force(wanted).number == 0) return;
     const geometry::Vec3 end = before.face_mounted ? before.face.to_inner(move->to.tip - before.workpiece_origin)
                                                    : geometry::Vec3(move->to.tip - before.workpiece_origin);
     const double least = std::min(*clearance, before.position.tip.z());
-    if (before.face_mounted == wanted.face_mounted) {
+    const bool is_tilted = !wanted.face_mounted && (wanted.position.b != 0 || wanted.position.c != 0);
+    if (before.face_mounted == wanted.face_mounted && !is_tilted) {
       EXPECT_GE(end.z(), least - kRounding) << event.line + 1 << '\n' << restarted;
     }
   });
