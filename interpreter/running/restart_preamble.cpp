@@ -19,6 +19,8 @@ using dialect::Text;
 using execution::State;
 using geometry::Vec3;
 
+/// How far above a place that it has come to in feed a tool goes in feed again, at least; mm.
+static constexpr double kAboveWork = 5;
 /// How far a tilted tool stays from where the program has cut, along the tool, until it goes there in feed; mm.
 static constexpr double kBesideWork = 50;
 
@@ -164,12 +166,16 @@ class Preamble {
   }
   std::string across(const Vec3& point) const { return length('X', point.x()) + " " + length('Y', point.y()); }
 
+  /// Whether the last motion was a feed move: the tool may touch the work.
+  bool cuts() const { return target_.mode(ModalGroup::Motion) != 0; }
+
   /// The height from which the tool feeds down, Z of the frame in force.
   double height() const {
     const double depth = target_.position.tip.z();
+    const double least = cuts() ? depth + kAboveWork : depth;
+    if (options_.clearance) return std::max(*options_.clearance, least);
     const std::optional<double>& machine = options_.run.setup.clearance;
-    if (options_.clearance) return std::max(*options_.clearance, depth);
-    return std::max(machine ? *machine : point_.fed.max().z(), depth);
+    return std::max({machine.value_or(least), point_.fed.max().z(), least});
   }
 
   /// Out of the work where B tilts the tool, along which it comes and goes: beyond all that has been cut. Nothing
@@ -178,7 +184,8 @@ class Preamble {
     const Vec3& tip = target_.position.tip;
     const Vec3 tool = geometry::axes_from_angles(target_.position.b, target_.position.c).col(2);
     const bool is_upright = tool.head<2>().norm() < geometry::kEqualCoordinate;
-    if (target_.face_mounted || is_upright || point_.fed.isEmpty() || tip.z() >= height()) return std::nullopt;
+    if (target_.face_mounted || is_upright || point_.fed.isEmpty()) return std::nullopt;
+    if (!cuts() && tip.z() >= height()) return std::nullopt;
     double way = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis)
       if (std::abs(tool[axis]) > geometry::kEqualCoordinate)

@@ -13,8 +13,9 @@ namespace isocnc::running {
 struct RestartOptions {
   RunOptions run;
   std::uint64_t line = 0;  ///< From 0.
-  /// Z of the frame in force from which the tool goes down in feed. Else the machine's (Setup::clearance); else the
-  /// highest Z at which the program itself has begun or ended a feed move in that frame.
+  /// Z of the frame in force from which the tool goes down in feed. Else the machine's (Setup::clearance), or the
+  /// highest Z at which the program itself has begun or ended a feed move in that frame, whichever is higher. In any
+  /// case 5 mm above the place where the tool has come there in feed.
   std::optional<double> clearance;
   double approach_feed = 1000;                              ///< The most at which the tool goes down from there.
   std::string name;                                         ///< Of the program, for the comment at the head.
