@@ -341,26 +341,23 @@ int run_main(int argc, char** argv) {
           ->option_text("FILE");
   app.add_flag("--no-config", options.source.none, "Read no isocnc.json")->excludes(config)->option_text(" ");
   CLI::Option* const until = app.add_option("--until", options.until, "Stop before this line")->option_text("LINE");
+  program.add_choice("--lang", options.language, {"en", "it"}, "LANG", "en or it; else as the locale says");
   CLI::Option* const restart_at =
-      app.add_option("--restart-at", options.restart_at, "Write a program that goes on from before this line")
+      app.add_option("--restart-at", options.restart_at, "Write a program that goes on from this line")
           ->option_text("LINE")
           ->excludes(until)
           ->excludes(trace)
           ->excludes(samples)
           ->excludes(plot)
           ->excludes(json);
-  app.add_option("-o,--output", options.output, "Where the restart program goes; else to standard output")
-      ->option_text("FILE")
-      ->needs(restart_at);
-  app.add_option("--clearance", options.clearance,
-                 "Z above the work to which a restart goes in rapid, mm; else machine.clearance")
-      ->option_text("Z")
-      ->needs(restart_at);
-  app.add_option("--approach-feed", options.approach_feed,
-                 "At most how fast a restart goes on down, mm/min (else 1000)")
-      ->option_text("F")
-      ->needs(restart_at);
-  program.add_choice("--lang", options.language, {"en", "it"}, "LANG", "en or it; else as the locale says");
+  const std::vector<CLI::Option*> restarting = {
+      app.add_option("-o,--output", options.output, "Where to write it; else to standard output")->option_text("FILE"),
+      app.add_option("--clearance", options.clearance, "Go down in rapid to this Z; else machine.clearance")
+          ->option_text("Z"),
+      app.add_option("--approach-feed", options.approach_feed, "Go on down at most at this F (else 1000)")
+          ->option_text("F")};
+  restart_at->group("Restart");
+  for (CLI::Option* const option : restarting) option->needs(restart_at)->group("Restart");
   const ProgramApp::Said said = program.read(argc, argv, [&] { return options.reader_language(); });
   if (said.answer) return say(*said.answer, options.reader_language());
   if (said.complaint) {

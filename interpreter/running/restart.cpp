@@ -1,6 +1,8 @@
 #include "interpreter/running/restart.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -30,6 +32,8 @@ static constexpr Text kChangedLow{
     "il sistema di riferimento è cambiato con l'utensile nel pezzo, senza un rapido dopo"};
 static constexpr Text kLooksDown{"the face in force looks down and cannot be reached from above",
                                  "la faccia in presa guarda in basso e non si raggiunge dall'alto"};
+static constexpr Text kPointsUp{"the tool points up and cannot be brought there from above",
+                                "l'utensile punta in alto e non ci si arriva dall'alto"};
 static constexpr Text kExactStop{"the G09 that comes next belongs to the motion above",
                                  "la G09 che segue appartiene al movimento che precede"};
 static constexpr Text kArcContinues{"it goes on with the G{:02} above it, which only an arc can bring into force",
@@ -142,6 +146,8 @@ const Text& reason(Obstacle obstacle) {
       return kChangedLow;
     case Obstacle::FaceLooksDown:
       return kLooksDown;
+    case Obstacle::ToolPointsUp:
+      return kPointsUp;
     case Obstacle::ExactStop:
       return kExactStop;
     case Obstacle::ArcContinues:

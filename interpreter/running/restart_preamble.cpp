@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -17,6 +18,11 @@ using dialect::ModalGroup;
 using dialect::Text;
 using execution::State;
 using geometry::Vec3;
+
+/// How far above a place that it has come to in feed a tool goes in feed again, at least; mm.
+static constexpr double kAboveWork = 5;
+/// How far a tilted tool stays from where the program has cut, along the tool, until it goes there in feed; mm.
+static constexpr double kBesideWork = 50;
 
 static constexpr Text kTitle{"; restart of {} before its line {}", "; ripresa di {} dalla riga {}"};
 static constexpr Text kAssumed{"; assumed on the way there: {}", "; ipotesi sul percorso: {}"};
@@ -160,19 +166,42 @@ class Preamble {
   }
   std::string across(const Vec3& point) const { return length('X', point.x()) + " " + length('Y', point.y()); }
 
+  /// Whether the last motion was a feed move: the tool may touch the work.
+  bool cuts() const { return target_.mode(ModalGroup::Motion) != 0; }
+
   /// The height from which the tool feeds down, Z of the frame in force.
   double height() const {
     const double depth = target_.position.tip.z();
+    const double least = cuts() ? depth + kAboveWork : depth;
+    if (options_.clearance) return std::max(*options_.clearance, least);
     const std::optional<double>& machine = options_.run.setup.clearance;
-    if (options_.clearance) return std::max(*options_.clearance, depth);
-    return std::max(machine ? *machine : point_.highest_feed, depth);
+    return std::max({machine.value_or(least), point_.fed.max().z(), least});
   }
+
+  /// Out of the work where B tilts the tool, along which it comes and goes: beyond all that has been cut. Nothing
+  /// where Z will do.
+  std::optional<Vec3> place_along_tool() const {
+    const Vec3& tip = target_.position.tip;
+    const Vec3 tool = geometry::axes_from_angles(target_.position.b, target_.position.c).col(2);
+    const bool is_upright = tool.head<2>().norm() < geometry::kEqualCoordinate;
+    if (target_.face_mounted || is_upright || point_.fed.isEmpty()) return std::nullopt;
+    if (!cuts() && tip.z() >= height()) return std::nullopt;
+    double way = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis)
+      if (std::abs(tool[axis]) > geometry::kEqualCoordinate)
+        way = std::min(way, ((tool[axis] > 0 ? point_.fed.max() : point_.fed.min())[axis] - tip[axis]) / tool[axis]);
+    return rounded(tip + (std::max(way, 0.0) + kBesideWork) * tool);
+  }
+
+  static Vec3 rounded(const Vec3& place) { return (place * 1000).array().round() / 1000; }
 
   void approach() {
     const Vec3& tip = target_.position.tip;
+    const std::optional<Vec3> beside = place_along_tool();
     const double above = std::max(height(), point_.highest_in_frame);
     Vec3 entry(tip.x(), tip.y(), target_.face_mounted ? above : height());
-    if (target_.face_mounted) entry = (target_.face.to_outer(entry) * 1000).array().round() / 1000;
+    if (target_.face_mounted) entry = rounded(target_.face.to_outer(entry));
+    if (beside) entry = *beside;
     const double top = std::max(point_.highest - target_.workpiece_origin.z(), entry.z());
     add("G00 " + length('Z', top));
     if (point_.turns) add("B" + coordinate(target_.position.b) + " C" + coordinate(target_.position.c));
@@ -192,20 +221,22 @@ class Preamble {
 
   /// A program without any F has come here in rapid.
   void feed_down() {
-    const double z = target_.position.tip.z();
-    const double way = state_.position.tip.z() - z;
-    if (!(way > geometry::kEqualCoordinate)) return;
+    const Vec3& tip = target_.position.tip;
+    const Vec3 way = tip - state_.position.tip;
+    if (!(way.norm() > geometry::kEqualCoordinate)) return;
+    const bool is_straight = way.head<2>().norm() <= geometry::kEqualCoordinate;
+    const std::string end = (is_straight ? "" : across(tip) + " ") + length('Z', tip.z());
     const execution::Feed& feed = target_.feed_per_minute;
     if (feed.number > 0) {
       const double unit = state_.mm_per_unit();
       const double least = std::min(options_.approach_feed, feed.number * feed.mm_per_unit) / unit;
       const bool is_feed = feed.mm_per_unit == unit && feed.number <= least;
-      add("G01 " + length('Z', z) + " F" + (is_feed ? exact(feed.number) : rounded_feed(least)));
+      add("G01 " + end + " F" + (is_feed ? exact(feed.number) : rounded_feed(least)));
     } else if (target_.last_feed.number > 0) {
       set_feed_mode(93);
-      add("G01 " + length('Z', z) + " F" + rounded_feed(options_.approach_feed / way));
+      add("G01 " + end + " F" + rounded_feed(options_.approach_feed / way.norm()));
     } else {
-      add(length('Z', z));
+      add(end);
     }
   }
 

@@ -25,6 +25,11 @@ static bool compensates(const State& state) { return state.mode(ModalGroup::Cutt
 /// Z of the face frame runs downward in the machine.
 static bool looks_down(const State& state) { return state.face_mounted && state.face.axes(2, 2) < -kSame; }
 
+/// In the machine, as the normal of a G29 with the same angles (D28).
+static bool tool_points_up(const State& state) {
+  return geometry::axes_from_angles(state.position.b, state.position.c)(2, 2) < -kSame;
+}
+
 /// The coordinate that the arc plane in force leaves out.
 static int normal_of_plane(const State& state) {
   const std::uint8_t plane = state.mode(ModalGroup::Plane);
@@ -77,14 +82,14 @@ void RestartSurvey::follow(const State& before, const State& after) {
   now_.turns = now_.turns || after.position.b != before.position.b || after.position.c != before.position.c;
   now_.highest = std::max(now_.highest, after.to_machine(after.position.tip).z());
   if (!same_frame(before, after)) {
-    changed_low_ = changed_low_ || looks_down(before) || before.position.tip.z() < now_.highest_feed - kSame;
+    changed_low_ = changed_low_ || looks_down(before) || before.position.tip.z() < now_.fed.max().z() - kSame;
     now_.highest_in_frame = z;
-    now_.highest_feed = -std::numeric_limits<double>::infinity();
+    now_.fed.setEmpty();
   } else {
     const bool moved = after.position.tip != before.position.tip;
     const bool fed = after.exact_stop_fits && moved;  // A G09 fits behind feed moves alone.
     const bool leaves_cut = changed_low_ && moved && !fed;
-    if (fed || leaves_cut) now_.highest_feed = std::max({now_.highest_feed, z, before.position.tip.z()});
+    if (fed || leaves_cut) now_.fed.extend(before.position.tip).extend(after.position.tip);
     if (leaves_cut) changed_low_ = false;
     now_.highest_in_frame = std::max(now_.highest_in_frame, z);
   }
@@ -106,7 +111,6 @@ void RestartSurvey::note(const Block& block) {
     now_.waits_at_end = now_.waits_at_end || g->number == 200;
     if (g->group != ModalGroup::Face || g->number == 27) continue;
     now_.face_line = block.tree.text;
-    now_.face_mm_per_unit = block.state.mm_per_unit();
   }
   if (block.tree.jump == nullptr) return;
   const int variable = block.tree.jump->variable;
@@ -121,9 +125,10 @@ std::uint16_t RestartSurvey::traits_of(const Block& block) const {
   unsigned traits = kReached;
   if (compensates(state)) traits |= kCompensated;
   // At the heights of rapids nothing is in the way of a tool that stands a radius beside where it stood.
-  if (compensated_ && state.position.tip.z() < now_.highest_feed - kSame) traits |= kOnContour;
+  if (compensated_ && state.position.tip.z() < now_.fed.max().z() - kSame) traits |= kOnContour;
   if (changed_low_) traits |= kChangedLow;
   if (looks_down(state)) traits |= kLooksDown;
+  if (!state.face_mounted && tool_points_up(state)) traits |= kPointsUp;
   if (motion == 2 || motion == 3) traits |= kInArc;
   if (block.tree.is_empty()) traits |= kIdle;
   if (block.tree.jump != nullptr) traits |= kJumps;
@@ -150,6 +155,7 @@ Obstacle RestartSurvey::obstacle(std::uint64_t line) const {
   if (has(line, kOnContour)) return Obstacle::OnContour;
   if (has(line, kChangedLow)) return Obstacle::FrameChangedLow;
   if (has(line, kLooksDown)) return Obstacle::FaceLooksDown;
+  if (has(line, kPointsUp)) return Obstacle::ToolPointsUp;
   if (exact_stop_follows(line)) return Obstacle::ExactStop;
   if (has(line, kInArc) && continues_motion(line)) return Obstacle::ArcContinues;
   return Obstacle::None;

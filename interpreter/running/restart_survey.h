@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "interpreter/running/runner.h"
 
@@ -21,6 +23,7 @@ enum class Obstacle : std::uint8_t {
   OnContour,        ///< G40 has been written, and the tool is still where the compensation has led it.
   FrameChangedLow,  ///< The frame has changed with the tool in the cut, and no rapid has followed.
   FaceLooksDown,    ///< The face's Z points down: there is no way to it from above.
+  ToolPointsUp,     ///< B has turned the tool beyond the horizontal.
   ExactStop,        ///< A G09 comes next, which belongs to the feed move above (I.3.8, D23).
   ArcContinues,     ///< Coordinates without a G go on with a G02 or G03, which nothing but an arc brings into force.
   NotProved,        ///< The trial run of the restart program has not come to the same state.
@@ -31,17 +34,15 @@ struct RestartPoint {
   execution::State state;
   Registers registers{};
   std::uint32_t known_registers = 0;  ///< Bit n: Vn was assigned by the program, or set at the start.
-  std::string face_line;              ///< The G24, G28 or G29 in force as written, and under which units.
-  double face_mm_per_unit = 1;
-  double highest = 0;           ///< The highest that the tip has been, home included: Z of the machine frame, mm.
-  double highest_in_frame = 0;  ///< Since the frame in force is so: its Z, mm.
-  /// The highest that a feed move has begun or ended since then; -infinity before any.
-  double highest_feed = -std::numeric_limits<double>::infinity();
-  bool waits_at_end = false;      ///< G200 (I.3.12).
-  bool turns = false;             ///< B or C move somewhere in the program.
-  bool continues_motion = false;  ///< Coordinates may come before any motion G.
-  std::vector<Event> functions;   ///< The user's M functions on the way; of each number the last.
-  std::vector<int> assumed;       ///< Registers, or 0 for VGPL, that an IF has asked for and nobody has assigned.
+  std::string face_line;              ///< The G24, G28 or G29 in force as written.
+  double highest = 0;                 ///< The highest that the tip has been, home included: Z of the machine frame, mm.
+  double highest_in_frame = 0;        ///< Since the frame in force is so: its Z, mm.
+  Eigen::AlignedBox3d fed;            ///< Where feed moves have begun and ended since then, in that frame.
+  bool waits_at_end = false;          ///< G200 (I.3.12).
+  bool turns = false;                 ///< B or C move somewhere in the program.
+  bool continues_motion = false;      ///< Coordinates may come before any motion G.
+  std::vector<Event> functions;       ///< The user's M functions on the way; of each number the last.
+  std::vector<int> assumed;           ///< Registers, or 0 for VGPL, that an IF has asked for and nobody has assigned.
 };
 
 /// One run over a whole program: where it could be taken up again, and what that takes.
@@ -76,6 +77,7 @@ class RestartSurvey {
     kContinues = 256,
     kNamesMotion = 512,
     kJumps = 1024,
+    kPointsUp = 2048,
   };
 
   void look_at(const Block& block);

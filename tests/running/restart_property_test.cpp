@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 #include <set>
+#include <sstream>
 
 #include "analyzer/check_text.h"
 #include "interpreter/running/restart.h"
@@ -48,6 +50,7 @@ class RandomJob {
       face();
       add("G00 Z40");
     }
+    if (!tilts && random_.one_in(3)) add(fmt::format("B{} C{}", random_.between(-95, 95), random_.between(-180, 180)));
     for (int i = random_.between(1, 3); i > 0; --i) pass();
     if (random_.one_in(3)) fork();
     add("G00 Z50");
@@ -230,6 +233,16 @@ std::multiset<std::string> errors_from(std::string_view text, std::uint64_t line
   return codes;
 }
 
+/// Whether an IF on the way has told something of a register that the restart program does not know: paths that it
+/// rules out in the original are then possible.
+bool assumes_register(const std::string& restarted) {
+  static const std::regex kAssumed("; assumed on the way there: .*V[0-9].*");
+  std::istringstream lines(restarted);
+  for (std::string line; std::getline(lines, line) && line.starts_with(';');)
+    if (std::regex_match(line, kAssumed)) return true;
+  return false;
+}
+
 /// The preamble has no error, and the rest none that it did not have.
 void expect_no_new_errors(const std::string& program, const std::string& restarted, const RestartOptions& options) {
   const auto old = errors_from(program, options.line, options.run.setup);
@@ -256,13 +269,16 @@ void expect_safe_approach(const std::string& program, const std::string& restart
     const geometry::Vec3 axis = before.direction_to_machine(geometry::Vec3::UnitZ());
     constexpr double kRounding = 2e-3;  // The place above a face is told to a thousandth.
     const bool is_level = std::abs(way.z()) < kRounding;
+    const geometry::Vec3 tool = geometry::axes_from_angles(move->to.b, move->to.c).col(2);
     const bool is_along_axis = way.cross(axis).norm() < 2 * kRounding;
-    ASSERT_TRUE(is_level || is_along_axis) << event.line + 1 << '\n' << restarted;
+    const bool is_along_tool = way.cross(tool).norm() < 2 * kRounding && move->kind == execution::MoveKind::Feed;
+    ASSERT_TRUE(is_level || is_along_axis || is_along_tool) << event.line + 1 << '\n' << restarted;
     if (move->kind != execution::MoveKind::Rapid || !clearance || feed_in_force(wanted).number == 0) return;
     const geometry::Vec3 end = before.face_mounted ? before.face.to_inner(move->to.tip - before.workpiece_origin)
                                                    : geometry::Vec3(move->to.tip - before.workpiece_origin);
     const double least = std::min(*clearance, before.position.tip.z());
-    if (before.face_mounted == wanted.face_mounted) {
+    const bool is_tilted = !wanted.face_mounted && (wanted.position.b != 0 || wanted.position.c != 0);
+    if (before.face_mounted == wanted.face_mounted && !is_tilted) {
       EXPECT_GE(end.z(), least - kRounding) << event.line + 1 << '\n' << restarted;
     }
   });
@@ -281,7 +297,7 @@ std::pair<int, int> try_lines(const std::string& program, const RunOptions& run_
     if (const auto* const restarted = std::get_if<std::string>(&made)) {
       ++count.first;
       expect_same_course(program, *restarted, options);
-      expect_no_new_errors(program, *restarted, options);
+      if (!assumes_register(*restarted)) expect_no_new_errors(program, *restarted, options);
       expect_safe_approach(program, *restarted, options);
       continue;
     }
