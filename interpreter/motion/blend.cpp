@@ -61,10 +61,11 @@ static Path hermite(const Jet& from, const Jet& to, double length) {
   return path;
 }
 
-/// The parabola through a corner of two lines, without the rounding errors of a cubic.
-static Path parabola(const Jet& from, const Jet& to, double length) {
+/// The parabola into which it turns between two lines, given at their corner.
+static Path parabola(const Jet& arriving, const Jet& leaving, double length) {
   Path path;
-  path.c = {from.value, from.first, (to.first - from.first) / (2 * length), Coordinates::Zero()};
+  path.c = {arriving.value - length / 2 * arriving.first, arriving.first,
+            (leaving.first - arriving.first) / (2 * length), Coordinates::Zero()};
   return path;
 }
 
@@ -126,9 +127,12 @@ Corner corner(const Machine& machine, const Element& before, const Element& afte
   Corner result{.junction = Junction::Rounded};
   Blend& blend = result.blend;
   blend.length = 2 * depth;
-  const Jet from = seen_in(machine, space, before, before.end - depth);
-  const Jet to = seen_in(machine, space, after, after.begin + depth);
-  blend.path = is_arc(before) || is_arc(after) ? hermite(from, to, blend.length) : parabola(from, to, blend.length);
+  if (is_arc(before) || is_arc(after)) {
+    blend.path = hermite(seen_in(machine, space, before, before.end - depth),
+                         seen_in(machine, space, after, after.begin + depth), blend.length);
+  } else {
+    blend.path = parabola(arriving, leaving, blend.length);
+  }
   blend.path.is_of_joints = space == Space::Joints;
   blend.path.tool_length = before.path.tool_length;
   blend.cap = std::min(cap(machine, space, blend), feed_cap(before, after, blend));

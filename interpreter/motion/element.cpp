@@ -21,21 +21,41 @@ static Coordinates lifted(const Vec3& linear, double b, double c) { return coord
 
 /// Through both ends even where they are not equally far from the center: what is missing is spread over the way, as
 /// the rise of a helix is (I.3.4.3.b).
-static Path circle(const Move& move, double& length) {
+ProgrammedPath programmed_circle(const Move& move) {
   const double sweep = move.sweep_deg * kRadians;
   const Vec3 from_center = move.from.tip - move.center;
   const Vec3 out = from_center - move.normal * move.normal.dot(from_center);
   const Vec3 side = move.normal.cross(out);
   const Vec3 center = move.from.tip - out;
   const Vec3 rise = move.to.tip - (center + std::cos(sweep) * out + std::sin(sweep) * side);
-  length = std::hypot(out.norm() * sweep, rise.norm());
+  const double length = std::hypot(out.norm() * sweep, rise.norm());
   Path path;
   path.kind = PathKind::Circle;
   path.omega = sweep / length;
   path.c = {lifted(center, move.from.b, move.from.c), lifted(out, 0, 0), lifted(side, 0, 0),
             lifted(rise / length, 0, 0)};
   path.tool_length = move.tool_length;
-  return path;
+  return {path, length};
+}
+
+ProgrammedPath programmed_line(const Machine& machine, const Move& move, const Pose& from, const Pose& to) {
+  ProgrammedPath result;
+  result.length = (to.tip - from.tip).norm();
+  result.only_turns = result.length <= kNowhere;
+  if (result.only_turns) result.length = turning(from, to);
+  if (result.length <= kNowhere) result.length = 0;
+  const bool turns = from.b != to.b || from.c != to.c;
+  const bool is_of_joints = turns && !move.controls_tool_point && machine.kinematics.kind != MachineKind::ThreeAxis;
+  Coordinates begin = coordinates(from);
+  Coordinates end = coordinates(to);
+  if (is_of_joints) {
+    begin = inverse(machine.kinematics, begin, move.tool_length);
+    end = inverse(machine.kinematics, end, move.tool_length);
+  }
+  result.path = Path::line(begin, result.length > 0 ? Coordinates((end - begin) / result.length) : Coordinates::Zero());
+  result.path.is_of_joints = is_of_joints;
+  result.path.tool_length = move.tool_length;
+  return result;
 }
 
 /// A chord over the angle t is off the arc by r (1 - cos(t/2)).
@@ -50,15 +70,12 @@ void Splitter::take(const Machine& machine, const Move& move) {
   move_ = move;
   index_ = 0;
   count_ = 1;
-  length_ = (move.to.tip - move.from.tip).norm();
-  if (length_ <= kNowhere) length_ = turning(move.from, move.to);
-  if (move.is_arc) {
-    circle_ = circle(move, length_);
-    const double sweep = move.sweep_deg * kRadians;
-    count_ = splits(move) ? chord_count(circle_.c[1].norm(), sweep, machine.chord_tolerance)
-                          : static_cast<int>(std::ceil(std::abs(move.sweep_deg) / 90 - 1e-9));
-  }
-  if (!(length_ > kNowhere)) count_ = 0;
+  whole_ = move.is_arc ? programmed_circle(move) : programmed_line(machine, move, move.from, move.to);
+  if (splits(move))
+    count_ = chord_count(whole_.path.c[1].norm(), move.sweep_deg * kRadians, machine.chord_tolerance);
+  else if (move.is_arc)
+    count_ = static_cast<int>(std::ceil(std::abs(move.sweep_deg) / 90 - 1e-9));
+  if (!(whole_.length > 0)) count_ = 0;
 }
 
 static double feed_speed(const Feed& feed, double length) {
@@ -74,9 +91,8 @@ static double feed_speed(const Feed& feed, double length) {
 }
 
 Element Splitter::next(const Machine& machine) {
-  Element element = !move_.is_arc   ? line(machine, move_.from, move_.to, feed_speed(move_.feed, length_))
-                    : splits(move_) ? chord(machine)
-                                    : arc();
+  Element element = !move_.is_arc ? line(machine, whole_) : splits(move_) ? chord(machine) : arc();
+  element.feed = feed_speed(move_.feed, whole_.length);
   element.tag = move_.tag;
   ++index_;
   element.ends_move = index_ == count_;
@@ -84,25 +100,15 @@ Element Splitter::next(const Machine& machine) {
   return element;
 }
 
-Element Splitter::line(const Machine& machine, const Pose& from, const Pose& to, double feed) const {
+Element Splitter::line(const Machine& machine, const ProgrammedPath& line) {
   Element element;
-  element.length = (to.tip - from.tip).norm();
-  element.only_turns = element.length <= kNowhere;
-  if (element.only_turns) element.length = turning(from, to);
-  element.end = element.length;
-  element.feed = feed;
-  const bool follows = machine.kinematics.kind != MachineKind::ThreeAxis && (from.b != to.b || from.c != to.c);
-  if (follows) element.space = move_.controls_tool_point ? Space::Tip : Space::Joints;
+  element.path = line.path;
+  element.end = element.length = line.length;
+  element.only_turns = line.only_turns;
+  const bool turns = line.path.c[1][kB] != 0 || line.path.c[1][kC] != 0;
+  const bool follows = turns && machine.kinematics.kind != MachineKind::ThreeAxis;
+  if (follows) element.space = line.path.is_of_joints ? Space::Joints : Space::Tip;
   element.joints_are_straight = element.space != Space::Tip;
-  Coordinates begin = coordinates(from);
-  Coordinates end = coordinates(to);
-  if (element.space == Space::Joints) {
-    begin = inverse(machine.kinematics, begin, move_.tool_length);
-    end = inverse(machine.kinematics, end, move_.tool_length);
-  }
-  element.path = Path::line(begin, (end - begin) / element.length);
-  element.path.is_of_joints = element.space == Space::Joints;
-  element.path.tool_length = move_.tool_length;
   return element;
 }
 
@@ -111,28 +117,27 @@ Element Splitter::chord(const Machine& machine) const {
     if (i == 0) return move_.from;
     if (i == count_) return move_.to;
     const double part = static_cast<double>(i) / count_;
-    Pose result = pose(circle_.at(part * length_).value);
+    Pose result = pose(whole_.path.at(part * whole_.length).value);
     result.b = move_.from.b + part * (move_.to.b - move_.from.b);
     result.c = move_.from.c + part * (move_.to.c - move_.from.c);
     return result;
   };
-  return line(machine, at(index_), at(index_ + 1), feed_speed(move_.feed, length_));
+  return line(machine, programmed_line(machine, move_, at(index_), at(index_ + 1)));
 }
 
 Element Splitter::arc() const {
-  const Vec3 rise = circle_.c[3].head<3>();
+  const Vec3 rise = whole_.path.c[3].head<3>();
   const double along = rise.dot(move_.normal);
   const double across = (rise - along * move_.normal).norm();
-  const double radius = circle_.c[1].norm();
+  const double radius = whole_.path.c[1].norm();
   Element element;
-  element.path = circle_;
-  element.begin = length_ * index_ / count_;
-  element.end = length_ * (index_ + 1) / count_;
+  element.path = whole_.path;
+  element.begin = whole_.length * index_ / count_;
+  element.end = whole_.length * (index_ + 1) / count_;
   element.length = element.end - element.begin;
-  element.curvature = radius * circle_.omega * circle_.omega;
+  element.curvature = radius * whole_.path.omega * whole_.path.omega;
   element.joints_are_straight = false;
-  element.feed = feed_speed(move_.feed, length_);
-  element.steepest = std::hypot(radius * std::abs(circle_.omega) + across, along);
+  element.steepest = std::hypot(radius * std::abs(whole_.path.omega) + across, along);
   return element;
 }
 

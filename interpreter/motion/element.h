@@ -33,6 +33,20 @@ struct Element {
   bool stops = false;  ///< At its end.
 };
 
+/// The whole of a move's path, before it is cut or rounded: s from 0 to `length`.
+struct ProgrammedPath {
+  Path path;
+  double length = 0;
+  bool only_turns = false;  ///< s counts degrees.
+};
+
+/// A line of the tip or of the joints, as the move asks for. `length` is 0 where it goes nowhere.
+ProgrammedPath programmed_line(const Machine& machine, const Move& move, const geometry::Pose& from,
+                               const geometry::Pose& to);
+
+/// An arc's circle, on which B and C rest.
+ProgrammedPath programmed_circle(const Move& move);
+
 /// Cuts a move into elements, one at a time, so that a thread of a thousand turns takes no more memory than a line.
 class Splitter {
  public:
@@ -42,13 +56,12 @@ class Splitter {
   Element next(const Machine& machine);
 
  private:
-  Element line(const Machine& machine, const geometry::Pose& from, const geometry::Pose& to, double feed) const;
+  static Element line(const Machine& machine, const ProgrammedPath& line);
   Element chord(const Machine& machine) const;
   Element arc() const;
 
   Move move_;
-  Path circle_;
-  double length_ = 0;
+  ProgrammedPath whole_;
   int count_ = 0;
   int index_ = 0;
 };

@@ -21,23 +21,29 @@ class CurveLimits {
   /// Most x by the limits of the axes.
   double cap() const { return cap_; }
   /// Most x at one end with x at the other: after it in Direction::Forward, before it in Direction::Backward.
-  double reach(double x, double length, Direction direction) const;
+  double reach(double x, Direction direction) const;
   /// Most |a| that is possible at x and all the way to the larger `peak`.
   double acceleration(double x, double peak, Direction direction) const;
 
  private:
-  /// Of one axis at one end of the piece, as parts of its acceleration.
-  struct Terms {
-    double first = 0;
-    double second = 0;
-    double first_slack = 0;
-    double second_slack = 0;
+  /// m x + n |a| <= 1.
+  struct Bound {
+    double m = 0;
+    double by_n = 0;       ///< 1 / n.
+    double by_length = 0;  ///< 1 / (n + 2 length m), m if positive: with x at the other end.
   };
-  template <typename Visit>
-  void for_each_bound(Direction direction, Visit&& visit) const;
+  /// Of one direction. Each axis has four at most: at both ends, of both signs.
+  struct Bounds {
+    std::array<Bound, std::size_t{4} * kAxisCount> bounds;
+    std::size_t count = 0;
+  };
 
-  std::array<Terms, std::size_t{2} * kAxisCount> terms_;
-  int count_ = 0;
+  void add(Direction direction, double m, double n);
+  const Bounds& bounds(Direction direction) const { return direction == Direction::Forward ? forward_ : backward_; }
+
+  Bounds forward_;
+  Bounds backward_;
+  double length_ = 0;
   double cap_ = 0;
 };
 

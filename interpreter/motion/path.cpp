@@ -75,16 +75,28 @@ static double table_derivative(const Norms& reach, const Norms& turning, int ord
   return sum;
 }
 
+static Wiggle everywhere(double third, double fourth) {
+  return {geometry::Vec3::Constant(third), geometry::Vec3::Constant(fourth)};
+}
+
+/// A circle in a space whose axes are those of the joints.
+static Wiggle circle_wiggle(const Path& path) {
+  const geometry::Vec3 radii = (path.c[1].head<3>().cwiseAbs2() + path.c[2].head<3>().cwiseAbs2()).cwiseSqrt();
+  const double cube = std::abs(path.omega * path.omega * path.omega);
+  return {radii * cube, radii * cube * std::abs(path.omega)};
+}
+
 Wiggle wiggle(const Kinematics& kinematics, const Path& path, double from, double to) {
-  if (path.is_of_joints) return {6 * linear_norm(path.c[3]), 0};
+  if (path.is_of_joints) return everywhere(6 * linear_norm(path.c[3]), 0);
+  if (path.kind == PathKind::Circle && kinematics.kind != MachineKind::Table) return circle_wiggle(path);
   const double farthest = std::max(std::abs(from), std::abs(to));
   Norms tip = tip_norms(path, farthest);
-  if (kinematics.kind == MachineKind::ThreeAxis) return {tip[3], tip[4]};
+  if (kinematics.kind == MachineKind::ThreeAxis) return everywhere(tip[3], tip[4]);
   const Norms turning = turning_norms(path, farthest);
   const double reach = lever(kinematics, path.at(from).value.head<3>(), path.tool_length);
-  if (kinematics.kind == MachineKind::Head) return {tip[3] + reach * turning[3], tip[4] + reach * turning[4]};
+  if (kinematics.kind == MachineKind::Head) return everywhere(tip[3] + reach * turning[3], tip[4] + reach * turning[4]);
   tip[0] = reach + tip[1] * (to - from);
-  return {table_derivative(tip, turning, 3), table_derivative(tip, turning, 4)};
+  return everywhere(table_derivative(tip, turning, 3), table_derivative(tip, turning, 4));
 }
 
 }  // namespace isocnc::motion

@@ -29,10 +29,10 @@ struct Path {
   static Path line(const Coordinates& from, const Coordinates& slope);
 };
 
-/// Upper bounds of the norms of the third and fourth derivatives of the linear joints along a path.
+/// Upper bounds of the third and fourth derivatives of each linear joint along a path.
 struct Wiggle {
-  double third = 0;
-  double fourth = 0;
+  geometry::Vec3 third = geometry::Vec3::Zero();
+  geometry::Vec3 fourth = geometry::Vec3::Zero();
 };
 
 /// For s from `from` to `to`. B and C may change up to quadratically.

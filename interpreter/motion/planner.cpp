@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace isocnc::motion {
 
@@ -11,8 +12,11 @@ namespace isocnc::motion {
 static constexpr std::size_t kBatch = 256;
 /// Look-ahead ends here, even if the machine cannot stop within so many spans.
 static constexpr std::size_t kMostSpans = 16384;
-/// A curve's limits are taken over pieces that turn by no more than this, radians.
-static constexpr double kPieceTurn = 5 * std::numbers::pi / 180;
+/// A curve's limits are taken over pieces that turn by no more than this, radians: fine where the curve takes more
+/// than a part of the acceleration at the programmed feed, else coarse, for then the feed decides nearly everywhere.
+static constexpr double kFineTurn = 2.5 * std::numbers::pi / 180;
+static constexpr double kCoarseTurn = 10 * std::numbers::pi / 180;
+static constexpr double kSmallPart = 0.1;
 /// Shorter pieces are none, mm or degrees.
 static constexpr double kNoLength = 1e-12;
 /// A move that begins elsewhere than where the machine is does not follow smoothly, mm or degrees.
@@ -53,30 +57,30 @@ void Planner::take_elements() {
 }
 
 /// Elements enter in order; each is appended when the next one, or a stop, tells how it ends.
-void Planner::take(const Element& element) {
+void Planner::take(Element element) {
   if (handed_out_ >= kBatch || handed_out_ == spans_.size()) forget_handed_out();
-  Element next = element;
-  if (has_last_) {
-    const Corner corner = motion::corner(machine_, last_, next);
-    if (corner.junction == Junction::Stop) {
-      come_to_rest();
-    } else {
-      const double depth = corner.blend.length / 2;
-      last_.end -= depth;
-      next.begin += depth;
-      Element rest = last_;
-      if (corner.junction == Junction::Rounded) rest.ends_move = false;
-      append(rest);
-      if (corner.junction == Junction::Rounded) append_corner(corner.blend, last_, next);
-    }
-  }
-  last_ = next;
+  if (has_last_) join(element);
+  last_ = element;
   has_last_ = true;
   if (last_.stops) {
     come_to_rest();
   } else if (spans_.size() - planned_ >= batch_) {
     plan_ahead();
   }
+}
+
+/// Appends the last element, now that its end is known, and the corner to the next one, whose begin it moves.
+void Planner::join(Element& next) {
+  const Corner corner = motion::corner(machine_, last_, next);
+  if (corner.junction == Junction::Stop) return come_to_rest();
+  const double depth = corner.blend.length / 2;
+  last_.end -= depth;
+  next.begin += depth;
+  if (corner.junction == Junction::Smooth) return append(last_);
+  const bool ends_move = std::exchange(last_.ends_move, false);
+  append(last_);
+  last_.ends_move = ends_move;
+  append_corner(corner.blend, last_, next);
 }
 
 void Planner::come_to_rest() {
@@ -126,20 +130,33 @@ static double turning(const Path& path) {
   return (std::abs(path.c[1][kB]) + std::abs(path.c[1][kC])) * std::numbers::pi / 180;
 }
 
+/// Into how many pieces an element that turns by `turn` is cut, where the linear joints swing on about `radius`.
+static int piece_count(const Machine& machine, double turn, double radius, double length, double square) {
+  double weakest = machine.axes[kX].acceleration;
+  for (const Axis axis : {kY, kZ}) weakest = std::min(weakest, machine.axes[axis].acceleration);
+  const double bend = radius * (turn / length) * (turn / length);
+  const double most = bend * square > kSmallPart * weakest ? kFineTurn : kCoarseTurn;
+  return std::max(1, static_cast<int>(std::ceil(turn / most)));
+}
+
 void Planner::append_curve(const Element& element) {
   const double length = element.end - element.begin;
-  const int count = std::max(1, static_cast<int>(std::ceil(length * turning(element.path) / kPieceTurn)));
+  const double most = square(element.feed / element.steepest);
+  const Coordinates middle = element.path.at((element.begin + element.end) / 2).value;
+  const double radius = element.path.kind == PathKind::Circle
+                            ? element.path.c[1].norm()
+                            : lever(machine_.kinematics, middle.head<3>(), element.path.tool_length);
+  const int count = piece_count(machine_, length * turning(element.path), radius, length, most);
   for (int i = 0; i < count; ++i) {
     const double begin = element.begin + length * i / count;
     const double end = element.begin + length * (i + 1) / count;
-    const CurveLimits limits(machine_, element.path, begin, end);
-    Span& span = add(SpanKind::Curve, element, std::min(limits.cap(), square(element.feed / element.steepest)));
+    const CurveLimits& limits = curves_.emplace_back(machine_, element.path, begin, end);
+    Span& span = add(SpanKind::Curve, element, std::min(limits.cap(), most));
     span.ends_move = element.ends_move && i + 1 == count;
     span.begin = begin;
     span.length = end - begin;
     span.path = element.path;
-    span.curve = first_curve_ + curves_.size();
-    curves_.push_back(limits);
+    span.curve = first_curve_ + curves_.size() - 1;
   }
 }
 
@@ -157,7 +174,7 @@ double Planner::before(const Span& span, double exit) const {
     case SpanKind::Line:
       return exit + 2 * span.acceleration * span.length;
     case SpanKind::Curve:
-      return curves_[span.curve - first_curve_].reach(exit, span.length, Direction::Backward);
+      return curves_[span.curve - first_curve_].reach(exit, Direction::Backward);
     case SpanKind::Corner:
       break;
   }
@@ -170,7 +187,7 @@ double Planner::after(const Span& span, double entry) const {
     case SpanKind::Line:
       return entry + 2 * span.acceleration * span.length;
     case SpanKind::Curve:
-      return curves_[span.curve - first_curve_].reach(entry, span.length, Direction::Forward);
+      return curves_[span.curve - first_curve_].reach(entry, Direction::Forward);
     case SpanKind::Corner:
       break;
   }
@@ -251,10 +268,10 @@ static Course on_curve(const CurveLimits& limits, double cap, double length, dou
                      limits.acceleration(exit, peak, Direction::Backward));
   };
   const auto fits = [&](const Course& course) { return course.up + course.down <= length; };
+  double least = std::max(entry, exit);
   Course best = over(cap);
   if (fits(best)) return best;
   best = straight(length, entry, exit);
-  double least = std::max(entry, exit);
   double most = cap;
   for (int i = 0; i < kPeakSteps && most - least > kPeakPrecision * most; ++i) {
     const double middle = (least + most) / 2;

@@ -66,7 +66,8 @@ class Planner {
   };
 
   void take_elements();
-  void take(const Element& element);
+  void take(Element element);
+  void join(Element& next);
   void come_to_rest();
   void append(const Element& element);
   void append_line(const Element& element);

@@ -19,9 +19,9 @@ RunReport::RunReport(const RunOutputs& outputs, const TimedMachine& machine)
       trace_(open(outputs.trace, trace_file_)),
       samples_(open(outputs.samples, samples_file_)),
       summary_(machine),
-      timing_(
-          machine, [this](const TimedEvent& timed) { take(timed); },
-          [this](const motion::Stretch& stretch) { take(stretch); }) {}
+      timing_(machine, {.event = [this](const TimedEvent& timed) { take(timed); },
+                        .move = [this](const motion::Move& move, std::uint64_t line) { summary_.add(move, line); },
+                        .stretch = [this](const motion::Stretch& stretch) { take(stretch); }}) {}
 
 OutputFile* RunReport::open(const std::string& name, std::optional<OutputFile>& file) {
   if (name.empty()) return nullptr;
@@ -43,7 +43,6 @@ void RunReport::take(const TimedEvent& timed) {
 }
 
 void RunReport::take(const motion::Stretch& stretch) {
-  summary_.add(stretch);
   if (samples_ == nullptr) return;
   sample_rest(stretch.start);
   const double end = stretch.start + stretch.duration;

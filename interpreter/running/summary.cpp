@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -17,8 +16,6 @@ using execution::MoveKind;
 using Json = nlohmann::ordered_json;
 
 static constexpr std::string_view kAxes = "XYZBC";
-/// A joint that touches the end of its travel is not outside: positions are computed.
-static constexpr double kTouching = 1e-6;
 
 Summary::Summary(const TimedMachine& machine)
     : machine_(machine),
@@ -43,33 +40,16 @@ void Summary::add(const TimedEvent& timed) {
   if (const auto* const tool = std::get_if<ToolEvent>(&timed.event.what)) mount(tool->tool);
   if (timed.duration > 0) share().seconds += timed.duration;
   if (const auto* const move = std::get_if<MoveEvent>(&timed.event.what)) add_move(*move, timed.duration);
-  if (checks_travel_) keep_breaches(timed.event.line);
 }
 
-void Summary::add(const motion::Stretch& stretch) {
+void Summary::add(const motion::Move& move, std::uint64_t line) {
   if (!checks_travel_) return;
-  const auto ranges = motion::joint_ranges(machine_.motion.kinematics, stretch);
-  for (std::size_t axis = 0; axis < ranges.size(); ++axis) {
-    const motion::AxisLimits& limits = machine_.motion.axes[axis];
-    const auto note = [&](std::optional<TravelBreach>& breach, double value, double limit, bool is_outside) {
-      if (!is_outside) return;
-      if (!breach) breach = TravelBreach{.farthest = value, .limit = limit};
-      if (std::abs(value - limit) > std::abs(breach->farthest - limit)) breach->farthest = value;
-    };
-    note(new_breaches_[2 * axis], ranges[axis].least, limits.least, ranges[axis].least < limits.least - kTouching);
-    note(new_breaches_[2 * axis + 1], ranges[axis].most, limits.most, ranges[axis].most > limits.most + kTouching);
-  }
-}
-
-/// What the pieces of a motion showed, now that its line is known.
-void Summary::keep_breaches(std::uint64_t line) {
-  for (std::size_t i = 0; i < breaches_.size(); ++i) {
-    std::optional<TravelBreach> breach = std::exchange(new_breaches_[i], std::nullopt);
-    if (!breach) continue;
-    breach->line = breaches_[i] ? breaches_[i]->line : line;
-    const bool goes_farther = !breaches_[i] || std::abs(breach->farthest - breach->limit) >
-                                                   std::abs(breaches_[i]->farthest - breaches_[i]->limit);
-    if (goes_farther) breaches_[i] = breach;
+  for (const motion::Overtravel& found : motion::overtravels(machine_.motion, move)) {
+    const std::size_t side = found.position > found.limit ? 1 : 0;
+    std::optional<TravelBreach>& breach = breaches_[2 * static_cast<std::size_t>(found.axis) + side];
+    if (!breach) breach = TravelBreach{.line = line, .farthest = found.position, .limit = found.limit};
+    if (std::abs(found.position - found.limit) > std::abs(breach->farthest - breach->limit))
+      breach->farthest = found.position;
   }
 }
 

@@ -33,8 +33,8 @@ class Summary {
   explicit Summary(const TimedMachine& machine);
 
   void add(const TimedEvent& timed);
-  /// A piece of the motion that is told of next.
-  void add(const motion::Stretch& stretch);
+  /// Looks whether the joints stay within their travel.
+  void add(const motion::Move& move, std::uint64_t line);
   void finish(const RunResult& result, double seconds);
 
   std::string text(dialect::Language language) const;
@@ -53,17 +53,13 @@ class Summary {
   ToolShare& share();
   void mount(std::optional<execution::ToolCode> tool);
   void add_move(const MoveEvent& move, double seconds);
-  void keep_breaches(std::uint64_t line);
 
   const TimedMachine& machine_;
   std::array<Travelled, 3> moves_;  ///< By MoveKind.
   std::optional<std::array<geometry::Range, execution::kAxisCount>> extents_;
-  std::vector<ToolShare> tools_;  ///< In the order of their first use.
-  std::size_t share_ = kNoShare;  ///< Of the tool that is mounted.
-  /// Below and above each axis: of all motions, and of the one that is told of next.
-  using Breaches = std::array<std::optional<TravelBreach>, 2 * execution::kAxisCount>;
-  Breaches breaches_;
-  Breaches new_breaches_;
+  std::vector<ToolShare> tools_;                                                 ///< In the order of their first use.
+  std::size_t share_ = kNoShare;                                                 ///< Of the tool that is mounted.
+  std::array<std::optional<TravelBreach>, 2 * execution::kAxisCount> breaches_;  ///< Below and above each axis.
   bool checks_travel_;
   RunResult result_;
   double seconds_ = 0;

@@ -63,8 +63,8 @@ static motion::Move planner_move(const MoveEvent& move, std::uint64_t tag, doubl
   return planned;
 }
 
-Timing::Timing(const TimedMachine& machine, OnEvent on_event, OnStretch on_stretch)
-    : machine_(machine), on_event_(std::move(on_event)), on_stretch_(std::move(on_stretch)), planner_(machine.motion) {}
+Timing::Timing(const TimedMachine& machine, Listeners listeners)
+    : machine_(machine), listeners_(std::move(listeners)), planner_(machine.motion) {}
 
 void Timing::take(const Event& event) {
   if (std::holds_alternative<ExactStopEvent>(event.what)) {
@@ -89,6 +89,7 @@ void Timing::push_motion() {
   const MoveEvent& move = std::get<MoveEvent>(waiting_.back().timed.event.what);
   motion::Move planned = planner_move(move, waiting_.back().motion, tool_length_);
   planned.exact_stop = stops;
+  if (listeners_.move) listeners_.move(planned, waiting_.back().timed.event.line);
   planner_.push(planned);
   // In three-axis interpolation the channel runs empty; in five-axis the motion goes on at once (I.3.8).
   if (stops && !move.five_axis) planner_.rest(machine_.durations.channel);
@@ -108,7 +109,7 @@ void Timing::take_stretch(const motion::Stretch& stretch) {
     if (!first.has_begun) first.timed.start = stretch.start;
     tell_first();
   }
-  if (on_stretch_) on_stretch_(stretch);
+  if (listeners_.stretch) listeners_.stretch(stretch);
   if (waiting_.empty()) return;
   Waiting& moving = waiting_.front();
   if (!std::exchange(moving.has_begun, true)) moving.timed.start = stretch.start;
@@ -117,7 +118,7 @@ void Timing::take_stretch(const motion::Stretch& stretch) {
 }
 
 void Timing::tell_first() {
-  on_event_(waiting_.front().timed);
+  if (listeners_.event) listeners_.event(waiting_.front().timed);
   waiting_.pop_front();
 }
 
@@ -129,7 +130,7 @@ void Timing::rest(const Event& event, double seconds) {
     if (!waiting_.front().has_begun) waiting_.front().timed.start = planner_.time();
   const double start = planner_.time();
   planner_.rest(seconds);
-  on_event_({.event = event, .start = start, .duration = seconds});
+  if (listeners_.event) listeners_.event({.event = event, .start = start, .duration = seconds});
   if (const auto* const tool = std::get_if<ToolEvent>(&event.what)) {
     const auto length = machine_.tool_lengths.find(tool->tool);
     tool_length_ = length == machine_.tool_lengths.end() ? 0 : length->second;

@@ -40,11 +40,16 @@ struct TimedEvent {
 /// Events come out in the order in which they went in. Memory does not grow with the program.
 class Timing {
  public:
-  using OnEvent = std::function<void(const TimedEvent&)>;
-  using OnStretch = std::function<void(const motion::Stretch&)>;
+  /// Who is told; any may be left out.
+  struct Listeners {
+    std::function<void(const TimedEvent&)> event;
+    /// What the machine is asked for, before it has its time, and the line that asks.
+    std::function<void(const motion::Move&, std::uint64_t line)> move;
+    /// Each piece of motion, before the event that it belongs to.
+    std::function<void(const motion::Stretch&)> stretch;
+  };
 
-  /// `on_stretch` is told each piece of motion, before the event that it belongs to.
-  Timing(const TimedMachine& machine, OnEvent on_event, OnStretch on_stretch = {});
+  Timing(const TimedMachine& machine, Listeners listeners);
 
   void take(const Event& event);
 
@@ -71,8 +76,7 @@ class Timing {
   double seconds_of(const Event& event) const;
 
   const TimedMachine& machine_;
-  OnEvent on_event_;
-  OnStretch on_stretch_;
+  Listeners listeners_;
   motion::Planner planner_;
   std::deque<Waiting> waiting_;
   std::uint64_t motions_ = 0;

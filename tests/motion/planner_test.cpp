@@ -252,19 +252,62 @@ TEST(Planner, CopiesAndLateReadersGetTheSame) {
   }
 }
 
-/// What is out before the program ends is what a planner with all of it makes.
-TEST(Planner, GivesOutWhatNothingCanChange) {
-  const Machine machine = uniform_machine(1000, 2000);
+/// How many moves the planner holds back at most.
+std::size_t most_behind(const Machine& machine, double step, std::size_t count, Feed feed) {
   Planner planner(machine);
   std::size_t out = 0;
-  std::size_t most_behind = 0;
-  for (std::size_t i = 0; i < 20000; ++i) {
-    const double x = static_cast<double>(i);
-    planner.push(line({x, 0, 0}, {x + 1, 0, 0}, speed(200)));
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = static_cast<double>(i) * step;
+    planner.push(line({x, 0, 0}, {x + step, 0, 0}, feed));
     while (planner.next()) ++out;
-    most_behind = std::max(most_behind, i + 1 - out);
+    most = std::max(most, i + 1 - out);
   }
-  EXPECT_LE(most_behind, 600U);
+  return most;
+}
+
+TEST(Planner, HoldsBackNoMoreThanTheWayToStop) {
+  // 10 mm to stop from 200 mm/s.
+  EXPECT_LE(most_behind(uniform_machine(1000, 2000), 1, 20000, speed(200)), 300U);
+  EXPECT_LE(most_behind(uniform_machine(1000, 2000), 0.01, 20000, speed(200)), 2100U);
+}
+
+/// Moves of a micron, faster than the machine can stop in all that is looked at: it goes slower, and within its limits.
+TEST(Planner, HoldsBackNoMoreThanItsWindow) {
+  const Machine machine = uniform_machine(1000, 2000);
+  EXPECT_LE(most_behind(machine, 0.001, 60000, speed(500)), 16400U);
+  std::vector<Move> moves;
+  for (int i = 0; i < 60000; ++i) moves.push_back(line({i * 0.001, 0, 0}, {(i + 1) * 0.001, 0, 0}, speed(500)));
+  double before = 0;
+  double fastest = 0;
+  for (const Stretch& stretch : plan(machine, moves)) {
+    const Phase& first = stretch.phases[0];
+    EXPECT_NEAR(first.speed, before, 1e-9);
+    for (int i = 0; i < stretch.phase_count; ++i) {
+      const Phase& phase = stretch.phases[static_cast<std::size_t>(i)];
+      EXPECT_LE(std::abs(phase.acceleration), 2000 * (1 + 1e-6));
+      before = phase.speed + phase.duration * phase.acceleration;
+    }
+    fastest = std::max(fastest, before);
+  }
+  EXPECT_NEAR(before, 0, 1e-9);
+  EXPECT_GT(fastest, std::sqrt(2 * 2000 * 8.0) * 0.99);
+}
+
+/// A thread of ten thousand turns is cut as it is needed.
+TEST(Planner, ALongHelixIsNotHeldAsAWhole) {
+  const Machine machine = uniform_machine(1000, 2000);
+  Planner planner(machine);
+  planner.push(arc_xy({-5, 0, 0}, {0, 0, 0}, 360.0 * 10000, 100, speed(100)));
+  double length = 0;
+  const auto take = [&] {
+    while (const Stretch* stretch = planner.next()) length += stretch->duration * 100;
+  };
+  take();
+  EXPECT_GT(length, 1e5) << "nothing came out before the end";
+  planner.rest();
+  take();
+  EXPECT_NEAR(length, std::hypot(2 * std::numbers::pi * 5 * 10000, 100), 10);
 }
 
 }  // namespace

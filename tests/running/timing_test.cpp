@@ -35,7 +35,7 @@ struct Timed {
 
 Timed time(std::string_view program, const TimedMachine& machine = slow_machine()) {
   Timed timed;
-  Timing timing(machine, [&](const TimedEvent& event) { timed.events.push_back(event); });
+  Timing timing(machine, {.event = [&](const TimedEvent& event) { timed.events.push_back(event); }});
   run(program, {}, [&](const Event& event) { timing.take(event); });
   timing.finish();
   timed.seconds = timing.time();
