@@ -58,7 +58,7 @@ static Norms tip_norms(const Path& path, double length) {
 /// Of a unit vector that B and C turn: derivatives of cos f(s) with |f'| <= speed, |f''| <= acceleration, f''' = 0.
 static Norms turning_norms(const Path& path, double length) {
   if (path.kind == PathKind::Circle) return {1, 0, 0, 0, 0};
-  const auto turn = [&](int i) { return (std::abs(path.c[i][kB]) + std::abs(path.c[i][kC])) * kRadians; };
+  const auto turn = [&](std::size_t i) { return (std::abs(path.c[i][kB]) + std::abs(path.c[i][kC])) * kRadians; };
   const double acceleration = 2 * turn(2);
   const double speed = turn(1) + acceleration * length;
   const double square = speed * speed;

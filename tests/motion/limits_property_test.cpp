@@ -25,7 +25,7 @@ class RandomMoves : public testing::TestWithParam<Case> {
   /// Calls `check(moves, stretches)` for many programs.
   template <typename Check>
   void for_programs(Check&& check) const {
-    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 25; ++seed) {
       SCOPED_TRACE("seed " + std::to_string(seed));
       const std::vector<Move> moves = random_moves(seed, 40);
       check(moves, plan(machine(), moves));

@@ -41,7 +41,7 @@ double programmed_length(const Move& move) {
 
 class Optimization {
  public:
-  Optimization(const Machine& machine, const std::vector<Move>& moves) : machine_(machine), moves_(moves) {
+  Optimization(const Machine& machine, const std::vector<Move>& moves) : machine_(machine) {
     for (const Move& move : moves) feeds_.push_back(feed_speed(move, programmed_length(move)));
   }
 
@@ -123,7 +123,6 @@ class Optimization {
   }
 
   const Machine& machine_;
-  const std::vector<Move>& moves_;
   std::vector<double> feeds_;
   std::vector<Interval> intervals_;
 };
