@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -59,8 +60,8 @@ std::set<std::string> keys_of(const json& event) {
 const std::map<std::string, std::set<std::string>> kKeys = {
     {"rapid", {"line", "kind", "from", "to", "lengthMm", "start", "duration"}},
     {"feed", {"line", "kind", "from", "to", "lengthMm", "feed", "start", "duration"}},
-    {"arc", {"line", "kind", "from", "to", "center", "normal", "radius", "sweepDeg", "lengthMm", "feed", "start",
-             "duration"}},
+    {"arc",
+     {"line", "kind", "from", "to", "center", "normal", "radius", "sweepDeg", "lengthMm", "feed", "start", "duration"}},
     {"dwell", {"line", "kind", "seconds", "start", "duration"}},
     {"tool", {"line", "kind", "head", "holder", "tool"}},
     {"frame", {"line", "kind", "workpiece", "face"}},
@@ -147,12 +148,114 @@ TEST(IsorunSummary, AddsUpWhatWasDone) {
   const CommandResult result = run_command({"isorun", ISOCNC_SOURCE_DIR "/examples/pocket.iso"});
   EXPECT_EQ(result.out,
             "result: ran to M02, line 69\n"
+            "cycle time: 46.3 s (cutting 19.8 s, rapids 2.4 s, waiting 24.0 s)\n"
             "blocks: 63\n"
             "rapids: 8 (1083.213 mm)\n"
             "feed moves: 32, arcs: 14 (1698.201 mm)\n"
+            "extents (machine): X 0.000..554.000, Y 0.000..354.000, Z -197.500..0.000, B 0.000..0.000, "
+            "C 0.000..0.000\n"
+            "tool T101001: 27.9 s, feed moves 1316.237 mm, rapids 800.725 mm\n"
+            "tool T102003: 18.3 s, feed moves 381.965 mm, rapids 282.488 mm\n"
             "final position (machine): X350.000 Y220.000 Z-155.500 B0.000 C0.000\n");
   EXPECT_EQ(result.err, "");
   EXPECT_EQ(result.status, 0);
+}
+
+json summary_of(const std::string& program, std::vector<std::string> options = {}) {
+  options.insert(options.begin(), {"isorun", "--json", "-"});
+  return json::parse(run_command(options, {.input = program}).out);
+}
+
+TEST(IsorunSummary, IsJsonOnRequest) {
+  const json summary = summary_of("M06 T101001\nG01 X100 F6000\nX0\nM06 T101002\nG01 Y10\nM06 T101001\nM02\n");
+  EXPECT_EQ(summary.at("file"), "<stdin>");
+  EXPECT_EQ(summary.at("result"), "end");
+  EXPECT_EQ(summary.at("error"), nullptr);
+  EXPECT_EQ(summary.at("feeds").at("count"), 3);
+  EXPECT_EQ(summary.at("extents").at("X"), json::parse("[0.0, 100.0]"));
+  ASSERT_EQ(summary.at("tools").size(), 2u);
+  EXPECT_EQ(summary["tools"][0].at("tool"), "T101001");
+  EXPECT_EQ(summary["tools"][0].at("feedMm"), 200);
+  EXPECT_EQ(summary["tools"][1].at("feedMm"), 10);
+  EXPECT_NEAR(summary["tools"][0].at("seconds").get<double>() + summary["tools"][1].at("seconds").get<double>(),
+              summary.at("seconds").get<double>(), 1e-9);
+}
+
+TEST(IsorunSummary, KeepsWhatWasDoneBeforeAnError) {
+  const json summary = summary_of("M06 T101001\nG01 X100 F6000\nG01\nM02\n");
+  EXPECT_EQ(summary.at("result"), "error");
+  EXPECT_EQ(summary.at("error").at("code"), "ISO026");
+  EXPECT_EQ(summary.at("error").at("line"), 3);
+  EXPECT_EQ(summary.at("feeds").at("lengthMm"), 100);
+}
+
+/// 60 m/min, 1 m/s^2, a tool of 100 mm: Z of the spindle nose is 100 mm above the tip.
+constexpr std::string_view kMachine = R"({"machine": {
+  "axes": {"X": {"max": 60, "rapid": 60000, "acceleration": 1000}, "Z": {"max": 120}},
+  "times": {"toolChange": 4},
+  "tools": [{"head": 1, "holder": 1, "tool": 1, "length": 100}],
+  "functions": {"M50": {"time": 3}}}})";
+
+TEST(IsorunMachine, GivesTimesAndTravel) {
+  const TemporaryFolder folder;
+  const std::string machine = folder.write("machine.json", kMachine);
+  const json summary = summary_of("M06 T101001\nG00 X50\nG03 X50 Y40 R20\nG00 Z30\nM50\nM02\n", {"--machine", machine});
+  EXPECT_EQ(summary.at("error").at("code"), "ISO066");
+  const json whole =
+      summary_of("M06 T101001\nG00 X50\nG03 X50 Y40 R20 F1000\nG00 Z30\nM50\nM02\n", {"--machine", machine});
+  // From rest to rest over 50 mm at 1000 mm/s^2, without ever reaching 1000 mm/s.
+  EXPECT_NEAR(summary.at("rapids").at("seconds").get<double>(), 2 * std::sqrt(50.0 / 1000), 1e-9);
+  ASSERT_EQ(whole.at("outsideTravel").size(), 2u);
+  EXPECT_EQ(whole["outsideTravel"][0].at("axis"), "X");
+  EXPECT_EQ(whole["outsideTravel"][0].at("line"), 3);
+  EXPECT_NEAR(whole["outsideTravel"][0].at("farthest").get<double>(), 70, 1e-6);
+  EXPECT_EQ(whole["outsideTravel"][1].at("axis"), "Z");
+  EXPECT_EQ(whole["outsideTravel"][1].at("line"), 4);
+  EXPECT_NEAR(whole["outsideTravel"][1].at("farthest").get<double>(), 130, 1e-6);
+  EXPECT_GT(whole.at("seconds"), 7);
+}
+
+TEST(IsorunSamples, FollowTheTipInSteps) {
+  const std::vector<json> samples = events_in(run_command({"isorun", "--samples", "-", "--dt", "0.05", "-"},
+                                                          {.input = "M06 T101001\nG01 X100 F6000\nG04 P1\nX0\nM02\n"})
+                                                  .out);
+  ASSERT_GT(samples.size(), 100u);
+  for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
+    EXPECT_NEAR(samples[i].at("t").get<double>(), 0.05 * static_cast<double>(i), 1e-6);
+    EXPECT_LE(samples[i].at("speed"), 100.001);
+    const double way = samples[i + 1].at("tip").at(0).get<double>() - samples[i].at("tip").at(0).get<double>();
+    EXPECT_LE(std::abs(way), 100 * 0.05 + 1e-4);
+  }
+  EXPECT_EQ(samples.back().at("tip"), json::parse("[0.0, 0.0, 0.0, 0.0, 0.0]"));
+  EXPECT_EQ(samples.back().at("speed"), 0.0);
+}
+
+TEST(IsorunPlot, IsAPictureOfWhatWasDone) {
+  const TemporaryFolder folder;
+  const std::string program = folder.write("a<b>&.iso", "M06 T101001\nG00 X50\nG03 X50 Y40 R20 F1000\nM02\n");
+  const std::string plot = folder.path("part.svg");
+  EXPECT_EQ(run_command({"isorun", "--plot", plot, program}).status, 0);
+  std::stringstream svg;
+  svg << std::ifstream(plot).rdbuf();
+  EXPECT_THAT(svg.str(), StartsWith("<svg "));
+  EXPECT_THAT(svg.str(), HasSubstr("a&lt;b&gt;&amp;.iso</title>"));
+  EXPECT_THAT(svg.str(), HasSubstr("d=\"M0.000 -0.000L50.000 -0.000\""));
+  EXPECT_THAT(svg.str(), HasSubstr("T101001"));
+}
+
+TEST(IsorunOptions, RefuseWhatMakesNoSense) {
+  const auto said = [](std::vector<std::string> options) {
+    options.insert(options.begin(), "isorun");
+    options.push_back("-");
+    const CommandResult result = run_command(options, {.input = std::string(kCleanProgram)});
+    EXPECT_EQ(result.status, 2);
+    return result.err;
+  };
+  EXPECT_EQ(said({"--plot", "a.png"}), "isorun: --plot writes SVG, so the name has to end in .svg, unlike a.png\n");
+  EXPECT_THAT(said({"--samples", "x", "--dt", "0"}), StartsWith("isorun: --dt wants a plain number of seconds"));
+  EXPECT_EQ(said({"--trace", "-", "--samples", "-"}), "isorun: --trace - and --samples - both want standard output\n");
+  EXPECT_EQ(said({"--plot", "/no/such/folder/x.svg"}),
+            "isorun: /no/such/folder/x.svg: cannot write: No such file or directory\n");
 }
 
 TEST(IsorunSummary, SpeaksItalian) {
