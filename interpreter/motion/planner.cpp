@@ -31,7 +31,7 @@ static constexpr double kPeakPrecision = 1e-4;
 
 static double square(double value) { return value * value; }
 
-Planner::Planner(const Machine& machine) : machine_(machine), batch_(kBatch) {}
+Planner::Planner(Machine machine) : machine_(std::move(machine)), batch_(kBatch) {}
 
 static bool differ(const geometry::Pose& a, const geometry::Pose& b) {
   return (coordinates(a) - coordinates(b)).cwiseAbs().maxCoeff() > kSamePlace;

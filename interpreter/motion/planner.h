@@ -27,7 +27,7 @@ namespace isocnc::motion {
 /// value: a copy goes on by itself.
 class Planner {
  public:
-  explicit Planner(const Machine& machine);
+  explicit Planner(Machine machine);
 
   /// A move that goes nowhere has no stretch; its exact stop holds.
   void push(const Move& move);
