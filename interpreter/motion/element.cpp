@@ -12,6 +12,9 @@ using geometry::Vec3;
 static constexpr double kRadians = std::numbers::pi / 180;
 /// Shorter ways lead nowhere, mm or degrees.
 static constexpr double kNowhere = 1e-9;
+/// No machine's arcs take so many parts: circles of 20 km do.
+static constexpr int kMostChords = 100'000;
+static constexpr int kMostQuarters = 1'000'000;
 
 static double turning(const Pose& from, const Pose& to) { return std::hypot(to.b - from.b, to.c - from.c); }
 
@@ -58,10 +61,15 @@ ProgrammedPath programmed_line(const Machine& machine, const Move& move, const P
   return result;
 }
 
+int part_count(double parts, int most) {
+  if (!(parts > 1)) return 1;
+  return parts < most ? static_cast<int>(std::ceil(parts)) : most;
+}
+
 /// A chord over the angle t is off the arc by r (1 - cos(t/2)).
 static int chord_count(double radius, double sweep, double tolerance) {
   const double half = std::acos(std::clamp(1 - tolerance / radius, 0.0, 1.0));
-  return static_cast<int>(std::clamp(std::ceil(std::abs(sweep) / (2 * half) - 1e-9), 1.0, 1e9));
+  return part_count(std::abs(sweep) / (2 * half) - 1e-9, kMostChords);
 }
 
 static bool splits(const Move& move) { return move.is_arc && (move.splits_arcs || turns(move)); }
@@ -74,7 +82,7 @@ void Splitter::take(const Machine& machine, const Move& move) {
   if (splits(move))
     count_ = chord_count(whole_.path.c[1].norm(), move.sweep_deg * kRadians, machine.chord_tolerance);
   else if (move.is_arc)
-    count_ = static_cast<int>(std::ceil(std::abs(move.sweep_deg) / 90 - 1e-9));
+    count_ = part_count(std::abs(move.sweep_deg) / 90 - 1e-9, kMostQuarters);
   if (!(whole_.length > 0)) count_ = 0;
 }
 

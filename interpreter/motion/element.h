@@ -47,6 +47,9 @@ ProgrammedPath programmed_line(const Machine& machine, const Move& move, const g
 /// An arc's circle, on which B and C rest.
 ProgrammedPath programmed_circle(const Move& move);
 
+/// Into so many parts, at least 1 and at most `most`, whatever the number: programs may hold any coordinates.
+int part_count(double parts, int most);
+
 /// Cuts a move into elements, one at a time, so that a thread of a thousand turns takes no more memory than a line.
 class Splitter {
  public:

@@ -17,6 +17,8 @@ static constexpr std::size_t kMostSpans = 16384;
 static constexpr double kFineTurn = 2.5 * std::numbers::pi / 180;
 static constexpr double kCoarseTurn = 10 * std::numbers::pi / 180;
 static constexpr double kSmallPart = 0.1;
+/// Of one element: more than rotary axes turn in one move.
+static constexpr int kMostPieces = 5'000;
 /// Shorter pieces are none, mm or degrees.
 static constexpr double kNoLength = 1e-12;
 /// A move that begins elsewhere than where the machine is does not follow smoothly, mm or degrees.
@@ -136,7 +138,7 @@ static int piece_count(const Machine& machine, double turn, double radius, doubl
   for (const Axis axis : {kY, kZ}) weakest = std::min(weakest, machine.axes[axis].acceleration);
   const double bend = radius * (turn / length) * (turn / length);
   const double most = bend * square > kSmallPart * weakest ? kFineTurn : kCoarseTurn;
-  return std::max(1, static_cast<int>(std::ceil(turn / most)));
+  return part_count(turn / most, kMostPieces);
 }
 
 void Planner::append_curve(const Element& element) {

@@ -11,6 +11,8 @@ namespace isocnc::motion {
 /// Between grid points this far apart a joint has one peak at most, radians of B, C and the arc together.
 static constexpr double kGridTurn = 3 * std::numbers::pi / 180;
 static constexpr int kPeakSteps = 60;
+/// More than rotary axes turn in one move.
+static constexpr int kMostGridPoints = 10'000;
 
 /// The joints along a move, by the part of the way gone.
 class JointWay {
@@ -35,7 +37,7 @@ class JointWay {
 
   int grid() const {
     const double turn = std::abs(way_.path.omega) * way_.length + turned_.cwiseAbs().sum() * std::numbers::pi / 180;
-    return std::max(2, static_cast<int>(std::ceil(turn / kGridTurn)));
+    return std::max(2, part_count(turn / kGridTurn, kMostGridPoints));
   }
 
  private:
