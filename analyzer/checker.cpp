@@ -66,6 +66,12 @@ static bool is_error(const Finding& finding) {
   return dialect::definition(finding.id).severity == dialect::Severity::Error;
 }
 
+/// Whether one of the findings from this one on is.
+static bool has_error(const std::vector<LocatedFinding>& findings, std::size_t first) {
+  return std::any_of(findings.begin() + static_cast<std::ptrdiff_t>(first), findings.end(),
+                     [](const LocatedFinding& located) { return is_error(located.finding); });
+}
+
 /// A program without jumps has one path and one state.
 void Checker::check_straight(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   if (frontier.live.empty()) return tell_of_dead_code(line, line_number, outcome);
@@ -77,9 +83,7 @@ void Checker::check_straight(const LineTree& line, std::uint64_t line_number, Ou
   if (line.is_empty()) return;
   const execution::State before = state;
   execution::execute(line, state, setup_, listener);
-  const auto is_error_here = [](const LocatedFinding& located) { return is_error(located.finding); };
-  if (std::none_of(outcome.findings.begin() + static_cast<std::ptrdiff_t>(first), outcome.findings.end(),
-                   is_error_here)) {
+  if (!has_error(outcome.findings, first)) {
     rules::ask_all({line, before, state, setup_}, listener);
     judge_move(line, before, state, listener);
   }
@@ -87,7 +91,8 @@ void Checker::check_straight(const LineTree& line, std::uint64_t line_number, Ou
   if (outcome.findings.size() > first + 1) sort_by_column(outcome.findings, first);
   if (!state.ended) return;
   frontier.live.clear();
-  frontier.dead_told = outcome.findings.size() > first;  // M02 on a wrong line may not be meant as the end.
+  // M02 on a wrong line may not be meant as the end.
+  frontier.dead_told = has_error(outcome.findings, first);
 }
 
 void Checker::check(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
@@ -109,8 +114,8 @@ void Checker::check(const LineTree& line, std::uint64_t line_number, Outcome& ou
   if (line.jump && line.jump->has_target) branch(line, line_number, outcome);
   sort_by_column(outcome.findings, first);
   if (live.empty() || !live[0].state.ended) return;
-  live.clear();                                          // M02 ends every path through it.
-  frontier.dead_told = outcome.findings.size() > first;  // On a wrong line it may not be meant as the end.
+  live.clear();  // M02 ends every path through it. On a wrong line it may not be meant as the end.
+  frontier.dead_told = has_error(outcome.findings, first);
 }
 
 /// Lines on no feasible path are never read, and nothing is said of them but that, at the first (D51).

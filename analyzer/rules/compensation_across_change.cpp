@@ -6,8 +6,9 @@ namespace isocnc::analyzer::rules {
 static void check(const Block& block, execution::Sink& sink) {
   if (!block.compensated()) return;
   const double mode = block.before.mode(dialect::ModalGroup::CutterCompensation);
+  const syntax::Word* const ended = block.g(40);
   const auto tell = [&](const syntax::Word& word) {
-    report(sink, "compensation-across-change"_diag, word.span(), mode);
+    if (!ended || ended->begin > word.begin) report(sink, "compensation-across-change"_diag, word.span(), mode);
   };
   if (const syntax::Word* const change = block.m(dialect::kToolChange)) return tell(*change);
   for (const int frame : {24, 27, 28, 29, 92}) {

@@ -7,9 +7,9 @@ static void check(const Block& block, execution::Sink& sink) {
   const std::uint8_t motion = block.motion();
   const bool is_feed = motion != 0 && motion != dialect::kNoMotion;
   if (!is_feed || block.line.feed >= 0 || block.after.inverse_time()) return;
-  if (block.before.knows(execution::State::kFeedOfInverseTime))
-    report(sink, "feed-of-inverse-time"_diag, block.motion_word().span(),
-           execution::feed_in_force(block.before).number);
+  if (!block.before.knows(execution::State::kFeedOfInverseTime)) return;
+  const execution::Feed feed = execution::feed_in_force(block.before);
+  report(sink, "feed-of-inverse-time"_diag, block.motion_word().span(), feed.number * feed.mm_per_unit);
 }
 
 extern const Rule feed_of_inverse_time = {kMotion, check};

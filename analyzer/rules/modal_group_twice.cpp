@@ -4,16 +4,20 @@
 
 namespace isocnc::analyzer::rules {
 
-/// Of two Gs of one modal group on a line only the later one counts (D20).
+/// Of two Gs of one modal group on a line only the later one counts (D20), unless a motion between them obeys the first
+/// (D14). The same G twice is W001.
 static void check(const Block& block, execution::Sink& sink) {
   std::array<const syntax::Word*, dialect::kModalGroupCount> first{};
   for (const syntax::Instruction& instruction : block.line.instructions) {
     const dialect::GCode* const code = instruction.kind == syntax::InstructionKind::G ? instruction.g() : nullptr;
-    if (!code || code->is_motion() || code->group == dialect::ModalGroup::None) continue;
+    const bool moves = instruction.kind == syntax::InstructionKind::Continuation || (code && code->is_motion());
+    if (moves) first = {};
+    if (!code || moves || code->group == dialect::ModalGroup::None) continue;
     const syntax::Word*& seen = first[static_cast<std::size_t>(code->group)];
     const syntax::Word& word = block.line.command(instruction);
     // Frames have a code of their own for company (ISO018).
-    if (seen && code->alone == dialect::kNoDiagnostic)
+    const bool is_repeated = seen && seen->value == word.value && code->repeated != dialect::kNoDiagnostic;
+    if (seen && !is_repeated && code->alone == dialect::kNoDiagnostic)
       report(sink, "modal-group-twice"_diag, word.span(), 0, seen->span());
     seen = &word;
   }

@@ -81,6 +81,17 @@ const syntax::Word* Block::argument(char letter) const {
   return nullptr;
 }
 
+int Block::spindle_function_before(const syntax::Word& word) const {
+  int last = 0;
+  for (const syntax::Instruction& instruction : line.instructions) {
+    const syntax::Word& command = line.command(instruction);
+    if (instruction.kind != syntax::InstructionKind::Function || command.begin >= word.begin) continue;
+    for (const int m : {3, 4, 5})
+      if (command.value == m) last = m;
+  }
+  return last;
+}
+
 const syntax::Word* Block::g(int number) const {
   for (const syntax::Instruction& instruction : line.instructions)
     if (instruction.kind == syntax::InstructionKind::G && instruction.g() && instruction.g()->number == number)

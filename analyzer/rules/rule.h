@@ -26,6 +26,8 @@ struct Block {
   const syntax::Word* g(int number) const;
   /// The M of this number on the line, or null.
   const syntax::Word* m(int number) const;
+  /// M03, M04 or M05, the last of them before a word of the line; 0 where there is none.
+  int spindle_function_before(const syntax::Word& word) const;
   /// The line's first coordinate, or the motion's G: where a finding about the motion stands.
   const syntax::Word& motion_word() const;
   /// The motion's word of this letter, or null.

@@ -6,7 +6,11 @@ namespace isocnc::analyzer::rules {
 static void check(const Block& block, execution::Sink& sink) {
   const std::uint8_t motion = block.motion();
   const bool is_feed = motion != 0 && motion != dialect::kNoMotion;
-  if (!is_feed || !block.before.knows(execution::State::kStopped) || block.m(3) || block.m(4)) return;
+  if (!is_feed) return;
+  const int function = block.spindle_function_before(block.motion_word());
+  const bool stops_here = function == 5 && block.spindle_turns();
+  const bool stands = function == 0 || function == 5 ? block.before.knows(execution::State::kStopped) : false;
+  if (!stops_here && !stands) return;
   report(sink, "spindle-stopped-feed"_diag, block.motion_word().span());
 }
 

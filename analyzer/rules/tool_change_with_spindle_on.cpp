@@ -5,7 +5,10 @@ namespace isocnc::analyzer::rules {
 /// M06 while M03 or M04 is in force.
 static void check(const Block& block, execution::Sink& sink) {
   const syntax::Word* const change = block.m(dialect::kToolChange);
-  if (change && block.spindle_turns() && !block.m(5)) report(sink, "tool-change-with-spindle-on"_diag, change->span());
+  if (!change) return;
+  const int function = block.spindle_function_before(*change);
+  const bool turns = function == 0 ? block.spindle_turns() : function != 5;
+  if (turns) report(sink, "tool-change-with-spindle-on"_diag, change->span());
 }
 
 extern const Rule tool_change_with_spindle_on = {kToolChange, check};

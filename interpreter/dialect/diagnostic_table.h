@@ -1787,7 +1787,7 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .arguments = {"z", "clearance"},
      .title = {.en = "Rapid below the clearance", .it = "Rapido sotto la quota di sicurezza"},
      .message = {.en = "a rapid to Z = {z} mm of the face, below the clearance of {clearance} mm",
-                 .it = "un rapido a Z = {z} mm della faccia, sotto la quota di sicurezza di {clearance} mm"},
+                 .it = "rapido a Z = {z} mm rispetto alla faccia, sotto la quota di sicurezza di {clearance} mm"},
      .explanation =
          {.en = "The machine file gives a clearance height above the face, and this rapid goes down below it or moves "
                 "across the face beneath it. Approach with a feed move, or raise the tool first. A false alarm where "
@@ -1805,7 +1805,7 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .arguments = {},
      .title = {.en = "Tool changed before it cut", .it = "Utensile cambiato prima di lavorare"},
      .message = {.en = "the tool before this change has made no feed move",
-                 .it = "l'utensile prima di questo cambio non ha fatto alcun movimento in lavoro"},
+                 .it = "l'utensile montato prima di questo cambio non ha fatto alcun movimento in lavoro"},
      .explanation =
          {.en = "A tool was mounted and is changed for another without a single feed move or M function of the shop. "
                 "Its operation may be missing, or the tool call left over, which costs a tool change. A false alarm "

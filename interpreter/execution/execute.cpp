@@ -62,10 +62,6 @@ void Executor::run() {
   }
   if (line_.feed >= 0 && !feed_move_) apply_feed_without_motion();
   state_.exact_stop_fits = feed_move_;
-  if (feed_move_) {
-    constexpr std::uint8_t kEnds = State::kStopped | State::kUncut;
-    state_.forget(state_.inverse_time() ? kEnds : kEnds | State::kFeedOfInverseTime);
-  }
   if (state_.knows(State::kCompensationWaits) && (feed_move_ || rapid_move_) && moves_in_plane())
     state_.forget(State::kCompensationWaits);
   const Instruction* const last = line_.instructions.empty() ? nullptr : &line_.instructions.back();

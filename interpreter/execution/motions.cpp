@@ -146,6 +146,10 @@ void Executor::motion(const Instruction& instruction) {
   const GCode& code = dialect::kGCodes[dialect::kGCodeRows[state_.mode(dialect::ModalGroup::Motion)]];
   const Span place = is_continuation ? arguments.first().span() : line_.command(instruction).span();
   (code.number == 0 ? rapid_move_ : feed_move_) = true;
+  if (code.number != 0) {
+    constexpr std::uint8_t kEnds = State::kStopped | State::kUncut;
+    state_.forget(state_.inverse_time() ? kEnds : kEnds | State::kFeedOfInverseTime);
+  }
   if ((arguments.present() & ~code.arguments) != 0) report_strays(arguments, code);
   if ((arguments.present() & dialect::kCoordinateLetters) == 0) {
     const bool only_center = is_continuation && (arguments.present() & ~code.arguments) == 0;

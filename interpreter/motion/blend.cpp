@@ -15,6 +15,11 @@ static constexpr double kRadians = std::numbers::pi / 180;
 static constexpr double kSameDirection = 1e-9;
 /// Of an arc no more than this is cut, radians: the bound of the deviation is for small angles.
 static constexpr double kMostCut = 0.25;
+/// From each end of an element no more is cut than this part of it: what is left between two corners, where the speed
+/// is constant, is where a chain of short lines can gather speed and lose it.
+static constexpr double kMostOfElement = 0.25;
+/// Corners are not rounded by less for the feed's sake, mm.
+static constexpr double kLeastCut = 1e-6;
 
 static double square(double value) { return value * value; }
 
@@ -45,7 +50,7 @@ static double cut(const Machine& machine, Space space, const Element& before, co
                     before.path.tool_length);
   const double bend = 1.3 * (before.curvature + after.curvature);
   const double tolerance = machine.corner_tolerance;
-  double most = std::min(before.length, after.length) / 2;
+  double most = kMostOfElement * std::min(before.length, after.length);
   most = std::min(most, 2 * tolerance / (linear / 4 + std::sqrt(square(linear / 4) + 4 * bend * tolerance)));
   if (bend > 0) most = std::min(most, kMostCut / std::max(before.curvature, after.curvature));
   if (rotary > 0) most = std::min(most, 4 * machine.corner_tolerance_deg / rotary);
@@ -69,17 +74,23 @@ static Path parabola(const Jet& arriving, const Jet& leaving, double length) {
   return path;
 }
 
+/// Bounds of the square of ds/dt.
+struct Caps {
+  double by_speed = std::numeric_limits<double>::infinity();
+  double by_acceleration = std::numeric_limits<double>::infinity();
+};
+
 /// Bounds of what is within the hull of its ends.
-static double axes_cap(const Machine& machine, const Coordinates (&slopes)[3], const Coordinates (&bends)[2]) {
-  double cap = std::numeric_limits<double>::infinity();
+static Caps axes_caps(const Machine& machine, const Coordinates (&slopes)[3], const Coordinates (&bends)[2]) {
+  Caps caps;
   for (int axis = 0; axis < kAxisCount; ++axis) {
     const AxisLimits& limits = machine.axes[static_cast<std::size_t>(axis)];
     const double slope = std::max({std::abs(slopes[0][axis]), std::abs(slopes[1][axis]), std::abs(slopes[2][axis])});
     const double bend = std::max(std::abs(bends[0][axis]), std::abs(bends[1][axis]));
-    if (slope > 0) cap = std::min(cap, square(limits.speed / slope));
-    if (bend > 0) cap = std::min(cap, limits.acceleration / bend);
+    if (slope > 0) caps.by_speed = std::min(caps.by_speed, square(limits.speed / slope));
+    if (bend > 0) caps.by_acceleration = std::min(caps.by_acceleration, limits.acceleration / bend);
   }
-  return cap;
+  return caps;
 }
 
 /// Joints that follow the tip in a curve: bounded piece by piece.
@@ -92,8 +103,8 @@ static double following_cap(const Machine& machine, const Blend& blend) {
   return cap;
 }
 
-static double cap(const Machine& machine, Space space, const Blend& blend) {
-  if (space == Space::Tip) return following_cap(machine, blend);
+static Caps caps_of(const Machine& machine, Space space, const Blend& blend) {
+  if (space == Space::Tip) return {.by_acceleration = following_cap(machine, blend)};
   Coordinates slopes[3] = {blend.path.c[1], blend.path.c[1] + blend.length * blend.path.c[2],
                            blend.path.at(blend.length).first};
   Coordinates bends[2] = {blend.path.at(0).second, blend.path.at(blend.length).second};
@@ -102,7 +113,7 @@ static double cap(const Machine& machine, Space space, const Blend& blend) {
     for (Coordinates& slope : slopes) slope.head<3>() = (turn * slope.head<3>()).eval();
     for (Coordinates& bend : bends) bend.head<3>() = (turn * bend.head<3>()).eval();
   }
-  return axes_cap(machine, slopes, bends);
+  return axes_caps(machine, slopes, bends);
 }
 
 /// The tip's speed for ds/dt = 1 is within the hull of the slopes at the ends and the one between.
@@ -123,19 +134,26 @@ Corner corner(const Machine& machine, const Element& before, const Element& afte
   const Jet leaving = seen_in(machine, space, after, after.begin);
   const Coordinates change = leaving.first - arriving.first;
   if (change.cwiseAbs().maxCoeff() <= kSameDirection) return {.junction = Junction::Smooth};
-  const double depth = cut(machine, space, before, after, arriving, change);
   Corner result{.junction = Junction::Rounded};
   Blend& blend = result.blend;
-  blend.length = 2 * depth;
-  if (is_arc(before) || is_arc(after)) {
-    blend.path = hermite(seen_in(machine, space, before, before.end - depth),
-                         seen_in(machine, space, after, after.begin + depth), blend.length);
-  } else {
-    blend.path = parabola(arriving, leaving, blend.length);
-  }
-  blend.path.is_of_joints = space == Space::Joints;
-  blend.path.tool_length = before.path.tool_length;
-  blend.cap = std::min(cap(machine, space, blend), feed_cap(before, after, blend));
+  const bool between_lines = !is_arc(before) && !is_arc(after);
+  const auto round = [&](double depth) {
+    blend.length = 2 * depth;
+    const Path path = between_lines ? parabola(arriving, leaving, blend.length)
+                                    : hermite(seen_in(machine, space, before, before.end - depth),
+                                              seen_in(machine, space, after, after.begin + depth), blend.length);
+    blend.path = path;
+    blend.path.is_of_joints = space == Space::Joints;
+    blend.path.tool_length = before.path.tool_length;
+    return caps_of(machine, space, blend);
+  };
+  const double depth = cut(machine, space, before, after, arriving, change);
+  Caps caps = round(depth);
+  // The acceleration in a parabola is inverse to its length: no longer than the speed on both sides asks for.
+  const double wanted = std::min(caps.by_speed, feed_cap(before, after, blend));
+  if (between_lines && caps.by_acceleration > wanted)
+    caps = round(std::max(depth * wanted / caps.by_acceleration, std::min(depth, kLeastCut)));
+  blend.cap = std::min({caps.by_speed, caps.by_acceleration, feed_cap(before, after, blend)});
   return result;
 }
 

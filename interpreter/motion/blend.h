@@ -27,7 +27,8 @@ struct Corner {
 };
 
 /// The corner between two elements where one ends and the other begins, within the machine's corner tolerance, and
-/// with no more than half of each cut off.
+/// with no more
+/// than half of each cut off, a quarter from each end.
 Corner corner(const Machine& machine, const Element& before, const Element& after);
 
 }  // namespace isocnc::motion

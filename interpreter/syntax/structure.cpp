@@ -233,8 +233,9 @@ void LineParser::add_dimension(std::uint16_t index) {
       if (first.empty()) first = word(i).span();
       word(i).value = std::numeric_limits<double>::quiet_NaN();
     }
+    const bool is_said = word(index).has(Word::kMissing | Word::kMalformed);  // What is wrong with its number.
     word(index).value = std::numeric_limits<double>::quiet_NaN();
-    report("repeated-argument"_diag, word(index).span(), {}, first);
+    if (!is_said) report("repeated-argument"_diag, word(index).span(), {}, first);
   }
   taken_ |= bit;
   own(taker, index);
@@ -379,6 +380,8 @@ static std::uint64_t label_of(const Word& number, std::string_view text) {
 bool LineParser::add_line_number(std::uint16_t index) {
   const Word& written = word(index);
   if (written.has(Word::kMissing)) return false;
+  // IF VGPL = 1 THEN N10: where the jump was meant to lead, not what the line is called.
+  if (line_.jump >= 0 && !store_.jumps_[static_cast<std::size_t>(line_.jump)].has_target) return false;
   if (!written.is_plain_integer() || (line_.flags & LineTree::kHasLabel) != 0) {
     if (!written.has(Word::kReported)) report("invalid-line-number"_diag, written.span());
     return false;
@@ -393,7 +396,7 @@ void LineParser::add_feed(std::uint16_t index) {
   if (written.value <= 0) report("feed-not-positive"_diag, written.span(), {written.value});
   if (line_.feed < 0) {
     line_.feed = index;
-  } else {
+  } else if (!written.has(Word::kMissing | Word::kMalformed)) {
     report("repeated-feed"_diag, written.span(), {}, word(static_cast<std::size_t>(line_.feed)).span());
   }
 }
@@ -403,7 +406,7 @@ void LineParser::add_spindle_speed(std::uint16_t index) {
   if (written.value <= 0) report("spindle-speed-not-positive"_diag, written.span(), {written.value});
   if (line_.spindle < 0) {
     line_.spindle = index;
-  } else {
+  } else if (!written.has(Word::kMissing | Word::kMalformed)) {
     report("repeated-spindle-speed"_diag, written.span(), {}, word(static_cast<std::size_t>(line_.spindle)).span());
   }
   needs_check_ |= instruction_count() > 0;
