@@ -4,8 +4,6 @@
 
 #include "interpreter/running/restart.h"
 #include "interpreter/running/runner.h"
-#include "interpreter/running/summary.h"
-#include "interpreter/running/timing.h"
 #include "require.h"
 
 namespace isocnc::fuzz {
@@ -31,30 +29,6 @@ static void run_program(std::string_view text, bool stop_at_errors) {
   require(stop_at_errors || result.ending != running::Ending::Until, "nothing but `until` ends a run there");
 }
 
-/// Every event gets its time, in order, on a machine whose travel is checked.
-static void time_program(std::string_view text) {
-  running::TimedMachine machine{.motion = motion::default_machine()};
-  std::uint64_t told = 0;
-  std::uint64_t timed = 0;
-  running::Summary summary(machine);
-  running::Timing timing(machine,
-                         {.event =
-                              [&](const running::TimedEvent& event) {
-                                ++timed;
-                                summary.add(event);
-                              },
-                          .move = [&](const motion::Move& move, std::uint64_t line) { summary.add(move, line); }});
-  const auto result = running::run(text, {}, [&](const running::Event& event) {
-    if (!std::holds_alternative<running::ExactStopEvent>(event.what)) ++told;
-    timing.take(event);
-  });
-  timing.finish();
-  summary.finish(result, timing.time());
-  require(told == timed, "every event has its time");
-  require(!summary.text(dialect::Language::Italian).empty(), "a run has its summary");
-  require(!summary.json("a", dialect::Language::English).empty(), "as JSON, too");
-}
-
 static void restart_program(std::string_view text) {
   running::RestartOptions options;
   options.line = text.size() % most_lines(text);
@@ -75,7 +49,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text = isocnc::fuzz::as_text(data, size);
   isocnc::fuzz::run_program(text, true);
   isocnc::fuzz::run_program(text, false);
-  isocnc::fuzz::time_program(text);
   isocnc::fuzz::restart_program(text);
   return 0;
 }
