@@ -2,98 +2,239 @@
 
 #include <algorithm>
 #include <unordered_map>
+#include <utility>
 
 namespace isocnc::analyzer {
 
+/// Chunks that are checked before somebody is asked whether to go on: a millisecond or so.
+static constexpr std::size_t kChunksAtOnce = 64;
+
 Analysis::Analysis(const syntax::Document& document, const execution::Setup& setup)
-    : document_(document), setup_(setup) {
+    : Analysis(document, setup, Unchecked{}) {
   update();
 }
 
-JumpMap Analysis::find_jumps() const {
-  JumpMap jumps;
-  for (std::size_t chunk = 0; chunk < document_.chunk_count(); ++chunk)
-    for (std::size_t i = 0; i < document_.chunk_lines(chunk); ++i) {
+Analysis::Analysis(const syntax::Document& document, const execution::Setup& setup, Unchecked)
+    : document_(document), setup_(setup) {}
+
+Frontier Analysis::before(std::size_t chunk) const {
+  if (chunk == rows_.size()) return end_;
+  Frontier frontier = rows_[chunk].checked->before;
+  rows_[chunk].shift.apply(frontier);
+  return frontier;
+}
+
+// --- Jumps
+
+/// What in a chunk concerns jumps; of labels those alone that some jump names.
+std::vector<JumpEvent> Analysis::read_jumps(std::size_t chunk) const {
+  std::vector<JumpEvent> events;
+  for (std::size_t i = 0; i < document_.chunk_lines(chunk); ++i) {
+    const syntax::LineTree line = document_.line_of_chunk(chunk, i);
+    if (line.plain_arguments != 0 && !(line.has_label() && jumps_.names(line.label))) continue;
+    each_event(line, [&](JumpEvent event) {
+      if (event.kind == JumpEvent::Kind::Label && !jumps_.names(event.label)) return;
+      event.line = static_cast<std::uint32_t>(i);
+      events.push_back(event);
+    });
+  }
+  events.shrink_to_fit();
+  return events;
+}
+
+/// Finds the labels that these jumps name, which are not those that were named before.
+void Analysis::read_labels(const JumpMap& jumps) {
+  for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk) {
+    std::vector<JumpEvent>& events = rows_[chunk].jumps;
+    std::erase_if(events, [](const JumpEvent& event) { return event.kind == JumpEvent::Kind::Label; });
+    const auto others = static_cast<std::ptrdiff_t>(events.size());
+    for (std::size_t i = 0; i < document_.chunk_lines(chunk) && !jumps.empty(); ++i) {
       const syntax::LineTree line = document_.line_of_chunk(chunk, i);
-      if (line.jump && line.jump->has_target) jumps.add(document_.first_line_of_chunk(chunk) + i, *line.jump);
+      if (line.has_label() && jumps.names(line.label))
+        events.push_back({.kind = JumpEvent::Kind::Label, .line = static_cast<std::uint32_t>(i), .label = line.label});
     }
+    // A line's label counts before what else is on the line.
+    std::inplace_merge(
+        events.begin(), events.begin() + others, events.end(), [](const JumpEvent& a, const JumpEvent& b) {
+          const auto rank = [](const JumpEvent& event) { return event.kind == JumpEvent::Kind::Label ? 0 : 1; };
+          return a.line != b.line ? a.line < b.line : rank(a) < rank(b);
+        });
+  }
+}
+
+/// The jumps of the program, from what is known of its chunks.
+JumpMap Analysis::find_jumps() {
+  JumpMap jumps;
+  const auto each = [&](JumpEvent::Kind kind, auto take) {
+    for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk)
+      for (const JumpEvent& event : rows_[chunk].jumps)
+        if (event.kind == kind) take(document_.first_line_of_chunk(chunk) + event.line, event);
+  };
+  each(JumpEvent::Kind::Jump, [&](std::uint64_t line, const JumpEvent& event) { jumps.add(line, event.jump); });
+  if (!jumps.names_the_same(jumps_)) read_labels(jumps);
   if (jumps.compares_registers())
-    for (std::size_t chunk = 0; chunk < document_.chunk_count(); ++chunk)
-      for (std::size_t i = 0; i < document_.chunk_lines(chunk); ++i)
-        jumps.note_registers(document_.line_of_chunk(chunk, i));
+    for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk)
+      for (const JumpEvent& event : rows_[chunk].jumps) jumps.note_registers(event.kind, event.reg, event.label);
   jumps.complete();
   if (jumps.empty()) return jumps;
   std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> labels;
-  for (std::size_t chunk = 0; chunk < document_.chunk_count(); ++chunk)
-    for (std::size_t i = 0; i < document_.chunk_lines(chunk); ++i) {
-      const syntax::LineTree line = document_.line_of_chunk(chunk, i);
-      if (line.has_label() && jumps.names(line.label))
-        labels[line.label].push_back(document_.first_line_of_chunk(chunk) + i);
-    }
+  each(JumpEvent::Kind::Label,
+       [&](std::uint64_t line, const JumpEvent& event) { labels[event.label].push_back(line); });
   jumps.resolve(labels);
   return jumps;
 }
 
-void Analysis::update() {
-  JumpMap jumps = find_jumps();
-  const bool jumps_stand = !chunks_.empty() && jumps.means_the_same(jumps_);
-  jumps_ = std::move(jumps);
-  // Frontiers name jumps by number and compare registers by cells: with other jumps all of them mean something else.
-  std::vector<Checked> old;
-  if (jumps_stand) old.swap(chunks_);
-  chunks_.clear();
-  lines_checked_ = 0;
-
-  const std::size_t count = document_.chunk_count();
-  std::size_t head = 0;  // Chunks at the start that are as they were.
-  while (head < std::min(count, old.size()) && old[head].version == document_.chunk_version(head)) ++head;
-  std::unordered_map<std::uint64_t, std::size_t> old_index;
-  for (std::size_t i = head; i < old.size(); ++i) old_index[old[i].version] = i;
-
-  Checker checker(setup_, jumps_);
-  if (head > 0) checker.frontier = head < old.size() ? old[head].before : end_;
-  chunks_.reserve(count);
-  for (std::size_t i = 0; i < head; ++i) chunks_.push_back(std::move(old[i]));
-  for (std::size_t i = head; i < count; ++i) {
-    const auto kept = old_index.find(document_.chunk_version(i));
-    if (kept != old_index.end() && old[kept->second].before == checker.frontier) {
-      Checked& reused = old[kept->second];
-      checker.frontier = kept->second + 1 < old.size() ? old[kept->second + 1].before : end_;
-      chunks_.push_back(std::move(reused));
-      continue;
-    }
-    Checked checked{.version = document_.chunk_version(i), .before = checker.frontier};
-    for (std::size_t line = 0; line < document_.chunk_lines(i); ++line)
-      checker.check(document_.line_of_chunk(i, line), line, checked.outcome);
-    lines_checked_ += document_.chunk_lines(i);
-    chunks_.push_back(std::move(checked));
-  }
-  end_ = checker.frontier;
+/// Tells the jumps where they stand now.
+void Analysis::move_jumps() {
+  std::uint32_t jump = 0;
+  for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk)
+    for (const JumpEvent& event : rows_[chunk].jumps)
+      if (event.kind == JumpEvent::Kind::Jump)
+        jumps_.move_jump(jump++, document_.first_line_of_chunk(chunk) + event.line, event.jump);
 }
 
-Report Analysis::report() const {
-  std::vector<Outcome> outcomes;
-  outcomes.reserve(chunks_.size());
-  for (std::size_t i = 0; i < chunks_.size(); ++i) {
-    Outcome outcome = chunks_[i].outcome;
-    const std::uint64_t first = document_.first_line_of_chunk(i);
-    for (LocatedFinding& located : outcome.findings) located.line += first;
-    for (Outcome::Label& label : outcome.labels) label.line += first;
-    outcome.last_text_line += first;
-    outcomes.push_back(std::move(outcome));
+/// Brings the jumps up to date where some events have been replaced by others. False when they mean something else now.
+bool Analysis::follow_jumps(const std::vector<JumpEvent>& old_events, const std::vector<JumpEvent>& new_events) {
+  const bool same = std::equal(old_events.begin(), old_events.end(), new_events.begin(), new_events.end(),
+                               [](const JumpEvent& a, const JumpEvent& b) { return a.means_the_same(b); });
+  if (same) {
+    if (!jumps_.empty()) move_jumps();
+    return true;
   }
-  return conclude(std::move(outcomes), end_, jumps_,
-                  [&](std::uint64_t line) { return document_.line(static_cast<std::size_t>(line)).text; });
+  JumpMap jumps = find_jumps();
+  const bool stand = jumps.means_the_same(jumps_);
+  jumps_ = std::move(jumps);
+  return stand;
+}
+
+// --- Check
+
+static void append(std::vector<JumpEvent>& all, const std::vector<JumpEvent>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+bool Analysis::update(const std::function<bool()>& stop) {
+  lines_checked_ = 0;
+  const bool is_first = rows_.size() == 0;
+  const auto change = rows_.change_to(document_);
+  Frontier at_change = is_first ? Frontier{} : before(change.first);
+  std::vector<JumpEvent> old_events;
+  std::vector<JumpEvent> new_events;
+  for (std::size_t i = change.first; i < change.first + change.removed; ++i) {
+    append(old_events, rows_[i].jumps);
+    finding_count_ -= rows_[i].checked->outcome.findings.size();
+  }
+  const bool has_changed = change.removed + change.inserted > 0;
+  rows_.follow(document_, change, [&](std::size_t chunk) {
+    Row fresh;
+    fresh.jumps = read_jumps(chunk);
+    append(new_events, fresh.jumps);
+    return fresh;
+  });
+  const bool jumps_stand = !has_changed || follow_jumps(old_events, new_events);
+  if (is_first || !jumps_stand) {
+    // Frontiers name jumps by number and compare registers by cells: with other jumps all of them mean something else.
+    for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].is_stale = true;
+    return check_from(0, Checker::start(setup_, jumps_), stop);
+  }
+  if (has_changed && !check_from(change.first, std::move(at_change), stop)) return false;
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    if (rows_[i].is_stale && !check_from(i, before(i), stop)) return false;
+  return true;
+}
+
+/// Goes on from a chunk, as long as there is anything new. False when stopped, with the rest stale.
+bool Analysis::check_from(std::size_t chunk, Frontier frontier, const std::function<bool()>& stop) {
+  Checker checker(setup_, jumps_);
+  checker.frontier = std::move(frontier);
+  for (std::size_t checked = 1; chunk < rows_.size(); ++chunk) {
+    if (!rows_[chunk].is_stale) {
+      auto shift = shift_between(before(chunk), checker.frontier);
+      if (shift) {
+        chunk = pass_over(chunk, *shift);
+        if (shift->empty()) return true;
+        checker.frontier = before(chunk);
+        shift->apply(checker.frontier);
+        if (chunk == rows_.size()) break;
+      }
+    }
+    if (stop && checked++ % kChunksAtOnce == 0 && stop()) {
+      rows_[chunk].checked->before = std::move(checker.frontier);
+      rows_[chunk].shift = {};
+      rows_[chunk].is_stale = true;
+      return false;
+    }
+    check_chunk(chunk, checker);
+  }
+  end_ = std::move(checker.frontier);
+  return true;
+}
+
+/// Shifts chunks from this one on, as long as they do not mind. Returns the first that does, with what is left of the
+/// shift before it.
+std::size_t Analysis::pass_over(std::size_t chunk, PositionShift& shift) {
+  for (; chunk < rows_.size() && !shift.empty(); ++chunk) {
+    Row& row = rows_[chunk];
+    const PositionUse& use = row.positions;
+    const bool minds =
+        row.is_stale || use.far || (shift.axes & use.read) != 0 || (use.by_several && (shift.axes & use.set) != 0);
+    if (minds || !row.shift.add(shift)) break;
+    shift.drop(use.set);
+  }
+  return chunk;
+}
+
+void Analysis::check_chunk(std::size_t chunk, Checker& checker) {
+  Row& row = rows_[chunk];
+  Outcome outcome;
+  Frontier before = checker.frontier;
+  for (std::size_t line = 0; line < document_.chunk_lines(chunk); ++line)
+    checker.check(document_.line_of_chunk(chunk, line), line, outcome);
+  lines_checked_ += document_.chunk_lines(chunk);
+  finding_count_ += outcome.findings.size() - row.checked->outcome.findings.size();
+  row.shift = {};
+  row.positions = outcome.positions;
+  row.is_stale = false;
+  row.has_text = outcome.has_text;
+  row.has_more =
+      !outcome.findings.empty() || !outcome.labels.empty() || !outcome.live_jumps.empty() || outcome.assigned != 0;
+  outcome.findings.shrink_to_fit();
+  outcome.count();
+  *row.checked = {std::move(before), std::move(outcome)};
+}
+
+FirstFindings Analysis::excerpt(const FirstFindingsWishes& wishes) const {
+  std::size_t last_text = rows_.size();
+  while (last_text > 0 && !rows_[last_text - 1].has_text) --last_text;
+  std::vector<PlacedOutcome> outcomes;
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    if (rows_[i].has_more || i + 1 == last_text)
+      outcomes.push_back({&rows_[i].checked->outcome, document_.first_line_of_chunk(i)});
+  return conclude(
+      outcomes, end_, jumps_, [&](std::uint64_t line) { return document_.line(static_cast<std::size_t>(line)).text; },
+      wishes);
+}
+
+std::vector<LocatedFinding> Analysis::findings_on(std::size_t line) const {
+  const std::size_t chunk = document_.chunk_of_line(line);
+  const std::size_t first_line = document_.first_line_of_chunk(chunk);
+  std::vector<LocatedFinding> found;
+  for (const LocatedFinding& located : rows_[chunk].checked->outcome.findings) {
+    if (first_line + located.line != line) continue;
+    found.push_back({line, located.finding});
+  }
+  return found;
 }
 
 Frontier Analysis::frontier_before(std::size_t line) const {
-  std::size_t chunk = 0;
-  while (chunk + 1 < chunks_.size() && document_.first_line_of_chunk(chunk + 1) <= line) ++chunk;
+  line = std::min(line, document_.line_count());
+  if (line == document_.line_count()) return end_;
+  const std::size_t chunk = document_.chunk_of_line(line);
   Checker checker(setup_, jumps_);
-  checker.frontier = chunks_[chunk].before;
+  checker.frontier = before(chunk);
   Outcome ignored;
-  for (std::size_t i = document_.first_line_of_chunk(chunk); i < std::min(line, document_.line_count()); ++i)
-    checker.check(document_.line(i), i, ignored);
+  for (std::size_t i = 0; i < line - document_.first_line_of_chunk(chunk); ++i)
+    checker.check(document_.line_of_chunk(chunk, i), i, ignored);
   return checker.frontier;
 }
 

@@ -1,43 +1,76 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "analyzer/checker.h"
-#include "interpreter/syntax/document.h"
+#include "analyzer/position_shift.h"
+#include "interpreter/syntax/per_chunk.h"
 
 namespace isocnc::analyzer {
 
 /// The check of a document that is being edited. It remembers where the check stood before each chunk of lines; after
-/// an edit it checks the chunks that changed, and those behind them until it stands where it stood before. The report
-/// is the one that a fresh check would give.
+/// an edit it checks the chunks that changed, and those behind them until it stands where it stood before, or all is as
+/// before but shifted: over chunks that do not mind a shift it passes without looking at their lines. The report is the
+/// one that a fresh check would give.
 class Analysis {
  public:
   /// Both must outlive the analysis.
   Analysis(const syntax::Document& document, const execution::Setup& setup);
+  /// The same without a check: nothing is known before the first update().
+  struct Unchecked {};
+  Analysis(const syntax::Document& document, const execution::Setup& setup, Unchecked);
 
-  /// Brings the analysis up to date with the document, whatever has been edited.
-  void update();
-  Report report() const;
+  /// Brings the analysis up to date with the document, whatever has been edited. Asked now and then whether to `stop`,
+  /// it may leave the rest for the next time: false, and until then nothing may be asked of it.
+  bool update(const std::function<bool()>& stop = {});
+  Report report() const { return excerpt({}).report; }
+  /// The first findings, for who does not want all of many.
+  FirstFindings excerpt(const FirstFindingsWishes& wishes) const;
+  /// How many findings there are, but for those that only the whole program shows.
+  std::size_t finding_count() const { return finding_count_; }
+  /// The findings on a line of the document, without their paths and those that only the whole program shows.
+  std::vector<LocatedFinding> findings_on(std::size_t line) const;
   /// Where the check stands before a line, with the states of all paths through it.
   Frontier frontier_before(std::size_t line) const;
   /// Lines executed by the last update: what an edit costs.
   std::uint64_t lines_checked() const { return lines_checked_; }
 
  private:
+  /// Where the check stood when it came to a chunk, and what it found there.
   struct Checked {
-    std::uint64_t version = 0;  ///< Of the document's chunk.
-    Frontier before;
+    Frontier before;  ///< But for Row::shift.
     Outcome outcome;  ///< Lines counted from the start of the chunk.
   };
+  struct Row {
+    PositionShift shift;    ///< Of all positions before the chunk, since it was checked.
+    PositionUse positions;  ///< Of the outcome.
+    bool is_stale = true;   ///< To be checked.
+    bool has_text = false;
+    bool has_more = false;  ///< Findings, labels, jumps or assignments.
+    std::vector<JumpEvent> jumps;
+    std::unique_ptr<Checked> checked = std::make_unique<Checked>();
+  };
 
-  JumpMap find_jumps() const;
+  Frontier before(std::size_t chunk) const;
+  std::vector<JumpEvent> read_jumps(std::size_t chunk) const;
+  bool follow_jumps(const std::vector<JumpEvent>& old_events, const std::vector<JumpEvent>& new_events);
+  void move_jumps();
+  JumpMap find_jumps();
+  void read_labels(const JumpMap& jumps);
+  bool check_from(std::size_t chunk, Frontier frontier, const std::function<bool()>& stop);
+  void check_chunk(std::size_t chunk, Checker& checker);
+  std::size_t pass_over(std::size_t chunk, PositionShift& shift);
 
   const syntax::Document& document_;
   const execution::Setup& setup_;
   JumpMap jumps_;
-  std::vector<Checked> chunks_;
+  syntax::PerChunk<Row> rows_;
   Frontier end_;
+  std::size_t finding_count_ = 0;
   std::uint64_t lines_checked_ = 0;
 };
 

@@ -10,6 +10,7 @@
 #include "analyzer/fingerprint.h"
 #include "analyzer/rendering.h"
 #include "analyzer/selection.h"
+#include "interpreter/dialect/format.h"
 #include "interpreter/running/counted_bytes.h"
 #include "interpreter/running/source_file.h"
 
@@ -195,12 +196,12 @@ class BaselineReader final : public nlohmann::json_sax<nlohmann::json> {
     if (place_ == Place::Outside || place_ == Place::Findings)
       return fail({"an object was expected here", "qui ci vuole un oggetto"});
     static constexpr Text kWrong = {"not a value of {}", "non è un valore di {}"};
-    mistake_ = fmt::format(fmt::runtime(kWrong.in(language_)), key_);
+    mistake_ = dialect::format(kWrong, language_, key_);
     return false;
   }
   bool missing(std::string_view key) {
     static constexpr Text kMissing = {"no {} in what ends here", "manca {} in ciò che finisce qui"};
-    mistake_ = fmt::format(fmt::runtime(kMissing.in(language_)), key);
+    mistake_ = dialect::format(kMissing, language_, key);
     return false;
   }
 

@@ -168,10 +168,9 @@ Report check_text(std::string_view text, const execution::Setup& setup, int jobs
   for (;;) {
     Pass pass(text, setup, jumps, jobs, on_progress);
     pass.run();
-    std::vector<Outcome> outcomes;
-    outcomes.push_back(pass.take_outcome());
-    if (jumps.is_resolved() || all_jumps_land(outcomes.front(), jumps))
-      return conclude(std::move(outcomes), pass.checker().frontier, jumps,
+    Outcome outcome = pass.take_outcome();
+    if (jumps.is_resolved() || all_jumps_land(outcome, jumps))
+      return conclude(std::move(outcome), pass.checker().frontier, jumps,
                       [&](std::uint64_t line) { return LineFinder(text).line(line); });
     // Rare: a jump whose label is not below it (E004, E005), or not among the lines that had to be read. Once more, now
     // with all labels known.

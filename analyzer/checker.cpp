@@ -1,10 +1,14 @@
 #include "analyzer/checker.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
 #include <unordered_set>
 #include <utility>
 
 #include "analyzer/rules/rule.h"
+#include "interpreter/geometry/increment.h"
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
 
@@ -18,14 +22,29 @@ using syntax::LineTree;
 static constexpr std::size_t kLongestPath = 64;
 /// Valuations of the registers that are kept apart in one group.
 static constexpr std::size_t kMostValuations = 256;
-/// More than one live group is paid from a bucket that fills by two extra executions a line and holds this many: short
-/// stretches may follow all paths, endless ones only a few.
-static constexpr std::uint32_t kSpreadLimit = 1'000'000;
-static constexpr std::uint32_t kSpreadRelief = 2;
+/// More than a few live groups are paid from a bucket that fills by some extra executions a line and holds this many:
+/// long stretches may follow all paths, endless ones only those few.
+static constexpr std::uint32_t kSpreadLimit = 20'000'000;
+static constexpr std::uint32_t kSpreadRelief = 32;
+/// Groups that are followed once some have been given up: the rest of a program must not take long, whatever it does.
+static constexpr std::size_t kMostStatesReduced = 16;
 /// Labels that may be waited for at once.
 static constexpr std::size_t kMostWaiting = 16'384;
 
 void Outcome::clear() { *this = Outcome{}; }
+
+void Outcome::count() {
+  tally.clear();
+  for (const LocatedFinding& located : findings) {
+    const auto same = [&](const auto& counted) { return counted.first == located.finding.id; };
+    const auto known = std::find_if(tally.begin(), tally.end(), same);
+    if (known == tally.end()) {
+      tally.emplace_back(located.finding.id, 1);
+    } else {
+      ++known->second;
+    }
+  }
+}
 
 /// Listens to one execution: findings to a place, assignments to the group's registers.
 class Checker::Listener final : public execution::Sink {
@@ -61,9 +80,10 @@ static void sort_by_column(std::vector<LocatedFinding>& findings, std::size_t fi
         [](const LocatedFinding& a, const LocatedFinding& b) { return a.finding.span.begin < b.finding.span.begin; });
 }
 
-/// Opinions on a line are asked for unless something is an error there: a remark does not make it unclear.
+/// Opinions on a line are asked for unless something is an error there: a remark does not make it unclear, nor does an
+/// M02 that has company, which ends the program all the same (D22).
 static bool is_error(const Finding& finding) {
-  return dialect::definition(finding.id).severity == dialect::Severity::Error;
+  return dialect::definition(finding.id).severity == dialect::Severity::Error && finding.id != "m02-not-alone"_diag;
 }
 
 /// Whether one of the findings from this one on is.
@@ -72,14 +92,20 @@ static bool has_error(const std::vector<LocatedFinding>& findings, std::size_t f
                      [](const LocatedFinding& located) { return is_error(located.finding); });
 }
 
+/// T101001 on one line and M06 on a later one are one mistake, told at the T.
+static bool is_told_above(const Finding& finding, const execution::State& before) {
+  return finding.id == "tool-change-without-tool"_diag && before.tool_prepared;
+}
+
 /// A program without jumps has one path and one state.
 void Checker::check_straight(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   if (frontier.live.empty()) return tell_of_dead_code(line, line_number, outcome);
   execution::State& state = frontier.live[0].state;
   Listener listener(line_number, *this, outcome);
-  if (execution::execute_plain(line, state, setup_, listener)) return;
+  if (execution::execute_plain(line, state, setup_, listener)) return note_plain_move(line, state, outcome.positions);
   const std::size_t first = outcome.findings.size();
-  for (const Finding& finding : line.findings) outcome.findings.push_back({line_number, finding});
+  for (const Finding& finding : line.findings)
+    if (!is_told_above(finding, state)) outcome.findings.push_back({line_number, finding});
   if (line.is_empty()) return;
   const execution::State before = state;
   execution::execute(line, state, setup_, listener);
@@ -88,10 +114,11 @@ void Checker::check_straight(const LineTree& line, std::uint64_t line_number, Ou
     judge_move(line, before, state, listener);
   }
   move_.reset();
+  note_line(line, before, state, outcome.findings.size() > first, outcome.positions);
   if (outcome.findings.size() > first + 1) sort_by_column(outcome.findings, first);
   if (!state.ended) return;
   frontier.live.clear();
-  // M02 on a wrong line may not be meant as the end.
+  // M02 on a line with another mistake may not be meant as the end.
   frontier.dead_told = has_error(outcome.findings, first);
 }
 
@@ -108,13 +135,17 @@ void Checker::check(const LineTree& line, std::uint64_t line_number, Outcome& ou
     return tell_of_dead_code(line, line_number, outcome);
   }
   frontier.dead_told = false;
+  outcome.positions.by_several |= live.size() > 1 || !frontier.waiting.empty();
   const std::size_t first = outcome.findings.size();
-  for (const Finding& finding : line.findings) outcome.findings.push_back({line_number, finding});
+  for (const Finding& finding : line.findings) {
+    const auto is_told = [&](const Group& group) { return is_told_above(finding, group.state); };
+    if (!std::all_of(live.begin(), live.end(), is_told)) outcome.findings.push_back({line_number, finding});
+  }
   execute_in_all_groups(line, line_number, outcome);
   if (line.jump && line.jump->has_target) branch(line, line_number, outcome);
   sort_by_column(outcome.findings, first);
   if (live.empty() || !live[0].state.ended) return;
-  live.clear();  // M02 ends every path through it. On a wrong line it may not be meant as the end.
+  live.clear();  // M02 ends every path through it. On a line with another mistake it may not be meant as the end.
   frontier.dead_told = has_error(outcome.findings, first);
 }
 
@@ -172,7 +203,10 @@ void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_num
     for (std::size_t i = 0; i < live.size(); ++i) {
       GroupListener listener(*this, i, outcome);
       execution::State& state = live[i].state;
-      if (execution::execute_plain(line, state, setup_, listener)) continue;
+      if (execution::execute_plain(line, state, setup_, listener)) {
+        note_plain_move(line, state, outcome.positions);
+        continue;
+      }
       const auto first = static_cast<std::ptrdiff_t>(group_findings_.size());
       const execution::State before = state;
       execution::execute(line, state, setup_, listener);
@@ -181,6 +215,8 @@ void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_num
         judge_move(line, before, state, listener);
       }
       move_.reset();
+      const bool has_findings = !line.findings.empty() || static_cast<std::ptrdiff_t>(group_findings_.size()) > first;
+      note_line(line, before, state, has_findings, outcome.positions);
     }
     if (!group_findings_.empty()) report_common_findings(line_number, outcome);
   }
@@ -190,6 +226,63 @@ void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_num
   }
   live.converge();
   bound_states(line, line_number, outcome);
+}
+
+static constexpr execution::AxisSet kAllAxes = (1u << execution::kAxisCount) - 1;
+
+/// The axes among some letters.
+static constexpr execution::AxisSet axes_of(dialect::LetterSet letters) {
+  static_assert(dialect::kLinearLetters == 7u << 23 && dialect::kRotaryLetters == 3u << 1);
+  return static_cast<execution::AxisSet>((letters >> 23 & 7u) | (letters >> 1 & 3u) << 3);
+}
+
+/// Half of where increments add up exactly: positions may be shifted by as much again.
+static bool is_far(const geometry::Pose& pose) {
+  constexpr double kFar = geometry::kFarthestStep / 2;
+  return !(std::abs(pose.tip[0]) <= kFar && std::abs(pose.tip[1]) <= kFar && std::abs(pose.tip[2]) <= kFar &&
+           std::abs(pose.b) <= kFar && std::abs(pose.c) <= kFar);
+}
+
+/// A line that execute_plain() has done, after it. Under G91 an arc is judged by what is written; under G90 by its
+/// start as well.
+void Checker::note_plain_move(const LineTree& line, const execution::State& state, PositionUse& use) const {
+  if (state.incremental()) {
+    use.far |= is_far(state.position);
+    return;
+  }
+  if (state.mode(dialect::ModalGroup::Motion) > 1)
+    use.read |= static_cast<execution::AxisSet>(execution::kLinearAxes & ~use.set);
+  use.set |= axes_of(line.plain_arguments);
+}
+
+/// Any other line: where it takes thought what its judgment depends on, it counts as depending on all.
+void Checker::note_line(const LineTree& line, const execution::State& before, const execution::State& after,
+                        bool has_findings, PositionUse& use) const {
+  bool moves = false;
+  bool changes_frame = false;
+  for (const syntax::Instruction& instruction : line.instructions) {
+    const bool is_g = instruction.kind == syntax::InstructionKind::G;
+    const dialect::GCode* const code = is_g ? instruction.g() : nullptr;
+    moves |= instruction.kind == syntax::InstructionKind::Continuation || (code && code->is_motion());
+    changes_frame |=
+        is_g && (!code || code->group == dialect::ModalGroup::Face || code->group == dialect::ModalGroup::Workpiece);
+  }
+  if (!moves && !changes_frame) return;
+  use.far |= is_far(after.position);
+  const bool is_clear = !has_findings && !changes_frame && !watches_moves_ && before.unknown == after.unknown &&
+                        after.mode(dialect::ModalGroup::Motion) != dialect::kNoMotion;
+  if (is_clear && after.incremental()) return;
+  dialect::LetterSet letters = 0;
+  for (const syntax::Word& word : line.words)
+    if (dialect::contains(dialect::kCoordinateLetters, word.letter)) letters |= dialect::letter_bit(word.letter);
+  // A straight move under G49 is right from anywhere; else the start of an arc, or of an axis that is not to turn,
+  // counts.
+  const bool is_straight = after.mode(dialect::ModalGroup::Motion) <= 1;
+  const execution::AxisSet read = !is_clear     ? kAllAxes
+                                  : is_straight ? axes_of(letters & dialect::kRotaryLetters)
+                                                : kAllAxes;
+  use.read |= static_cast<execution::AxisSet>(read & ~use.set);
+  if (is_clear) use.set |= axes_of(letters);
 }
 
 /// What the rules think of the line's motion, if it has one and somebody wants to know.
@@ -250,6 +343,7 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
       return;
   }
   Groups staying;
+  Groups jumping;
   bool may_jump = false;
   bool may_stay = false;
   const auto decide = [&](Path path, bool taken) {
@@ -269,24 +363,34 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
     may_jump |= where_true.possible();
     may_stay |= where_false.possible();
     if (where_true.possible()) {
-      Groups& waiting = frontier.waiting[jump.target];
-      waiting.add({group.state, std::move(where_true), both ? decide(group.path, true) : group.path});
-      if (waiting.size() > kMostStates) {
-        waiting.reduce_to(kMostStates / 2);
-        admit_reduction(line, line_number, outcome);
-      }
+      jumping.append({group.state, std::move(where_true), both ? decide(group.path, true) : group.path});
     }
     if (!where_false.possible()) continue;
-    staying.add({std::move(group.state), std::move(where_false),
-                 both ? decide(std::move(group.path), false) : std::move(group.path)});
+    staying.append({std::move(group.state), std::move(where_false),
+                    both ? decide(std::move(group.path), false) : std::move(group.path)});
   }
   frontier.live = std::move(staying);
-  if (may_jump != may_stay && !frontier.reduced)
+  if (!jumping.empty()) {
+    Groups& waiting = frontier.waiting[jump.target];
+    waiting.add_all(std::move(jumping));
+    if (reduce(waiting)) admit_reduction(line, line_number, outcome);
+  }
+  if (may_jump != may_stay && !frontier.reduced) {
     outcome.findings.push_back({line_number, {.id = "condition-decided"_diag, .span = jump.if_span}});
+    frontier.dead_told = !may_stay;  // That the lines below do not run is what a switch is for.
+  }
   if (frontier.waiting.size() > kMostWaiting) {
     frontier.waiting.erase(std::prev(frontier.waiting.end()));
     admit_reduction(line, line_number, outcome);
   }
+}
+
+/// Whether there were too many.
+bool Checker::reduce(Groups& groups) const {
+  const std::size_t most = frontier.reduced ? kMostStatesReduced : kMostStates;
+  if (groups.size() <= most) return false;
+  groups.reduce_to(most / 2);
+  return true;
 }
 
 void Checker::bound_states(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
@@ -294,10 +398,7 @@ void Checker::bound_states(const LineTree& line, std::uint64_t line_number, Outc
   bool reduced = false;
   frontier.spread += static_cast<std::uint32_t>(live.size()) - 1;
   frontier.spread -= std::min(frontier.spread, kSpreadRelief);
-  if (live.size() > kMostStates) {
-    live.reduce_to(kMostStates / 2);
-    reduced = true;
-  }
+  reduced |= reduce(live);
   if (frontier.spread > kSpreadLimit) {
     live.reduce_to(1);
     frontier.spread = 0;
@@ -332,26 +433,26 @@ bool all_jumps_land(const Outcome& outcome, const JumpMap& jumps) {
 }
 
 /// A label that a GOTO names may be defined once: the second and each later one that the control reads (D50, D51).
-static void add_duplicate_labels(const std::vector<Outcome>& outcomes, const JumpMap& jumps,
+static void add_duplicate_labels(const std::vector<PlacedOutcome>& outcomes, const JumpMap& jumps,
                                  std::vector<LocatedFinding>& findings) {
   std::unordered_set<std::uint64_t> named;
-  for (const Outcome& outcome : outcomes)
-    for (const std::uint32_t jump : outcome.live_jumps)
+  for (const auto& [outcome, first_line] : outcomes)
+    for (const std::uint32_t jump : outcome->live_jumps)
       if (jumps.target_of(jump) == JumpMap::Target::Below) named.insert(jumps.sites()[jump].jump.target);
   std::unordered_set<std::uint64_t> seen;
-  for (const Outcome& outcome : outcomes)
-    for (const Outcome::Label& label : outcome.labels)
+  for (const auto& [outcome, first_line] : outcomes)
+    for (const Outcome::Label& label : outcome->labels)
       if (label.live && named.contains(label.label) && !seen.insert(label.label).second)
-        findings.push_back({label.line, {.id = "duplicate-label"_diag, .span = label.span}});
+        findings.push_back({first_line + label.line, {.id = "duplicate-label"_diag, .span = label.span}});
 }
 
 /// Registers that an IF compares and nothing assigns: said at the first such IF.
-static void add_unassigned_registers(const std::vector<Outcome>& outcomes, const JumpMap& jumps,
+static void add_unassigned_registers(const std::vector<PlacedOutcome>& outcomes, const JumpMap& jumps,
                                      std::vector<LocatedFinding>& findings) {
   RegisterSet known = 0;
-  for (const Outcome& outcome : outcomes) known |= outcome.assigned;
-  for (const Outcome& outcome : outcomes)
-    for (const std::uint32_t ordinal : outcome.live_jumps) {
+  for (const auto& [outcome, first_line] : outcomes) known |= outcome->assigned;
+  for (const auto& [outcome, first_line] : outcomes)
+    for (const std::uint32_t ordinal : outcome->live_jumps) {
       const JumpMap::Site& site = jumps.sites()[ordinal];
       const int reg = site.jump.variable;
       if (reg < 1 || !site.jump.condition_is_known() || (known & register_bit(reg)) != 0) continue;
@@ -379,16 +480,16 @@ static bool may_hide_end(std::string_view text) {
 }
 
 /// A path that reaches the end of the file without an M02: said on the last line with any text (D47).
-static void add_missing_end(const std::vector<Outcome>& outcomes, const Frontier& end,
+static void add_missing_end(const std::vector<PlacedOutcome>& outcomes, const Frontier& end,
                             const std::function<std::string_view(std::uint64_t)>& text_of_line,
                             std::vector<Path>& paths, std::vector<LocatedFinding>& findings) {
   if (end.live.empty()) return;
   LocatedFinding located{0, {.id = "m02-missing"_diag}};
   bool has_text = false;
-  for (const Outcome& outcome : outcomes) {
-    if (!outcome.has_text) continue;
+  for (const auto& [outcome, first_line] : outcomes) {
+    if (!outcome->has_text) continue;
     has_text = true;
-    located.line = outcome.last_text_line;
+    located.line = first_line + outcome->last_text_line;
   }
   if (has_text) {
     const std::string_view text = text_of_line(located.line);
@@ -408,8 +509,11 @@ static void add_missing_end(const std::vector<Outcome>& outcomes, const Frontier
 }
 
 /// Said once per program: one mistake, however many paths show it (D44).
+static constexpr dialect::DiagnosticId kSaidOnce[] = {"initial-tool-missing"_diag, "feed-missing"_diag,
+                                                      "too-many-paths"_diag};
+
 static void keep_first_of_each(std::vector<LocatedFinding>& findings) {
-  for (const dialect::DiagnosticId id : {"initial-tool-missing"_diag, "feed-missing"_diag, "too-many-paths"_diag}) {
+  for (const dialect::DiagnosticId id : kSaidOnce) {
     bool seen = false;
     std::erase_if(findings, [&](const LocatedFinding& located) {
       if (located.finding.id != id) return false;
@@ -418,29 +522,22 @@ static void keep_first_of_each(std::vector<LocatedFinding>& findings) {
   }
 }
 
-Report conclude(std::vector<Outcome> outcomes, const Frontier& end, const JumpMap& jumps,
-                const std::function<std::string_view(std::uint64_t)>& text_of_line) {
-  Report report;
-  std::vector<Path> paths;
-  for (Outcome& outcome : outcomes) {
-    const auto first_path = static_cast<std::int32_t>(paths.size());
-    if (report.findings.empty()) {
-      report.findings = std::move(outcome.findings);
-    } else {
-      const std::size_t first = report.findings.size();
-      report.findings.insert(report.findings.end(), outcome.findings.begin(), outcome.findings.end());
-      for (std::size_t i = first; i < report.findings.size(); ++i)
-        if (report.findings[i].path >= 0) report.findings[i].path += first_path;
-    }
-    paths.insert(paths.end(), std::make_move_iterator(outcome.paths.begin()),
-                 std::make_move_iterator(outcome.paths.end()));
-  }
-  add_duplicate_labels(outcomes, jumps, report.findings);
-  if (!end.reduced) add_unassigned_registers(outcomes, jumps, report.findings);
-  add_missing_end(outcomes, end, text_of_line, paths, report.findings);
-  const auto by_place = [](const LocatedFinding& a, const LocatedFinding& b) {
-    return a.line != b.line ? a.line < b.line : a.finding.span.begin < b.finding.span.begin;
-  };
+static bool by_place(const LocatedFinding& a, const LocatedFinding& b) {
+  return a.line != b.line ? a.line < b.line : a.finding.span.begin < b.finding.span.begin;
+}
+
+/// What only the whole program shows.
+static void add_findings_of_whole(const std::vector<PlacedOutcome>& outcomes, const Frontier& end, const JumpMap& jumps,
+                                  const std::function<std::string_view(std::uint64_t)>& text_of_line,
+                                  std::vector<Path>& paths, std::vector<LocatedFinding>& findings) {
+  add_duplicate_labels(outcomes, jumps, findings);
+  if (!end.reduced) add_unassigned_registers(outcomes, jumps, findings);
+  add_missing_end(outcomes, end, text_of_line, paths, findings);
+}
+
+/// Brings findings into their order, and tells their paths as users read them.
+static Report ordered(std::vector<LocatedFinding> findings, const std::vector<Path>& paths, const JumpMap& jumps) {
+  Report report{.findings = std::move(findings), .paths = {}};
   if (!std::is_sorted(report.findings.begin(), report.findings.end(), by_place))
     std::stable_sort(report.findings.begin(), report.findings.end(), by_place);
   keep_first_of_each(report.findings);
@@ -450,6 +547,91 @@ Report conclude(std::vector<Outcome> outcomes, const Frontier& end, const JumpMa
       steps.push_back({jumps.sites()[decision->jump].line, decision->taken});
   }
   return report;
+}
+
+Report conclude(Outcome outcome, const Frontier& end, const JumpMap& jumps,
+                const std::function<std::string_view(std::uint64_t)>& text_of_line) {
+  std::vector<LocatedFinding> findings = std::move(outcome.findings);
+  std::vector<Path> paths = std::move(outcome.paths);
+  add_findings_of_whole({{&outcome, 0}}, end, jumps, text_of_line, paths, findings);
+  return ordered(std::move(findings), paths, jumps);
+}
+
+namespace {
+
+/// Takes findings until there are enough, and counts the others.
+class Gatherer {
+ public:
+  Gatherer(const FirstFindingsWishes& wishes, FirstFindings& excerpt) : wishes_(wishes), excerpt_(excerpt) {}
+
+  bool has_enough() const { return taken_ >= wishes_.most; }
+  /// The line behind all that have been taken.
+  std::uint64_t end() const { return end_; }
+
+  void take(const PlacedOutcome& placed) {
+    const auto first_path = static_cast<std::int32_t>(paths.size());
+    for (LocatedFinding located : placed.outcome->findings) {
+      located.line += placed.first_line;
+      if (located.path >= 0) located.path += first_path;
+      take(located);
+    }
+    const std::vector<Path>& theirs = placed.outcome->paths;
+    paths.insert(paths.end(), theirs.begin(), theirs.end());
+  }
+  void take(const LocatedFinding& located) {
+    findings.push_back(located);
+    end_ = located.line + 1;
+    if (counts(located.finding.id)) ++taken_;
+  }
+  void count(dialect::DiagnosticId id, std::size_t number = 1) {
+    if (is_said_once(id)) number = 1;
+    if (counts(id)) excerpt_.left_out += number;
+  }
+
+  std::vector<LocatedFinding> findings;
+  std::vector<Path> paths;
+
+ private:
+  static bool is_said_once(dialect::DiagnosticId id) {
+    return std::find(std::begin(kSaidOnce), std::end(kSaidOnce), id) != std::end(kSaidOnce);
+  }
+  bool counts(dialect::DiagnosticId id) {
+    for (std::size_t i = 0; i < std::size(kSaidOnce); ++i)
+      if (kSaidOnce[i] == id && std::exchange(said_[i], true)) return false;
+    return !wishes_.counts || wishes_.counts(id);
+  }
+
+  const FirstFindingsWishes& wishes_;
+  FirstFindings& excerpt_;
+  std::size_t taken_ = 0;
+  std::uint64_t end_ = 0;
+  std::array<bool, std::size(kSaidOnce)> said_{};
+};
+
+}  // namespace
+
+FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const Frontier& end, const JumpMap& jumps,
+                       const std::function<std::string_view(std::uint64_t)>& text_of_line,
+                       const FirstFindingsWishes& wishes) {
+  FirstFindings excerpt;
+  Gatherer gatherer(wishes, excerpt);
+  auto next = outcomes.begin();
+  for (; next != outcomes.end() && !gatherer.has_enough(); ++next) gatherer.take(*next);
+  const bool has_all = next == outcomes.end();
+  for (; next != outcomes.end(); ++next)
+    for (const auto& [id, number] : next->outcome->tally) gatherer.count(id, number);
+  std::vector<LocatedFinding> of_whole;
+  add_findings_of_whole(outcomes, end, jumps, text_of_line, gatherer.paths, of_whole);
+  const std::uint64_t behind = gatherer.end();
+  for (const LocatedFinding& located : of_whole) {
+    if (has_all || located.line < behind) {
+      gatherer.take(located);
+    } else {
+      gatherer.count(located.finding.id);
+    }
+  }
+  excerpt.report = ordered(std::move(gatherer.findings), gatherer.paths, jumps);
+  return excerpt;
 }
 
 }  // namespace isocnc::analyzer

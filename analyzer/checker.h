@@ -5,12 +5,21 @@
 #include <optional>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "analyzer/frontier.h"
 #include "interpreter/execution/execute.h"
 
 namespace isocnc::analyzer {
+
+/// How what has been found in a stretch of lines, and the positions behind it, depend on the positions before it.
+struct PositionUse {
+  execution::AxisSet read = 0;  ///< Findings, or frames, depend on where these axes stood before.
+  execution::AxisSet set = 0;   ///< Where these stand behind it does not depend on that. The others have moved on.
+  bool by_several = false;      ///< There was more than one state, now or waiting: `set` holds for some of them.
+  bool far = false;             ///< An axis has been so far away that moves may not add up exactly.
+};
 
 /// What the check of a stretch of lines has found.
 struct Outcome {
@@ -28,8 +37,11 @@ struct Outcome {
   std::uint64_t last_text_line = 0;       ///< The last that holds any text (D47), if one does.
   bool has_text = false;
   RegisterSet assigned = 0;  ///< Registers that have been given a value; followed only where an IF compares one.
+  PositionUse positions;
+  std::vector<std::pair<dialect::DiagnosticId, std::size_t>> tally;  ///< Findings of each kind, after count().
 
   void clear();
+  void count();
 };
 
 /// Most machine states that are followed at once (W191).
@@ -57,6 +69,7 @@ class Checker {
   void execute_in_all_groups(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void report_common_findings(std::uint64_t line_number, Outcome& outcome);
   void branch(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
+  bool reduce(Groups& groups) const;
   void bound_states(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void admit_reduction(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
 
@@ -65,6 +78,9 @@ class Checker {
     std::size_t group = 0;
   };
 
+  void note_plain_move(const syntax::LineTree& line, const execution::State& state, PositionUse& use) const;
+  void note_line(const syntax::LineTree& line, const execution::State& before, const execution::State& after,
+                 bool has_findings, PositionUse& use) const;
   void judge_move(const syntax::LineTree& line, const execution::State& before, const execution::State& after,
                   execution::Sink& sink);
 
@@ -75,10 +91,33 @@ class Checker {
   std::vector<GroupFinding> group_findings_;  // Of one line; kept for its memory.
 };
 
+/// The outcome of some lines, which stand from this one on.
+struct PlacedOutcome {
+  const Outcome* outcome = nullptr;
+  std::uint64_t first_line = 0;
+};
+
+/// The first findings of a program, and how many there are behind them.
+struct FirstFindings {
+  Report report;
+  std::size_t left_out = 0;  ///< Those that count.
+};
+
+/// What an excerpt is to hold.
+struct FirstFindingsWishes {
+  std::size_t most = static_cast<std::size_t>(-1);         ///< So many findings that count, or a few more.
+  std::function<bool(dialect::DiagnosticId)> counts = {};  ///< Without it all do.
+};
+
 /// Puts together what was found: sorts, adds what only the whole program shows (E006, ISO045), and leaves of the
 /// findings that are said once per program the first (D44). `text_of_line` gives a line's text.
-Report conclude(std::vector<Outcome> outcomes, const Frontier& end, const JumpMap& jumps,
+Report conclude(Outcome outcome, const Frontier& end, const JumpMap& jumps,
                 const std::function<std::string_view(std::uint64_t)>& text_of_line);
+/// The same of several outcomes that have been counted, in the order of the program. Those that have nothing but
+/// `has_text` may be left out, but the last that has.
+FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const Frontier& end, const JumpMap& jumps,
+                       const std::function<std::string_view(std::uint64_t)>& text_of_line,
+                       const FirstFindingsWishes& wishes = {});
 
 /// Whether the labels seen tell where each jump on a feasible path goes.
 bool all_jumps_land(const Outcome& outcome, const JumpMap& jumps);

@@ -4,8 +4,6 @@
 
 #include <cstdlib>
 
-#include <fmt/format.h>
-
 #include "analyzer/renderers.h"
 #include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/dialect/locale.h"
@@ -33,12 +31,6 @@ bool Options::wants_color() const {
 
 bool Options::prints_program() const { return fix && !diff && paths.size() == 1 && paths.front() == "-"; }
 
-/// One word behind each option of a list, so that `--select ISO031 part.iso` leaves the path alone.
-static void add_list(CLI::App& app, const std::string& name, std::vector<std::string>& list, const char* placeholder,
-                     const std::string& description) {
-  app.add_option(name, list, description)->allow_extra_args(false)->option_text(placeholder);
-}
-
 /// `text, concise, ...`, in lines that fit beside the options.
 static std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t kWidth = 50;
@@ -54,64 +46,98 @@ static std::string listed(const std::vector<std::string>& names) {
 }
 
 static void add_options(running::ProgramApp& program, Options& options) {
-  CLI::App& app = program.options();
-  app.add_option("PATH", options.paths,
-                 "Programs, directories (searched for .iso .nc .cnc\n.tap .ngc), or - for standard input; else the\n"
-                 "current directory")
-      ->option_text("...");
-  app.add_option("--explain", options.explain, "Tell all about a code, such as ISO031")->option_text("CODE");
-  app.add_flag("--list-rules", options.list_rules, "List all codes");
+  static constexpr dialect::Text kCodes = {"CODES", "CODICI"};
+  program.add_option(
+      "PATH", options.paths, {"...", "..."},
+      {"Programs, directories (searched for .iso .nc .cnc\n.tap .ngc), or - for standard input; else the\n"
+       "current directory",
+       "Programmi, directory (dove si cercano .iso .nc\n.cnc .tap .ngc), o - per lo standard input;\n"
+       "altrimenti la directory corrente"});
+  program.add_option("--explain", options.explain, {"CODE", "CODICE"},
+                     {"Tell all about a code, such as ISO031", "Dice tutto di un codice, per esempio ISO031"});
+  program.add_flag("--list-rules", options.list_rules, {"List all codes", "Elenca tutti i codici"});
 
-  app.option_defaults()->group("What is reported");
-  add_list(app, "--select", options.wishes.select, "CODES",
-           "Only these: codes (ISO031), names, what codes\nbegin with (W1), ALL; commas between them");
-  add_list(app, "--ignore", options.wishes.ignore, "CODES", "Not these");
-  add_list(app, "--severity", options.wishes.severities, "CODE=LEVEL", "Weigh it as error, warning, info or off");
-  CLI::Option* const baseline =
-      app.add_option("--baseline", options.baseline, "Not the findings recorded in this file")->option_text("FILE");
-  CLI::Option* const write_baseline =
-      app.add_option("--write-baseline", options.write_baseline, "Record all findings in this file instead")
-          ->option_text("FILE")
-          ->excludes(baseline);
+  program.begin_group({"What is reported", "Che cosa segnalare"});
+  // One word behind each, so that `--select ISO031 part.iso` leaves the path alone.
+  program
+      .add_option("--select", options.wishes.select, kCodes,
+                  {"Only these: codes (ISO031), names, what codes\nbegin with (W1), ALL; commas between them",
+                   "Solo questi: codici (ISO031), nomi, inizi di codici\n(W1), ALL; separati da virgole"})
+      .takes_one();
+  program.add_option("--ignore", options.wishes.ignore, kCodes, {"Not these", "Questi no"}).takes_one();
+  program
+      .add_option("--severity", options.wishes.severities, {"CODE=LEVEL", "CODICE=LIVELLO"},
+                  {"Weigh it as error, warning, info or off", "Gli dà il peso error, warning, info oppure off"})
+      .takes_one();
+  const running::ProgramOption baseline =
+      program.add_option("--baseline", options.baseline, running::kFileValue,
+                         {"Not the findings recorded in this file", "Non le segnalazioni registrate in questo file"});
+  const running::ProgramOption write_baseline =
+      program
+          .add_option(
+              "--write-baseline", options.write_baseline, running::kFileValue,
+              {"Record all findings in this file instead", "Registra invece tutte le segnalazioni in questo file"})
+          .excludes(baseline);
 
-  app.option_defaults()->group("What is mended");
-  app.add_flag("--fix", options.fix, "Rewrite programs with their safe fixes")
-      ->option_text(" ")
-      ->excludes(write_baseline);
-  app.add_flag("--unsafe-fixes", options.unsafe_fixes, "Count fixes as well that are likely, not certain");
-  CLI::Option* const diff = app.add_flag("--diff", options.diff, "Show what --fix would change, and change nothing");
-  diff->option_text(" ")->excludes(write_baseline);
+  program.begin_group({"What is mended", "Che cosa correggere"});
+  program
+      .add_flag("--fix", options.fix,
+                {"Rewrite programs with their safe fixes", "Riscrive i programmi con le correzioni sicure"})
+      .tells_no_exclusions()
+      .excludes(write_baseline);
+  program.add_flag("--unsafe-fixes", options.unsafe_fixes,
+                   {"Count fixes as well that are likely, not certain", "Anche le correzioni probabili ma non certe"});
+  const running::ProgramOption diff = program.add_flag(
+      "--diff", options.diff,
+      {"Show what --fix would change, and change nothing", "Mostra che cosa cambierebbe --fix, senza cambiarlo"});
+  diff.tells_no_exclusions().excludes(write_baseline);
 
-  app.option_defaults()->group("How it is shown");
-  diff->excludes(program.add_choice("--format", options.format, format_names(), "NAME", listed(format_names())));
-  app.add_option("--output", options.output, "Write to this file, not to standard output")->option_text("FILE");
-  app.add_flag("--statistics", options.statistics, "Show how many findings each code has")
-      ->option_text(" ")
-      ->excludes(diff);
-  program.add_choice("--lang", options.language, {"en", "it"}, "LANG", "en or it; else as the locale says");
-  program.add_choice("--color", options.color, {"auto", "always", "never"}, "WHEN", "auto, always, never");
-  app.add_option("--stdin-filename", options.stdin_name, "What to call standard input")->option_text("NAME");
+  program.begin_group({"How it is shown", "Come mostrarlo"});
+  const std::string formats = listed(format_names());
+  diff.excludes(program.add_choice("--format", options.format, format_names(), {"NAME", "NOME"}, {formats, formats}));
+  program
+      .add_option("--output", options.output, running::kFileValue,
+                  {"Write to this file, not to standard output", "Scrive in questo file, non sullo standard output"})
+      .check([](const std::string& given) { return std::string(given.empty() ? "no name" : ""); });
+  program
+      .add_flag("--statistics", options.statistics,
+                {"Show how many findings each code has", "Mostra quante segnalazioni ha ogni codice"})
+      .tells_no_exclusions()
+      .excludes(diff);
+  program.add_choice("--lang", options.language, {"en", "it"}, {"LANG", "LINGUA"},
+                     {"en or it; else as the locale says", "en o it; altrimenti secondo il locale"});
+  program.add_choice("--color", options.color, {"auto", "always", "never"}, {"WHEN", "QUANDO"},
+                     {"auto, always, never", "auto, always, never"});
+  program.add_option("--stdin-filename", options.stdin_name, {"NAME", "NOME"},
+                     {"What to call standard input", "Come chiamare lo standard input"});
 
-  app.option_defaults()->group("How it is run");
-  app.add_option("--max-warnings", options.max_warnings, "Fail when there are more warnings than N")
-      ->check(CLI::Validator(
-          [](const std::string& given) {
-            const bool is_count =
-                !given.empty() && given.size() <= 9 && given.find_first_not_of("0123456789") == std::string::npos;
-            return is_count ? std::string() : given + " is no count of warnings";
-          },
-          ""))
-      ->option_text("N");
-  app.add_flag("--exit-zero", options.exit_zero, "Do not fail because of findings");
-  app.add_option("--jobs,-j", options.jobs, "Threads; else one per core")->check(CLI::Range(1, 1024))->option_text("N");
-  CLI::Option* const config =
-      app.add_option("--config", options.source.file, "Read this, not the isocnc.json above each program")
-          ->option_text("FILE");
-  app.add_flag("--no-config", options.source.none, "Read no isocnc.json")->excludes(config);
-  app.add_flag("--show-config", options.show_config, "Print the configuration of PATH, and where it is");
-  app.add_flag("--config-schema", options.config_schema, "Print docs/isocnc.schema.json")->group("");
-  app.add_flag("--config-keys", options.config_keys, "Print the keys for docs/configuration.md")->group("");
-  app.add_flag("--rules-page", options.rules_page, "Print docs/rules.md")->group("");
+  program.begin_group({"How it is run", "Esecuzione"});
+  program
+      .add_option("--max-warnings", options.max_warnings, {"N", "N"},
+                  {"Fail when there are more warnings than N", "Fallisce se gli avvisi sono più di N"})
+      .check([](const std::string& given) {
+        const bool is_count =
+            !given.empty() && given.size() <= 9 && given.find_first_not_of("0123456789") == std::string::npos;
+        return is_count ? std::string() : given + " is no count of warnings";
+      });
+  program.add_flag("--exit-zero", options.exit_zero,
+                   {"Do not fail because of findings", "Non fallisce per le segnalazioni"});
+  program
+      .add_option("--jobs,-j", options.jobs, {"N", "N"},
+                  {"Threads; else one per core", "Thread; altrimenti uno per core"})
+      .in_range(1, 1024);
+  const running::ProgramOption config = program.add_option(
+      "--config", options.source.file, running::kFileValue,
+      {"Read this, not the isocnc.json above each program", "Legge questo, non l'isocnc.json sopra ogni programma"});
+  program.add_flag("--no-config", options.source.none, {"Read no isocnc.json", "Non legge nessun isocnc.json"})
+      .excludes(config);
+  program.add_flag(
+      "--show-config", options.show_config,
+      {"Print the configuration of PATH, and where it is", "Stampa la configurazione di PATH, e dove si trova"});
+  // What writes docs/isocnc.schema.json, a table of docs/configuration.md, and docs/rules.md.
+  program.add_flag("--config-schema", options.config_schema, {}).hidden();
+  program.add_flag("--config-keys", options.config_keys, {}).hidden();
+  program.add_flag("--rules-page", options.rules_page, {}).hidden();
 
   std::vector<std::string> codes;
   for (const dialect::DiagnosticDef& def : dialect::kDiagnostics) codes.emplace_back(def.code);
@@ -121,7 +147,9 @@ static void add_options(running::ProgramApp& program, Options& options) {
 CommandLine read_command_line(int argc, const char* const* argv) {
   CommandLine read;
   running::ProgramApp program(
-      "Checks ISOCNC programs and reports what the control would stop at.",
+      argc, argv,
+      {"Checks ISOCNC programs and reports what the control would stop at.",
+       "Verifica i programmi ISOCNC e segnala dove il controllo si fermerebbe."},
       {.program = "isolint",
        .version = ISOCNC_VERSION,
        .purpose = "check ISOCNC programs",
@@ -138,7 +166,7 @@ CommandLine read_command_line(int argc, const char* const* argv) {
                 {"2", "A mistake in the command or in an isocnc.json, or something could not be read or written."}},
        .see_also = {"isofmt", "isorun"}});
   add_options(program, read.options);
-  auto said = program.read(argc, argv, [&] { return read.options.reader_language(); });
+  auto said = program.read(argc, argv);
   read.answer = std::move(said.answer);
   read.complaint = std::move(said.complaint);
   return read;

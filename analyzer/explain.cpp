@@ -23,10 +23,12 @@ static constexpr Text kSection = {"specification", "specifica"};
 static constexpr Text kWrong = {"Wrong:", "Sbagliato:"};
 static constexpr Text kRight = {"Right:", "Giusto:"};
 
-/// `warning`; `info, off by default`.
+/// `warning`; `info, off by default`; `warning, told by isorun`.
 static std::string severity_text(const DiagnosticDef& def, Language language) {
   static constexpr Text kOff = {", off by default", ", disattivata di norma"};
-  return fmt::format("{}{}", dialect::severity_name(def.severity, language), def.is_off ? kOff.in(language) : "");
+  static constexpr Text kRuns = {", told by isorun", ", segnalato da isorun"};
+  return fmt::format("{}{}{}", dialect::severity_name(def.severity, language), def.is_off ? kOff.in(language) : "",
+                     def.is_told_by_runs ? kRuns.in(language) : "");
 }
 
 MarkedProgram read_marked(std::string_view program) {
@@ -100,7 +102,7 @@ static std::optional<fixes::Fix> fix_of_wrong_program(DiagnosticId id) {
   const Report report = suppress(check_text(wrong, setup), wrong, {});
   FindingFixes fixes(wrong, report, setup);
   for (const LocatedFinding& located : report.findings)
-    if (located.finding.id == id) return fixes.of(located);
+    if (located.finding.id == id) return fixes.offered(located);
   return std::nullopt;
 }
 
@@ -144,7 +146,9 @@ std::string list_rules(Language language) {
 std::string rules_page() {
   std::string page =
       "# Codes\n\n"
-      "What `isolint` reports, in English and Italian. `isolint --explain CODE` shows the same in the terminal.\n"
+      "What `isolint` reports, and `isorun` where it says so, in English and Italian. `isolint --explain CODE` shows "
+      "the "
+      "same in the terminal.\n"
       "This page is made from the table in `interpreter/dialect/diagnostic_table.h` (`isolint --rules-page`).\n";
   for (const DiagnosticDef& def : dialect::kDiagnostics) {
     page += fmt::format("\n## {} {}\n\n", def.code, def.name);

@@ -20,24 +20,19 @@ static std::uint64_t first_reduced_line(const Report& report) {
 }
 
 FindingFixes::FindingFixes(std::string_view text, const Report& report, const execution::Setup& setup)
-    : program_(text, setup), reduced_from_(first_reduced_line(report)) {}
+    : program_(text, setup), setup_(setup), reduced_from_(first_reduced_line(report)) {}
 
 std::optional<Fix> FindingFixes::of(const LocatedFinding& located) {
   const bool on_every_path = located.path < 0 && located.line < reduced_from_;
   return fixes::fix_of({located.line, located.finding, on_every_path}, program_);
 }
 
-/// Nothing but the program's own line ends.
-static std::string with_line_ends(std::string_view text, std::string_view line_end) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '\n') {
-      result += line_end;
-    } else {
-      result += c;
-    }
-  }
-  return result;
+std::optional<Fix> FindingFixes::offered(const LocatedFinding& located) {
+  std::optional<Fix> fix = of(located);
+  if (!fix) return fix;
+  if (!trial_) trial_.emplace(program_, setup_, program_.jumps());
+  if (!trial_->mends(*fix, located, program_.frontier_before(located.line))) fix.reset();
+  return fix;
 }
 
 std::size_t FindingFixes::column(const Position& position) {
@@ -58,7 +53,7 @@ std::vector<ShownEdit> FindingFixes::shown(const Fix& fix) {
     ShownEdit each{.line = edit.begin.line + 1, .column = column(edit.begin)};
     each.end_line = edit.end.line + 1;
     each.end_column = column(edit.end);
-    each.text = with_line_ends(edit.text, program_.line_end(edit.begin.line));
+    each.text = edit.text_with(program_.line_end(edit.begin.line));
     edits.push_back(std::move(each));
   }
   return edits;
@@ -90,7 +85,7 @@ std::string edited(std::string_view text, std::vector<Edit>& edits, const TextPr
   for (const Edit& edit : edits) {
     const std::size_t begin = program.offset(edit.begin);
     result += text.substr(copied, begin - copied);
-    result += with_line_ends(edit.text, program.line_end(edit.begin.line));
+    result += edit.text_with(program.line_end(edit.begin.line));
     copied = program.offset(edit.end);
   }
   result += text.substr(copied);

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "analyzer/fix_trial.h"
 #include "analyzer/fixes/fix.h"
 #include "analyzer/report.h"
 #include "analyzer/text_program.h"
@@ -29,6 +30,8 @@ class FindingFixes {
   FindingFixes(std::string_view text, const Report& report, const execution::Setup& setup);
 
   std::optional<fixes::Fix> of(const LocatedFinding& located);
+  /// The same without a fix that would be undone when it is made: what may be offered to users.
+  std::optional<fixes::Fix> offered(const LocatedFinding& located);
   std::vector<ShownEdit> shown(const fixes::Fix& fix);
   /// The line as it would be, where the fix changes nothing else.
   std::optional<std::string> changed_line(const LocatedFinding& located, const fixes::Fix& fix);
@@ -38,7 +41,9 @@ class FindingFixes {
   std::size_t column(const syntax::Position& position);
 
   TextProgram program_;
-  std::uint64_t reduced_from_;  // From this line on, not every path is known.
+  const execution::Setup& setup_;
+  std::optional<FixTrial> trial_;  // Once it is asked for.
+  std::uint64_t reduced_from_;     // From this line on, not every path is known.
   // Columns are counted once along a line.
   std::uint64_t counted_line_ = 0;
   std::size_t counted_bytes_ = 0;

@@ -1,6 +1,8 @@
 #include "analyzer/frontier.h"
 
 #include <algorithm>
+#include <bit>
+#include <iterator>
 
 namespace isocnc::analyzer {
 
@@ -37,17 +39,54 @@ void Groups::add(Group group) {
 }
 
 void Groups::add_all(Groups&& groups) {
-  for (Group& group : groups.all_) add(std::move(group));
+  all_.insert(all_.end(), std::make_move_iterator(groups.begin()), std::make_move_iterator(groups.end()));
+  if (all_.size() > groups.size()) converge();
   groups.clear();
 }
 
+/// The same for states that are judged alike, and for few others.
+static std::uint64_t hash_of(const execution::State& state) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  const auto mix = [&](std::uint64_t bits) { hash = std::rotl((hash ^ bits) * 0x9E3779B97F4A7C15ULL, 29); };
+  const auto mix_number = [&](double number) { mix(std::bit_cast<std::uint64_t>(number + 0.0)); };  // -0 equals 0.
+  for (int i = 0; i < 3; ++i) mix_number(state.position.tip[i]);
+  mix_number(state.position.b);
+  mix_number(state.position.c);
+  for (int i = 0; i < 3; ++i) mix_number(state.workpiece_origin[i]);
+  for (const std::uint8_t mode : state.in_force) mix(mode);
+  mix(std::uint64_t{state.unknown} << 16 | state.written);
+  return hash;
+}
+
 void Groups::converge() {
-  for (std::size_t i = 0; i + 1 < all_.size(); ++i)
-    for (std::size_t j = all_.size() - 1; j > i; --j) {
-      if (!execution::judged_alike(all_[i].state, all_[j].state)) continue;
-      join(all_[i], all_[j]);
-      all_.erase(all_.begin() + static_cast<std::ptrdiff_t>(j));
+  if (all_.size() == 2) {
+    if (!execution::judged_alike(all_[0].state, all_[1].state)) return;
+    join(all_[0], all_[1]);
+    return all_.pop_back();
+  }
+  std::vector<std::pair<std::uint64_t, std::size_t>> order;
+  order.reserve(all_.size());
+  for (std::size_t i = 0; i < all_.size(); ++i) order.emplace_back(hash_of(all_[i].state), i);
+  std::sort(order.begin(), order.end());
+  std::vector<bool> is_gone;
+  for (std::size_t i = 0; i < order.size(); ++i)
+    for (std::size_t j = i + 1; j < order.size() && order[j].first == order[i].first; ++j) {
+      const std::size_t into = order[i].second;
+      const std::size_t other = order[j].second;
+      if (!is_gone.empty() && (is_gone[into] || is_gone[other])) continue;
+      if (!execution::judged_alike(all_[into].state, all_[other].state)) continue;
+      join(all_[into], all_[other]);
+      is_gone.resize(all_.size());
+      is_gone[other] = true;
     }
+  if (is_gone.empty()) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < all_.size(); ++i)
+    if (!is_gone[i]) {
+      if (kept != i) all_[kept] = std::move(all_[i]);
+      ++kept;
+    }
+  all_.resize(kept);
 }
 
 /// Makes `a` stand for both states if they differ in position alone.

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "analyzer/registers.h"
@@ -33,6 +34,8 @@ class Groups {
   void clear() { all_.clear(); }
 
   void add(Group group);
+  /// Adds one whose state is none of the others'.
+  void append(Group group) { all_.push_back(std::move(group)); }
   void add_all(Groups&& groups);
   /// Joins groups whose states have met.
   void converge();

@@ -12,9 +12,11 @@
 #include "analyzer/program_formatter.h"
 #include "analyzer/unified_diff.h"
 #include "interpreter/configuration/configurations.h"
+#include "interpreter/dialect/format.h"
 #include "interpreter/dialect/locale.h"
 #include "interpreter/running/output_file.h"
 #include "interpreter/running/program_app.h"
+#include "interpreter/running/program_main.h"
 #include "interpreter/running/replace_file.h"
 #include "interpreter/running/source_file.h"
 #include "interpreter/running/system_texts.h"
@@ -60,7 +62,7 @@ struct Options {
   }
 };
 
-void complain(std::string_view what) { std::cerr << "isofmt: " << syntax::printable(what) << '\n'; }
+void complain(std::string_view what) { running::complain("isofmt", what); }
 
 constexpr Text kWrongRenumber{"--renumber wants a start and a step, such as 10:10 or 5:5, or keep, not {}",
                               "--renumber vuole un inizio e un passo, come 10:10 o 5:5, oppure keep, non {}"};
@@ -87,20 +89,6 @@ std::optional<NumberStyle> read_numbers(std::string_view text) {
   return style;
 }
 
-/// What a configuration wants programs to look like.
-ProgramStyle style_by(const configuration::Format& format) {
-  ProgramStyle style;
-  style.line.most_decimals = format.decimals;
-  style.line.word_order = format.word_order;
-  if (format.g_digits) style.line.g_digits = *format.g_digits == 1 ? syntax::GDigits::One : syntax::GDigits::Two;
-  if (format.modal == "write") style.motions = MotionStyle::Write;
-  if (format.modal == "fold") style.motions = MotionStyle::Fold;
-  if (const auto& renumber = format.renumber)
-    style.numbers = {static_cast<std::uint64_t>(renumber->start), static_cast<std::uint64_t>(renumber->step),
-                     renumber->all_lines};
-  return style;
-}
-
 /// Puts what an option says in the place of what the configuration does: a number, or `keep` for none.
 void outweigh(std::optional<int>& value, const std::string& option) {
   if (option.empty()) return;
@@ -108,7 +96,7 @@ void outweigh(std::optional<int>& value, const std::string& option) {
 }
 
 /// The configuration's style with what the command line says in its place. The options have been checked.
-ProgramStyle style_by(configuration::Format format, const Options& options) {
+ProgramStyle wished_style(configuration::Format format, const Options& options) {
   if (options.word_order || options.no_word_order) format.word_order = options.word_order;
   outweigh(format.decimals, options.decimals);
   outweigh(format.g_digits, options.g_digits);
@@ -125,7 +113,7 @@ bool check_options(const Options& options) {
   const Language language = options.reader_language();
   const bool renumbers = !options.renumber.empty() && options.renumber != "keep";
   if (renumbers && !read_numbers(options.renumber)) {
-    complain(fmt::format(fmt::runtime(kWrongRenumber.in(language)), options.renumber));
+    complain(dialect::format(kWrongRenumber, language, options.renumber));
     return false;
   }
   if (options.renumber_all && !renumbers) {
@@ -162,7 +150,7 @@ class Run {
     }
     if (mode_ != Mode::Stdout) {
       const Text& summary = mode_ == Mode::InPlace ? kWereChanged : kWouldBeChanged;
-      std::cerr << fmt::format(fmt::runtime(summary.in(language_)), changed_, selection.files.size()) << '\n';
+      std::cerr << dialect::format(summary, language_, changed_, read_) << '\n';
     }
     if (trouble_) return kTrouble;
     return changed_ > 0 && (mode_ == Mode::Check || mode_ == Mode::Diff) ? kWouldChange : kDone;
@@ -183,14 +171,15 @@ class Run {
         from_stdin ? SourceFile::read_stream(STDIN_FILENO, language_) : SourceFile::open(file, language_);
     if (const auto* problem = std::get_if<SourceFile::Problem>(&opened)) return fail(name, problem->message);
     const auto& source = std::get<SourceFile>(opened);
+    ++read_;
     ProgramFormatter formatter(source.text(), style);
     if (const auto& obstacle = formatter.obstacle())
-      return fail(name, fmt::format(fmt::runtime(kNotRenumbered.in(language_)), obstacle->message(language_)));
+      return fail(name, dialect::format(kNotRenumbered, language_, obstacle->message(language_)));
     switch (mode_) {
       case Mode::Check:
         return check(formatter, name);
       case Mode::Diff:
-        return show_difference(formatter, name);
+        return show_difference(formatter, name, source.has_byte_order_mark());
       case Mode::Stdout:
         return print(formatter, source);
       case Mode::InPlace:
@@ -202,12 +191,12 @@ class Run {
     while (const auto piece = formatter.next()) {
       if (!piece->is_changed()) continue;
       ++changed_;
-      return output_.write(name + '\n');
+      return output_.write(syntax::printable(name) + '\n');
     }
   }
 
-  void show_difference(ProgramFormatter& formatter, const std::string& name) {
-    UnifiedDiff diff(name, [&](std::string_view text) { output_.write(text); });
+  void show_difference(ProgramFormatter& formatter, const std::string& name, bool has_byte_order_mark) {
+    UnifiedDiff diff(name, has_byte_order_mark, [&](std::string_view text) { output_.write(text); });
     while (const auto piece = formatter.next()) diff.add(piece->before, piece->after);
     diff.finish();
     changed_ += diff.has_changes() ? 1 : 0;
@@ -241,6 +230,7 @@ class Run {
   const Mode mode_;
   const Language language_;
   running::OutputFile output_{STDOUT_FILENO};
+  std::size_t read_ = 0;
   std::size_t changed_ = 0;
   bool trouble_ = false;
 };
@@ -255,15 +245,15 @@ int format(Options options) {
   const FileSelection selection = select_programs(options.paths, configurations, language);
   std::vector<ProgramStyle> styles;
   for (const std::filesystem::path& file : selection.files)
-    styles.push_back(
-        style_by(configurations.in_folder(place_of_program(file, options.stdin_name).parent_path()).format, options));
+    styles.push_back(wished_style(
+        configurations.in_folder(place_of_program(file, options.stdin_name).parent_path()).format, options));
   const std::vector<std::string> mistakes = configurations.mistakes(language);
   for (const std::string& mistake : mistakes) std::cerr << mistake << '\n';
   if (!mistakes.empty()) return kTrouble;
   for (const std::string& problem : selection.problems) complain(problem);
   if (selection.is_refused) return kTrouble;
   if (options.mode() == Mode::Stdout && selection.files.size() > 1) {
-    complain(fmt::format(fmt::runtime(kOneProgram.in(language)), selection.files.size()));
+    complain(dialect::format(kOneProgram, language, selection.files.size()));
     return kTrouble;
   }
   if (options.mode() == Mode::InPlace && options.paths.front() == "-") {
@@ -273,65 +263,72 @@ int format(Options options) {
   return Run(options).run(selection, styles);
 }
 
-/// What --help and --version ask for.
-int say(std::string_view text, Language language) {
-  running::OutputFile output(STDOUT_FILENO);
-  output.write(text);
-  if (output.flush() == 0) return kDone;
-  complain(fmt::format("<stdout>: {}", running::cannot_write(output.error(), language)));
-  return kTrouble;
-}
-
 void add_options(running::ProgramApp& program, Options& options) {
-  CLI::App& app = program.options();
-  app.add_option("PATH", options.paths,
-                 "Programs, directories (searched for .iso .nc .cnc\n.tap .ngc), or - for standard input")
-      ->required()
-      ->option_text("...");
+  program
+      .add_option("PATH", options.paths, {"...", "..."},
+                  {"Programs, directories (searched for .iso .nc .cnc\n.tap .ngc), or - for standard input",
+                   "Programmi, directory (dove si cercano .iso .nc\n.cnc .tap .ngc), o - per lo standard input"})
+      .required();
 
-  app.option_defaults()->group("What to do");
-  CLI::Option* const modes[] = {
-      app.add_flag("--check", options.check, "Name the programs that would be changed"),
-      app.add_flag("--diff", options.diff, "Show what would be changed"),
-      app.add_flag("--stdout", options.to_stdout, "Print the program formatted; so without any of these"),
-      app.add_flag("-i,--in-place", options.in_place, "Rewrite the programs"),
+  program.begin_group({"What to do", "Che cosa fare"});
+  const running::ProgramOption modes[] = {
+      program.add_flag("--check", options.check,
+                       {"Name the programs that would be changed", "Elenca i programmi da modificare"}),
+      program.add_flag("--diff", options.diff, {"Show what would be changed", "Mostra che cosa cambierebbe"}),
+      program.add_flag("--stdout", options.to_stdout,
+                       {"Print the program formatted; so without any of these",
+                        "Stampa il programma formattato; così anche senza\nnessuna di queste"}),
+      program.add_flag("-i,--in-place", options.in_place, {"Rewrite the programs", "Riscrive i programmi"}),
   };
-  for (CLI::Option* const mode : modes)
-    for (CLI::Option* const other : modes)
-      if (mode != other) mode->excludes(other)->option_text(" ");
+  for (const running::ProgramOption& mode : modes)
+    for (const running::ProgramOption& other : modes)
+      if (&mode != &other) mode.excludes(other).tells_no_exclusions();
 
-  app.option_defaults()->group("What programs are to look like");
-  CLI::Option* const word_order =
-      app.add_flag("--word-order", options.word_order, "N first, arguments as X Y Z A B C I J K P Q R,\nthen F")
-          ->option_text(" ");
-  app.add_flag("--no-word-order", options.no_word_order, "Words in the order in which they stand")
-      ->excludes(word_order)
-      ->option_text(" ");
-  program.add_choice("--decimals", options.decimals, decimals_choices(), "MOST",
-                     "Zeros that mean nothing dropped, .5 as 0.5;\nnumbers are never rounded; or keep");
-  program.add_choice("--g-digits", options.g_digits, {"1", "2", "keep"}, "WIDTH", "1: G1; 2: G01; keep");
-  program.add_choice("--modal", options.modal, {"write", "fold", "keep"}, "HOW",
-                     "Motion Gs: write on each line, fold where\nrepeated, keep");
-  app.add_option("--renumber", options.renumber,
-                 "New line numbers where there are some; labels of\nGOTO follow; or keep")
-      ->option_text("START:STEP");
-  app.add_flag("--renumber-all", options.renumber_all, "With --renumber: on every line with a block");
+  program.begin_group({"What programs are to look like", "Come scrivere i programmi"});
+  const running::ProgramOption word_order = program
+                                                .add_flag("--word-order", options.word_order,
+                                                          {"N first, arguments as X Y Z A B C I J K P Q R,\nthen F",
+                                                           "Prima N, argomenti come X Y Z A B C I J K P Q R,\npoi F"})
+                                                .tells_no_exclusions();
+  program
+      .add_flag("--no-word-order", options.no_word_order,
+                {"Words in the order in which they stand", "Parole nell'ordine in cui si trovano"})
+      .excludes(word_order)
+      .tells_no_exclusions();
+  program.add_choice("--decimals", options.decimals, decimals_choices(), {"MOST", "MAX"},
+                     {"Zeros that mean nothing dropped, .5 as 0.5;\nnumbers are never rounded; or keep",
+                      "Senza zeri superflui, .5 come 0.5; i numeri non\nvengono mai arrotondati; oppure keep"});
+  program.add_choice("--g-digits", options.g_digits, {"1", "2", "keep"}, {"WIDTH", "CIFRE"},
+                     {"1: G1; 2: G01; keep", "1: G1; 2: G01; keep"});
+  program.add_choice("--modal", options.modal, {"write", "fold", "keep"}, {"HOW", "COME"},
+                     {"Motion Gs: write on each line, fold where\nrepeated, keep",
+                      "G di movimento: write su ogni linea, fold senza\nripetizioni, keep"});
+  program.add_option("--renumber", options.renumber, {"START:STEP", "INIZIO:PASSO"},
+                     {"New line numbers where there are some; labels of\nGOTO follow; or keep",
+                      "Nuovi numeri di riga dove ci sono; le etichette\ndei GOTO li seguono; oppure keep"});
+  program.add_flag("--renumber-all", options.renumber_all,
+                   {"With --renumber: on every line with a block", "Con --renumber: su ogni linea con un blocco"});
 
-  app.option_defaults()->group("How it is run");
-  app.add_option("--stdin-filename", options.stdin_name, "What to call standard input")->option_text("NAME");
-  program.add_choice("--lang", options.language, {"en", "it"}, "LANG", "en or it; else as the locale says");
-  CLI::Option* const config =
-      app.add_option("--config", options.source.file, "Read this, not the isocnc.json above each program")
-          ->option_text("FILE");
-  app.add_flag("--no-config", options.source.none, "Read no isocnc.json")->excludes(config)->option_text(" ");
+  program.begin_group({"How it is run", "Esecuzione"});
+  program.add_option("--stdin-filename", options.stdin_name, {"NAME", "NOME"},
+                     {"What to call standard input", "Come chiamare lo standard input"});
+  program.add_choice("--lang", options.language, {"en", "it"}, {"LANG", "LINGUA"},
+                     {"en or it; else as the locale says", "en o it; altrimenti secondo il locale"});
+  const running::ProgramOption config = program.add_option(
+      "--config", options.source.file, running::kFileValue,
+      {"Read this, not the isocnc.json above each program", "Legge questo, non l'isocnc.json sopra ogni programma"});
+  program.add_flag("--no-config", options.source.none, {"Read no isocnc.json", "Non legge nessun isocnc.json"})
+      .excludes(config)
+      .tells_no_exclusions();
 }
 
 int run_main(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN);  // A closed pipe, or a file that may not grow, is a write that fails, and is told as
-  std::signal(SIGXFSZ, SIG_IGN);  // one.
+  std::signal(SIGXFSZ, SIG_IGN);  // A file that may not grow is a write that fails, and is told as one.
   Options options;
   running::ProgramApp program(
-      "Formats ISOCNC programs. What a program does stays as it is.",
+      argc, argv,
+      {"Formats ISOCNC programs. What a program does stays as it is.",
+       "Formatta i programmi ISOCNC. Ciò che un programma fa non cambia."},
       {.program = "isofmt",
        .version = ISOCNC_VERSION,
        .purpose = "format ISOCNC programs",
@@ -346,13 +343,7 @@ int run_main(int argc, char** argv) {
                 {"2", "A mistake in the command or in an isocnc.json, or something could not be read or written."}},
        .see_also = {"isolint", "isorun"}});
   add_options(program, options);
-  const auto said = program.read(argc, argv, [&] { return options.reader_language(); });
-  if (said.answer) return say(*said.answer, options.reader_language());
-  if (said.complaint) {
-    complain(*said.complaint);
-    std::cerr << "isofmt --help\n";
-    return kTrouble;
-  }
+  if (const auto status = program.answer(argc, argv)) return *status;
   return format(options);
 }
 
@@ -360,10 +351,5 @@ int run_main(int argc, char** argv) {
 }  // namespace isocnc::analyzer
 
 int main(int argc, char** argv) {
-  try {
-    return isocnc::analyzer::run_main(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "isofmt: internal error: " << error.what() << '\n';
-    return 2;
-  }
+  return isocnc::running::program_main("isofmt", isocnc::analyzer::run_main, argc, argv);
 }

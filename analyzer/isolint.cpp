@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
-#include <csignal>
 #include <functional>
 #include <iostream>
 #include <mutex>
@@ -20,13 +19,15 @@
 #include "analyzer/fixer.h"
 #include "analyzer/program_fixing.h"
 #include "analyzer/program_settings.h"
-#include "analyzer/progress.h"
 #include "analyzer/renderers.h"
 #include "analyzer/style_findings.h"
 #include "analyzer/suppressions.h"
 #include "analyzer/tally.h"
 #include "interpreter/configuration/show.h"
+#include "interpreter/dialect/format.h"
 #include "interpreter/running/output_file.h"
+#include "interpreter/running/program_main.h"
+#include "interpreter/running/progress.h"
 #include "interpreter/running/source_file.h"
 #include "interpreter/running/system_texts.h"
 #include "interpreter/running/write_atomically.h"
@@ -40,7 +41,7 @@ using running::SourceFile;
 
 enum ExitStatus { kClean = 0, kFindings = 1, kTrouble = 2 };
 
-void complain(std::string_view what) { std::cerr << "isolint: " << printable(what) << '\n'; }
+void complain(std::string_view what) { running::complain("isolint", what); }
 
 /// Tells what is wrong with the configurations read so far; false when there is nothing.
 bool complain_of(const configuration::Configurations& configurations, Language language) {
@@ -114,7 +115,7 @@ class Run {
         settings_(std::move(programs.settings)),
         renderer_(std::move(renderer)),
         jobs_(options.jobs > 0 ? options.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
-        progress_(terminal_writer(), bytes_of(files_)),
+        progress_(running::terminal_writer(), bytes_of(files_)),
         output_(options) {}
 
   int run(bool trouble) {
@@ -243,7 +244,8 @@ class Run {
   }
 
   void show_difference(const Checked& checked) {
-    has_difference_ |= write_diff(checked.name, checked.original(), *checked.fixed, [&](std::string_view text) {
+    const auto& source = std::get<SourceFile>(checked.opened);
+    has_difference_ |= write_diff(checked.name, source, *checked.fixed, [&](std::string_view text) {
       output_.buffer() += text;
       output_.relieve();
     });
@@ -294,7 +296,7 @@ class Run {
   const std::vector<std::reference_wrapper<const ProgramSettings>> settings_;
   std::unique_ptr<Renderer> renderer_;
   const int jobs_;
-  Progress progress_;
+  running::Progress progress_;
   std::atomic<std::size_t> next_ = 0;
   std::atomic<std::size_t> known_ = 0;  // Findings of the baseline.
   std::mutex mutex_;
@@ -415,6 +417,14 @@ int explain_code(const Options& options) {
   return kTrouble;
 }
 
+/// Of what holds for some programs alone, what holds for this one.
+configuration::Configuration without_other_files(configuration::Configuration shown,
+                                                 const std::filesystem::path& program) {
+  const std::filesystem::path real = configuration::real_path(program.parent_path()) / program.filename();
+  std::erase_if(shown.lint.files, [&](const configuration::FileWishes& files) { return !files.patterns.match(real); });
+  return shown;
+}
+
 /// Prints a configuration as its file could say it, and tells where it comes from.
 int show_config(Options options) {
   static constexpr dialect::Text kFrom = {"configuration: {}", "configurazione: {}"};
@@ -423,8 +433,8 @@ int show_config(Options options) {
   static constexpr dialect::Text kOnePath = {"--show-config takes one path", "--show-config vuole un solo percorso"};
   if (options.paths.empty()) options.paths = {"."};
   configuration::Configurations configurations(options.source, options.reader_language());
-  const configuration::Configuration& shown =
-      configurations.of(place_of_program(options.paths.front(), options.stdin_name));
+  const std::filesystem::path place = place_of_program(options.paths.front(), options.stdin_name);
+  const configuration::Configuration& shown = configurations.of(place);
   options.follow(shown);
   const Language language = options.reader_language();
   if (complain_of(configurations, language)) return kTrouble;
@@ -433,20 +443,17 @@ int show_config(Options options) {
     return kTrouble;
   }
   complain(shown.file.empty() ? std::string(kDefaults.in(language))
-                              : fmt::format(fmt::runtime(kFrom.in(language)), shown.file.string()));
-  return say(configuration::to_json(shown), options);
+                              : dialect::format(kFrom, language, shown.file.string()));
+  std::error_code unknown;
+  const bool is_folder = std::filesystem::is_directory(place, unknown);
+  return say(configuration::to_json(is_folder ? shown : without_other_files(shown, place)), options);
 }
 
 int run_main(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN);  // A closed pipe is a write that fails, and is told as one.
   const CommandLine command = read_command_line(argc, argv);
   const Options& options = command.options;
   if (command.answer) return say(*command.answer, options);
-  if (command.complaint) {
-    complain(*command.complaint);
-    std::cerr << "isolint --help\n";
-    return kTrouble;
-  }
+  if (command.complaint) return running::complain_of_command("isolint", *command.complaint);
   if (options.rules_page) return say(rules_page(), options);
   if (options.config_schema) return say(configuration::json_schema(), options);
   if (options.config_keys) return say(configuration::key_page(), options);
@@ -460,10 +467,5 @@ int run_main(int argc, char** argv) {
 }  // namespace isocnc::analyzer
 
 int main(int argc, char** argv) {
-  try {
-    return isocnc::analyzer::run_main(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "isolint: internal error: " << error.what() << '\n';
-    return 2;
-  }
+  return isocnc::running::program_main("isolint", isocnc::analyzer::run_main, argc, argv);
 }

@@ -132,7 +132,7 @@ void JumpMap::note_all_registers(std::string_view text) {
     }
     const std::string_view line(begin, static_cast<std::size_t>(line_end - begin));
     if (const auto label = letters == kLabelLetter ? plain_label(line) : std::nullopt) {
-      if (names(*label)) events_.push_back({Event::Kind::Label, 0, *label});
+      if (names(*label)) events_.push_back({JumpEvent::Kind::Label, 0, *label});
     } else {
       store.clear();
       store.append_line(begin, end);
@@ -154,14 +154,12 @@ void JumpMap::add(std::uint64_t line, const syntax::Jump& jump) {
   if (at == compared_.end() || *at != jump.variable) compared_.insert(at, jump.variable);
 }
 
+void JumpMap::note_registers(JumpEvent::Kind kind, std::uint8_t reg, std::uint64_t label) {
+  if (kind != JumpEvent::Kind::Label || names(label)) events_.push_back({kind, reg, label});
+}
+
 void JumpMap::note_registers(const syntax::LineTree& line) {
-  if (line.has_label() && names(line.label)) events_.push_back({Event::Kind::Label, 0, line.label});
-  for (const syntax::Instruction& instruction : line.instructions) {
-    const double reg = line.command(instruction).value;
-    if (instruction.kind == syntax::InstructionKind::Assignment && reg >= 1 && reg <= dialect::kRegisterCount)
-      events_.push_back({Event::Kind::Assignment, static_cast<std::uint8_t>(reg), 0});
-  }
-  if (line.jump && line.jump->has_target) events_.push_back({Event::Kind::Jump, 0, 0});
+  each_event(line, [&](const JumpEvent& event) { note_registers(event.kind, event.reg, event.label); });
 }
 
 void JumpMap::complete() {
@@ -176,13 +174,13 @@ void JumpMap::complete() {
   std::size_t jump = sites_.size();
   for (auto event = events_.rbegin(); event != events_.rend(); ++event) {
     switch (event->kind) {
-      case Event::Kind::Assignment:
+      case JumpEvent::Kind::Assignment:
         read &= ~register_bit(event->reg);
         break;
-      case Event::Kind::Label:
+      case JumpEvent::Kind::Label:
         read_at_label[event->label] = read;
         break;
-      case Event::Kind::Jump: {
+      case JumpEvent::Kind::Jump: {
         const syntax::Jump& condition = sites_[--jump].jump;
         const auto target = read_at_label.find(condition.target);
         reads_[jump] = {read, target == read_at_label.end() ? 0 : target->second};
@@ -207,12 +205,19 @@ void JumpMap::resolve(const std::unordered_map<std::uint64_t, std::vector<std::u
   resolved_ = true;
 }
 
+/// Whether two conditions and their targets are the same.
+static bool jump_alike(const syntax::Jump& a, const syntax::Jump& b) {
+  return a.variable == b.variable && a.comparison == b.comparison &&
+         (a.value == b.value || (std::isnan(a.value) && std::isnan(b.value))) && a.target == b.target;
+}
+
+bool JumpEvent::means_the_same(const JumpEvent& other) const {
+  return kind == other.kind && reg == other.reg && label == other.label &&
+         (kind != Kind::Jump || jump_alike(jump, other.jump));
+}
+
 bool JumpMap::means_the_same(const JumpMap& other) const {
-  const auto same = [](const Site& a, const Site& b) {
-    return a.jump.variable == b.jump.variable && a.jump.comparison == b.jump.comparison &&
-           (a.jump.value == b.jump.value || (std::isnan(a.jump.value) && std::isnan(b.jump.value))) &&
-           a.jump.target == b.jump.target;
-  };
+  const auto same = [](const Site& a, const Site& b) { return jump_alike(a.jump, b.jump); };
   return std::equal(sites_.begin(), sites_.end(), other.sites_.begin(), other.sites_.end(), same) &&
          reads_ == other.reads_ && resolved_ == other.resolved_ && targets_of_jumps_ == other.targets_of_jumps_;
 }

@@ -16,6 +16,33 @@ namespace isocnc::analyzer {
 using RegisterSet = std::uint32_t;
 constexpr RegisterSet register_bit(int reg) { return RegisterSet{1} << reg; }
 
+/// What on a line concerns jumps: an IF with its label, an assignment to a register, or a label.
+struct JumpEvent {
+  enum class Kind : std::uint8_t { Assignment, Jump, Label };
+
+  Kind kind = Kind::Jump;
+  std::uint8_t reg = 0;     ///< Assigned.
+  std::uint32_t line = 0;   ///< Of its chunk.
+  std::uint64_t label = 0;  ///< Defined.
+  syntax::Jump jump;
+
+  /// Whether two events mean the same, wherever they stand.
+  bool means_the_same(const JumpEvent& other) const;
+};
+
+/// Calls `take` with the events of a line in the order in which they count: label, assignments, jump.
+template <class Take>
+void each_event(const syntax::LineTree& line, Take take) {
+  if (line.has_label()) take(JumpEvent{.kind = JumpEvent::Kind::Label, .label = line.label});
+  for (const syntax::Instruction& instruction : line.instructions) {
+    if (instruction.kind != syntax::InstructionKind::Assignment) continue;
+    const double reg = line.command(instruction).value;
+    if (reg >= 1 && reg <= dialect::kRegisterCount)
+      take(JumpEvent{.kind = JumpEvent::Kind::Assignment, .reg = static_cast<std::uint8_t>(reg)});
+  }
+  if (line.jump && line.jump->has_target) take(JumpEvent{.kind = JumpEvent::Kind::Jump, .jump = *line.jump});
+}
+
 /// What of a program's jumps must be known before its first line is checked: where the IFs stand, which labels they
 /// name, and what they compare registers with. Jumps go forward only (I.5), so this and one pass over the lines
 /// suffice.
@@ -34,6 +61,8 @@ class JumpMap {
   void add(std::uint64_t line, const syntax::Jump& jump);
   /// Whether an IF compares a register: then every line must be noted, in order, for what complete() works out.
   bool compares_registers() const { return !compared_.empty(); }
+  /// Notes the next event.
+  void note_registers(JumpEvent::Kind kind, std::uint8_t reg, std::uint64_t label);
   /// Notes a line's label, assignments and jump.
   void note_registers(const syntax::LineTree& line);
   /// To be called when all have been added.
@@ -57,6 +86,12 @@ class JumpMap {
   bool is_resolved() const { return resolved_; }
   enum class Target : std::uint8_t { Below, NotFound, Above };
   Target target_of(std::uint32_t jump) const { return resolved_ ? targets_of_jumps_[jump] : Target::Below; }
+  /// A jump that means the same has another place now.
+  void move_jump(std::uint32_t jump, std::uint64_t line, const syntax::Jump& written) {
+    sites_[jump] = {line, written};
+  }
+  /// Whether both have jumps to the same labels.
+  bool names_the_same(const JumpMap& other) const { return targets_ == other.targets_; }
   /// Whether two programs' jumps mean the same, wherever they stand.
   bool means_the_same(const JumpMap& other) const;
 
@@ -75,7 +110,7 @@ class JumpMap {
   std::array<std::vector<double>, dialect::kRegisterCount + 1> constants_;
   std::vector<int> compared_;
   struct Event {
-    enum class Kind : std::uint8_t { Assignment, Jump, Label } kind;
+    JumpEvent::Kind kind;
     std::uint8_t reg;     // Assigned.
     std::uint64_t label;  // Defined.
   };

@@ -35,10 +35,10 @@ class LineReader {
   std::string_view rest_;
 };
 
-bool write_diff(const std::string& name, std::string_view text, const FixedText& fixed,
+bool write_diff(const std::string& name, const SourceFile& source, const FixedText& fixed,
                 std::function<void(std::string_view)> write) {
-  UnifiedDiff diff(name, std::move(write));
-  LineReader before(text);
+  UnifiedDiff diff(name, source.has_byte_order_mark(), std::move(write));
+  LineReader before(source.text());
   LineReader after(fixed.text);
   std::uint64_t next = 0;  // Line of the old text.
   for (const std::uint64_t origin : fixed.origins) {

@@ -32,7 +32,7 @@ void write_fixed(const running::SourceFile& source, const FixedText& fixed,
                  const std::function<void(std::string_view)>& write);
 
 /// Writes what the fixes change as a unified diff; false when they change nothing.
-bool write_diff(const std::string& name, std::string_view text, const FixedText& fixed,
+bool write_diff(const std::string& name, const running::SourceFile& source, const FixedText& fixed,
                 std::function<void(std::string_view)> write);
 
 }  // namespace isocnc::analyzer

@@ -6,6 +6,7 @@
 
 #include "analyzer/motion_in_force.h"
 #include "analyzer/renumbering.h"
+#include "interpreter/configuration/configuration.h"
 #include "interpreter/syntax/formatter.h"
 #include "interpreter/syntax/tree_store.h"
 
@@ -24,6 +25,34 @@ struct ProgramStyle {
   std::optional<NumberStyle> numbers;
 };
 
+/// What a configuration wants programs to look like.
+ProgramStyle style_by(const configuration::Format& format);
+
+/// Writes the lines of a program as they should be written, one after another; is shown all of them, in order.
+class LinesFormatter {
+ public:
+  /// `each_line` is asked only where lines are numbered anew.
+  LinesFormatter(const ProgramStyle& style, const EachLine& each_line);
+
+  /// Why the program cannot be renumbered; no line is to be shown then.
+  const std::optional<Renumbering::Obstacle>& obstacle() const { return obstacle_; }
+  /// What becomes of the next line beside its style.
+  syntax::LineChange next(const syntax::LineTree& line);
+  /// The line with that change: line.text itself where it stays as it is. Valid until the next call.
+  std::string_view written(const syntax::LineTree& line, const syntax::LineChange& change) {
+    return formatter_.format(line, change);
+  }
+
+ private:
+  syntax::LineChange::Motion motion_change(const syntax::LineTree& line) const;
+
+  MotionStyle motions_;
+  syntax::Formatter formatter_;
+  std::optional<Renumbering> numbers_;
+  std::optional<Renumbering::Obstacle> obstacle_;
+  MotionInForce motion_;
+};
+
 /// Lines of a program as they stand, and as they should stand. There are as many of them, with the same ends.
 struct FormattedPiece {
   std::string_view before;
@@ -39,20 +68,14 @@ class ProgramFormatter {
   ProgramFormatter(std::string_view text, const ProgramStyle& style);
 
   /// Why the program cannot be renumbered; nothing of it is formatted then.
-  const std::optional<Renumbering::Obstacle>& obstacle() const { return obstacle_; }
+  const std::optional<Renumbering::Obstacle>& obstacle() const { return lines_.obstacle(); }
   /// The next piece, nothing behind the last; `after` is valid until the next call.
   std::optional<FormattedPiece> next();
 
  private:
   void add_line(const syntax::LineTree& line);
-  syntax::LineChange change_of(const syntax::LineTree& line);
-  syntax::LineChange::Motion motion_change(const syntax::LineTree& line) const;
 
-  ProgramStyle style_;
-  syntax::Formatter formatter_;
-  std::optional<Renumbering> numbers_;
-  std::optional<Renumbering::Obstacle> obstacle_;
-  MotionInForce motion_;
+  LinesFormatter lines_;
   const char* next_;
   const char* const end_;
   syntax::TreeStore store_;

@@ -11,7 +11,7 @@ class ConciseRenderer final : public Renderer {
   explicit ConciseRenderer(const Style& style) : style_(style) {}
 
   void file(const CheckedProgram& program, Output& output) override {
-    const std::string_view name = program.name;
+    const std::string name = printable(program.name);
     const std::string_view text = program.text;
     const Report& report = program.report;
     LineFinder lines(text);

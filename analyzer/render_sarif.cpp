@@ -61,7 +61,7 @@ class SarifRenderer final : public Renderer {
       object["partialFingerprints"]["primaryLocationLineHash"] =
           fmt::format("{:016x}:{}", print.line_hash, print.occurrence);
       if (located.path >= 0) object["codeFlows"] = code_flows(located, report, steps, shown, artifact);
-      if (const std::optional<fixes::Fix> fix = fixes.of(located))
+      if (const std::optional<fixes::Fix> fix = fixes.offered(located))
         object["fixes"] = Json::array({fix_of(*fix, fixes, artifact)});
       output.buffer() += dumped(object);
       output.relieve();

@@ -63,7 +63,7 @@ class TextRenderer final : public Renderer {
   explicit TextRenderer(const Style& style) : style_(style) {}
 
   void file(const CheckedProgram& program, Output& output) override {
-    const std::string_view name = program.name;
+    const std::string name = printable(program.name);
     const std::string_view text = program.text;
     const Report& report = program.report;
     LineFinder lines(text);
@@ -74,7 +74,7 @@ class TextRenderer final : public Renderer {
     for (const LocatedFinding& located : report.findings) {
       one(name, lines, places, located, report, steps, output.buffer());
       if (helps < kMostHelp)
-        if (const std::optional<fixes::Fix> fix = fixes.of(located)) {
+        if (const std::optional<fixes::Fix> fix = fixes.offered(located)) {
           help(located, *fix, fixes, output.buffer());
           ++helps;
         }

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
+#include "interpreter/dialect/format.h"
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
 
@@ -12,35 +11,32 @@ namespace isocnc::analyzer {
 using dialect::Text;
 using syntax::LineTree;
 
-/// So that a number stays exact wherever it is read.
-static constexpr std::uint64_t kMostNumber = 999'999'999'999'999;
-
 static constexpr Text kObstacles[] = {
     {"line {0} has an error and a line number or a jump; correct it first",
-     "la riga {0} ha un errore e un numero di "
-     "riga o un salto: va prima corretta"},
+     "la linea {0} ha un errore e un numero di riga o un salto: va prima corretta"},
     {"line {0} jumps to {1}, which is no line's number",
-     "la riga {0} salta a {1}, che non è il numero di nessuna riga"},
+     "la linea {0} salta a {1}, che non è il numero di nessuna linea"},
     {"line {0} is one more {1}, to which a jump leads; which of them is meant?",
-     "la riga {0} è un'altra {1}, alla quale porta un salto: quale delle due si intende?"},
-    {"line {0} would have a number of more than 15 digits", "la riga {0} avrebbe un numero di più di 15 cifre"},
+     "la linea {0} è un'altra {1}, alla quale porta un salto: quale delle due si intende?"},
+    {"line {0} would have a number of more than 15 digits", "la linea {0} avrebbe un numero di più di 15 cifre"},
 };
 
 std::string Renumbering::Obstacle::message(dialect::Language language) const {
-  return fmt::format(fmt::runtime(kObstacles[static_cast<std::size_t>(kind)].in(language)), line + 1, label);
+  return dialect::format(kObstacles[static_cast<std::size_t>(kind)], language, line + 1, label);
 }
 
-template <class Visit>
-static void for_each_line(std::string_view text, Visit visit) {
-  syntax::TreeStore store;
-  const char* p = text.data();
-  const char* const end = text.data() + text.size();
-  for (std::uint64_t line = 0; p != end; ++line) {
-    store.clear();
-    const char* const line_end = store.append_line(p, end);
-    visit(line, store.tree(0, p));
-    p = syntax::skip_line_end(line_end, end);
-  }
+EachLine each_line_of(std::string_view text) {
+  return [text](const std::function<void(const LineTree&)>& look) {
+    syntax::TreeStore store;
+    const char* p = text.data();
+    const char* const end = text.data() + text.size();
+    while (p != end) {
+      store.clear();
+      const char* const line_end = store.append_line(p, end);
+      look(store.tree(0, p));
+      p = syntax::skip_line_end(line_end, end);
+    }
+  };
 }
 
 /// Blanks and letter case in a label are nobody's business.
@@ -51,9 +47,11 @@ static std::string label_text(std::string_view written) {
   return text;
 }
 
-Renumbering::Renumbering(std::string_view text, const NumberStyle& style) : style_(style), next_(style.start) {
-  read_jumps(text);
-  if (!obstacle_) number_labels(text);
+Renumbering::Renumbering(const EachLine& each_line, const NumberStyle& style) : style_(style), next_(style.start) {
+  std::uint64_t number = 0;
+  each_line([&](const LineTree& line) { read_jump(number++, line); });
+  number = 0;
+  if (!obstacle_) each_line([&](const LineTree& line) { number_label(number++, line); });
   if (obstacle_) return;
   for (const auto& [label, jump] : labels_)
     if (!jump.is_defined && (!obstacle_ || jump.jump_line < obstacle_->line)) {
@@ -67,31 +65,27 @@ void Renumbering::refuse(Obstacle::Kind kind, std::uint64_t line, std::string la
   if (!obstacle_) obstacle_ = {kind, line, std::move(label)};
 }
 
-void Renumbering::read_jumps(std::string_view text) {
-  for_each_line(text, [&](std::uint64_t number, const LineTree& line) {
-    const auto speaks_of_lines = [](const syntax::Word& word) {
-      return word.letter == 'N' || word.letter == syntax::kGoto;
-    };
-    if (!line.findings.empty() && std::any_of(line.words.begin(), line.words.end(), speaks_of_lines))
-      return refuse(Obstacle::Kind::Error, number);
-    if (line.jump == nullptr || !line.jump->has_target) return;
-    labels_.try_emplace(line.jump->target, Label{label_text(line.text_of(line.jump->target_span)), number});
-  });
+void Renumbering::read_jump(std::uint64_t number, const LineTree& line) {
+  const auto speaks_of_lines = [](const syntax::Word& word) {
+    return word.letter == 'N' || word.letter == syntax::kGoto;
+  };
+  if (!line.findings.empty() && std::any_of(line.words.begin(), line.words.end(), speaks_of_lines))
+    return refuse(Obstacle::Kind::Error, number);
+  if (line.jump == nullptr || !line.jump->has_target) return;
+  labels_.try_emplace(line.jump->target, Label{label_text(line.text_of(line.jump->target_span)), number});
 }
 
-void Renumbering::number_labels(std::string_view text) {
-  for_each_line(text, [&](std::uint64_t number, const LineTree& line) {
-    if (!is_numbered(line)) return;
-    if (next_ > kMostNumber) return refuse(Obstacle::Kind::TooManyDigits, number);
-    const std::uint64_t is_now = next_;
-    next_ += style_.step;
-    const auto named = line.has_label() ? labels_.find(line.label) : labels_.end();
-    if (named == labels_.end()) return;
-    Label& label = named->second;
-    if (label.is_defined) return refuse(Obstacle::Kind::LabelTwice, number, label.text);
-    label.is_defined = true;
-    label.number = is_now;
-  });
+void Renumbering::number_label(std::uint64_t number, const LineTree& line) {
+  if (!is_numbered(line)) return;
+  if (next_ > syntax::kMostLineNumber) return refuse(Obstacle::Kind::TooManyDigits, number);
+  const std::uint64_t is_now = next_;
+  next_ += style_.step;
+  const auto named = line.has_label() ? labels_.find(line.label) : labels_.end();
+  if (named == labels_.end()) return;
+  Label& label = named->second;
+  if (label.is_defined) return refuse(Obstacle::Kind::LabelTwice, number, label.text);
+  label.is_defined = true;
+  label.number = is_now;
 }
 
 bool Renumbering::is_numbered(const LineTree& line) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,6 +19,12 @@ struct NumberStyle {
   bool all_lines = false;   ///< Also blocks that have none.
 };
 
+/// Shows somebody all lines of a program, in order.
+using EachLine = std::function<void(const std::function<void(const syntax::LineTree&)>& look)>;
+
+/// The lines of a text, which must outlive this.
+EachLine each_line_of(std::string_view text);
+
 /// The new line numbers of a program, and with them the labels of its jumps.
 class Renumbering {
  public:
@@ -32,8 +39,8 @@ class Renumbering {
     std::string message(dialect::Language language) const;
   };
 
-  /// Reads the whole program to see where its jumps lead.
-  Renumbering(std::string_view text, const NumberStyle& style);
+  /// Looks at the whole program to see where its jumps lead.
+  Renumbering(const EachLine& each_line, const NumberStyle& style);
 
   const std::optional<Obstacle>& obstacle() const { return obstacle_; }
   /// What becomes of the next line; is shown all lines, in order, and only where there is no obstacle.
@@ -47,8 +54,8 @@ class Renumbering {
     bool is_defined = false;
   };
 
-  void read_jumps(std::string_view text);
-  void number_labels(std::string_view text);
+  void read_jump(std::uint64_t number, const syntax::LineTree& line);
+  void number_label(std::uint64_t number, const syntax::LineTree& line);
   bool is_numbered(const syntax::LineTree& line) const;
   void refuse(Obstacle::Kind kind, std::uint64_t line, std::string label = {});
 

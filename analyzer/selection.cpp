@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "interpreter/dialect/code_set.h"
+#include "interpreter/dialect/format.h"
 #include "interpreter/dialect/near_names.h"
 #include "interpreter/syntax/characters.h"
 
@@ -77,7 +78,7 @@ static std::optional<SeverityWish> severity_wish(std::string_view word, Language
   }
   const std::optional<CodeSet> set = dialect::find_codes(code);
   if (!known) {
-    problems.push_back(fmt::format(fmt::runtime(kForm.in(language)), word));
+    problems.push_back(dialect::format(kForm, language, word));
   } else if (!set) {
     problems.push_back(unknown_code(code, language));
   } else {

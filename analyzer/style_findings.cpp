@@ -1,14 +1,20 @@
 #include "analyzer/style_findings.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "analyzer/style/rule.h"
+#include "interpreter/syntax/characters.h"
 
 namespace isocnc::analyzer {
 
-Report with_style(Report report, std::string_view text, const Selection& selection) {
-  const std::vector<style::Remark> remarks =
-      style::read_program(text, [&](dialect::DiagnosticId id) { return selection.shows(id); });
+static style::IsWanted wanted_by(const Selection& selection) {
+  return [&](dialect::DiagnosticId id) { return selection.shows(id); };
+}
+
+bool has_style(const Selection& selection) { return !style::Reader(wanted_by(selection)).is_idle(); }
+
+static Report with_remarks(Report report, const std::vector<style::Remark>& remarks) {
   if (remarks.empty()) return report;
   for (const style::Remark& remark : remarks) report.findings.push_back({remark.line, remark.finding});
   std::stable_sort(report.findings.begin(), report.findings.end(),
@@ -16,6 +22,27 @@ Report with_style(Report report, std::string_view text, const Selection& selecti
                      return a.line != b.line ? a.line < b.line : a.finding.span.begin < b.finding.span.begin;
                    });
   return report;
+}
+
+Report with_style(Report report, std::string_view text, const Selection& selection) {
+  return with_remarks(std::move(report), style::read_program(text, wanted_by(selection)));
+}
+
+Report with_style(Report report, const syntax::Document& document, const Selection& selection) {
+  style::Reader reader(wanted_by(selection));
+  if (reader.is_idle()) return report;
+  for (std::size_t chunk = 0; chunk < document.chunk_count(); ++chunk) {
+    std::string_view rest = document.chunk_text(chunk);
+    for (std::size_t i = 0; i < document.chunk_lines(chunk) && !rest.empty(); ++i) {
+      const syntax::LineTree tree = document.line_of_chunk(chunk, i);
+      const char* const line_end = rest.data() + tree.text.size();
+      const char* const next = syntax::skip_line_end(line_end, rest.data() + rest.size());
+      const std::string_view terminator(line_end, static_cast<std::size_t>(next - line_end));
+      reader.read({document.first_line_of_chunk(chunk) + i, tree, terminator});
+      rest.remove_prefix(tree.text.size() + terminator.size());
+    }
+  }
+  return with_remarks(std::move(report), reader.finish());
 }
 
 }  // namespace isocnc::analyzer

@@ -41,6 +41,8 @@ Suppressions::Suppressions(std::string_view text) {
   }
 }
 
+bool Suppressions::may_speak(std::string_view text) { return find_call(text, 0) != std::string_view::npos; }
+
 void Suppressions::read_line(std::uint64_t number, std::string_view line) {
   if (find_call(line, 0) == std::string_view::npos) return;
   const syntax::ParsedLine parsed(line);
@@ -149,8 +151,11 @@ void Suppressions::drop_silenced(std::vector<LocatedFinding>& findings) {
 }
 
 void Suppressions::spare_codes_that_are_off(const Selection& selection) {
+  const auto is_looked_for = [&](DiagnosticId id) {
+    return selection.shows(id) && !dialect::definition(id).is_told_by_runs;
+  };
   for (Directive& directive : directives_)
-    for (Code& code : directive.codes) code.useful = code.useful || (code.id && !selection.shows(*code.id));
+    for (Code& code : directive.codes) code.useful = code.useful || (code.id && !is_looked_for(*code.id));
 }
 
 /// What changes nothing, but for what might silence W190 itself; or that alone, when all else has been judged.

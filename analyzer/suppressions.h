@@ -24,6 +24,8 @@ class Suppressions {
   Suppressions() = default;
   explicit Suppressions(std::string_view text);
 
+  /// Whether some line of the text may say something to isolint: else none need be read.
+  static bool may_speak(std::string_view text);
   /// Reads a line; each must lie below the one before. The constructor reads those of a whole text.
   void read_line(std::uint64_t number, std::string_view line);
   bool empty() const { return directives_.empty(); }

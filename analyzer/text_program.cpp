@@ -3,13 +3,11 @@
 #include <algorithm>
 
 #include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/formatter.h"
 
 namespace isocnc::analyzer {
 
 using syntax::LineTree;
-
-/// Numbers of more digits than any program needs are not continued.
-static constexpr std::uint64_t kMostNumber = 999'999'999'999'999;
 
 /// A check on its way down the text.
 struct TextProgram::Walk {
@@ -70,10 +68,14 @@ const JumpMap& TextProgram::jumps() {
 
 bool TextProgram::is_jumped_to(std::uint64_t label) { return jumps().names(label); }
 
-std::optional<execution::State> TextProgram::state_before(std::uint64_t line) {
+const Frontier& TextProgram::frontier_before(std::uint64_t line) {
   if (!walk_ || walk_->line > line) walk_.reset(new Walk{.checker = Checker(setup_, jumps())});
   while (walk_->line < std::min(line, line_count())) walk_->step(text(walk_->line));
-  const Frontier& frontier = walk_->checker.frontier;
+  return walk_->checker.frontier;
+}
+
+std::optional<execution::State> TextProgram::state_before(std::uint64_t line) {
+  const Frontier& frontier = frontier_before(line);
   if (frontier.live.size() != 1 || frontier.reduced) return std::nullopt;
   return frontier.live[0].state;
 }
@@ -93,7 +95,7 @@ std::uint64_t TextProgram::highest_line_number() const {
 
 std::optional<std::uint64_t> TextProgram::free_line_number() {
   if (!last_line_number_) last_line_number_ = highest_line_number();
-  if (*last_line_number_ > kMostNumber - 10) return std::nullopt;
+  if (*last_line_number_ > syntax::kMostLineNumber - 10) return std::nullopt;
   last_line_number_ = *last_line_number_ / 10 * 10 + 10;
   return last_line_number_;
 }

@@ -27,6 +27,10 @@ class TextProgram final : public fixes::Program {
   bool is_jumped_to(std::uint64_t label) override;
   std::optional<std::uint64_t> free_line_number() override;
 
+  /// Where the check stands before a line, up to line_count().
+  const Frontier& frontier_before(std::uint64_t line);
+  const JumpMap& jumps();
+
   /// Where in the text a place is.
   std::size_t offset(const syntax::Position& position) const;
   /// The line's terminator; on the last line that of the line above, and LF where there is none.
@@ -36,7 +40,6 @@ class TextProgram final : public fixes::Program {
   struct Walk;
 
   const std::vector<std::size_t>& starts() const;
-  const JumpMap& jumps();
   std::uint64_t highest_line_number() const;
 
   std::string_view text_;

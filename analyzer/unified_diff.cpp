@@ -1,10 +1,13 @@
 #include "analyzer/unified_diff.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "interpreter/running/source_file.h"
 #include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/unicode.h"
 
 namespace isocnc::analyzer {
 
@@ -40,16 +43,20 @@ void UnifiedDiff::add_line(std::string_view before, std::string_view after) {
   insert(after);
 }
 
+std::string UnifiedDiff::marked(std::string_view line, bool is_first) const {
+  return is_first && has_byte_order_mark_ ? fmt::format("{}{}", running::kByteOrderMark, line) : std::string(line);
+}
+
 void UnifiedDiff::remove(std::string_view line) {
   begin_change();
-  append(removed_, '-', line);
+  append(removed_, '-', marked(line, before_.line == 0));
   ++before_.line;
   ++before_.hunk_lines;
 }
 
 void UnifiedDiff::insert(std::string_view line) {
   begin_change();
-  append(added_, '+', line);
+  append(added_, '+', marked(line, after_.line == 0));
   ++after_.line;
   ++after_.hunk_lines;
 }
@@ -71,7 +78,7 @@ void UnifiedDiff::keep(std::string_view line) {
   hunk_ += added_;
   removed_.clear();
   added_.clear();
-  context_.emplace_back(line);
+  context_.push_back(marked(line, before_.line == 0));
   ++before_.line;
   ++after_.line;
   // Two hunks that would touch are one.
@@ -85,6 +92,13 @@ std::string UnifiedDiff::Side::range() const {
   return fmt::format("{},{}", hunk_first + (hunk_lines == 0 ? 0 : 1), hunk_lines);
 }
 
+/// A tab tells patch where a name with blanks ends.
+void UnifiedDiff::write_names() {
+  const std::string name = syntax::printable(std::exchange(name_, {}));
+  const std::string_view behind = name.find(' ') == std::string::npos ? "" : "\t";
+  write_(fmt::format("--- {0}{1}\n+++ {0}{1}\n", name, behind));
+}
+
 /// With the first lines behind it; what is left may stand before the next one.
 void UnifiedDiff::write_hunk() {
   const std::size_t behind = std::min(kContext, context_.size());
@@ -92,8 +106,7 @@ void UnifiedDiff::write_hunk() {
   for (Side* const side : {&before_, &after_}) side->hunk_lines += behind;
   const std::size_t gone = std::max(behind, context_.size() - std::min(kContext, context_.size()));
   context_.erase(context_.begin(), context_.begin() + static_cast<std::ptrdiff_t>(gone));
-  if (!name_.empty()) write_(fmt::format("--- {0}\n+++ {0}\n", name_));
-  name_.clear();
+  if (!name_.empty()) write_names();
   write_(fmt::format("@@ -{} +{} @@\n", before_.range(), after_.range()));
   write_(hunk_);
   hunk_.clear();

@@ -11,9 +11,9 @@ namespace isocnc::analyzer {
 /// Writes a unified diff of two texts whose lines come along side by side: what is kept is a few lines.
 class UnifiedDiff {
  public:
-  /// Parts of the diff go to `write`.
-  UnifiedDiff(std::string name, std::function<void(std::string_view)> write)
-      : name_(std::move(name)), write_(std::move(write)) {}
+  /// Parts of the diff go to `write`. Behind a byte-order mark the first line begins with it in both texts.
+  UnifiedDiff(std::string name, bool has_byte_order_mark, std::function<void(std::string_view)> write)
+      : name_(std::move(name)), has_byte_order_mark_(has_byte_order_mark), write_(std::move(write)) {}
 
   /// The next lines, whole ones with their ends, as many before as after.
   void add(std::string_view before, std::string_view after);
@@ -25,6 +25,8 @@ class UnifiedDiff {
   bool has_changes() const { return has_changes_; }
 
  private:
+  std::string marked(std::string_view line, bool is_first) const;
+  void write_names();
   void add_line(std::string_view before, std::string_view after);
   void begin_change();
   void keep(std::string_view line);
@@ -32,7 +34,8 @@ class UnifiedDiff {
 
   static constexpr std::size_t kContext = 3;
 
-  std::string name_;
+  std::string name_;  // Empty once it has been written.
+  const bool has_byte_order_mark_;
   std::function<void(std::string_view)> write_;
   bool has_changes_ = false;
   /// Lines of one of the texts.

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Times isolint and isofmt on generated programs and holds the figures against their targets.
+"""Times isolint, isofmt and isorun on generated programs and holds the figures against their targets.
 
 Whole processes are timed, mostly against the bare tokenizer, in pairs that take turns, so that a machine whose speed drifts
 does not tilt the ratio. Prints a Markdown table. Exit status: 0 every target met, 1 some missed, 2 could not measure.
@@ -8,6 +8,7 @@ does not tilt the ratio. Prints a Markdown table. Exit status: 0 every target me
 import argparse
 import contextlib
 import os
+import shutil
 import statistics
 import subprocess
 import sys
@@ -19,13 +20,15 @@ from pathlib import Path
 CLEAN_KINDS = ["short", "arcs", "fiveaxis", "incremental", "production"]
 BIG_KINDS = ["short", "production"]
 PATH_KINDS = ["production-if", "hostile-if"]
-KINDS = CLEAN_KINDS + PATH_KINDS + ["errors", "tiny"]
+RS274_KINDS = ["short", "arcs"]
+KINDS = CLEAN_KINDS + PATH_KINDS + ["errors", "tiny", "rs274"]
 
 TOKENIZER_RATIO = 1.5  # CPU of jobs 1 against the tokenizer, on each clean kind.
 NO_LOSS_RATIO = 1.05  # Wall time of jobs 2 against jobs 1; "no loss", and the noise of a measurement.
 BIG_RATIO = 0.75  # The same at --big lines.
 PATH_RATIOS = {"production-if": 1.2, "hostile-if": 3.0}  # CPU against production.
 FORMATTER_RATIO = 2.0  # CPU of isofmt against isolint's.
+RS274_RATIO = 0.2  # CPU of isorun, planning included, against LinuxCNC's rs274, which only interprets.
 ERRORS_RATIO = 30  # CPU against the tokenizer.
 ERRORS_MIB = 500
 ANONYMOUS_MIB = 32
@@ -117,6 +120,7 @@ class Comparison:
         self.work = work
         self.isolint = self.program("isolint")
         self.isofmt = self.program("isofmt")
+        self.isorun = self.program("isorun")
         self.tokenizer = self.program("isocnc_tokenizer")
         self.generator = self.program("isocnc_corpus")
         self.rows: list[Row] = []
@@ -194,6 +198,25 @@ class Comparison:
         self.add(self.title("errors"), "jobs 1 / tokenizer, CPU", text, ratio, ERRORS_RATIO)
         self.add(self.title("errors"), "jobs 1, resident", f"{resident:.0f} MiB", resident, ERRORS_MIB, " MiB")
 
+    def against_rs274(self) -> None:
+        rs274 = shutil.which("rs274")
+        if not rs274:
+            print("rs274: skipped, it is not installed (Debian package linuxcnc-uspace)", file=sys.stderr)
+            return
+        for kind in RS274_KINDS:
+            file = self.corpus(kind, self.options.lines)
+            running = [self.isorun, "--no-config", file]
+            interpreting = [rs274, "-g", self.in_ngc(file)]
+            ratio, text = median_ratio(*take_turns(running, interpreting, self.options.runs), figure="cpu")
+            self.add(self.title(kind), "isorun / rs274 -g, CPU", text, ratio, RS274_RATIO)
+
+    @staticmethod
+    def in_ngc(file: str) -> str:
+        """The same program for LinuxCNC: these kinds differ in nothing but what stands at the beginning."""
+        ngc = Path(file).with_suffix(".ngc")
+        ngc.write_text(Path(file).read_text().replace("M06 T101001", "G17 G21 G90 G94 G90.1", 1))
+        return str(ngc)
+
     def tiny(self) -> None:
         file = self.corpus("short", TINY_LINES)
         command = [self.isolint, "--no-config", file]
@@ -210,6 +233,8 @@ class Comparison:
             return self.tiny()
         if kind == "errors":
             return self.errors()
+        if kind == "rs274":
+            return self.against_rs274()
         if kind in PATH_KINDS:
             self.against_production(kind)
         else:

@@ -1,4 +1,5 @@
-// How many moves the planner takes in a second: short lines, arcs, and five axes at once.
+// How many moves the planner takes in a second: short lines, arcs at two feeds, and five axes at once, without limits
+// of jerk and with them.
 
 #include "interpreter/motion/planner.h"
 
@@ -16,7 +17,7 @@ constexpr int kMoves = 100'000;
 
 /// A path that wanders about in steps of `step` made by `go_on`, which has a heading and a random number to go by.
 template <typename GoOn>
-std::vector<Move> wander(GoOn&& go_on) {
+std::vector<Move> wander(double feed, GoOn&& go_on) {
   std::mt19937 random(1);
   std::uniform_real_distribution<> between(-1, 1);
   std::vector<Move> moves;
@@ -26,13 +27,41 @@ std::vector<Move> wander(GoOn&& go_on) {
     Move move;
     move.tag = static_cast<std::uint64_t>(i);
     move.from = move.to = at;
-    move.feed = {FeedKind::Speed, 200};
+    move.feed = {FeedKind::Speed, feed};
     heading += 0.3 * between(random);
     go_on(move, geometry::Vec3(std::cos(heading), std::sin(heading), 0.1 * between(random)), between(random));
     moves.push_back(move);
     at = move.to;
   }
   return moves;
+}
+
+std::vector<Move> short_lines() {
+  return wander(200, [](Move& move, const geometry::Vec3& step, double) { move.to.tip += step; });
+}
+
+std::vector<Move> five_axes() {
+  return wander(200, [](Move& move, const geometry::Vec3& step, double random) {
+    move.to.tip += step;
+    move.to.b = std::clamp(move.to.b + random, -100.0, 100.0);
+    move.to.c = std::clamp(move.to.c + step.x(), -300.0, 300.0);
+  });
+}
+
+std::vector<Move> arcs(double feed) {
+  return wander(feed, [](Move& move, const geometry::Vec3& step, double random) {
+    move.is_arc = true;
+    move.normal = geometry::Vec3::UnitZ();
+    move.sweep_deg = 70 + 60 * random;
+    move.center += move.from.tip + 10 * geometry::Vec3(step.x(), step.y(), 0);
+    const Eigen::AngleAxisd turn(move.sweep_deg * 3.14159265358979323846 / 180, move.normal);
+    move.to.tip = move.center + turn * (move.from.tip - move.center);
+  });
+}
+
+Machine with_jerk(Machine machine) {
+  for (AxisLimits& axis : machine.axes) axis.jerk = 10 * axis.acceleration;
+  return machine;
 }
 
 void plan(benchmark::State& state, const Machine& machine, const std::vector<Move>& moves) {
@@ -48,32 +77,19 @@ void plan(benchmark::State& state, const Machine& machine, const std::vector<Mov
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()) * kMoves);
 }
 
-void short_lines(benchmark::State& state) {
-  plan(state, three_axis_router(), wander([](Move& move, const geometry::Vec3& step, double) { move.to.tip += step; }));
-}
+constexpr double kHeldFeed = 30;          // An arc of 10 mm then takes 90 mm/s^2,
+constexpr double kCentripetalFeed = 200;  // or more than the axes have.
 
-void five_axes(benchmark::State& state) {
-  plan(state, head_router(), wander([](Move& move, const geometry::Vec3& step, double random) {
-         move.to.tip += step;
-         move.to.b = std::clamp(move.to.b + random, -100.0, 100.0);
-         move.to.c = std::clamp(move.to.c + step.x(), -300.0, 300.0);
-       }));
-}
-
-void arcs(benchmark::State& state) {
-  plan(state, three_axis_router(), wander([](Move& move, const geometry::Vec3& step, double random) {
-         move.is_arc = true;
-         move.normal = geometry::Vec3::UnitZ();
-         move.sweep_deg = 70 + 60 * random;
-         move.center += move.from.tip + 10 * geometry::Vec3(step.x(), step.y(), 0);
-         const Eigen::AngleAxisd turn(move.sweep_deg * 3.14159265358979323846 / 180, move.normal);
-         move.to.tip = move.center + turn * (move.from.tip - move.center);
-       }));
-}
-
-BENCHMARK(short_lines)->Unit(benchmark::kMillisecond);
-BENCHMARK(five_axes)->Unit(benchmark::kMillisecond);
-BENCHMARK(arcs)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(plan, short_lines, three_axis_router(), short_lines())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(plan, five_axes, head_router(), five_axes())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(plan, arcs, three_axis_router(), arcs(kHeldFeed))->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(plan, fast_arcs, three_axis_router(), arcs(kCentripetalFeed))->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(plan, short_lines_with_jerk, with_jerk(three_axis_router()), short_lines())
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(plan, five_axes_with_jerk, with_jerk(head_router()), five_axes())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(plan, arcs_with_jerk, with_jerk(three_axis_router()), arcs(kHeldFeed))->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(plan, fast_arcs_with_jerk, with_jerk(three_axis_router()), arcs(kCentripetalFeed))
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace isocnc::motion

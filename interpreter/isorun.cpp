@@ -2,7 +2,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <limits>
@@ -11,12 +10,19 @@
 #include <fmt/format.h>
 
 #include "interpreter/configuration/configurations.h"
+#include "interpreter/configuration/plot_tools.h"
+#include "interpreter/dialect/format.h"
 #include "interpreter/dialect/locale.h"
+#include "interpreter/running/error_message.h"
 #include "interpreter/running/output_file.h"
+#include "interpreter/running/page_template.h"
 #include "interpreter/running/program_app.h"
+#include "interpreter/running/program_main.h"
+#include "interpreter/running/progress.h"
 #include "interpreter/running/restart.h"
 #include "interpreter/running/run_report.h"
 #include "interpreter/running/runner.h"
+#include "interpreter/running/same_file.h"
 #include "interpreter/running/source_file.h"
 #include "interpreter/running/system_texts.h"
 #include "interpreter/running/write_atomically.h"
@@ -55,10 +61,12 @@ struct Options {
     return language == "it" ? Language::Italian : Language::English;
   }
   bool reads_stdin() const { return file == "-"; }
+  /// As a name that the system knows.
+  std::string program_file() const { return reads_stdin() ? "/dev/stdin" : file; }
   std::string shown_file() const { return reads_stdin() ? "<stdin>" : file; }
 };
 
-void complain(std::string_view what) { std::cerr << "isorun: " << syntax::printable(what) << '\n'; }
+void complain(std::string_view what) { running::complain("isorun", what); }
 
 /// A number as programs write it, and nothing else: sign, digits, point.
 std::optional<double> read_decimal(std::string_view text) {
@@ -99,19 +107,26 @@ constexpr Text kWrongClearance{"--clearance wants a plain number of mm, such as 
 constexpr Text kWrongApproachFeed{
     "--approach-feed wants a plain number of mm/min above 0, such as 1000, not {}",
     "--approach-feed vuole un numero semplice in mm/min maggiore di 0, come 1000, non {}"};
-constexpr Text kRestartOverwrites{"the restart program would overwrite the program",
-                                  "il programma di ripresa sovrascriverebbe il programma"};
-constexpr Text kOverwritesProgram{"this would overwrite the program", "così si sovrascriverebbe il programma"};
+constexpr Text kOverwrites{"this would overwrite {}", "così si sovrascriverebbe {}"};
+constexpr Text kProgram{"the program", "il programma"};
+constexpr Text kConfiguration{"the configuration", "la configurazione"};
+constexpr Text kMachineFile{"the machine's file", "il file della macchina"};
+constexpr Text kOneFile{"{} and {} would both be written there", "ci scriverebbero sia {} sia {}"};
+constexpr Text kStandardOutput{"standard output", "lo standard output"};
 constexpr Text kWrongSeconds{"--dt wants a plain number of seconds, from 0.0001, such as 0.01, not {}",
                              "--dt vuole un numero semplice di secondi, da 0.0001, come 0.01, non {}"};
-constexpr Text kWrongPlot{"--plot writes SVG, so the name has to end in .svg, unlike {}",
-                          "--plot scrive SVG: il nome deve finire in .svg, non come {}"};
+constexpr Text kWrongPlot{"--plot writes a file whose name ends in .svg or .html, unlike {}",
+                          "--plot scrive un file il cui nome finisce in .svg o .html, non come {}"};
+constexpr Text kNoPage{
+    "this isorun draws no {}: it was built without npm, which --plot FILE.html takes; --plot FILE.svg works",
+    "questo isorun non disegna {}: è stato compilato senza npm, che serve per --plot FILE.html; --plot FILE.svg "
+    "funziona"};
 constexpr Text kOneStandardOutput{"--trace - and --samples - both want standard output",
                                   "--trace - e --samples - vogliono tutti e due lo standard output"};
 
 /// Nothing, after a complaint.
 std::nullopt_t refuse(const Text& why, std::string_view value, const Options& options) {
-  complain(fmt::format(fmt::runtime(why.in(options.reader_language())), value));
+  complain(dialect::format(why, options.reader_language(), value));
   return std::nullopt;
 }
 
@@ -143,7 +158,9 @@ std::optional<RunOutputs> read_outputs(const Options& options) {
   const auto seconds = read_decimal(options.sample_seconds);
   if (!seconds || !(*seconds >= kShortest)) return refuse(kWrongSeconds, options.sample_seconds, options);
   outputs.sample_seconds = *seconds;
-  if (!options.plot.empty() && !options.plot.ends_with(".svg")) return refuse(kWrongPlot, options.plot, options);
+  const auto format = plot_format(options.plot);
+  if (!options.plot.empty() && !format) return refuse(kWrongPlot, options.plot, options);
+  if (format == PlotFormat::Html && kPageTemplate.empty()) return refuse(kNoPage, options.plot, options);
   if (options.trace == "-" && options.samples == "-") return refuse(kOneStandardOutput, "", options);
   return outputs;
 }
@@ -169,26 +186,83 @@ std::optional<RestartOptions> read_restart_options(const Options& options, const
 
 void print_error(const Options& options, const RunResult& result) {
   const Language language = options.reader_language();
-  const syntax::Span span = result.error.span;
-  const std::string_view marked = result.line_text.substr(span.begin, span.end - span.begin);
   const dialect::DiagnosticDef& def = dialect::definition(result.error.id);
-  const std::string message = dialect::message(result.error.id, language, marked, result.error.values);
   std::cerr << syntax::printable(fmt::format("{}:{}: {}: {} [{}]", options.shown_file(), result.line + 1,
-                                             dialect::severity_name(def.severity, language), message, def.code))
+                                             dialect::severity_name(def.severity, language),
+                                             error_message(result, language), def.code))
+            << '\n';
+}
+
+void print_warning(const Options& options, const RunWarning& warning) {
+  const Language language = options.reader_language();
+  const dialect::DiagnosticDef& def = dialect::definition(warning.id);
+  std::cerr << syntax::printable(fmt::format("{}:{}: {}: {} [{}]", options.shown_file(), warning.line + 1,
+                                             dialect::severity_name(def.severity, language),
+                                             dialect::message(warning.id, language, "", warning.values), def.code))
             << '\n';
 }
 
 /// Flushes an output; false, after a complaint, when anything written to it has been lost.
 bool finish(OutputFile& output, std::string_view name, Language language) {
-  if (output.flush() == 0) return true;
-  complain(fmt::format("{}: {}", name, cannot_write(output.error(), language)));
-  return false;
+  const std::optional<std::string> problem = flush(output, name, language);
+  if (problem) complain(*problem);
+  return !problem;
 }
 
-/// Writing to the file that is being read would take the program away.
-bool is_same_file(const std::string& a, const std::string& b) {
-  std::error_code ignored;
-  return std::filesystem::equivalent(a, b, ignored);
+/// A file that the run reads or writes, and what it is to people.
+struct NamedFile {
+  std::string path;
+  std::string_view what;
+};
+
+/// Where all goes that is to be written; standard output, too, which may lead to a file.
+std::vector<NamedFile> files_written(const Options& options) {
+  std::vector<NamedFile> files;
+  const auto add = [&](const std::string& file, std::string_view option) {
+    if (!file.empty() && file != "-") files.push_back({file, option});
+  };
+  add(options.trace, "--trace");
+  add(options.samples, "--samples");
+  add(options.plot, "--plot");
+  add(options.output, "--output");
+  const bool leaves_standard_output_alone = options.restart_at && files.size() == 1;
+  if (!leaves_standard_output_alone) files.push_back({"/dev/stdout", kStandardOutput.in(options.reader_language())});
+  return files;
+}
+
+/// Nothing that is read may be written to, and no file twice; false after a complaint.
+bool files_are_apart(const Options& options, const std::filesystem::path& configuration) {
+  const Language language = options.reader_language();
+  const NamedFile read[] = {{options.program_file(), kProgram.in(language)},
+                            {configuration.string(), kConfiguration.in(language)},
+                            {options.machine.value_or(""), kMachineFile.in(language)}};
+  const std::vector<NamedFile> written = files_written(options);
+  const auto refuse_file = [&](const NamedFile& file, const Text& why, auto... what) {
+    complain(fmt::format("{}: {}", file.path, dialect::format(why, language, what...)));
+    return false;
+  };
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    for (const NamedFile& each : read)
+      if (is_same_file(each.path, written[i].path)) return refuse_file(written[i], kOverwrites, each.what);
+    for (std::size_t k = i + 1; k < written.size(); ++k)
+      if (is_same_file(written[i].path, written[k].path))
+        return refuse_file(written[i], kOneFile, written[i].what, written[k].what);
+  }
+  return true;
+}
+
+/// A bar on the terminal while the run goes through the program.
+RunResult run_with_progress(std::string_view program, RunOptions options, const RunOutputs& outputs,
+                            const std::function<void(const Event&)>& on_event) {
+  constexpr std::size_t kPace = 4096;  // Bytes: asking the clock on every line would cost more than the line.
+  const bool shares_terminal = (outputs.trace == "-" || outputs.samples == "-") && isatty(STDOUT_FILENO) != 0;
+  Progress progress(shares_terminal ? nullptr : terminal_writer(), program.size());
+  std::size_t told = 0;
+  options.before_block = [&](const Block& block) {
+    const auto reached = static_cast<std::size_t>(block.tree.text.data() - program.data());
+    if (reached >= told + kPace) progress.add(reached - std::exchange(told, reached));
+  };
+  return run(program, options, on_event);
 }
 
 int run_program(std::string_view program, const Options& options, const RunOptions& run_options,
@@ -196,8 +270,9 @@ int run_program(std::string_view program, const Options& options, const RunOptio
   RunReport report(outputs, machine);
   std::optional<RunResult> result;
   if (report.is_ready()) {
-    result = run(program, run_options, [&](const Event& event) { report.take(event); });
+    result = run_with_progress(program, run_options, outputs, [&](const Event& event) { report.take(event); });
     report.finish(*result);
+    for (const RunWarning& warning : report.warnings()) print_warning(options, warning);
     if (result->ending == Ending::Error) print_error(options, *result);
   }
   for (const std::string& problem : report.problems()) complain(problem);
@@ -233,9 +308,15 @@ int restart(const SourceFile& source, const Options& options, const RestartOptio
   return refusal.obstacle == Obstacle::NoSuchLine ? kTrouble : kStopped;
 }
 
+/// A machine, and the isocnc.json that has been read for the program.
+struct FoundMachine {
+  configuration::Machine machine;
+  std::filesystem::path configuration;  ///< Empty without one.
+};
+
 /// What the checks know of the machine; none, after a complaint, when a file is wrong. The program's configuration also
 /// tells the language to speak, unless the command line does.
-std::optional<configuration::Machine> read_machine(Options& options) {
+std::optional<FoundMachine> find_machine(Options& options) {
   using configuration::Configurations;
   const Language language = options.reader_language();
   Configurations found(options.source, language);
@@ -252,32 +333,35 @@ std::optional<configuration::Machine> read_machine(Options& options) {
       std::cerr << mistake << '\n';
       is_right = false;
     }
-  return is_right ? std::optional(machine.machine) : std::nullopt;
+  return is_right ? std::optional(FoundMachine{machine.machine, configuration.file}) : std::nullopt;
+}
+
+PlotSubject plot_subject(std::string_view program, const configuration::Machine& machine, const Options& options) {
+  return {.name = std::filesystem::path(options.shown_file()).filename().string(),
+          .program = program,
+          .home = machine.setup.home,
+          .tools = configuration::plot_tools(machine),
+          .page = kPageTemplate,
+          .language = options.reader_language()};
 }
 
 int run_file(Options options) {
-  const std::optional<configuration::Machine> machine = read_machine(options);
-  if (!machine) return kTrouble;
+  const std::optional<FoundMachine> found = find_machine(options);
+  if (!found) return kTrouble;
+  const configuration::Machine& machine = found->machine;
   const Language language = options.reader_language();
   std::optional<RunOptions> run_options = read_run_options(options);
   if (!run_options) return kTrouble;
-  run_options->setup = machine->setup;
-  const std::optional<RunOutputs> outputs = read_outputs(options);
+  run_options->setup = machine.setup;
+  std::optional<RunOutputs> outputs = read_outputs(options);
   if (!outputs) return kTrouble;
-  for (const std::string* const file : {&options.trace, &options.samples, &options.plot})
-    if (!options.reads_stdin() && is_same_file(options.file, *file)) {
-      complain(fmt::format("{}: {}", *file, kOverwritesProgram.in(language)));
-      return kTrouble;
-    }
   std::optional<RestartOptions> restart_options;
   if (options.restart_at) {
     restart_options = read_restart_options(options, *run_options);
     if (!restart_options) return kTrouble;
+    restart_options->machine = machine.timed;
   }
-  if (!options.reads_stdin() && is_same_file(options.file, options.output)) {
-    complain(fmt::format("{}: {}", options.output, kRestartOverwrites.in(language)));
-    return kTrouble;
-  }
+  if (!files_are_apart(options, found->configuration)) return kTrouble;
   const auto opened = options.reads_stdin() ? SourceFile::read_stream(STDIN_FILENO, language)
                                             : SourceFile::open(options.file, language);
   if (const auto* problem = std::get_if<SourceFile::Problem>(&opened)) {
@@ -286,21 +370,14 @@ int run_file(Options options) {
   }
   const auto& source = std::get<SourceFile>(opened);
   if (restart_options) return restart(source, options, *restart_options);
-  return run_program(source.text(), options, *run_options, *outputs, machine->timed);
-}
-
-/// What --help and --version ask for.
-int say(std::string_view text, Language language) {
-  OutputFile standard_output(STDOUT_FILENO);
-  standard_output.write(text);
-  return finish(standard_output, "<stdout>", language) ? kRan : kTrouble;
+  outputs->subject = plot_subject(source.text(), machine, options);
+  return run_program(source.text(), options, *run_options, *outputs, machine.timed);
 }
 
 int run_main(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN);  // A closed pipe is a write that fails, and is told as one.
   Options options;
   ProgramApp program(
-      "Runs an ISOCNC program and tells what it does.",
+      argc, argv, {"Runs an ISOCNC program and tells what it does.", "Esegue un programma ISOCNC e dice che cosa fa."},
       {.program = "isorun",
        .version = ISOCNC_VERSION,
        .purpose = "run an ISOCNC program",
@@ -317,54 +394,68 @@ int run_main(int argc, char** argv) {
                  "line."},
                 {"2", "A mistake in the command or in an isocnc.json, or something could not be read or written."}},
        .see_also = {"isolint", "isofmt"}});
-  CLI::App& app = program.options();
-  app.add_option("FILE", options.file, "The program, or - for standard input")->required()->option_text(" ");
-  CLI::Option* const trace =
-      app.add_option("--trace", options.trace, "What happens, as JSON lines; - for standard output")
-          ->option_text("FILE");
-  CLI::Option* const samples =
-      app.add_option("--samples", options.samples, "Where the machine is, in steps of time, as JSON lines")
-          ->option_text("FILE");
-  app.add_option("--dt", options.sample_seconds, "The step of --samples in seconds (else 0.01)")
-      ->option_text("SECONDS")
-      ->needs(samples);
-  CLI::Option* const plot =
-      app.add_option("--plot", options.plot, "A picture of the path: FILE.svg")->option_text("FILE");
-  CLI::Option* const json = app.add_flag("--json", options.json, "The summary as JSON")->option_text(" ");
-  app.add_option("--vgpl", options.vgpl, "Value of VGPL (else 0)")->option_text("VALUE");
-  app.add_option("--set", options.settings, "Value of a register at the start: V3=1.5")
-      ->option_text("V=VALUE")
-      ->allow_extra_args(false);
-  app.add_option("--machine", options.machine, "The machine of this file, not of the isocnc.json")->option_text("FILE");
-  CLI::Option* const config =
-      app.add_option("--config", options.source.file, "Read this, not the isocnc.json above the program")
-          ->option_text("FILE");
-  app.add_flag("--no-config", options.source.none, "Read no isocnc.json")->excludes(config)->option_text(" ");
-  CLI::Option* const until = app.add_option("--until", options.until, "Stop before this line")->option_text("LINE");
-  program.add_choice("--lang", options.language, {"en", "it"}, "LANG", "en or it; else as the locale says");
-  CLI::Option* const restart_at =
-      app.add_option("--restart-at", options.restart_at, "Write a program that goes on from this line")
-          ->option_text("LINE")
-          ->excludes(until)
-          ->excludes(trace)
-          ->excludes(samples)
-          ->excludes(plot)
-          ->excludes(json);
-  const std::vector<CLI::Option*> restarting = {
-      app.add_option("-o,--output", options.output, "Where to write it; else to standard output")->option_text("FILE"),
-      app.add_option("--clearance", options.clearance, "Go down in rapid to this Z; else machine.clearance")
-          ->option_text("Z"),
-      app.add_option("--approach-feed", options.approach_feed, "Go on down at most at this F (else 1000)")
-          ->option_text("F")};
-  restart_at->group("Restart");
-  for (CLI::Option* const option : restarting) option->needs(restart_at)->group("Restart");
-  const ProgramApp::Said said = program.read(argc, argv, [&] { return options.reader_language(); });
-  if (said.answer) return say(*said.answer, options.reader_language());
-  if (said.complaint) {
-    complain(*said.complaint);
-    std::cerr << "isorun --help\n";
-    return kTrouble;
-  }
+  program
+      .add_option("FILE", options.file, {" ", " "},
+                  {"The program, or - for standard input", "Il programma, o - per lo standard input"})
+      .required();
+  const ProgramOption trace = program.add_option("--trace", options.trace, kFileValue,
+                                                 {"What happens, as JSON lines; - for standard output",
+                                                  "Che cosa succede, in linee JSON; - per lo standard\noutput"});
+  const ProgramOption samples = program.add_option("--samples", options.samples, kFileValue,
+                                                   {"Where the machine is, in steps of time, as JSON lines",
+                                                    "Dove si trova la macchina a passi di tempo, in linee\nJSON"});
+  program
+      .add_option(
+          "--dt", options.sample_seconds, {"SECONDS", "SECONDI"},
+          {"The step of --samples in seconds (else 0.01)", "Il passo di --samples in secondi (altrimenti 0.01)"})
+      .needs(samples);
+  const ProgramOption plot = program.add_option(
+      "--plot", options.plot, kFileValue,
+      {"A picture of the path: FILE.svg or, in 3-D, .html", "Un disegno del percorso: FILE.svg o, in 3D, .html"});
+  const ProgramOption json =
+      program.add_flag("--json", options.json, {"The summary as JSON", "Il riassunto in JSON"}).tells_no_exclusions();
+  program.add_option("--vgpl", options.vgpl, {"VALUE", "VALORE"},
+                     {"Value of VGPL (else 0)", "Valore di VGPL (altrimenti 0)"});
+  program
+      .add_option("--set", options.settings, {"V=VALUE", "V=VALORE"},
+                  {"Value of a register at the start: V3=1.5", "Valore iniziale di un registro: V3=1.5"})
+      .takes_one();
+  program.add_option(
+      "--machine", options.machine, kFileValue,
+      {"The machine of this file, not of the isocnc.json", "La macchina di questo file, non dell'isocnc.json"});
+  const ProgramOption config = program.add_option(
+      "--config", options.source.file, kFileValue,
+      {"Read this, not the isocnc.json above the program", "Legge questo, non l'isocnc.json sopra il programma"});
+  program.add_flag("--no-config", options.source.none, {"Read no isocnc.json", "Non legge nessun isocnc.json"})
+      .excludes(config)
+      .tells_no_exclusions();
+  const ProgramOption until = program.add_option("--until", options.until, {"LINE", "RIGA"},
+                                                 {"Stop before this line", "Si ferma prima di questa riga"});
+  program.add_choice("--lang", options.language, {"en", "it"}, {"LANG", "LINGUA"},
+                     {"en or it; else as the locale says", "en o it; altrimenti secondo il locale"});
+
+  program.begin_group({"Restart", "Ripresa"});
+  const ProgramOption restart_at = program
+                                       .add_option("--restart-at", options.restart_at, {"LINE", "RIGA"},
+                                                   {"Write a program that goes on from this line",
+                                                    "Scrive un programma che riprende da questa riga"})
+                                       .excludes(until)
+                                       .excludes(trace)
+                                       .excludes(samples)
+                                       .excludes(plot)
+                                       .excludes(json);
+  const ProgramOption restarting[] = {
+      program.add_option(
+          "-o,--output", options.output, kFileValue,
+          {"Where to write it; else to standard output", "Dove scriverlo; altrimenti sullo standard output"}),
+      program.add_option("--clearance", options.clearance, {"Z", "Z"},
+                         {"Go down in rapid to this Z; else machine.clearance",
+                          "Scende in rapido fino a questa Z; altrimenti\nmachine.clearance"}),
+      program.add_option(
+          "--approach-feed", options.approach_feed, {"F", "F"},
+          {"Go on down at most at this F (else 1000)", "Poi scende al più con questa F (altrimenti 1000)"})};
+  for (const ProgramOption& option : restarting) option.needs(restart_at);
+  if (const auto status = program.answer(argc, argv)) return *status;
   return run_file(options);
 }
 
@@ -372,10 +463,5 @@ int run_main(int argc, char** argv) {
 }  // namespace isocnc::running
 
 int main(int argc, char** argv) {
-  try {
-    return isocnc::running::run_main(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "isorun: internal error: " << error.what() << '\n';
-    return 2;
-  }
+  return isocnc::running::program_main("isorun", isocnc::running::run_main, argc, argv);
 }

@@ -19,6 +19,9 @@ using syntax::Word;
 /// Half of what the control accepts: W112 says nothing of such an arc. mm.
 static constexpr double kFits = 0.005;
 
+/// Ten times what the control accepts: up to here a center was meant to fit, and has been rounded or measured. mm.
+static constexpr double kNearlyFits = 0.1;
+
 namespace {
 
 /// An arc as it is written, and where it starts; mm, in the frame in force.
@@ -124,13 +127,15 @@ Draft center_from_start(const Request& request) {
   return center_written(request, *arc, arc->center(!arc->incremental));
 }
 
-/// The nearest point that is as far from one end as from the other.
+/// The nearest point that is as far from one end as from the other. A center that is far off may as well be right, and
+/// an end wrong.
 Draft center_between_ends(const Request& request) {
   const std::optional<WrittenArc> arc = written_arc(request);
   if (!arc || !arc->center_u || !arc->center_v) return {};
   const PlanePoint chord = arc->end - arc->start;
   if (!(chord.norm() > 2 * kFits)) return {};
   PlanePoint center = arc->center(arc->incremental);
+  if (arc->mismatch(center) > kNearlyFits) return {};
   const PlanePoint middle = {(arc->start.u + arc->end.u) / 2, (arc->start.v + arc->end.v) / 2};
   const PlanePoint off = center - middle;
   const double share = (off.u * chord.u + off.v * chord.v) / (chord.norm() * chord.norm());

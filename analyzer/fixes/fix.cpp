@@ -1,10 +1,14 @@
 #include "analyzer/fixes/fix.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
 #include "analyzer/fixes/fix_table.h"
+#include "interpreter/dialect/format.h"
+#include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/tree_store.h"
 
 namespace isocnc::analyzer::fixes {
 
@@ -25,7 +29,53 @@ static_assert(kFixes.size() < 255);
 static constexpr std::size_t kLongestLine = 1'000;
 
 std::string Fix::title_in(dialect::Language language) const {
-  return fmt::format(fmt::runtime(title.in(language)), fmt::arg("text", marked), fmt::arg("new", what));
+  return dialect::format(title, language, fmt::arg("text", marked), fmt::arg("new", what));
+}
+
+std::string Edit::text_with(std::string_view line_end) const {
+  std::string result;
+  for (const char c : text) {
+    if (c == '\n') {
+      result += line_end;
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+/// The line with the edits made, which may make several of it. Nothing where they reach beyond the line.
+static std::optional<std::string> edited_line(const Request& request, std::vector<Edit> edits) {
+  const auto is_elsewhere = [&](const Edit& edit) {
+    return edit.begin.line != request.number || edit.end.line != request.number;
+  };
+  if (std::any_of(edits.begin(), edits.end(), is_elsewhere)) return std::nullopt;
+  const auto by_place = [](const Edit& a, const Edit& b) { return a.begin < b.begin; };
+  std::stable_sort(edits.begin(), edits.end(), by_place);
+  std::string text(request.line.text);
+  for (auto edit = edits.rbegin(); edit != edits.rend(); ++edit)
+    text.replace(edit->begin.column, edit->end.column - edit->begin.column, edit->text);
+  return text;
+}
+
+/// What the line alone shows must be less than before: a fix that mends one thing and breaks another is none. What
+/// follows from the lines before is not looked at here.
+static bool helps(const Request& request, const std::vector<Edit>& edits) {
+  const std::optional<std::string> text = edited_line(request, edits);
+  if (!text) return true;
+  std::array<std::int16_t, dialect::kDiagnosticCount> counts{};
+  for (const syntax::Finding& finding : request.line.findings) ++counts[static_cast<std::size_t>(finding.id)];
+  if (counts[static_cast<std::size_t>(request.finding.id)] > 0) --counts[static_cast<std::size_t>(request.finding.id)];
+  syntax::TreeStore store;
+  const char* const end = text->data() + text->size();
+  for (const char* p = text->data();;) {
+    const char* const line_end = store.append_line(p, end);
+    const syntax::LineTree line = store.tree(store.size() - 1, p);
+    for (const syntax::Finding& finding : line.findings)
+      if (--counts[static_cast<std::size_t>(finding.id)] < 0) return false;
+    if (line_end == end) return true;
+    p = syntax::skip_line_end(line_end, end);
+  }
 }
 
 std::optional<Fix> fix_of(const Place& place, Program& program) {
@@ -36,7 +86,7 @@ std::optional<Fix> fix_of(const Place& place, Program& program) {
   const Request request{place.line, place.finding, place.on_every_path, program.line(place.line), program};
   for (; row < kFixes.size() && kFixes[row].diagnostic == id; ++row) {
     Draft draft = kFixes[row].make(request);
-    if (draft.edits.empty()) continue;
+    if (draft.edits.empty() || !helps(request, draft.edits)) continue;
     return Fix{kFixes[row].safety, kFixes[row].title, std::string(request.marked()), std::move(draft.what),
                std::move(draft.edits)};
   }

@@ -20,6 +20,9 @@ struct Edit {
   syntax::Position end;
   std::string text;  ///< `\n` is a line end, whatever the program's line ends are.
 
+  /// The text with the program's own line ends.
+  std::string text_with(std::string_view line_end) const;
+
   friend bool operator==(const Edit&, const Edit&) = default;
 };
 

@@ -27,10 +27,11 @@ inline constexpr Text kRepetition = {"remove {text}, which is there already", "t
 inline constexpr Text kIgnored = {"remove {text}, which is ignored", "togliere {text}, che viene ignorata"};
 inline constexpr Text kTogether = {"move {new} to the other arguments", "spostare {new} vicino agli altri argomenti"};
 inline constexpr Text kWrite = {"write {new}", "scrivere {new}"};
+inline constexpr Text kWriteDecimal = {"write {new}, with a decimal point", "scrivere {new}, con il punto decimale"};
 inline constexpr Text kWholeNumber = {"write {new}, without sign and point", "scrivere {new}, senza segno né punto"};
 inline constexpr Text kZero = {"write the digit 0 for the letter O", "scrivere la cifra 0 al posto della lettera O"};
 inline constexpr Text kComment = {"put the text in a comment", "mettere il testo in un commento"};
-inline constexpr Text kAbove = {"insert {new} above", "inserire {new} sulla linea precedente"};
+inline constexpr Text kAbove = {"insert {new} above", "inserire prima una linea con {new}"};
 inline constexpr Text kMeantCenter = {"write {new}: the center was given with the other origin (G90, G91)",
                                       "scrivere {new}: il centro era riferito all'altra origine (G90, G91)"};
 inline constexpr Text kNearestCenter = {"move the center to {new}, equally far from both ends",
@@ -150,7 +151,15 @@ inline constexpr auto kFixes = [] {
       {"center-undetermined-g19-j"_diag, Unsafe, kOtherCenter, center_completed},
       {"center-undetermined-g19-k"_diag, Unsafe, kOtherCenter, center_completed},
       {"tool-without-m06"_diag, Safe, {"move {new} before the T", "spostare {new} prima della T"}, change_before_tool},
+      {"tool-without-m06"_diag,
+       Unsafe,
+       {"move {text} directly behind the M06 below", "spostare {text} subito dopo la M06 che segue"},
+       tool_to_later_change},
       {"tool-without-m06"_diag, Unsafe, {"write M06 before {text}", "scrivere M06 prima di {text}"}, m06_before_tool},
+      {"workpiece-frame-under-face"_diag,
+       Unsafe,
+       {"move the {new} below to a line above", "spostare prima, su una sua linea, la {new} che segue"},
+       later_g27_above},
       {"workpiece-frame-under-face"_diag, Unsafe, kAbove, g27_above},
       {"invalid-line-number"_diag, Safe, kRepetition, removed_repetition},
       {"invalid-line-number"_diag, Unsafe, kWholeNumber, whole_number},
@@ -171,7 +180,7 @@ inline constexpr auto kFixes = [] {
        {"move {text} to the next line", "spostare {text} sulla linea dopo"},
        motions_on_two_lines},
       {"register-not-assigned"_diag, None, kValueUnknown},
-      {"dwell-time-missing"_diag, Unsafe, {"write P for X", "scrivere P al posto di X"}, time_by_p},
+      {"dwell-time-missing"_diag, Unsafe, {"write P for {new}", "scrivere P al posto di {new}"}, time_by_p},
       {"repeated-feed"_diag, Safe, kRepetition, removed_repetition},
       {"feed-missing"_diag, None, kValueUnknown},
       {"tool-not-configured"_diag, None, kToolUnknown},
@@ -189,6 +198,7 @@ inline constexpr auto kFixes = [] {
        {"put the jump on a line of its own", "mettere il salto su una linea a sé"},
        on_its_own_line},
       {"if-malformed"_diag, Unsafe, kWrite, comparison},
+      {"if-malformed"_diag, Unsafe, kWriteDecimal, point_for_comma},
       {"if-malformed"_diag,
        Unsafe,
        {"write {new}: labels begin with N", "scrivere {new}: le etichette iniziano con N"},
@@ -245,13 +255,13 @@ inline constexpr auto kFixes = [] {
       {"label-never-used"_diag, Safe, {"remove the number", "togliere il numero"}, removed_mark},
       {"line-number-not-growing"_diag,
        None,
-       {"isofmt --renumber numbers all lines anew.", "isofmt --renumber rinumera tutte le righe."}},
+       {"isofmt --renumber numbers all lines anew.", "isofmt --renumber rinumera tutte le linee."}},
       {"lower-case"_diag, Safe, {"write capitals", "scrivere in maiuscolo"}, capitals},
       {"tab"_diag, Safe, {"write a blank", "scrivere uno spazio"}, blank_for_tab},
       {"mixed-line-ends"_diag,
        None,
        {"All line ends of a program are changed at once, by an editor or by version control.",
-        "I fini riga si cambiano tutti insieme, con un editor o con il controllo di versione."}},
+        "I terminatori di linea si cambiano tutti insieme, con un editor o con il controllo di versione."}},
       {"axes-nearly-unit"_diag, None, kVectorUnknown},
       {"unnamed-function"_diag, None, kMeaningUnknown},
       {"travel-exceeded"_diag, None, kValueUnknown},
@@ -262,6 +272,10 @@ inline constexpr auto kFixes = [] {
       {"tool-never-cuts"_diag, None, kMeaningUnknown},
       {"tool-already-mounted"_diag, None, kMeaningUnknown},
       {"compensation-begins-on-arc"_diag, None, kMeaningUnknown},
+      {"compensation-gouge"_diag, None, kMeaningUnknown},
+      {"inside-arc-too-small"_diag, None, kValueUnknown},
+      {"compensation-not-applied"_diag, None, kMeaningUnknown},
+      {"spindle-started-late"_diag, None, kMeaningUnknown},
       {"useless-suppression"_diag, Safe, {"remove {text}", "togliere {text}"}, removed_suppression},
       {"too-many-paths"_diag, None, kAboutCheck},
       {"line-too-long"_diag, None, kAboutCheck},

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 
 #include "analyzer/fixes/line_edits.h"
@@ -33,6 +34,35 @@ Draft g49_above(const Request& request) { return line_above(request, "G49"); }
 Draft m05_above(const Request& request) { return line_above(request, "M05"); }
 Draft g90_above(const Request& request) { return line_above(request, "G90"); }
 Draft g71_above(const Request& request) { return line_above(request, "G71"); }
+
+static bool ends_program(const LineTree& line, const Instruction& instruction) {
+  return instruction.kind == InstructionKind::Function && line.command(instruction).value == dialect::kProgramEnd;
+}
+
+/// Lines that are looked over for the G27 that comes too late.
+static constexpr std::uint64_t kFarthestDismount = 5'000;
+
+/// G92 under a face frame whose G27 comes later: it stands too low.
+Draft later_g27_above(const Request& request) {
+  Draft draft = g27_above(request);
+  if (draft.edits.empty()) return {};
+  const std::uint64_t end = std::min(request.program.line_count(), request.number + 1 + kFarthestDismount);
+  for (std::uint64_t number = request.number + 1; number < end; ++number) {
+    const syntax::ParsedLine parsed(request.program.text(number));
+    const LineTree line = parsed.tree();
+    if (is_jumped_to(line, request.program)) return {};
+    for (const Instruction& each : line.instructions) {
+      if (each.kind == InstructionKind::Jump || ends_program(line, each)) return {};
+      const dialect::GCode* const code = each.kind == InstructionKind::G ? each.g() : nullptr;
+      if (!code || (code->group != ModalGroup::Face && code->group != ModalGroup::Workpiece)) continue;
+      if (code->number != 27 || line.instructions.size() > 1) return {};
+      const syntax::Finding at_g27{.span = line.command(each).span()};
+      draft.edits.push_back(removed_with_line({number, at_g27, true, line, request.program}, at_g27.span));
+      return draft;
+    }
+  }
+  return {};
+}
 
 /// What has to end before the program does: compensation, face frame, spindle.
 static std::string blocks_before_end(const State& state, const std::string& line_start) {
@@ -81,21 +111,49 @@ Draft m06_before_tool(const Request& request) {
   return {{inserted(request, request.finding.span.begin, "M06 ")}};
 }
 
-/// M06 on one line, T101001 alone on the next or on the one above.
+static bool has_tool_alone(const LineTree& line) {
+  return line.instructions.size() == 1 && line.feed < 0 && line.spindle < 0 &&
+         line.instructions.front().kind == InstructionKind::StrayTool && line.findings.empty();
+}
+
+/// M06 on one line, T101001 alone on the next.
 Draft tool_of_other_line(const Request& request) {
-  for (const int step : {1, -1}) {
-    const std::optional<std::uint64_t> number = block_beside(request, step);
-    if (!number) continue;
-    const syntax::ParsedLine parsed(request.program.text(*number));
-    const LineTree other = parsed.tree();
-    const bool has_tool_alone = other.instructions.size() == 1 && other.feed < 0 && other.spindle < 0 &&
-                                other.instructions.front().kind == InstructionKind::StrayTool;
-    const LineTree& lower = step > 0 ? other : request.line;
-    if (!has_tool_alone || !other.findings.empty() || is_jumped_to(lower, request.program)) continue;
-    const syntax::Finding at_tool{.span = other.command(other.instructions.front()).span()};
-    const Request there{*number, at_tool, true, other, request.program};
-    const std::string tool(there.marked());
-    return {{inserted(request, request.finding.span.end, " " + tool), removed_with_line(there, at_tool.span)}, tool};
+  const std::optional<std::uint64_t> number = block_beside(request, 1);
+  if (!number) return {};
+  const syntax::ParsedLine parsed(request.program.text(*number));
+  const LineTree below = parsed.tree();
+  if (!has_tool_alone(below) || is_jumped_to(below, request.program)) return {};
+  const syntax::Finding at_tool{.span = below.command(below.instructions.front()).span()};
+  const Request there{*number, at_tool, true, below, request.program};
+  const std::string tool(there.marked());
+  return {{inserted(request, request.finding.span.end, " " + tool), removed_with_line(there, at_tool.span)}, tool};
+}
+
+/// Whether the line does what a T may be moved past: nothing that moves, mounts, jumps or ends.
+static bool lets_tool_pass(const LineTree& line, Program& program) {
+  const auto is_in_the_way = [&](const Instruction& each) {
+    return is_motion(each) || each.kind == InstructionKind::ToolChange || each.kind == InstructionKind::StrayTool ||
+           each.kind == InstructionKind::Jump || ends_program(line, each);
+  };
+  return !is_jumped_to(line, program) &&
+         std::none_of(line.instructions.begin(), line.instructions.end(), is_in_the_way);
+}
+
+/// T101001 alone, as other controls prepare a tool, and its M06 below.
+Draft tool_to_later_change(const Request& request) {
+  if (!has_tool_alone(request.line)) return {};
+  for (std::uint64_t number = request.number + 1;
+       number < request.program.line_count() && number <= request.number + kReach; ++number) {
+    const syntax::ParsedLine parsed(request.program.text(number));
+    const LineTree below = parsed.tree();
+    if (waits_for_tool(below) && !is_jumped_to(below, request.program)) {
+      const auto is_change = [](const Instruction& each) { return each.kind == InstructionKind::ToolChange; };
+      const Instruction& change = *std::find_if(below.instructions.begin(), below.instructions.end(), is_change);
+      const syntax::Position behind{number, below.command(change).end};
+      return {{removed_with_line(request, request.finding.span),
+               Edit{behind, behind, " " + std::string(request.marked())}}};
+    }
+    if (!lets_tool_pass(below, request.program)) return {};
   }
   return {};
 }

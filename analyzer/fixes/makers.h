@@ -71,6 +71,7 @@ Draft motions_on_two_lines(const Request& request);
 
 // lines.cpp: a word or a line that is missing, or stands on the neighboring line.
 Draft g27_above(const Request& request);
+Draft later_g27_above(const Request& request);
 Draft g49_above(const Request& request);
 Draft g40_above(const Request& request);
 Draft m05_above(const Request& request);
@@ -79,6 +80,7 @@ Draft g71_above(const Request& request);
 Draft end_of_program(const Request& request);
 Draft m06_before_tool(const Request& request);
 Draft tool_of_other_line(const Request& request);
+Draft tool_to_later_change(const Request& request);
 Draft command_to_next_line(const Request& request);
 
 // arcs.cpp: circles that fit.

@@ -6,6 +6,7 @@
 
 #include "analyzer/fixes/line_edits.h"
 #include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/prose.h"
 
 namespace isocnc::analyzer::fixes {
 
@@ -47,7 +48,8 @@ Draft zero_for_letter_o(const Request& request) {
 /// 10,5; separators of thousands, as in 1.000,5, are left to who wrote them.
 Draft point_for_comma(const Request& request) {
   std::string text(request.marked());
-  if (std::count(text.begin(), text.end(), ',') != 1 || text.find('.') != std::string::npos) return {};
+  if (!holds_only(text, "0123456789,+- \t")) return {};
+  if (std::count(text.begin(), text.end(), ',') != 1) return {};
   std::replace(text.begin(), text.end(), ',', '.');
   return rewritten(request, std::move(text));
 }
@@ -128,14 +130,15 @@ Draft code_of_this_control(const Request& request) {
   return {};
 }
 
-/// G04 X2, as other controls write it.
+/// G04 X2 or G04 F2, as other controls write it.
 Draft time_by_p(const Request& request) {
   const Word* const command = word_at(request.line, request.finding.span);
   const Instruction* const dwell = command ? owner_of(request.line, *command) : nullptr;
-  if (!dwell || dwell->end != dwell->command + 2) return {};
+  if (!dwell || dwell->command + 2u > request.line.words.size()) return {};
   const Word& time = request.line.words[dwell->command + 1u];
-  if (time.letter != 'X' || time.owner != dwell->number || !time.known()) return {};
-  return {{replaced(request, {time.begin, time.begin + 1}, "P")}};
+  const bool is_x = time.letter == 'X' && time.owner == dwell->number && dwell->end == dwell->command + 2;
+  if ((!is_x && time.letter != 'F') || !time.known()) return {};
+  return {{replaced(request, {time.begin, time.begin + 1}, "P")}, std::string(1, time.letter)};
 }
 
 /// G04 P500.
@@ -160,15 +163,10 @@ Draft closed_comment(const Request& request) {
 Draft opened_comment(const Request& request) {
   const syntax::ParsedLine before(request.line.text.substr(0, request.finding.span.begin));
   const syntax::LineTree tree = before.tree();
-  std::optional<std::uint32_t> begin;
-  for (auto word = tree.words.rbegin(); word != tree.words.rend(); ++word) {
-    const bool is_prose =
-        word->letter == syntax::kError || word->letter == syntax::kNumber || word->has(Word::kMissing);
-    if (!is_prose) break;
-    begin = word->begin;
-  }
-  if (!begin) return {};
-  return {{inserted(request, *begin, "(")}};
+  std::size_t first = tree.words.size();
+  while (const std::size_t prose = syntax::prose_at_end(tree.words.first(first))) first -= prose;
+  if (first == tree.words.size()) return {};
+  return {{inserted(request, tree.words[first].begin, "(")}};
 }
 
 static bool is_letter(char c) {

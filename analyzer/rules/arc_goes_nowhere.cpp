@@ -6,7 +6,7 @@
 namespace isocnc::analyzer::rules {
 
 /// An arc by radius that ends where it starts has no sweep (D36): a full turn was meant, and needs a center.
-static void check(const Block& block, execution::Sink& sink) {
+static void check_arc_goes_nowhere(const Block& block, execution::Sink& sink) {
   const std::uint8_t motion = block.motion();
   if ((motion != 2 && motion != 3) || block.before.unknown != 0 || block.after.unknown != 0) return;
   const syntax::Word* radius = nullptr;
@@ -20,6 +20,6 @@ static void check(const Block& block, execution::Sink& sink) {
   if (way.cwiseAbs().maxCoeff() <= geometry::kEqualCoordinate) report(sink, "arc-goes-nowhere"_diag, radius->span());
 }
 
-extern const Rule arc_goes_nowhere = {kMotion, check};
+extern const Rule arc_goes_nowhere = {kMotion, check_arc_goes_nowhere};
 
 }  // namespace isocnc::analyzer::rules

@@ -8,7 +8,7 @@
 namespace isocnc::analyzer::rules {
 
 /// Face axes that are orthogonal for the control, but not quite (D26).
-static void check(const Block& block, execution::Sink& sink) {
+static void check_axes_nearly_orthogonal(const Block& block, execution::Sink& sink) {
   const syntax::Word* word = block.g(28);
   if (!word) word = block.g(24);
   if (!word || !block.after.face_mounted || block.after.face_undefined) return;
@@ -18,11 +18,10 @@ static void check(const Block& block, execution::Sink& sink) {
     const double cosine = std::abs(axes.col(a).dot(axes.col(b)));
     if (cosine < geometry::kOrthogonalCosine) worst = std::max(worst, cosine);
   }
-  constexpr double kExact = 1e-6;
-  if (worst > kExact)
-    report(sink, "axes-nearly-orthogonal"_diag, word->span(), std::asin(worst) * 180 / std::numbers::pi);
+  const double angle = std::asin(worst) * 180 / std::numbers::pi;
+  if (angle > block.setup.opinions.axis_angle) report(sink, "axes-nearly-orthogonal"_diag, word->span(), angle);
 }
 
-extern const Rule axes_nearly_orthogonal = {kModal, check};
+extern const Rule axes_nearly_orthogonal = {kModal, check_axes_nearly_orthogonal};
 
 }  // namespace isocnc::analyzer::rules

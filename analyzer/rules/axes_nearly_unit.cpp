@@ -6,8 +6,7 @@
 
 namespace isocnc::analyzer::rules {
 
-/// More than three decimals of rounding explain, and less than a length that somebody chose: a digit is wrong.
-static constexpr double kRounding = 1e-3;
+/// More than rounding explains, and less than a length that somebody chose: a digit is wrong.
 static constexpr double kChosen = 0.1;
 
 /// A component of 1 or more is no unit vector's, or the vector is exact: somebody gave a direction.
@@ -23,11 +22,12 @@ static void check_vector(const Block& block, std::string_view letters, execution
   }
   const double length = std::sqrt(square);
   const double error = std::abs(length - 1);
-  if (!is_direction && error > kRounding && error < kChosen) report(sink, "axes-nearly-unit"_diag, span, length);
+  if (!is_direction && error > block.setup.opinions.vector_error && error < kChosen)
+    report(sink, "axes-nearly-unit"_diag, span, length);
 }
 
 /// The axis vectors of G24 and G28, which are made unit ones whatever their length (D26).
-static void check(const Block& block, execution::Sink& sink) {
+static void check_axes_nearly_unit(const Block& block, execution::Sink& sink) {
   const bool by_plane = block.g(24) != nullptr;
   if (!by_plane && !block.g(28)) return;
   for (const std::string_view letters :
@@ -35,6 +35,6 @@ static void check(const Block& block, execution::Sink& sink) {
     check_vector(block, letters, sink);
 }
 
-extern const Rule axes_nearly_unit = {kModal, check};
+extern const Rule axes_nearly_unit = {kModal, check_axes_nearly_unit};
 
 }  // namespace isocnc::analyzer::rules

@@ -3,7 +3,7 @@
 namespace isocnc::analyzer::rules {
 
 /// The plane, the frame or the tool changes while G41 or G42 is in force.
-static void check(const Block& block, execution::Sink& sink) {
+static void check_compensation_across_change(const Block& block, execution::Sink& sink) {
   if (!block.compensated()) return;
   const double mode = block.before.mode(dialect::ModalGroup::CutterCompensation);
   const syntax::Word* const ended = block.g(40);
@@ -20,6 +20,6 @@ static void check(const Block& block, execution::Sink& sink) {
       if (block.before.mode(dialect::ModalGroup::Plane) != plane) return tell(*word);
 }
 
-extern const Rule compensation_across_change = {kModal | kToolChange, check};
+extern const Rule compensation_across_change = {kModal | kToolChange, check_compensation_across_change};
 
 }  // namespace isocnc::analyzer::rules

@@ -3,14 +3,14 @@
 namespace isocnc::analyzer::rules {
 
 /// G04 P0, and a P so long that milliseconds may have been meant.
-static void check(const Block& block, execution::Sink& sink) {
-  constexpr double kLong = 120;
+static void check_dwell_of_odd_length(const Block& block, execution::Sink& sink) {
   if (!block.g(4)) return;
   for (const syntax::Word& word : block.line.words)
-    if (word.letter == 'P' && word.owner != syntax::Word::kNobody && (word.value == 0 || word.value > kLong))
+    if (word.letter == 'P' && word.owner != syntax::Word::kNobody &&
+        (word.value == 0 || word.value > block.setup.opinions.longest_dwell))
       report(sink, "dwell-of-odd-length"_diag, word.span(), word.value);
 }
 
-extern const Rule dwell_of_odd_length = {kModal, check};
+extern const Rule dwell_of_odd_length = {kModal, check_dwell_of_odd_length};
 
 }  // namespace isocnc::analyzer::rules

@@ -3,11 +3,11 @@
 namespace isocnc::analyzer::rules {
 
 /// M02 with G70 in force.
-static void check(const Block& block, execution::Sink& sink) {
+static void check_end_in_inches(const Block& block, execution::Sink& sink) {
   const syntax::Word* const end = block.m(dialect::kProgramEnd);
-  if (end && block.before.mode(dialect::ModalGroup::Units) == 70) report(sink, "end-in-inches"_diag, end->span());
+  if (end && block.after.mode(dialect::ModalGroup::Units) == 70) report(sink, "end-in-inches"_diag, end->span());
 }
 
-extern const Rule end_in_inches = {kFunction, check};
+extern const Rule end_in_inches = {kFunction, check_end_in_inches};
 
 }  // namespace isocnc::analyzer::rules

@@ -3,11 +3,11 @@
 namespace isocnc::analyzer::rules {
 
 /// M02 with G91 in force.
-static void check(const Block& block, execution::Sink& sink) {
+static void check_end_in_incremental(const Block& block, execution::Sink& sink) {
   const syntax::Word* const end = block.m(dialect::kProgramEnd);
-  if (end && block.before.incremental()) report(sink, "end-in-incremental"_diag, end->span());
+  if (end && block.after.incremental()) report(sink, "end-in-incremental"_diag, end->span());
 }
 
-extern const Rule end_in_incremental = {kFunction, check};
+extern const Rule end_in_incremental = {kFunction, check_end_in_incremental};
 
 }  // namespace isocnc::analyzer::rules

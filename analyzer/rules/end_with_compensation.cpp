@@ -3,12 +3,12 @@
 namespace isocnc::analyzer::rules {
 
 /// M02 without G40 before it.
-static void check(const Block& block, execution::Sink& sink) {
+static void check_end_with_compensation(const Block& block, execution::Sink& sink) {
   const syntax::Word* const end = block.m(dialect::kProgramEnd);
-  if (end && block.compensated())
-    report(sink, "end-with-compensation"_diag, end->span(), block.before.mode(dialect::ModalGroup::CutterCompensation));
+  const int mode = block.after.mode(dialect::ModalGroup::CutterCompensation);
+  if (end && mode != 40) report(sink, "end-with-compensation"_diag, end->span(), mode);
 }
 
-extern const Rule end_with_compensation = {kFunction, check};
+extern const Rule end_with_compensation = {kFunction, check_end_with_compensation};
 
 }  // namespace isocnc::analyzer::rules

@@ -3,11 +3,11 @@
 namespace isocnc::analyzer::rules {
 
 /// M02 without G27 before it.
-static void check(const Block& block, execution::Sink& sink) {
+static void check_end_with_face_mounted(const Block& block, execution::Sink& sink) {
   const syntax::Word* const end = block.m(dialect::kProgramEnd);
-  if (end && block.before.face_mounted) report(sink, "end-with-face-mounted"_diag, end->span());
+  if (end && block.after.face_mounted) report(sink, "end-with-face-mounted"_diag, end->span());
 }
 
-extern const Rule end_with_face_mounted = {kFunction, check};
+extern const Rule end_with_face_mounted = {kFunction, check_end_with_face_mounted};
 
 }  // namespace isocnc::analyzer::rules

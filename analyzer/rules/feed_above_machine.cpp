@@ -5,7 +5,7 @@
 namespace isocnc::analyzer::rules {
 
 /// An F that drives the tool tip faster than the machine can, in mm/min; in G93 the length decides.
-static void check(const Block& block, const execution::Move& move, execution::Sink& sink) {
+static void check_feed_above_machine(const Block& block, const execution::Move& move, execution::Sink& sink) {
   if (move.kind == execution::MoveKind::Rapid || block.line.feed < 0) return;
   const double length = execution::in_machine(move, block.after).length;
   if (length <= geometry::kEqualCoordinate) return;
@@ -24,6 +24,6 @@ static void check_alone(const Block& block, execution::Sink& sink) {
     sink.report({.id = "feed-above-machine"_diag, .span = word.span(), .values = {speed, block.setup.limits.feed}});
 }
 
-extern const Rule feed_above_machine = {kFeed, check_alone, check};
+extern const Rule feed_above_machine = {kFeed, check_alone, check_feed_above_machine};
 
 }  // namespace isocnc::analyzer::rules

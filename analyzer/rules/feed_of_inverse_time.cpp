@@ -3,15 +3,13 @@
 namespace isocnc::analyzer::rules {
 
 /// The first feed move back in G94 when the last F was given in G93 and meant a time (D43).
-static void check(const Block& block, execution::Sink& sink) {
-  const std::uint8_t motion = block.motion();
-  const bool is_feed = motion != 0 && motion != dialect::kNoMotion;
-  if (!is_feed || block.line.feed >= 0 || block.after.inverse_time()) return;
+static void check_feed_of_inverse_time(const Block& block, execution::Sink& sink) {
+  if (!block.has_feed_move() || block.line.feed >= 0 || block.after.inverse_time()) return;
   if (!block.before.knows(execution::State::kFeedOfInverseTime)) return;
   const execution::Feed feed = execution::feed_in_force(block.before);
   report(sink, "feed-of-inverse-time"_diag, block.motion_word().span(), feed.number * feed.mm_per_unit);
 }
 
-extern const Rule feed_of_inverse_time = {kMotion, check};
+extern const Rule feed_of_inverse_time = {kMotion, check_feed_of_inverse_time};
 
 }  // namespace isocnc::analyzer::rules

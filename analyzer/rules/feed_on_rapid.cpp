@@ -3,13 +3,13 @@
 namespace isocnc::analyzer::rules {
 
 /// An F that its line's G00 ignores (I.3.7, D43); in G93 that is W003.
-static void check(const Block& block, execution::Sink& sink) {
+static void check_feed_on_rapid(const Block& block, execution::Sink& sink) {
   const syntax::LineTree& line = block.line;
   if (line.feed < 0 || block.motion() != 0 || block.after.inverse_time()) return;
   const syntax::Word& feed = line.words[static_cast<std::size_t>(line.feed)];
   if (feed.value > 0) report(sink, "feed-on-rapid"_diag, feed.span());
 }
 
-extern const Rule feed_on_rapid = {kMotion, check};
+extern const Rule feed_on_rapid = {kMotion, check_feed_on_rapid};
 
 }  // namespace isocnc::analyzer::rules

@@ -6,7 +6,7 @@ namespace isocnc::analyzer::rules {
 
 /// Of two Gs of one modal group on a line only the later one counts (D20), unless a motion between them obeys the first
 /// (D14). The same G twice is W001.
-static void check(const Block& block, execution::Sink& sink) {
+static void check_modal_group_twice(const Block& block, execution::Sink& sink) {
   std::array<const syntax::Word*, dialect::kModalGroupCount> first{};
   for (const syntax::Instruction& instruction : block.line.instructions) {
     const dialect::GCode* const code = instruction.kind == syntax::InstructionKind::G ? instruction.g() : nullptr;
@@ -23,6 +23,6 @@ static void check(const Block& block, execution::Sink& sink) {
   }
 }
 
-extern const Rule modal_group_twice = {kModal, check};
+extern const Rule modal_group_twice = {kModal, check_modal_group_twice};
 
 }  // namespace isocnc::analyzer::rules

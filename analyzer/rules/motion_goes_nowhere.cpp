@@ -4,7 +4,7 @@
 namespace isocnc::analyzer::rules {
 
 /// A rapid or a straight feed move to where the tool stands; arcs have a code of their own.
-static void check(const Block& block, const execution::Move& move, execution::Sink& sink) {
+static void check_motion_goes_nowhere(const Block& block, const execution::Move& move, execution::Sink& sink) {
   if (move.kind == execution::MoveKind::Arc) return;
   const double way = (move.to.tip - move.from.tip).cwiseAbs().maxCoeff();
   const double turn = std::max(std::abs(move.to.b - move.from.b), std::abs(move.to.c - move.from.c));
@@ -12,6 +12,6 @@ static void check(const Block& block, const execution::Move& move, execution::Si
     report(sink, "motion-goes-nowhere"_diag, block.motion_word().span());
 }
 
-extern const Rule motion_goes_nowhere = {.check_move = check};
+extern const Rule motion_goes_nowhere = {.check_move = check_motion_goes_nowhere};
 
 }  // namespace isocnc::analyzer::rules

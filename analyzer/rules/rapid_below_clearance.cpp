@@ -4,7 +4,7 @@
 namespace isocnc::analyzer::rules {
 
 /// A rapid that goes below the clearance, or crosses the face beneath it; not one that rises to it.
-static void check(const Block& block, const execution::Move& move, execution::Sink& sink) {
+static void check_rapid_below_clearance(const Block& block, const execution::Move& move, execution::Sink& sink) {
   if (move.kind != execution::MoveKind::Rapid || !block.setup.clearance) return;
   const double clearance = *block.setup.clearance - geometry::kEqualCoordinate;
   const geometry::Vec3 way = move.to.tip - move.from.tip;
@@ -19,6 +19,6 @@ static void check(const Block& block, const execution::Move& move, execution::Si
                .values = {move.to.tip.z(), *block.setup.clearance}});
 }
 
-extern const Rule rapid_below_clearance = {.check_move = check};
+extern const Rule rapid_below_clearance = {.check_move = check_rapid_below_clearance};
 
 }  // namespace isocnc::analyzer::rules

@@ -8,7 +8,7 @@
 namespace isocnc::analyzer::rules {
 
 /// A feed move that would turn B or C faster than the machine can, degrees/min.
-static void check(const Block& block, const execution::Move& move, execution::Sink& sink) {
+static void check_rotary_speed_above_machine(const Block& block, const execution::Move& move, execution::Sink& sink) {
   if (move.kind == execution::MoveKind::Rapid || !(move.feed > 0)) return;
   const double b = std::abs(move.to.b - move.from.b);
   const double c = std::abs(move.to.c - move.from.c);
@@ -25,6 +25,6 @@ static void check(const Block& block, const execution::Move& move, execution::Si
                .values = {std::round(turn / minutes), most}});
 }
 
-extern const Rule rotary_speed_above_machine = {.check_move = check};
+extern const Rule rotary_speed_above_machine = {.check_move = check_rotary_speed_above_machine};
 
 }  // namespace isocnc::analyzer::rules

@@ -1,5 +1,6 @@
 #include "analyzer/rules/rule.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace isocnc::analyzer::rules {
@@ -72,6 +73,11 @@ std::uint8_t Block::motion() const {
                                                     : before.mode(dialect::ModalGroup::Motion);
 }
 
+bool Block::has_feed_move() const {
+  const std::uint8_t number = motion();
+  return number != 0 && number != dialect::kNoMotion;
+}
+
 const syntax::Word& Block::motion_word() const { return line.command(*motion_instruction(line)); }
 
 const syntax::Word* Block::argument(char letter) const {
@@ -90,6 +96,14 @@ int Block::spindle_function_before(const syntax::Word& word) const {
       if (command.value == m) last = m;
   }
   return last;
+}
+
+bool Block::has_user_function() const {
+  return std::any_of(line.instructions.begin(), line.instructions.end(), [&](const syntax::Instruction& instruction) {
+    const syntax::Word& command = line.command(instruction);
+    return instruction.kind == syntax::InstructionKind::Function && command.known() &&
+           dialect::is_user_function(static_cast<int>(command.value));
+  });
 }
 
 const syntax::Word* Block::g(int number) const {

@@ -22,10 +22,14 @@ struct Block {
   }
   /// The number of the line's motion G, written or in force; kNoMotion where nothing moves.
   std::uint8_t motion() const;
+  /// Whether the line's motion cuts: G01, G02 or G03, written or in force.
+  bool has_feed_move() const;
   /// The G of this number on the line, or null.
   const syntax::Word* g(int number) const;
   /// The M of this number on the line, or null.
   const syntax::Word* m(int number) const;
+  /// Whether an M of the shop's is on the line.
+  bool has_user_function() const;
   /// M03, M04 or M05, the last of them before a word of the line; 0 where there is none.
   int spindle_function_before(const syntax::Word& word) const;
   /// The line's first coordinate, or the motion's G: where a finding about the motion stands.

@@ -3,13 +3,13 @@
 namespace isocnc::analyzer::rules {
 
 /// M04 while M03 is in force, or the other way round.
-static void check(const Block& block, execution::Sink& sink) {
+static void check_spindle_reversed(const Block& block, execution::Sink& sink) {
   const syntax::Word* const against = block.before.knows(execution::State::kClockwise)          ? block.m(4)
                                       : block.before.knows(execution::State::kCounterclockwise) ? block.m(3)
                                                                                                 : nullptr;
   if (against && !block.m(5)) report(sink, "spindle-reversed"_diag, against->span());
 }
 
-extern const Rule spindle_reversed = {kFunction, check};
+extern const Rule spindle_reversed = {kFunction, check_spindle_reversed};
 
 }  // namespace isocnc::analyzer::rules

@@ -2,18 +2,20 @@
 
 namespace isocnc::analyzer::rules {
 
-/// A feed move after M05. Not before the first M03: how a program's spindle is started first is the shop's affair.
-static void check(const Block& block, execution::Sink& sink) {
-  const std::uint8_t motion = block.motion();
-  const bool is_feed = motion != 0 && motion != dialect::kNoMotion;
-  if (!is_feed) return;
+/// A feed move after M05, or after an S whose spindle nothing has started. Without an S, a spindle may not be meant at
+/// all: a laser, a part of a program.
+static void check_spindle_stopped_feed(const Block& block, execution::Sink& sink) {
+  using execution::State;
+  if (!block.has_feed_move()) return;
   const int function = block.spindle_function_before(block.motion_word());
+  if (function != 0 && function != 5) return;
+  const bool has_speed = !block.before.knows(State::kNoSpeed) || block.line.spindle >= 0;
+  const bool never_started = has_speed && block.before.knows(State::kNotStarted) && !block.has_user_function();
   const bool stops_here = function == 5 && block.spindle_turns();
-  const bool stands = function == 0 || function == 5 ? block.before.knows(execution::State::kStopped) : false;
-  if (!stops_here && !stands) return;
-  report(sink, "spindle-stopped-feed"_diag, block.motion_word().span());
+  if (stops_here || never_started || block.before.knows(State::kStopped))
+    report(sink, "spindle-stopped-feed"_diag, block.motion_word().span());
 }
 
-extern const Rule spindle_stopped_feed = {kMotion, check};
+extern const Rule spindle_stopped_feed = {kMotion, check_spindle_stopped_feed};
 
 }  // namespace isocnc::analyzer::rules

@@ -3,12 +3,12 @@
 namespace isocnc::analyzer::rules {
 
 /// M03 or M04 before any S.
-static void check(const Block& block, execution::Sink& sink) {
+static void check_spindle_without_speed(const Block& block, execution::Sink& sink) {
   if (!block.before.knows(execution::State::kNoSpeed) || block.line.spindle >= 0) return;
   for (const int m : {3, 4})
     if (const syntax::Word* const word = block.m(m)) return report(sink, "spindle-without-speed"_diag, word->span());
 }
 
-extern const Rule spindle_without_speed = {kFunction, check};
+extern const Rule spindle_without_speed = {kFunction, check_spindle_without_speed};
 
 }  // namespace isocnc::analyzer::rules

@@ -5,13 +5,13 @@
 namespace isocnc::analyzer::rules {
 
 /// A tool change to the tool that is there.
-static void check(const Block& block, execution::Sink& sink) {
+static void check_tool_already_mounted(const Block& block, execution::Sink& sink) {
   if (!block.before.knows(execution::State::kToolKnown) || block.after.tool != block.before.tool) return;
   const auto tool = std::find_if(block.line.words.begin(), block.line.words.end(),
                                  [](const syntax::Word& word) { return word.letter == 'T'; });
   if (tool != block.line.words.end()) report(sink, "tool-already-mounted"_diag, tool->span());
 }
 
-extern const Rule tool_already_mounted = {kToolChange, check};
+extern const Rule tool_already_mounted = {kToolChange, check_tool_already_mounted};
 
 }  // namespace isocnc::analyzer::rules

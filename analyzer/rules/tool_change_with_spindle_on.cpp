@@ -3,7 +3,7 @@
 namespace isocnc::analyzer::rules {
 
 /// M06 while M03 or M04 is in force.
-static void check(const Block& block, execution::Sink& sink) {
+static void check_tool_change_with_spindle_on(const Block& block, execution::Sink& sink) {
   const syntax::Word* const change = block.m(dialect::kToolChange);
   if (!change) return;
   const int function = block.spindle_function_before(*change);
@@ -11,6 +11,6 @@ static void check(const Block& block, execution::Sink& sink) {
   if (turns) report(sink, "tool-change-with-spindle-on"_diag, change->span());
 }
 
-extern const Rule tool_change_with_spindle_on = {kToolChange, check};
+extern const Rule tool_change_with_spindle_on = {kToolChange, check_tool_change_with_spindle_on};
 
 }  // namespace isocnc::analyzer::rules

@@ -10,7 +10,7 @@ using execution::Travel;
 
 /// Where an axis goes beyond its travel, at the end of a motion or at the bulge of an arc. What starts outside is told
 /// only where it goes further out: the way back is part of the same mistake.
-static void check(const Block& block, const execution::Move& move, execution::Sink& sink) {
+static void check_travel_exceeded(const Block& block, const execution::Move& move, execution::Sink& sink) {
   constexpr double kSlack = 1e-6;
   const geometry::Vec3 from = block.after.to_machine(move.from.tip);
   const std::array<double, execution::kAxisCount> start = {from.x(), from.y(), from.z(), move.from.b, move.from.c};
@@ -30,6 +30,6 @@ static void check(const Block& block, const execution::Move& move, execution::Si
   }
 }
 
-extern const Rule travel_exceeded = {.check_move = check};
+extern const Rule travel_exceeded = {.check_move = check_travel_exceeded};
 
 }  // namespace isocnc::analyzer::rules

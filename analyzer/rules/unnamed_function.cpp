@@ -5,7 +5,7 @@
 namespace isocnc::analyzer::rules {
 
 /// A user's M that is not among those the machine file names.
-static void check(const Block& block, execution::Sink& sink) {
+static void check_unnamed_function(const Block& block, execution::Sink& sink) {
   if (!block.setup.functions) return;
   const auto& named = *block.setup.functions;
   for (const syntax::Instruction& instruction : block.line.instructions) {
@@ -17,6 +17,6 @@ static void check(const Block& block, execution::Sink& sink) {
   }
 }
 
-extern const Rule unnamed_function = {kFunction, check};
+extern const Rule unnamed_function = {kFunction, check_unnamed_function};
 
 }  // namespace isocnc::analyzer::rules

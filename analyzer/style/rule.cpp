@@ -26,10 +26,8 @@ const syntax::Word* number_of(const syntax::LineTree& line) {
   return number == line.words.end() ? nullptr : &*number;
 }
 
-namespace {
-
 /// Whether the control reads a line: behind M02 only from a label on that a GOTO above names (D47).
-class Liveness {
+class Reader::Liveness {
  public:
   bool is_read(const syntax::LineTree& line) {
     if (line.has_label() && targets_.contains(line.label)) ended_ = false;
@@ -46,29 +44,37 @@ class Liveness {
   bool ended_ = false;
 };
 
-}  // namespace
-
-std::vector<Remark> read_program(std::string_view text, const std::function<bool(dialect::DiagnosticId)>& is_wanted) {
-  std::vector<std::unique_ptr<Rule>> rules;
+Reader::Reader(const IsWanted& is_wanted) : liveness_(std::make_unique<Liveness>()) {
   for (const RuleRow* const row : kRules)
-    if (is_wanted(row->id)) rules.push_back(row->make());
-  std::vector<Remark> remarks;
-  if (rules.empty()) return remarks;
+    if (is_wanted(row->id)) rules_.push_back(row->make());
+}
+
+Reader::~Reader() = default;
+
+void Reader::read(const Line& line) {
+  if (!liveness_->is_read(line.tree)) return;
+  for (const std::unique_ptr<Rule>& rule : rules_) rule->read(line, remarks_);
+}
+
+std::vector<Remark> Reader::finish() {
+  for (const std::unique_ptr<Rule>& rule : rules_) rule->end(remarks_);
+  return std::move(remarks_);
+}
+
+std::vector<Remark> read_program(std::string_view text, const IsWanted& is_wanted) {
+  Reader reader(is_wanted);
+  if (reader.is_idle()) return {};
   syntax::TreeStore store;
-  Liveness liveness;
   const char* p = text.data();
   const char* const end = text.data() + text.size();
   for (std::uint64_t number = 0; p != end; ++number) {
     store.clear();
     const char* const line_end = store.append_line(p, end);
     const char* const next = syntax::skip_line_end(line_end, end);
-    const Line line{number, store.tree(0, p), {line_end, static_cast<std::size_t>(next - line_end)}};
-    if (liveness.is_read(line.tree))
-      for (const std::unique_ptr<Rule>& rule : rules) rule->read(line, remarks);
+    reader.read({number, store.tree(0, p), {line_end, static_cast<std::size_t>(next - line_end)}});
     p = next;
   }
-  for (const std::unique_ptr<Rule>& rule : rules) rule->end(remarks);
-  return remarks;
+  return reader.finish();
 }
 
 }  // namespace isocnc::analyzer::style

@@ -48,7 +48,30 @@ constexpr RuleRow rule(dialect::DiagnosticId id) {
 /// The word that is the line's own number; null where it has none.
 const syntax::Word* number_of(const syntax::LineTree& line);
 
+/// Which rules are wanted.
+using IsWanted = std::function<bool(dialect::DiagnosticId)>;
+
+/// Reads a program to the rules that are wanted, line by line from the top.
+class Reader {
+ public:
+  explicit Reader(const IsWanted& is_wanted);
+  ~Reader();
+
+  /// Whether nobody listens.
+  bool is_idle() const { return rules_.empty(); }
+  void read(const Line& line);
+  /// What the rules have said, in no order.
+  std::vector<Remark> finish();
+
+ private:
+  class Liveness;
+
+  std::vector<std::unique_ptr<Rule>> rules_;
+  std::unique_ptr<Liveness> liveness_;
+  std::vector<Remark> remarks_;
+};
+
 /// What the wanted rules say of a program, in no order.
-std::vector<Remark> read_program(std::string_view text, const std::function<bool(dialect::DiagnosticId)>& is_wanted);
+std::vector<Remark> read_program(std::string_view text, const IsWanted& is_wanted);
 
 }  // namespace isocnc::analyzer::style

@@ -17,7 +17,11 @@ static constexpr std::string_view kMachineKinds[] = {"three-axis", "head", "tabl
 /// Farther than any machine reaches, and close enough to compute with.
 static constexpr Range kLength = {-1e6, 1e6};
 static constexpr Range kAngle = {-1e5, 1e5};
-static constexpr Range kSpeed = {0, 1e7, true};
+/// Slower than any machine, and fast enough that a program ends.
+static constexpr Range kSpeed = {1, 1e7};
+static constexpr Range kAcceleration = {1, 1e6};
+/// From a tenth of a micron.
+static constexpr Range kRounding = {1e-4, 10};
 
 std::span<const std::string_view> severity_choices() { return kSeverities; }
 
@@ -59,7 +63,7 @@ static std::string lower(std::string_view letter) { return {static_cast<char>(le
 
 static void add_home(std::vector<Key>& keys) {
   keys.push_back({.path = "machine.home",
-                  .documentation = "Where the machine stands when a program begins, in machine coordinates."});
+                  .documentation = "Where the spindle nose stands when a program begins, in machine coordinates."});
   for (const Axis& axis : kAxes)
     keys.push_back({.path = "machine.home." + lower(axis.letter),
                     .kind = Kind::Number,
@@ -106,11 +110,19 @@ static void add_axes(std::vector<Key>& keys) {
                     .slot = [axis](Configuration& c, std::size_t) -> Slot { return &c.machine.rapids[axis.index]; }});
     keys.push_back({.path = path + ".acceleration",
                     .kind = Kind::Number,
-                    .range = {0, 1e6, true},
+                    .range = kAcceleration,
                     .unit = axis.is_rotary ? "degrees/s^2" : "mm/s^2",
                     .documentation = "How fast the axis gathers and loses speed at most.",
                     .slot = [axis](Configuration& c, std::size_t) -> Slot {
                       return &c.machine.timed.motion.axes[axis.index].acceleration;
+                    }});
+    keys.push_back({.path = path + ".jerk",
+                    .kind = Kind::Number,
+                    .range = {0, 1e7, true},
+                    .unit = axis.is_rotary ? "degrees/s^3" : "mm/s^3",
+                    .documentation = "How fast the acceleration of the axis changes at most; without it, at once.",
+                    .slot = [axis](Configuration& c, std::size_t) -> Slot {
+                      return &c.machine.timed.motion.axes[axis.index].jerk;
                     }});
   }
 }
@@ -137,21 +149,21 @@ static void add_limits(std::vector<Key>& keys) {
   keys.push_back({.path = "machine.tolerances", .documentation = "How exact the control wants programs to be."});
   keys.push_back({.path = "machine.tolerances.arc",
                   .kind = Kind::Number,
-                  .range = {0, 10, true},
+                  .range = {1e-6, 10},
                   .unit = "mm",
                   .documentation = "How far the given points of an arc may be from a circle (ISO029, ISO030, ISO031).",
                   .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.setup.arc_tolerance; }});
   keys.push_back(
       {.path = "machine.tolerances.chord",
        .kind = Kind::Number,
-       .range = {0, 10, true},
+       .range = kRounding,
        .unit = "mm",
        .documentation = "How far the lines that replace an arc in G49 may be from it (I.3.4.3.a).",
        .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.timed.motion.chord_tolerance; }});
   keys.push_back(
       {.path = "machine.tolerances.corner",
        .kind = Kind::Number,
-       .range = {0, 10, true},
+       .range = kRounding,
        .unit = "mm",
        .documentation = "How far from the programmed path the tip may round a corner.",
        .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.timed.motion.corner_tolerance; }});
@@ -266,7 +278,7 @@ static void add_tools(std::vector<Key>& keys) {
                   .kind = Kind::Number,
                   .range = {0, 1e4, true},
                   .unit = "mm",
-                  .documentation = "The radius of what cuts.",
+                  .documentation = "The radius of what cuts, by which G41 and G42 lead the tool beside the contour.",
                   .slot = [](Configuration& c, std::size_t i) -> Slot { return &(*c.machine.tools)[i].radius; }});
 }
 
@@ -318,9 +330,30 @@ static void add_wishes(std::vector<Key>& keys, const std::string& path, WishesOf
                   .slot = [wishes](Configuration& c, std::size_t i) -> Slot { return &wishes(c, i).severity; }});
 }
 
+static void add_options(std::vector<Key>& keys) {
+  keys.push_back({.path = "lint.options", .documentation = "From where on lint rules speak."});
+  const auto add = [&](std::string_view name, Range range, std::string_view unit, std::string_view documentation,
+                       auto member) {
+    keys.push_back(
+        {.path = "lint.options." + std::string(name),
+         .kind = Kind::Number,
+         .range = range,
+         .unit = unit,
+         .documentation = documentation,
+         .slot = [member](Configuration& c, std::size_t) -> Slot { return &(c.machine.setup.opinions.*member); }});
+  };
+  add("longestDwell", {0, 1e6, true}, "s", "The longest G04 that is not told of (W115).",
+      &execution::Opinions::longest_dwell);
+  add("axisAngle", {0, 1}, "degrees", "How far face axes may be from the right angle without a word (W114).",
+      &execution::Opinions::axis_angle);
+  add("vectorError", {0, 0.1}, "", "How far the length of an axis vector may be from 1 without a word (W128).",
+      &execution::Opinions::vector_error);
+}
+
 static void add_lint(std::vector<Key>& keys) {
   keys.push_back({.path = "lint", .documentation = "What isolint reports, and which files are programs."});
   add_wishes(keys, "lint", [](Configuration& c, std::size_t) -> CodeWishes& { return c.lint.wishes; });
+  add_options(keys);
   keys.push_back({.path = "lint.files",
                   .kind = Kind::Objects,
                   .documentation = "What holds for some programs alone; the later outweighs the earlier.",

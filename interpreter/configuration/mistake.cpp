@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/dialect/format.h"
 #include "interpreter/dialect/near_names.h"
 #include "interpreter/syntax/unicode.h"
 
@@ -17,7 +18,7 @@ std::string Mistake::message(Language language) const {
     if (i >= names.size()) return {};
     return language == Language::Italian ? names[i].it : names[i].en;
   };
-  const std::string said = fmt::format(fmt::runtime(text.in(language)), name(0), name(1));
+  const std::string said = dialect::format(text, language, name(0), name(1));
   return fmt::format("{}{}{}{}", key, key.empty() ? "" : ": ", said, dialect::did_you_mean(meant, language));
 }
 

@@ -196,7 +196,12 @@ class Reader {
   }
 
   bool stands_twice(const JsonMember& member, SeenKeys& seen, const std::string& path) {
-    const auto [first, is_new] = seen.try_emplace(member.key, member.at);
+    return stands_twice(member, member.key, seen, path);
+  }
+
+  /// By a name that means the same.
+  bool stands_twice(const JsonMember& member, std::string_view name, SeenKeys& seen, const std::string& path) {
+    const auto [first, is_new] = seen.try_emplace(name, member.at);
     if (!is_new)
       complain(member.at, path, mistakes::kKeyTwice, {fmt::format("{}", place_of(first->second, text_).line)});
     return !is_new;
@@ -306,7 +311,9 @@ class Reader {
     for (const JsonMember& member : object.members) {
       if (is_full()) return;
       const std::string below = path + "." + member.key;
-      if (stands_twice(member, seen, below) || !is_right(key.text, member.key, member.at, below)) continue;
+      const std::optional<dialect::DiagnosticId> id = dialect::find_diagnostic(member.key);  // ISO031 by code or name.
+      const std::string_view name = id ? dialect::definition(*id).code : member.key;
+      if (stands_twice(member, name, seen, below) || !is_right(key.text, member.key, member.at, below)) continue;
       if (member.value.kind != Json::String) {
         complain(member.value.at, below, mistakes::kWrongKind, {name_of(member.value.kind), name_of(Json::String)});
       } else if (is_chosen(key, member.value, below)) {
@@ -332,8 +339,15 @@ static void derive_motion(Machine& machine) {
     motion.axes[i].most = machine.setup.limits.travel[i].most;
     motion.axes[i].speed = machine.rapids[i] / 60;
   }
-  for (const Tool& tool : machine.tools.value_or(std::vector<Tool>()))
+  const execution::Limits& limits = machine.setup.limits;
+  motion.feed_speed = limits.feed / 60;
+  motion.feed_turn = limits.rotary_speed / 60;
+  machine.timed.spindle_speed = limits.spindle_speed;
+  machine.timed.home = machine.setup.home;
+  for (const Tool& tool : machine.tools.value_or(std::vector<Tool>())) {
     if (tool.length) machine.timed.tool_lengths[tool.code] = *tool.length;
+    if (tool.radius) machine.timed.tool_radii[tool.code] = *tool.radius;
+  }
   for (const NamedFunction& function : machine.functions.value_or(std::vector<NamedFunction>()))
     machine.timed.durations.functions[function.number] = function.seconds;
 }

@@ -13,48 +13,48 @@
 
 namespace isocnc::configuration {
 
-using Json = nlohmann::ordered_json;
+using nlohmann::ordered_json;
 
 /// 100, not 100.0.
-static Json number(double value) {
+static ordered_json number(double value) {
   if (std::floor(value) == value && std::abs(value) < 1e15) return static_cast<std::int64_t>(value);
   return value;
 }
 
-static std::optional<Json> value_in(std::monostate) { return std::nullopt; }
-static std::optional<Json> value_in(const double* real) {
+static std::optional<ordered_json> value_in(std::monostate) { return std::nullopt; }
+static std::optional<ordered_json> value_in(const double* real) {
   return std::isfinite(*real) ? std::optional(number(*real)) : std::nullopt;
 }
-static std::optional<Json> value_in(const std::optional<double>* real) {
+static std::optional<ordered_json> value_in(const std::optional<double>* real) {
   return *real ? std::optional(number(**real)) : std::nullopt;
 }
-static std::optional<Json> value_in(const int* whole) { return *whole; }
-static std::optional<Json> value_in(const std::optional<int>* whole) {
-  return *whole ? std::optional<Json>(**whole) : std::nullopt;
+static std::optional<ordered_json> value_in(const int* whole) { return *whole; }
+static std::optional<ordered_json> value_in(const std::optional<int>* whole) {
+  return *whole ? std::optional<ordered_json>(**whole) : std::nullopt;
 }
-static std::optional<Json> value_in(const bool* flag) { return *flag; }
-static std::optional<Json> value_in(const std::string* text) {
-  return text->empty() ? std::nullopt : std::optional<Json>(*text);
+static std::optional<ordered_json> value_in(const bool* flag) { return *flag; }
+static std::optional<ordered_json> value_in(const std::string* text) {
+  return text->empty() ? std::nullopt : std::optional<ordered_json>(*text);
 }
-static std::optional<Json> value_in(const std::optional<dialect::Language>* language) {
-  return *language ? std::optional<Json>(std::string(name_of(**language))) : std::nullopt;
+static std::optional<ordered_json> value_in(const std::optional<dialect::Language>* language) {
+  return *language ? std::optional<ordered_json>(std::string(name_of(**language))) : std::nullopt;
 }
-static std::optional<Json> value_in(const std::vector<std::string>* texts) { return *texts; }
-static std::optional<Json> value_in(const std::vector<std::pair<std::string, std::string>>* severities) {
-  Json object = Json::object();
+static std::optional<ordered_json> value_in(const std::vector<std::string>* texts) { return *texts; }
+static std::optional<ordered_json> value_in(const std::vector<std::pair<std::string, std::string>>* severities) {
+  ordered_json object = ordered_json::object();
   for (const auto& [code, severity] : *severities) object[code] = severity;
   return object;
 }
 /// Objects have their keys in the table; here it only matters whether they are there.
 template <typename T>
-static std::optional<Json> value_in(const T* /*objects*/) {
+static std::optional<ordered_json> value_in(const T* /*objects*/) {
   return std::nullopt;
 }
 
-static Json object_of(Configuration& configuration, const Key* key, std::size_t index);
+static ordered_json object_of(Configuration& configuration, const Key* key, std::size_t index);
 
-static std::optional<Json> list_of(Configuration& configuration, const Key& key, const Slot& slot) {
-  Json list = Json::array();
+static std::optional<ordered_json> list_of(Configuration& configuration, const Key& key, const Slot& slot) {
+  ordered_json list = ordered_json::array();
   if (const auto* const tools = std::get_if<std::optional<std::vector<Tool>>*>(&slot)) {
     if (!**tools) return std::nullopt;
     for (std::size_t i = 0; i < (**tools)->size(); ++i) list.push_back(object_of(configuration, &key, i));
@@ -65,30 +65,30 @@ static std::optional<Json> list_of(Configuration& configuration, const Key& key,
   return list;
 }
 
-static std::optional<Json> named_of(Configuration& configuration, const Key& key, const Slot& slot) {
+static std::optional<ordered_json> named_of(Configuration& configuration, const Key& key, const Slot& slot) {
   const auto& functions = *std::get<std::optional<std::vector<NamedFunction>>*>(slot);
   if (!functions) return std::nullopt;
-  Json object = Json::object();
+  ordered_json object = ordered_json::object();
   for (std::size_t i = 0; i < functions->size(); ++i)
     object[fmt::format("M{}", (*functions)[i].number)] = object_of(configuration, &key, i);
   return object;
 }
 
-static std::optional<Json> value_of(Configuration& configuration, const Key& key, std::size_t index) {
+static std::optional<ordered_json> value_of(Configuration& configuration, const Key& key, std::size_t index) {
   const Slot slot = key.slot ? key.slot(configuration, index) : Slot();
   if (const auto* const renumber = std::get_if<std::optional<Renumber>*>(&slot); renumber && !**renumber)
     return std::nullopt;
   if (key.kind == KeyKind::Objects) return list_of(configuration, key, slot);
   if (key.kind == KeyKind::Named) return named_of(configuration, key, slot);
   if (key.kind != KeyKind::Object) return std::visit([](const auto& place) { return value_in(place); }, slot);
-  Json object = object_of(configuration, &key, index);
+  ordered_json object = object_of(configuration, &key, index);
   return object.empty() ? std::nullopt : std::optional(std::move(object));
 }
 
-static Json object_of(Configuration& configuration, const Key* key, std::size_t index) {
-  Json object = Json::object();
+static ordered_json object_of(Configuration& configuration, const Key* key, std::size_t index) {
+  ordered_json object = ordered_json::object();
   for (const Key* each : keys_below(key))
-    if (std::optional<Json> value = value_of(configuration, *each, index))
+    if (std::optional<ordered_json> value = value_of(configuration, *each, index))
       object[std::string(each->name())] = std::move(*value);
   return object;
 }
@@ -98,8 +98,8 @@ std::string to_json(const Configuration& configuration) {
   return object_of(copy, nullptr, 0).dump(2) + "\n";
 }
 
-static Json text_schema(TextKind kind) {
-  Json schema = {{"type", "string"}};
+static ordered_json text_schema(TextKind kind) {
+  ordered_json schema = {{"type", "string"}};
   switch (kind) {
     case TextKind::Code:
       return {{"$ref", "#/definitions/code"}};
@@ -120,8 +120,8 @@ static Json text_schema(TextKind kind) {
 }
 
 /// Codes and names to choose from, and beginnings of codes, which may be shorter than any.
-static Json code_schema() {
-  Json names = {"ALL"};
+static ordered_json code_schema() {
+  ordered_json names = {"ALL"};
   for (const dialect::DiagnosticDef& def : dialect::kDiagnostics) {
     names.push_back(def.code);
     names.push_back(def.name);
@@ -129,7 +129,7 @@ static Json code_schema() {
   return {{"anyOf", {{{"enum", std::move(names)}}, {{"type", "string"}, {"pattern", "^[A-Za-z][A-Za-z0-9-]*$"}}}}};
 }
 
-static void add_range(const Key& key, Json& schema) {
+static void add_range(const Key& key, ordered_json& schema) {
   const Range& range = key.range;
   if (std::isfinite(range.least)) schema[range.above_least ? "exclusiveMinimum" : "minimum"] = number(range.least);
   if (std::isfinite(range.most)) schema["maximum"] = number(range.most);
@@ -139,12 +139,12 @@ static std::string description_of(const Key& key) {
   return std::string(key.documentation) + (key.unit.empty() ? "" : fmt::format(" In {}.", key.unit));
 }
 
-static Json schema_of(const Key* key);
+static ordered_json schema_of(const Key* key);
 
 /// What an object may hold.
-static Json members_schema(const Key* key) {
-  Json schema = {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
-  Json required = Json::array();
+static ordered_json members_schema(const Key* key) {
+  ordered_json schema = {{"type", "object"}, {"additionalProperties", false}, {"properties", ordered_json::object()}};
+  ordered_json required = ordered_json::array();
   for (const Key* each : keys_below(key)) {
     schema["properties"][std::string(each->name())] = schema_of(each);
     if (each->is_required) required.push_back(std::string(each->name()));
@@ -153,8 +153,8 @@ static Json members_schema(const Key* key) {
   return schema;
 }
 
-static Json schema_of(const Key* key) {
-  Json schema = Json::object();
+static ordered_json schema_of(const Key* key) {
+  ordered_json schema = ordered_json::object();
   schema["description"] = description_of(*key);
   switch (key->kind) {
     case KeyKind::Object:
@@ -198,9 +198,10 @@ static Json schema_of(const Key* key) {
 }
 
 std::string json_schema() {
-  Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
-                 {"title", "isocnc.json"},
-                 {"description", "What isolint, isofmt and isorun know of a machine and of the wishes of its shop."}};
+  ordered_json schema = {
+      {"$schema", "http://json-schema.org/draft-07/schema#"},
+      {"title", "isocnc.json"},
+      {"description", "What isolint, isofmt and isorun know of a machine and of the wishes of its shop."}};
   schema.update(members_schema(nullptr));
   schema["definitions"] = {{"code", code_schema()}};
   return schema.dump(2) + "\n";
@@ -211,7 +212,7 @@ static std::string default_of(const Key& key) {
   if (key.path.find("[]") != std::string::npos || key.path.find('*') != std::string::npos) return "";
   Configuration none;
   none.format.renumber.emplace();
-  const std::optional<Json> value = key.kind == KeyKind::Object ? std::nullopt : value_of(none, key, 0);
+  const std::optional<ordered_json> value = key.kind == KeyKind::Object ? std::nullopt : value_of(none, key, 0);
   return value && !value->empty() ? fmt::format("`{}`", value->dump()) : "";
 }
 

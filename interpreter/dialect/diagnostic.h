@@ -31,6 +31,7 @@ struct DiagnosticDef {
   std::string_view name;  ///< `head-not-selected`: stable, what our code and readers say.
   Severity severity = Severity::Error;
   bool is_off = false;                         ///< Shown only to who selects it.
+  bool is_told_by_runs = false;                ///< By isorun, which follows the tool; isolint does not find it.
   std::string_view section;                    ///< Of the specification, `I.4.3`.
   std::string_view arguments[kMostArguments];  ///< Names of the values, in the order in which they are reported.
   Text title;                                  ///< A few words for lists.

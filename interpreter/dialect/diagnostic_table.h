@@ -496,8 +496,10 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .section = "I.3.4.3.a",
      .arguments = {"start", "end"},
      .title = {.en = "Arc center does not fit", .it = "Centro dell'arco incongruente"},
-     .message = {.en = "the center is {start} mm from the start and {end} mm from the end of the arc",
-                 .it = "il centro dista {start} mm dal punto iniziale e {end} mm dal punto finale dell'arco"},
+     .message = {.en = "the center is {start} mm from the start and {end} mm from the end of the arc: it takes one "
+                       "radius, above 0",
+                 .it = "il centro dista {start} mm dal punto iniziale e {end} mm dal punto finale dell'arco: il raggio "
+                       "deve essere uno solo, maggiore di 0"},
      .explanation = {.en = "Start and end of an arc must lie on one circle, equally far from its center and not on "
                            "it. Check the center and the end point. With G90 I, J and K are the position of the "
                            "center, with G91 its distance from the start.",
@@ -1105,10 +1107,12 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
                        "numero, GOTO, N e numero"},
      .explanation = {.en = "The control reads a jump in one form only, such as IF VGPL = 34.5 GOTO N30 or IF V5 >= 2 "
                            "GOTO N100. Write all its parts in this order. A condition compares with one number: two "
-                           "registers cannot be compared, nor two conditions combined.",
+                           "registers cannot be compared, nor two conditions combined. What stands in parentheses is a "
+                           "comment, a condition too.",
                      .it = "Il controllo legge il salto in una sola forma, per esempio IF VGPL = 34.5 GOTO N30 o IF "
                            "V5 >= 2 GOTO N100. Scrivere tutte le parti in quest'ordine. Il confronto si fa con un "
-                           "solo numero: non si possono confrontare due registri né unire due condizioni."},
+                           "solo numero: non si possono confrontare due registri né unire due condizioni. Ciò che "
+                           "sta fra parentesi è un commento, anche una condizione."},
      .wrong = "M06 T101001\nIF VGPL [!==!] 1 GOTO N30\nG00 X10\nN30 M02\n",
      .right = "M06 T101001\nIF VGPL = 1 GOTO N30\nG00 X10\nN30 M02\n"},
     {.code = "E004",
@@ -1273,15 +1277,19 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .section = "I.4.2",
      .arguments = {},
      .title = {.en = "Feed move with the spindle stopped", .it = "Lavorazione a mandrino fermo"},
-     .message = {.en = "feed move after M05: the spindle does not turn",
-                 .it = "movimento in lavoro dopo la M05: il mandrino è fermo"},
-     .explanation = {.en = "The spindle was stopped with M05, and nothing has started it since this feed move: in the "
-                           "material the tool breaks. Write M03 or M04 with its S before it. A false alarm where a "
-                           "probe or a drag knife is moved with the spindle stopped.",
-                     .it =
-                         "Il mandrino è stato fermato con la M05 e nulla l'ha riavviato prima di questo movimento: nel "
-                         "materiale l'utensile si rompe. Scrivere prima una M03 o una M04 con la sua S. Falso allarme "
-                         "se si lavora apposta a mandrino fermo, per esempio con un tastatore o una lama trascinata."},
+     .message = {.en = "feed move without an M03 or M04 in force: the spindle does not turn",
+                 .it = "movimento in lavoro senza una M03 o una M04 in presa: il mandrino è fermo"},
+     .explanation =
+         {.en =
+              "The spindle was stopped with M05, or given a speed with S and never started, and now a feed move comes: "
+              "in the material the tool breaks. Write M03 or M04 with its S before it. A false alarm where a probe or "
+              "a "
+              "drag knife is moved with the spindle stopped, or where the shop's tool change starts the spindle.",
+          .it =
+              "Il mandrino è stato fermato con la M05, oppure ha una velocità S ma nessuno l'ha avviato, e ora arriva "
+              "un movimento in lavoro: nel materiale l'utensile si rompe. Scrivere prima una M03 o una M04 con la sua "
+              "S. Falso allarme se si lavora apposta a mandrino fermo, per esempio con un tastatore o una lama "
+              "trascinata, o se il mandrino parte già con il cambio utensile."},
      .wrong = "M06 T101001\nS12000 M03\nG01 X10 F1000\nM05\n[!X20!]\nM02\n",
      .right = "M06 T101001\nS12000 M03\nG01 X10 F1000\nM05\nG00 X20\nM02\n"},
     {.code = "W103",
@@ -1361,11 +1369,12 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .severity = Severity::Warning,
      .section = "I.3.12",
      .arguments = {"mode"},
-     .title = {.en = "Program end with cutter compensation on", .it = "Fine programma con la compensazione in presa"},
+     .title = {.en = "Program end with cutter compensation on",
+               .it = "Fine programma con la correzione raggio fresa in presa"},
      .message = {.en = "the program ends with G{mode} in force", .it = "il programma finisce con la G{mode} in presa"},
      .explanation = {.en = "Cutter compensation has not been ended with G40 before the end of the program. Write G40 "
                            "after the last compensated move. No false alarms are known.",
-                     .it = "La compensazione del raggio non è stata chiusa con la G40 prima della fine del programma. "
+                     .it = "La correzione raggio fresa non è stata tolta con la G40 prima della fine del programma. "
                            "Scrivere la G40 dopo l'ultimo movimento compensato. Non si conoscono falsi allarmi."},
      .wrong = "M06 T101001\nG41 G01 X10 F1000\n[!M02!]\n",
      .right = "M06 T101001\nG41 G01 X10 F1000\nG40\nM02\n"},
@@ -1391,7 +1400,7 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .arguments = {"feed"},
      .title = {.en = "No F since G93", .it = "Nessuna F dopo la G93"},
      .message = {.en = "no F since G93: the feed is {feed} mm/min from here on",
-                 .it = "nessuna F dopo la G93: da qui l'avanzamento è di {feed} mm/min"},
+                 .it = "nessuna F dopo la G93: da qui il feed rate è di {feed} mm/min"},
      .explanation =
          {.en = "Back in G94 without a new F the last F of G94 holds again; where there was none, the F of G93, which "
                 "stood for a time, is read as a speed. Write an F on the first feed move after G94. A false alarm "
@@ -1440,12 +1449,12 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .severity = Severity::Warning,
      .section = "I.3.12",
      .arguments = {"mode"},
-     .title = {.en = "Change under cutter compensation", .it = "Cambio con la compensazione in presa"},
+     .title = {.en = "Change under cutter compensation", .it = "Cambio con la correzione raggio fresa in presa"},
      .message = {.en = "{text} while G{mode} is in force", .it = "{text} con la G{mode} in presa"},
      .explanation = {.en = "Plane, frame or tool change while the path is offset for the old one. End the compensation "
                            "with G40 before it. A false alarm only where the shop's control is known to allow it.",
                      .it = "Cambia il piano, il riferimento o l'utensile mentre il percorso è corretto per quello di "
-                           "prima. Chiudere prima la compensazione con la G40. Falso allarme solo se è certo che il "
+                           "prima. Togliere prima la correzione con la G40. Falso allarme solo se è certo che il "
                            "controllo lo consente."},
      .wrong = "M06 T101001\nG41 G01 X10 F1000\n[!G18!]\nX20\nG40\nM02\n",
      .right = "M06 T101001\nG41 G01 X10 F1000\nG40\nG18\nX20\nM02\n"},
@@ -1489,13 +1498,14 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .message = {.en = "no path of the program leads here: it never runs",
                  .it = "nessun percorso del programma arriva qui: non viene mai eseguito"},
      .explanation =
-         {.en = "All paths end before this line or jump over it, so the control never reads it and nothing below is "
-                "checked until a label that is reached. Delete it, or mend the jump or the M02 before it. A false "
-                "alarm where code is kept behind M02 on purpose: as a comment it cannot be mistaken.",
-          .it = "Tutti i percorsi finiscono prima di questa linea o la saltano: il controllo non la legge e, fino a "
-                "un'etichetta raggiungibile, nemmeno questa verifica. Cancellarla, oppure correggere il salto o la M02 "
-                "che la precede. Falso allarme se il codice dopo la M02 è tenuto apposta: come commento non può trarre "
-                "in inganno."},
+         {.en = "All paths end before this line, so the control never reads it and nothing below is checked until a "
+                "label that is reached. Delete it, or mend the M02 before it. What a jump skips whose condition is "
+                "always true is told of at its IF (W117). A false alarm where code is kept behind M02 on purpose: as a "
+                "comment it cannot be mistaken.",
+          .it = "Tutti i percorsi finiscono prima di questa linea: il controllo non la legge e, fino a un'etichetta "
+                "raggiungibile, nemmeno questa verifica. Cancellarla, oppure correggere la M02 che la precede. Ciò che "
+                "un salto dalla condizione sempre vera scavalca è segnalato al suo IF (W117). Falso allarme se il "
+                "codice dopo la M02 è tenuto apposta: come commento non può trarre in inganno."},
      .wrong = "M06 T101001\nG00 X10\nM02\n[!G00 X20!]\n",
      .right = "M06 T101001\nG00 X10\nG00 X20\nM02\n"},
     {.code = "W117",
@@ -1576,7 +1586,7 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .explanation = {.en = "The IF compares a register that the program gives no value anywhere. Check its number, or "
                            "set it at the top of the program. Off by default; a false alarm where the register is set "
                            "from outside, by the GPL or by a program that ran before.",
-                     .it = "La IF confronta un registro al quale il programma non dà mai un valore. Controllare il "
+                     .it = "Un IF confronta un registro al quale il programma non dà mai un valore. Controllare il "
                            "numero, o impostarlo in testa al programma. Disattivata di norma; falso allarme se il "
                            "registro viene impostato da fuori, dal GPL o da un programma eseguito prima."},
      .wrong = "M06 T101001\nIF [!V3!] = 1 GOTO N10\nG00 X10\nN10 G00 X20\nM02\n",
@@ -1588,12 +1598,11 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .section = "I.6",
      .arguments = {},
      .title = {.en = "Register set but never compared", .it = "Registro impostato ma mai confrontato"},
-     .message = {.en = "no IF of this program compares {text}",
-                 .it = "nessuna IF di questo programma confronta {text}"},
+     .message = {.en = "no IF of this program compares {text}", .it = "nessun IF di questo programma confronta {text}"},
      .explanation =
          {.en = "The register is given a value that no IF looks at. It may be left over, or the IF names another "
                 "number. Off by default; a false alarm where the GPL reads the register.",
-          .it = "Al registro viene dato un valore che nessuna IF confronta. Può essere un resto, oppure la IF indica "
+          .it = "Al registro viene dato un valore che nessun IF confronta. Può essere un resto, oppure l'IF indica "
                 "un altro numero. Disattivata di norma; falso allarme se il registro viene letto dal GPL."},
      .wrong = "M06 T101001\n[!V2!] = 5\nG00 X10\nM02\n",
      .right = "M06 T101001\nG00 X10\nM02\n"},
@@ -1608,7 +1617,7 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .explanation = {.en = "Only few lines of this program have a number, so a number is there to be jumped to, and to "
                            "this one no GOTO leads. Delete it, or check the numbers behind GOTO. Off by default; a "
                            "false alarm where a number only marks a place for the operator.",
-                     .it = "In questo programma poche righe hanno un numero, quindi il numero serve per i salti, e a "
+                     .it = "In questo programma poche linee hanno un numero, quindi il numero serve per i salti, e a "
                            "questo non porta nessun GOTO. Toglierlo, o controllare i numeri dopo GOTO. Disattivata di "
                            "norma; falso allarme se il numero segna solo un punto per l'operatore."},
      .wrong = "M06 T101001\nIF VGPL = 1 GOTO N10\n[!N5!] G00 X10\nN10 G00 X20\nG00 X30\nG00 X40\nM02\n",
@@ -1625,7 +1634,7 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
                            "searches for a line to restart from finds the wrong one; isofmt --renumber puts them in "
                            "order. Off by default; a false alarm where parts are numbered each from its own start.",
                      .it = "Il numero è uguale a quello precedente, o minore. Al controllo non importa, ma chi cerca "
-                           "la riga da cui ripartire trova quella sbagliata; isofmt --renumber li rimette in ordine. "
+                           "la linea da cui ripartire trova quella sbagliata; isofmt --renumber li rimette in ordine. "
                            "Disattivata di norma; falso allarme se ogni parte ha una numerazione propria."},
      .wrong = "M06 T101001\nN20 G00 X10\n[!N10!] G00 X20\nM02\n",
      .right = "M06 T101001\nN10 G00 X10\nN20 G00 X20\nM02\n"},
@@ -1641,7 +1650,7 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
          {.en = "The control reads small letters as capitals and stores capitals, so a saved program differs from its "
                 "file in every such line. isofmt writes capitals. Off by default; no false alarms are known.",
           .it = "Il controllo legge le minuscole come maiuscole e salva le maiuscole: il programma salvato è diverso "
-                "dal file in ognuna di queste righe. isofmt scrive le maiuscole. Disattivata di norma; non si "
+                "dal file in ognuna di queste linee. isofmt scrive le maiuscole. Disattivata di norma; non si "
                 "conoscono falsi allarmi."},
      .wrong = "M06 T101001\n[!g00 x!]10\nM02\n",
      .right = "M06 T101001\nG00 X10\nM02\n"},
@@ -1667,16 +1676,16 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .is_off = true,
      .section = "I.1",
      .arguments = {},
-     .title = {.en = "Mixed line ends", .it = "Fini riga diversi"},
+     .title = {.en = "Mixed line ends", .it = "Terminatori di linea diversi"},
      .message = {.en = "from here on lines end otherwise than above",
-                 .it = "da qui le righe finiscono in modo diverso dalle precedenti"},
+                 .it = "da qui le linee finiscono in modo diverso dalle precedenti"},
      .explanation =
          {.en = "The program has lines that end in CR, in LF or in both, as happens when pieces of several files are "
                 "joined. The control reads them all; editors and version control may show lines doubled, or all as "
                 "changed. Off by default; no false alarms are known.",
           .it =
-              "Il programma ha righe che finiscono con CR, con LF o con entrambi, come capita quando si uniscono pezzi "
-              "di più file. Il controllo le legge tutte; gli editor e il controllo di versione possono mostrare righe "
+              "Il programma ha linee che finiscono con CR, con LF o con entrambi, come capita quando si uniscono pezzi "
+              "di più file. Il controllo le legge tutte; gli editor e il controllo di versione possono mostrare linee "
               "doppie, o tutte come modificate. Disattivata di norma; non si conoscono falsi allarmi."},
      .wrong = "M06 T101001\nG00 X10\n[!G00 X20!]\r\nM02\n",
      .right = "M06 T101001\nG00 X10\nG00 X20\nM02\n"},
@@ -1737,14 +1746,14 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .severity = Severity::Warning,
      .section = "I.3.7",
      .arguments = {"feed", "limit"},
-     .title = {.en = "Feed above the machine's", .it = "Avanzamento oltre quello della macchina"},
+     .title = {.en = "Feed above the machine's", .it = "Feed rate oltre quello della macchina"},
      .message = {.en = "{text} means {feed} mm/min, and the machine does {limit}",
                  .it = "{text} vale {feed} mm/min, ma la macchina arriva a {limit}"},
      .explanation =
          {.en = "The feed is above what the machine file allows; in G93 it follows from the length of the motion. The "
                 "machine will be slower than the program asks, so the cut differs from what was planned. A false alarm "
                 "where the program counts on the machine to slow down.",
-          .it = "L'avanzamento supera quello ammesso dal file macchina; in G93 dipende dalla lunghezza del movimento. "
+          .it = "Il feed rate supera quello ammesso dal file macchina; in G93 dipende dalla lunghezza del movimento. "
                 "La macchina andrà più piano di quanto chiede il programma, e la lavorazione sarà diversa da quella "
                 "prevista. Falso allarme se il programma conta sul rallentamento della macchina."},
      .wrong = "M06 T101001\nG01 X100 [!F15000!]\nM02\n",
@@ -1760,9 +1769,9 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .explanation = {.en = "At this feed the rotary axis would have to turn faster than the machine file allows, as "
                            "happens near a singular position or on short moves. Lower the feed, or spread the turn "
                            "over a longer way. A false alarm where the program counts on the machine to slow down.",
-                     .it = "A questo avanzamento l'asse rotante dovrebbe girare più in fretta di quanto ammette il "
+                     .it = "Con questo feed rate l'asse rotante dovrebbe girare più in fretta di quanto ammette il "
                            "file macchina, come capita vicino a una posizione singolare o su tratti corti. Ridurre "
-                           "l'avanzamento, o distribuire la rotazione su un tratto più lungo. Falso allarme se il "
+                           "il feed rate, o distribuire la rotazione su un tratto più lungo. Falso allarme se il "
                            "programma conta sul rallentamento della macchina."},
      .wrong = "M06 T101001\nG49\nG01 X10 [!C90!] F5000\nM02\n",
      .right = "M06 T101001\nG49\nG01 X10 C90 F100\nM02\n"},
@@ -1837,17 +1846,95 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .severity = Severity::Warning,
      .section = "I.3.12",
      .arguments = {},
-     .title = {.en = "Cutter compensation that begins on an arc", .it = "Compensazione che inizia su un arco"},
+     .title = {.en = "Cutter compensation that begins on an arc",
+               .it = "Correzione raggio fresa che inizia su un arco"},
      .message = {.en = "the first motion under cutter compensation is an arc",
-                 .it = "il primo movimento in compensazione è un arco"},
+                 .it = "il primo movimento con la correzione raggio fresa è un arco"},
      .explanation = {.en = "The tool has to move sideways by its radius while compensation begins, which an arc cannot "
                            "do without leaving a mark; many controls refuse it. Begin with a straight move that leads "
                            "onto the contour. No false alarms are known.",
-                     .it = "Quando inizia la compensazione l'utensile deve spostarsi di lato del suo raggio, e su un "
+                     .it = "Quando inizia la correzione l'utensile deve spostarsi di lato del suo raggio, e su un "
                            "arco non può farlo senza lasciare il segno; molti controlli lo rifiutano. Iniziare con un "
                            "tratto rettilineo di ingresso sul profilo. Non si conoscono falsi allarmi."},
      .wrong = "M06 T101001\nG01 X0 Y0 F500\nG41\n[!G02!] X20 Y0 I10 J0\nG40\nM02\n",
      .right = "M06 T101001\nG01 X0 Y0 F500\nG41 G01 X10 Y0\nG02 X30 Y0 I20 J0\nG40\nM02\n"},
+    {.code = "W138",
+     .name = "compensation-gouge",
+     .severity = Severity::Warning,
+     .is_told_by_runs = true,
+     .section = "I.3",
+     .arguments = {"radius"},
+     .title = {.en = "Cutter that goes into the contour", .it = "Fresa che intacca il profilo"},
+     .message = {.en = "here a cutter of radius {radius} mm goes into the contour that it should leave",
+                 .it = "qui una fresa di raggio {radius} mm intacca il profilo che dovrebbe lasciare"},
+     .explanation =
+         {.en = "Beside the contour there is no room for the cutter: a slot is narrower than it, an inside corner has "
+                "steps shorter than it, or the way on or off the contour leads across it. Mount a smaller cutter, "
+                "begin and end beside the contour, or let G39 leave out what the cutter cannot reach. A false alarm "
+                "where the tool crosses above the work in feed.",
+          .it = "A lato del profilo non c'è spazio per la fresa: una cava è più stretta della fresa, un angolo interno "
+                "ha gradini più corti, oppure l'ingresso o l'uscita attraversano il profilo. Montare una fresa più "
+                "piccola, entrare e uscire di lato, oppure con la G39 lasciar fuori ciò che la fresa non raggiunge. "
+                "Falso allarme se l'utensile attraversa sopra il pezzo in lavoro."},
+     .wrong = "M06 T101001\nG01 X30 Y20 F5000\nG41 G01 [!X0 Y0!]\nY50\nG40\nM02\n",
+     .right = "M06 T101001\nG01 X-10 Y-30 F5000\nG41 G01 X0 Y0\nY50\nG40\nM02\n"},
+    {.code = "W139",
+     .name = "inside-arc-too-small",
+     .severity = Severity::Warning,
+     .is_told_by_runs = true,
+     .section = "I.3",
+     .arguments = {"arc", "radius"},
+     .title = {.en = "Inside arc smaller than the cutter", .it = "Arco interno più piccolo della fresa"},
+     .message = {.en = "an inside arc of radius {arc} mm is too small for a cutter of radius {radius} mm",
+                 .it = "un arco interno di raggio {arc} mm è troppo piccolo per una fresa di raggio {radius} mm"},
+     .explanation =
+         {.en = "The cutter does not fit into the arc: many controls stop here, others cut into the contour on both "
+                "sides of it. Mount a smaller cutter or program a larger arc; with G39 the arc is left out, and "
+                "material stays in the corner. No false alarms are known, as long as the tool's radius is right.",
+          .it = "La fresa non entra nell'arco: molti controlli si fermano, altri intaccano il profilo da una parte e "
+                "dall'altra. Montare una fresa più piccola o programmare un arco più grande; con la G39 l'arco viene "
+                "saltato e nell'angolo resta del materiale. Se il raggio dell'utensile è giusto non si conoscono falsi "
+                "allarmi."},
+     .wrong = "M06 T101001\nG01 X-10 Y-30 F5000\nG41 G01 X0 Y0\nY45\n[!G03!] X-5 Y50 R5\nG01 X-40\nG40\nM02\n",
+     .right = "M06 T101001\nG01 X-10 Y-30 F5000\nG41 G01 X0 Y0\nY30\nG03 X-20 Y50 R20\nG01 X-40\nG40\nM02\n"},
+    {.code = "W140",
+     .name = "compensation-not-applied",
+     .severity = Severity::Warning,
+     .is_told_by_runs = true,
+     .section = "I.3",
+     .arguments = {},
+     .title = {.en = "Motion without its compensation", .it = "Movimento senza la sua correzione"},
+     .message = {.en = "this motion runs as programmed: it turns B or C, or the axes in force are oblique",
+                 .it = "questo movimento resta come programmato: ruota B o C, oppure gli assi in presa sono obliqui"},
+     .explanation =
+         {.en = "G41 and G42 move the tool sideways in the arc plane, which takes axes at right angles and a tool that "
+                "keeps its direction. The simulated machine ends the compensation before such a motion and takes it up "
+                "behind it; the control may do otherwise. Write G40 before it. No false alarms are known.",
+          .it = "La G41 e la G42 spostano l'utensile di lato nel piano di interpolazione: servono assi ad angolo retto "
+                "e un utensile che non cambi direzione. La macchina simulata toglie la correzione prima di questo "
+                "movimento e la riprende dopo; il controllo può comportarsi diversamente. Scrivere prima la G40. Non "
+                "si conoscono falsi allarmi."},
+     .wrong = "M06 T101001\nG49\nG01 X10 Y40 F5000\nG41 G01 X10 Y10\nX50\n[!X60 Y40 B5!]\nG40\nM02\n",
+     .right = "M06 T101001\nG49\nG01 X10 Y40 F5000\nG41 G01 X10 Y10\nX50\nG40\nX60 Y40 B5\nM02\n"},
+    {.code = "W141",
+     .name = "spindle-started-late",
+     .severity = Severity::Warning,
+     .section = "I.4.2",
+     .arguments = {},
+     .title = {.en = "Spindle started behind the first feed move", .it = "Mandrino avviato dopo la prima lavorazione"},
+     .message = {.en = "{text} starts the spindle for the first time, but feed moves stand before it",
+                 .it = "{text} avvia il mandrino per la prima volta, ma prima ci sono già movimenti in lavoro"},
+     .explanation =
+         {.en =
+              "Nothing has started the spindle before the first feed move of the program: it runs with the spindle "
+              "stopped. Write S and M03 or M04 before it. A false alarm where a probe goes first, or where the shop's "
+              "tool change starts the spindle.",
+          .it =
+              "Prima del primo movimento in lavoro nulla avvia il mandrino: il movimento avviene a mandrino fermo. "
+              "Scrivere prima la S e la M03 o M04. Falso allarme se prima si usa un tastatore, o se il mandrino parte "
+              "già con il cambio utensile."},
+     .wrong = "M06 T101001\nG01 X10 F1000\nS12000 [!M03!]\nX20\nM05\nM02\n",
+     .right = "M06 T101001\nS12000 M03\nG01 X10 F1000\nX20\nM05\nM02\n"},
     {.code = "W190",
      .name = "useless-suppression",
      .severity = Severity::Warning,

@@ -4,7 +4,7 @@
 #include <cctype>
 #include <vector>
 
-#include <fmt/format.h>
+#include "interpreter/dialect/format.h"
 
 namespace isocnc::dialect {
 
@@ -35,7 +35,7 @@ static std::size_t distance(std::string_view a, std::string_view b) {
 std::optional<std::string> nearest_name(std::string_view typed, std::span<const std::string> names) {
   constexpr std::size_t kLongest = 64;  // What is longer was never a name.
   if (typed.size() > kLongest) return std::nullopt;
-  const std::size_t limit = std::max<std::size_t>(1, typed.size() / 4);
+  const std::size_t limit = std::max<std::size_t>(1, (typed.size() + 2) / 4);
   std::optional<std::string> nearest;
   std::size_t least = limit + 1;
   for (const std::string& name : names) {
@@ -54,7 +54,7 @@ std::optional<std::string> nearest_name(std::string_view typed, std::span<const 
 
 std::string did_you_mean(const std::optional<std::string>& name, Language language) {
   static constexpr Text kQuestion = {"; did you mean {}?", "; forse {}?"};
-  return name ? fmt::format(fmt::runtime(kQuestion.in(language)), *name) : "";
+  return name ? dialect::format(kQuestion, language, *name) : "";
 }
 
 bool begins_with(std::string_view text, std::string_view beginning) {

@@ -14,9 +14,9 @@ using syntax::Word;
 
 bool execute_plain(const syntax::LineTree& line, State& state, const Setup& setup, Sink& sink) {
   if (line.plain_arguments == 0) return false;
-  constexpr std::uint8_t kAlways = State::kStopped | State::kCompensationWaits;
+  constexpr State::Knowledge kAlways = State::kStopped | State::kCompensationWaits | State::kNotStarted;
   const auto concerns_rules =
-      static_cast<std::uint8_t>(state.inverse_time() ? kAlways : kAlways | State::kFeedOfInverseTime);
+      static_cast<State::Knowledge>(state.inverse_time() ? kAlways : kAlways | State::kFeedOfInverseTime);
   return !state.knows(concerns_rules) && Executor(line, state, setup, sink).run_plain();
 }
 
@@ -32,6 +32,7 @@ void Executor::run() {
     if (speed > 0) {
       state_.spindle_speed = speed;
       state_.forget(State::kNoSpeed);
+      if (state_.knows(State::kCutNotStarted)) state_.learn(State::kNotStarted);
       sink_.spindle_speed(speed);
     }
   }
@@ -108,6 +109,8 @@ void Executor::execute_g(const Instruction& instruction) {
       return dismount_face(instruction);
     case 92:
       return workpiece_frame(instruction);
+    case 990:
+      return sink_.wait_for_update();
     default:
       return set_mode(*code, line_.command(instruction));
   }
@@ -150,6 +153,7 @@ void Executor::function(const Instruction& instruction) {
     state_.ended = true;
     return sink_.end();
   }
+  if (m != 5) state_.forget(State::kNotStarted | State::kCutNotStarted);
   if (dialect::is_user_function(m)) {
     state_.forget(State::kUncut);
   } else {
@@ -178,6 +182,7 @@ void Executor::turn_spindle(int m) {
 }
 
 void Executor::tool_change(const Instruction& instruction) {
+  state_.tool_prepared = false;
   state_.forget(State::kClockwise | State::kCounterclockwise);  // What it does to the spindle is the machine's affair.
   for (const Word& word : line_.words)
     if (word.letter == 'T' && word.owner == instruction.number) return select_tool(word);
@@ -189,6 +194,7 @@ void Executor::stray_tool(const Instruction& instruction) {
   const Word& word = line_.command(instruction);
   const bool follows_change = state_.tool_awaited && instruction.has(Instruction::kFirst);
   if (!follows_change && !word.has(Word::kMissing)) report("tool-without-m06"_diag, word.span());
+  state_.tool_prepared = !follows_change && instruction.has(Instruction::kFirst);
   select_tool(word);
 }
 

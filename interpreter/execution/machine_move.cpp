@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "interpreter/geometry/helix.h"
+
 namespace isocnc::execution {
 
 using geometry::Vec3;
@@ -20,6 +22,26 @@ static double leaning_helix_length(double radius, double sweep, const Vec3& u, c
   return sum / (3 * kPanels);
 }
 
+/// The axis of the frame in force that the arc plane leaves out.
+static int normal_of_plane(const State& state) {
+  const std::uint8_t plane = state.mode(dialect::ModalGroup::Plane);
+  return plane == 17 ? 2 : plane == 18 ? 1 : 0;
+}
+
+static void compensate(MachineMove& move, const State& state) {
+  const std::uint8_t mode = state.mode(dialect::ModalGroup::CutterCompensation);
+  if (mode == 40) return;
+  const int normal = normal_of_plane(state);
+  const auto axis = [&](int i) { return state.direction_to_machine(Vec3::Unit((normal + i) % 3)); };
+  const auto are_orthogonal = [&](int i, int j) {
+    return std::abs(axis(i).dot(axis(j))) < geometry::kOrthogonalCosine;
+  };
+  move.normal = axis(1).cross(axis(2)).normalized();
+  move.compensation = {.side = mode == 41 ? 1 : -1,
+                       .reduces = state.mode(dialect::ModalGroup::ProfileReduction) == 39,
+                       .plane_is_sound = are_orthogonal(0, 1) && are_orthogonal(0, 2) && are_orthogonal(1, 2)};
+}
+
 MachineMove in_machine(const Move& move, const State& state) {
   MachineMove result;
   result.kind = move.kind;
@@ -29,6 +51,8 @@ MachineMove in_machine(const Move& move, const State& state) {
   result.feed = move.feed;
   result.inverse_time = move.inverse_time;
   result.five_axis = state.five_axis();
+  result.placed = move.placed;
+  compensate(result, state);
   if (move.kind != MoveKind::Arc) return result;
   const auto axis = [&](int i) { return state.direction_to_machine(Vec3::Unit((move.normal_axis + i) % 3)); };
   const Vec3 u = axis(1);
@@ -50,20 +74,6 @@ MachineMove in_machine(const Move& move, const State& state) {
   return result;
 }
 
-/// An arc runs from its center along `out` and, a quarter turn later, `side`, while it rises.
-static std::array<geometry::Range, 3> arc_extents(const MachineMove& move) {
-  const double sweep = std::abs(move.sweep_deg) * std::numbers::pi / 180;
-  const Vec3 out = move.from.tip - move.center;
-  const Vec3 side = move.normal.cross(out) * (move.sweep_deg < 0 ? -1 : 1);
-  const Vec3 rise = move.to.tip - (move.center + std::cos(sweep) * out + std::sin(sweep) * side);
-  std::array<geometry::Range, 3> extents;
-  for (int axis = 0; axis < 3; ++axis) {
-    const geometry::Range wave = geometry::wave_range(out[axis], side[axis], rise[axis] / sweep, sweep);
-    extents[static_cast<std::size_t>(axis)] = {move.center[axis] + wave.least, move.center[axis] + wave.most};
-  }
-  return extents;
-}
-
 std::array<geometry::Range, kAxisCount> extents(const MachineMove& move) {
   std::array<geometry::Range, kAxisCount> all;
   const auto between = [](double a, double b) { return geometry::Range{std::min(a, b), std::max(a, b)}; };
@@ -72,7 +82,7 @@ std::array<geometry::Range, kAxisCount> extents(const MachineMove& move) {
   all[3] = between(move.from.b, move.to.b);
   all[4] = between(move.from.c, move.to.c);
   if (move.kind == MoveKind::Arc && move.sweep_deg != 0) {
-    const auto arc = arc_extents(move);
+    const auto arc = geometry::helix(move.from.tip, move.to.tip, move.center, move.normal, move.sweep_deg).extents();
     std::copy(arc.begin(), arc.end(), all.begin());
   }
   return all;

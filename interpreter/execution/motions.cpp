@@ -5,6 +5,7 @@
 
 #include "interpreter/execution/executor.h"
 #include "interpreter/geometry/arc.h"
+#include "interpreter/geometry/increment.h"
 
 namespace isocnc::execution {
 
@@ -86,6 +87,7 @@ bool Executor::run_plain() {
   state_.set_mode(dialect::ModalGroup::Motion, mode);
   state_.exact_stop_fits = is_feed;
   state_.tool_awaited = false;
+  state_.tool_prepared = false;
   if (is_feed) state_.forget(State::kUncut);
   return true;
 }
@@ -98,10 +100,10 @@ void Executor::move_plainly(dialect::LetterSet given) {
   for (const syntax::Word& word : line_.words) {
     if (const auto axis = static_cast<unsigned>(word.letter - 'X'); axis <= 2) {
       double& position = state_.position.tip[axis];
-      position = incremental ? position + word.value * scale : word.value * scale;
+      position = incremental ? geometry::advanced(position, word.value * scale) : word.value * scale;
     } else if (turns && (word.letter == 'B' || word.letter == 'C')) {
       double& angle = word.letter == 'B' ? state_.position.b : state_.position.c;
-      angle = incremental ? angle + word.value : word.value;
+      angle = incremental ? geometry::advanced(angle, word.value) : word.value;
     }
   }
 }
@@ -146,8 +148,13 @@ void Executor::motion(const Instruction& instruction) {
   const GCode& code = dialect::kGCodes[dialect::kGCodeRows[state_.mode(dialect::ModalGroup::Motion)]];
   const Span place = is_continuation ? arguments.first().span() : line_.command(instruction).span();
   (code.number == 0 ? rapid_move_ : feed_move_) = true;
+  state_.tool_prepared = false;
   if (code.number != 0) {
-    constexpr std::uint8_t kEnds = State::kStopped | State::kUncut;
+    constexpr State::Knowledge kEnds = State::kStopped | State::kUncut | State::kNotStarted;
+    if (state_.knows(State::kNotStarted)) {
+      state_.forget(State::kCutNotStarted);
+      if (state_.knows(State::kNoSpeed)) state_.learn(State::kCutNotStarted);
+    }
     state_.forget(state_.inverse_time() ? kEnds : kEnds | State::kFeedOfInverseTime);
   }
   if ((arguments.present() & ~code.arguments) != 0) report_strays(arguments, code);
@@ -180,6 +187,8 @@ void Executor::move_with_effects(const Arguments& arguments, const GCode& code, 
     move.feed = feed.number * (rotary_only || move.inverse_time ? 1 : feed.mm_per_unit);
   }
   if (code.is_arc()) arc(arguments, code, place, &move);
+  for (int axis = 0; axis < kAxisCount && !state_.incremental(); ++axis)
+    if (arguments.has("XYZBC"[axis])) move.placed |= axis_bit(static_cast<Axis>(axis));
   move_to(arguments);
   move.to = state_.position;
   sink_.move(move, state_);
@@ -281,7 +290,7 @@ void Executor::move_to(const Arguments& arguments) {
       state_.unknown &= static_cast<AxisSet>(~bit);
       position = target;
     } else if ((state_.unknown & bit) == 0) {
-      position += target;
+      position = geometry::advanced(position, target);
     }
   };
   if (arguments.has('X')) move_axis(Axis::X, state_.position.tip[0], arguments['X'] * scale);

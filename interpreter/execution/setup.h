@@ -39,6 +39,13 @@ struct Limits {
   friend bool operator==(const Limits&, const Limits&) = default;
 };
 
+/// From where on lint rules speak; no check of the control depends on it.
+struct Opinions {
+  double longest_dwell = 120;  ///< G04, seconds.
+  double axis_angle = 1e-4;    ///< How far axis vectors may be from the right angle, degrees.
+  double vector_error = 1e-3;  ///< How far the length of an axis vector may be from 1.
+};
+
 /// What the checks must know of the machine.
 struct Setup {
   geometry::Pose home;          ///< Machine frame.
@@ -52,6 +59,7 @@ struct Setup {
   std::optional<double> clearance;
   /// Whether opinions are wanted on every motion, plain ones too.
   bool every_motion = false;
+  Opinions opinions;
 };
 
 }  // namespace isocnc::execution

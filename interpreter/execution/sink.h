@@ -22,6 +22,7 @@ struct Move {
   double radius = 0;           ///< Arcs: distance of the center from the start, mm.
   double sweep_deg = 0;        ///< Arcs: positive counterclockwise about the normal (G03).
   int normal_axis = 2;         ///< Arcs: the coordinate that rises along a helix: 2 in G17, 1 in G18, 0 in G19.
+  AxisSet placed = 0;          ///< Axes whose end is given; the others are left out, or told from the start (G91).
   double feed = 0;             ///< mm/min (degrees/min when only rotary axes move), or 1/min in G93; 0 for rapids.
   bool inverse_time = false;
 };
@@ -53,6 +54,7 @@ class Sink {
   virtual void tool_change(ToolCode) {}
   virtual void frame_changed(const State&) {}
   virtual void exact_stop() {}
+  virtual void wait_for_update() {}    ///< G990 (I.3.11).
   virtual void assign(int, double) {}  ///< Register 1 to 30; NaN: the value could not be read.
   virtual void end() {}
 

@@ -18,7 +18,8 @@ bool judged_alike(const State& a, const State& b) {
          a.face_undefined == b.face_undefined && a.dismount_forgiven == b.dismount_forgiven &&
          a.tool_selected == b.tool_selected && a.tool_reported == b.tool_reported && a.feed_given == b.feed_given &&
          a.feed_reported == b.feed_reported && a.exact_stop_fits == b.exact_stop_fits &&
-         a.tool_awaited == b.tool_awaited && a.motion_illegible == b.motion_illegible && a.ended == b.ended;
+         a.tool_awaited == b.tool_awaited && a.tool_prepared == b.tool_prepared &&
+         a.motion_illegible == b.motion_illegible && a.ended == b.ended;
 }
 
 }  // namespace isocnc::execution

@@ -32,15 +32,18 @@ struct Feed {
 /// elsewhere does not change it. Registers are with who follows the jumps.
 struct State {
   // What is certain on every path that has led here; where paths join, what they share. Only lint rules ask.
-  static constexpr std::uint8_t kNoSpeed = 1;           ///< No S so far.
-  static constexpr std::uint8_t kClockwise = 2;         ///< M03 is in force.
-  static constexpr std::uint8_t kCounterclockwise = 4;  ///< M04 is in force.
-  static constexpr std::uint8_t kStopped = 8;           ///< M05 has stopped the spindle, and no feed move followed.
-  static constexpr std::uint8_t kFeedOfInverseTime =
-      16;                                         ///< The last F was given in G93; no feed move in G94 followed.
-  static constexpr std::uint8_t kUncut = 32;      ///< The tool has made no feed move, nor has an M used it.
-  static constexpr std::uint8_t kToolKnown = 64;  ///< `tool` is what a tool change has mounted.
-  static constexpr std::uint8_t kCompensationWaits = 128;  ///< G41 or G42 has been written, and no motion followed.
+  using Knowledge = std::uint16_t;
+  static constexpr Knowledge kNoSpeed = 1;              ///< No S so far.
+  static constexpr Knowledge kClockwise = 2;            ///< M03 is in force.
+  static constexpr Knowledge kCounterclockwise = 4;     ///< M04 is in force.
+  static constexpr Knowledge kStopped = 8;              ///< M05 has stopped the spindle, and no feed move followed.
+  static constexpr Knowledge kFeedOfInverseTime = 16;   ///< The last F was given in G93; no feed move in G94 followed.
+  static constexpr Knowledge kUncut = 32;               ///< The tool has made no feed move, nor has an M used it.
+  static constexpr Knowledge kToolKnown = 64;           ///< `tool` is what a tool change has mounted.
+  static constexpr Knowledge kCompensationWaits = 128;  ///< G41 or G42 has been written, and no motion followed.
+  /// Nothing has started the spindle: no M03 or M04, nor an M of the shop's. The first feed move ends it.
+  static constexpr Knowledge kNotStarted = 256;
+  static constexpr Knowledge kCutNotStarted = 512;  ///< Nor had anything when that feed move came, and no S was given.
 
   geometry::Pose position;  ///< In the frame in force. What is unknown reads 0.
   AxisSet unknown = 0;      ///< Axes whose position an error has left open: nothing that depends on them is checked.
@@ -64,14 +67,15 @@ struct State {
   bool feed_reported = false;     ///< ISO066 has been said.
   bool exact_stop_fits = false;   ///< A G09 at the start of the next line would follow a feed move (D23).
   bool tool_awaited = false;      ///< The line before ended in an M06 without T (reported): a T that follows is its.
+  bool tool_prepared = false;     ///< A T without M06 (reported), and no motion since: an M06 without T changes to it.
   bool motion_illegible = false;  ///< Before any motion G an unknown G had coordinates: it was meant to be one.
   bool ended = false;             ///< M02 has been read.
 
-  std::uint8_t knowledge = kNoSpeed;
+  Knowledge knowledge = kNoSpeed | kNotStarted;
 
-  bool knows(std::uint8_t any_of) const { return (knowledge & any_of) != 0; }
-  void learn(std::uint8_t what) { knowledge |= what; }
-  void forget(std::uint8_t what) { knowledge &= static_cast<std::uint8_t>(~what); }
+  bool knows(Knowledge any_of) const { return (knowledge & any_of) != 0; }
+  void learn(Knowledge what) { knowledge |= what; }
+  void forget(Knowledge what) { knowledge &= static_cast<Knowledge>(~what); }
   std::uint8_t mode(dialect::ModalGroup group) const { return in_force[static_cast<std::size_t>(group)]; }
   void set_mode(dialect::ModalGroup group, std::uint8_t number) { in_force[static_cast<std::size_t>(group)] = number; }
   bool incremental() const { return mode(dialect::ModalGroup::Distance) == 91; }

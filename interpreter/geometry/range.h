@@ -1,13 +1,22 @@
 #pragma once
 
+#include <array>
+
+#include "interpreter/geometry/vectors.h"
+
 namespace isocnc::geometry {
 
 struct Range {
   double least = 0;
   double most = 0;
+
+  void include(const Range& other);
 };
 
 /// Least and most of p cos t + q sin t + slope t for t from 0 to `end`, radians, not negative.
 Range wave_range(double p, double q, double slope, double end);
+
+/// The same of each coordinate of center + p cos t + q sin t + slope t.
+std::array<Range, 3> wave_ranges(const Vec3& center, const Vec3& p, const Vec3& q, const Vec3& slope, double end);
 
 }  // namespace isocnc::geometry

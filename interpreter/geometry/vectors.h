@@ -7,6 +7,7 @@ namespace isocnc::geometry {
 
 /// Positions and directions in mm, in the frame that the name or the comment says.
 using Vec3 = Eigen::Vector3d;
+using Vec2 = Eigen::Vector2d;  ///< In a plane.
 using Mat3 = Eigen::Matrix3d;
 
 /// A position of the tool tip with the rotary axes: X Y Z in mm in some frame, B C in degrees. B and C are machine

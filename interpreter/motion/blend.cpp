@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "interpreter/motion/limits.h"
+#include "interpreter/motion/numbers.h"
 
 namespace isocnc::motion {
 
 using geometry::Mat3;
 
-static constexpr double kRadians = std::numbers::pi / 180;
 /// Directions that differ by less are one: what is left of decimals, mm or degrees per mm.
 static constexpr double kSameDirection = 1e-9;
 /// Of an arc no more than this is cut, radians: the bound of the deviation is for small angles.
@@ -20,8 +19,6 @@ static constexpr double kMostCut = 0.25;
 static constexpr double kMostOfElement = 0.25;
 /// Corners are not rounded by less for the feed's sake, mm.
 static constexpr double kLeastCut = 1e-6;
-
-static double square(double value) { return value * value; }
 
 /// An element's path as it is seen in the space where the corner is rounded.
 static Jet seen_in(const Machine& machine, Space space, const Element& element, double s) {
@@ -38,22 +35,32 @@ static bool can_be_rounded(const Element& before, const Element& after) {
   return (before.space == Space::Either || after.space == Space::Either) && !is_arc(before) && !is_arc(after);
 }
 
-/// How far to cut into both sides. A parabola cutting d is off the corner by d |e2 - e1| / 4; an arc's own bend adds at
-/// most 1.3 d^2 times the curvature of both (docs/motion.md).
-static double cut(const Machine& machine, Space space, const Element& before, const Element& after, const Jet& corner,
-                  const Coordinates& change) {
+/// How a kind of curve strays from the corner when it cuts d: d |e2 - e1| times `by_change` between lines, at arcs more
+/// by d^2 times the curvature of both times `by_bend` (docs/motion.md).
+struct Shape {
+  double by_change;
+  double by_bend;
+  double most_of_element;
+};
+static constexpr Shape kParabola = {1.0 / 4, 1.3, kMostOfElement};
+static constexpr Shape kSmooth = {13.0 / 72, 0.06, 0.5};
+
+/// How far to cut into both sides.
+static double cut(const Machine& machine, const Shape& shape, Space space, const Element& before, const Element& after,
+                  const Jet& corner, const Coordinates& change) {
   const double rotary = std::abs(change[kB]) + std::abs(change[kC]);
   double linear = change.head<3>().norm();
   if (space == Space::Joints)
     linear += rotary * kRadians *
               lever(machine.kinematics, forward(machine.kinematics, corner.value, before.path.tool_length).head<3>(),
                     before.path.tool_length);
-  const double bend = 1.3 * (before.curvature + after.curvature);
+  const double bend = shape.by_bend * (before.curvature + after.curvature);
   const double tolerance = machine.corner_tolerance;
-  double most = kMostOfElement * std::min(before.length, after.length);
-  most = std::min(most, 2 * tolerance / (linear / 4 + std::sqrt(square(linear / 4) + 4 * bend * tolerance)));
+  const double turn = linear * shape.by_change;
+  double most = shape.most_of_element * std::min(before.length, after.length);
+  most = std::min(most, 2 * tolerance / (turn + std::sqrt(square(turn) + 4 * bend * tolerance)));
   if (bend > 0) most = std::min(most, kMostCut / std::max(before.curvature, after.curvature));
-  if (rotary > 0) most = std::min(most, 4 * machine.corner_tolerance_deg / rotary);
+  if (rotary > 0) most = std::min(most, machine.corner_tolerance_deg / shape.by_change / rotary);
   return most;
 }
 
@@ -99,7 +106,7 @@ static double following_cap(const Machine& machine, const Blend& blend) {
   double cap = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kPieces; ++i)
     cap = std::min(
-        cap, CurveLimits(machine, blend.path, blend.length * i / kPieces, blend.length * (i + 1) / kPieces).cap());
+        cap, curve_limits(machine, blend.path, blend.length * i / kPieces, blend.length * (i + 1) / kPieces).cap());
   return cap;
 }
 
@@ -116,28 +123,55 @@ static Caps caps_of(const Machine& machine, Space space, const Blend& blend) {
   return axes_caps(machine, slopes, bends);
 }
 
-/// The tip's speed for ds/dt = 1 is within the hull of the slopes at the ends and the one between.
-static double feed_cap(const Element& before, const Element& after, const Blend& blend) {
+/// How far from the rotary axes a corner of joints takes the tip at most, mm.
+static double swing_radius(const Machine& machine, const Blend& blend) {
+  const auto at = [&](double s) {
+    const Coordinates tip = blend.path.tip_at(machine.kinematics, s).value;
+    return lever(machine.kinematics, tip.head<3>(), blend.path.tool_length);
+  };
+  return std::max(at(0), at(blend.length)) + machine.corner_tolerance;
+}
+
+/// The tip's speed for ds/dt = 1 is within the hull of the slopes at the ends and the one between; in a corner of
+/// joints, which leads to a rapid or away from one, what B and C swing adds to it. There the feed holds for one half.
+static double feed_cap(const Machine& machine, Space space, const Element& before, const Element& after,
+                       const Blend& blend) {
   const double feed = std::min(before.feed, after.feed);
+  if (std::isinf(feed)) return feed;
+  const double swing = space == Space::Joints ? kRadians * swing_radius(machine, blend) : 0;
   const auto steepness = [&](const Coordinates& slope) {
-    return before.only_turns ? slope.tail<2>().norm() : slope.head<3>().norm();
+    if (before.only_turns) return slope.tail<2>().norm();
+    return slope.head<3>().norm() + swing * (std::abs(slope[kB]) + std::abs(slope[kC]));
   };
   const Coordinates middle = blend.path.c[1] + blend.length * blend.path.c[2];
   const double steepest = std::max({before.steepest, after.steepest, steepness(middle)});
-  return square(feed / steepest);
+  const double turn = std::max(std::abs(middle[kB]), std::abs(middle[kC]));
+  return square(std::min(feed / steepest, machine.feed_turn / turn));
 }
+
+/// Where two elements meet, in the space in which both are seen.
+struct Meeting {
+  Space space = Space::Either;
+  Jet arriving;
+  Jet leaving;
+};
+
+static Meeting meeting(const Machine& machine, const Element& before, const Element& after) {
+  const Space space = before.space == Space::Either ? after.space : before.space;
+  return {space, seen_in(machine, space, before, before.end), seen_in(machine, space, after, after.begin)};
+}
+
+static bool is_small(const Coordinates& change) { return change.cwiseAbs().maxCoeff() <= kSameDirection; }
 
 Corner corner(const Machine& machine, const Element& before, const Element& after) {
   if (!can_be_rounded(before, after)) return {};
-  const Space space = before.space == Space::Either ? after.space : before.space;
-  const Jet arriving = seen_in(machine, space, before, before.end);
-  const Jet leaving = seen_in(machine, space, after, after.begin);
+  const auto [space, arriving, leaving] = meeting(machine, before, after);
   const Coordinates change = leaving.first - arriving.first;
-  if (change.cwiseAbs().maxCoeff() <= kSameDirection) return {.junction = Junction::Smooth};
+  if (is_small(change)) return {.junction = Junction::Smooth};
   Corner result{.junction = Junction::Rounded};
   Blend& blend = result.blend;
   const bool between_lines = !is_arc(before) && !is_arc(after);
-  const auto round = [&](double depth) {
+  const auto round = [&, space = space, &arriving = arriving, &leaving = leaving](double depth) {
     blend.length = 2 * depth;
     const Path path = between_lines ? parabola(arriving, leaving, blend.length)
                                     : hermite(seen_in(machine, space, before, before.end - depth),
@@ -147,13 +181,50 @@ Corner corner(const Machine& machine, const Element& before, const Element& afte
     blend.path.tool_length = before.path.tool_length;
     return caps_of(machine, space, blend);
   };
-  const double depth = cut(machine, space, before, after, arriving, change);
+  const double depth = cut(machine, kParabola, space, before, after, arriving, change);
   Caps caps = round(depth);
+  double by_feed = feed_cap(machine, space, before, after, blend);
   // The acceleration in a parabola is inverse to its length: no longer than the speed on both sides asks for.
-  const double wanted = std::min(caps.by_speed, feed_cap(before, after, blend));
-  if (between_lines && caps.by_acceleration > wanted)
+  const double wanted = std::min(caps.by_speed, by_feed);
+  if (between_lines && caps.by_acceleration > wanted) {
     caps = round(std::max(depth * wanted / caps.by_acceleration, std::min(depth, kLeastCut)));
-  blend.cap = std::min({caps.by_speed, caps.by_acceleration, feed_cap(before, after, blend)});
+    by_feed = feed_cap(machine, space, before, after, blend);
+  }
+  blend.cap = std::min({caps.by_speed, caps.by_acceleration, by_feed});
+  return result;
+}
+
+/// Three cubics that join with equal second derivatives have exactly as many coefficients as values, slopes and second
+/// derivatives at both ends ask for.
+static SmoothBlend spline(const Jet& from, const Jet& to, double length) {
+  const double third = length / 3;
+  const Coordinates turn = (to.first - from.first) / third;
+  const Coordinates aside = (to.value - from.value - length * from.first) / square(third);
+  const Coordinates first = aside - turn - 5.0 / 6 * from.second + to.second / 3;
+  const Coordinates second = turn - (from.second + to.second) / 2 - first;
+  SmoothBlend blend{.length = length};
+  Jet at = from;
+  const Coordinates bends[] = {first, second, to.second};
+  for (std::size_t i = 0; i < 3; ++i) {
+    Path& path = blend.paths[i];
+    path.c = {at.value, at.first, at.second / 2, (bends[i] - at.second) / (6 * third)};
+    at = path.at(third);
+  }
+  return blend;
+}
+
+SmoothCorner smooth_corner(const Machine& machine, const Element& before, const Element& after) {
+  if (!can_be_rounded(before, after)) return {};
+  const auto [space, arriving, leaving] = meeting(machine, before, after);
+  const Coordinates change = leaving.first - arriving.first;
+  if (is_small(change) && is_small(leaving.second - arriving.second)) return {.junction = Junction::Smooth};
+  const double depth = cut(machine, kSmooth, space, before, after, arriving, change);
+  SmoothCorner result{Junction::Rounded, spline(seen_in(machine, space, before, before.end - depth),
+                                                seen_in(machine, space, after, after.begin + depth), 2 * depth)};
+  for (Path& path : result.blend.paths) {
+    path.is_of_joints = space == Space::Joints;
+    path.tool_length = before.path.tool_length;
+  }
   return result;
 }
 

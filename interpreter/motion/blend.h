@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <array>
 
 #include "interpreter/motion/element.h"
 
@@ -27,8 +27,23 @@ struct Corner {
 };
 
 /// The corner between two elements where one ends and the other begins, within the machine's corner tolerance, and
-/// with no more
-/// than half of each cut off, a quarter from each end.
+/// with no more than half of each cut off, a quarter from each end.
 Corner corner(const Machine& machine, const Element& before, const Element& after);
+
+/// A corner rounded so that the second derivative has no steps: within the curve, and where it leaves the one element
+/// and joins the other. Three cubics of equal length.
+struct SmoothBlend {
+  std::array<Path, 3> paths;  ///< s of each from 0 to a third of `length`.
+  double length = 0;          ///< Twice what is cut from each side.
+};
+
+struct SmoothCorner {
+  Junction junction = Junction::Stop;  ///< Smooth: in curvature, too.
+  SmoothBlend blend;
+};
+
+/// The same for machines whose jerk is limited, which may gather speed in corners: no more than all of each element is
+/// cut off, half from each end.
+SmoothCorner smooth_corner(const Machine& machine, const Element& before, const Element& after);
 
 }  // namespace isocnc::motion

@@ -2,19 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "interpreter/geometry/helix.h"
+#include "interpreter/motion/numbers.h"
 
 namespace isocnc::motion {
 
 using geometry::Pose;
 using geometry::Vec3;
 
-static constexpr double kRadians = std::numbers::pi / 180;
 /// Shorter ways lead nowhere, mm or degrees.
 static constexpr double kNowhere = 1e-9;
 /// No machine's arcs take so many parts: circles of 20 km do.
 static constexpr int kMostChords = 100'000;
-static constexpr int kMostQuarters = 1'000'000;
+static constexpr int kMostTurns = 1'000'000;
 
 static double turning(const Pose& from, const Pose& to) { return std::hypot(to.b - from.b, to.c - from.c); }
 
@@ -22,23 +23,20 @@ static bool turns(const Move& move) { return move.from.b != move.to.b || move.fr
 
 static Coordinates lifted(const Vec3& linear, double b, double c) { return coordinates(Pose{linear, b, c}); }
 
-/// Through both ends even where they are not equally far from the center: what is missing is spread over the way, as
-/// the rise of a helix is (I.3.4.3.b).
 ProgrammedPath programmed_circle(const Move& move) {
-  const double sweep = move.sweep_deg * kRadians;
-  const Vec3 from_center = move.from.tip - move.center;
-  const Vec3 out = from_center - move.normal * move.normal.dot(from_center);
-  const Vec3 side = move.normal.cross(out);
-  const Vec3 center = move.from.tip - out;
-  const Vec3 rise = move.to.tip - (center + std::cos(sweep) * out + std::sin(sweep) * side);
-  const double length = std::hypot(out.norm() * sweep, rise.norm());
+  const geometry::Helix helix = geometry::helix(move.from.tip, move.to.tip, move.center, move.normal, move.sweep_deg);
+  const double length = std::hypot(helix.out.norm() * helix.sweep, helix.rise.norm());
   Path path;
   path.kind = PathKind::Circle;
-  path.omega = sweep / length;
-  path.c = {lifted(center, move.from.b, move.from.c), lifted(out, 0, 0), lifted(side, 0, 0),
-            lifted(rise / length, 0, 0)};
+  path.omega = length > 0 ? helix.sweep / length : 0;
+  path.c = {lifted(helix.center, move.from.b, move.from.c), lifted(helix.out, 0, 0), lifted(helix.side, 0, 0),
+            lifted(length > 0 ? Vec3(helix.rise / length) : Vec3(Vec3::Zero()), 0, 0)};
   path.tool_length = move.tool_length;
   return {path, length};
+}
+
+bool swings(const Machine& machine, const Move& move) {
+  return turns(move) && !move.controls_tool_point && machine.kinematics.kind != MachineKind::ThreeAxis;
 }
 
 ProgrammedPath programmed_line(const Machine& machine, const Move& move, const Pose& from, const Pose& to) {
@@ -47,8 +45,7 @@ ProgrammedPath programmed_line(const Machine& machine, const Move& move, const P
   result.only_turns = result.length <= kNowhere;
   if (result.only_turns) result.length = turning(from, to);
   if (result.length <= kNowhere) result.length = 0;
-  const bool turns = from.b != to.b || from.c != to.c;
-  const bool is_of_joints = turns && !move.controls_tool_point && machine.kinematics.kind != MachineKind::ThreeAxis;
+  const bool is_of_joints = swings(machine, move);
   Coordinates begin = coordinates(from);
   Coordinates end = coordinates(to);
   if (is_of_joints) {
@@ -74,15 +71,21 @@ static int chord_count(double radius, double sweep, double tolerance) {
 
 static bool splits(const Move& move) { return move.is_arc && (move.splits_arcs || turns(move)); }
 
+int segment_count(const Machine& machine, const Move& move) {
+  if (!splits(move)) return 1;
+  const double radius = programmed_circle(move).path.c[1].norm();
+  return chord_count(radius, move.sweep_deg * kRadians, machine.chord_tolerance);
+}
+
 void Splitter::take(const Machine& machine, const Move& move) {
   move_ = move;
   index_ = 0;
   count_ = 1;
   whole_ = move.is_arc ? programmed_circle(move) : programmed_line(machine, move, move.from, move.to);
   if (splits(move))
-    count_ = chord_count(whole_.path.c[1].norm(), move.sweep_deg * kRadians, machine.chord_tolerance);
+    count_ = segment_count(machine, move);
   else if (move.is_arc)
-    count_ = part_count(std::abs(move.sweep_deg) / 90 - 1e-9, kMostQuarters);
+    count_ = part_count(std::abs(move.sweep_deg) / 360 - 1e-9, kMostTurns);
   if (!(whole_.length > 0)) count_ = 0;
 }
 
@@ -98,9 +101,18 @@ static double feed_speed(const Feed& feed, double length) {
   return 0;
 }
 
+/// Most speed of s on feed moves, by what the machine allows the tip, B and C there.
+static double most_feed(const Machine& machine, const Element& element) {
+  const Coordinates& slope = element.path.c[1];  // Of circles B and C rest.
+  const double turn = std::max(std::abs(slope[kB]), std::abs(slope[kC]));
+  const double most = element.only_turns ? std::numeric_limits<double>::infinity() : machine.feed_speed;
+  return turn > 0 ? std::min(most, machine.feed_turn / turn) : most;
+}
+
 Element Splitter::next(const Machine& machine) {
   Element element = !move_.is_arc ? line(machine, whole_) : splits(move_) ? chord(machine) : arc();
   element.feed = feed_speed(move_.feed, whole_.length);
+  if (move_.feed.kind != FeedKind::Rapid) element.feed = std::min(element.feed, most_feed(machine, element));
   element.tag = move_.tag;
   ++index_;
   element.ends_move = index_ == count_;

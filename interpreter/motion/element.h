@@ -16,7 +16,7 @@ enum class Space : std::uint8_t {
   Tip,
 };
 
-/// A line or a quarter of a turn at most: what moves are made of before their corners are rounded.
+/// A line or a turn at most: what moves are made of before their corners are rounded.
 struct Element {
   Path path;
   double begin = 0;  ///< Of the path's parameter; grows where the corner before is rounded.
@@ -40,6 +40,9 @@ struct ProgrammedPath {
   bool only_turns = false;  ///< s counts degrees.
 };
 
+/// Whether a line's joints go straight to their end, while B and C swing the tip.
+bool swings(const Machine& machine, const Move& move);
+
 /// A line of the tip or of the joints, as the move asks for. `length` is 0 where it goes nowhere.
 ProgrammedPath programmed_line(const Machine& machine, const Move& move, const geometry::Pose& from,
                                const geometry::Pose& to);
@@ -49,6 +52,9 @@ ProgrammedPath programmed_circle(const Move& move);
 
 /// Into so many parts, at least 1 and at most `most`, whatever the number: programs may hold any coordinates.
 int part_count(double parts, int most);
+
+/// Into how many lines an arc becomes, where it becomes lines (Move::splits_arcs); 1 for all other moves.
+int segment_count(const Machine& machine, const Move& move);
 
 /// Cuts a move into elements, one at a time, so that a thread of a thousand turns takes no more memory than a line.
 class Splitter {

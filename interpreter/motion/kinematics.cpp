@@ -1,15 +1,12 @@
 #include "interpreter/motion/kinematics.h"
 
-#include <numbers>
-
 #include "interpreter/geometry/frame.h"
+#include "interpreter/motion/numbers.h"
 
 namespace isocnc::motion {
 
 using geometry::Mat3;
 using geometry::Vec3;
-
-static constexpr double kRadians = std::numbers::pi / 180;
 
 Coordinates coordinates(const geometry::Pose& pose) {
   Coordinates result;

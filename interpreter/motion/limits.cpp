@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "interpreter/motion/numbers.h"
 
 namespace isocnc::motion {
 
-static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-static double square(double value) { return value * value; }
+/// Curves that bend by less are lines, 1/mm and 1/mm^2.
+static constexpr double kStraight = 1e-15;
 
 LineLimits line_limits(const Machine& machine, const Coordinates& joint_slope) {
   double speed = kInfinity;
@@ -23,53 +23,137 @@ LineLimits line_limits(const Machine& machine, const Coordinates& joint_slope) {
   return {square(speed), acceleration};
 }
 
-CurveLimits::CurveLimits(const Machine& machine, const Path& path, double from, double to)
-    : length_(to - from), cap_(kInfinity) {
-  const Jet ends[] = {path.joints_at(machine.kinematics, from), path.joints_at(machine.kinematics, to)};
-  const Wiggle most = wiggle(machine.kinematics, path, from, to);
+LineLimits circle_limits(const Machine& machine, const Path& circle) {
+  LineLimits result{kInfinity, kInfinity, 0};
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    const AxisLimits& limits = machine.axes[static_cast<std::size_t>(axis)];
+    const double swing = std::abs(circle.omega) * std::sqrt(square(circle.c[1][axis]) + square(circle.c[2][axis]));
+    const double slope = swing + std::abs(circle.c[3][axis]);
+    if (slope == 0) continue;
+    result.cap = std::min(result.cap, square(limits.speed / slope));
+    result.acceleration = std::min(result.acceleration, limits.acceleration / slope);
+    result.fall = std::max(result.fall, swing * std::abs(circle.omega) / limits.acceleration);
+  }
+  if (result.fall > 0) result.cap = std::min(result.cap, 1 / result.fall);
+  return result;
+}
+
+/// What is linear from end to end but for a bulge.
+static Coordinates largest(const Coordinates& begin, const Coordinates& end, const Coordinates& bulge) {
+  return begin.cwiseAbs().cwiseMax(end.cwiseAbs()) + bulge;
+}
+
+Slopes slopes(const Kinematics& kinematics, const Path& path, double from, double to) {
+  const Jet begin = path.joints_at(kinematics, from);
+  const Jet end = path.joints_at(kinematics, to);
+  const Wiggle most = wiggle(kinematics, path, from, to);
+  Coordinates third = Coordinates::Zero();
+  Coordinates fourth = Coordinates::Zero();
+  if (path.kind == PathKind::Polynomial) third = 6 * path.c[3].cwiseAbs();
+  third.head<3>() = most.third;
+  fourth.head<3>() = most.fourth;
+  const double bulge = square(to - from) / 8;
+  return {largest(begin.first, end.first, bulge * third), largest(begin.second, end.second, bulge * fourth), third};
+}
+
+double smoothing_window(const Machine& machine) {
+  double window = 0;
+  for (const AxisLimits& axis : machine.axes)
+    if (axis.jerk)
+      window = std::max(window, std::min(axis.acceleration / *axis.jerk, std::sqrt(axis.speed / *axis.jerk)));
+  return window;
+}
+
+/// x at which the acceleration falls to nothing, over the most that occurs: more leaves less for the acceleration.
+static constexpr double kRoom = 9;
+
+/// One axis on a curve: |a| <= acceleration (1 - fall x). With z^2 = fall x, the terms of the jerk that come with the
+/// second and the third derivative are no more than part jerk (z^3 + 1.5 (z - z^3)), hence no more than part jerk.
+static LineLimits smoothed_curve(const AxisLimits& axis, const Smoothing& smoothing, double first, double second,
+                                 double third, double cap) {
+  double most = std::min(axis.acceleration / second, kRoom * cap);
+  if (!axis.jerk) return {cap, axis.acceleration / first, 1 / most};
+  const double jerk = *axis.jerk;
+  if (third > 0) most = std::min(most, std::pow(smoothing.curves_part * jerk / third, 2.0 / 3));
+  const double speed = std::sqrt(most);
+  // As much for both terms that limit the acceleration, if the third derivative leaves that.
+  const double swing = 2 * second * speed * smoothing.window;
+  const double part = std::clamp(third * most * speed / jerk, std::min(swing / (first + swing), smoothing.curves_part),
+                                 smoothing.curves_part);
+  const double along = std::min(axis.acceleration, (1 - part) * jerk * smoothing.window) / first;
+  return {cap, std::min(along, part * jerk / (2 * second * speed)), 1 / most};
+}
+
+static LineLimits smoothed_line(const AxisLimits& axis, const Smoothing& smoothing, double first, double cap) {
+  return {cap, std::min(axis.acceleration, axis.jerk ? *axis.jerk * smoothing.window : kInfinity) / first, 0};
+}
+
+LineLimits smoothed_limits(const Machine& machine, const Smoothing& smoothing, const Slopes& slopes, double cap) {
+  LineLimits result{cap, kInfinity, 0};
+  for (int i = 0; i < kAxisCount; ++i)
+    result.cap = std::min(result.cap, square(machine.axes[static_cast<std::size_t>(i)].speed / slopes.first[i]));
+  const double most = result.cap;
+  for (int i = 0; i < kAxisCount; ++i) {
+    const AxisLimits& axis = machine.axes[static_cast<std::size_t>(i)];
+    const bool is_curved = slopes.second[i] > kStraight || slopes.third[i] > kStraight;
+    if (!is_curved && !(slopes.first[i] > 0)) continue;
+    const LineLimits limits = is_curved ? smoothed_curve(axis, smoothing, slopes.first[i],
+                                                         std::max(slopes.second[i], kStraight), slopes.third[i], most)
+                                        : smoothed_line(axis, smoothing, slopes.first[i], most);
+    result.acceleration = std::min(result.acceleration, limits.acceleration);
+    result.fall = std::max(result.fall, limits.fall);
+  }
+  if (result.fall > 0) result.cap = std::min(result.cap, 1 / result.fall);
+  return result;
+}
+
+CurveLimits::CurveLimits(const Machine& machine, const Jet& begin, const Jet& end, const Wiggle& most, double length)
+    : length_(length) {
   const double bulge = square(length_) / 8;
+  double by_speed = 0;  // Of the most x: the inverse of its root, and of itself.
+  double by_acceleration = 0;
   for (int axis = 0; axis < kAxisCount; ++axis) {
     const AxisLimits& limits = machine.axes[static_cast<std::size_t>(axis)];
     const double first_slack = axis < kB ? bulge * most.third[axis] : 0;
     const double second_slack = axis < kB ? bulge * most.fourth[axis] : 0;
-    for (const Jet& jet : ends) {
-      const double first = jet.first[axis];
-      const double second = jet.second[axis];
-      if (first == 0 && second == 0 && first_slack == 0) continue;
-      cap_ = std::min(cap_, square(limits.speed / (std::abs(first) + first_slack)));
-      cap_ = std::min(cap_, limits.acceleration / (std::abs(second) + second_slack));
-      const double part = 1 / limits.acceleration;
-      add(Direction::Forward, part * (second_slack + second), part * (first_slack + first));
-      add(Direction::Forward, part * (second_slack - second), part * (first_slack - first));
-      add(Direction::Backward, part * (second_slack + second), part * (first_slack - first));
-      add(Direction::Backward, part * (second_slack - second), part * (first_slack + first));
+    const auto rests = [&](const Jet& jet) { return jet.first[axis] == 0 && jet.second[axis] == 0; };
+    if (rests(begin) && rests(end) && first_slack == 0) continue;
+    const double part = 1 / limits.acceleration;
+    const double speed_part = 1 / limits.speed;
+    for (const Jet* const jet : {&begin, &end}) {
+      const double first = jet->first[axis];
+      const double second = jet->second[axis];
+      by_speed = std::max(by_speed, speed_part * (std::abs(first) + first_slack));
+      by_acceleration = std::max(by_acceleration, part * (std::abs(second) + second_slack));
+      add(forward_, part * (second_slack + second), part * (first_slack + first));
+      add(forward_, part * (second_slack - second), part * (first_slack - first));
+      add(backward_, part * (second_slack + second), part * (first_slack - first));
+      add(backward_, part * (second_slack - second), part * (first_slack + first));
     }
   }
+  cap_ = 1 / std::max(square(by_speed), by_acceleration);
 }
 
 /// Below the cap, bounds with n <= 0 hold by themselves.
-void CurveLimits::add(Direction direction, double m, double n) {
-  if (n <= 0) return;
-  Bounds& bounds = direction == Direction::Forward ? forward_ : backward_;
-  bounds.bounds[bounds.count++] = {m, 1 / n, 1 / (n + 2 * length_ * std::max(m, 0.0))};
+void CurveLimits::add(Bounds& bounds, double m, double n) const {
+  if (n > 0) bounds.bounds[bounds.count++] = {m, n, 1 / (n + 2 * length_ * std::max(m, 0.0))};
+}
+
+CurveLimits curve_limits(const Machine& machine, const Path& path, double from, double to) {
+  return {machine, path.joints_at(machine.kinematics, from), path.joints_at(machine.kinematics, to),
+          wiggle(machine.kinematics, path, from, to), to - from};
 }
 
 /// With a constant a, both ends must be within the bounds, then all between is: they are linear in x and a.
-double CurveLimits::reach(double x, Direction direction) const {
-  const Bounds& all = bounds(direction);
+double reach(std::span<const CurveBound> bounds, double length, double x) {
   double most = kInfinity;
-  for (std::size_t i = 0; i < all.count; ++i)
-    most = std::min(most, (1 - all.bounds[i].m * x) * all.bounds[i].by_length);
-  return std::min(cap_, x + 2 * length_ * std::max(most, 0.0));
+  for (const CurveBound& bound : bounds) most = std::min(most, (1 - bound.m * x) * bound.by_length);
+  return x + 2 * length * std::max(most, 0.0);
 }
 
-double CurveLimits::acceleration(double x, double peak, Direction direction) const {
-  const Bounds& all = bounds(direction);
+double acceleration(std::span<const CurveBound> bounds, double x, double peak) {
   double most = kInfinity;
-  for (std::size_t i = 0; i < all.count; ++i) {
-    const Bound& bound = all.bounds[i];
-    most = std::min(most, (1 - bound.m * (bound.m > 0 ? peak : x)) * bound.by_n);
-  }
+  for (const CurveBound& bound : bounds) most = std::min(most, (1 - bound.m * (bound.m > 0 ? peak : x)) / bound.n);
   return std::max(most, 0.0);
 }
 

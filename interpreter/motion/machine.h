@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "interpreter/geometry/vectors.h"
 
@@ -11,12 +12,13 @@ namespace isocnc::motion {
 enum Axis : std::uint8_t { kX, kY, kZ, kB, kC };
 inline constexpr int kAxisCount = 5;
 
-/// What a joint can do: mm, mm/s and mm/s^2, or degrees, deg/s and deg/s^2.
+/// What a joint can do: mm, mm/s, mm/s^2 and mm/s^3, or the same in degrees.
 struct AxisLimits {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
-  double speed = 0;         ///< Of rapids too. Positive.
-  double acceleration = 0;  ///< Positive.
+  double speed = 0;            ///< Of rapids too. Positive.
+  double acceleration = 0;     ///< Positive.
+  std::optional<double> jerk;  ///< Positive; absent: not limited.
 };
 
 enum class MachineKind : std::uint8_t {
@@ -40,7 +42,9 @@ struct Kinematics {
 struct Machine {
   std::array<AxisLimits, kAxisCount> axes;
   Kinematics kinematics;
-  double chord_tolerance = 0.01;       ///< Of arcs that are split into lines (I.3.4.3.a), mm.
+  double feed_speed = std::numeric_limits<double>::infinity();  ///< Most of the tip on feed moves, mm/s.
+  double feed_turn = std::numeric_limits<double>::infinity();   ///< Most of B and of C on feed moves, deg/s.
+  double chord_tolerance = 0.01;                                ///< Of arcs that are split into lines (I.3.4.3.a), mm.
   double corner_tolerance = 0.02;      ///< How far from the programmed path the tip may round a corner, mm.
   double corner_tolerance_deg = 0.05;  ///< The same for B and C, degrees.
 };

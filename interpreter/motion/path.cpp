@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "interpreter/motion/numbers.h"
 
 namespace isocnc::motion {
-
-static constexpr double kRadians = std::numbers::pi / 180;
 
 Path Path::line(const Coordinates& from, const Coordinates& slope) {
   Path path;
@@ -55,15 +54,16 @@ static Norms tip_norms(const Path& path, double length) {
           2 * linear_norm(c[2]) + 6 * length * linear_norm(c[3]), 6 * linear_norm(c[3]), 0};
 }
 
-/// Of a unit vector that B and C turn: derivatives of cos f(s) with |f'| <= speed, |f''| <= acceleration, f''' = 0.
+/// Of a unit vector that B and C turn: derivatives of cos f(s), where f is at most a cubic.
 static Norms turning_norms(const Path& path, double length) {
   if (path.kind == PathKind::Circle) return {1, 0, 0, 0, 0};
   const auto turn = [&](std::size_t i) { return (std::abs(path.c[i][kB]) + std::abs(path.c[i][kC])) * kRadians; };
-  const double acceleration = 2 * turn(2);
+  const double jerk = 6 * turn(3);
+  const double acceleration = 2 * turn(2) + jerk * length;
   const double speed = turn(1) + acceleration * length;
   const double square = speed * speed;
-  return {1, speed, square + acceleration, speed * (square + 3 * acceleration),
-          square * square + 6 * square * acceleration + 3 * acceleration * acceleration};
+  return {1, speed, square + acceleration, speed * (square + 3 * acceleration) + jerk,
+          square * square + 6 * square * acceleration + 3 * acceleration * acceleration + 4 * speed * jerk};
 }
 
 /// The workpiece's reach from the table's axes, which turn it: the rule of Leibniz.
@@ -87,8 +87,9 @@ static Wiggle circle_wiggle(const Path& path) {
 }
 
 Wiggle wiggle(const Kinematics& kinematics, const Path& path, double from, double to) {
+  if (path.kind == PathKind::Circle && (path.is_of_joints || kinematics.kind != MachineKind::Table))
+    return circle_wiggle(path);
   if (path.is_of_joints) return everywhere(6 * linear_norm(path.c[3]), 0);
-  if (path.kind == PathKind::Circle && kinematics.kind != MachineKind::Table) return circle_wiggle(path);
   const double farthest = std::max(std::abs(from), std::abs(to));
   Norms tip = tip_norms(path, farthest);
   if (kinematics.kind == MachineKind::ThreeAxis) return everywhere(tip[3], tip[4]);

@@ -35,7 +35,7 @@ struct Wiggle {
   geometry::Vec3 fourth = geometry::Vec3::Zero();
 };
 
-/// For s from `from` to `to`. B and C may change up to quadratically.
+/// For s from `from` to `to`. B and C may change up to cubically.
 Wiggle wiggle(const Kinematics& kinematics, const Path& path, double from, double to);
 
 }  // namespace isocnc::motion

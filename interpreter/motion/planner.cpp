@@ -6,34 +6,32 @@
 #include <numbers>
 #include <utility>
 
+#include "interpreter/motion/numbers.h"
+
 namespace isocnc::motion {
 
-/// Planning looks back over all that is not planned yet: it pays to let some gather.
-static constexpr std::size_t kBatch = 256;
-/// Look-ahead ends here, even if the machine cannot stop within so many spans.
-static constexpr std::size_t kMostSpans = 16384;
 /// A curve's limits are taken over pieces that turn by no more than this, radians: fine where the curve takes more
 /// than a part of the acceleration at the programmed feed, else coarse, for then the feed decides nearly everywhere.
+/// Without jerk it decides all over an arc but for where the arc gathers speed and loses it; there they are fine.
 static constexpr double kFineTurn = 2.5 * std::numbers::pi / 180;
 static constexpr double kCoarseTurn = 10 * std::numbers::pi / 180;
 static constexpr double kSmallPart = 0.1;
+/// Where gathering speed takes no more than this part of an arc's length, its limits are rough.
+static constexpr double kBriefPart = 1.0 / 64;
+/// Tracks are forgotten so many at a time.
+static constexpr std::size_t kForgotten = 256;
 /// Of one element: more than rotary axes turn in one move.
 static constexpr int kMostPieces = 5'000;
-/// Shorter pieces are none, mm or degrees.
-static constexpr double kNoLength = 1e-12;
 /// A move that begins elsewhere than where the machine is does not follow smoothly, mm or degrees.
 static constexpr double kSamePlace = 1e-6;
 
-/// Phases over a smaller part of their span are rounding errors.
-static constexpr double kNoPart = 1e-14;
-/// How the peak of the speed within a piece of a curve is sought: bisections, and the relative precision that ends
-/// them.
-static constexpr int kPeakSteps = 16;
-static constexpr double kPeakPrecision = 1e-4;
+static bool limits_jerk(const Machine& machine) {
+  return std::any_of(machine.axes.begin(), machine.axes.end(), [](const AxisLimits& axis) { return axis.jerk; });
+}
 
-static double square(double value) { return value * value; }
-
-Planner::Planner(Machine machine) : machine_(std::move(machine)), batch_(kBatch) {}
+Planner::Planner(Machine machine) : machine_(std::move(machine)) {
+  if (limits_jerk(machine_)) softener_.emplace();
+}
 
 static bool differ(const geometry::Pose& a, const geometry::Pose& b) {
   return (coordinates(a) - coordinates(b)).cwiseAbs().maxCoeff() > kSamePlace;
@@ -51,7 +49,8 @@ void Planner::push(const Move& move) {
 void Planner::rest(double seconds) {
   take_elements();
   come_to_rest();
-  time_ += seconds;
+  profile_.wait(seconds);
+  if (softener_) softener_->wait(seconds);
 }
 
 void Planner::take_elements() {
@@ -60,15 +59,28 @@ void Planner::take_elements() {
 
 /// Elements enter in order; each is appended when the next one, or a stop, tells how it ends.
 void Planner::take(Element element) {
-  if (handed_out_ >= kBatch || handed_out_ == spans_.size()) forget_handed_out();
-  if (has_last_) join(element);
+  if (profile_.holds_much_past()) profile_.forget_handed_out();
+  if (handed_out_ >= kForgotten || handed_out_ == tracks_.size()) forget_tracks();
+  if (has_last_ && softener_) join_softly(element);
+  if (has_last_ && !softener_) join(element);
   last_ = element;
   has_last_ = true;
   if (last_.stops) {
     come_to_rest();
-  } else if (spans_.size() - planned_ >= batch_) {
-    plan_ahead();
+  } else if (profile_.wants_planning()) {
+    profile_.plan_ahead();
   }
+}
+
+void Planner::forget_handed_out() {
+  profile_.forget_handed_out();
+  forget_tracks();
+  if (softener_) softener_->forget_handed_out();
+}
+
+void Planner::forget_tracks() {
+  tracks_.erase(tracks_.begin(), tracks_.begin() + static_cast<std::ptrdiff_t>(handed_out_));
+  handed_out_ = 0;
 }
 
 /// Appends the last element, now that its end is known, and the corner to the next one, whose begin it moves.
@@ -85,31 +97,40 @@ void Planner::join(Element& next) {
   append_corner(corner.blend, last_, next);
 }
 
+/// The same with a corner that has no steps in the second derivative.
+void Planner::join_softly(Element& next) {
+  const SmoothCorner corner = smooth_corner(machine_, last_, next);
+  if (corner.junction == Junction::Stop) return come_to_rest();
+  const double depth = corner.blend.length / 2;
+  last_.end -= depth;
+  next.begin += depth;
+  if (corner.junction == Junction::Smooth) return append(last_);
+  const bool ends_move = std::exchange(last_.ends_move, false);
+  append(last_);
+  last_.ends_move = ends_move;
+  append_corner(corner.blend, last_, next);
+}
+
 void Planner::come_to_rest() {
   if (has_last_) append(last_);
   has_last_ = false;
-  look_back_from_rest();
-  plan_until(spans_.size(), 0);
-  last_cap_ = 0;
+  profile_.come_to_rest();
+  if (softener_) softener_->come_to_rest(machine_);
+}
+
+static Piece whole_piece(const Element& element) {
+  return {element.path, element.begin, element.end - element.begin, element.tag, element.ends_move};
 }
 
 void Planner::append(const Element& element) {
   if (element.end - element.begin <= kNoLength) return;
-  if (element.joints_are_straight) {
-    append_line(element);
-  } else {
+  if (!element.joints_are_straight) {
     append_curve(element);
+  } else if (softener_) {
+    softener_->append(machine_, whole_piece(element), square(element.feed));
+  } else {
+    append_line(element);
   }
-}
-
-Planner::Span& Planner::add(SpanKind kind, const Element& element, double cap) {
-  Span& span = spans_.emplace_back();
-  span.kind = kind;
-  span.tag = element.tag;
-  span.cap = cap;
-  span.entry_cap = std::min(last_cap_, cap);
-  last_cap_ = cap;
-  return span;
 }
 
 void Planner::append_line(const Element& element) {
@@ -117,13 +138,10 @@ void Planner::append_line(const Element& element) {
   if (element.space == Space::Either && machine_.kinematics.kind == MachineKind::Table)
     slope.head<3>() =
         turn_to_joints(machine_.kinematics, element.path.c[0][kB], element.path.c[0][kC]) * element.path.c[1].head<3>();
-  const LineLimits limits = line_limits(machine_, slope);
-  Span& span = add(SpanKind::Line, element, std::min(limits.cap, square(element.feed)));
-  span.ends_move = element.ends_move;
-  span.begin = element.begin;
-  span.length = element.end - element.begin;
-  span.acceleration = limits.acceleration;
-  span.path = element.path;
+  LineLimits limits = line_limits(machine_, slope);
+  limits.cap = std::min(limits.cap, square(element.feed));
+  profile_.append_line(element.begin, element.end - element.begin, limits);
+  tracks_.push_back({whole_piece(element), 1});
 }
 
 /// How much a curve turns for each unit of s, radians.
@@ -132,178 +150,162 @@ static double turning(const Path& path) {
   return (std::abs(path.c[1][kB]) + std::abs(path.c[1][kC])) * std::numbers::pi / 180;
 }
 
-/// Into how many pieces an element that turns by `turn` is cut, where the linear joints swing on about `radius`.
-static int piece_count(const Machine& machine, double turn, double radius, double length, double square) {
-  double weakest = machine.axes[kX].acceleration;
-  for (const Axis axis : {kY, kZ}) weakest = std::min(weakest, machine.axes[axis].acceleration);
-  const double bend = radius * (turn / length) * (turn / length);
-  const double most = bend * square > kSmallPart * weakest ? kFineTurn : kCoarseTurn;
-  return part_count(turn / most, kMostPieces);
-}
+/// Most x by the feed.
+static double feed_cap(const Element& element) { return square(element.feed / element.steepest); }
 
-void Planner::append_curve(const Element& element) {
+/// Into how many pieces a curve is cut, by how much the linear joints bend.
+static int piece_count(const Machine& machine, const Element& element) {
   const double length = element.end - element.begin;
-  const double most = square(element.feed / element.steepest);
+  const double rate = turning(element.path);
   const Coordinates middle = element.path.at((element.begin + element.end) / 2).value;
   const double radius = element.path.kind == PathKind::Circle
                             ? element.path.c[1].norm()
-                            : lever(machine_.kinematics, middle.head<3>(), element.path.tool_length);
-  const int count = piece_count(machine_, length * turning(element.path), radius, length, most);
+                            : lever(machine.kinematics, middle.head<3>(), element.path.tool_length);
+  double weakest = machine.axes[kX].acceleration;
+  for (const Axis axis : {kY, kZ}) weakest = std::min(weakest, machine.axes[axis].acceleration);
+  const bool is_fine = radius * square(rate) * feed_cap(element) > kSmallPart * weakest;
+  return part_count(length * rate / (is_fine ? kFineTurn : kCoarseTurn), kMostPieces);
+}
+
+void Planner::append_curve(const Element& element) {
+  if (softener_) return soften_curve(element);
+  if (element.path.kind == PathKind::Circle) return append_arc(element);
+  const double length = element.end - element.begin;
+  const int count = piece_count(machine_, element);
+  double from = element.begin;
+  Jet at_from = element.path.joints_at(machine_.kinematics, from);
+  for (int i = 1; i <= count; ++i) {
+    const double to = element.begin + length * i / count;
+    const Jet at_to = element.path.joints_at(machine_.kinematics, to);
+    const Wiggle most = wiggle(machine_.kinematics, element.path, from, to);
+    profile_.append_curve(from, to - from, feed_cap(element), CurveLimits(machine_, at_from, at_to, most, to - from));
+    from = to;
+    at_from = at_to;
+  }
+  tracks_.push_back({whole_piece(element), count});
+}
+
+void Planner::soften_curve(const Element& element) {
+  const double length = element.end - element.begin;
+  const int count = piece_count(machine_, element);
   for (int i = 0; i < count; ++i) {
     const double begin = element.begin + length * i / count;
     const double end = element.begin + length * (i + 1) / count;
-    const CurveLimits& limits = curves_.emplace_back(machine_, element.path, begin, end);
-    Span& span = add(SpanKind::Curve, element, std::min(limits.cap(), most));
-    span.ends_move = element.ends_move && i + 1 == count;
-    span.begin = begin;
-    span.length = end - begin;
-    span.path = element.path;
-    span.curve = first_curve_ + curves_.size() - 1;
+    const bool ends_move = element.ends_move && i + 1 == count;
+    softener_->append(machine_, {element.path, begin, end - begin, element.tag, ends_move}, feed_cap(element));
   }
+}
+
+/// A circle with the derivatives of that on which the joints go while B and C rest, wherever it lies.
+static Path joint_circle(const Kinematics& kinematics, const Path& circle) {
+  Path result = circle;
+  result.is_of_joints = true;
+  if (kinematics.kind != MachineKind::Table) return result;
+  const geometry::Mat3 turn = turn_to_joints(kinematics, circle.c[0][kB], circle.c[0][kC]);
+  for (std::size_t i = 1; i <= 3; ++i) result.c[i].head<3>() = turn * circle.c[i].head<3>();
+  return result;
+}
+
+/// The limits of a circle from `s` on for as far as `ramp`, or as far back: no joint's slope changes by more there than
+/// the most of its second derivative allows.
+static LineLimits ramp_limits(const Machine& machine, const Path& circle, double s, double ramp) {
+  const Coordinates bend = square(circle.omega) * (circle.c[1].cwiseAbs2() + circle.c[2].cwiseAbs2()).cwiseSqrt();
+  return line_limits(machine, circle.at(s).first.cwiseAbs() + ramp * bend);
+}
+
+/// The derivatives at a place of a circle, turned on by an angle of this cosine and sine.
+static Jet turned_on(const Path& circle, const Jet& jet, double cosine, double sine) {
+  const Coordinates along = jet.first - circle.c[3];
+  return {.first = cosine * along + sine / circle.omega * jet.second + circle.c[3],
+          .second = cosine * jet.second - sine * circle.omega * along};
+}
+
+/// In fine pieces; tells how many.
+int Planner::append_fine(const Path& circle, double begin, double end, double cap) {
+  const int count = part_count((end - begin) * turning(circle) / kFineTurn, kMostPieces);
+  const double length = (end - begin) / count;
+  const double cosine = std::cos(circle.omega * length);
+  const double sine = std::sin(circle.omega * length);
+  const Wiggle most = wiggle(machine_.kinematics, circle, begin, end);
+  Jet from = circle.at(begin);
+  for (int i = 0; i < count; ++i) {
+    const Jet to = turned_on(circle, from, cosine, sine);
+    profile_.append_curve(begin + i * length, length, cap, CurveLimits(machine_, from, to, most, length));
+    from = to;
+  }
+  return count;
+}
+
+/// Where the axes can hold the feed all along, what they can do at any one place matters at both ends alone: as far as
+/// the machine goes until it has the feed. From a standstill that is the integral of dx / 2a up to the feed's x, with
+/// a = acceleration (1 - fall x); and -ln(1 - p) <= p / sqrt(1 - p).
+void Planner::append_arc(const Element& element) {
+  const Path circle = joint_circle(machine_.kinematics, element.path);
+  const double length = element.end - element.begin;
+  const double cap = feed_cap(element);
+  const LineLimits anywhere = circle_limits(machine_, circle);
+  const double ramp =
+      cap < anywhere.cap ? cap / (2 * anywhere.acceleration * std::sqrt(1 - anywhere.fall * cap)) : length;
+  if (2 * ramp >= length) {
+    tracks_.push_back({whole_piece(element), append_fine(circle, element.begin, element.end, cap)});
+    return;
+  }
+  const bool is_brief = ramp <= kBriefPart * length && ramp * turning(circle) <= kFineTurn;
+  const auto append_ramp = [&](double begin, double end, double s) {
+    if (!is_brief) return append_fine(circle, begin, end, cap);
+    const double acceleration = ramp_limits(machine_, circle, s, ramp).acceleration;
+    profile_.append_line(begin, end - begin, {cap, acceleration, anywhere.fall});
+    return 1;
+  };
+  const double first = element.begin + ramp;
+  const double last = element.end - ramp;
+  int count = append_ramp(element.begin, first, element.begin);
+  profile_.append_line(first, last - first, {cap, anywhere.acceleration, anywhere.fall});
+  count += 1 + append_ramp(last, element.end, element.end);
+  tracks_.push_back({whole_piece(element), count});
 }
 
 void Planner::append_corner(const Blend& blend, const Element& before, const Element& after) {
-  Span& span = add(SpanKind::Corner, before, blend.cap);
-  span.ends_move = before.ends_move;
-  span.next_tag = after.tag;
-  span.length = blend.length;
-  span.path = blend.path;
+  profile_.append_level(blend.length, blend.cap);
+  tracks_.push_back(
+      {{blend.path, 0, blend.length, before.tag, before.ends_move}, 1, before.tag != after.tag, after.tag});
 }
 
-/// Most x at a span's begin, from which x = `exit` at its end can be kept.
-double Planner::before(const Span& span, double exit) const {
-  switch (span.kind) {
-    case SpanKind::Line:
-      return exit + 2 * span.acceleration * span.length;
-    case SpanKind::Curve:
-      return curves_[span.curve - first_curve_].reach(exit, Direction::Backward);
-    case SpanKind::Corner:
-      break;
+/// Most of the tip's speed for ds/dt = 1, on a part of a rounded corner.
+static double steepness(const Machine& machine, const Piece& piece, bool only_turns) {
+  double most = 0;
+  for (const double part : {0.0, 0.5, 1.0}) {
+    const Coordinates slope = piece.path.tip_at(machine.kinematics, piece.begin + part * piece.length).first;
+    most = std::max(most, only_turns ? slope.tail<2>().norm() : slope.head<3>().norm());
   }
-  return exit;
+  // Between them the slope, a parabola, is off the straight line by length^2/8 times its second derivative at most.
+  const Coordinates bulge = 6 * square(piece.length / 2) / 8 * piece.path.c[3];
+  return most + (only_turns ? bulge.tail<2>().norm() : bulge.head<3>().norm());
 }
 
-/// Most x at a span's end with x = `entry` at its begin.
-double Planner::after(const Span& span, double entry) const {
-  switch (span.kind) {
-    case SpanKind::Line:
-      return entry + 2 * span.acceleration * span.length;
-    case SpanKind::Curve:
-      return curves_[span.curve - first_curve_].reach(entry, Direction::Forward);
-    case SpanKind::Corner:
-      break;
+/// Most of how fast B or C turns for ds/dt = 1, on a part of a rounded corner.
+static double turning_rate(const Machine& machine, const Piece& piece) {
+  double most = 0;
+  for (const double part : {0.0, 0.5, 1.0})
+    most = std::max(
+        most,
+        piece.path.tip_at(machine.kinematics, piece.begin + part * piece.length).first.tail<2>().cwiseAbs().maxCoeff());
+  return most + (6 * square(piece.length / 2) / 8 * piece.path.c[3]).tail<2>().cwiseAbs().maxCoeff();
+}
+
+/// In four parts: the middle one of the three cubics belongs to both moves.
+void Planner::append_corner(const SmoothBlend& blend, const Element& before, const Element& after) {
+  const double third = blend.length / 3;
+  const Piece parts[] = {{blend.paths[0], 0, third, before.tag},
+                         {blend.paths[1], 0, third / 2, before.tag, before.ends_move},
+                         {blend.paths[1], third / 2, third / 2, after.tag},
+                         {blend.paths[2], 0, third, after.tag}};
+  const double feed = std::min(before.feed, after.feed);
+  for (const Piece& part : parts) {
+    const double steepest = std::max({before.steepest, after.steepest, steepness(machine_, part, before.only_turns)});
+    const double by_turn = std::isinf(feed) ? feed : machine_.feed_turn / turning_rate(machine_, part);
+    softener_->append(machine_, part, square(std::min(feed / steepest, by_turn)));
   }
-  return entry;
-}
-
-void Planner::look_back_from_rest() {
-  double exit = 0;
-  for (std::size_t i = spans_.size(); i-- > planned_;) {
-    Span& span = spans_[i];
-    exit = span.entry = std::min(span.entry_cap, before(span, exit));
-  }
-}
-
-/// Looks back twice, from a stop at the end and from going on there as fast as may be. Where both agree, and before, x
-/// is what it will be whatever follows. Returns the last span whose `entry` is such.
-std::size_t Planner::look_back() {
-  look_back_from_rest();
-  double exit = last_cap_;
-  std::size_t i = spans_.size();
-  while (i-- > planned_) {
-    const Span& span = spans_[i];
-    exit = std::min(span.entry_cap, before(span, exit));
-    if (exit == span.entry) return i;
-  }
-  return planned_;
-}
-
-void Planner::plan_ahead() {
-  forget_handed_out();
-  std::size_t end = look_back();
-  if (spans_.size() - end > kMostSpans / 2) end = spans_.size() - kMostSpans / 2;
-  if (end > planned_) plan_until(end, spans_[end].entry);
-  batch_ = std::max(kBatch, 2 * (spans_.size() - planned_));
-}
-
-void Planner::plan_until(std::size_t end, double exit) {
-  for (; planned_ < end; ++planned_) {
-    Span& span = spans_[planned_];
-    const double most = planned_ + 1 < end ? spans_[planned_ + 1].entry : exit;
-    const double entry = speed_square_;
-    speed_square_ = std::min(most, after(span, entry));
-    give_time(span, entry, speed_square_);
-  }
-}
-
-/// How x goes through a span: up, level, and down again.
-struct Course {
-  double up = 0;  ///< Length, and acceleration.
-  double up_acceleration = 0;
-  double peak = 0;  ///< x between.
-  double down = 0;
-  double down_acceleration = 0;  ///< Not positive.
-};
-
-static double way(double from, double to, double acceleration) {
-  return to > from ? (to - from) / (2 * acceleration) : 0;
-}
-
-static Course over_peak(double peak, double entry, double exit, double up, double down) {
-  return {way(entry, peak, up), up, peak, way(exit, peak, down), -down};
-}
-
-static Course on_line(double acceleration, double cap, double length, double entry, double exit) {
-  const double peak = std::min(cap, (entry + exit) / 2 + acceleration * length);
-  return over_peak(std::max({peak, entry, exit}), entry, exit, acceleration, acceleration);
-}
-
-/// At one acceleration all the way: what CurveLimits::reach() found possible.
-static Course straight(double length, double entry, double exit) {
-  const double acceleration = (exit - entry) / (2 * length);
-  return exit > entry ? Course{length, acceleration, exit, 0, 0} : Course{0, 0, entry, length, acceleration};
-}
-
-static Course on_curve(const CurveLimits& limits, double cap, double length, double entry, double exit) {
-  const auto over = [&](double peak) {
-    return over_peak(peak, entry, exit, limits.acceleration(entry, peak, Direction::Forward),
-                     limits.acceleration(exit, peak, Direction::Backward));
-  };
-  const auto fits = [&](const Course& course) { return course.up + course.down <= length; };
-  double least = std::max(entry, exit);
-  Course best = over(cap);
-  if (fits(best)) return best;
-  best = straight(length, entry, exit);
-  double most = cap;
-  for (int i = 0; i < kPeakSteps && most - least > kPeakPrecision * most; ++i) {
-    const double middle = (least + most) / 2;
-    const Course course = over(middle);
-    const bool is_better = fits(course);
-    if (is_better) best = course;
-    (is_better ? least : most) = middle;
-  }
-  return best;
-}
-
-void Planner::give_time(Span& span, double entry, double exit) {
-  Course course{.peak = entry};
-  if (span.kind == SpanKind::Line) course = on_line(span.acceleration, span.cap, span.length, entry, exit);
-  if (span.kind == SpanKind::Curve)
-    course = on_curve(curves_[span.curve - first_curve_], span.cap, span.length, entry, exit);
-  double s = span.begin;
-  const auto go = [&](double length, double from, double to, double acceleration) {
-    if (length <= kNoPart * span.length) return;
-    const double time = 2 * length / (from + to);
-    span.phases[span.phase_count++] = {time, s, from, acceleration};
-    span.duration += time;
-    s += length;
-  };
-  const double top = std::sqrt(course.peak);
-  go(course.up, std::sqrt(entry), top, course.up_acceleration);
-  go(span.length - course.up - course.down, top, top, 0);
-  go(course.down, top, std::sqrt(exit), course.down_acceleration);
-  span.start = time_;
-  time_ += span.duration;
 }
 
 /// Half of a corner belongs to the move before it, half to the next.
@@ -316,38 +318,62 @@ static void keep_half(Stretch& stretch, bool second) {
 }
 
 const Stretch* Planner::next() {
-  while (handed_out_ == planned_) {
-    if (!splitter_.has_more()) return nullptr;
+  const Stretch* stretch = next_determined();
+  while (!stretch && splitter_.has_more()) {
     take(splitter_.next(machine_));
+    stretch = next_determined();
   }
-  const Span& span = spans_[handed_out_];
-  stretch_ = {.tag = span.tag,
-              .ends_move = span.ends_move,
-              .start = span.start,
-              .duration = span.duration,
-              .path = span.path,
-              .phases = span.phases,
-              .phase_count = span.phase_count};
-  if (span.kind == SpanKind::Corner && span.tag != span.next_tag) {
+  return stretch;
+}
+
+/// Makes a stretch go on with the next span, if it has room for that. A speed that is kept goes on in one phase.
+static bool extend(Stretch& stretch, const Profile::Span& span) {
+  const auto count = static_cast<std::size_t>(stretch.phase_count);
+  const bool goes_on = count > 0 && span.phase_count > 0 && stretch.phases[count - 1].acceleration == 0 &&
+                       span.phases[0].acceleration == 0;
+  if (count + span.phase_count - (goes_on ? 1 : 0) > stretch.phases.size()) return false;
+  if (goes_on) stretch.phases[count - 1].duration += span.phases[0].duration;
+  for (std::size_t i = goes_on ? 1 : 0; i < span.phase_count; ++i)
+    stretch.phases[static_cast<std::size_t>(stretch.phase_count++)] = span.phases[i];
+  stretch.duration += span.duration;
+  return true;
+}
+
+/// As many spans of a track as there is room for: which they are must not depend on how many are determined yet.
+const Stretch* Planner::next_determined() {
+  if (softener_) return softener_->next();
+  const Profile::Span* span = profile_.front();
+  if (!span) return nullptr;
+  const Track& track = tracks_[handed_out_];
+  const int left = track.span_count - spans_out_;
+  stretch_.phase_count = 0;
+  stretch_.start = span->start;
+  stretch_.duration = 0;
+  int count = 0;
+  for (; count < left; ++count) {
+    span = profile_.front(static_cast<std::size_t>(count));
+    if (!span) return nullptr;
+    if (!extend(stretch_, *span)) break;
+  }
+  stretch_.tag = track.piece.tag;
+  stretch_.ends_move = track.piece.ends_move && count == left;
+  stretch_.path = track.piece.path;
+  if (track.is_shared) {
     keep_half(stretch_, half_out_);
-    if (half_out_) stretch_.tag = span.next_tag;
+    if (half_out_) stretch_.tag = track.next_tag;
     if (half_out_) stretch_.ends_move = false;
     half_out_ = !half_out_;
   }
-  if (!half_out_) ++handed_out_;
+  if (!half_out_) hand_out(count);
   return &stretch_;
 }
 
-void Planner::forget_handed_out() {
-  if (handed_out_ == 0) return;
-  spans_.erase(spans_.begin(), spans_.begin() + static_cast<std::ptrdiff_t>(handed_out_));
-  planned_ -= handed_out_;
-  handed_out_ = 0;
-  const auto first =
-      std::find_if(spans_.begin(), spans_.end(), [](const Span& span) { return span.kind == SpanKind::Curve; });
-  const std::size_t kept = first == spans_.end() ? first_curve_ + curves_.size() : first->curve;
-  curves_.erase(curves_.begin(), curves_.begin() + static_cast<std::ptrdiff_t>(kept - first_curve_));
-  first_curve_ = kept;
+void Planner::hand_out(int spans) {
+  profile_.pop(static_cast<std::size_t>(spans));
+  spans_out_ += spans;
+  if (spans_out_ < tracks_[handed_out_].span_count) return;
+  spans_out_ = 0;
+  ++handed_out_;
 }
 
 }  // namespace isocnc::motion

@@ -2,13 +2,17 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "interpreter/motion/blend.h"
 #include "interpreter/motion/element.h"
-#include "interpreter/motion/limits.h"
 #include "interpreter/motion/machine.h"
+#include "interpreter/motion/memory.h"
 #include "interpreter/motion/move.h"
+#include "interpreter/motion/piece.h"
+#include "interpreter/motion/profile.h"
+#include "interpreter/motion/softener.h"
 #include "interpreter/motion/stretch.h"
 
 namespace isocnc::motion {
@@ -22,9 +26,9 @@ namespace isocnc::motion {
 ///     planner.rest();
 ///     while (const Stretch* stretch = planner.next()) use(*stretch);
 ///
-/// The times are the shortest under the constraints of docs/motion.md. Memory is bounded, however long the program,
-/// if next() is called as above. What comes out depends on what went in, not on when next() was called. A planner is a
-/// value: a copy goes on by itself.
+/// The times are the shortest under the constraints of docs/motion.md, or as near to that as it says. Memory is
+/// bounded, however long the program, if next() is called as above. What comes out depends on what went in, not on when
+/// next() was called. A planner is a value: a copy goes on by itself.
 class Planner {
  public:
   explicit Planner(Machine machine);
@@ -39,50 +43,41 @@ class Planner {
   /// The next stretch, or null where what was pushed does not determine it yet. Valid until the planner is used again.
   const Stretch* next();
 
+  /// Lets go of what has been handed out, which is done now and then anyway: a copy is then as small as it can be.
+  void forget_handed_out();
+
+  /// Bytes that it holds, beside itself.
+  std::size_t memory() const { return profile_.memory() + bytes_of(tracks_) + (softener_ ? softener_->memory() : 0); }
+
   /// Seconds until the end of all stretches that are determined, rests included.
-  double time() const { return time_; }
+  double time() const { return softener_ ? softener_->time() : profile_.time(); }
 
  private:
-  enum class SpanKind : std::uint8_t { Line, Curve, Corner };
-
-  /// A piece of the path with limits of its own.
-  struct Span {
-    SpanKind kind = SpanKind::Line;
-    std::uint8_t phase_count = 0;
-    bool ends_move = false;
-    std::uint64_t tag = 0;
-    std::uint64_t next_tag = 0;  ///< Corner: of its second half.
-    double begin = 0;
-    double length = 0;
-    double cap = 0;           ///< Most x = (ds/dt)^2.
-    double acceleration = 0;  ///< Line: most |a|.
-    double entry_cap = 0;     ///< Most x at the begin, by the span before and this one.
-    double entry = 0;         ///< Most x at the begin, from which what follows can be kept.
-    std::size_t curve = 0;    ///< Curve: its limits' number.
-    double start = 0;         ///< When planned.
-    double duration = 0;
-    std::array<Phase, 3> phases;
-    Path path;
+  /// What spans of the profile lead along.
+  struct Track {
+    Piece piece;
+    int span_count = 1;
+    bool is_shared = false;      ///< A corner, whose second half belongs to the next move.
+    std::uint64_t next_tag = 0;  ///< Of that.
   };
 
   void take_elements();
   void take(Element element);
   void join(Element& next);
+  void join_softly(Element& next);
   void come_to_rest();
+  void plan_ahead();
   void append(const Element& element);
   void append_line(const Element& element);
   void append_curve(const Element& element);
+  void append_arc(const Element& element);
+  void soften_curve(const Element& element);
+  int append_fine(const Path& circle, double begin, double end, double cap);
   void append_corner(const Blend& blend, const Element& before, const Element& after);
-  Span& add(SpanKind kind, const Element& element, double cap);
-
-  double before(const Span& span, double exit) const;
-  double after(const Span& span, double entry) const;
-  std::size_t look_back();
-  void look_back_from_rest();
-  void plan_ahead();
-  void plan_until(std::size_t end, double exit);
-  void give_time(Span& span, double entry, double exit);
-  void forget_handed_out();
+  void append_corner(const SmoothBlend& blend, const Element& before, const Element& after);
+  const Stretch* next_determined();
+  void forget_tracks();
+  void hand_out(int spans);
 
   Machine machine_;
   Splitter splitter_;
@@ -91,16 +86,12 @@ class Planner {
   geometry::Pose end_;  ///< Of the last move.
   bool has_end_ = false;
 
-  std::vector<Span> spans_;
-  std::vector<CurveLimits> curves_;
-  std::size_t first_curve_ = 0;  ///< Number of the first in curves_.
-  std::size_t handed_out_ = 0;   ///< Spans before it.
-  std::size_t planned_ = 0;      ///< Spans before it have their times.
-  std::size_t batch_;            ///< So many unplanned spans call for planning.
-  bool half_out_ = false;        ///< The first half of a corner is handed out.
-  double speed_square_ = 0;      ///< x at the begin of the first unplanned span.
-  double last_cap_ = 0;          ///< Of the last span; 0 at rest.
-  double time_ = 0;
+  Profile profile_;                   ///< Where jerk is not limited.
+  std::vector<Track> tracks_;         ///< Of its spans.
+  std::size_t handed_out_ = 0;        ///< Tracks before it.
+  int spans_out_ = 0;                 ///< Of the next one.
+  bool half_out_ = false;             ///< The first half of a corner is handed out.
+  std::optional<Softener> softener_;  ///< Where it is.
   Stretch stretch_;
 };
 

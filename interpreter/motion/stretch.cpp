@@ -1,8 +1,14 @@
 #include "interpreter/motion/stretch.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace isocnc::motion {
+
+Phase Phase::after(double time) const {
+  return {duration - time, from + time * (speed + time * (acceleration / 2 + time * jerk / 6)),
+          speed + time * (acceleration + time * jerk / 2), acceleration + time * jerk, jerk};
+}
 
 /// Derivatives in time of what a jet says in s.
 static Jet in_time(const Jet& jet, double speed, double acceleration) {
@@ -20,17 +26,32 @@ static Sample sample(const Jet& tip, const Jet& joints, double time) {
   return result;
 }
 
-Sample Stretch::at(const Kinematics& kinematics, double time) const {
-  double t = std::clamp(time - start, 0.0, duration);
+/// What is left of the phase at a time, held to the stretch.
+static Phase phase_at(const Stretch& stretch, double time) {
+  double t = std::clamp(time - stretch.start, 0.0, stretch.duration);
   std::size_t i = 0;
-  while (i + 1 < static_cast<std::size_t>(phase_count) && t > phases[i].duration) t -= phases[i++].duration;
-  const Phase& phase = phases[i];
-  t = std::min(t, phase.duration);
-  const double s = phase.from + t * (phase.speed + t * phase.acceleration / 2);
-  const double speed = phase.speed + t * phase.acceleration;
-  return sample(in_time(path.tip_at(kinematics, s), speed, phase.acceleration),
-                in_time(path.joints_at(kinematics, s), speed, phase.acceleration),
+  while (i + 1 < static_cast<std::size_t>(stretch.phase_count) && t > stretch.phases[i].duration)
+    t -= stretch.phases[i++].duration;
+  return stretch.phases[i].after(std::min(t, stretch.phases[i].duration));
+}
+
+Sample Stretch::at(const Kinematics& kinematics, double time) const {
+  const Phase now = phase_at(*this, time);
+  return sample(in_time(path.tip_at(kinematics, now.from), now.speed, now.acceleration),
+                in_time(path.joints_at(kinematics, now.from), now.speed, now.acceleration),
                 std::clamp(time, start, start + duration));
+}
+
+double Stretch::parameter_at(double time) const { return phase_at(*this, time).from; }
+
+double Stretch::time_at(double s) const {
+  double early = start;
+  double late = start + duration;
+  for (double middle = std::midpoint(early, late); early < middle && middle < late;
+       middle = std::midpoint(early, late)) {
+    (parameter_at(middle) < s ? early : late) = middle;
+  }
+  return late;
 }
 
 }  // namespace isocnc::motion

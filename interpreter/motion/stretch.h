@@ -8,12 +8,16 @@
 
 namespace isocnc::motion {
 
-/// A time of constant acceleration along a path's parameter.
+/// A time of constant jerk along a path's parameter.
 struct Phase {
   double duration = 0;
   double from = 0;          ///< s at its begin.
   double speed = 0;         ///< ds/dt at its begin.
-  double acceleration = 0;  ///< Of s.
+  double acceleration = 0;  ///< Of s, at its begin.
+  double jerk = 0;          ///< Of s; 0 where jerk is not limited.
+
+  /// After `time` from its begin.
+  Phase after(double time) const;
 };
 
 /// Where the machine is, and how it moves.
@@ -40,6 +44,10 @@ struct Stretch {
 
   /// At `time` since the planner's beginning, held to the stretch.
   Sample at(const Kinematics& kinematics, double time) const;
+  /// The path's parameter at that time; it never falls.
+  double parameter_at(double time) const;
+  /// When the path's parameter comes to `s`, held to the stretch.
+  double time_at(double s) const;
 };
 
 }  // namespace isocnc::motion

@@ -4,9 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/LU>
+
 #include "interpreter/motion/element.h"
 
 namespace isocnc::motion {
+
+using geometry::Range;
+using geometry::Vec3;
 
 /// Between grid points this far apart a joint has one peak at most, radians of B, C and the arc together.
 static constexpr double kGridTurn = 3 * std::numbers::pi / 180;
@@ -14,45 +19,64 @@ static constexpr int kPeakSteps = 60;
 /// More than rotary axes turn in one move.
 static constexpr int kMostGridPoints = 10'000;
 
-/// The joints along a move, by the part of the way gone.
-class JointWay {
+/// A move's path, by the part of the way gone.
+class Way {
  public:
-  JointWay(const Machine& machine, const Move& move)
+  Way(const Machine& machine, const Move& move)
       : machine_(machine),
-        way_(move.is_arc ? programmed_circle(move) : programmed_line(machine, move, move.from, move.to)) {
+        path_(move.is_arc ? programmed_circle(move) : programmed_line(machine, move, move.from, move.to)) {
     turned_[kB] = move.to.b - move.from.b;
     turned_[kC] = move.to.c - move.from.c;
   }
 
-  Coordinates at(double part) const {
-    Coordinates there = way_.path.at(part * way_.length).value;
+  Coordinates joints(double part) const {
+    Coordinates there = path_.path.at(part * path_.length).value;
     if (is_arc()) there += part * turned_;
-    return way_.path.is_of_joints ? there : inverse(machine_.kinematics, there, way_.path.tool_length);
+    return path().is_of_joints ? there : inverse(machine_.kinematics, there, path().tool_length);
   }
 
-  bool is_straight() const {
+  Vec3 tip(double part) const { return path().tip_at(machine_.kinematics, part * path_.length).value.head<3>(); }
+  /// How fast the tip goes where the whole way takes a second, mm/s.
+  double tip_speed(double part) const {
+    return path_.length * path().tip_at(machine_.kinematics, part * path_.length).first.head<3>().norm();
+  }
+
+  const Path& path() const { return path_.path; }
+  double length() const { return path_.length; }
+  bool is_arc() const { return path().kind == PathKind::Circle; }
+  /// Whether B and C swing the tip.
+  bool swings() const { return path().is_of_joints; }
+  bool has_straight_joints() const {
     const bool turns = turned_.squaredNorm() > 0 && machine_.kinematics.kind != MachineKind::ThreeAxis;
-    return !is_arc() && (way_.path.is_of_joints || !turns);
+    return !is_arc() && (path().is_of_joints || !turns);
   }
 
+  /// Into how many parts it is cut so that there is one peak at most beside each end of a part.
   int grid() const {
-    const double turn = std::abs(way_.path.omega) * way_.length + turned_.cwiseAbs().sum() * std::numbers::pi / 180;
+    const double turn = std::abs(path().omega) * path_.length + turned_.cwiseAbs().sum() * std::numbers::pi / 180;
     return std::max(2, part_count(turn / kGridTurn, kMostGridPoints));
   }
 
  private:
-  bool is_arc() const { return way_.path.kind == PathKind::Circle; }
-
   const Machine& machine_;
-  ProgrammedPath way_;
+  ProgrammedPath path_;
   Coordinates turned_ = Coordinates::Zero();
 };
 
-/// Where between two parts of the way a joint goes farthest in the direction of `sign`.
-static double farthest(const JointWay& way, int axis, double sign, double low, double high) {
+/// What `at` gives for each point of a grid from 0 to 1.
+template <typename At>
+static auto on_grid(int count, At&& at) {
+  std::vector<decltype(at(0.0))> grid;
+  for (int i = 0; i <= count; ++i) grid.push_back(at(static_cast<double>(i) / count));
+  return grid;
+}
+
+/// Where between two parts of the way a coordinate goes farthest in the direction of `sign`.
+template <typename At>
+static double farthest_between(At&& at, int axis, double sign, double low, double high) {
   for (int i = 0; i < kPeakSteps; ++i) {
     const double third = (high - low) / 3;
-    if (sign * way.at(low + third)[axis] > sign * way.at(high - third)[axis]) {
+    if (sign * at(low + third)[axis] > sign * at(high - third)[axis]) {
       high -= third;
     } else {
       low += third;
@@ -61,26 +85,27 @@ static double farthest(const JointWay& way, int axis, double sign, double low, d
   return (low + high) / 2;
 }
 
-/// Where a joint goes farthest: beside the grid's peaks, its ends included.
-static double farthest(const JointWay& way, const std::vector<Coordinates>& grid, int axis, double sign) {
+/// Where a coordinate goes farthest: beside the grid's peaks, its ends included.
+template <typename At, typename Point>
+static double farthest(At&& at, const std::vector<Point>& grid, int axis, double sign) {
   const std::size_t last = grid.size() - 1;
   const auto part = [&](std::size_t i) { return static_cast<double>(i) / static_cast<double>(last); };
   double best = 0;
   const auto consider = [&](double candidate) {
-    if (sign * way.at(candidate)[axis] > sign * way.at(best)[axis]) best = candidate;
+    if (sign * at(candidate)[axis] > sign * at(best)[axis]) best = candidate;
   };
   consider(1);
   for (std::size_t i = 0; i <= last; ++i) {
     const auto is_below = [&](std::size_t k) { return sign * grid[k][axis] <= sign * grid[i][axis]; };
     const bool is_peak = (i == 0 || is_below(i - 1)) && (i == last || is_below(i + 1));
-    if (is_peak) consider(farthest(way, axis, sign, i == 0 ? 0 : part(i - 1), i == last ? 1 : part(i + 1)));
+    if (is_peak) consider(farthest_between(at, axis, sign, i == 0 ? 0 : part(i - 1), i == last ? 1 : part(i + 1)));
   }
   return best;
 }
 
 /// Reports what passes a limit, where `find(axis, sign)` says that a joint goes farthest.
 template <typename Find>
-static std::vector<Overtravel> beyond(const Machine& machine, const JointWay& way, Find&& find) {
+static std::vector<Overtravel> beyond(const Machine& machine, const Way& way, Find&& find) {
   std::vector<Overtravel> found;
   for (int axis = 0; axis < kAxisCount; ++axis) {
     const AxisLimits& limits = machine.axes[static_cast<std::size_t>(axis)];
@@ -88,7 +113,7 @@ static std::vector<Overtravel> beyond(const Machine& machine, const JointWay& wa
       const double limit = sign < 0 ? limits.least : limits.most;
       if (std::isinf(limit)) continue;
       const double part = find(axis, sign);
-      const double position = way.at(part)[axis];
+      const double position = way.joints(part)[axis];
       if (sign * (position - limit) > 0) found.push_back({static_cast<Axis>(axis), part, position, limit});
     }
   }
@@ -96,15 +121,71 @@ static std::vector<Overtravel> beyond(const Machine& machine, const JointWay& wa
 }
 
 std::vector<Overtravel> overtravels(const Machine& machine, const Move& move) {
-  const JointWay way(machine, move);
-  if (way.is_straight()) {
-    const Coordinates change = way.at(1) - way.at(0);
+  const Way way(machine, move);
+  if (way.has_straight_joints()) {
+    const Coordinates change = way.joints(1) - way.joints(0);
     return beyond(machine, way, [&](int axis, double sign) { return sign * change[axis] > 0 ? 1.0 : 0.0; });
   }
-  std::vector<Coordinates> grid;
-  const int count = way.grid();
-  for (int i = 0; i <= count; ++i) grid.push_back(way.at(static_cast<double>(i) / count));
-  return beyond(machine, way, [&](int axis, double sign) { return farthest(way, grid, axis, sign); });
+  const auto at = [&](double part) { return way.joints(part); };
+  const std::vector<Coordinates> grid = on_grid(way.grid(), at);
+  return beyond(machine, way, [&](int axis, double sign) { return farthest(at, grid, axis, sign); });
+}
+
+/// Simpson's rule on a speed that is smooth, but where the tip turns back on a way of joints.
+static double integrated_length(const Way& way) {
+  constexpr int kPanelsPerPoint = 4;
+  const int panels = std::max(64, kPanelsPerPoint * way.grid());
+  double sum = way.tip_speed(0) + way.tip_speed(1);
+  for (int i = 1; i < panels; ++i) sum += (i % 2 == 1 ? 4 : 2) * way.tip_speed(static_cast<double>(i) / panels);
+  return sum / (3 * panels);
+}
+
+static double way_length(const Way& way, const Move& move) {
+  if (way.swings()) return integrated_length(way);
+  const Vec3 rise = way.path().c[3].head<3>();
+  const bool leans = rise.cross(move.normal).norm() > 1e-9;
+  return leans ? integrated_length(way) : way.length();
+}
+
+static std::array<Range, 3> extents(const Vec3& from, const Vec3& to) {
+  const Vec3 least = from.cwiseMin(to);
+  const Vec3 most = from.cwiseMax(to);
+  return {Range{least.x(), most.x()}, Range{least.y(), most.y()}, Range{least.z(), most.z()}};
+}
+
+static std::array<Range, 3> arc_extents(const Way& way, const geometry::Frame& frame) {
+  const Path& path = way.path();
+  const geometry::Mat3 to_frame = frame.axes.inverse();
+  const auto seen = [&](const Coordinates& vector) -> Vec3 { return to_frame * vector.head<3>(); };
+  const double omega = std::abs(path.omega);
+  return geometry::wave_ranges(to_frame * (path.c[0].head<3>() - frame.origin), seen(path.c[1]),
+                               path.omega < 0 ? Vec3(-seen(path.c[2])) : seen(path.c[2]), seen(path.c[3]) / omega,
+                               omega * way.length());
+}
+
+static std::array<Range, 3> swing_extents(const Way& way, const geometry::Frame& frame) {
+  const auto at = [&](double part) { return frame.to_inner(way.tip(part)); };
+  const std::vector<Vec3> grid = on_grid(way.grid(), at);
+  const auto end = [&](int axis, double sign) { return at(farthest(at, grid, axis, sign))[axis]; };
+  return {Range{end(0, -1), end(0, 1)}, Range{end(1, -1), end(1, 1)}, Range{end(2, -1), end(2, 1)}};
+}
+
+static std::array<Range, 3> extents(const Way& way, const geometry::Frame& frame) {
+  return way.is_arc() ? arc_extents(way, frame) : swing_extents(way, frame);
+}
+
+/// Most moves, and it takes no Way to tell.
+static bool goes_straight(const Machine& machine, const Move& move) { return !move.is_arc && !swings(machine, move); }
+
+TipTravel tip_travel(const Machine& machine, const Move& move) {
+  if (goes_straight(machine, move)) return {(move.to.tip - move.from.tip).norm(), extents(move.from.tip, move.to.tip)};
+  const Way way(machine, move);
+  return {way_length(way, move), extents(way, {})};
+}
+
+std::array<Range, 3> tip_extents(const Machine& machine, const Move& move, const geometry::Frame& frame) {
+  if (goes_straight(machine, move)) return extents(frame.to_inner(move.from.tip), frame.to_inner(move.to.tip));
+  return extents(Way(machine, move), frame);
 }
 
 }  // namespace isocnc::motion

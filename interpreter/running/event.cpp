@@ -1,6 +1,10 @@
 #include "interpreter/running/event.h"
 
+#include <fmt/format.h>
+#include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "interpreter/running/vector_json.h"
 
 namespace isocnc::running {
 
@@ -15,9 +19,6 @@ struct Overloaded : Cases... {
 };
 template <class... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
-
-Json array(const geometry::Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
-Json array(const geometry::Pose& p) { return Json::array({p.tip.x(), p.tip.y(), p.tip.z(), p.b, p.c}); }
 
 void put(Json& json, const MoveEvent& move) {
   json["from"] = array(move.from);
@@ -56,6 +57,7 @@ void put(Json& json, const JumpEvent& jump) {
   json["taken"] = jump.taken;
   json["target"] = jump.target_line + 1;
 }
+void put(Json&, const UpdateEvent&) {}
 void put(Json&, const ExactStopEvent&) {}
 void put(Json&, const EndEvent&) {}
 
@@ -74,9 +76,20 @@ std::string_view kind_of(const Event& event) {
                                [](const ToolEvent&) -> std::string_view { return "tool"; },
                                [](const FrameEvent&) -> std::string_view { return "frame"; },
                                [](const JumpEvent&) -> std::string_view { return "jump"; },
+                               [](const UpdateEvent&) -> std::string_view { return "update"; },
                                [](const ExactStopEvent&) -> std::string_view { return "stop"; },
                                [](const EndEvent&) -> std::string_view { return "end"; }},
                     event.what);
+}
+
+double feed_of(const MoveEvent& move) {
+  if (!move.inverse_time) return move.feed;
+  const double degrees = std::hypot(move.to.b - move.from.b, move.to.c - move.from.c);
+  return move.feed * (move.length > 0 ? move.length : degrees);
+}
+
+std::string tool_name(const execution::ToolCode& tool) {
+  return fmt::format("T{}{:02}{:03}", tool.head, tool.holder, tool.tool);
 }
 
 std::string to_json(const Event& event) { return to_json(event, {}); }

@@ -36,6 +36,8 @@ struct JumpEvent {
   bool taken = false;
   std::uint64_t target_line = 0;  ///< From 0; where the program goes on.
 };
+/// A G990: nothing goes on until the control has its technological parameters anew (I.3.11).
+struct UpdateEvent {};
 /// A G09: the axes stop at the end of the last motion (I.3.8). Not in traces.
 struct ExactStopEvent {};
 struct EndEvent {};
@@ -43,13 +45,19 @@ struct EndEvent {};
 /// Something that a program did, on its line (from 0).
 struct Event {
   std::uint64_t line = 0;
-  std::variant<MoveEvent, DwellEvent, SpindleSpeedEvent, FunctionEvent, ToolEvent, FrameEvent, JumpEvent,
+  std::variant<MoveEvent, DwellEvent, SpindleSpeedEvent, FunctionEvent, ToolEvent, FrameEvent, JumpEvent, UpdateEvent,
                ExactStopEvent, EndEvent>
       what;
 };
 
-/// `rapid`, `feed`, `arc`, `dwell`, `spindle`, `tool`, `m`, `frame`, `jump`, `end`: how the trace calls it.
+/// `rapid`, `feed`, `arc`, `dwell`, `spindle`, `tool`, `m`, `frame`, `jump`, `update`, `end`: how the trace calls it.
 std::string_view kind_of(const Event& event);
+
+/// The feed of a feed move as a speed: mm/min, or degrees/min where only B and C turn. 0 for rapids.
+double feed_of(const MoveEvent& move);
+
+/// `T101001`: a tool as programs write it.
+std::string tool_name(const execution::ToolCode& tool);
 
 /// The event as one line of JSON without its end, keys as docs/isorun.md lists them; lines from 1.
 std::string to_json(const Event& event);

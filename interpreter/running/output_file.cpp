@@ -5,6 +5,10 @@
 
 #include <cerrno>
 
+#include <fmt/format.h>
+
+#include "interpreter/running/system_texts.h"
+
 namespace isocnc::running {
 
 OutputFile::OutputFile(const std::filesystem::path& path) : is_ours_(true) {
@@ -36,6 +40,11 @@ int OutputFile::flush() {
   }
   gathered_.clear();
   return error_;
+}
+
+std::optional<std::string> flush(OutputFile& output, std::string_view name, dialect::Language language) {
+  const int error = output.flush();
+  return error == 0 ? std::nullopt : std::optional(fmt::format("{}: {}", name, cannot_write(error, language)));
 }
 
 }  // namespace isocnc::running

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "interpreter/dialect/diagnostic.h"
 
 namespace isocnc::running {
 
@@ -32,5 +35,8 @@ class OutputFile {
   int error_ = 0;
   std::string gathered_;
 };
+
+/// Flushes an output. When anything written to it has been lost, what to tell: `trace.jsonl: cannot write: ...`.
+std::optional<std::string> flush(OutputFile& output, std::string_view name, dialect::Language language);
 
 }  // namespace isocnc::running

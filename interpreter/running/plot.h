@@ -1,56 +1,65 @@
 #pragma once
 
-#include <cstdint>
-#include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "interpreter/dialect/diagnostic.h"
-#include "interpreter/running/event.h"
+#include "interpreter/running/output_file.h"
+#include "interpreter/running/runner.h"
+#include "interpreter/running/toolpath.h"
 
 namespace isocnc::running {
 
-/// A picture of a run: the path of the tool tip from above and in isometric view, machine coordinates, mm. Rapids are
-/// dashed, arcs drawn thicker than lines, and each tool has a color that people see who tell red from green badly.
+/// A tool as the machine's file describes it; mm.
+struct PlotTool {
+  execution::ToolCode code;
+  std::string name;
+  std::optional<double> length;
+  std::optional<double> radius;
+};
+
+/// What a plot shows besides the path.
+struct PlotSubject {
+  std::string name;          ///< Of the program; may hold anything.
+  std::string_view program;  ///< Its text.
+  geometry::Pose home;       ///< Where the machine starts.
+  std::vector<PlotTool> tools;
+  std::string_view page;  ///< What a PlotFormat::Html is made of: kPageTemplate.
+  dialect::Language language = dialect::Language::English;
+};
+
+/// One way to draw a path.
+class Picture {
+ public:
+  virtual ~Picture() = default;
+  virtual void add(const ToolpathStep& step) = 0;
+  /// All of it, once the run is over.
+  virtual void write(OutputFile& output, const Toolpath& path, const RunResult& result) = 0;
+};
+
+enum class PlotFormat : std::uint8_t { Svg, Html };
+
+/// By how the name of a file ends: .svg, .html or .htm, in capitals, too.
+std::optional<PlotFormat> plot_format(std::string_view file_name);
+
+/// Listens to a run and draws the way of the tool tip.
 class Plot {
  public:
-  Plot();
+  Plot(PlotFormat format, const PlotSubject& subject, const TimedMachine& machine);
 
-  void add(const Event& event);
-
-  /// An SVG document. `title` may hold anything.
-  std::string svg(std::string_view title, dialect::Language language) const;
+  void add(const motion::Stretch& stretch) { path_.add(stretch); }
+  void add(const TimedEvent& timed) { path_.add(timed); }
+  void write(OutputFile& output, const RunResult& result) { picture_->write(output, path_, result); }
 
  private:
-  struct Point {
-    double x = 0;
-    double y = 0;
-  };
-
-  /// What one view shows; y grows downwards.
-  struct View {
-    Point (*project)(const geometry::Vec3& point);
-    Point least;
-    Point most;
-    bool is_empty = true;
-    std::map<std::pair<std::size_t, execution::MoveKind>, std::string> paths;  ///< By tool; `d` of the paths.
-    std::pair<std::size_t, execution::MoveKind> last{};                        ///< Whose path the pen is on.
-    Point pen;
-
-    void include(const Point& point);
-    void draw(const std::pair<std::size_t, execution::MoveKind>& key, const geometry::Vec3& from,
-              const geometry::Vec3& to);
-  };
-
-  void add_move(const MoveEvent& move);
-  void add_frame(const FrameEvent& event);
-  std::string drawn(const View& view, double scale, double left, double top) const;
-
-  std::vector<View> views_;
-  std::vector<std::string> tools_;
-  std::vector<geometry::Frame> frames_;  ///< In machine coordinates.
-  std::size_t tool_ = 0;
+  std::unique_ptr<Picture> picture_;
+  Toolpath path_;
 };
+
+/// `T102003`, and what the machine's file calls it: `T102003 fresa D20`.
+std::string shown_tool(const execution::ToolCode& tool, const std::vector<PlotTool>& known);
 
 }  // namespace isocnc::running

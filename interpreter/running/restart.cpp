@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-
+#include "interpreter/dialect/format.h"
 #include "interpreter/geometry/arc.h"
 #include "interpreter/syntax/characters.h"
 
@@ -38,6 +37,8 @@ static constexpr Text kExactStop{"the G09 that comes next belongs to the motion 
                                  "la G09 che segue appartiene al movimento che precede"};
 static constexpr Text kArcContinues{"it goes on with the G{:02} above it, which only an arc can bring into force",
                                     "prosegue con la G{:02} che precede, che solo un arco può mettere in presa"};
+static constexpr Text kBeyondTravel{"on the way there {} would go to {:.3f} (limit {:.3f})",
+                                    "sul percorso {} arriverebbe a {:.3f} (limite {:.3f})"};
 static constexpr Text kNotProved{"a trial of the restart program does not come to the same state",
                                  "la prova del programma di ripresa non arriva allo stesso stato"};
 static constexpr Text kNearest{"nearest safe line: {}", "riga sicura più vicina: {}"};
@@ -94,7 +95,7 @@ bool has_same_modes(const State& a, const State& b, bool needs_motion) {
 
 /// Whether all that follows is the same after `a` as after `b`.
 bool is_same(const State& a, const State& b, bool needs_motion) {
-  constexpr std::uint8_t kTurns = State::kClockwise | State::kCounterclockwise;
+  constexpr State::Knowledge kTurns = State::kClockwise | State::kCounterclockwise;
   return is_near(a.position.tip, b.position.tip) &&
          std::abs(a.position.b - b.position.b) <= geometry::kEqualCoordinate &&
          std::abs(a.position.c - b.position.c) <= geometry::kEqualCoordinate && has_same_frames(a, b) &&
@@ -103,19 +104,35 @@ bool is_same(const State& a, const State& b, bool needs_motion) {
          a.spindle_speed == b.spindle_speed && (a.knowledge & kTurns) == (b.knowledge & kTurns);
 }
 
-/// Runs the restart program as the control would.
-bool is_proved(std::string_view program, std::uint64_t preamble_lines, const RestartSurvey& survey,
-               const RestartOptions& options) {
+/// What a restart program does when it is tried.
+struct Trial {
+  bool is_proved = false;                        ///< It comes to the line in the same state, and ends as the original.
+  std::optional<motion::Overtravel> overtravel;  ///< The first on the way to the line.
+};
+
+/// Runs the restart program as the control would, from home.
+Trial try_program(std::string_view program, std::uint64_t preamble_lines, const RestartSurvey& survey,
+                  const RestartOptions& options) {
   const RestartPoint& point = survey.point();
+  Trial trial;
   bool comes_to_state = false;
-  RunOptions trial = options.run;
-  trial.before_block = [&](const Block& block) {
+  RunOptions run_options = options.run;
+  run_options.before_block = [&](const Block& block) {
     if (block.line == preamble_lines)
       comes_to_state = is_same(block.state, point.state, point.continues_motion) && block.registers == point.registers;
   };
-  const RunResult result = run(program, trial, [](const Event&) {});
-  return comes_to_state && result.ending == Ending::ProgramEnd &&
-         is_same(result.state, survey.run().state, point.continues_motion);
+  Timing approach(options.machine, {.event = [&](const TimedEvent& timed) {
+                    if (!timed.move || trial.overtravel) return;
+                    const auto found = motion::overtravels(options.machine.motion, *timed.move);
+                    if (!found.empty()) trial.overtravel = found.front();
+                  }});
+  const RunResult result = run(program, run_options, [&](const Event& event) {
+    if (event.line < preamble_lines) approach.take(event);
+  });
+  approach.finish();
+  trial.is_proved = comes_to_state && result.ending == Ending::ProgramEnd &&
+                    is_same(result.state, survey.run().state, point.continues_motion);
+  return trial;
 }
 
 void propose_lines(const RestartSurvey& survey, RestartRefusal& refusal) {
@@ -132,7 +149,8 @@ RestartRefusal refuse(Obstacle obstacle, const RestartSurvey& survey, std::uint6
   refusal.has_choices = survey.has_choices();
   const State& state = survey.point().state;
   refusal.g = state.mode(obstacle == Obstacle::Compensation ? ModalGroup::CutterCompensation : ModalGroup::Motion);
-  if (obstacle != Obstacle::ProgramError) propose_lines(survey, refusal);
+  // Whether the travel suffices for other lines, only a trial of each would tell.
+  if (obstacle != Obstacle::ProgramError && obstacle != Obstacle::BeyondTravel) propose_lines(survey, refusal);
   return refusal;
 }
 
@@ -158,9 +176,7 @@ const Text& reason(Obstacle obstacle) {
 }
 
 std::string what_is_wrong(const RestartRefusal& refusal, Language language) {
-  const auto say = [&](const Text& text, auto... values) {
-    return fmt::format(fmt::runtime(text.in(language)), values...);
-  };
+  const auto say = [&](const Text& text, auto... values) { return dialect::format(text, language, values...); };
   switch (refusal.obstacle) {
     case Obstacle::NoSuchLine:
       return say(kNoSuchLine, refusal.line + 1, refusal.cause);
@@ -168,6 +184,10 @@ std::string what_is_wrong(const RestartRefusal& refusal, Language language) {
       return say(kBehindEnd, refusal.line + 1, refusal.cause + 1);
     case Obstacle::JumpedOver:
       return say(kJumpedOver, refusal.line + 1, refusal.cause + 1);
+    case Obstacle::BeyondTravel:
+      return say(
+          kUnsafe, refusal.line + 1,
+          say(kBeyondTravel, "XYZBC"[refusal.overtravel.axis], refusal.overtravel.position, refusal.overtravel.limit));
     default:
       return say(kUnsafe, refusal.line + 1, say(reason(refusal.obstacle), refusal.g));
   }
@@ -185,7 +205,13 @@ std::variant<std::string, RestartRefusal> restart_program(std::string_view text,
   std::string program = restart_preamble(survey.point(), options, line_end_of(text));
   const std::uint64_t preamble_lines = count_lines(program);
   program += text.substr(start.offset);
-  if (!is_proved(program, preamble_lines, survey, options)) return refuse(Obstacle::NotProved, survey, options.line);
+  const Trial trial = try_program(program, preamble_lines, survey, options);
+  if (!trial.is_proved) return refuse(Obstacle::NotProved, survey, options.line);
+  if (trial.overtravel) {
+    RestartRefusal refusal = refuse(Obstacle::BeyondTravel, survey, options.line);
+    refusal.overtravel = *trial.overtravel;
+    return refusal;
+  }
   return program;
 }
 
@@ -194,7 +220,7 @@ std::string message(const RestartRefusal& refusal, Language language) {
   const bool is_not_run = refusal.obstacle == Obstacle::BehindEnd || refusal.obstacle == Obstacle::JumpedOver;
   if (is_not_run && refusal.has_choices) text += kChoice.in(language);
   const auto add = [&](const Text& nearest, auto... lines) {
-    text += "; " + fmt::format(fmt::runtime(nearest.in(language)), (lines + 1)...);
+    text += "; " + dialect::format(nearest, language, (lines + 1)...);
   };
   if (refusal.before && refusal.behind) {
     add(kNearestTwo, *refusal.before, *refusal.behind);

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <variant>
 
+#include "interpreter/motion/travel.h"
 #include "interpreter/running/restart_preamble.h"
 
 namespace isocnc::running {
@@ -18,6 +19,7 @@ struct RestartRefusal {
   int g = 0;                 ///< The G that is in force and in the way: 2, 3, 41 or 42.
   std::optional<std::uint64_t> before;  ///< The nearest line above that is safe.
   std::optional<std::uint64_t> behind;  ///< The nearest below.
+  motion::Overtravel overtravel;        ///< BeyondTravel: what goes where.
   RunResult run;                        ///< ProgramError: with the error; points into the program.
 };
 

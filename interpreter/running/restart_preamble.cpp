@@ -8,7 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/dialect/format.h"
 #include "interpreter/execution/execute.h"
+#include "interpreter/execution/silent_sink.h"
 #include "interpreter/geometry/arc.h"
 #include "interpreter/syntax/tree_store.h"
 
@@ -58,13 +60,6 @@ static std::string shown(const FunctionEvent& function) {
 
 namespace {
 
-/// Nobody asks what the lines of a preamble do: they are right, or the trial run finds out.
-class SilentSink final : public execution::Sink {
- public:
-  SilentSink() : Sink(false) {}
-  void report(const syntax::Finding&) override {}
-};
-
 /// Writes line by line, and knows what the machine is like behind the last one: so nothing is said twice.
 class Preamble {
  public:
@@ -90,21 +85,21 @@ class Preamble {
     restore_feed();
     restore_motion();
     restore_rest();
-    comment(fmt::format(fmt::runtime(kRest.in(options_.language)), options_.line + 1));
+    comment(dialect::format(kRest, options_.language, options_.line + 1));
     return std::move(text_);
   }
 
  private:
   void add(const std::string& line) {
     text_.append(line).append(line_end_);
-    SilentSink sink;
+    execution::SilentSink sink;  // The lines of a preamble are right, or the trial run finds out.
     execution::execute(syntax::ParsedLine(line).tree(), state_, options_.run.setup, sink);
   }
   void comment(std::string_view text) { text_.append(text).append(line_end_); }
 
   void comment_on_the_way() {
     const dialect::Language language = options_.language;
-    comment(fmt::format(fmt::runtime(kTitle.in(language)), ascii(options_.name), options_.line + 1));
+    comment(dialect::format(kTitle, language, ascii(options_.name), options_.line + 1));
     std::string assumed;
     for (const int variable : point_.assumed) {
       const double value = variable == syntax::Jump::kVgplVariable
@@ -113,10 +108,9 @@ class Preamble {
       const std::string name = variable == syntax::Jump::kVgplVariable ? "VGPL" : fmt::format("V{}", variable);
       assumed += fmt::format("{}{} = {}", assumed.empty() ? "" : ", ", name, exact(value));
     }
-    if (!assumed.empty()) comment(fmt::format(fmt::runtime(kAssumed.in(language)), assumed));
+    if (!assumed.empty()) comment(dialect::format(kAssumed, language, assumed));
     for (const Event& event : point_.functions)
-      comment(fmt::format(fmt::runtime(kNotRepeated.in(language)), shown(std::get<FunctionEvent>(event.what)),
-                          event.line + 1));
+      comment(dialect::format(kNotRepeated, language, shown(std::get<FunctionEvent>(event.what)), event.line + 1));
   }
 
   bool is_written(ModalGroup group) const { return (target_.written >> static_cast<unsigned>(group) & 1u) != 0; }
@@ -148,8 +142,7 @@ class Preamble {
   }
 
   void change_tool() {
-    const execution::ToolCode& tool = target_.tool;
-    if (target_.tool_selected) add(fmt::format("M06 T{}{:02}{:03}", tool.head, tool.holder, tool.tool));
+    if (target_.tool_selected) add("M06 " + tool_name(target_.tool));
     // A tool change stops the spindle: what turned before it does not turn behind it.
     const bool turns = target_.knows(State::kClockwise | State::kCounterclockwise);
     std::string line;
@@ -193,6 +186,14 @@ class Preamble {
     return rounded(tip + (std::max(way, 0.0) + kBesideWork) * tool);
   }
 
+  /// The highest Z of the machine frame to which the machine lifts the tip from home; rounded down.
+  double reach_up() const {
+    const TimedMachine& machine = options_.machine;
+    const motion::Coordinates tip = motion::coordinates({Vec3::Zero(), state_.position.b, state_.position.c});
+    const motion::Coordinates nose = motion::inverse(machine.motion.kinematics, tip, machine.tool_length(target_.tool));
+    return std::floor((machine.motion.axes[motion::kZ].most - nose[motion::kZ]) * 1000) / 1000;
+  }
+
   static Vec3 rounded(const Vec3& place) { return (place * 1000).array().round() / 1000; }
 
   void approach() {
@@ -202,7 +203,7 @@ class Preamble {
     Vec3 entry(tip.x(), tip.y(), target_.face_mounted ? above : height());
     if (target_.face_mounted) entry = rounded(target_.face.to_outer(entry));
     if (beside) entry = *beside;
-    const double top = std::max(point_.highest - target_.workpiece_origin.z(), entry.z());
+    const double top = std::max(std::min(point_.highest, reach_up()) - target_.workpiece_origin.z(), entry.z());
     add("G00 " + length('Z', top));
     if (point_.turns) add("B" + coordinate(target_.position.b) + " C" + coordinate(target_.position.c));
     add(across(entry));

@@ -6,12 +6,14 @@
 
 #include "interpreter/dialect/diagnostic.h"
 #include "interpreter/running/restart_survey.h"
+#include "interpreter/running/timing.h"
 
 namespace isocnc::running {
 
 /// How a restart program comes to its point. Lengths in mm, feeds in mm/min.
 struct RestartOptions {
   RunOptions run;
+  TimedMachine machine;    ///< Whose travel the approach keeps to.
   std::uint64_t line = 0;  ///< From 0.
   /// Z of the frame in force from which the tool goes down in feed. Else the machine's (Setup::clearance), or the
   /// highest Z at which the program itself has begun or ended a feed move in that frame, whichever is higher. In any
@@ -24,10 +26,10 @@ struct RestartOptions {
 
 /// The lines that bring a machine from the start of a program (D32) into the state of `point`, each ended by
 /// `line_end`. First what moves nothing: modes, registers, workpiece frame, tool, spindle. Then the approach: straight
-/// up to the highest point that the program has come to, B and C, across, down to the clearance in rapid, and down to
-/// the depth in feed. A face frame is approached from above the point at which the program has stood highest in it, and
-/// then along its Z; a tool that B tilts without a face frame goes down beside the work, and then along itself. A
-/// program that has not moved yet is not approached. Last F, the motion G, G91 and G93.
+/// up to the highest point that the program has come to and the machine reaches, B and C, across, down to the clearance
+/// in rapid, and down to the depth in feed. A face frame is approached from above the point at which the program has
+/// stood highest in it, and then along its Z; a tool that B tilts without a face frame goes down beside the work, and
+/// then along itself. A program that has not moved yet is not approached. Last F, the motion G, G91 and G93.
 std::string restart_preamble(const RestartPoint& point, const RestartOptions& options, std::string_view line_end);
 
 }  // namespace isocnc::running

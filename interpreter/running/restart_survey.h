@@ -26,6 +26,7 @@ enum class Obstacle : std::uint8_t {
   ToolPointsUp,     ///< B has turned the tool beyond the horizontal.
   ExactStop,        ///< A G09 comes next, which belongs to the feed move above (I.3.8, D23).
   ArcContinues,     ///< Coordinates without a G go on with a G02 or G03, which nothing but an arc brings into force.
+  BeyondTravel,     ///< On the way there a joint would leave its travel.
   NotProved,        ///< The trial run of the restart program has not come to the same state.
 };
 

@@ -2,15 +2,13 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "interpreter/running/system_texts.h"
-
 namespace isocnc::running {
-
-using dialect::Text;
 
 RunReport::RunReport(const RunOutputs& outputs, const TimedMachine& machine)
     : outputs_(outputs),
@@ -20,35 +18,54 @@ RunReport::RunReport(const RunOutputs& outputs, const TimedMachine& machine)
       samples_(open(outputs.samples, samples_file_)),
       summary_(machine),
       timing_(machine, {.event = [this](const TimedEvent& timed) { take(timed); },
-                        .move = [this](const motion::Move& move, std::uint64_t line) { summary_.add(move, line); },
-                        .stretch = [this](const motion::Stretch& stretch) { take(stretch); }}) {}
+                        .stretch = [this](const motion::Stretch& stretch, const TimedEvent&) { take(stretch); }}),
+      compensation_(machine),
+      compensated_{.event = [this](const Event& event) { timing_.take(event); },
+                   .warning = [this](const RunWarning& warning) { warnings_.push_back(warning); }} {
+  open(outputs.plot, plot_file_);
+  if (const auto format = plot_format(outputs.plot)) plot_.emplace(*format, outputs.subject, machine);
+  last_sample_.tip = timing_.tip();
+  last_sample_.joints = timing_.joints();
+}
 
 OutputFile* RunReport::open(const std::string& name, std::optional<OutputFile>& file) {
   if (name.empty()) return nullptr;
   if (name == "-") return &standard_output_;
   file.emplace(std::filesystem::path(name));
-  close(&*file, name);
+  close(*file, name);
   return &*file;
 }
 
-void RunReport::close(OutputFile* output, const std::string& name) {
-  if (output != nullptr && output->flush() != 0)
-    problems_.push_back(fmt::format("{}: {}", name, cannot_write(output->error(), outputs_.language)));
+void RunReport::close(OutputFile& output, const std::string& name) {
+  if (const std::optional<std::string> problem = flush(output, name, outputs_.language)) problems_.push_back(*problem);
 }
 
 void RunReport::take(const TimedEvent& timed) {
   summary_.add(timed);
-  if (!outputs_.plot.empty()) plot_.add(timed.event);
+  if (plot_) plot_->add(timed);
   if (trace_ != nullptr) trace_->write(to_json(timed) + '\n');
+  if (samples_ == nullptr || !std::holds_alternative<ToolEvent>(timed.event.what)) return;
+  // The joints stand still; what ends elsewhere from now on is the tool.
+  sample_rest(timed.start + timed.duration);
+  last_sample_.tip = timing_.tip();
 }
 
 void RunReport::take(const motion::Stretch& stretch) {
+  if (plot_) plot_->add(stretch);
   if (samples_ == nullptr) return;
   sample_rest(stretch.start);
   const double end = stretch.start + stretch.duration;
   for (; static_cast<double>(next_sample_) * outputs_.sample_seconds < end; ++next_sample_)
     write(stretch.at(machine_.motion.kinematics, static_cast<double>(next_sample_) * outputs_.sample_seconds));
   last_sample_ = stretch.at(machine_.motion.kinematics, end);
+}
+
+void RunReport::sort_warnings() {
+  const auto place = [](const RunWarning& warning) { return std::pair(warning.line, warning.id); };
+  std::stable_sort(warnings_.begin(), warnings_.end(),
+                   [&](const RunWarning& a, const RunWarning& b) { return place(a) < place(b); });
+  const auto is_same = [&](const RunWarning& a, const RunWarning& b) { return place(a) == place(b); };
+  warnings_.erase(std::unique(warnings_.begin(), warnings_.end(), is_same), warnings_.end());
 }
 
 /// The machine stands where the last motion ended.
@@ -72,25 +89,26 @@ void RunReport::write(const motion::Sample& sample) {
 }
 
 void RunReport::finish(const RunResult& result) {
+  compensation_.finish(compensated_);
   timing_.finish();
+  sort_warnings();
   if (samples_ != nullptr) {
     sample_rest(timing_.time());
     last_sample_.time = timing_.time();
     last_sample_.speed = 0;
     write(last_sample_);
   }
-  summary_.finish(result, timing_.time());
+  summary_.finish(result, timing_.time(), timing_.joints(), warnings_);
   if (!has_standard_output_to_itself())
     standard_output_.write(outputs_.json ? summary_.json(outputs_.program_name, outputs_.language)
                                          : summary_.text(outputs_.language));
-  if (trace_file_) close(trace_, outputs_.trace);
-  if (samples_file_) close(samples_, outputs_.samples);
-  if (!outputs_.plot.empty()) {
-    OutputFile plot{std::filesystem::path(outputs_.plot)};
-    plot.write(plot_.svg(outputs_.program_name, outputs_.language));
-    close(&plot, outputs_.plot);
+  if (trace_file_) close(*trace_file_, outputs_.trace);
+  if (samples_file_) close(*samples_file_, outputs_.samples);
+  if (plot_) {
+    plot_->write(*plot_file_, result);
+    close(*plot_file_, outputs_.plot);
   }
-  close(&standard_output_, "<stdout>");
+  close(standard_output_, "<stdout>");
 }
 
 }  // namespace isocnc::running

@@ -28,6 +28,8 @@ static constexpr Text kHasEndlessLine{"has a line of 4 GiB or more", "ha una rig
 /// What is looked at to tell a program from other things.
 static constexpr std::size_t kHeadBytes = 8 * 1024;
 static constexpr std::size_t kEncodingBytes = 4 * 1024;
+/// Larger files are mapped: they would take memory of their own that is worth sparing, and nobody saves them often.
+static constexpr std::size_t kMostReadBytes = 8 * 1024 * 1024;
 static constexpr std::size_t kLongestLine = std::numeric_limits<std::uint32_t>::max();
 
 static bool ends_line(char c) { return c == '\n' || c == '\r'; }
@@ -106,13 +108,15 @@ static std::optional<Text> obstacle(std::string_view text) {
   return std::nullopt;
 }
 
-/// Appends what the stream gives until there are `limit` bytes or it ends; returns 0 or the errno.
-static int read_up_to(std::size_t limit, int descriptor, std::string& bytes) {
+/// Appends what the stream gives until there are `limit` bytes or it ends, with room for as many as are `expected`;
+/// returns 0 or the errno.
+static int read_up_to(std::size_t limit, std::size_t expected, int descriptor, std::string& bytes) {
   static constexpr std::size_t kFirstBytes = 64 * 1024;
   std::size_t size = bytes.size();
   int error = 0;
   while (size < limit) {
-    if (size == bytes.size()) bytes.resize(std::min(limit, std::max(kFirstBytes, 2 * size)));
+    if (size == bytes.size())
+      bytes.resize(std::min(limit, size < expected ? expected + 1 : std::max(kFirstBytes, 2 * size)));
     const ssize_t count = ::read(descriptor, bytes.data() + size, bytes.size() - size);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) error = errno;
@@ -152,8 +156,9 @@ std::variant<SourceFile, SourceFile::Problem> SourceFile::open(const std::filesy
   struct stat status;
   if (file.number() < 0 || ::fstat(file.number(), &status) != 0) return Problem{cannot_read(errno, language)};
   if (S_ISDIR(status.st_mode)) return Problem{std::string(kIsDirectory.in(language))};
-  if (!S_ISREG(status.st_mode) || status.st_size == 0) return read_stream(file.number(), language);
-  return map(file.number(), static_cast<std::size_t>(status.st_size), language);
+  const auto size = static_cast<std::size_t>(status.st_size);
+  if (!S_ISREG(status.st_mode) || size <= kMostReadBytes) return read(file.number(), size, language);
+  return map(file.number(), size, language);
 }
 
 std::variant<SourceFile, SourceFile::Problem> SourceFile::map(int descriptor, std::size_t size, Language language) {
@@ -169,12 +174,18 @@ std::variant<SourceFile, SourceFile::Problem> SourceFile::map(int descriptor, st
   return result;
 }
 
-/// Looks at the head before it reads on, since a device may have no end.
 std::variant<SourceFile, SourceFile::Problem> SourceFile::read_stream(int descriptor, Language language) {
+  return read(descriptor, 0, language);
+}
+
+/// Looks at the head before it reads on, since a device may have no end.
+std::variant<SourceFile, SourceFile::Problem> SourceFile::read(int descriptor, std::size_t expected,
+                                                               Language language) {
+  static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
   SourceFile file;
-  if (const int error = read_up_to(kHeadBytes, descriptor, file.read_)) return Problem{cannot_read(error, language)};
+  if (const int error = read_up_to(kHeadBytes, 0, descriptor, file.read_)) return Problem{cannot_read(error, language)};
   if (const std::optional<Text> text = obstacle_in_head(file.read_)) return Problem{std::string(text->in(language))};
-  if (const int error = read_up_to(std::numeric_limits<std::size_t>::max(), descriptor, file.read_))
+  if (const int error = read_up_to(kAll, expected, descriptor, file.read_))
     return Problem{cannot_read(error, language)};
   return checked(std::move(file), language);
 }

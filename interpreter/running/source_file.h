@@ -11,8 +11,8 @@
 
 namespace isocnc::running {
 
-/// A program's bytes: the file mapped, or a stream read to its end. Never UTF-16, never binary, and no line of it is
-/// longer than 32 bits can count. Who cuts a mapped file short while it is read takes its bytes away (SIGBUS).
+/// A program's bytes: read to the end, or a file of more than 8 MiB mapped. Never UTF-16, never binary, and no line of
+/// it is longer than 32 bits can count. Who cuts a mapped file short while it is in use takes its bytes away (SIGBUS).
 class SourceFile {
  public:
   /// Why a file cannot be taken, for people: `cannot read: Permission denied`. Does not name the file.
@@ -35,6 +35,7 @@ class SourceFile {
   };
 
   SourceFile() = default;
+  static std::variant<SourceFile, Problem> read(int descriptor, std::size_t expected, dialect::Language language);
   static std::variant<SourceFile, Problem> map(int descriptor, std::size_t size, dialect::Language language);
   static std::variant<SourceFile, Problem> checked(SourceFile file, dialect::Language language);
 

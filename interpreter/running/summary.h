@@ -7,15 +7,24 @@
 #include <vector>
 
 #include "interpreter/dialect/diagnostic.h"
+#include "interpreter/running/compensation.h"
+#include "interpreter/running/frame_extents.h"
 #include "interpreter/running/runner.h"
 #include "interpreter/running/timing.h"
 
 namespace isocnc::running {
 
+/// What time is spent on. The first three as in execution::MoveKind.
+enum class Work : std::uint8_t { Rapid, Feed, Arc, Dwell, ToolChange, Spindle, Function, Channel };
+inline constexpr std::size_t kWorkCount = 8;
+
+/// Seconds, by Work.
+using Times = std::array<double, kWorkCount>;
+
 /// What was done with one tool, from its M06s to the next ones.
 struct ToolShare {
   std::optional<execution::ToolCode> tool;  ///< None: before the first M06.
-  double seconds = 0;                       ///< Its own M06 included.
+  Times times{};                            ///< Its own M06 included.
   double feed_mm = 0;
   double rapid_mm = 0;
 };
@@ -27,15 +36,28 @@ struct TravelBreach {
   double limit = 0;
 };
 
+/// What a program may ask more of than the machine can.
+enum class Limit : std::uint8_t {
+  Feed,          ///< mm/min. The machine goes as fast as it can.
+  RotarySpeed,   ///< Of B or C in feed moves, degrees/min. The same.
+  SpindleSpeed,  ///< rev/min.
+};
+inline constexpr std::size_t kLimitCount = 3;
+
+struct Excess {
+  std::uint64_t line = 0;  ///< Where it is first asked for, from 0.
+  double most = 0;         ///< That is asked for anywhere.
+};
+
 /// What a run adds up to.
 class Summary {
  public:
   explicit Summary(const TimedMachine& machine);
 
   void add(const TimedEvent& timed);
-  /// Looks whether the joints stay within their travel.
-  void add(const motion::Move& move, std::uint64_t line);
-  void finish(const RunResult& result, double seconds);
+  /// `joints` are those at the end.
+  void finish(const RunResult& result, double seconds, const motion::Coordinates& joints,
+              const std::vector<RunWarning>& warnings);
 
   std::string text(dialect::Language language) const;
   /// One line; `error` is null or what stopped the program.
@@ -47,22 +69,34 @@ class Summary {
   struct Travelled {
     std::size_t count = 0;
     double mm = 0;
-    double seconds = 0;
   };
 
   ToolShare& share();
   void mount(std::optional<execution::ToolCode> tool);
-  void add_move(const MoveEvent& move, double seconds);
+  void spend(Work work, double seconds);
+  void add_move(const MoveEvent& move, const motion::Move& real, std::uint64_t line);
+  void look_at_travel(const motion::Move& real, std::uint64_t line);
+  void look_at_speeds(const motion::Move& real, double length, std::uint64_t line);
+  void ask_for(Limit limit, double value, std::uint64_t line);
+  double limit_of(Limit limit) const;
+  /// Where the tip is at the end, as the program has it.
+  geometry::Pose final_pose() const;
 
   const TimedMachine& machine_;
   std::array<Travelled, 3> moves_;  ///< By MoveKind.
   std::optional<std::array<geometry::Range, execution::kAxisCount>> extents_;
+  FrameLog frames_;
+  Times times_{};
   std::vector<ToolShare> tools_;                                                 ///< In the order of their first use.
   std::size_t share_ = kNoShare;                                                 ///< Of the tool that is mounted.
   std::array<std::optional<TravelBreach>, 2 * execution::kAxisCount> breaches_;  ///< Below and above each axis.
   bool checks_travel_;
+  std::array<std::optional<Excess>, kLimitCount> excesses_;
   RunResult result_;
   double seconds_ = 0;
+  motion::Coordinates joints_ = motion::Coordinates::Zero();
+  std::vector<RunWarning> warnings_;
+  std::optional<geometry::Pose> reached_;  ///< By the last motion; compensation may end beside the contour.
 };
 
 }  // namespace isocnc::running

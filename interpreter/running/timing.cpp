@@ -1,10 +1,15 @@
 #include "interpreter/running/timing.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
+
+#include <Eigen/LU>
+
+#include "interpreter/motion/numbers.h"
 
 namespace isocnc::running {
 
@@ -19,16 +24,15 @@ motion::Machine unbounded_machine() {
   return machine;
 }
 
-static constexpr double kSecondsPerMinute = 60;
+/// More events than any control looks ahead.
+static constexpr std::size_t kMostWaiting = 32768;
+/// Programs may hold any number. No move is slower (mm/s, deg/s), and nothing lasts longer (s).
+static constexpr double kSlowest = 1e-6;
+static constexpr double kLongest = 1e9;
 
-static double degrees_turned(const MoveEvent& move) {
-  return std::hypot(move.to.b - move.from.b, move.to.c - move.from.c);
-}
-
-double feed_of(const MoveEvent& move) {
-  if (move.kind == MoveKind::Rapid) return 0;
-  if (!move.inverse_time) return move.feed;
-  return move.feed * (move.length > 0 ? move.length : degrees_turned(move));
+double TimedMachine::tool_length(const execution::ToolCode& tool) const {
+  const auto known = tool_lengths.find(tool);
+  return known == tool_lengths.end() ? 0 : known->second;
 }
 
 std::string to_json(const TimedEvent& timed) {
@@ -41,22 +45,22 @@ std::string to_json(const TimedEvent& timed) {
   return to_json(timed.event, std::span(more).first(count));
 }
 
-static motion::Feed planner_feed(const MoveEvent& move) {
+static motion::Feed planner_feed(const MoveEvent& move, double feed_override) {
   if (move.kind == MoveKind::Rapid || !(move.feed > 0)) return {};
-  if (move.inverse_time) return {motion::FeedKind::Duration, kSecondsPerMinute / move.feed};
-  return {motion::FeedKind::Speed, move.feed / kSecondsPerMinute};
+  const double feed = move.feed * feed_override;
+  if (move.inverse_time) return {motion::FeedKind::Duration, std::min(motion::kSecondsPerMinute / feed, kLongest)};
+  return {motion::FeedKind::Speed, std::max(feed / motion::kSecondsPerMinute, kSlowest)};
 }
 
-static motion::Move planner_move(const MoveEvent& move, std::uint64_t tag, double tool_length) {
+motion::Move planned_move(const MoveEvent& move, const TimedMachine& machine, double tool_length) {
   motion::Move planned;
-  planned.tag = tag;
   planned.from = move.from;
   planned.to = move.to;
   planned.is_arc = move.kind == MoveKind::Arc;
   planned.center = move.center;
   planned.normal = move.normal;
   planned.sweep_deg = move.sweep_deg;
-  planned.feed = planner_feed(move);
+  planned.feed = planner_feed(move, machine.feed_override);
   planned.splits_arcs = move.five_axis;
   planned.controls_tool_point = move.kind != MoveKind::Rapid;  // A rapid is a positioning of the axes (I.3.4.1).
   planned.tool_length = tool_length;
@@ -64,7 +68,15 @@ static motion::Move planner_move(const MoveEvent& move, std::uint64_t tag, doubl
 }
 
 Timing::Timing(const TimedMachine& machine, Listeners listeners)
-    : machine_(machine), listeners_(std::move(listeners)), planner_(machine.motion) {}
+    : machine_(&machine), listeners_(std::move(listeners)), planner_(machine.motion), programmed_(machine.home) {}
+
+Timing::Timing(const TimedMachine& machine, const Standing& standing) : Timing(machine, Listeners{}) {
+  planner_.rest(standing.time);
+  tool_length_ = standing.tool_length;
+  programmed_ = standing.programmed;
+  off_program_ = standing.tip.tip - standing.programmed.tip;
+  frame_axes_ = standing.frame_axes;
+}
 
 void Timing::take(const Event& event) {
   if (std::holds_alternative<ExactStopEvent>(event.what)) {
@@ -73,27 +85,64 @@ void Timing::take(const Event& event) {
   }
   push_motion();
   if (std::holds_alternative<MoveEvent>(event.what)) {
-    waiting_.push_back({.timed = {.event = event}, .motion = motions_++, .is_motion = true});
+    enqueue({.timed = {.event = event}, .motion = motions_++, .is_motion = true});
     holds_motion_ = true;
     return;
   }
+  if (const auto* const frame = std::get_if<FrameEvent>(&event.what)) frame_axes_ = frame->face.axes;
   const double seconds = seconds_of(event);
   if (seconds >= 0) return rest(event, seconds);
-  waiting_.push_back({.timed = {.event = event}, .motion = motions_});
+  enqueue({.timed = {.event = event}, .motion = motions_});
+}
+
+void Timing::enqueue(Waiting waiting) {
+  if (waiting_.size() >= kMostWaiting) come_to_rest();
+  waiting_.push_back(std::move(waiting));
 }
 
 /// The motion that waited for a G09.
 void Timing::push_motion() {
   if (!std::exchange(holds_motion_, false)) return;
-  const bool stops = std::exchange(stops_exactly_, false);
-  const MoveEvent& move = std::get<MoveEvent>(waiting_.back().timed.event.what);
-  motion::Move planned = planner_move(move, waiting_.back().motion, tool_length_);
-  planned.exact_stop = stops;
-  if (listeners_.move) listeners_.move(planned, waiting_.back().timed.event.line);
-  planner_.push(planned);
+  Waiting& waiting = waiting_.back();
+  const MoveEvent& move = std::get<MoveEvent>(waiting.timed.event.what);
+  motion::Move planned = planned_move(move, *machine_, tool_length_);
+  planned.tag = waiting.motion;
+  start_where_machine_is(planned, move);
+  planned.exact_stop = std::exchange(stops_exactly_, false);
   // In three-axis interpolation the channel runs empty; in five-axis the motion goes on at once (I.3.8).
-  if (stops && !move.five_axis) planner_.rest(machine_.durations.channel);
+  if (planned.exact_stop && !move.five_axis) waiting.timed.wait = machine_->durations.channel;
+  waiting.timed.move = planned;
+  const double channel = waiting.timed.wait;
+  planner_.push(planned);
+  if (channel > 0) planner_.rest(channel);
   take_stretches();
+}
+
+void Timing::start_where_machine_is(motion::Move& planned, const MoveEvent& move) {
+  programmed_ = move.to;
+  if (off_program_ == geometry::Vec3::Zero()) return;
+  planned.from.tip += off_program_;
+  geometry::Vec3 kept = frame_axes_.inverse() * off_program_;
+  for (int axis = 0; axis < 3; ++axis)
+    if ((move.placed & execution::axis_bit(static_cast<execution::Axis>(axis))) != 0) kept[axis] = 0;
+  off_program_ = frame_axes_ * kept;
+  planned.to.tip += off_program_;
+  planned.center += off_program_;
+}
+
+/// The joints stay where they are.
+void Timing::mount(const execution::ToolCode& tool) {
+  const double length = machine_->tool_length(tool);
+  if (length == tool_length_) return;
+  const motion::Coordinates standing = joints();
+  tool_length_ = length;
+  off_program_ = motion::forward(machine_->motion.kinematics, standing, length).head<3>() - programmed_.tip;
+}
+
+geometry::Pose Timing::tip() const { return {programmed_.tip + off_program_, programmed_.b, programmed_.c}; }
+
+motion::Coordinates Timing::joints() const {
+  return motion::inverse(machine_->motion.kinematics, motion::coordinates(tip()), tool_length_);
 }
 
 void Timing::take_stretches() {
@@ -109,10 +158,10 @@ void Timing::take_stretch(const motion::Stretch& stretch) {
     if (!first.has_begun) first.timed.start = stretch.start;
     tell_first();
   }
-  if (listeners_.stretch) listeners_.stretch(stretch);
   if (waiting_.empty()) return;
   Waiting& moving = waiting_.front();
   if (!std::exchange(moving.has_begun, true)) moving.timed.start = stretch.start;
+  if (listeners_.stretch) listeners_.stretch(stretch, moving.timed);
   moving.timed.duration = stretch.start + stretch.duration - moving.timed.start;
   if (stretch.ends_move) tell_first();
 }
@@ -122,41 +171,41 @@ void Timing::tell_first() {
   waiting_.pop_front();
 }
 
-/// The machine stands still before and after what happens now.
-void Timing::rest(const Event& event, double seconds) {
+/// What has no motion behind it has its time now.
+void Timing::come_to_rest() {
   planner_.rest();
   take_stretches();
   for (; !waiting_.empty(); tell_first())
     if (!waiting_.front().has_begun) waiting_.front().timed.start = planner_.time();
+}
+
+/// The machine stands still before and after what happens now.
+void Timing::rest(const Event& event, double seconds) {
+  come_to_rest();
   const double start = planner_.time();
   planner_.rest(seconds);
+  if (const auto* const tool = std::get_if<ToolEvent>(&event.what)) mount(tool->tool);
   if (listeners_.event) listeners_.event({.event = event, .start = start, .duration = seconds});
-  if (const auto* const tool = std::get_if<ToolEvent>(&event.what)) {
-    const auto length = machine_.tool_lengths.find(tool->tool);
-    tool_length_ = length == machine_.tool_lengths.end() ? 0 : length->second;
-  }
 }
 
 /// How long the machine stands still for it; negative when it does not.
 double Timing::seconds_of(const Event& event) const {
-  const Durations& durations = machine_.durations;
-  if (const auto* const dwell = std::get_if<DwellEvent>(&event.what)) return dwell->seconds;
+  const Durations& durations = machine_->durations;
+  if (const auto* const dwell = std::get_if<DwellEvent>(&event.what)) return std::min(dwell->seconds, kLongest);
   if (std::holds_alternative<ToolEvent>(event.what)) return durations.tool_change;
   if (const auto* const function = std::get_if<FunctionEvent>(&event.what)) {
     if (!dialect::is_user_function(function->number)) return durations.spindle;
     const auto named = durations.functions.find(function->number);
     return named == durations.functions.end() ? 0 : named->second;
   }
-  const bool waits = std::holds_alternative<JumpEvent>(event.what) || std::holds_alternative<EndEvent>(event.what);
+  const bool waits = std::holds_alternative<JumpEvent>(event.what) || std::holds_alternative<UpdateEvent>(event.what) ||
+                     std::holds_alternative<EndEvent>(event.what);
   return waits ? 0 : -1;
 }
 
 void Timing::finish() {
   push_motion();
-  planner_.rest();
-  take_stretches();
-  for (; !waiting_.empty(); tell_first())
-    if (!waiting_.front().has_begun) waiting_.front().timed.start = planner_.time();
+  come_to_rest();
 }
 
 }  // namespace isocnc::running

@@ -3,8 +3,11 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <limits>
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "interpreter/motion/planner.h"
 #include "interpreter/running/event.h"
@@ -27,6 +30,13 @@ struct TimedMachine {
   motion::Machine motion = unbounded_machine();
   Durations durations;
   std::map<execution::ToolCode, double> tool_lengths;  ///< mm; 0 for others.
+  std::map<execution::ToolCode, double> tool_radii;    ///< mm; 0 for others: G41 and G42 then move nothing.
+  double feed_override = 1;                            ///< Feeds are so many times as fast as they are written.
+  /// Where the spindle nose is when a program begins, in the machine frame: the tip of no tool.
+  geometry::Pose home;
+  double spindle_speed = std::numeric_limits<double>::infinity();  ///< The greatest S, rev/min.
+
+  double tool_length(const execution::ToolCode& tool) const;  ///< mm.
 };
 
 /// What happened, with its time in seconds from the program's begin.
@@ -34,30 +44,62 @@ struct TimedEvent {
   Event event;
   double start = 0;
   double duration = 0;
+  /// Of a motion with a G09 in G48: how long the channel takes behind it until it is full again (I.3.8).
+  double wait = 0;
+  /// Of a motion: what the machine is asked for. It begins where the machine stands, which after a tool change is not
+  /// where the program is (docs/motion.md).
+  std::optional<motion::Move> move;
 };
 
 /// Gives the events of a run their times: the control looks ahead, so what a motion takes is known some motions later.
-/// Events come out in the order in which they went in. Memory does not grow with the program.
+/// Events come out in the order in which they went in. Memory does not grow with the program: behind more events than
+/// any control looks ahead the machine is taken to stop.
+///
+/// A tool change moves no axis, so the tip of a longer tool is lower behind it. The program goes on from the old place:
+/// axes that the next motions leave out, or move by a distance (G91), stay off it, and those that are given come to
+/// where they are sent (I.3.4, D33).
 class Timing {
  public:
+  /// A machine that stands, with a program behind it.
+  struct Standing {
+    double time = 0;
+    geometry::Pose tip;         ///< Machine frame.
+    geometry::Pose programmed;  ///< Where the program has led it, machine frame: elsewhere after a tool change.
+    double tool_length = 0;
+    geometry::Mat3 frame_axes = geometry::Mat3::Identity();  ///< Of the frame in force, machine frame.
+  };
+
   /// Who is told; any may be left out.
   struct Listeners {
     std::function<void(const TimedEvent&)> event;
-    /// What the machine is asked for, before it has its time, and the line that asks.
-    std::function<void(const motion::Move&, std::uint64_t line)> move;
-    /// Each piece of motion, before the event that it belongs to.
-    std::function<void(const motion::Stretch&)> stretch;
+    /// Each piece of motion, and the event that it belongs to, whose duration is not known yet; before that is told.
+    std::function<void(const motion::Stretch&, const TimedEvent&)> stretch;
   };
 
   Timing(const TimedMachine& machine, Listeners listeners);
+  /// From there on, and not from the begin.
+  Timing(const TimedMachine& machine, const Standing& standing);
+
+  /// Who is told from now on. A timing is a value: a copy goes on by itself, and tells the same listeners.
+  void listen(Listeners listeners) { listeners_ = std::move(listeners); }
 
   void take(const Event& event);
 
   /// The run is over: the machine comes to rest.
   void finish();
 
+  /// Lets go of what has been told: a copy is then as small as it can be.
+  void forget_told() { planner_.forget_handed_out(); }
+
+  /// Bytes that it holds, beside itself.
+  std::size_t memory() const { return waiting_.size() * sizeof(Waiting) + planner_.memory(); }
+
   /// Seconds so far, that of all events told.
   double time() const { return planner_.time(); }
+
+  /// Where the machine stands, tip (machine frame) and joints: at the begin, while a tool change is told, at the end.
+  geometry::Pose tip() const;
+  motion::Coordinates joints() const;
 
  private:
   /// An event that has no time yet.
@@ -68,14 +110,18 @@ class Timing {
     bool has_begun = false;
   };
 
+  void enqueue(Waiting waiting);
   void push_motion();
+  void start_where_machine_is(motion::Move& planned, const MoveEvent& move);
+  void mount(const execution::ToolCode& tool);
   void take_stretches();
   void take_stretch(const motion::Stretch& stretch);
   void tell_first();
+  void come_to_rest();
   void rest(const Event& event, double seconds);
   double seconds_of(const Event& event) const;
 
-  const TimedMachine& machine_;
+  const TimedMachine* machine_;  ///< Outlives it.
   Listeners listeners_;
   motion::Planner planner_;
   std::deque<Waiting> waiting_;
@@ -83,12 +129,15 @@ class Timing {
   bool holds_motion_ = false;  ///< The last of waiting_: a G09 may follow.
   bool stops_exactly_ = false;
   double tool_length_ = 0;
+  geometry::Pose programmed_;                               ///< The tip as the program has it, machine frame.
+  geometry::Vec3 off_program_ = geometry::Vec3::Zero();     ///< From there to the tip.
+  geometry::Mat3 frame_axes_ = geometry::Mat3::Identity();  ///< Of the frame in force, machine frame.
 };
+
+/// What a motion asks of the machine, where that is where the program has it.
+motion::Move planned_move(const MoveEvent& move, const TimedMachine& machine, double tool_length);
 
 /// As to_json(event), with `start` and `duration` in seconds, and for feed moves `feed`, mm/min.
 std::string to_json(const TimedEvent& timed);
-
-/// The feed of a feed move as a speed: mm/min, or degrees/min where only B and C turn. 0 for rapids.
-double feed_of(const execution::MachineMove& move);
 
 }  // namespace isocnc::running

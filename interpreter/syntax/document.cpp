@@ -15,8 +15,6 @@ struct Document::Chunk {
   std::string text;                   // With terminators.
   std::vector<std::uint32_t> begins;  // Of the lines in `text`.
   TreeStore trees;
-  std::size_t first_line = 0;
-  std::uint64_t version = 0;
 
   std::size_t lines() const { return begins.size(); }
   std::string_view with_terminator(std::size_t line) const {
@@ -33,33 +31,41 @@ Document::~Document() = default;
 
 Document::Document(std::string_view text) { rebuild(0, 0, text, true); }
 
-std::size_t Document::line_count() const { return chunks_.back()->first_line + chunks_.back()->lines(); }
-std::size_t Document::chunk_lines(std::size_t chunk) const { return chunks_[chunk]->lines(); }
-std::size_t Document::first_line_of_chunk(std::size_t chunk) const { return chunks_[chunk]->first_line; }
-LineTree Document::line_of_chunk(std::size_t chunk, std::size_t index) const { return chunks_[chunk]->tree(index); }
-std::uint64_t Document::chunk_version(std::size_t chunk) const { return chunks_[chunk]->version; }
+std::size_t Document::line_count() const { return chunks_.back().first_line + chunks_.back().chunk->lines(); }
+std::size_t Document::chunk_lines(std::size_t chunk) const {
+  return chunk + 1 < chunks_.size() ? chunks_[chunk + 1].first_line - chunks_[chunk].first_line
+                                    : chunks_[chunk].chunk->lines();
+}
+LineTree Document::line_of_chunk(std::size_t chunk, std::size_t index) const {
+  return chunks_[chunk].chunk->tree(index);
+}
+std::string_view Document::chunk_text(std::size_t chunk) const { return chunks_[chunk].chunk->text; }
 
 Document::Place Document::locate(std::size_t line) const {
-  const auto behind = std::upper_bound(chunks_.begin(), chunks_.end(), line, [](std::size_t wanted, const auto& chunk) {
-    return wanted < chunk->first_line;
-  });
+  const auto behind = std::upper_bound(chunks_.begin(), chunks_.end(), line,
+                                       [](std::size_t wanted, const Slot& slot) { return wanted < slot.first_line; });
   const auto chunk = static_cast<std::size_t>(behind - chunks_.begin()) - 1;
-  return {chunk, line - chunks_[chunk]->first_line};
+  return {chunk, line - chunks_[chunk].first_line};
 }
 
 LineTree Document::line(std::size_t index) const {
   const Place place = locate(index);
-  return chunks_[place.chunk]->tree(place.line);
+  return chunks_[place.chunk].chunk->tree(place.line);
 }
 
 std::string_view Document::line_with_terminator(std::size_t line) const {
   const Place place = locate(line);
-  return chunks_[place.chunk]->with_terminator(place.line);
+  return chunks_[place.chunk].chunk->with_terminator(place.line);
+}
+
+std::string_view Document::terminator(std::size_t line) const {
+  const std::string_view whole = line_with_terminator(line);
+  return whole.substr(whole.find_last_not_of("\r\n") + 1);
 }
 
 std::string Document::text() const {
   std::string all;
-  for (const auto& chunk : chunks_) all += chunk->text;
+  for (const Slot& slot : chunks_) all += slot.chunk->text;
   return all;
 }
 
@@ -92,6 +98,47 @@ Change Document::replace(Position begin, Position end, std::string_view text) {
   return {first, removed, line_count() + removed - before};
 }
 
+/// Makes chunks of lines. What has been gathered lies in one place, however much room it took to get there; each chunk
+/// then takes what it needs.
+class Document::ChunkMaker {
+ public:
+  ChunkMaker(std::size_t most_lines, std::uint64_t& next_version)
+      : most_lines_(most_lines), next_version_(next_version) {}
+
+  void copy(const Chunk& source, std::size_t line) {
+    begin_line(source.with_terminator(line));
+    gathered_.trees.append_copy(source.trees, line);
+  }
+  void parse(std::string_view line) {
+    const std::size_t begin = begin_line(line);
+    gathered_.trees.append_line(gathered_.text.data() + begin, gathered_.text.data() + gathered_.text.size());
+  }
+  std::vector<Slot> finish() {
+    if (gathered_.lines() > 0) end_chunk();
+    return std::move(chunks_);
+  }
+
+ private:
+  std::size_t begin_line(std::string_view line) {
+    if (gathered_.lines() >= most_lines_) end_chunk();
+    const std::size_t begin = gathered_.text.size();
+    gathered_.begins.push_back(static_cast<std::uint32_t>(begin));
+    gathered_.text += line;
+    return begin;
+  }
+  void end_chunk() {
+    chunks_.push_back({.version = next_version_++, .chunk = std::make_unique<Chunk>(gathered_)});
+    gathered_.text.clear();
+    gathered_.begins.clear();
+    gathered_.trees.clear();
+  }
+
+  const std::size_t most_lines_;
+  std::uint64_t& next_version_;
+  Chunk gathered_;
+  std::vector<Slot> chunks_;
+};
+
 /// Puts `text` in the place of `removed` lines. Whole lines, but for the last of the document (`is_end`), which may
 /// lack its terminator.
 void Document::rebuild(std::size_t first_line, std::size_t removed, std::string_view text, bool is_end) {
@@ -99,34 +146,13 @@ void Document::rebuild(std::size_t first_line, std::size_t removed, std::string_
   const Place from = is_new ? Place{0, 0} : locate(first_line);
   // The first line behind the removed ones; at the end of a chunk rather than the start of the next.
   const Place last = is_new ? Place{0, 0} : locate(first_line + removed - 1);
-  std::vector<std::unique_ptr<Chunk>> fresh;
-  const auto open_chunk = [&]() -> Chunk& {
-    if (fresh.empty() || fresh.back()->lines() >= kMostChunkLines) {
-      fresh.push_back(std::make_unique<Chunk>());
-      fresh.back()->version = next_version_++;
-    }
-    return *fresh.back();
-  };
-  const auto copy_line = [&](const Chunk& source, std::size_t line) {
-    Chunk& chunk = open_chunk();
-    chunk.begins.push_back(static_cast<std::uint32_t>(chunk.text.size()));
-    chunk.text += source.with_terminator(line);
-    chunk.trees.append_copy(source.trees, line);
-  };
+  ChunkMaker maker(is_new ? kChunkLines : kMostChunkLines, next_version_);
   const auto parse_line = [&](std::string_view line) {
-    Chunk& chunk = open_chunk();
-    const std::size_t begin = chunk.text.size();
-    chunk.begins.push_back(static_cast<std::uint32_t>(begin));
-    chunk.text += line;
-    chunk.trees.append_line(chunk.text.data() + begin, chunk.text.data() + chunk.text.size());
+    maker.parse(line);
     ++lines_parsed_;
-    if (is_new && chunk.lines() >= kChunkLines) {
-      fresh.push_back(std::make_unique<Chunk>());
-      fresh.back()->version = next_version_++;
-    }
   };
   if (!is_new)
-    for (std::size_t i = 0; i < from.line; ++i) copy_line(*chunks_[from.chunk], i);
+    for (std::size_t i = 0; i < from.line; ++i) maker.copy(*chunks_[from.chunk].chunk, i);
   const char* p = text.data();
   const char* const end = text.data() + text.size();
   while (p != end) {
@@ -136,32 +162,39 @@ void Document::rebuild(std::size_t first_line, std::size_t removed, std::string_
   }
   if (is_end && (text.empty() || is_line_end(text.back()))) parse_line({});
   if (!is_new) {
-    const Chunk& source = *chunks_[last.chunk];
-    for (std::size_t i = last.line + 1; i < source.lines(); ++i) copy_line(source, i);
+    const Chunk& source = *chunks_[last.chunk].chunk;
+    for (std::size_t i = last.line + 1; i < source.lines(); ++i) maker.copy(source, i);
   }
-  if (!fresh.empty() && fresh.back()->lines() == 0) fresh.pop_back();
+  std::vector<Slot> fresh = maker.finish();
+  const std::size_t count = fresh.size();
   if (is_new) {
     chunks_ = std::move(fresh);
-    return renumber(0);
-  }
-  const auto begin = chunks_.begin() + static_cast<std::ptrdiff_t>(from.chunk);
-  const auto behind = chunks_.begin() + static_cast<std::ptrdiff_t>(last.chunk) + 1;
-  const auto common = std::min(behind - begin, static_cast<std::ptrdiff_t>(fresh.size()));
-  std::move(fresh.begin(), fresh.begin() + common, begin);
-  if (common < behind - begin) {
-    chunks_.erase(begin + common, behind);
   } else {
-    chunks_.insert(behind, std::make_move_iterator(fresh.begin() + common), std::make_move_iterator(fresh.end()));
+    const auto begin = chunks_.begin() + static_cast<std::ptrdiff_t>(from.chunk);
+    const auto behind = chunks_.begin() + static_cast<std::ptrdiff_t>(last.chunk) + 1;
+    const auto common = std::min(behind - begin, static_cast<std::ptrdiff_t>(count));
+    std::move(fresh.begin(), fresh.begin() + common, begin);
+    if (common < behind - begin) {
+      chunks_.erase(begin + common, behind);
+    } else {
+      chunks_.insert(behind, std::make_move_iterator(fresh.begin() + common), std::make_move_iterator(fresh.end()));
+    }
   }
-  renumber(from.chunk);
+  renumber(from.chunk, count);
 }
 
-void Document::renumber(std::size_t from_chunk) {
-  std::size_t line = from_chunk == 0 ? 0 : chunks_[from_chunk - 1]->first_line + chunks_[from_chunk - 1]->lines();
-  for (std::size_t i = from_chunk; i < chunks_.size(); ++i) {
-    chunks_[i]->first_line = line;
-    line += chunks_[i]->lines();
+/// Numbers the lines of `count` new chunks; those behind them have all moved by as many lines.
+void Document::renumber(std::size_t first, std::size_t count) {
+  std::size_t line = 0;
+  if (first > 0) line = chunks_[first - 1].first_line + chunks_[first - 1].chunk->lines();
+  std::size_t chunk = first;
+  for (; chunk < first + count; ++chunk) {
+    chunks_[chunk].first_line = line;
+    line += chunks_[chunk].chunk->lines();
   }
+  if (chunk == chunks_.size() || chunks_[chunk].first_line == line) return;
+  const std::size_t shift = line - chunks_[chunk].first_line;  // Modulo 2^n: upward as well.
+  for (; chunk < chunks_.size(); ++chunk) chunks_[chunk].first_line += shift;
 }
 
 }  // namespace isocnc::syntax

@@ -42,19 +42,32 @@ class Document {
   std::size_t line_count() const;
   LineTree line(std::size_t index) const;
   std::string text() const;
+  /// CR, LF or CRLF; nothing behind the last line.
+  std::string_view terminator(std::size_t line) const;
   /// How many lines have been parsed since the document was made: what an edit costs.
   std::uint64_t lines_parsed() const { return lines_parsed_; }
 
   /// Lines are kept in chunks; an edit leaves the others as they are.
   std::size_t chunk_count() const { return chunks_.size(); }
   std::size_t chunk_lines(std::size_t chunk) const;
-  std::size_t first_line_of_chunk(std::size_t chunk) const;
+  std::size_t first_line_of_chunk(std::size_t chunk) const { return chunks_[chunk].first_line; }
   LineTree line_of_chunk(std::size_t chunk, std::size_t index) const;
+  /// The chunk's lines with their terminators.
+  std::string_view chunk_text(std::size_t chunk) const;
+  /// The chunk that holds a line of the document.
+  std::size_t chunk_of_line(std::size_t line) const { return locate(line).chunk; }
   /// Another number whenever the lines of the chunk are others; never used twice.
-  std::uint64_t chunk_version(std::size_t chunk) const;
+  std::uint64_t chunk_version(std::size_t chunk) const { return chunks_[chunk].version; }
 
  private:
   struct Chunk;
+  class ChunkMaker;
+  /// What is asked of all chunks after each edit lies side by side.
+  struct Slot {
+    std::size_t first_line = 0;
+    std::uint64_t version = 0;
+    std::unique_ptr<Chunk> chunk;
+  };
   struct Place {
     std::size_t chunk;
     std::size_t line;  // Within the chunk.
@@ -64,9 +77,9 @@ class Document {
   Position clamp(Position position) const;
   std::string_view line_with_terminator(std::size_t line) const;
   void rebuild(std::size_t first_line, std::size_t removed, std::string_view text, bool is_end);
-  void renumber(std::size_t from_chunk);
+  void renumber(std::size_t first, std::size_t count);
 
-  std::vector<std::unique_ptr<Chunk>> chunks_;
+  std::vector<Slot> chunks_;
   std::uint64_t lines_parsed_ = 0;
   std::uint64_t next_version_ = 1;
 };

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "interpreter/dialect/argument_letters.h"
 #include "interpreter/syntax/characters.h"
 
 namespace isocnc::syntax {
@@ -201,7 +202,7 @@ std::string_view Formatter::rewrite(const LineTree& tree, const LineChange& chan
 /// False when what has been written says something else.
 bool Formatter::write(const LineTree& tree, const LineChange& change, Order order) {
   start(tree);
-  if (order == Order::Canonical) choose_order(tree);
+  if (order == Order::Canonical) choose_order(tree, change);
   write_words(tree, change);
   if (tree.text == written()) return true;
   const std::size_t length = line_.size();
@@ -225,11 +226,15 @@ void Formatter::start(const LineTree& tree) {
 }
 
 /// Comments between words say something of their neighbors: such lines keep their order. One inside the last word will
-/// stand at the end.
-void Formatter::choose_order(const LineTree& tree) {
+/// stand at the end, one behind a G that is dropped from the start of the line at the start.
+void Formatter::choose_order(const LineTree& tree, const LineChange& change) {
   if (tree.words.empty()) return;
+  const auto motion = std::find_if(tree.instructions.begin(), tree.instructions.end(), is_motion);
+  const bool drops_first =
+      change.motion == LineChange::Motion::Drop && motion != tree.instructions.end() && motion->command == 0;
+  const Word& first = tree.words[drops_first ? 1 : 0];
   for (const Span comment : tree.comments)
-    if (comment.begin > tree.words.front().begin && comment.begin < tree.words.back().begin) return;
+    if (comment.begin > first.begin && comment.begin < tree.words.back().begin) return;
   for (const Instruction& instruction : tree.instructions)
     if (instruction.kind == InstructionKind::G || instruction.kind == InstructionKind::Continuation)
       sort_arguments(tree, instruction);
@@ -246,8 +251,7 @@ void Formatter::sort_arguments(const LineTree& tree, const Instruction& instruct
   for (std::size_t i = 1; i < slots_.size(); ++i)
     for (std::size_t j = i; j > 0; --j) {
       const auto rank = [&](std::size_t at) {
-        static constexpr std::string_view kOrder = "XYZABCIJKPQR";
-        return kOrder.find(tree.words[order_[slots_[at]]].letter);
+        return dialect::kArgumentOrder.find(tree.words[order_[slots_[at]]].letter);
       };
       if (rank(j - 1) <= rank(j)) break;
       std::swap(order_[slots_[j - 1]], order_[slots_[j]]);
@@ -322,7 +326,10 @@ void Formatter::write_word(const LineTree& tree, std::uint16_t index) {
   }
   const bool is_number = word.letter == kAssign || word.letter == kNumber ||
                          (word.letter >= 'A' && word.letter <= 'Z' && !dialect::contains(kIntegers, word.letter));
-  if (is_number && word.has(Word::kPoint)) settle_decimals(number);
+  if (is_number && style_.most_decimals) {
+    if (word.has(Word::kPoint)) settle_decimals(number);
+    drop_leading_zeros(number);
+  }
   if (word.letter == 'G') settle_g_digits(number);
 }
 
@@ -392,7 +399,6 @@ void Formatter::put(std::string_view text) { line_.append(text.data(), text.size
 /// Drops zeros that mean nothing and puts one before the point, unless there are more decimals than there should be: a
 /// number is never rounded.
 void Formatter::settle_decimals(std::size_t number) {
-  if (!style_.most_decimals) return;
   const std::string_view text(line_.data() + number, line_.size() - number);
   const std::size_t point = text.find('.');
   const std::size_t last = text.find_last_not_of('0');
@@ -402,6 +408,16 @@ void Formatter::settle_decimals(std::size_t number) {
   if (point != 0 && is_digit(line_[number + point - 1])) return;
   line_.push_back('0');
   std::rotate(line_.data() + number + point, line_.data() + line_.size() - 1, line_.data() + line_.size());
+}
+
+/// 007.5 is 7.5, and 0.5 keeps its zero.
+void Formatter::drop_leading_zeros(std::size_t number) {
+  std::size_t begin = number;
+  if (begin < line_.size() && (line_[begin] == '+' || line_[begin] == '-')) ++begin;
+  std::size_t first = begin;
+  while (first + 1 < line_.size() && line_[first] == '0' && is_digit(line_[first + 1])) ++first;
+  std::copy(line_.data() + first, line_.data() + line_.size(), line_.data() + begin);
+  for (; first > begin; --first) line_.pop_back();
 }
 
 /// A G has at most three digits that count, so all that is needed is its number.

@@ -10,11 +10,14 @@
 
 namespace isocnc::syntax {
 
+/// Of an N that our tools write, so that it stays exact wherever it is read: 15 digits.
+inline constexpr std::uint64_t kMostLineNumber = 999'999'999'999'999;
+
 enum class GDigits : std::uint8_t { Keep, One, Two };  ///< As written, G1, G01.
 
 /// How lines are written, beside upper case and blanks, which are the same in every style.
 struct LineStyle {
-  std::optional<int> most_decimals;  ///< 5.00 becomes 5 and .5 becomes 0.5, where so many decimals hold the number.
+  std::optional<int> most_decimals;  ///< 05.00 becomes 5 and .5 becomes 0.5, where so many decimals hold the number.
   GDigits g_digits = GDigits::Keep;
   bool word_order = false;  ///< N first, arguments as X Y Z A B C I J K P Q R, F behind those of the motion.
 };
@@ -23,7 +26,7 @@ struct LineStyle {
 struct LineChange {
   enum class Motion : std::uint8_t { Keep, Write, Drop };  ///< Its motion G: as it is, written out, left out.
 
-  std::optional<std::uint64_t> line_number;  ///< Its N from now on, at most 15 digits.
+  std::optional<std::uint64_t> line_number;  ///< Its N from now on, at most kMostLineNumber.
   std::optional<std::uint64_t> target;       ///< The label behind its GOTO.
   Motion motion = Motion::Keep;
   std::uint8_t motion_in_force = 0;  ///< With Write: 0 to 3.
@@ -46,7 +49,7 @@ class Formatter {
   bool write(const LineTree& tree, const LineChange& change, Order order);
   void start(const LineTree& tree);
   std::string_view written() const { return {line_.data(), line_.size()}; }
-  void choose_order(const LineTree& tree);
+  void choose_order(const LineTree& tree, const LineChange& change);
   void sort_arguments(const LineTree& tree, const Instruction& instruction);
   void move_feed(const LineTree& tree);
   void write_words(const LineTree& tree, const LineChange& change);
@@ -60,6 +63,7 @@ class Formatter {
   void separate();
   void put(std::string_view text);
   void settle_decimals(std::size_t number);
+  void drop_leading_zeros(std::size_t number);
   void settle_g_digits(std::size_t number);
 
   LineStyle style_;

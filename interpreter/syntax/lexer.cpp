@@ -4,6 +4,7 @@
 
 #include "interpreter/syntax/line_parser.h"
 #include "interpreter/syntax/number.h"
+#include "interpreter/syntax/prose.h"
 
 namespace isocnc::syntax {
 
@@ -220,11 +221,11 @@ const char* LineParser::lex_comment(const char* p) {
 /// What reads as broken words before a `)` was meant as the comment's text: one mistake, not one for each letter.
 void LineParser::drop_comment_text() {
   std::uint32_t begin = std::numeric_limits<std::uint32_t>::max();
-  while (word_count() > 0) {
-    const Word& last = store_.words_.back();
-    if (last.letter != kError && last.letter != kNumber && !last.has(Word::kMissing)) break;
-    begin = last.begin;
-    store_.words_.pop_back();
+  for (std::size_t prose = 0; (prose = prose_at_end({store_.words_.data() + line_.first_word, word_count()})) > 0;) {
+    for (; prose > 0; --prose) {
+      begin = store_.words_.back().begin;
+      store_.words_.pop_back();
+    }
   }
   while (store_.findings_.size() > line_.first_finding && store_.findings_.back().span.begin >= begin)
     store_.findings_.pop_back();
@@ -293,14 +294,15 @@ const char* LineParser::lex_comparison(const char* p) {
 }
 
 /// Whether unknown text stands where the last word's number should be (G#1, MO6), which has been said. Where it goes on
-/// a number (X1O, X1E5), that number is not known.
+/// a number (X1O, X1L, X1E5), that number is not known.
 bool LineParser::garbles_number(char first) {
   if (word_count() == 0) return false;
   Word& before = word(word_count() - 1u);
   const bool is_word = before.letter >= 'A' && before.letter <= 'Z';
   if (is_word && before.has(Word::kMissing)) return true;
-  const bool is_command = before.letter == 'G' || before.letter == 'M';
-  if ((is_word || before.letter == kAssign) && (first == 'O' || (first == 'E' && !is_command))) {
+  const bool is_code = dialect::contains(dialect::letters("GMN"), before.letter);  // No exponent: GOTO N10 ELSE.
+  const bool reads_as_digit = first == 'O' || first == 'L';
+  if ((is_word || before.letter == kAssign) && (reads_as_digit || (first == 'E' && !is_code))) {
     before.value = std::numeric_limits<double>::quiet_NaN();
     before.flags |= Word::kMalformed | Word::kReported;
   }

@@ -61,7 +61,8 @@ bool LineParser::must_be_alone(const Instruction& checked, dialect::DiagnosticId
     case InstructionKind::Function:
       if (word(checked.command).value == dialect::kProgramEnd) {
         diagnostic = "m02-not-alone"_diag;
-      } else if (owns_any(checked, letters("P"))) {
+      } else if (dialect::is_user_function(static_cast<int>(word(checked.command).value)) &&
+                 owns_any(checked, letters("P"))) {
         diagnostic = "m-params-not-alone"_diag;
       }
       break;
@@ -86,6 +87,8 @@ bool LineParser::has_company(const Instruction& alone) const {
       if (i == alone.command || (!code && !is_end) || (code && contains(code->arguments, other.letter))) continue;
       if (dwell_without_time && !other.has(Word::kBreak)) continue;  // G04 X10: the X is where the P should be.
     }
+    const bool is_time = dwell_without_time && i == alone.command + 1 && contains(letters("FS"), other.letter);
+    if (is_time) continue;                                                  // G04 F2: as other controls have it.
     if (other.letter == kAssign && other.owner == Word::kNobody) continue;  // Reported with what it is given to.
     return true;
   }
@@ -184,8 +187,9 @@ void LineParser::check_motion(const Instruction& motion) {
     if (breaker_is_reported(motion, static_cast<std::uint16_t>(broken))) return;
     if (!has_arguments) return report_missing("missing-coordinate"_diag, motion);
     Word& stray = word(static_cast<std::size_t>(broken));
+    const bool is_said = stray.has(Word::kMissing | Word::kReported);
     stray.flags |= Word::kReported;
-    if (stray.has(Word::kMissing)) return;
+    if (is_said) return;
     return report("stray-argument"_diag, stray.span(), {}, word(motion.command).span());
   }
   if (!is_g || owns_any(motion, dialect::kCoordinateLetters)) return;
@@ -265,7 +269,7 @@ bool LineParser::stands_alone(const Instruction& alone) const {
 void LineParser::check_compensation(const Instruction& checked) {
   const dialect::GCode* const code = checked.g();
   if (!code || code->group != dialect::ModalGroup::CutterCompensation || stands_alone(checked)) return;
-  if ((line_.flags & LineTree::kAloneViolated) != 0) return;
+  if ((line_.flags & LineTree::kAloneViolated) != 0 || compensation_reported_) return;
   bool before_motion = false;
   bool behind_motion = false;
   for (std::size_t i = 0; i < instruction_count(); ++i) {
@@ -279,11 +283,10 @@ void LineParser::check_compensation(const Instruction& checked) {
     before_motion |= (code->number == 40 ? other.end : begin) > checked.command;
     behind_motion |= begin < checked.command;
   }
-  if (code->number == 40) {
-    if (before_motion || !behind_motion) report("misplaced-g40"_diag, word(checked.command).span());
-  } else if (!before_motion) {
-    report("misplaced-g41-g42"_diag, word(checked.command).span());
-  }
+  const bool is_end = code->number == 40;
+  compensation_reported_ = is_end ? before_motion || !behind_motion : !before_motion;
+  if (compensation_reported_)
+    report(is_end ? "misplaced-g40"_diag : "misplaced-g41-g42"_diag, word(checked.command).span());
 }
 
 /// Six digits: head, holder, tool. Zeros mean that nothing is mounted there (I.4.3).

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <optional>
 
 #include "interpreter/syntax/tree_store.h"
 
@@ -37,6 +38,7 @@ class LineParser {
 
   // Words into instructions (structure.cpp).
   void structure();
+  bool is_foreign_word(const Word& unknown) const;
   void join_prose();
   bool stands_for_number(std::uint16_t index) const;
   bool is_taken_by_unknown_g(std::uint16_t index) const;
@@ -51,10 +53,14 @@ class LineParser {
   void add_feed(std::uint16_t index);
   void add_spindle_speed(std::uint16_t index);
   std::uint16_t add_assignment(std::uint16_t index);
+  void own_in_place_of_value(Instruction& owner, std::uint16_t index);
   std::uint16_t add_equals(std::uint16_t index);
   std::uint16_t add_jump(std::uint16_t index);
+  std::uint16_t end_jump(std::uint16_t last);
   std::uint16_t read_condition(Jump& jump, std::uint16_t index);
   bool read_variable(Jump& jump, const Word& written, bool has_operator);
+  std::optional<Span> comparison_in_comment(std::uint32_t begin, std::uint32_t end) const;
+  void report_half_jump(std::uint16_t where, std::uint16_t end);
   std::uint16_t read_target(Jump& jump, std::uint16_t index);
   std::uint16_t add_lone_goto(std::uint16_t index);
   Instruction& add_instruction(InstructionKind kind, std::uint16_t command);
@@ -117,7 +123,10 @@ class LineParser {
   std::uint16_t misplaced_[4] = {};  ///< G70/G71/G90/G91 behind dimensions.
   int misplaced_count_ = 0;
   bool needs_check_ = false;
-  bool behind_motion_ = false;  ///< The word before belongs to a motion (G09).
+  bool half_jump_ = false;              ///< A part of the IF is missing.
+  bool behind_unknown_ = false;         ///< The continuation follows a word of no instruction of this control.
+  bool behind_motion_ = false;          ///< The word before belongs to a motion (G09).
+  bool compensation_reported_ = false;  ///< G40 to G42 out of place: once per line.
 };
 
 }  // namespace isocnc::syntax

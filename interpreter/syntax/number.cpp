@@ -64,7 +64,7 @@ Number scan_any_number(const char* p, const char* end) {
   double value = 0;
   const auto [behind, error] = std::from_chars(first, text.data() + text.size(), value);
   if (error == std::errc{}) {
-    number.value = value;
+    number.value = value + 0.0;  // -0 is 0.
   } else if (text.find_first_of("123456789") > text.find('.')) {
     number.value = 0;  // Too small for a double: an underflow, not an unknown.
   }

@@ -103,7 +103,7 @@ inline Number scan_number(const char* p, const char* end) {
       (p != end && (is_number_char(*p) || (*p == '(' && detail::goes_on_behind_comment(p, end)))))
     return detail::scan_any_number(begin, end);
   const double magnitude = static_cast<double>(mantissa) / detail::kPowersOfTen[decimals];
-  number.value = negative ? -magnitude : magnitude;
+  number.value = negative ? 0.0 - magnitude : magnitude;  // -0 is 0.
   return number;
 }
 

@@ -46,9 +46,19 @@ void LineParser::take_back(dialect::DiagnosticId id, Span span) {
                  findings.end());
 }
 
+static bool is_no_word(const Word& word) { return word.letter == kError || word.has(Word::kMissing); }
+
 /// What is missing may stand in a comment that is not closed, which has been reported.
 void LineParser::report_missing(dialect::DiagnosticId id, const Instruction& lacking) {
   if ((line_.flags & LineTree::kUnclosed) == 0) report(id, word(lacking.command).span());
+}
+
+/// H2, D3: a letter that this control does not have with its number is a word, if an unknown one, and no text.
+bool LineParser::is_foreign_word(const Word& unknown) const {
+  const std::string_view text(begin_ + unknown.begin, unknown.end - unknown.begin);
+  const std::string_view behind = text.substr(1);
+  return upper(text.front()) >= 'A' && upper(text.front()) <= 'Z' && !behind.empty() &&
+         std::all_of(behind.begin(), behind.end(), [](char c) { return is_blank(c) || is_number_char(c); });
 }
 
 /// Text that should be a comment reads as letters without numbers, one after the other: one mistake, not one for each.
@@ -56,7 +66,7 @@ void LineParser::report_missing(dialect::DiagnosticId id, const Instruction& lac
 void LineParser::join_prose() {
   const auto is_prose = [&](std::uint16_t i) {
     const Word& it = word(i);
-    return it.letter == kError || (it.has(Word::kMissing) && it.letter >= 'A' && it.letter <= 'Z');
+    return it.letter == kError ? !is_foreign_word(it) : it.has(Word::kMissing) && it.letter >= 'A' && it.letter <= 'Z';
   };
   for (std::uint16_t i = 0; i < word_count(); ++i) {
     if (word(i).letter == kIf) return;  // In a condition there is a code for it.
@@ -72,9 +82,10 @@ void LineParser::join_prose() {
       i = std::max(i, last);
       continue;
     }
-    // A number behind it belongs to it: PROGRAM 12.
+    // A number behind it belongs to it: PROGRAM 12, CALL SUB1.
     const char next = last < word_count() ? word(last).letter : '\0';
-    const bool ends_in_letter = word(last - 1u).letter != kError;
+    const char end = upper(begin_[word(last - 1u).begin]);
+    const bool ends_in_letter = end >= 'A' && end <= 'Z';
     if (next == kNumber || (ends_in_letter && contains(dialect::kDimensionLetters | dialect::letters("NT"), next)))
       ++last;
     const Span span = hull(word(i).span(), word(last - 1u).span());
@@ -135,7 +146,7 @@ void LineParser::structure() {
         i = add_equals(i);
         continue;
       case kIf:
-        i = add_jump(i);
+        i = end_jump(add_jump(i));
         behind_motion_ = false;
         break;
       case kGoto:
@@ -213,6 +224,7 @@ void LineParser::add_dimension(std::uint16_t index) {
       instruction(static_cast<std::size_t>(taker_)).kind == InstructionKind::G)
     taker_ = kNone;  // What an unknown G would have taken ends where its series ends.
   if (taker_ == kNone) {
+    behind_unknown_ = index > 0 && word(index - 1u).letter == kError;
     add_instruction(InstructionKind::Continuation, index);
     taker_ = static_cast<int>(instruction_count()) - 1;
     taken_ = 0;
@@ -224,6 +236,10 @@ void LineParser::add_dimension(std::uint16_t index) {
     word(index).flags |= Word::kBreak;
     needs_check_ = true;
   }
+  // L X10 R0: what the motion of another control takes.
+  const bool is_of_unknown =
+      behind_unknown_ && taker.kind == InstructionKind::Continuation && !contains(dialect::kCoordinateLetters, letter);
+  if (is_of_unknown) word(index).flags |= Word::kReported;
   const dialect::LetterSet bit = dialect::letter_bit(letter);
   if ((taken_ & bit) != 0) {
     // Which of the two was meant cannot be known: the axis counts as unknown, so that nothing follows from it.
@@ -235,6 +251,7 @@ void LineParser::add_dimension(std::uint16_t index) {
     }
     const bool is_said = word(index).has(Word::kMissing | Word::kMalformed);  // What is wrong with its number.
     word(index).value = std::numeric_limits<double>::quiet_NaN();
+    word(index).flags |= Word::kReported;
     if (!is_said) report("repeated-argument"_diag, word(index).span(), {}, first);
   }
   taken_ |= bit;
@@ -430,8 +447,14 @@ std::uint16_t LineParser::add_assignment(std::uint16_t index) {
   if (!has_value) return index;
   auto last = static_cast<std::uint16_t>(index + 1);
   own(added, last);
-  if (lacks_value(last)) own(added, ++last);
+  if (lacks_value(last)) own_in_place_of_value(added, ++last);
   return last;
+}
+
+/// V5=X: what stands where the value should be lacks a number as well, but what is wrong is the value.
+void LineParser::own_in_place_of_value(Instruction& owner, std::uint16_t index) {
+  take_back("word-without-number"_diag, word(index).span());
+  own(owner, index);
 }
 
 /// Whether a `=` has no legible number, and something else in its place, which belongs to the same mistake: V1=V2,
@@ -447,16 +470,17 @@ bool LineParser::lacks_value(std::uint16_t assign) const {
 
 /// A `=` that no V, and no M's P, stands before (ISO058). Returns the last word that belongs to it.
 std::uint16_t LineParser::add_equals(std::uint16_t index) {
-  const auto last = static_cast<std::uint16_t>(index + (lacks_value(index) ? 1 : 0));
+  auto last = static_cast<std::uint16_t>(index + (lacks_value(index) ? 1 : 0));
   if (index > 0) {
     Word& before = word(index - 1u);
     if (before.letter == kError || before.letter == kVgpl) return last;  // #1=5: reported with what stands before.
+    if (before.letter == 'P' && line_.jump >= 0) return last;            // IF ... GOTO N9 P1=2: company of the IF.
     if (index > 1 && word(index - 2u).has(Word::kMissing)) return last;  // CR=5, VI=5: said at the C or V.
     if (before.owner != Word::kNobody) {
       Instruction& owner = instruction(before.owner);
       if (owner.kind == InstructionKind::Function && before.letter == 'P') {
         own(owner, index);
-        if (last > index) own(owner, last);
+        if (last > index) own_in_place_of_value(owner, last);
         return last;
       }
       // G54 P1=2: what an unknown G takes.
@@ -469,6 +493,9 @@ std::uint16_t LineParser::add_equals(std::uint16_t index) {
     }
     before.flags |= Word::kReported;
   }
+  while (last > index && last + 1 < word_count() && word(last + 1u).has(Word::kMissing)) ++last;  // X=IC(5)
+  for (auto i = static_cast<std::uint16_t>(index + 1); i <= last; ++i)
+    take_back("word-without-number"_diag, word(i).span());
   const Word& equals = word(index);
   report("assignment-without-register"_diag, {equals.begin, equals.begin + 1});
   return last;
@@ -485,14 +512,26 @@ std::uint16_t LineParser::add_jump(std::uint16_t index) {
   jump.if_span = word(index).span();
   const std::uint16_t last = read_condition(jump, index);
   // Half an IF: what else stands on the line may well be the other half.
-  const std::vector<Finding>& findings = store_.findings_;
-  if (findings.size() > line_.first_finding && findings.back().id == "if-malformed"_diag &&
-      findings.back().span == jump.if_span)
-    added.flags |= Instruction::kSettled;
+  if (half_jump_) added.flags |= Instruction::kSettled;
   for (auto i = static_cast<std::uint16_t>(index + 1); i <= last; ++i) own(added, i);
   line_.jump = static_cast<std::int32_t>(store_.jumps_.size());
   store_.jumps_.push_back(jump);
   return last;
+}
+
+/// GOTO N10 ELSE N20: what is no word behind the label is an attempt to say more of the jump, to the end of the line.
+/// Returns the last word that belongs to it.
+std::uint16_t LineParser::end_jump(std::uint16_t last) {
+  const auto next = static_cast<std::uint16_t>(last + 1);
+  if (next >= word_count() || !store_.jumps_[static_cast<std::size_t>(line_.jump)].has_target) return last;
+  if (!is_no_word(word(next))) return last;
+  const Span rest = hull(word(next).span(), word(word_count() - 1u).span());
+  auto& findings = store_.findings_;
+  findings.erase(std::remove_if(findings.begin() + line_.first_finding, findings.end(),
+                                [&](const Finding& finding) { return finding.span.begin >= rest.begin; }),
+                 findings.end());
+  report("if-malformed"_diag, rest);
+  return static_cast<std::uint16_t>(word_count() - 1);
 }
 
 /// Reads what stands between IF and the label, both included. One finding for a malformed condition, one for a
@@ -502,11 +541,12 @@ std::uint16_t LineParser::read_condition(Jump& jump, std::uint16_t index) {
   std::uint16_t goto_at = index;
   while (goto_at < count && word(goto_at).letter != kGoto) ++goto_at;
   auto at = static_cast<std::uint16_t>(index + 1);
-  // The piece in the place of what is wanted, up to what comes after it; the IF when nothing stands there.
+  // The piece in the place of what is wanted, up to what comes after it; what stands before when there is none.
   const auto fail = [&](std::uint16_t where, std::string_view next_letters) {
     auto last = where;
     while (last < goto_at && next_letters.find(word(last).letter) == std::string_view::npos) ++last;
-    report("if-malformed"_diag, last == where ? word(index).span() : hull(word(where).span(), word(last - 1u).span()));
+    if (last == where) return report_half_jump(where, goto_at);
+    report("if-malformed"_diag, hull(word(where).span(), word(last - 1u).span()));
   };
   bool good = false;
   const bool has_operator = at + 1 < goto_at && word(at + 1u).letter == kOperator;
@@ -519,7 +559,7 @@ std::uint16_t LineParser::read_condition(Jump& jump, std::uint16_t index) {
              ++at >= goto_at || word(at).letter != kNumber || word(at).has(Word::kMalformed)) {
     fail(at, {});
   } else if (jump.value = word(at).value; goto_at >= count) {
-    report("if-malformed"_diag, word(index).span());
+    report_half_jump(static_cast<std::uint16_t>(at + 1), count);
   } else if (++at < goto_at) {
     fail(at, {});
   } else {
@@ -535,6 +575,30 @@ std::uint16_t LineParser::read_condition(Jump& jump, std::uint16_t index) {
     ++last;
   }
   return last;
+}
+
+/// A comparison in a comment that stands between two places of the line.
+std::optional<Span> LineParser::comparison_in_comment(std::uint32_t begin, std::uint32_t end) const {
+  for (std::size_t i = line_.first_comment; i < store_.comments_.size(); ++i) {
+    const Span comment = store_.comments_[i];
+    const std::string_view text(begin_ + comment.begin, comment.end - comment.begin);
+    if (comment.begin >= begin && comment.end <= end && text.find_first_of("=<>") != std::string_view::npos)
+      return comment;
+  }
+  return std::nullopt;
+}
+
+/// An IF that lacks something before the word at `where`, which may be the one at `end`: marks what stands in its place
+/// (THEN, a condition in parentheses), else the word that should have gone on.
+void LineParser::report_half_jump(std::uint16_t where, std::uint16_t end) {
+  half_jump_ = true;
+  const std::uint32_t behind = where < word_count() ? word(where).begin : line_.length;
+  if (const std::optional<Span> comment = comparison_in_comment(word(where - 1u).end, behind))
+    return report("if-malformed"_diag, *comment);
+  if (where == end) return report("if-malformed"_diag, word(where - 1u).span());
+  auto last = where;
+  while (last + 1 < end && is_no_word(word(last)) && is_no_word(word(last + 1u))) ++last;
+  report("if-malformed"_diag, hull(word(where).span(), word(last).span()));
 }
 
 /// A bad register number keeps its own code (D50); anything else but a register or VGPL is no variable.
@@ -560,7 +624,8 @@ bool LineParser::read_variable(Jump& jump, const Word& written, bool has_operato
 std::uint16_t LineParser::read_target(Jump& jump, std::uint16_t index) {
   const auto at = static_cast<std::uint16_t>(index + 1);
   if (at >= word_count() || word(at).letter == 'G' || word(at).letter == kIf) {
-    report("if-malformed"_diag, jump.if_span);
+    half_jump_ = true;
+    report("if-malformed"_diag, word(index).span());
     return index;
   }
   const Word& label = word(at);

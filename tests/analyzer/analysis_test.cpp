@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "analyzer/check_text.h"
 #include "tests/support/random_program.h"
 #include "tests/support/report_text.h"
@@ -66,6 +68,80 @@ TEST(Analysis, AModeWrittenAboveReachesTheEnd) {
   EXPECT_EQ(support::texts_of(analysis.report()), support::texts_of(check_text(document.text(), kSetup)));
 }
 
+/// Mostly G91, with arcs, and now and then an absolute coordinate.
+std::string incremental_zigzag(int count) {
+  std::string text = "M06 T101001\nG90 G1 X0.1 Y0.2 Z0.3 F1000\nG91\n";
+  for (int i = 3; i + 2 < count; ++i) {
+    const int step = i % 7 - 3;
+    text += i % 50 == 0 ? "G2 X0.2 Y0 I0.1 J0\nG1 X0.1\n" : fmt::format("X0.{} Y{}.{}\n", i % 10, step, i % 3);
+  }
+  return text + "G90 X5 Y5\nM02\n";
+}
+
+TEST(Analysis, AShiftPassesOverIncrementalMoves) {
+  Document document(incremental_zigzag(20'000));
+  Analysis analysis(document, kSetup);
+  document.replace({2'000, 0}, {2'000, 0}, "X7.123\n");
+  analysis.update();
+  EXPECT_LE(analysis.lines_checked(), 1'000u);
+  EXPECT_TRUE(analysis.report().findings.empty());
+  const Analysis fresh(document, kSetup);
+  for (std::size_t line = 0; line < document.line_count(); line += 97)
+    ASSERT_EQ(analysis.frontier_before(line), fresh.frontier_before(line)) << line;
+  EXPECT_EQ(analysis.frontier_before(document.line_count()), fresh.frontier_before(document.line_count()));
+}
+
+TEST(Analysis, AShiftIsNotPassedOverByWhatDependsOnThePosition) {
+  Document document(incremental_zigzag(4'000));
+  Analysis analysis(document, kSetup);
+  // The arc is right from where the moves above lead to, and from nowhere else.
+  const double x = analysis.frontier_before(3'000).live[0].state.position.tip.x();
+  const double y = analysis.frontier_before(3'000).live[0].state.position.tip.y();
+  document.replace({3'000, 0}, {3'000, 0}, fmt::format("G90 G2 X{} Y{} I{} J{}\nG91 G1 X1\n", x + 2, y, x + 1, y));
+  analysis.update();
+  EXPECT_TRUE(analysis.report().findings.empty());
+  document.replace({100, 0}, {100, 0}, "X0.5\n");
+  analysis.update();
+  ASSERT_EQ(analysis.report().findings.size(), 1u);
+  EXPECT_EQ(dialect::definition(analysis.report().findings[0].finding.id).code, "ISO031");
+  EXPECT_LE(analysis.lines_checked(), 1'000u);
+}
+
+TEST(Analysis, GoesOnWhereItWasStopped) {
+  Document document(zigzag(60'000));
+  Analysis analysis(document, kSetup, Analysis::Unchecked{});
+  int pieces = 1;
+  while (!analysis.update([] { return true; })) {
+    ++pieces;
+    document.replace({30'000, 0}, {30'000, 0}, pieces % 2 == 0 ? "G1 X1 X2\n" : "G91\n");
+  }
+  EXPECT_GE(pieces, 3);
+  EXPECT_EQ(support::texts_of(analysis.report()), support::texts_of(check_text(document.text(), kSetup)));
+}
+
+TEST(Analysis, AnExcerptHasTheFirstFindingsAndCountsTheOthers) {
+  std::string text = "G1 X1\n";
+  for (int i = 0; i < 5'000; ++i) text += i % 3 == 0 ? "G1 X1 X2\n" : "G1 Q7\n";
+  const Document document(text + "IF V3=1 GOTO N9\nIF V3=2 GOTO N1\nN9 X7\n");
+  const Analysis analysis(document, kSetup);
+  const Report all = analysis.report();
+  for (const std::size_t most : {0u, 1u, 100u, 4'999u, 100'000u}) {
+    const auto is_even = [](dialect::DiagnosticId id) { return static_cast<int>(id) % 2 == 0; };
+    const FirstFindings excerpt = analysis.excerpt({.most = most, .counts = is_even});
+    const std::vector<std::string> texts = support::texts_of(excerpt.report);
+    const auto counted = [&](const Report& report) {
+      return std::count_if(report.findings.begin(), report.findings.end(),
+                           [&](const LocatedFinding& located) { return is_even(located.finding.id); });
+    };
+    const std::vector<std::string> expected = support::texts_of(all);
+    EXPECT_TRUE(std::equal(texts.begin(), texts.end(), expected.begin())) << most;
+    EXPECT_GE(static_cast<std::size_t>(counted(excerpt.report)),
+              std::min<std::size_t>(most, static_cast<std::size_t>(counted(all))));
+    EXPECT_EQ(static_cast<std::size_t>(counted(excerpt.report)) + excerpt.left_out,
+              static_cast<std::size_t>(counted(all)));
+  }
+}
+
 TEST(Analysis, KnowsWhereTheCheckStandsBeforeALine) {
   const Document document("M06 T101001\nG1 X10 F100\nX20\nIF VGPL=1 GOTO N5\nX30\nN5 X40\nM02\n");
   const Analysis analysis(document, kSetup);
@@ -105,6 +181,17 @@ void edit_once(Random& random, RandomProgram& program, Document& document) {
   }
 }
 
+/// Edits on moves alone, as a program with G91 has them.
+void edit_moves(Random& random, Document& document) {
+  const std::size_t line = random.below(document.line_count());
+  const std::string move =
+      fmt::format("X{}.{:03} Y{}\n", random.between(-9, 9), random.between(0, 999), random.between(-9, 9));
+  const std::string any = std::string(
+      random.any_of({"G90\n", "G91\n", "G90 X3\nG91\n", "G92 X1\n", "G70\n", "G71\n", "G2 X2 Y0 I1 J0\nG1 Y1\n",
+                     "G90 G3 X5 Y5 R50\nG91 G1 X1\n", "IF VGPL=1 GOTO N7\n", "N7\n", "G29 B90\n", "G27\n"}));
+  document.replace({line, 0}, {line + random.below(2), 0}, random.one_in(4) ? any : move);
+}
+
 /// Edits a program at random; the analysis that follows gives what a fresh one gives, and what a check of the text
 /// gives.
 void edit_and_compare(std::uint64_t seed, int lines, int edits, int jump_chances) {
@@ -119,7 +206,10 @@ void edit_and_compare(std::uint64_t seed, int lines, int edits, int jump_chances
     analysis.update();
     const std::vector<std::string> report = support::texts_of(analysis.report());
     const std::string which = fmt::format("seed {}, edit {}", seed, i);
-    ASSERT_EQ(report, support::texts_of(Analysis(document, kSetup).report())) << which << ", fresh analysis";
+    const Analysis fresh(document, kSetup);
+    ASSERT_EQ(report, support::texts_of(fresh.report())) << which << ", fresh analysis";
+    const std::size_t line = random.below(document.line_count() + 1);
+    ASSERT_EQ(analysis.frontier_before(line), fresh.frontier_before(line)) << which << ", line " << line;
     ASSERT_EQ(report, support::texts_of(check_text(document.text(), kSetup))) << which << ", check of the text";
   }
 }
@@ -135,6 +225,23 @@ TEST(AnalysisProperty, EditedEqualsFreshOverManyChunks) {
   for (const std::uint64_t seed : support::seeds(30)) {
     edit_and_compare(1'000 + seed, 900, 12, seed % 2 == 0 ? 15 : 200);
     if (testing::Test::HasFatalFailure()) return;
+  }
+}
+
+TEST(AnalysisProperty, ShiftedEqualsFresh) {
+  for (const std::uint64_t seed : support::seeds(25)) {
+    Random random(seed);
+    Document document(incremental_zigzag(2'500));
+    Analysis analysis(document, kSetup);
+    for (int i = 0; i < 20; ++i) {
+      edit_moves(random, document);
+      analysis.update();
+      const Analysis fresh(document, kSetup);
+      const std::string which = fmt::format("seed {}, edit {}", seed, i);
+      ASSERT_EQ(support::texts_of(analysis.report()), support::texts_of(fresh.report())) << which;
+      for (std::size_t line = 0; line < document.line_count(); line += 101)
+        ASSERT_EQ(analysis.frontier_before(line), fresh.frontier_before(line)) << which << ", line " << line;
+    }
   }
 }
 

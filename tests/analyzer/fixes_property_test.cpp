@@ -4,6 +4,7 @@
 #include <regex>
 #include <variant>
 
+#include "analyzer/finding_fixes.h"
 #include "interpreter/running/runner.h"
 #include "interpreter/syntax/tree_store.h"
 #include "tests/support/fixed_program.h"
@@ -83,7 +84,34 @@ TEST(FixesProperty, AddNoFindingAndComeToAnEnd) {
       changed += once != text ? 1 : 0;
     }
   }
-  EXPECT_GT(changed, 2'000u);
+  EXPECT_GT(changed, support::often(2'000));
+}
+
+/// Alone, too: nobody makes all fixes of a program in an editor. Jumps are looked at by those who make them together.
+TEST(FixesProperty, WhatIsOfferedBringsNothing) {
+  std::size_t offered = 0;
+  const execution::Setup setup;
+  for (const std::uint64_t seed : support::seeds(500)) {
+    Random random(seed);
+    const std::string text = random_sample(random).text;
+    if (text.find("GOTO") != std::string::npos || text.find("isolint") != std::string::npos) continue;
+    const std::multiset<std::string> before = codes_of(text);
+    const Report report = support::found_in(text);
+    FindingFixes fixes(text, report, setup);
+    for (const LocatedFinding& located : report.findings) {
+      std::optional<fixes::Fix> fix = fixes.offered(located);
+      if (!fix) continue;
+      ++offered;
+      const std::string after_text = edited(text, fix->edits, fixes.program());
+      const std::multiset<std::string> after = codes_of(after_text);
+      ASSERT_TRUE(std::includes(before.begin(), before.end(), after.begin(), after.end()) &&
+                  after.size() < before.size())
+          << "seed " << seed << ": " << fix->title.en << "\n"
+          << text << "\n---\n"
+          << after_text;
+    }
+  }
+  EXPECT_GT(offered, support::often(100));
 }
 
 TEST(FixesProperty, KeepLineEndsAndTheLastOnesState) {
@@ -123,7 +151,7 @@ TEST(FixesProperty, SafeOnesLeaveWhatTheProgramDoes) {
     ++compared;
     ASSERT_EQ(motions_of(once, vgpl), motions) << "seed " << seed << "\n" << text << "\n---\n" << once;
   }
-  EXPECT_GT(compared, 200u);
+  EXPECT_GT(compared, support::often(200));
 }
 
 }  // namespace

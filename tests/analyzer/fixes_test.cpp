@@ -99,6 +99,19 @@ TEST_P(FixCase, HasTheFindingBeforeAndNoneOfAnyKindAfter) {
   EXPECT_THAT(codes_of(tested.after, tested.code), testing::IsEmpty()) << tested.name << "\n" << tested.after;
 }
 
+/// Who is offered a fix gets it.
+TEST_P(FixCase, IsOfferedWhatIsMade) {
+  const Case& tested = GetParam();
+  const execution::Setup setup;
+  const Report report = support::found_in(tested.before, tested.code);
+  FindingFixes fixes(tested.before, report, setup);
+  const bool is_offered =
+      std::any_of(report.findings.begin(), report.findings.end(), [&](const LocatedFinding& located) {
+        return dialect::definition(located.finding.id).code == tested.code && fixes.offered(located).has_value();
+      });
+  EXPECT_EQ(is_offered, tested.safety != fixes::Safety::None) << tested.name;
+}
+
 /// CR, LF or CRLF: what is inserted ends like what is there.
 TEST_P(FixCase, KeepsLineEnds) {
   const Case& tested = GetParam();
@@ -175,6 +188,12 @@ TEST(FixTitles, NameWhatIsMarkedAndWhatIsNew) {
       EXPECT_EQ(fix->title_in(dialect::Language::Italian).find('{'), std::string::npos);
     }
   }
+}
+
+/// What is wrong at the end of a program is found beside an M02 with company, too, so that it is none of the fix's.
+TEST(Fixes, PutM02OnItsOwnLineWhateverIsStillInForce) {
+  EXPECT_EQ(fixed("M06 T101001\nS1000 M03\nG29 X5\nG00 X10 M02\nG00 X20\n", false),
+            "M06 T101001\nS1000 M03\nG29 X5\nG00 X10\nM02\nG00 X20\n");
 }
 
 /// The table's wrong programs, too, become better, never worse.

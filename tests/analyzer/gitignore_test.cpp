@@ -11,11 +11,11 @@ namespace {
 bool ignores(const GitIgnore& rules, std::string path) {
   const bool is_directory = path.ends_with('/');
   if (is_directory) path.pop_back();
-  return rules.ignores("/work/" + path, is_directory);
+  return rules.ignores("/shop/" + path, is_directory);
 }
 
 bool ignores(std::string_view rules, const std::string& path) {
-  return ignores(GitIgnore{}.with(rules, "/work"), path);
+  return ignores(GitIgnore{}.with(rules, "/shop"), path);
 }
 
 TEST(GitIgnore, WithoutRulesNothingIsIgnored) {
@@ -40,7 +40,7 @@ TEST(GitIgnore, PathIsTakenFromTheDirectoryOfTheRules) {
 }
 
 TEST(GitIgnore, RulesSayNothingOfOtherDirectories) {
-  const GitIgnore rules = GitIgnore{}.with("*.iso\n/part.nc\n", "/work/old");
+  const GitIgnore rules = GitIgnore{}.with("*.iso\n/part.nc\n", "/shop/old");
   EXPECT_TRUE(ignores(rules, "old/part.iso"));
   EXPECT_TRUE(ignores(rules, "old/2019/part.iso"));
   EXPECT_TRUE(ignores(rules, "old/part.nc"));
@@ -95,8 +95,8 @@ TEST(GitIgnore, LastRuleThatNamesThePathDecides) {
 }
 
 TEST(GitIgnore, RulesOfAnInnerDirectoryAreStronger) {
-  const GitIgnore outer = GitIgnore{}.with("*.iso\n", "/work");
-  const GitIgnore inner = outer.with("!part.iso\n", "/work/old");
+  const GitIgnore outer = GitIgnore{}.with("*.iso\n", "/shop");
+  const GitIgnore inner = outer.with("!part.iso\n", "/shop/old");
   EXPECT_FALSE(ignores(inner, "old/part.iso"));
   EXPECT_TRUE(ignores(inner, "old/other.iso"));
   EXPECT_TRUE(ignores(inner, "part.iso"));

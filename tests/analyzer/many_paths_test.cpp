@@ -74,6 +74,24 @@ TEST(ManyPaths, CrossingJumpsOnRegistersEnd) {
   EXPECT_LE(codes(check(text + "M02\n")).size(), 1u);
 }
 
+/// A few paths are followed as long as it takes: what is found behind them must not depend on how long they are.
+TEST(ManyPaths, AFewStatesStayExactOverALongProgram) {
+  std::string text = std::string(kHead) + "G91\n";
+  for (int i = 1; i <= 5; ++i) text += skippable(i, fmt::format("G1 X{0} Y0.5\nX0.25\nY{0}", i * i));
+  for (int i = 0; i < 40'000; ++i) text += "X0.1\n";
+  text += "G90\nG1 X0 Y0\nG2 X10 Y10 I5 J5\nG2 X20 Y10 I10 J9\nM02\n";
+  EXPECT_THAT(codes(check(text)), ElementsAre("ISO031"));
+}
+
+/// Jumps that cross all the way down: once paths have been given up, each line costs little.
+TEST(ManyPaths, CrossingIncrementalJumpsEnd) {
+  std::string text = std::string(kHead) + "G91\n";
+  for (int i = 1; i <= 20'000; ++i)
+    text += fmt::format("IF VGPL={0} GOTO N{1}\nN{0} G1 X{2}\n", i, i + 1 + i * 7 % 50, i % 13);
+  for (int i = 20'001; i <= 20'052; ++i) text += fmt::format("N{} G1 X1\n", i);
+  EXPECT_THAT(codes(check(text + "M02\n")), ElementsAre("W191"));
+}
+
 /// Each move may be skipped and each sum is another place: 2^200 positions.
 TEST(ManyPaths, DiamondsOfIncrementalMovesEnd) {
   std::string text = std::string(kHead) + "G91\n";

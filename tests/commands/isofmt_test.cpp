@@ -4,11 +4,10 @@
 #include <sys/stat.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "run_command.h"
 #include "temporary_folder.h"
+#include "tests/support/text_of_file.h"
 
 namespace isocnc::commands {
 namespace {
@@ -20,12 +19,6 @@ using testing::StartsWith;
 
 constexpr std::string_view kUntidy = "m06t101001\ng00x10 y0z5 ; up\nM02\n";
 constexpr std::string_view kTidy = "M06 T101001\nG00 X10 Y0 Z5 ; up\nM02\n";
-
-std::string text_of(const std::filesystem::path& file) {
-  std::stringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 std::string format(std::string input, std::vector<std::string> options = {}) {
   options.insert(options.begin(), "isofmt");
@@ -45,7 +38,7 @@ TEST(Isofmt, PrintsOneProgram) {
     EXPECT_EQ(result.out, kTidy);
     EXPECT_EQ(result.err, "");
   }
-  EXPECT_EQ(text_of(file), kUntidy);
+  EXPECT_EQ(text_of_file(file), kUntidy);
   EXPECT_EQ(format(std::string(kUntidy)), kTidy);
 }
 
@@ -59,6 +52,34 @@ TEST(Isofmt, WantsAModeForSeveralPrograms) {
   EXPECT_THAT(result.err, HasSubstr("--check, --diff or -i"));
 }
 
+TEST(Isofmt, CountsTheProgramsThatItCouldRead) {
+  const TemporaryFolder folder;
+  folder.write("a.iso", kTidy);
+  const CommandResult result = run_command({"isofmt", "--check", "a.iso", "none.iso"}, {.folder = folder.path()});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("0 of 1 programs would be changed\n"));
+}
+
+/// Blanks in the name, and a byte-order mark: what is shown can be applied.
+TEST(Isofmt, ShowsDifferencesThatCanBeApplied) {
+  for (const std::string mark : {"", "\xEF\xBB\xBF"}) {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("a part.iso", mark + std::string(kUntidy));
+    for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+             {"isofmt", "--diff"}, {"isolint", "--diff", "--severity", "W125=info"}}) {
+      folder.write("a part.iso", mark + std::string(kUntidy));
+      std::vector<std::string> whole = command;
+      whole.emplace_back("a part.iso");
+      const std::string difference = run_command(whole, {.folder = folder.path()}).out;
+      EXPECT_THAT(difference, StartsWith("--- a part.iso\t\n+++ a part.iso\t\n")) << command[0];
+      folder.write("difference", difference);
+      EXPECT_EQ(std::system(("cd " + folder.path() + " && git apply -p0 difference").c_str()), 0) << difference;
+      const std::string applied = text_of_file(file);
+      EXPECT_TRUE(applied.starts_with(mark + "M06")) << applied;
+    }
+  }
+}
+
 TEST(Isofmt, ChecksPrograms) {
   const TemporaryFolder folder;
   folder.write("a.iso", kUntidy);
@@ -69,7 +90,7 @@ TEST(Isofmt, ChecksPrograms) {
   EXPECT_EQ(result.out, "a.iso\ndeep/c.nc\n");
   EXPECT_EQ(result.err, "2 of 3 programs would be changed\n");
   EXPECT_EQ(run_command({"isofmt", "--check", folder.path("b.iso")}).status, 0);
-  EXPECT_EQ(text_of(folder.path("a.iso")), kUntidy);
+  EXPECT_EQ(text_of_file(folder.path("a.iso")), kUntidy);
 }
 
 TEST(Isofmt, ShowsDifferences) {
@@ -105,7 +126,7 @@ TEST(Isofmt, RewritesProgramsInPlace) {
   EXPECT_EQ(result.status, 0);
   EXPECT_EQ(result.out, "");
   EXPECT_EQ(result.err, "1 of 2 programs changed\n");
-  EXPECT_EQ(text_of(untidy), kTidy);
+  EXPECT_EQ(text_of_file(untidy), kTidy);
   EXPECT_EQ(before.st_ino, after.st_ino);  // Not touched.
   ::stat(untidy.c_str(), &after);
   EXPECT_EQ(after.st_mode & 0777u, 0640u);
@@ -118,7 +139,7 @@ TEST(Isofmt, KeepsByteOrderMarksLineEndsAndForeignBytes) {
   const TemporaryFolder folder;
   const std::string file = folder.write("a.iso", untidy);
   EXPECT_EQ(run_command({"isofmt", "-i", file}).status, 0);
-  EXPECT_EQ(text_of(file), tidy);
+  EXPECT_EQ(text_of_file(file), tidy);
 }
 
 /// What changes first may stand far down.
@@ -128,7 +149,7 @@ TEST(Isofmt, RewritesLargePrograms) {
   const TemporaryFolder folder;
   const std::string file = folder.write("a.iso", start + "g1x5\n" + start);
   EXPECT_EQ(run_command({"isofmt", "-i", file}).status, 0);
-  EXPECT_TRUE(text_of(file) == start + "G1 X5\n" + start);
+  EXPECT_TRUE(text_of_file(file) == start + "G1 X5\n" + start);
 }
 
 TEST(Isofmt, TakesStyles) {
@@ -146,10 +167,10 @@ TEST(Isofmt, RefusesWhatCannotBeRenumberedAndGoesOn) {
   const CommandResult result = run_command({"isofmt", "-i", "--renumber", "1:1", folder.path()});
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, HasSubstr("a.iso: not renumbered: line 3 is one more N5"));
-  EXPECT_EQ(text_of(bad), "if v1=1 goto n5\nn5\nn5\n");
-  EXPECT_EQ(text_of(good), "N1 X1\n");
+  EXPECT_EQ(text_of_file(bad), "if v1=1 goto n5\nn5\nn5\n");
+  EXPECT_EQ(text_of_file(good), "N1 X1\n");
   EXPECT_THAT(run_command({"isofmt", "--lang", "it", "--renumber", "1:1", bad}).err,
-              HasSubstr("non rinumerato: la riga 3"));
+              HasSubstr("non rinumerato: la linea 3"));
 }
 
 TEST(Isofmt, RefusesMistakenCommands) {
@@ -177,7 +198,7 @@ TEST(Isofmt, RefusesMistakenCommands) {
     EXPECT_EQ(result.out, "");
     EXPECT_THAT(result.err, Not(IsEmpty()));
   }
-  EXPECT_EQ(text_of(file), kUntidy);
+  EXPECT_EQ(text_of_file(file), kUntidy);
 }
 
 TEST(Isofmt, TellsWhenOutputIsLost) {
@@ -202,7 +223,7 @@ TEST(IsofmtExamples, DoWhatTheyDid) {
   for (const auto& entry : std::filesystem::directory_iterator(ISOCNC_SOURCE_DIR "/examples")) {
     if (entry.path().extension() != ".iso") continue;
     const TemporaryFolder folder;
-    const std::string file = folder.write("part.iso", text_of(entry.path()));
+    const std::string file = folder.write("part.iso", text_of_file(entry.path()));
     std::vector<std::string> arguments = all;
     arguments.insert(arguments.begin(), {"isofmt", "-i", file});
     const CommandResult result = run_command(arguments);

@@ -4,14 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <nlohmann/json.hpp>
 
 #include "programs.h"
 #include "run_command.h"
 #include "temporary_folder.h"
+#include "tests/support/text_of_file.h"
 
 namespace isocnc::commands {
 namespace {
@@ -27,12 +26,6 @@ constexpr std::string_view kOldProgram =
     "G71\n"
     "G71\n"
     "M02\n";
-
-std::string read(const std::string& path) {
-  std::stringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 class IsolintBaseline : public testing::Test {
  protected:
@@ -59,7 +52,7 @@ TEST_F(IsolintBaseline, RecordsInPlaceOfReporting) {
   EXPECT_EQ(result.out, "");
   EXPECT_EQ(result.err, "2 errors, 1 warning in 2 files\n");
   EXPECT_EQ(result.status, 0);
-  const json file = json::parse(read(folder_.path("known.json")));
+  const json file = json::parse(text_of_file(folder_.path("known.json")));
   EXPECT_EQ(file["version"], 1);
   ASSERT_EQ(file["findings"].size(), 2u);
   EXPECT_EQ(file["findings"][0]["file"], "parts/old.iso");
@@ -89,7 +82,7 @@ TEST_F(IsolintBaseline, DoesNotMindEditsElsewhere) {
 
 TEST_F(IsolintBaseline, NamesProgramsFromItsFolder) {
   run({"--write-baseline", "parts/known.json", "parts"});
-  EXPECT_THAT(read(folder_.path("parts/known.json")), HasSubstr(R"("file": "old.iso")"));
+  EXPECT_THAT(text_of_file(folder_.path("parts/known.json")), HasSubstr(R"("file": "old.iso")"));
   for (const std::vector<std::string>& command :
        {std::vector<std::string>{"isolint", "--baseline", "known.json"},
         std::vector<std::string>{"isolint", "--baseline", folder_.path("parts/known.json"), "./old.iso", "../parts"}})
@@ -109,7 +102,7 @@ TEST_F(IsolintBaseline, ReplacesTheFileAndKeepsItsLinksAndRights) {
   std::filesystem::create_symlink("real.json", folder_.path("known.json"));
   EXPECT_EQ(run({"--write-baseline", "known.json", "parts"}).status, 0);
   EXPECT_TRUE(std::filesystem::is_symlink(folder_.path("known.json")));
-  EXPECT_THAT(read(folder_.path("real.json")), StartsWith("{\n  \"version\": 1,\n"));
+  EXPECT_THAT(text_of_file(folder_.path("real.json")), StartsWith("{\n  \"version\": 1,\n"));
   EXPECT_EQ(std::filesystem::status(folder_.path("real.json")).permissions(), std::filesystem::perms(0640));
   EXPECT_EQ(run({"--write-baseline", "/no/such/folder/x", "parts"}).status, 2);
   EXPECT_EQ(run({"--write-baseline", "/dev/full", "parts"}).status, 2);
@@ -118,7 +111,7 @@ TEST_F(IsolintBaseline, ReplacesTheFileAndKeepsItsLinksAndRights) {
 
 TEST_F(IsolintBaseline, IsNoProgramAndNotReadAndWrittenAtOnce) {
   EXPECT_EQ(run({"--write-baseline", "parts/old.iso", "parts"}).status, 2);
-  EXPECT_EQ(read(folder_.path("parts/old.iso")), kOldProgram);
+  EXPECT_EQ(text_of_file(folder_.path("parts/old.iso")), kOldProgram);
   EXPECT_EQ(run({"--write-baseline", "a.json", "--baseline", "b.json", "parts"}).status, 2);
 }
 

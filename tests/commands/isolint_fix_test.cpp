@@ -6,14 +6,13 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <nlohmann/json.hpp>
 
 #include "programs.h"
 #include "run_command.h"
 #include "temporary_folder.h"
+#include "tests/support/text_of_file.h"
 
 namespace isocnc::commands {
 namespace {
@@ -44,12 +43,6 @@ constexpr std::string_view kMended =
     "G00 Y5 U5\n"
     "M02\n";
 
-std::string text_of(const std::filesystem::path& file) {
-  std::stringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 CommandResult run_on(const std::string& input, std::vector<std::string> options) {
   options.insert(options.begin(), "isolint");
   options.emplace_back("-");
@@ -62,7 +55,7 @@ TEST(IsolintFix, MendsWhatIsSafe) {
   const CommandResult result =
       run_command({"isolint", "--fix", "--format", "concise", "part.iso"}, {.folder = folder.path()});
   EXPECT_EQ(result.status, 1);
-  EXPECT_EQ(text_of(file), kSafelyMended);
+  EXPECT_EQ(text_of_file(file), kSafelyMended);
   EXPECT_THAT(result.out, AllOf(HasSubstr("part.iso:3:6: error: "), HasSubstr("[ISO006]"), HasSubstr("[ISO003]"),
                                 Not(HasSubstr("W001"))));
   EXPECT_EQ(result.err, "1 fixed\n");
@@ -73,11 +66,11 @@ TEST(IsolintFix, MendsWhatIsLikelyWhenAskedTo) {
   const std::string file = folder.write("part.iso", kMendable);
   const CommandResult result = run_command({"isolint", "--fix", "--unsafe-fixes", file});
   EXPECT_EQ(result.status, 1);
-  EXPECT_EQ(text_of(file), kMended);
+  EXPECT_EQ(text_of_file(file), kMended);
   EXPECT_EQ(result.err, "1 error, 0 warnings in 1 file; 2 fixed\n");
   // A second time there is nothing left to do.
   const CommandResult again = run_command({"isolint", "--fix", "--unsafe-fixes", "--lang", "it", file});
-  EXPECT_EQ(text_of(file), kMended);
+  EXPECT_EQ(text_of_file(file), kMended);
   EXPECT_THAT(again.err, EndsWith("; 0 corretti\n"));
 }
 
@@ -89,7 +82,7 @@ TEST(IsolintFix, TellsOfUnsafeFixesButMakesNone) {
                     HasSubstr("= help: write 10.5 (--fix --unsafe-fixes): G71 G00 X10.5 ; gi\xC3\xB9\n")));
   EXPECT_THAT(run_command({"isolint", "--unsafe-fixes", "--lang", "it", file}).out,
               HasSubstr("= aiuto: scrivere 10.5 (--fix): "));
-  EXPECT_EQ(text_of(file), kMendable);
+  EXPECT_EQ(text_of_file(file), kMendable);
 }
 
 TEST(IsolintFix, MendsNotWhatNobodyWantsToHearOf) {
@@ -104,7 +97,7 @@ TEST(IsolintFix, MendsNotWhatNobodyWantsToHearOf) {
   EXPECT_EQ(run_command({"isolint", "--write-baseline", baseline, file}).status, 0);
   const CommandResult result = run_command({"isolint", "--fix", "--unsafe-fixes", "--baseline", baseline, file});
   EXPECT_EQ(result.status, 0);
-  EXPECT_EQ(text_of(file), kMendable);
+  EXPECT_EQ(text_of_file(file), kMendable);
   EXPECT_EQ(result.err, "0 errors, 0 warnings in 1 file; 3 in the baseline; 0 fixed\n");
 }
 
@@ -126,7 +119,7 @@ TEST(IsolintFix, PrintsTheProgramOfStandardInput) {
   const CommandResult apart =
       run_on(std::string(kMendable), {"--fix", "--format", "json", "--output", folder.path("found.json")});
   EXPECT_EQ(apart.out, kSafelyMended);
-  EXPECT_EQ(json::parse(text_of(folder.path("found.json"))).size(), 2u);
+  EXPECT_EQ(json::parse(text_of_file(folder.path("found.json"))).size(), 2u);
   EXPECT_EQ(apart.err, "1 fixed\n");
 }
 
@@ -139,7 +132,7 @@ TEST(IsolintFix, KeepsByteOrderMarksLineEndsAndForeignBytes) {
   const std::string file = folder.write("part.iso", before);
   ::chmod(file.c_str(), 0640);
   EXPECT_EQ(run_command({"isolint", "--fix", file}).status, 0);
-  EXPECT_EQ(text_of(file), after);
+  EXPECT_EQ(text_of_file(file), after);
   struct stat status {};
   ::stat(file.c_str(), &status);
   EXPECT_EQ(status.st_mode & 0777u, 0640u);
@@ -166,8 +159,8 @@ TEST(IsolintFix, TellsWhenAFileCannotBeReplaced) {
   const CommandResult result = run_command({"isolint", "--fix", "--format", "concise", folder.path()});
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, AllOf(HasSubstr("part.iso: "), HasSubstr("hard links"), HasSubstr("1 fixed\n")));
-  EXPECT_EQ(text_of(file), kMendable);
-  EXPECT_EQ(text_of(other), kSafelyMended);
+  EXPECT_EQ(text_of_file(file), kMendable);
+  EXPECT_EQ(text_of_file(other), kSafelyMended);
   EXPECT_THAT(result.out, HasSubstr("part.iso:3:1: warning: G71 is already in force [W001]"));
   EXPECT_THAT(result.out, Not(HasSubstr("other.iso:3:1: ")));
 }
@@ -181,7 +174,7 @@ TEST(IsolintFix, TellsOfReadOnlyFolders) {
   ::chmod(folder.path("inner").c_str(), 0755);
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, HasSubstr("cannot write"));
-  EXPECT_EQ(text_of(file), kMendable);
+  EXPECT_EQ(text_of_file(file), kMendable);
 }
 
 TEST(IsolintFix, TellsWhenTheProgramIsLost) {
@@ -221,7 +214,7 @@ TEST(IsolintDiff, ShowsAndChangesNothing) {
               "@@ -1,6 +1,6 @@\n M06 T101001\n G71\n-G71 G00 X10,5 ; gi\xC3\xB9\n+G00 X10,5 ; gi\xC3\xB9\n"
               " G00 Y5 U5\n M02\n (a)\n");
     EXPECT_EQ(result.err, "2 errors, 0 warnings in 1 file; 1 would be fixed\n");
-    EXPECT_EQ(text_of(file), text);
+    EXPECT_EQ(text_of_file(file), text);
   }
 }
 
@@ -243,15 +236,15 @@ TEST(IsolintDiff, ShowsLinesThatComeAndGo) {
 TEST(IsolintDiff, CanBeApplied) {
   for (const auto& entry : std::filesystem::directory_iterator(ISOCNC_SOURCE_DIR "/examples/broken")) {
     const TemporaryFolder folder;
-    const std::string patched = folder.write("patched.iso", text_of(entry.path()));
-    const std::string fixed = folder.write("fixed.iso", text_of(entry.path()));
+    const std::string patched = folder.write("patched.iso", text_of_file(entry.path()));
+    const std::string fixed = folder.write("fixed.iso", text_of_file(entry.path()));
     const CommandResult diff =
         run_command({"isolint", "--diff", "--unsafe-fixes", "patched.iso"}, {.folder = folder.path()});
     run_command({"isolint", "--fix", "--unsafe-fixes", fixed});
     folder.write("difference", diff.out);
     EXPECT_NE(diff.out, "") << entry.path();
     EXPECT_EQ(std::system(("cd " + folder.path() + " && git apply -p0 difference").c_str()), 0) << diff.out;
-    EXPECT_EQ(text_of(patched), text_of(fixed)) << entry.path();
+    EXPECT_EQ(text_of_file(patched), text_of_file(fixed)) << entry.path();
   }
 }
 

@@ -14,6 +14,7 @@
 #include "programs.h"
 #include "run_command.h"
 #include "temporary_folder.h"
+#include "tests/support/text_of_file.h"
 
 /// The formats for other programs. What they look like stands in formats/expected; after a change that is meant,
 /// ISOCNC_UPDATE_EXPECTED=1 build/release/tests/commands_tests writes it anew, for a person to review.
@@ -27,12 +28,6 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 const std::string kFolder = ISOCNC_SOURCE_DIR "/tests/commands/formats/";
-
-std::string read(const std::string& path) {
-  std::stringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 /// Without what changes with every version and every new code.
 std::string lasting(const std::string& text) {
@@ -63,7 +58,7 @@ TEST_P(IsolintFormat, LooksAsExpected) {
   EXPECT_EQ(result.status, 1);
   const std::string file = kFolder + "expected/" + name + "." + language;
   if (std::getenv("ISOCNC_UPDATE_EXPECTED") != nullptr) std::ofstream(file, std::ios::binary) << lasting(result.out);
-  EXPECT_EQ(lasting(result.out), read(file));
+  EXPECT_EQ(lasting(result.out), text_of_file(file));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -97,14 +92,14 @@ std::string xml_mistake(const std::string& document) {
   const std::string log = folder.path("log");
   const std::string command =
       "python3 -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' " + file + " 2>" + log;
-  return std::system(command.c_str()) == 0 ? "" : read(log);
+  return std::system(command.c_str()) == 0 ? "" : text_of_file(log);
 }
 
 TEST(IsolintXml, IsWellFormedWhateverTheProgramHolds) {
   for (const std::string format : {"junit", "checkstyle"}) {
     EXPECT_EQ(xml_mistake(hostile_output(format)), "") << hostile_output(format);
     for (const std::string language : {"en", "it"})
-      EXPECT_EQ(xml_mistake(read(kFolder + "expected/" + format + "." + language)), "");
+      EXPECT_EQ(xml_mistake(text_of_file(kFolder + "expected/" + format + "." + language)), "");
   }
   EXPECT_NE(xml_mistake("<a><b></a>"), "");
 }
@@ -201,11 +196,11 @@ TEST(IsolintSarif, ObeysThePublishedSchema) {
 
   const TemporaryFolder folder;
   const std::string task =
-      folder.write("task.json", json{{"schema", json::parse(read(schema))}, {"documents", documents}}.dump());
+      folder.write("task.json", json{{"schema", json::parse(text_of_file(schema))}, {"documents", documents}}.dump());
   const std::string log = folder.path("log");
   const std::string command = "python3 " ISOCNC_SOURCE_DIR "/tests/support/validate.py " + task + " >" + log + " 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0);
-  EXPECT_EQ(read(log), "5 documents\n");
+  EXPECT_EQ(text_of_file(log), "5 documents\n");
 }
 
 TEST(IsolintSarif, TellsTheSeverityInForce) {

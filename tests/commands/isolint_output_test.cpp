@@ -49,6 +49,19 @@ TEST(IsolintText, SaysNothingOfACleanProgramButTheCount) {
   EXPECT_EQ(result.status, 0);
 }
 
+/// A name, too, may hold what a terminal would obey.
+TEST(IsolintText, ShowsNamesAsTextAndNothingElse) {
+  const TemporaryFolder folder;
+  folder.write("a\033[31m\nb.iso", kBrokenProgram);
+  for (const std::string format : {"text", "concise"}) {
+    const CommandResult result = run_command({"isolint", "--format", format, "."}, {.folder = folder.path()});
+    EXPECT_THAT(result.out, HasSubstr("a\xEF\xBF\xBD[31m\xEF\xBF\xBD"
+                                      "b.iso:3:1"))
+        << format;
+    EXPECT_THAT(result.out, Not(HasSubstr("\033"))) << format;
+  }
+}
+
 TEST(IsolintText, TellsOfTheOtherPlaceOnTheLine) {
   const CommandResult result = run_command({"isolint", "-"}, {.input = "M06 T101001\nG01 X10 F100 F200\nM02\n"});
   EXPECT_THAT(result.out, HasSubstr("2 | G01 X10 F100 F200\n  |         ---- ^^^^  (--- the other place)\n"));
@@ -106,8 +119,8 @@ TEST(IsolintText, LetsNoControlCharacterThrough) {
 }
 
 TEST(IsolintConcise, PrintsOneLineForEachFinding) {
-  const CommandResult result =
-      run_command({"isolint", "--format", "concise", "-"}, {.input = "M06 T101001\nG01 X10\n(é) M03 M02\nM02\n"});
+  const CommandResult result = run_command({"isolint", "--format", "concise", "--select", "ISO", "-"},
+                                           {.input = "M06 T101001\nG01 X10\n(é) M03 M02\nM02\n"});
   EXPECT_EQ(result.out,
             "<stdin>:2:1: error: G01 has no feed rate: no F has been given yet [ISO066]\n"
             "<stdin>:3:9: error: M02 must stand alone on its line [ISO043]\n");
@@ -173,13 +186,13 @@ TEST(IsolintJson, IsSortedByLineAndColumn) {
 
 TEST(IsolintJson, CountsColumnsInCodePoints) {
   // Two, three and four bytes each, then a stray byte, which counts as one.
-  const json finding = findings_in("(àé 東 \U0001F527 \xFF) M03 M02\n").at(0);
+  const json finding = findings_in("(àé 東 \U0001F527 \xFF) M03 M02\n", {"--select", "ISO"}).at(0);
   EXPECT_EQ(finding["column"], 16);
   EXPECT_EQ(finding["endColumn"], 19);
 }
 
 TEST(IsolintJson, CountsColumnsBehindAByteOrderMark) {
-  EXPECT_EQ(findings_in("\xEF\xBB\xBFM03 M02\n").at(0)["column"], 5);
+  EXPECT_EQ(findings_in("\xEF\xBB\xBFM03 M02\n", {"--select", "ISO"}).at(0)["column"], 5);
 }
 
 TEST(IsolintJson, CountsLinesAtEachKindOfLineEnd) {

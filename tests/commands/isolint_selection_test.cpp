@@ -1,14 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
-
 #include <nlohmann/json.hpp>
 
 #include "programs.h"
 #include "run_command.h"
 #include "temporary_folder.h"
+#include "tests/support/text_of_file.h"
 
 namespace isocnc::commands {
 namespace {
@@ -122,12 +120,6 @@ TEST(IsolintExitZero, IsNoCureForTrouble) {
   EXPECT_EQ(run_command({"isolint", "--exit-zero", "no-such-file.iso"}).status, 2);
 }
 
-std::string read(const std::string& path) {
-  std::stringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 TEST(IsolintOutputFile, HoldsWhatElseWouldBePrinted) {
   const TemporaryFolder folder;
   const Surroundings mixed{.input = std::string(kMixedProgram), .folder = folder.path()};
@@ -136,7 +128,7 @@ TEST(IsolintOutputFile, HoldsWhatElseWouldBePrinted) {
   EXPECT_EQ(result.out, "");
   EXPECT_EQ(result.err, "3 errors, 1 warning in 1 file\n");
   EXPECT_EQ(result.status, 1);
-  EXPECT_EQ(read(folder.path("findings.txt")), expected);
+  EXPECT_EQ(text_of_file(folder.path("findings.txt")), expected);
 }
 
 TEST(IsolintOutputFile, SaysWhyItCannotBeWritten) {
@@ -155,7 +147,7 @@ TEST(IsolintOutputFile, IsNoneOfThePrograms) {
   const CommandResult result = run_command({"isolint", "--output", "./part.iso", "."}, {.folder = folder.path()});
   EXPECT_EQ(result.status, 2);
   EXPECT_EQ(result.err, "isolint: ./part.iso: is one of the programs to be checked\n");
-  EXPECT_EQ(read(program), kMixedProgram);
+  EXPECT_EQ(text_of_file(program), kMixedProgram);
 }
 
 TEST(IsolintStatistics, CountsTheFindingsOfEachCode) {

@@ -178,10 +178,35 @@ TEST(IsorunRestart, DoesNotOverwriteTheProgram) {
   const CommandResult english =
       run_command({"isorun", "--restart-at", "6", "-o", "./part.iso", file}, {.folder = folder.path()});
   EXPECT_EQ(english.status, 2);
-  EXPECT_EQ(english.err, "isorun: ./part.iso: the restart program would overwrite the program\n");
+  EXPECT_EQ(english.err, "isorun: ./part.iso: this would overwrite the program\n");
   EXPECT_EQ(run_command({"isorun", "--lang", "it", "--restart-at", "6", "-o", file, file}).err,
-            "isorun: " + file + ": il programma di ripresa sovrascriverebbe il programma\n");
+            "isorun: " + file + ": così si sovrascriverebbe il programma\n");
   EXPECT_EQ(content_of(file), kCutting);
+}
+
+/// Z of the nose goes to 0 at most, the tool is 120 mm long.
+TEST(IsorunRestart, StaysWithinTheTravelOnItsWay) {
+  const auto restart_on = [](const std::string& machine, const std::string& line, const std::string& language = "en") {
+    const TemporaryFolder folder;
+    return run_command(
+        {"isorun", "--lang", language, "--machine", folder.write("machine.json", machine), "--restart-at", line, "-"},
+        {.input = "G92 Z-300\nM06 T101001\nG00 X10 Y20 Z50\nG01 Z-5 F1000\nX200\nG00 Z60\nX-40\nZ5\n"
+                  "G01 Z0\nX20\nG00 Z60\nM02\n"});
+  };
+  const std::string tools = R"(, "tools": [{"head": 1, "holder": 1, "tool": 1, "length": 120}]}})";
+  const CommandResult capped = restart_on(R"({"machine": {"axes": {"Z": {"max": 0}})" + tools, "5");
+  EXPECT_EQ(capped.status, 0) << capped.err;
+  EXPECT_THAT(capped.out, HasSubstr("; approach\nG00 Z180\nX10 Y20\n")) << "120 mm below home, not at it";
+  EXPECT_THAT(restart_on(R"({"machine": {"axes": {})" + tools, "5").out, HasSubstr("; approach\nG00 Z300\n"))
+      << "where no travel is known";
+  const CommandResult refused = restart_on(R"({"machine": {"axes": {"Z": {"max": 0}, "X": {"min": -10}})" + tools, "9");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.out, "");
+  EXPECT_EQ(refused.err,
+            "isorun: <stdin>: no safe restart before line 9: on the way there X would go to -40.000 (limit "
+            "-10.000)\n");
+  EXPECT_THAT(restart_on(R"({"machine": {"axes": {"Z": {"max": -140}})" + tools, "5", "it").err,
+              HasSubstr("nessuna ripresa sicura dalla riga 5: sul percorso Z arriverebbe a "));
 }
 
 TEST(IsorunRestart, ThatCannotBeWrittenIsTrouble) {

@@ -1,9 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -66,6 +68,7 @@ const std::map<std::string, std::set<std::string>> kKeys = {
     {"tool", {"line", "kind", "head", "holder", "tool"}},
     {"frame", {"line", "kind", "workpiece", "face"}},
     {"jump", {"line", "kind", "taken", "target"}},
+    {"update", {"line", "kind"}},
     {"end", {"line", "kind"}},
 };
 
@@ -123,6 +126,12 @@ TEST(IsorunTrace, TellsWhatHappensInItsOrder) {
   EXPECT_EQ(timeless(events[11]), json::parse(R"({"line": 11, "kind": "end"})"));
 }
 
+TEST(IsorunTrace, TellsOfG990) {
+  const std::vector<json> events = trace_of("M06 T101001\nG01 X100 F6000\nG990\nX200\nM02\n");
+  EXPECT_THAT(kinds_in(events), ElementsAre("tool", "feed", "update", "feed", "end"));
+  EXPECT_EQ(timeless(events[2]), json::parse(R"({"line": 3, "kind": "update"})"));
+}
+
 TEST(IsorunTrace, ToAFileLeavesTheSummaryOnStandardOutput) {
   const TemporaryFolder folder;
   const std::string trace = folder.path("trace.jsonl");
@@ -148,15 +157,18 @@ TEST(IsorunSummary, AddsUpWhatWasDone) {
   const CommandResult result = run_command({"isorun", ISOCNC_SOURCE_DIR "/examples/pocket.iso"});
   EXPECT_EQ(result.out,
             "result: ran to M02, line 69\n"
-            "cycle time: 46.3 s (cutting 19.8 s, rapids 2.4 s, waiting 24.0 s)\n"
+            "cycle time: 46.3 s (rapids 2.4 s, feed moves 18.2 s, arcs 1.7 s, tool changes 16.0 s, spindle 8.0 s)\n"
             "blocks: 63\n"
             "rapids: 8 (1083.213 mm)\n"
-            "feed moves: 32, arcs: 14 (1698.201 mm)\n"
-            "extents (machine): X 0.000..554.000, Y 0.000..354.000, Z -197.500..0.000, B 0.000..0.000, "
-            "C 0.000..0.000\n"
-            "tool T101001: 27.9 s, feed moves 1316.237 mm, rapids 800.725 mm\n"
-            "tool T102003: 18.3 s, feed moves 381.965 mm, rapids 282.488 mm\n"
-            "final position (machine): X350.000 Y220.000 Z-155.500 B0.000 C0.000\n");
+            "feed moves: 32 (1559.971 mm), arcs: 14 (138.230 mm)\n"
+            "extents (machine): X 0.000..554.000, Y 0.000..354.000, Z -197.500..0.000, B 0.000..0.000, C 0.000..0.000\n"
+            "extents (workpiece frame of line 5): X -350.000..204.000, Y -220.000..134.000, Z -12.000..185.500\n"
+            "tool T101001: 27.9 s (rapids 1.4 s, feed moves 14.0 s, arcs 0.5 s, tool changes 8.0 s, spindle 4.0 s); "
+            "feed moves 1316.237 mm, rapids 800.725 mm\n"
+            "tool T102003: 18.3 s (rapids 1.0 s, feed moves 4.2 s, arcs 1.2 s, tool changes 8.0 s, spindle 4.0 s); "
+            "feed moves 381.965 mm, rapids 282.488 mm\n"
+            "final position (machine): X350.000 Y220.000 Z-155.500 B0.000 C0.000\n"
+            "final state: tool T102003, S18000 M05, F4500, G00 G17 G27 G38 G40 G48 G71 G90 G92 G94\n");
   EXPECT_EQ(result.err, "");
   EXPECT_EQ(result.status, 0);
 }
@@ -179,6 +191,72 @@ TEST(IsorunSummary, IsJsonOnRequest) {
   EXPECT_EQ(summary["tools"][1].at("feedMm"), 10);
   EXPECT_NEAR(summary["tools"][0].at("seconds").get<double>() + summary["tools"][1].at("seconds").get<double>(),
               summary.at("seconds").get<double>(), 1e-9);
+}
+
+TEST(IsorunSummary, TellsExtentsInEachFrame) {
+  const json summary = summary_of(
+      "M06 T101001\nG00 X5\nG92 X100 Y200 Z-50\nG00 X10 Y20 Z5\nG29 X50 B90\nG01 X30 Z5 F1000\nG27\nG00 Y40\n"
+      "G92 X0\nG29 Z7\nG27\nM02\n");
+  const json& frames = summary.at("frames");
+  ASSERT_EQ(frames.size(), 2u) << "nothing moved in the others";
+  EXPECT_EQ(frames[0].at("line"), 3);
+  EXPECT_EQ(frames[0].at("kind"), "workpiece");
+  EXPECT_EQ(frames[0].at("origin"), json::parse("[100.0, 200.0, -50.0]"));
+  EXPECT_EQ(frames[0].at("extents").at("X"), json::parse("[-95.0, 55.0]"));
+  EXPECT_EQ(frames[0].at("extents").at("Y"), json::parse("[-200.0, 40.0]")) << "and again behind G27";
+  EXPECT_EQ(frames[1].at("line"), 5);
+  EXPECT_EQ(frames[1].at("kind"), "face");
+  EXPECT_NEAR(frames[1].at("extents").at("X")[0].get<double>(), -5, 1e-9);
+  EXPECT_NEAR(frames[1].at("extents").at("X")[1].get<double>(), 30, 1e-9);
+  EXPECT_NEAR(frames[1].at("extents").at("Z")[0].get<double>(), -40, 1e-9);
+  EXPECT_EQ(summary.at("framesLeftOut"), 0);
+}
+
+TEST(IsorunSummary, KeepsAFewFramesOfMany) {
+  std::string program = "M06 T101001\n";
+  for (int i = 0; i < 300; ++i) program += "G92 X" + std::to_string(i) + "\nG00 X1\n";
+  const json summary = summary_of(program + "M02\n");
+  EXPECT_EQ(summary.at("frames").size(), 100u);
+  EXPECT_EQ(summary.at("framesLeftOut"), 200);
+}
+
+TEST(IsorunSummary, TellsWhatTheTimeGoesInto) {
+  const json summary = summary_of(
+      "M06 T101001\nS9000 M03\nG00 X10\nG01 X20 F1000 G09\nG03 X40 I30 J0\nG04 P1.5\nM06 T101002\nG00 X0\nM02\n");
+  const json& times = summary.at("times");
+  EXPECT_EQ(times.at("dwells"), 1.5);
+  EXPECT_EQ(times.at("toolChanges"), 16.0);
+  EXPECT_EQ(times.at("spindle"), 2.0);
+  EXPECT_EQ(times.at("exactStops"), 0.1);
+  EXPECT_EQ(times.at("functions"), 0.0);
+  EXPECT_EQ(times.at("rapids"), summary.at("rapids").at("seconds"));
+  double sum = 0;
+  for (const auto& [work, seconds] : times.items()) {
+    sum += seconds.get<double>();
+    EXPECT_NEAR(summary["tools"][0]["times"][work].get<double>() + summary["tools"][1]["times"][work].get<double>(),
+                seconds, 1e-9)
+        << work;
+  }
+  EXPECT_NEAR(sum, summary.at("seconds"), 1e-9);
+}
+
+TEST(IsorunSummary, TellsTheStateAtTheEnd) {
+  const json summary = summary_of("M06 T102003\nS12000 M03\nG01 X10 F4000\nG91 G18\nM02\n");
+  EXPECT_EQ(summary.at("finalState"), json::parse(R"({
+    "tool": "T102003", "spindle": {"speed": 12000.0, "m": 3}, "feed": 4000.0,
+    "modes": ["G01", "G18", "G27", "G38", "G40", "G48", "G71", "G91", "G92", "G94"]})"));
+  EXPECT_EQ(summary.at("finalJoints"), json::parse("[10.0, 0.0, 0.0, 0.0, 0.0]"));
+  EXPECT_EQ(summary_of("M02\n").at("finalState").at("tool"), nullptr);
+  const std::string text =
+      run_command({"isorun", "-"}, {.input = "M06 T102003\nS12000 M03\nG00 X10\nM06 T1 01 001\nM02\n"}).out;
+  EXPECT_THAT(text, HasSubstr("final state: tool T101001, S12000 M05, G00 G17 G27 G38 G40 G48 G71 G90 G92 G94\n"))
+      << "a tool change stops the spindle";
+}
+
+TEST(IsorunSummary, FollowsTheTipWhereARapidTurnsB) {
+  const json summary = summary_of("M06 T101001\nG00 B90\nM02\n");
+  EXPECT_GT(summary.at("rapids").at("lengthMm"), 100) << "the head's pivot swings the tip";
+  EXPECT_LT(summary.at("extents").at("Z")[0], -30);
 }
 
 TEST(IsorunSummary, KeepsWhatWasDoneBeforeAnError) {
@@ -215,6 +293,83 @@ TEST(IsorunMachine, GivesTimesAndTravel) {
   EXPECT_GT(whole.at("seconds"), 7);
 }
 
+TEST(IsorunMachine, OfTheExampleReachesAllThatTheExampleAsksFor) {
+  const CommandResult result = run_command({"isorun", "--json", ISOCNC_SOURCE_DIR "/examples/machine/shelf.iso"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(json::parse(result.out).at("outsideTravel"), json::array()) << "with tools of 120 and 95 mm";
+}
+
+TEST(IsorunMachine, TellsWhatIsAskedBeyondItsLimits) {
+  const TemporaryFolder folder;
+  const std::string machine = folder.write(
+      "machine.json", R"({"machine": {"maxFeed": 3000, "maxRotarySpeed": 600, "maxSpindleSpeed": 18000}})");
+  const std::string program =
+      "M06 T101001\nS18000 M03\nG01 X300 F3000\nX0 F6000\nG93\nX300 F60\nG94\nG49\nB20 F900\nS24000\nM02\n";
+  const json summary = summary_of(program, {"--machine", machine});
+  EXPECT_EQ(summary.at("aboveLimits"), json::parse(R"([
+    {"limit": "feed", "line": 4, "most": 18000.0, "allowed": 3000.0},
+    {"limit": "rotarySpeed", "line": 9, "most": 900.0, "allowed": 600.0},
+    {"limit": "spindleSpeed", "line": 10, "most": 24000.0, "allowed": 18000.0}])"));
+  EXPECT_GT(summary.at("feeds").at("seconds"), 3 * 300.0 / 50 + 2);
+  EXPECT_LT(summary.at("feeds").at("seconds"), 3 * 300.0 / 50 + 2.5);
+  EXPECT_EQ(summary_of(program).at("aboveLimits"), json::array());
+  const std::string text = run_command({"isorun", "--lang", "it", "--machine", machine, "-"}, {.input = program}).out;
+  EXPECT_THAT(text, HasSubstr("avanzamento oltre quello della macchina: 18000 mm/min (limite 3000), per la prima volta "
+                              "alla riga 4\n"));
+}
+
+/// A cutter of 10 mm radius.
+constexpr std::string_view kCutter = R"({"machine": {"tools": [{"head": 1, "holder": 1, "tool": 1, "radius": 10}]}})";
+
+/// The entry leads across the contour, and an inside arc is too small.
+constexpr std::string_view kGouging =
+    "M06 T101001\nG01 X30 Y20 F5000\nG41 G01 X0 Y0\nY45\nG03 X-5 Y50 R5\nG01 X-40\nG40\nM02\n";
+
+TEST(IsorunCompensation, MovesTheTipByTheRadiusOfTheTool) {
+  const TemporaryFolder folder;
+  const std::string machine = folder.write("machine.json", kCutter);
+  const std::string program = "M06 T101001\nG00 Y-30\nG42 G01 X0 Y0 F1000\nX80\nY40\nM02\n";
+  const std::vector<json> events = trace_of(program, {"--machine", machine});
+  EXPECT_THAT(kinds_in(events), ElementsAre("tool", "rapid", "feed", "feed", "arc", "feed", "end"));
+  EXPECT_EQ(events[3].at("to"), json::parse("[80.0, -10.0, 0.0, 0.0, 0.0]"));
+  EXPECT_EQ(events[4].at("line"), 4);
+  EXPECT_NEAR(events[4].at("sweepDeg").get<double>(), 90, 1e-9);
+  EXPECT_EQ(summary_of(program, {"--machine", machine}).at("final"), json::parse("[90.0, 40.0, 0.0, 0.0, 0.0]"));
+  EXPECT_EQ(summary_of(program).at("final"), json::parse("[80.0, 40.0, 0.0, 0.0, 0.0]"));
+}
+
+TEST(IsorunCompensation, WarnsBesideTheSummary) {
+  const TemporaryFolder folder;
+  const std::string machine = folder.write("machine.json", kCutter);
+  const Surroundings input{.input = std::string(kGouging)};
+  const CommandResult result = run_command({"isorun", "--machine", machine, "-"}, input);
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.err,
+            "<stdin>:3: warning: here a cutter of radius 10 mm goes into the contour that it should leave [W138]\n"
+            "<stdin>:5: warning: an inside arc of radius 5 mm is too small for a cutter of radius 10 mm [W139]\n");
+  EXPECT_THAT(run_command({"isorun", "--lang", "it", "--machine", machine, "-"}, input).err,
+              HasSubstr("<stdin>:5: avviso: un arco interno di raggio 5 mm"));
+  const json warnings = summary_of(std::string(kGouging), {"--machine", machine}).at("warnings");
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_EQ(warnings[0].at("line"), 3);
+  EXPECT_EQ(warnings[0].at("code"), "W138");
+  EXPECT_EQ(warnings[1].at("name"), "inside-arc-too-small");
+  EXPECT_EQ(summary_of(std::string(kGouging)).at("warnings"), json::array());
+}
+
+TEST(IsorunCompensation, OfTheExampleSparesTheContour) {
+  const std::string examples = ISOCNC_SOURCE_DIR "/examples";
+  const CommandResult result = run_command({"isorun", "--config", examples + "/compensation/isocnc.json", "--trace",
+                                            "-", examples + "/contour-compensation.iso"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.err, "");
+  std::set<long> radii;
+  for (const json& event : events_in(result.out))
+    if (event.at("kind") == "arc") radii.insert(std::lround(event.at("radius").get<double>()));
+  // The window: 15 and 20 less 8. The panel: 30 and 8 more, the ways on and off it 20 less 8; corners of its own: 8.
+  EXPECT_THAT(radii, IsSupersetOf({7L, 12L, 38L}));
+}
+
 TEST(IsorunSamples, FollowTheTipInSteps) {
   const std::vector<json> samples = events_in(run_command({"isorun", "--samples", "-", "--dt", "0.05", "-"},
                                                           {.input = "M06 T101001\nG01 X100 F6000\nG04 P1\nX0\nM02\n"})
@@ -230,17 +385,84 @@ TEST(IsorunSamples, FollowTheTipInSteps) {
   EXPECT_EQ(samples.back().at("speed"), 0.0);
 }
 
-TEST(IsorunPlot, IsAPictureOfWhatWasDone) {
+/// Home is where the spindle nose is, tool or none; a tool change moves no joint.
+TEST(IsorunSamples, BeginAtHomeAndShowTheToolThatIsMounted) {
   const TemporaryFolder folder;
-  const std::string program = folder.write("a<b>&.iso", "M06 T101001\nG00 X50\nG03 X50 Y40 R20 F1000\nM02\n");
-  const std::string plot = folder.path("part.svg");
-  EXPECT_EQ(run_command({"isorun", "--plot", plot, program}).status, 0);
+  const std::string machine = folder.write("machine.json", R"({"machine": {
+    "home": {"x": 10, "y": 20, "z": 450, "c": 30}, "times": {"toolChange": 1},
+    "tools": [{"head": 1, "holder": 1, "tool": 1, "length": 100}]}})");
+  const std::vector<json> samples =
+      events_in(run_command({"isorun", "--machine", machine, "--samples", "-", "--dt", "0.5", "-"},
+                            {.input = "G04 P1\nM06 T101001\nG04 P1\nG00 X50\nM02\n"})
+                    .out);
+  ASSERT_GT(samples.size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(samples[i].at("joints"), json::parse("[10.0, 20.0, 450.0, 0.0, 30.0]")) << i;
+    EXPECT_EQ(samples[i].at("tip").at(2), i < 4 ? 450.0 : 350.0) << i;
+  }
+  EXPECT_EQ(samples.back().at("joints").at(2), 450.0);
+  EXPECT_EQ(samples.back().at("tip").at(0), 50.0);
+}
+
+/// The SVG of a program.
+std::string svg_of(const std::string& program, const std::string& name = "part.iso") {
+  const TemporaryFolder folder;
+  const std::string plot = folder.path("plot.svg");
+  EXPECT_EQ(run_command({"isorun", "--plot", plot, folder.write(name, program)}).status, 0);
   std::stringstream svg;
   svg << std::ifstream(plot).rdbuf();
-  EXPECT_THAT(svg.str(), StartsWith("<svg "));
-  EXPECT_THAT(svg.str(), HasSubstr("a&lt;b&gt;&amp;.iso</title>"));
-  EXPECT_THAT(svg.str(), HasSubstr("d=\"M0.000 -0.000L50.000 -0.000\""));
-  EXPECT_THAT(svg.str(), HasSubstr("T101001"));
+  return svg.str();
+}
+
+TEST(IsorunPlot, IsAPictureOfWhatWasDone) {
+  const std::string svg = svg_of("M06 T101001\nG00 X50\nG03 X50 Y40 R20 F1000\nM02\n", "a<b>&.iso");
+  EXPECT_THAT(svg, StartsWith("<svg "));
+  EXPECT_THAT(svg, HasSubstr("a&lt;b&gt;&amp;.iso</title>"));
+  EXPECT_THAT(svg, HasSubstr("d=\"M0.000 -0.000L50.000 -0.000\""));
+  EXPECT_THAT(svg, HasSubstr("T101001"));
+}
+
+/// A rapid turns B with the axes going straight, so that the tip swings out.
+TEST(IsorunPlot, ShowsWhereTheTipGoes) {
+  const std::string svg = svg_of("M06 T101001\nG00 X100 B90\nM02\n");
+  const std::size_t begin = svg.find("d=\"M0.000 ");
+  ASSERT_NE(begin, std::string::npos);
+  const std::string path = svg.substr(begin, svg.find("\"/>", begin) - begin);
+  EXPECT_GT(std::count(path.begin(), path.end(), 'L'), 10) << path;
+}
+
+TEST(IsorunPlot, ShowsStrokesAlongTheViewAsDots) {
+  EXPECT_THAT(svg_of("M06 T101001\nG00 X5 Y6\nG01 Z-3 F100\nZ0\nM02\n"),
+              HasSubstr("d=\"M5.000 -6.000h0M5.000 -6.000h0"));
+  EXPECT_THAT(svg_of("M06 T101001\nG01 Z-3 F100\nM02\n"), HasSubstr("d=\"M0.000 -0.000h0\""));
+}
+
+TEST(IsorunPlot, ShowsFramesWithoutMotion) {
+  const std::string svg = svg_of("G92 X10 Y20 Z30\nM02\n");
+  EXPECT_THAT(svg, HasSubstr("class=\"frame\""));
+  EXPECT_THAT(svg, HasSubstr("The program moves nothing."));
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_EQ(svg_of("M02\n").find("class=\"frame\""), std::string::npos);
+}
+
+/// Whether this isorun draws HTML; it says why when it does not.
+TEST(IsorunPlot, IsAPageOrSaysWhyNot) {
+  const TemporaryFolder folder;
+  const std::string plot = folder.path("PLOT.HTML");
+  const std::string program = folder.write("part.iso", "M06 T101001 ; </script><script>\nG00 X50\nM02\n");
+  const CommandResult result = run_command({"isorun", "--plot", plot, program});
+  if (result.status == 2) {
+    EXPECT_THAT(result.err, HasSubstr("it was built without npm"));
+    EXPECT_FALSE(std::filesystem::exists(plot));
+    return;
+  }
+  EXPECT_EQ(result.status, 0);
+  std::stringstream page;
+  page << std::ifstream(plot).rdbuf();
+  EXPECT_THAT(page.str(), StartsWith("<!doctype html>"));
+  EXPECT_THAT(page.str(), HasSubstr("<title>part.iso</title>"));
+  EXPECT_THAT(page.str(), HasSubstr("Content-Security-Policy"));
+  EXPECT_EQ(page.str().find("M06 T101001"), std::string::npos);
 }
 
 TEST(IsorunOptions, RefuseWhatMakesNoSense) {
@@ -251,7 +473,8 @@ TEST(IsorunOptions, RefuseWhatMakesNoSense) {
     EXPECT_EQ(result.status, 2);
     return result.err;
   };
-  EXPECT_EQ(said({"--plot", "a.png"}), "isorun: --plot writes SVG, so the name has to end in .svg, unlike a.png\n");
+  EXPECT_EQ(said({"--plot", "a.png"}), "isorun: --plot writes a file whose name ends in .svg or .html, unlike a.png\n");
+  EXPECT_EQ(said({"--plot", ".html"}), "isorun: --plot writes a file whose name ends in .svg or .html, unlike .html\n");
   EXPECT_THAT(said({"--samples", "x", "--dt", "0"}), StartsWith("isorun: --dt wants a plain number of seconds"));
   EXPECT_EQ(said({"--trace", "-", "--samples", "-"}), "isorun: --trace - and --samples - both want standard output\n");
   EXPECT_EQ(said({"--plot", "/no/such/folder/x.svg"}),
@@ -343,6 +566,30 @@ TEST(IsorunUntil, StopsBeforeTheLine) {
   EXPECT_THAT(result.out, StartsWith("result: stopped where asked, line 2\n"));
   EXPECT_THAT(kinds_in(trace_of(kCleanProgram, {"--until", "2"})), ElementsAre("tool"));
   EXPECT_THAT(kinds_in(trace_of(kCleanProgram, {"--until", "100"})), ElementsAre("tool", "rapid", "end"));
+}
+
+TEST(IsorunUntil, BehindAJumpOverTheLineStopsWhereItLeads) {
+  const Surroundings forked{.input = std::string(kForkedProgram)};
+  const CommandResult result = run_command({"isorun", "--vgpl", "1", "--until", "4", "-"}, forked);
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.out, StartsWith("result: stopped where asked, line 5 (the IF of line 3 jumps over the line asked "
+                                     "for)\n"));
+  EXPECT_THAT(run_command({"isorun", "--lang", "it", "--vgpl", "1", "--until", "4", "-"}, forked).out,
+              StartsWith("esito: fermato dove richiesto, riga 5 (l'IF della riga 3 scavalca la riga richiesta)\n"));
+  EXPECT_THAT(kinds_in(trace_of(kForkedProgram, {"--vgpl", "1", "--until", "4"})),
+              ElementsAre("tool", "rapid", "jump"));
+  EXPECT_EQ(summary_of(std::string(kForkedProgram), {"--vgpl", "1", "--until", "4"}).at("jumpedOverFrom"), 3);
+  EXPECT_EQ(summary_of(std::string(kForkedProgram), {"--vgpl", "1", "--until", "5"}).at("jumpedOverFrom"), nullptr)
+      << "where it leads is not passed over";
+  EXPECT_EQ(summary_of(std::string(kForkedProgram), {"--until", "4"}).at("line"), 4);
+}
+
+/// A jump to nowhere is no way around the line.
+TEST(IsorunUntil, BehindAJumpToNowhereIsAnError) {
+  const CommandResult result =
+      run_command({"isorun", "--until", "3", "-"}, {.input = "M06 T101001\nIF VGPL = 0 GOTO N5\nG00 X1\nM02\n"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, HasSubstr("[E004]"));
 }
 
 TEST(IsorunUsage, RefusesWhatItDoesNotKnow) {
@@ -465,6 +712,53 @@ TEST(IsorunInput, IsNotOverwrittenByItsTrace) {
   EXPECT_EQ(result.status, 2);
   EXPECT_EQ(result.err, "isorun: ./part.iso: this would overwrite the program\n");
   EXPECT_EQ(run_command({"isorun", file}).status, 0);
+}
+
+/// Whatever is read stays as it is, and each output has a file of its own; links and other names make no difference.
+TEST(IsorunOutput, GoesToFilesOfItsOwn) {
+  const TemporaryFolder folder;
+  const std::string program = folder.write("part.iso", kCleanProgram);
+  const std::string configuration = folder.write("isocnc.json", "{}");
+  const std::string machine = folder.write("machine.json", "{}");
+  const std::string taken = folder.write("old.jsonl", "old\n");
+  std::filesystem::create_directory(folder.path("sub"));
+  std::filesystem::create_symlink("old.jsonl", folder.path("link"));
+  std::filesystem::create_hard_link(taken, folder.path("hard"));
+  std::filesystem::create_symlink("nothing.svg", folder.path("dangling"));
+  std::filesystem::create_symlink("isocnc.json", folder.path("config.svg"));
+  const auto said = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), "isorun");
+    options.push_back("part.iso");
+    const CommandResult result = run_command(options, {.folder = folder.path()});
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(result.status, 2);
+    return result.err;
+  };
+  EXPECT_EQ(said({"--trace", "new", "--samples", "new"}),
+            "isorun: new: --trace and --samples would both be written there\n");
+  EXPECT_EQ(said({"--trace", "new", "--samples", "sub/../new"}),
+            "isorun: new: --trace and --samples would both be written there\n");
+  EXPECT_EQ(said({"--trace", "old.jsonl", "--samples", "link"}),
+            "isorun: old.jsonl: --trace and --samples would both be written there\n");
+  EXPECT_EQ(said({"--samples", folder.path("hard"), "--trace", "old.jsonl", "--lang", "it"}),
+            "isorun: old.jsonl: ci scriverebbero sia --trace sia --samples\n");
+  EXPECT_EQ(said({"--trace", "dangling", "--plot", "nothing.svg"}),
+            "isorun: dangling: --trace and --plot would both be written there\n");
+  EXPECT_EQ(said({"--plot", "config.svg"}), "isorun: config.svg: this would overwrite the configuration\n");
+  EXPECT_EQ(said({"--samples", "isocnc.json", "--lang", "it"}),
+            "isorun: isocnc.json: così si sovrascriverebbe la configurazione\n");
+  EXPECT_EQ(said({"--machine", "machine.json", "--samples", machine}),
+            "isorun: " + machine + ": this would overwrite the machine's file\n");
+  EXPECT_EQ(said({"--machine", "machine.json", "--restart-at", "2", "-o", "machine.json"}),
+            "isorun: machine.json: this would overwrite the machine's file\n");
+  EXPECT_EQ(run_command({"isorun", "--trace", "/dev/null", "--samples", "/dev/null", program}).status, 0);
+  for (const auto& [file, content] : std::map<std::string, std::string>{
+           {program, std::string(kCleanProgram)}, {configuration, "{}"}, {machine, "{}"}, {taken, "old\n"}}) {
+    std::stringstream now;
+    now << std::ifstream(file).rdbuf();
+    EXPECT_EQ(now.str(), content) << file;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.path("new")));
 }
 
 TEST(IsorunInput, MayBeginWithAByteOrderMark) {

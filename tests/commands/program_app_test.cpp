@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -21,7 +22,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 /// What all our programs answer in the same way.
 class Program : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(All, Program, testing::Values("isolint", "isofmt", "isorun"),
+INSTANTIATE_TEST_SUITE_P(All, Program, testing::Values("isolint", "isofmt", "isorun", "isols"),
                          [](const auto& program) { return program.param; });
 
 TEST_P(Program, HelpFitsTheScreen) {
@@ -29,6 +30,58 @@ TEST_P(Program, HelpFitsTheScreen) {
   for (const std::string& line : lines) EXPECT_LE(line.size(), 80u) << line;
   EXPECT_LE(lines.size(), 60u);
   EXPECT_GE(lines.size(), 10u);
+}
+
+/// Columns as a screen counts them.
+std::size_t width_of(const std::string& line) {
+  return static_cast<std::size_t>(
+      std::count_if(line.begin(), line.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+TEST_P(Program, SpeaksItalianInItsHelp) {
+  for (const CommandResult& result :
+       {run_command({GetParam(), "--lang", "it", "--help"}), run_command({GetParam(), "--help", "--lang=it"}),
+        run_command({GetParam(), "--help"}, {.environment = {{"LANG", "it_IT.UTF-8"}}})}) {
+    EXPECT_THAT(result.out, HasSubstr("\nUso: " + GetParam() + " "));
+    EXPECT_THAT(result.out, HasSubstr("Mostra questo aiuto"));
+    EXPECT_THAT(result.out, HasSubstr("en o it; altrimenti"));
+    for (const char* const english : {"Usage", "Options", "Print", " the "})
+      EXPECT_THAT(result.out, testing::Not(HasSubstr(english)));
+    for (const std::string& line : lines_of(result.out)) EXPECT_LE(width_of(line), 80u) << line;
+  }
+  EXPECT_THAT(run_command({GetParam(), "--lang", "en", "--help"}, {.environment = {{"LANG", "it_IT.UTF-8"}}}).out,
+              HasSubstr("Usage: " + GetParam()));
+  EXPECT_THAT(run_command({GetParam(), "--manual-page"}, {.environment = {{"LANG", "it_IT.UTF-8"}}}).out,
+              HasSubstr("Print this help message"));
+}
+
+/// Wherever the mistake stands: before what tells the language, or where that cannot be read any more.
+TEST_P(Program, ComplainsInItalian) {
+  EXPECT_THAT(run_command({GetParam(), "--lang", "it", "--langg"}).err, HasSubstr("opzione sconosciuta: --langg"));
+  EXPECT_THAT(run_command({GetParam(), "--langg", "--lang=it"}).err, HasSubstr("opzione sconosciuta: --langg"));
+}
+
+TEST(IsolintCommand, ComplainsOfValuesInItalian) {
+  EXPECT_THAT(run_command({"isolint", "--lang", "it", "--jobs"}).err, HasSubstr("--jobs: manca il valore"));
+  EXPECT_THAT(run_command({"isofmt", "--lang", "it", "--decimals", "x", "a.iso"}).err,
+              HasSubstr("--decimals: x non c'è, solo 0, 1, "));
+  EXPECT_THAT(run_command({"isolint", "--lang", "it", "--output", "", "a.iso"}).err, HasSubstr("--output: "));
+}
+
+TEST(IsolintCommand, WantsANameForItsOutput) {
+  const CommandResult result = run_command({"isolint", "--output", "", "-"}, {.input = "M02\n"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err, HasSubstr("--output"));
+}
+
+/// One of two equally near numbers would mislead, and so would an option that --help does not list.
+TEST(IsolintCommand, GuessesWhatCanBeMeant) {
+  const std::string decimals = run_command({"isofmt", "--decimals", "99", "a.iso"}).err;
+  EXPECT_THAT(decimals, HasSubstr("there is no 99, only 0, 1, "));
+  EXPECT_THAT(decimals, testing::Not(HasSubstr("did you mean")));
+  EXPECT_THAT(run_command({"isolint", "--rules"}).err, testing::Not(HasSubstr("--rules-page")));
+  EXPECT_THAT(run_command({"isolint", "--frmt", "json"}).err, HasSubstr("did you mean --format?"));
 }
 
 TEST_P(Program, GuessesTheOptionThatWasMeant) {

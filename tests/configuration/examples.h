@@ -41,7 +41,17 @@ inline constexpr WrongText kWrongTexts[] = {
     {R"({"machine": {"home": {"x": "1"}}})", "1:28: machine.home.x: this is text; a number is wanted"},
     {R"({"machine": {"home": {"x": 1e7}}})", "1:28: machine.home.x: 10000000 is too large: at most 1000000 mm"},
     {R"({"machine": {"home": {"b": -1e7}}})", "1:28: machine.home.b: -10000000 is too small: at least -100000 degrees"},
-    {R"({"machine": {"maxFeed": 0}})", "1:25: machine.maxFeed: 0 is too small: more than 0 mm/min"},
+    {R"({"machine": {"maxFeed": 0}})", "1:25: machine.maxFeed: 0 is too small: at least 1 mm/min"},
+    {R"({"machine": {"axes": {"X": {"rapid": 1e-300}}}})",
+     "1:38: machine.axes.X.rapid: 1e-300 is too small: at least 1 mm/min"},
+    {R"({"machine": {"axes": {"B": {"acceleration": 0.5}}}})",
+     "1:45: machine.axes.B.acceleration: 0.5 is too small: at least 1 degrees/s^2"},
+    {R"({"machine": {"tolerances": {"arc": 0, "chord": 1e-300, "corner": 1e-5}}})",
+     "1:36: machine.tolerances.arc: 0 is too small: at least 1e-06 mm\n"
+     "1:48: machine.tolerances.chord: 1e-300 is too small: at least 0.0001 mm\n"
+     "1:66: machine.tolerances.corner: 1e-05 is too small: at least 0.0001 mm"},
+    {R"({"machine": {"tools": [{"head": 1, "holder": 1, "tool": 1, "length": 0}]}})",
+     "1:70: machine.tools[0].length: 0 is too small: more than 0 mm"},
     {R"({"machine": {"tools": {}}})", "1:23: machine.tools: this is an object { }; a list [ ] is wanted"},
     {R"({"machine": {"tools": [7]}})", "1:24: machine.tools[0]: this is a number; an object { } is wanted"},
     {R"({"machine": {"tools": [{"head": 1, "holder": 0, "tool": 2.5}]}})",
@@ -74,7 +84,8 @@ inline constexpr WrongText kWrongTexts[] = {
     {R"({"format": {"wordOrder": 1}})", "1:26: format.wordOrder: this is a number; true or false is wanted"},
     {R"({"format": {"decimals": 16, "gDigits": 3}})",
      "1:25: format.decimals: 16 is too large: at most 15\n1:40: format.gDigits: 3 is too large: at most 2"},
-    {R"({"format": {"modal": "folded"}})", "1:22: format.modal: folded is none of keep, write, fold"},
+    {R"({"format": {"modal": "folded"}})",
+     "1:22: format.modal: folded is none of keep, write, fold; did you mean fold?"},
     {R"({"format": {"renumber": {"step": 0}}})", "1:34: format.renumber.step: 0 is too small: at least 1"},
     // Keys.
     {R"({"lintt": {}})", "1:2: lintt: unknown key; did you mean lint?"},

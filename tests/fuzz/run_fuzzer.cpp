@@ -1,9 +1,12 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 
+#include "interpreter/running/compensation.h"
 #include "interpreter/running/restart.h"
 #include "interpreter/running/runner.h"
+#include "interpreter/running/summary.h"
 #include "require.h"
 
 namespace isocnc::fuzz {
@@ -29,9 +32,73 @@ static void run_program(std::string_view text, bool stop_at_errors) {
   require(stop_at_errors || result.ending != running::Ending::Until, "nothing but `until` ends a run there");
 }
 
+/// Head, travel and tools: all that a motion can meet.
+static running::TimedMachine machine() {
+  running::TimedMachine machine{.motion = motion::head_router()};
+  machine.tool_lengths[execution::tool_code(101001)] = 120;
+  machine.home.tip.z() = 500;
+  return machine;
+}
+
+/// Arcs of kilometers take the planner its time, and tell nothing that shorter ones do not: the rest of such a program
+/// is left out.
+static void time_program(std::string_view text) {
+  constexpr double kLongestWay = 1e4;
+  const running::TimedMachine timed_on = machine();
+  running::Summary summary(timed_on);
+  std::size_t taken = 0;
+  std::size_t told = 0;
+  double last = 0;
+  running::Timing timing(timed_on, {.event = [&](const running::TimedEvent& timed) {
+                           ++told;
+                           require(timed.start >= last - 1e-9 * last, "events come in the order of their times");
+                           require(timed.duration >= 0 && std::isfinite(timed.start + timed.duration),
+                                   "times are numbers");
+                           last = timed.start;
+                           summary.add(timed);
+                         }});
+  double way = 0;
+  running::RunOptions options;
+  options.setup.home = timed_on.home;
+  const auto result = running::run(text, options, [&](const running::Event& event) {
+    if (const auto* const move = std::get_if<running::MoveEvent>(&event.what)) way += move->length;
+    if (!(way <= kLongestWay)) return;
+    if (!std::holds_alternative<running::ExactStopEvent>(event.what)) ++taken;
+    timing.take(event);
+  });
+  timing.finish();
+  require(told == taken, "each event is told once");
+  require(std::isfinite(timing.time()), "a run ends");
+  summary.finish(result, timing.time(), timing.joints(), {});
+  require(!summary.json("-", dialect::Language::English).empty(), "a run has its summary");
+  require(!summary.text(dialect::Language::Italian).empty(), "a run has its summary");
+}
+
+static void follow_tool(std::string_view text) {
+  running::TimedMachine machine;
+  machine.tool_radii[{1, 1, 1}] = 4;
+  std::uint64_t line = 0;
+  std::uint64_t warned = 0;
+  const running::Compensation::Listeners listeners{
+      .event =
+          [&](const running::Event& event) {
+            require(event.line >= line, "a tool goes forward");
+            line = event.line;
+          },
+      .warning = [&](const running::RunWarning& warning) { warned = std::max(warned, warning.line); }};
+  running::Compensation compensation(machine);
+  running::RunOptions options;
+  options.stop_at_errors = false;
+  running::run(text, options, [&](const running::Event& event) { compensation.take(event, listeners); });
+  compensation.finish(listeners);
+  require(warned <= most_lines(text), "warnings have their line");
+}
+
 static void restart_program(std::string_view text) {
   running::RestartOptions options;
   options.line = text.size() % most_lines(text);
+  options.machine = machine();
+  options.run.setup.home = options.machine.home;
   const auto made = running::restart_program(text, options);
   if (const auto* const program = std::get_if<std::string>(&made)) {
     const auto result = running::run(*program, options.run, [](const running::Event&) {});
@@ -49,6 +116,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text = isocnc::fuzz::as_text(data, size);
   isocnc::fuzz::run_program(text, true);
   isocnc::fuzz::run_program(text, false);
+  isocnc::fuzz::time_program(text);
+  isocnc::fuzz::follow_tool(text);
   isocnc::fuzz::restart_program(text);
   return 0;
 }

@@ -10,6 +10,8 @@
 #include "analyzer/selection.h"
 #include "analyzer/style_findings.h"
 #include "analyzer/suppressions.h"
+#include "interpreter/running/compensation.h"
+#include "interpreter/running/runner.h"
 #include "tests/support/report_text.h"
 
 namespace isocnc::dialect {
@@ -46,6 +48,25 @@ Report reported_in(std::string_view program, const DiagnosticDef& def) {
   return report;
 }
 
+/// What isorun would tell, with a cutter of 10 mm radius.
+std::string told_in_run_of(std::string_view program) {
+  running::TimedMachine machine;
+  machine.tool_radii[{1, 1, 1}] = 10;
+  std::string codes;
+  running::Compensation compensation(machine);
+  const running::Compensation::Listeners listeners{.event = [](const running::Event&) {},
+                                                   .warning =
+                                                       [&](const running::RunWarning& warning) {
+                                                         codes += std::string(definition(warning.id).code) + "@" +
+                                                                  std::to_string(warning.line + 1) + " ";
+                                                       }};
+  const auto result =
+      running::run(program, {}, [&](const running::Event& event) { compensation.take(event, listeners); });
+  compensation.finish(listeners);
+  EXPECT_EQ(result.ending, running::Ending::ProgramEnd) << program;
+  return codes;
+}
+
 std::string codes_of(const Report& report) {
   std::string codes;
   for (const auto& located : report.findings) {
@@ -62,6 +83,11 @@ TEST_P(Table, WrongProgramHasThisOneFindingAtItsMark) {
   if (def.wrong.empty()) GTEST_SKIP() << "cannot be shown in a few lines";
   const MarkedProgram wrong = read_marked(def.wrong);
   ASSERT_TRUE(wrong.has_mark);
+  if (def.is_told_by_runs) {
+    EXPECT_EQ(told_in_run_of(wrong.text), std::string(def.code) + "@" + std::to_string(wrong.line + 1) + " ")
+        << wrong.text;
+    return;
+  }
   const Report report = reported_in(wrong.text, def);
   ASSERT_EQ(report.findings.size(), 1u) << wrong.text << codes_of(report);
   EXPECT_EQ(definition(report.findings[0].finding.id).code, def.code) << wrong.text;
@@ -72,7 +98,11 @@ TEST_P(Table, WrongProgramHasThisOneFindingAtItsMark) {
 
 TEST_P(Table, RightProgramHasNone) {
   const DiagnosticDef& def = GetParam();
-  EXPECT_EQ(codes_of(reported_in(def.right.empty() ? "M02\n" : def.right, def)), "") << def.right;
+  const std::string_view right = def.right.empty() ? "M02\n" : def.right;
+  EXPECT_EQ(codes_of(reported_in(right, def)), "") << right;
+  if (def.is_told_by_runs) {
+    EXPECT_EQ(told_in_run_of(right), "") << right;
+  }
 }
 
 TEST_P(Table, TextsAreThereInBothLanguages) {

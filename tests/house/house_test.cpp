@@ -51,7 +51,12 @@ const std::vector<Room> kHouse = {
     {"analyzer",
      {"interpreter/dialect", "interpreter/syntax", "interpreter/geometry", "interpreter/execution",
       "interpreter/running", "interpreter/configuration", "analyzer"}},
+    {"lsp/rpc", {"lsp/rpc"}},
+    {"lsp/documents", {"interpreter", "analyzer", "lsp/rpc", "lsp/documents"}},
+    {"lsp/features", {"interpreter", "analyzer", "lsp/rpc", "lsp/documents", "lsp/features"}},
     {"lsp", {"interpreter", "analyzer", "lsp"}},
+    {"debugger/session", {"interpreter", "analyzer", "lsp/rpc", "debugger/session"}},
+    {"debugger/requests", {"interpreter", "analyzer", "lsp/rpc", "debugger/session", "debugger/requests"}},
     {"debugger", {"interpreter", "analyzer", "lsp/rpc", "debugger"}},
 };
 
@@ -130,6 +135,12 @@ TEST(House, QuietFoldersKnowNoFileScreenThreadOrProtocol) {
   }
 }
 
+TEST(House, OneFileKnowsTheLibraryOfCommandLines) {
+  for (const std::string& file : sources())
+    for (const Include& include : includes_of(file))
+      EXPECT_TRUE(!include.header.starts_with("CLI/") || file == "interpreter/running/program_app.cpp") << file;
+}
+
 TEST(House, EveryHeaderIsReadOnce) {
   for (const std::string& file : sources()) {
     if (!file.ends_with(".h")) continue;
@@ -150,9 +161,27 @@ TEST(Documentation, RulesPageIsTheTable) {
   EXPECT_TRUE(same) << "isolint --rules-page > docs/rules.md";
 }
 
+/// What a file says first behind `before`, up to the next quote, blank or bracket.
+std::string said_behind(const std::string& before, const std::string& file) {
+  const std::string text = read(kRoot / file);
+  const std::size_t begin = text.find(before);
+  if (begin == std::string::npos) return {};
+  const std::size_t at = begin + before.size();
+  return text.substr(at, text.find_first_of("\" ]\n", at) - at);
+}
+
+TEST(Documentation, VersionIsThatOfTheBuild) {
+  const std::string version = said_behind("project(isocnc VERSION ", "CMakeLists.txt");
+  ASSERT_FALSE(version.empty());
+  EXPECT_EQ(said_behind("\"version\": \"", "vscode-extension/package.json"), version);
+  EXPECT_EQ(said_behind("\n## [", "CHANGELOG.md"), version);
+  EXPECT_EQ(said_behind("find_package(isocnc ", "examples/library/CMakeLists.txt"),
+            version.substr(0, version.rfind('.')));
+}
+
 std::vector<fs::path> documents() {
   std::vector<fs::path> files;
-  for (const std::string folder : {".", "docs", "bench"})
+  for (const std::string folder : {".", "docs", "docs/it", "bench", "examples/ci"})
     for (const auto& entry : fs::directory_iterator(kRoot / folder))
       if (entry.path().extension() == ".md") files.push_back(entry.path());
   std::sort(files.begin(), files.end());

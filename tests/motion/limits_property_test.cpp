@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/motion/programs.h"
+#include "tests/support/random.h"
 
 namespace isocnc::motion {
 namespace {
@@ -21,11 +22,12 @@ struct Case {
 class RandomMoves : public testing::TestWithParam<Case> {
  protected:
   const Machine& machine() const { return GetParam().machine; }
+  bool limits_jerk() const { return machine().axes[kX].jerk.has_value(); }
 
   /// Calls `check(moves, stretches)` for many programs.
   template <typename Check>
   void for_programs(Check&& check) const {
-    for (std::uint64_t seed = 1; seed <= 25; ++seed) {
+    for (const std::uint64_t seed : support::seeds(limits_jerk() ? 12 : 25)) {
       SCOPED_TRACE("seed " + std::to_string(seed));
       const std::vector<Move> moves = random_moves(seed, 40);
       check(moves, plan(machine(), moves));
@@ -62,7 +64,38 @@ TEST_P(RandomMoves, KeepTheLimitsOfTheAxes) {
       });
     }
   });
-  EXPECT_GT(fullest, 0.999999) << "the limits are not used";
+  EXPECT_GT(fullest, limits_jerk() ? 0.99 : 0.999999) << "the limits are not used";
+}
+
+/// The jerk as the change of the acceleration, within phases and from each stretch to the next.
+TEST_P(RandomMoves, KeepTheJerk) {
+  if (!limits_jerk()) return;
+  constexpr int kParts = 8;
+  double fullest = 0;
+  for_programs([&](const std::vector<Move>&, const std::vector<Stretch>& stretches) {
+    Sample before;
+    for (const Stretch& stretch : stretches) {
+      double start = stretch.start;
+      const auto check = [&](const Sample& sample, double duration) {
+        for (int axis = 0; axis < kAxisCount; ++axis) {
+          const double most = *machine().axes[static_cast<std::size_t>(axis)].jerk;
+          const double change = std::abs(sample.joint_accelerations[axis] - before.joint_accelerations[axis]);
+          ASSERT_LE(change, most * kRelative * duration + 1e-6) << axis << " move " << stretch.tag;
+          if (duration > 1e-4) fullest = std::max(fullest, change / duration / most);
+        }
+        before = sample;
+      };
+      check(stretch.at(machine().kinematics, start), 0);
+      for (int i = 0; i < stretch.phase_count; ++i) {
+        const double duration = stretch.phases[static_cast<std::size_t>(i)].duration;
+        for (int part = 1; part <= kParts; ++part)
+          check(stretch.at(machine().kinematics, start + duration * part / kParts), duration / kParts);
+        start += duration;
+      }
+    }
+    ASSERT_LT(before.joint_accelerations.norm(), 1e-3) << "in the end";
+  });
+  EXPECT_GT(fullest, 0.9999) << "the limits are not used";
 }
 
 TEST_P(RandomMoves, KeepTheFeed) {
@@ -176,7 +209,10 @@ TEST_P(RandomMoves, HaveTheirStretchesInOrderAndEndWhereProgrammed) {
 
 INSTANTIATE_TEST_SUITE_P(Machines, RandomMoves,
                          testing::Values(Case{"ThreeAxis", three_axis_router()}, Case{"Head", head_router()},
-                                         Case{"Table", table_router()}),
+                                         Case{"Table", table_router()},
+                                         Case{"SoftThreeAxis", with_jerk(three_axis_router(), 30000)},
+                                         Case{"SoftHead", with_jerk(head_router(), 60000)},
+                                         Case{"SoftTable", with_jerk(table_router(), 20000)}),
                          [](const auto& each) { return each.param.name; });
 
 }  // namespace

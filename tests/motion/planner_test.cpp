@@ -5,7 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "interpreter/geometry/frame.h"
 #include "tests/motion/programs.h"
+#include "tests/support/random.h"
 
 namespace isocnc::motion {
 namespace {
@@ -223,14 +225,18 @@ bool equal(const Stretch& a, const Stretch& b) {
   if (a.tag != b.tag || a.ends_move != b.ends_move || a.start != b.start || a.duration != b.duration) return false;
   if (a.phase_count != b.phase_count || a.path.c != b.path.c) return false;
   for (std::size_t i = 0; i < static_cast<std::size_t>(a.phase_count); ++i)
-    if (a.phases[i].from != b.phases[i].from || a.phases[i].acceleration != b.phases[i].acceleration) return false;
+    if (a.phases[i].from != b.phases[i].from || a.phases[i].acceleration != b.phases[i].acceleration ||
+        a.phases[i].jerk != b.phases[i].jerk)
+      return false;
   return true;
 }
 
 /// Whoever asks for stretches late, or goes on with a copy, gets the same.
-TEST(Planner, CopiesAndLateReadersGetTheSame) {
-  const Machine machine = head_router();
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+class Reading : public testing::TestWithParam<Machine> {};
+
+TEST_P(Reading, CopiesAndLateReadersGetTheSame) {
+  const Machine& machine = GetParam();
+  for (const std::uint64_t seed : support::seeds(10)) {
     const std::vector<Move> moves = random_moves(seed, 300);
     const std::vector<Stretch> expected = plan(machine, moves);
     std::vector<Stretch> stretches;
@@ -251,6 +257,8 @@ TEST(Planner, CopiesAndLateReadersGetTheSame) {
       ASSERT_TRUE(equal(stretches[i], expected[i])) << seed << " " << i;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Planner, Reading, testing::Values(head_router(), with_jerk(head_router(), 30000)));
 
 /// How many moves the planner holds back at most.
 std::size_t most_behind(const Machine& machine, double step, std::size_t count, Feed feed) {
@@ -294,20 +302,139 @@ TEST(Planner, HoldsBackNoMoreThanItsWindow) {
   EXPECT_GT(fastest, std::sqrt(2 * 2000 * 8.0) * 0.99);
 }
 
+/// Half a window more, of all that the machine could go in it.
+TEST(Planner, HoldsBackNoMoreWhereJerkIsLimited) {
+  const Machine machine = with_jerk(uniform_machine(1000, 2000), 40000);
+  EXPECT_LE(most_behind(machine, 1, 5000, speed(200)), 1500U);
+  EXPECT_LE(most_behind(machine, 0.01, 40000, speed(200)), 30000U);
+}
+
 /// A thread of ten thousand turns is cut as it is needed.
-TEST(Planner, ALongHelixIsNotHeldAsAWhole) {
-  const Machine machine = uniform_machine(1000, 2000);
+void expect_long_helix_to_come_out(const Machine& machine) {
   Planner planner(machine);
-  planner.push(arc_xy({-5, 0, 0}, {0, 0, 0}, 360.0 * 10000, 100, speed(100)));
+  planner.push(arc_xy({-5, 0, 0}, {0, 0, 0}, 360.0 * 10000, 100, speed(50)));
   double length = 0;
   const auto take = [&] {
-    while (const Stretch* stretch = planner.next()) length += stretch->duration * 100;
+    while (const Stretch* stretch = planner.next()) length += stretch->duration * 50;
   };
   take();
   EXPECT_GT(length, 1e5) << "nothing came out before the end";
   planner.rest();
   take();
   EXPECT_NEAR(length, std::hypot(2 * std::numbers::pi * 5 * 10000, 100), 10);
+}
+
+double fastest_of(const Machine& machine, const std::vector<Stretch>& stretches, std::uint64_t tag) {
+  double fastest = 0;
+  for (const Stretch& stretch : stretches)
+    for (int i = 0; stretch.tag == tag && i <= 20; ++i)
+      fastest = std::max(fastest, stretch.at(machine.kinematics, stretch.start + stretch.duration * i / 20).speed);
+  return fastest;
+}
+
+/// The nose stands still while B turns: the tip goes on in the direction of the feed move before, and the feed move
+/// behind in that of the swing; on the way it is faster than s, which counts the chord.
+TEST(Planner, FeedHoldsInCornersToRapidsThatSwing) {
+  Machine machine = head_router();
+  for (AxisLimits& axis : machine.axes) axis.acceleration = axis.speed = 1e7;
+  const Move feed = line({310, 100, 200}, {300, 100, 200}, speed(50));
+  Move rapid;
+  rapid.tag = 1;
+  rapid.from = feed.to;
+  Coordinates joints = inverse(machine.kinematics, coordinates(rapid.from), 0);
+  joints[kB] = 80;
+  rapid.to = pose(forward(machine.kinematics, joints, 0));
+  rapid.controls_tool_point = false;
+  const Vec3 onward = geometry::axes_from_angles(80, 0) * Vec3(-10, 0, 0);
+  Move back = line(rapid.to.tip, rapid.to.tip + onward, speed(40));
+  back.tag = 2;
+  back.from.b = back.to.b = 80;
+  const auto stretches = plan(machine, {feed, rapid, back});
+  EXPECT_LE(fastest_of(machine, stretches, 0), 50 * (1 + 1e-6));
+  EXPECT_LE(fastest_of(machine, stretches, 2), 40 * (1 + 1e-6));
+  EXPECT_GT(fastest_of(machine, stretches, 1), 1000);
+}
+
+TEST(Planner, FeedMovesKeepToTheSpeedsOfFeedMoves) {
+  Machine machine = uniform_machine(1000, 2000);
+  machine.feed_speed = 20;
+  machine.feed_turn = 30;
+  EXPECT_NEAR(time_of(machine, {line(kOrigin, {100, 0, 0}, speed(100))}), trapezoid(100, 20, 2000), 1e-12);
+  EXPECT_NEAR(time_of(machine, {line(kOrigin, {100, 0, 0}, duration(0.1))}), trapezoid(100, 20, 2000), 1e-12);
+  EXPECT_NEAR(time_of(machine, {line(kOrigin, {100, 0, 0}, kRapid)}), trapezoid(100, 1000, 2000), 1e-12);
+  Move turning = line(kOrigin, {100, 0, 0}, speed(1000));
+  turning.to.c = 200;  // 2 degrees/mm: 15 mm/s.
+  EXPECT_NEAR(time_of(machine, {turning}), trapezoid(100, 15, 1000), 1e-12);
+  turning.to.tip = kOrigin;
+  EXPECT_NEAR(time_of(machine, {turning}), trapezoid(200, 30, 2000), 1e-12);
+  turning.feed = kRapid;
+  EXPECT_NEAR(time_of(machine, {turning}), trapezoid(200, 1000, 2000), 1e-12);
+}
+
+TEST(Planner, ALongHelixIsNotHeldAsAWhole) {
+  expect_long_helix_to_come_out(uniform_machine(1000, 2000));
+  expect_long_helix_to_come_out(with_jerk(uniform_machine(1000, 2000), 40000));
+}
+
+/// From rest to rest over `length` with speed v, acceleration a and jerk j: from 0 to v it takes v/a + a/j, or
+/// 2 sqrt(v/j) where a is not reached, and v half of that.
+double s_curve(double length, double v, double a, double j) {
+  const auto ramp = [&](double speed) { return speed >= a * a / j ? speed / a + a / j : 2 * std::sqrt(speed / j); };
+  double least = 0;
+  double most = v;
+  for (int i = 0; i < 100 && v * ramp(v) > length; ++i) {
+    const double middle = (least + most) / 2;
+    (middle * ramp(middle) > length ? most : least) = middle;
+  }
+  return length / most + ramp(most);
+}
+
+TEST(Planner, OneMoveIsAnSCurve) {
+  const Machine machine = with_jerk(uniform_machine(1000, 2000), 20000);
+  for (const double length : {0.001, 0.1, 1.0, 10.0, 100.0, 1000.0})
+    for (const double v : {5.0, 50.0, 200.0, 700.0}) {
+      const double closed = s_curve(length, v, 2000, 20000);
+      const double time = time_of(machine, {line(kOrigin, {length, 0, 0}, speed(v))});
+      EXPECT_GE(time, closed * (1 - 1e-9)) << length << " " << v;
+      EXPECT_LE(time, closed * (1 + 1e-3)) << length << " " << v;
+    }
+}
+
+TEST(Planner, TheSoftestAxisLimitsALine) {
+  Machine machine = uniform_machine(1000, 2000);
+  machine.axes[kY].jerk = 5000;
+  // Along (3, 4, 0) / 5: Y allows 5000 / 0.8, and 2000 / 0.8 of acceleration.
+  const double closed = s_curve(100, 300, 2500, 6250);
+  EXPECT_NEAR(time_of(machine, {line(kOrigin, {60, 80, 0}, speed(300))}), closed, 1e-3 * closed);
+  EXPECT_NEAR(time_of(machine, {line(kOrigin, {60, 0, 80}, speed(300))}), trapezoid(100, 300, 2500), 0.1);
+}
+
+/// In a circle at a constant speed the jerk is v^3 / r^2; two fifths of the limit are left for changes of the speed.
+TEST(Planner, ACircleGoesAsFastAsItsJerkAllows) {
+  const Machine machine = with_jerk(uniform_machine(1000, 3000), 20000);
+  double fastest = 0;
+  for (const Stretch& stretch : plan(machine, {arc_xy({-5, 0, 0}, kOrigin, 3600, 0, speed(1000))}))
+    fastest = std::max(fastest, stretch.at(machine.kinematics, stretch.start).speed);
+  const double most = std::cbrt(20000.0 * 25);
+  EXPECT_LE(fastest, most);
+  EXPECT_GE(fastest, most * std::cbrt(0.59));
+}
+
+/// An arc that leaves a line along its tangent is entered without a stop, through a curve that gathers the bend.
+TEST(Planner, TangentialArcsAreNotStops) {
+  const Machine machine = with_jerk(uniform_machine(1000, 2000), 20000);
+  std::vector<Move> moves = {line({-50, 0, 0}, kOrigin, speed(40)), arc_xy(kOrigin, {0, 20, 0}, 180, 0, speed(40)),
+                             line({0, 40, 0}, {-50, 40, 0}, speed(40))};
+  const double closed = s_curve(100 + 20 * std::numbers::pi, 40, 2000, 20000);
+  EXPECT_NEAR(time_of(machine, moves), closed, 0.01 * closed);
+}
+
+/// Chains of short lines are as fast as one long line where they are straight.
+TEST(Planner, CollinearMovesAreOneWhereJerkIsLimited) {
+  const Machine machine = with_jerk(uniform_machine(1000, 2000), 20000);
+  std::vector<Move> moves;
+  for (int i = 0; i < 1000; ++i) moves.push_back(line({i * 0.1, 0, 0}, {(i + 1) * 0.1, 0, 0}, speed(100)));
+  EXPECT_NEAR(time_of(machine, moves), s_curve(100, 100, 2000, 20000), 0.01);
 }
 
 }  // namespace

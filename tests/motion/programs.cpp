@@ -43,6 +43,12 @@ Machine uniform_machine(double speed, double acceleration) {
   return machine;
 }
 
+Machine with_jerk(Machine machine, double jerk) {
+  for (const Axis axis : {kX, kY, kZ}) machine.axes[axis].jerk = jerk;
+  for (const Axis axis : {kB, kC}) machine.axes[axis].jerk = jerk / 3;
+  return machine;
+}
+
 Move line(const Vec3& from, const Vec3& to, Feed feed) {
   Move move;
   move.from.tip = from;

@@ -20,6 +20,9 @@ double cycle_time(const std::vector<Stretch>& stretches);
 /// All axes alike, without ends; tight enough to matter.
 Machine uniform_machine(double speed, double acceleration);
 
+/// With a jerk for every axis: `jerk` for X, Y and Z, a third of it for B and C.
+Machine with_jerk(Machine machine, double jerk);
+
 Move line(const geometry::Vec3& from, const geometry::Vec3& to, Feed feed);
 Move arc_xy(const geometry::Vec3& from, const geometry::Vec3& center, double sweep_deg, double rise, Feed feed);
 

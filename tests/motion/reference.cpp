@@ -46,16 +46,10 @@ class Optimization {
   }
 
   void add(const Stretch& stretch, bool is_corner, double feed, int steps) {
-    const double begin = stretch.phases[0].from;
-    double end = begin;
     for (int i = 0; i < stretch.phase_count; ++i) {
       const Phase& phase = stretch.phases[static_cast<std::size_t>(i)];
-      end = phase.from + phase.duration * (phase.speed + phase.duration * phase.acceleration / 2);
+      add(stretch.path, phase.from, phase.after(phase.duration).from, is_corner, feed, steps);
     }
-    const double step = (end - begin) / steps;
-    for (int i = 0; i < steps; ++i)
-      intervals_.push_back({step, is_corner, false, point(stretch.path, begin + i * step, feed),
-                            point(stretch.path, begin + (i + 1) * step, feed)});
   }
   void stop() {
     if (!intervals_.empty()) intervals_.back().stops = true;
@@ -83,6 +77,13 @@ class Optimization {
   }
 
  private:
+  void add(const Path& path, double begin, double end, bool is_corner, double feed, int steps) {
+    const double step = (end - begin) / steps;
+    for (int i = 0; i < steps; ++i)
+      intervals_.push_back(
+          {step, is_corner, false, point(path, begin + i * step, feed), point(path, begin + (i + 1) * step, feed)});
+  }
+
   Point point(const Path& path, double s, double feed) const {
     const Jet joints = path.joints_at(machine_.kinematics, s);
     const Jet tip = path.tip_at(machine_.kinematics, s);

@@ -12,7 +12,7 @@ namespace isocnc::motion {
 /// The shortest time, in seconds, over the same path from rest to rest, by a slow optimization on a fine grid that
 /// shares no code with the planner: at every grid point the axes keep their limits with the acceleration of the
 /// intervals on both sides, and with none; corners are taken at a constant rate. Bounds hold at the points alone, so
-/// the result is a little optimistic; `steps` for each stretch.
+/// the result is a little optimistic; `steps` for each phase of each stretch.
 double reference_time(const Machine& machine, const std::vector<Move>& moves, const std::vector<Stretch>& stretches,
                       int steps);
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -88,6 +89,72 @@ TEST(Travel, FindsTheFarthestPoint) {
       }
     }
   }
+}
+
+geometry::Frame turned_frame() {
+  geometry::Frame frame;
+  frame.origin = {10, 20, 30};
+  frame.axes = geometry::axes_from_angles(30, 40);
+  frame.axes.col(2) = Vec3(1, 2, 5).normalized();  // Oblique, as frames may be.
+  return frame;
+}
+
+/// Sampled along the programmed path, densely.
+struct Sampled {
+  double length = 0;
+  std::array<geometry::Range, 3> extents;
+};
+
+Sampled sampled(const Machine& machine, const Move& move, const geometry::Frame& frame) {
+  constexpr int kParts = 1'000;
+  Sampled result;
+  Vec3 last = move.from.tip;
+  for (int i = 0; i <= kParts; ++i) {
+    const Vec3 tip = programmed(machine, move, static_cast<double>(i) / kParts).tip;
+    const Vec3 seen = frame.to_inner(tip);
+    for (int axis = 0; axis < 3; ++axis) {
+      geometry::Range& range = result.extents[static_cast<std::size_t>(axis)];
+      if (i == 0) range = {seen[axis], seen[axis]};
+      range.include({seen[axis], seen[axis]});
+    }
+    result.length += (tip - last).norm();
+    last = tip;
+  }
+  return result;
+}
+
+TEST(TipTravel, IsThatOfTheProgrammedPath) {
+  for (const Machine& machine : {three_axis_router(), head_router(), table_router()}) {
+    for (const Move& move : random_moves(7, 20)) {
+      for (const geometry::Frame& frame : {geometry::Frame{}, turned_frame()}) {
+        const Sampled expected = sampled(machine, move, frame);
+        EXPECT_NEAR(tip_travel(machine, move).length, expected.length, 1e-4 * (1 + expected.length))
+            << "move " << move.tag;
+        const auto extents = tip_extents(machine, move, frame);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          EXPECT_NEAR(extents[axis].least, expected.extents[axis].least, 1e-3) << "move " << move.tag;
+          EXPECT_NEAR(extents[axis].most, expected.extents[axis].most, 1e-3) << "move " << move.tag;
+        }
+      }
+    }
+  }
+}
+
+/// A rapid that turns B by 90 degrees swings the tip away from both its ends, and back.
+TEST(TipTravel, OfARapidThatTurnsIsTheSwing) {
+  Machine machine = uniform_machine(100, 100);
+  machine.kinematics.kind = MachineKind::Head;
+  machine.kinematics.pivot = 200;
+  Move move;
+  move.to.b = 90;
+  move.tool_length = 100;
+  EXPECT_EQ(tip_travel(machine, move).length, 0) << "the tip is held";
+  move.controls_tool_point = false;
+  // Straight away from both ends by 300 (0.5 - sin 45) in X and in Z, and back.
+  const double aside = 300 * (std::numbers::sqrt2 / 2 - 0.5) * std::numbers::sqrt2;
+  EXPECT_GT(tip_travel(machine, move).length, 2 * aside);
+  EXPECT_LT(tip_travel(machine, move).length, 2.2 * aside);
+  EXPECT_LT(tip_extents(machine, move, {})[2].least, -300 * (std::numbers::sqrt2 / 2 - 0.5));
 }
 
 }  // namespace

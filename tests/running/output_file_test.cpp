@@ -1,22 +1,16 @@
 #include "interpreter/running/output_file.h"
+#include "tests/support/text_of_file.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <fstream>
-#include <sstream>
 
 namespace isocnc::running {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& file) {
-  std::stringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 TEST(OutputFiles, HoldAllThatWasWritten) {
   const fs::path path = fs::temp_directory_path() / ("isocnc-output-" + std::to_string(::getpid()));
@@ -30,7 +24,7 @@ TEST(OutputFiles, HoldAllThatWasWritten) {
     }
     EXPECT_EQ(file.flush(), 0);
   }
-  EXPECT_TRUE(text_of(path) == expected);
+  EXPECT_TRUE(text_of_file(path) == expected);
   fs::remove(path);
 }
 

@@ -1,4 +1,5 @@
 #include "interpreter/running/replace_file.h"
+#include "tests/support/text_of_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +11,6 @@
 
 #include <cerrno>
 #include <fstream>
-#include <sstream>
 #include <system_error>
 
 namespace isocnc::running {
@@ -20,12 +20,6 @@ namespace fs = std::filesystem;
 using dialect::Language;
 using testing::HasSubstr;
 using testing::Optional;
-
-std::string text_of(const fs::path& file) {
-  std::stringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 /// A folder with one program in it.
 class FileReplacements : public testing::Test {
@@ -48,7 +42,7 @@ class FileReplacements : public testing::Test {
   }
   /// Nothing but the file with its old text.
   void expect_untouched() const {
-    EXPECT_EQ(text_of(file), "old\n");
+    EXPECT_EQ(text_of_file(file), "old\n");
     EXPECT_EQ(files_in_folder(), 1u);
   }
 
@@ -65,17 +59,17 @@ std::optional<std::string> replace(const fs::path& file, std::string_view text) 
 TEST_F(FileReplacements, PutTheNewTextInPlace) {
   fs::permissions(file, fs::perms(0640));
   EXPECT_EQ(replace(file, "new\n"), std::nullopt);
-  EXPECT_EQ(text_of(file), "new\n");
+  EXPECT_EQ(text_of_file(file), "new\n");
   EXPECT_EQ(fs::status(file).permissions(), fs::perms(0640));
   EXPECT_EQ(files_in_folder(), 1u);
 }
 
 TEST_F(FileReplacements, MayBeEmptyOrLarge) {
   EXPECT_EQ(replace(file, ""), std::nullopt);
-  EXPECT_EQ(text_of(file), "");
+  EXPECT_EQ(text_of_file(file), "");
   const std::string large(3'000'000, 'x');
   EXPECT_EQ(replace(file, large), std::nullopt);
-  EXPECT_TRUE(text_of(file) == large);
+  EXPECT_TRUE(text_of_file(file) == large);
 }
 
 TEST_F(FileReplacements, ThatAreNotCommittedLeaveNothing) {
@@ -92,7 +86,7 @@ TEST_F(FileReplacements, FollowSymlinks) {
   fs::create_directory(elsewhere);
   fs::create_symlink("../part.iso", elsewhere / "link.iso");
   EXPECT_EQ(replace(elsewhere / "link.iso", "new\n"), std::nullopt);
-  EXPECT_EQ(text_of(file), "new\n");
+  EXPECT_EQ(text_of_file(file), "new\n");
   EXPECT_TRUE(fs::is_symlink(elsewhere / "link.iso"));
 }
 
@@ -101,7 +95,7 @@ TEST_F(FileReplacements, LeaveAFileThatHasChangedMeanwhile) {
   replacement.write("new\n");
   std::ofstream(file) << "somebody else's\n";
   EXPECT_THAT(replacement.commit(Language::English), Optional(HasSubstr("changed meanwhile")));
-  EXPECT_EQ(text_of(file), "somebody else's\n");
+  EXPECT_EQ(text_of_file(file), "somebody else's\n");
   EXPECT_EQ(files_in_folder(), 1u);
 }
 
@@ -129,7 +123,7 @@ TEST_F(FileReplacements, RefuseWhatIsNoPlainFile) {
   EXPECT_THAT(replace(folder / "none.iso", "new\n"), Optional(HasSubstr("No such file")));
   fs::create_hard_link(file, folder / "other.iso");
   EXPECT_THAT(replace(file, "new\n"), Optional(HasSubstr("hard links")));
-  EXPECT_EQ(text_of(file), "old\n");
+  EXPECT_EQ(text_of_file(file), "old\n");
 }
 
 /// What a child process ends with; it may write as many bytes to a file as `limit` says, and is no superuser.
@@ -193,7 +187,7 @@ TEST_F(FileReplacements, ThatAreKilledLeaveTheOldTextOrTheNew) {
     int status = 0;
     ::waitpid(child, &status, 0);
     EXPECT_TRUE(WIFSIGNALED(status)) << WEXITSTATUS(status);
-    const std::string text = text_of(file);
+    const std::string text = text_of_file(file);
     EXPECT_TRUE(text == a || text == b) << text.size();
   }
 }

@@ -144,6 +144,15 @@ TEST_F(SourceFiles, TextOutlivesTheName) {
   EXPECT_EQ(shown(result), "M02\n");
 }
 
+/// Another program saves it anew meanwhile.
+TEST_F(SourceFiles, TextOutlivesTheContent) {
+  std::string text;
+  while (text.size() < 1'000'000) text += "G01 X10 F1000\n";
+  const Result result = SourceFile::open(write(text), Language::English);
+  write("M02\n");
+  EXPECT_TRUE(std::get<SourceFile>(result).text() == text);
+}
+
 TEST_F(SourceFiles, FileThatDoesNotExistIsAProblem) {
   EXPECT_EQ(shown(SourceFile::open(path("none"), Language::English)), "[cannot read: No such file or directory]");
   EXPECT_EQ(shown(SourceFile::open(path("none"), Language::Italian)),

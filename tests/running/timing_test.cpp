@@ -3,9 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "interpreter/running/runner.h"
 
@@ -78,6 +82,7 @@ TEST(Timing, MachineStandsForWhatIsNoMotion) {
   EXPECT_NEAR(seconds_of("G01 X100 F3000\nG04 P2.5\nX200\n"), 2 * parts + 2.5, kTiny);
   EXPECT_NEAR(seconds_of("S1000 M03\n"), 3, kTiny);
   EXPECT_NEAR(seconds_of("M100\nM101\n"), 7, kTiny);
+  EXPECT_NEAR(seconds_of("G01 X100 F3000\nG990\nX200\n"), 2 * parts, kTiny);
   EXPECT_NEAR(seconds_of("G01 X100 F3000\nIF V1 = 1 GOTO N5\nX200\nN5\n"), 2 * parts, kTiny);
 }
 
@@ -100,6 +105,115 @@ TEST(Timing, AnErrorKeepsWhatWasDoneBefore) {
   const Timed timed = time("M06 T101001\nG01 X200 F3000\nG02 X1\n");
   ASSERT_EQ(timed.events.size(), 2u);
   EXPECT_NEAR(timed.events.back().duration, trapezoid(200, 50), kTiny);
+}
+
+TEST(Timing, WaitsForTheChannelBehindTheMotion) {
+  const Timed timed = time("M06 T101001\nG01 X100 F3000 G09\nX200\nM02\n");
+  EXPECT_EQ(timed.events[1].wait, 0.5);
+  EXPECT_NEAR(timed.events[2].start - timed.events[1].start - timed.events[1].duration, 0.5, kTiny);
+}
+
+/// Any number is a feed or a dwell to a program.
+TEST(Timing, IsFiniteWhateverTheProgramSays) {
+  const std::string tiny = "." + std::string(320, '0') + "1";
+  const std::string huge = "1" + std::string(305, '0');
+  const Timed timed =
+      time("M06 T101001\nG01 X100 F" + tiny + "\nG93\nX0 F" + tiny + "\nG04 P" + huge + "\nG04 P" + huge + "\nM02\n");
+  EXPECT_EQ(timed.events.size(), 6u);
+  EXPECT_TRUE(std::isfinite(timed.seconds));
+}
+
+/// However many lines follow a motion that do not move the machine.
+TEST(Timing, HoldsNoMoreThanAControlLooksAhead) {
+  const auto check = [](auto&& next) {
+    std::size_t told = 0;
+    std::size_t most = 0;
+    const TimedMachine machine = slow_machine();
+    Timing timing(machine, {.event = [&](const TimedEvent&) { ++told; }});
+    MoveEvent motion;
+    motion.to.tip.x() = 100;
+    motion.length = 100;
+    timing.take({.line = 0, .what = motion});
+    constexpr std::size_t kEvents = 40'000;
+    for (std::size_t i = 1; i <= kEvents; ++i) {
+      timing.take(next(i));
+      most = std::max(most, i + 1 - told);
+    }
+    timing.finish();
+    EXPECT_EQ(told, kEvents + 1);
+    EXPECT_LT(most, 33'000u);
+    EXPECT_NEAR(timing.time(), trapezoid(100, 100), kTiny);
+  };
+  check([](std::size_t line) { return Event{line, SpindleSpeedEvent{1000}}; });
+  check([](std::size_t line) { return Event{line, FrameEvent{}}; });
+  MoveEvent nowhere;
+  nowhere.from.tip.x() = nowhere.to.tip.x() = 100;
+  check([&](std::size_t line) { return Event{line, nowhere}; });
+}
+
+/// Z of the tip where each motion of a program begins and ends, with home at Z500 and tools of 100 and 40 mm.
+std::vector<std::pair<double, double>> heights_of(std::string_view program) {
+  TimedMachine machine = slow_machine();
+  machine.tool_lengths = {{{1, 1, 1}, 100}, {{1, 1, 2}, 40}};
+  machine.home.tip.z() = 500;
+  RunOptions options;
+  options.setup.home = machine.home;
+  std::vector<std::pair<double, double>> heights;
+  Timing timing(machine, {.event = [&](const TimedEvent& timed) {
+                  if (timed.move) heights.emplace_back(timed.move->from.tip.z(), timed.move->to.tip.z());
+                }});
+  EXPECT_EQ(run(program, options, [&](const Event& event) { timing.take(event); }).ending, Ending::ProgramEnd);
+  timing.finish();
+  return heights;
+}
+
+/// Home is where the spindle nose is: the tip of a tool is lower by its length, until the program sends it somewhere.
+TEST(Timing, AToolChangeMovesNoAxis) {
+  using Heights = std::vector<std::pair<double, double>>;
+  EXPECT_EQ(heights_of("M06 T101001\nG00 X50\nY20\nZ450\nX0\nM02\n"),
+            (Heights{{400, 400}, {400, 400}, {400, 450}, {450, 450}}));
+  EXPECT_EQ(heights_of("M06 T101001\nG00 Z500\nM02\n"), (Heights{{400, 500}}));
+  EXPECT_EQ(heights_of("M06 T101001\nG00 Z450\nM06 T101002\nG00 X9\nG91\nX1 Z-10\nG90\nZ450\nM02\n"),
+            (Heights{{400, 450}, {510, 510}, {510, 500}, {500, 450}}));
+  EXPECT_EQ(heights_of("M06 T101003\nG00 X50\nM02\n"), (Heights{{500, 500}})) << "of no known length";
+  EXPECT_EQ(heights_of("M06 T101001\nG00 Z450\nM06 T000000\nG00 X9\nM02\n"), (Heights{{400, 450}, {550, 550}}));
+}
+
+TEST(Timing, OfAToolChangeTheFaceFrameTellsWhichAxesStay) {
+  // Seen from the face, machine Z is -X, and machine X is Z.
+  const auto heights = heights_of("M06 T101001\nG29 B90\nG00 Z5\nY5\nX10\nM02\n");
+  ASSERT_EQ(heights.size(), 3u);
+  EXPECT_NEAR(heights[1].second, 400, kTiny);
+  EXPECT_NEAR(heights[2].first, 400, kTiny);
+  EXPECT_NEAR(heights[2].second, -10, kTiny);
+}
+
+TEST(Timing, OfAToolChangeArcsGoRoundAtTheHeightOfTheTip) {
+  const auto heights = heights_of("M06 T101001\nG02 X20 I10 J0 F1000\nG91\nX20 I10 J0 Z3\nM02\n");
+  EXPECT_EQ(heights, (std::vector<std::pair<double, double>>{{400, 400}, {400, 403}}));
+}
+
+/// A circle of radius 200 at 100 mm/s, which the default machine takes at that speed.
+double circle_seconds(std::string_view circle) {
+  const Timed timed = time(fmt::format("M06 T101001\nG00 X200 Y0\nG04 P0\n{}\nM02\n", circle), {});
+  double seconds = 0;
+  for (const TimedEvent& event : timed.events)
+    if (event.move && event.move->feed.kind != motion::FeedKind::Rapid) seconds += event.duration;
+  return seconds;
+}
+
+TEST(Timing, OfACircleIsThatOfItsLengthHoweverItIsWritten) {
+  const double wanted = 2 * std::numbers::pi * 200 / 100;
+  EXPECT_NEAR(circle_seconds("G03 X200 Y0 I0 J0 F6000"), wanted, 0.02 * wanted);
+  EXPECT_NEAR(circle_seconds("G49\nG03 X200 Y0 I0 J0 F6000"), wanted, 0.02 * wanted);
+  for (const int points : {2'000, 20'000}) {
+    std::string circle;
+    for (int i = 1; i <= points; ++i) {
+      const double angle = 2 * std::numbers::pi * i / points;
+      circle += fmt::format("G01 X{:.6f} Y{:.6f} F6000\n", 200 * std::cos(angle), 200 * std::sin(angle));
+    }
+    EXPECT_NEAR(circle_seconds(circle), wanted, 0.02 * wanted) << points;
+  }
 }
 
 }  // namespace

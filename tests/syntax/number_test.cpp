@@ -133,6 +133,12 @@ TEST(Number, EndsBehindItsLastCharacter) {
   }
 }
 
+/// However it is spelled: programs that mean the same give the same trace.
+TEST(Number, MinusZeroIsZero) {
+  for (const std::string zero : {"-0", "- 0", "-0.", "-.0", "-(a)0", "-0.000000000", "-00000000000000000000"})
+    EXPECT_FALSE(std::signbit(read(zero).value)) << zero;
+}
+
 TEST(Number, BeyondADoubleIsUnknownAndTooSmallIsZero) {
   EXPECT_TRUE(std::isnan(read(std::string(400, '9')).value));
   EXPECT_FALSE(read(std::string(400, '9')).malformed);

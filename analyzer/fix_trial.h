@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+
+#include "analyzer/checker.h"
+#include "analyzer/fixes/fix.h"
+
+namespace isocnc::analyzer {
+
+/// Tries fixes out, one at a time, on the part of a program that they concern: from the finding's line on, until the
+/// check stands where it would stand without them. A fix that leaves its finding, or brings another one that is told
+/// by default, is none. What cannot be seen there counts as fine: what an edit of jumps or their labels does, effects
+/// more than a few thousand lines below, and all once the trials of a program have cost too much.
+class FixTrial {
+ public:
+  /// All must outlive this.
+  FixTrial(fixes::Program& program, const execution::Setup& setup, const JumpMap& jumps);
+
+  /// `before` is where the check stands before the finding's line.
+  bool mends(const fixes::Fix& fix, const LocatedFinding& located, const Frontier& before);
+
+ private:
+  bool is_concerned_by_jumps(std::string_view line) const;
+
+  fixes::Program& program_;
+  const execution::Setup& setup_;
+  const JumpMap& jumps_;
+  std::uint64_t work_left_;
+};
+
+}  // namespace isocnc::analyzer

@@ -1,0 +1,146 @@
+#!/usr/bin/env python3
+"""Times isodap on a generated program, as an editor sees it, and holds the figures against their targets.
+
+Speaks with the adapter through pipes. Prints a Markdown table. Exit status: 0 every target met, 1 some missed, 2 could not
+measure.
+"""
+
+import argparse
+import random
+import statistics
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+
+import editor
+
+BLOCKS_PER_SECOND = 500_000
+STEP_MS = 5.0
+PAUSE_MS = 20.0
+STEPS = 200
+# A run goes on for as long as it takes.
+LONGEST_RUN_S = 3600
+
+
+class Adapter(editor.Client):
+    """An adapter; what it tells of its own accord is kept where somebody waits for it."""
+
+    def __init__(self, program):
+        super().__init__(program)
+        self.seq = 0
+        self.request("initialize", adapterID="isocnc")
+
+    def take(self, arrived, message):
+        if message["type"] == "response" or message.get("event") in ("stopped", "terminated", "initialized"):
+            super().take(arrived, message)
+
+    def request(self, command, **arguments):
+        self.seq += 1
+        seq = self.seq
+        self.send({"seq": seq, "type": "request", "command": command, "arguments": arguments})
+        answer = self.wait(lambda each: each["type"] == "response" and each["request_seq"] == seq, LONGEST_RUN_S)[1]
+        if not answer["success"]:
+            raise editor.CannotMeasure(f"{command}: {answer['message']}")
+        return answer.get("body")
+
+    def event(self, *names):
+        """When it was there."""
+        return self.wait(lambda message: message.get("event") in names, LONGEST_RUN_S)[0]
+
+    def run(self, command, **arguments):
+        """A request that lets the program go on, until it stops; seconds."""
+        begin = time.perf_counter()
+        self.request(command, threadId=1, **arguments)
+        return self.event("stopped", "terminated") - begin
+
+    def end(self):
+        self.request("disconnect")
+        self.process.wait(10)
+
+
+def launched(program, file, **arguments):
+    adapter = Adapter(program)
+    adapter.request("launch", program=str(file), **arguments)
+    adapter.event("initialized")
+    return adapter
+
+
+def run_seconds(program, file, breakpoints=()):
+    adapter = launched(program, file)
+    adapter.request("setBreakpoints", source={"path": str(file)}, breakpoints=list(breakpoints))
+    seconds = adapter.run("configurationDone")
+    adapter.end()
+    return seconds
+
+
+def many_breakpoints(lines):
+    """A thousand in lines; all have a condition, so that the run goes on, and ten of them a longer one."""
+    chosen = random.Random(editor.SEED).sample(range(10, lines), 1000)
+    longer = [{"line": line, "condition": "Z < 0 && S > 0 && V30 == 1"} for line in chosen[:10]]
+    return longer + [{"line": line, "condition": "V30 == 1"} for line in chosen[10:]]
+
+
+def step_times(program, file, lines):
+    """Of steps on, and then back, near the end of the program; ms."""
+    adapter = launched(program, file, startAtLine=lines - 2 * STEPS)
+    adapter.run("configurationDone")
+    on = [1000 * adapter.run("next") for _ in range(STEPS)]
+    back = [1000 * adapter.run("stepBack") for _ in range(STEPS)]
+    adapter.end()
+    return on, back
+
+
+def pause_times(program, file):
+    adapter = launched(program, file, stopOnEntry=True)
+    adapter.run("configurationDone")
+    times = []
+    for _ in range(20):
+        adapter.request("continue", threadId=1)
+        time.sleep(0.02)
+        times.append(1000 * adapter.run("pause"))
+    adapter.end()
+    return times
+
+
+def row(what, measured, target, is_met):
+    print(f"| {what} | {measured} | {target} | {'yes' if is_met else '**no**'} |")
+    return is_met
+
+
+def measure(build, kind, lines):
+    programs = build / "bin"
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / f"{kind}.iso"
+        file.write_bytes(editor.corpus(build, kind, lines))
+        begin = time.perf_counter()
+        subprocess.run([programs / "isorun", "--no-config", file], stdout=subprocess.DEVNULL, check=False)
+        isorun = time.perf_counter() - begin
+        isodap = programs / "isodap"
+        plain = run_seconds(isodap, file)
+        watched = run_seconds(isodap, file, many_breakpoints(lines))
+        on, back = step_times(isodap, file, lines)
+        pauses = pause_times(isodap, file)
+    print(f"\n{kind}, {lines} lines\n\n| what | measured | target | met |\n|---|---|---|---|")
+    return all(
+        [
+            row("continue / isorun, wall", f"{plain / isorun:.2f} ({plain:.2f} s / {isorun:.2f} s)", "at most 2", plain <= 2 * isorun),
+            row("1000 breakpoints, ten of them longer", f"{lines / watched:,.0f} blocks/s", f"at least {BLOCKS_PER_SECOND:,}", lines / watched >= BLOCKS_PER_SECOND),
+            row("step", f"{statistics.median(on):.2f} ms, {max(on):.2f} ms at worst", f"at most {STEP_MS:g} ms", max(on) <= STEP_MS),
+            row("step back", f"{statistics.median(back):.2f} ms, {max(back):.2f} ms at worst", f"at most {STEP_MS:g} ms", max(back) <= STEP_MS),
+            row("pause", f"{statistics.median(pauses):.1f} ms, {max(pauses):.1f} ms at worst", f"at most {PAUSE_MS:g} ms", max(pauses) <= PAUSE_MS),
+        ]
+    )
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--build", type=Path, default=editor.BUILD, help="the build to measure")
+    parser.add_argument("--kind", default="short", help="the program, as isocnc_corpus calls it")
+    parser.add_argument("--lines", type=int, default=1_000_000)
+    options = parser.parse_args()
+    return measure(options.build, options.kind, options.lines)
+
+
+if __name__ == "__main__":
+    editor.run("debugger.py", main)

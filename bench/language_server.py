@@ -1,0 +1,180 @@
+#!/usr/bin/env python3
+"""Times isols on generated programs, as an editor sees it, and holds the figures against their targets.
+
+Speaks with the server through pipes. Prints a Markdown table. Exit status: 0 every target met, 1 some missed, 2 could not
+measure.
+"""
+
+import argparse
+import json
+import random
+import re
+import time
+from pathlib import Path
+
+import editor
+
+KINDS = ["short", "arcs", "fiveaxis", "incremental", "production", "production-if", "hostile-if", "errors"]
+
+OPEN_S = 0.5
+EDIT_P50_MS = 1.0
+EDIT_P99_MS = 5.0
+REQUEST_P99_MS = 5.0
+BYTES_PER_LINE = 200
+
+
+class Server(editor.Client):
+    """A server, and what it takes."""
+
+    def __init__(self, program):
+        super().__init__(program)
+        self.next_id = 1
+        self.request("initialize", {"processId": None, "rootUri": None, "capabilities": {}})
+        self.notify("initialized", {})
+
+    def send(self, message):
+        super().send({"jsonrpc": "2.0", **message})
+
+    def notify(self, method, params):
+        self.send({"method": method, "params": params})
+
+    def request(self, method, params):
+        """Seconds until the answer."""
+        request = self.next_id
+        self.next_id += 1
+        start = time.perf_counter()
+        self.send({"id": request, "method": method, "params": params})
+        arrived, message = self.wait(lambda each: each.get("id") == request)
+        if "error" in message:
+            raise editor.CannotMeasure(f"{method}: {message['error']}")
+        return arrived - start
+
+    def wait_for_diagnostics(self, uri, version):
+        return self.wait(
+            lambda each: each.get("method") == "textDocument/publishDiagnostics"
+            and each["params"]["uri"] == uri
+            and each["params"].get("version") == version
+        )[0]
+
+    def open(self, uri, text):
+        """Sends a document; the time at which that began."""
+        document = {"uri": uri, "languageId": "isocnc", "version": 1, "text": text}
+        body = json.dumps({"jsonrpc": "2.0", "method": "textDocument/didOpen", "params": {"textDocument": document}})
+        start = time.perf_counter()
+        self.send_bytes(body.encode())
+        return start
+
+    def anonymous_bytes(self):
+        status = Path(f"/proc/{self.process.pid}/status").read_text(encoding="ascii")
+        return int(re.search(r"RssAnon:\s+(\d+)", status)[1]) * 1024
+
+    def stop(self):
+        self.request("shutdown", None)
+        self.notify("exit", None)
+        self.process.wait(timeout=60)
+
+
+def percentile(times, share):
+    return 1000 * sorted(times)[min(len(times) - 1, int(share * len(times)))]
+
+
+def replaced_digit(line, choices):
+    """Where a digit stands on a line, and another one for it; None where there is none."""
+    digits = [match.start() for match in re.finditer(r"(?<=[0-9.])[0-9]", line) if line[0] in "XYGN"]
+    return (choices.choice(digits), choices.choice("123456789")) if digits else None
+
+
+def edit_times(server, uri, lines, count):
+    """Seconds from one changed digit to the diagnostics, anywhere in the program."""
+    choices = random.Random(editor.SEED)
+    version = 1
+    times = []
+    while len(times) < count:
+        number = choices.randrange(len(lines))
+        edit = replaced_digit(lines[number], choices)
+        if not edit:
+            continue
+        column, digit = edit
+        version += 1
+        place = {"start": {"line": number, "character": column}, "end": {"line": number, "character": column + 1}}
+        change = {"textDocument": {"uri": uri, "version": version}, "contentChanges": [{"range": place, "text": digit}]}
+        start = time.perf_counter()
+        server.notify("textDocument/didChange", change)
+        times.append(server.wait_for_diagnostics(uri, version) - start)
+    return times
+
+
+def hover_times(server, uri, lines, count):
+    choices = random.Random(editor.SEED)
+    times = []
+    for _ in range(count):
+        number = choices.randrange(len(lines))
+        place = {"line": number, "character": choices.randrange(1 + len(lines[number]))}
+        times.append(server.request("textDocument/hover", {"textDocument": {"uri": uri}, "position": place}))
+    return times
+
+
+def measure_kind(arguments, kind, table):
+    text = editor.corpus(arguments.build, kind, arguments.lines).decode()
+    lines = text.split("\n")
+    server = Server(arguments.build / "bin/isols")
+    before = server.anonymous_bytes()
+    uri = f"file:///bench/{kind}.iso"
+    start = server.open(uri, text)
+    opened = server.wait_for_diagnostics(uri, 1) - start
+    size = (server.anonymous_bytes() - before - len(text)) / len(lines)
+    edits = edit_times(server, uri, lines, arguments.edits)
+    hovers = hover_times(server, uri, lines, arguments.edits)
+    name = f"{kind}, {arguments.lines} lines"
+    table.add(name, "open to diagnostics", opened, OPEN_S, "s")
+    table.add(name, "edit to diagnostics, p50", percentile(edits, 0.5), EDIT_P50_MS, "ms")
+    table.add(name, "edit to diagnostics, p99", percentile(edits, 0.99), EDIT_P99_MS, "ms")
+    table.add(name, "hover, p99", percentile(hovers, 0.99), REQUEST_P99_MS, "ms")
+    table.add(name, "memory over the text, a line", size, BYTES_PER_LINE, "bytes")
+    server.stop()
+
+
+def measure_beside_big(arguments, table):
+    """Requests about one document while a huge one is being opened in another tab."""
+    text = editor.corpus(arguments.build, "short", 20_000).decode()
+    big = editor.corpus(arguments.build, "short", arguments.big).decode()
+    server = Server(arguments.build / "bin/isols")
+    uri = "file:///bench/small.iso"
+    server.open(uri, text)
+    server.wait_for_diagnostics(uri, 1)
+    server.open("file:///bench/big.iso", big)
+    times = hover_times(server, uri, text.split("\n"), 500)
+    table.add(f"short, beside {arguments.big} lines", "hover, p99", percentile(times, 0.99), REQUEST_P99_MS, "ms")
+    server.wait_for_diagnostics("file:///bench/big.iso", 1)
+    server.stop()
+
+
+class Table:
+    def __init__(self):
+        self.missed = False
+        print("| program | what | measured | target | met |\n|---|---|---|---|---|")
+
+    def add(self, program, what, measured, target, unit):
+        met = measured <= target
+        self.missed |= not met
+        print(f"| {program} | {what} | {measured:.2f} {unit} | at most {target} {unit} | {'yes' if met else '**no**'} |", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--kinds", default=",".join(KINDS))
+    parser.add_argument("--lines", type=int, default=1_000_000)
+    parser.add_argument("--big", type=int, default=10_000_000, help="0 leaves the big program out")
+    parser.add_argument("--edits", type=int, default=400)
+    parser.add_argument("--build", type=Path, default=editor.BUILD)
+    arguments = parser.parse_args()
+    table = Table()
+    for kind in filter(None, arguments.kinds.split(",")):
+        measure_kind(arguments, kind, table)
+    if arguments.big:
+        measure_beside_big(arguments, table)
+    return not table.missed
+
+
+if __name__ == "__main__":
+    editor.run("language_server.py", main)

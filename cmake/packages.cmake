@@ -1,0 +1,89 @@
+# What is installed, and the packages that `cpack` makes of it. The component `programs` is what everybody gets; `development`, libraries and
+# headers for find_package(isocnc), is part of it where ISOCNC_DEVELOPMENT is on, and else installed by its name alone.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE
+                                                WORLD_READ WORLD_EXECUTE)
+set(programs isolint isofmt isorun isols isodap)
+set(libraries fmt dialect syntax geometry motion execution running configuration rules style fixes analyzer)
+set(packaged ${CMAKE_BINARY_DIR}/packaged)
+
+# Compressed as Debian wants it: the same bytes each time.
+find_program(ISOCNC_GZIP gzip)
+function(install_compressed source name destination)
+  if(ISOCNC_GZIP)
+    file(MAKE_DIRECTORY ${packaged})
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
+    execute_process(COMMAND ${ISOCNC_GZIP} -9nc ${source} OUTPUT_FILE ${packaged}/${name}.gz COMMAND_ERROR_IS_FATAL ANY)
+    install(FILES ${packaged}/${name}.gz DESTINATION ${destination} COMPONENT programs)
+  else()
+    install(FILES ${source} DESTINATION ${destination} RENAME ${name} COMPONENT programs)
+  endif()
+endfunction()
+
+install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
+foreach(program IN LISTS programs)
+  install_compressed(${PROJECT_SOURCE_DIR}/docs/man/${program}.1 ${program}.1 ${CMAKE_INSTALL_MANDIR}/man1)
+  install(FILES scripts/completions/isocnc.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+          RENAME ${program} COMPONENT programs)
+  install(FILES scripts/completions/isocnc.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
+          RENAME ${program}.fish COMPONENT programs)
+endforeach()
+install(FILES scripts/completions/_isocnc DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT programs)
+
+# The license and the two changelogs under the names that Debian looks for; elsewhere they say the same.
+file(READ LICENSE license)
+string(REGEX REPLACE "^[^\n]*\n\nCopyright \\(c\\) ([^\n]*)\n\n" "" license_text "${license}")
+set(holders "${CMAKE_MATCH_1}")
+string(STRIP "${license_text}" license_text)
+string(REPLACE "\n" "\n " license_text " ${license_text}")
+string(REPLACE "\n \n" "\n .\n" license_text "${license_text}")
+configure_file(cmake/copyright.in ${packaged}/copyright @ONLY)
+configure_file(cmake/changelog.Debian.in ${packaged}/changelog.Debian @ONLY)
+install(FILES ${packaged}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
+install_compressed(${packaged}/changelog.Debian changelog.Debian ${CMAKE_INSTALL_DOCDIR})
+install_compressed(${PROJECT_SOURCE_DIR}/CHANGELOG.md changelog ${CMAKE_INSTALL_DOCDIR})
+install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs
+        FILES_MATCHING PATTERN "*.md" PATTERN "*.json" PATTERN "*.svg" PATTERN "*.png" PATTERN man EXCLUDE)
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
+
+if(ISOCNC_DEVELOPMENT)
+  set(unless_asked)
+else()
+  set(unless_asked EXCLUDE_FROM_ALL)
+endif()
+list(TRANSFORM libraries PREPEND isocnc_ OUTPUT_VARIABLE library_targets)
+foreach(library IN LISTS libraries)
+  set_target_properties(isocnc_${library} PROPERTIES EXPORT_NAME ${library})
+  target_compile_features(isocnc_${library} INTERFACE cxx_std_20)
+endforeach()
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/isocnc)
+install(TARGETS ${library_targets} EXPORT isocnc ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+        ${unless_asked} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/isocnc)
+install(EXPORT isocnc NAMESPACE isocnc:: FILE isocnc-targets.cmake DESTINATION ${package_dir} COMPONENT development
+        ${unless_asked})
+install(DIRECTORY interpreter analyzer DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/isocnc COMPONENT development ${unless_asked}
+        FILES_MATCHING PATTERN "*.h")
+configure_package_config_file(cmake/isocnc-config.cmake.in ${packaged}/isocnc-config.cmake
+                              INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${packaged}/isocnc-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${packaged}/isocnc-config.cmake ${packaged}/isocnc-config-version.cmake DESTINATION ${package_dir}
+        COMPONENT development ${unless_asked})
+
+set(CPACK_GENERATOR DEB TGZ)
+set(CPACK_PACKAGE_CONTACT "${ISOCNC_MAINTAINER}")
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS ${CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS})
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_PACKAGE_DESCRIPTION
+    "Tools for the G-code of a family of Italian five-axis routers: isolint tells
+where the control would stop and why, isofmt writes programs as they should
+be written, isorun runs them on a simulated machine and draws their path,
+isols and isodap are the language server and the debugger of editors.")
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_SECTION devel)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+include(CPack)

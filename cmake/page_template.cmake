@@ -1,0 +1,72 @@
+# Writes the page of isorun --plot FILE.html as C++ source, when something that it is made of has changed:
+#
+#   cmake -D VIEW=toolpath-view -D OUT=page_template.cpp -D NPM=... -D NODE=... -D REQUIRED=ON|OFF -P page_template.cmake
+#
+# Where npm is missing or gets no answer, the page is empty and a warning says so; with REQUIRED that is an error.
+
+set(empty_page "#include \"interpreter/running/page_template.h\"
+
+namespace isocnc::running {
+
+const std::string_view kPageTemplate;
+
+}  // namespace isocnc::running
+")
+
+function(write_if_different text)
+  set(old)
+  if(EXISTS ${OUT})
+    file(READ ${OUT} old)
+  endif()
+  if(NOT old STREQUAL text)
+    file(WRITE ${OUT} "${text}")
+  endif()
+endfunction()
+
+# Without a page the next build tries again.
+function(do_without why)
+  if(REQUIRED)
+    message(FATAL_ERROR "isorun --plot FILE.html: ${why}")
+  endif()
+  message(WARNING "isorun is built without --plot FILE.html: ${why}")
+  write_if_different("${empty_page}")
+  file(REMOVE ${OUT}.made-of)
+endfunction()
+
+if(NOT NPM OR NOT NODE)
+  write_if_different("${empty_page}")
+  return()
+endif()
+
+file(GLOB sources ${VIEW}/src/* ${VIEW}/build.mjs ${VIEW}/package-lock.json)
+set(digests)
+foreach(source IN LISTS sources)
+  file(SHA256 ${source} digest)
+  list(APPEND digests ${digest})
+endforeach()
+if(EXISTS ${OUT} AND EXISTS ${OUT}.made-of)
+  file(READ ${OUT}.made-of made_of)
+  if(made_of STREQUAL digests)
+    return()
+  endif()
+endif()
+
+file(LOCK ${VIEW} DIRECTORY)  # All builds share what npm installs.
+set(installed ${VIEW}/node_modules/.package-lock.json)
+if(NOT EXISTS ${installed} OR ${VIEW}/package-lock.json IS_NEWER_THAN ${installed})
+  execute_process(
+    COMMAND ${NPM} ci --omit=dev --ignore-scripts --no-audit --no-fund --loglevel=error --fetch-retries=1
+            --fetch-retry-mintimeout=1000
+    WORKING_DIRECTORY ${VIEW} RESULT_VARIABLE status OUTPUT_QUIET)
+  if(NOT status EQUAL 0)
+    do_without("npm could not install what toolpath-view/package-lock.json names")
+    return()
+  endif()
+endif()
+execute_process(COMMAND ${NODE} build.mjs ${OUT}.new WORKING_DIRECTORY ${VIEW} RESULT_VARIABLE status)
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "toolpath-view could not be built")
+endif()
+file(COPY_FILE ${OUT}.new ${OUT} ONLY_IF_DIFFERENT)
+file(REMOVE ${OUT}.new)
+file(WRITE ${OUT}.made-of "${digests}")

@@ -1,0 +1,142 @@
+#include "debugger/adapter.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "lsp/rpc/message.h"
+
+namespace isocnc::debugger {
+
+using dialect::Text;
+using session::find_flag;
+using session::find_text;
+using session::RequestError;
+
+static constexpr Text kNoLength{"a header tells no Content-Length", "un'intestazione non riporta Content-Length"};
+static constexpr Text kTooLong{"the message is longer than any that is taken",
+                               "il messaggio è più lungo di quanto è ammesso"};
+static constexpr Text kNoJson{"a message is no JSON object", "un messaggio non è un oggetto JSON"};
+static constexpr Text kNoRequest{"a message is no request", "un messaggio non è una richiesta"};
+static constexpr Text kNotInitialized{"initialize comes first", "prima serve initialize"};
+static constexpr Text kInitialized{"the adapter is initialized already", "l'adattatore è già inizializzato"};
+static constexpr Text kUnknown{"there is no request {}", "non c'è nessuna richiesta {}"};
+static constexpr Text kNotUnderstood{"the arguments of {} cannot be read: {}",
+                                     "gli argomenti di {} non si possono leggere: {}"};
+
+Adapter::Adapter(lsp::rpc::Loop& loop, lsp::rpc::Send send, std::optional<dialect::Language> language)
+    : loop_(loop),
+      send_(std::move(send)),
+      session_(
+          loop, [this](std::string_view event, const Json& body) { emit(event, body); }, language) {
+  for (const requests::Request* const request : requests::all_requests()) requests_[request->command] = request->answer;
+}
+
+void Adapter::receive(lsp::rpc::Frame frame) {
+  using Problem = lsp::rpc::Frame::Problem;
+  if (has_ended_) return;
+  if (frame.problem != Problem::None) return complain(frame.problem == Problem::NoLength ? kNoLength : kTooLong);
+  const Json message = Json::parse(frame.body, nullptr, false);
+  if (!message.is_object()) return complain(kNoJson);
+  const auto type = message.find("type");
+  if (type != message.end() && *type == "response") return;  // We ask for nothing.
+  const auto seq = message.find("seq");
+  const auto command = message.find("command");
+  const bool is_request = type != message.end() && *type == "request" && seq != message.end() &&
+                          seq->is_number_integer() && command != message.end() && command->is_string();
+  if (!is_request) return complain(kNoRequest);
+  answer(message);
+}
+
+void Adapter::answer(const Json& request) {
+  const auto& command = request["command"].get_ref<const std::string&>();
+  const Json arguments = request.value("arguments", Json::object());
+  try {
+    if (command == "disconnect") return disconnect(request);
+    if (command == "initialize") return succeed(request, initialize(arguments));
+    if (!is_initialized_) throw RequestError(std::string(session_.in_language(kNotInitialized)));
+    const auto known = requests_.find(command);
+    if (known == requests_.end()) throw RequestError(session_.in_language(kUnknown, command));
+    succeed(request, known->second(session_, arguments));
+    // The breakpoints can be told now: it is known which lines there are.
+    if (command == "launch") emit("initialized", Json::object());
+  } catch (const RequestError& error) {
+    fail(request, error.what());
+  } catch (const Json::exception& error) {
+    fail(request, session_.in_language(kNotUnderstood, command, error.what()));
+  }
+}
+
+/// What the adapter can do: its own part, and that of each request.
+Json Adapter::initialize(const Json& arguments) {
+  if (is_initialized_) throw RequestError(std::string(session_.in_language(kInitialized)));
+  session::Client& client = session_.client;
+  client.lines_start_at_1 = find_flag(arguments, "linesStartAt1").value_or(true);
+  client.columns_start_at_1 = find_flag(arguments, "columnsStartAt1").value_or(true);
+  client.takes_invalidated = find_flag(arguments, "supportsInvalidatedEvent").value_or(false);
+  client.takes_progress = find_flag(arguments, "supportsProgressReporting").value_or(false);
+  if (const auto locale = find_text(arguments, "locale"))
+    client.locale = locale->starts_with("it") ? dialect::Language::Italian : dialect::Language::English;
+  is_initialized_ = true;
+  Json capabilities = Json::object();
+  for (const requests::Request* const request : requests::all_requests())
+    if (request->capabilities != nullptr) capabilities.update(request->capabilities());
+  Json filters = Json::array();
+  for (std::size_t i = 0; i < session::kWatchCount; ++i) {
+    const session::WatchDef& watch = session::definition(static_cast<session::Watch>(i));
+    filters.push_back({{"filter", watch.name},
+                       {"label", session_.in_language(watch.label)},
+                       {"description", session_.in_language(watch.description)},
+                       {"default", watch.is_default}});
+    session_.watchmen.on[i] = watch.is_default;
+  }
+  capabilities["exceptionBreakpointFilters"] = filters;
+  return capabilities;
+}
+
+/// The debuggee ends with its debugger: there is nothing that it could go on as.
+void Adapter::disconnect(const Json& request) {
+  succeed(request, nullptr);
+  exit_status_ = 0;
+  end();
+}
+
+void Adapter::end() {
+  has_ended_ = true;
+  session_.abandon();
+  loop_.stop();
+}
+
+void Adapter::succeed(const Json& request, const Json& body) {
+  Json message = {
+      {"type", "response"}, {"request_seq", request["seq"]}, {"success", true}, {"command", request["command"]}};
+  if (!body.is_null()) message["body"] = body;
+  send(std::move(message));
+}
+
+void Adapter::fail(const Json& request, const std::string& message) {
+  static constexpr int kRefused = 1;
+  send({{"type", "response"},
+        {"request_seq", request["seq"]},
+        {"success", false},
+        {"command", request["command"]},
+        {"message", message},
+        {"body", {{"error", {{"id", kRefused}, {"format", message}, {"showUser", true}}}}}});
+}
+
+void Adapter::emit(std::string_view event, const Json& body) {
+  if (has_ended_) return;
+  send({{"type", "event"}, {"event", event}, {"body", body}});
+}
+
+/// Of what is no request there is nothing to answer.
+void Adapter::complain(const Text& what) {
+  emit("output", {{"category", "stderr"}, {"output", fmt::format("isodap: {}\n", session_.in_language(what))}});
+}
+
+void Adapter::send(Json message) {
+  message["seq"] = ++seq_;
+  send_(lsp::rpc::write(message));
+}
+
+}  // namespace isocnc::debugger

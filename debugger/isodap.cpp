@@ -1,0 +1,68 @@
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "debugger/adapter.h"
+#include "interpreter/configuration/configuration.h"
+#include "interpreter/running/program_app.h"
+#include "interpreter/running/program_main.h"
+#include "lsp/rpc/serve.h"
+
+namespace isocnc::debugger {
+namespace {
+
+namespace rpc = lsp::rpc;
+
+struct Options {
+  std::optional<std::uint16_t> port;
+  std::string language;
+};
+
+void complain(std::string_view what) { running::complain("isodap", what); }
+
+int run(const Options& options) {
+  const auto make = [&](rpc::Loop& loop, rpc::Send send) {
+    return std::make_unique<Adapter>(loop, std::move(send), configuration::language_named(options.language));
+  };
+  rpc::serve(options.port, make, complain);
+  return running::kTroubleStatus;  // The port cannot be had.
+}
+
+int run_main(int argc, char** argv) {
+  Options options;
+  running::ProgramApp program(
+      argc, argv,
+      {"The debug adapter for ISOCNC programs: an editor starts it and speaks with it.",
+       "Il debug adapter per i programmi ISOCNC: un editor lo avvia e parla con lui."},
+      {.program = "isodap",
+       .version = ISOCNC_VERSION,
+       .purpose = "debug adapter for ISOCNC programs",
+       .operands = "",
+       .paragraphs = {"isodap speaks the debug adapter protocol. An editor starts it, and steps a program by it, "
+                      "forwards and backwards, on the simulated machine of isorun.",
+                      "How the machine is stands in the isocnc.json beside the program or above, as for isorun."},
+       .exit = {{"0", "The editor has disconnected."},
+                {"1", "The editor is gone without a word."},
+                {"2", "A mistake in the command, or the port cannot be had."}},
+       .see_also = {"isorun", "isols", "isolint"}});
+  program.add_option("--server", options.port, {"PORT", "PORTA"},
+                     {"Wait for one editor on this port of the loopback\ninterface; 0: any. Else "
+                      "speak by standard input and\noutput",
+                      "Aspetta un editor su questa porta dell'interfaccia\nloopback; 0: una qualsiasi. "
+                      "Altrimenti parla via\nstandard input e output"});
+  program.add_choice("--lang", options.language, {"en", "it"}, {"LANG", "LINGUA"},
+                     {"en or it; else as the configuration, the editor\nor the locale says",
+                      "en o it; altrimenti secondo la configurazione,\nl'editor o il locale"});
+  if (const auto status = program.answer(argc, argv)) return *status;
+  return run(options);
+}
+
+}  // namespace
+}  // namespace isocnc::debugger
+
+int main(int argc, char** argv) {
+  return isocnc::running::program_main("isodap", isocnc::debugger::run_main, argc, argv);
+}

@@ -1,0 +1,21 @@
+#include "debugger/requests/request.h"
+#include "debugger/session/variables.h"
+
+namespace isocnc::debugger::requests {
+
+/// The same for each frame: there is one machine.
+static Json answer_scopes(Session& session, const Json&) {
+  session.standing();
+  Json scopes = Json::array();
+  for (const session::Scope& scope : session::all_scopes()) {
+    Json json = {
+        {"name", session.in_language(scope.name)}, {"variablesReference", scope.reference}, {"expensive", false}};
+    if (!scope.hint.empty()) json["presentationHint"] = scope.hint;
+    scopes.push_back(json);
+  }
+  return {{"scopes", scopes}};
+}
+
+extern const Request scopes = {.command = "scopes", .answer = answer_scopes};
+
+}  // namespace isocnc::debugger::requests

@@ -1,0 +1,218 @@
+#include "debugger/session/breakpoints.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "interpreter/dialect/format.h"
+#include "interpreter/syntax/characters.h"
+
+namespace isocnc::debugger::session {
+
+using dialect::Language;
+
+static std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && syntax::is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && syntax::is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+/// Digits and nothing else.
+template <class Number>
+static std::optional<Number> read_number(std::string_view digits) {
+  Number number = 0;
+  const char* const end = digits.data() + digits.size();
+  const auto [behind, error] = std::from_chars(digits.data(), end, number);
+  if (digits.empty() || error != std::errc{} || behind != end) return std::nullopt;
+  return number;
+}
+
+std::optional<HitCondition> HitCondition::read(std::string_view text) {
+  static constexpr std::pair<std::string_view, Kind> kSigns[] = {
+      {">=", Kind::GreaterEqual}, {"<=", Kind::LessEqual}, {"==", Kind::Equal}, {">", Kind::Greater},
+      {"<", Kind::Less},          {"=", Kind::Equal},      {"%", Kind::Every}};
+  text = trimmed(text);
+  HitCondition condition;
+  for (const auto& [sign, kind] : kSigns) {
+    if (!text.starts_with(sign)) continue;
+    condition.kind_ = kind;
+    text = trimmed(text.substr(sign.size()));
+    break;
+  }
+  const auto count = read_number<std::uint64_t>(text);
+  if (!count || (condition.kind_ == Kind::Every && *count == 0)) return std::nullopt;
+  condition.count_ = *count;
+  return condition;
+}
+
+bool HitCondition::admits(std::uint64_t hit) const {
+  switch (kind_) {
+    case Kind::Equal:
+      return hit == count_;
+    case Kind::Less:
+      return hit < count_;
+    case Kind::LessEqual:
+      return hit <= count_;
+    case Kind::Greater:
+      return hit > count_;
+    case Kind::GreaterEqual:
+      return hit >= count_;
+    case Kind::Every:
+      return hit % count_ == 0;
+  }
+  return false;
+}
+
+std::variant<LogMessage, ExpressionProblem> LogMessage::compile(std::string_view text, const ValueFormat& format,
+                                                                Language language) {
+  static constexpr dialect::Text kUnclosed{"{{ has no }} behind it", "a {{ non segue una }}"};
+  LogMessage result;
+  std::string plain;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if ((c == '{' || c == '}') && i + 1 < text.size() && text[i + 1] == c) {
+      plain += c;
+      ++i;
+      continue;
+    }
+    if (c != '{') {
+      plain += c;
+      continue;
+    }
+    const std::size_t close = text.find('}', i);
+    if (close == std::string_view::npos) return ExpressionProblem{dialect::format(kUnclosed, language)};
+    auto compiled = compile_formatted(text.substr(i + 1, close - i - 1), format, language);
+    if (const auto* const problem = std::get_if<ExpressionProblem>(&compiled)) return *problem;
+    result.pieces_.push_back({std::exchange(plain, {}), std::get<Expression::Formatted>(std::move(compiled))});
+    i = close;
+  }
+  if (!plain.empty()) result.pieces_.push_back({std::move(plain), std::nullopt});
+  return result;
+}
+
+std::string LogMessage::at(const Moment& moment) const {
+  std::string text;
+  for (const Piece& piece : pieces_) {
+    text += piece.text;
+    if (piece.value) text += show_value(piece.value->expression.at(moment), piece.value->format);
+  }
+  return text;
+}
+
+std::uint64_t HitCounter::count(std::uint64_t block) {
+  const auto place = std::lower_bound(blocks_.begin(), blocks_.end(), block);
+  const auto number = static_cast<std::uint64_t>(place - blocks_.begin()) + 1;
+  if (place == blocks_.end() || *place != block) blocks_.insert(place, block);
+  return number;
+}
+
+void HitCounter::forget_from(std::uint64_t block) {
+  blocks_.erase(std::lower_bound(blocks_.begin(), blocks_.end(), block), blocks_.end());
+}
+
+std::optional<WantedCode> WantedCode::read(std::string_view name) {
+  name = trimmed(name);
+  if (name.size() < 2) return std::nullopt;
+  const char letter = syntax::upper(name.front());
+  const auto number = read_number<std::uint32_t>(trimmed(name.substr(1)));
+  if (!number || (letter != 'G' && letter != 'M' && letter != 'T')) return std::nullopt;
+  if (*number > (letter == 'T' ? 999999u : 999u)) return std::nullopt;
+  return WantedCode{letter, *number};
+}
+
+bool WantedCode::is_in(const syntax::LineTree& tree) const {
+  return std::any_of(tree.words.begin(), tree.words.end(), [&](const syntax::Word& word) {
+    return word.letter == letter && word.value == static_cast<double>(number);
+  });
+}
+
+std::variant<Watched, ExpressionProblem> Watched::compile(std::string_view text, Language language) {
+  const std::size_t equals = text.find('=');
+  const bool has_threshold =
+      equals != std::string_view::npos && equals > 0 && std::string_view("<>!").find(text[equals - 1]) == text.npos;
+  const std::string_view left = has_threshold ? text.substr(0, equals) : text;
+  auto value = Expression::compile(left, language);
+  if (const auto* const problem = std::get_if<ExpressionProblem>(&value)) return *problem;
+  Watched result{.value = std::get<Expression>(std::move(value)), .name = std::string(trimmed(text)), .threshold = {}};
+  if (!has_threshold) return result;
+  const std::size_t behind = text.find_first_not_of('=', equals);
+  const auto threshold = Expression::compile(behind == std::string_view::npos ? "" : text.substr(behind), language);
+  if (const auto* const problem = std::get_if<ExpressionProblem>(&threshold)) return *problem;
+  static const execution::State kState;
+  static const running::Registers kRegisters{};
+  result.threshold = std::get<Expression>(threshold).at({.state = kState, .registers = kRegisters});
+  return result;
+}
+
+bool Watched::tells(double before, double after) const {
+  if (std::isnan(before) && std::isnan(after)) return false;
+  if (!threshold) return !(before == after);
+  const double from = before - *threshold;
+  const double to = after - *threshold;
+  return (from < 0 && to >= 0) || (from > 0 && to <= 0) || (from != 0 && to == 0);
+}
+
+void Breakpoints::set_lines(std::vector<LineBreakpoint> breakpoints, std::uint64_t line_count) {
+  lines_.clear();
+  bits_.assign(line_count / 64 + 1, 0);
+  for (LineBreakpoint& breakpoint : breakpoints) {
+    const std::uint64_t line = breakpoint.line;
+    if (line >= line_count) continue;
+    bits_[line / 64] |= std::uint64_t{1} << (line % 64);
+    lines_.emplace(line, std::move(breakpoint));
+  }
+}
+
+void Breakpoints::reach(Breakpoint& breakpoint, const Moment& moment, std::uint64_t block, Way way, Outcome& outcome) {
+  const BreakpointRules& rules = breakpoint.rules;
+  if (rules.condition && !rules.condition->holds_at(moment)) return;
+  if (way == Way::Back && rules.message) return;
+  if (rules.hits && !rules.hits->admits(breakpoint.counter.count(block))) return;
+  if (rules.message) {
+    outcome.messages.push_back(rules.message->at(moment));
+  } else {
+    outcome.stopped.push_back(breakpoint.id);
+  }
+}
+
+void Breakpoints::look_at_line(const Moment& moment, std::uint64_t block, Way way, Outcome& outcome) {
+  const auto [begin, end] = lines_.equal_range(moment.line);
+  for (auto each = begin; each != end; ++each) reach(each->second, moment, block, way, outcome);
+}
+
+void Breakpoints::look_at_functions(const syntax::LineTree& tree, const Moment& moment, std::uint64_t block, Way way,
+                                    Outcome& outcome) {
+  for (FunctionBreakpoint& each : functions_)
+    if (each.code.is_in(tree)) reach(each, moment, block, way, outcome);
+}
+
+void Breakpoints::read_data(const Moment& moment, std::vector<double>& values) const {
+  values.clear();
+  for (const DataBreakpoint& each : data_) values.push_back(each.watched.value.at(moment));
+}
+
+void Breakpoints::look_at_data(const std::vector<double>& before, const std::vector<double>& after,
+                               const Moment& moment, std::uint64_t block, Way way, Outcome& outcome) {
+  if (before.size() != data_.size() || after.size() != data_.size()) return;
+  for (std::size_t i = 0; i < data_.size(); ++i)
+    if (data_[i].watched.tells(before[i], after[i])) reach(data_[i], moment, block, way, outcome);
+}
+
+std::string Breakpoints::description(std::int64_t id, const std::vector<double>& before,
+                                     const std::vector<double>& after) const {
+  for (std::size_t i = 0; i < data_.size() && i < before.size() && i < after.size(); ++i)
+    if (data_[i].id == id)
+      return fmt::format("{}: {} -> {}", data_[i].watched.name, show_value(before[i]), show_value(after[i]));
+  return {};
+}
+
+void Breakpoints::forget_hits_from(std::uint64_t block) {
+  for (auto& [line, breakpoint] : lines_) breakpoint.counter.forget_from(block);
+  for (FunctionBreakpoint& each : functions_) each.counter.forget_from(block);
+  for (DataBreakpoint& each : data_) each.counter.forget_from(block);
+}
+
+}  // namespace isocnc::debugger::session

@@ -1,0 +1,103 @@
+#include "debugger/session/console.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/tree_store.h"
+
+namespace isocnc::debugger::session {
+
+using dialect::Text;
+using syntax::InstructionKind;
+
+/// Nobody types more.
+static constexpr std::size_t kLongest = 65536;
+
+static constexpr Text kWaits{"waits for G909", "in attesa di G909"};
+static constexpr Text kTooLong{"this is too long to be run by hand", "troppo lungo per essere eseguito a mano"};
+
+/// The value of a formula, or, where the text is that of none, of its format.
+static Expression::Formatted compile_or_throw(const Session& session, std::string_view text,
+                                              const ValueFormat& format) {
+  auto compiled = compile_formatted(text, format, session.language());
+  if (const auto* const problem = std::get_if<ExpressionProblem>(&compiled)) throw RequestError(problem->message);
+  return std::get<Expression::Formatted>(std::move(compiled));
+}
+
+std::string evaluate(const Session& session, std::string_view text, const ValueFormat& format) {
+  const Expression::Formatted formatted = compile_or_throw(session, text, format);
+  return show_value(formatted.expression.at(session.moment()), formatted.format);
+}
+
+double number_of(const Session& session, std::string_view text) {
+  return compile_or_throw(session, text, {}).expression.at(session.moment());
+}
+
+namespace {
+
+/// What the lines of a text are, as blocks.
+struct Blocks {
+  bool are_any = false;       ///< Some line does something.
+  bool are_sound = true;      ///< None is wrong by itself.
+  bool look_like_it = false;  ///< A word begins the text.
+  bool need_g909 = false;
+  bool have_g909 = false;
+};
+
+bool needs_g909(const syntax::Instruction& instruction) {
+  if (instruction.kind == InstructionKind::Function || instruction.kind == InstructionKind::ToolChange) return false;
+  if (instruction.kind == InstructionKind::Continuation) return false;
+  const dialect::GCode* const code = instruction.g();
+  return !(instruction.kind == InstructionKind::G && code != nullptr && code->is_motion());
+}
+
+void add_line(std::string_view line, Blocks& blocks) {
+  const syntax::ParsedLine parsed(line);
+  const syntax::LineTree tree = parsed.tree();
+  blocks.are_any |= !tree.is_empty();
+  blocks.are_sound &= tree.findings.empty();
+  blocks.look_like_it |= !tree.words.empty() && tree.words.front().letter >= 'A' && tree.words.front().letter <= 'Z' &&
+                         tree.words.front().digits > 0;
+  blocks.need_g909 |= tree.spindle >= 0;
+  for (const syntax::Instruction& each : tree.instructions) {
+    const dialect::GCode* const code = each.g();
+    const bool is_g909 = code != nullptr && code->number == 909;
+    blocks.have_g909 |= is_g909;
+    blocks.need_g909 |= !is_g909 && needs_g909(each);
+  }
+}
+
+Blocks read_blocks(std::string_view text) {
+  Blocks blocks;
+  const char* const end = text.data() + text.size();
+  for (const char* p = text.data(); p != end;) {
+    const char* const line_end = syntax::find_line_end(p, end);
+    add_line({p, static_cast<std::size_t>(line_end - p)}, blocks);
+    p = syntax::skip_line_end(line_end, end);
+  }
+  return blocks;
+}
+
+bool is_expression(const Session& session, std::string_view text) {
+  return std::holds_alternative<Expression::Formatted>(compile_formatted(text, {}, session.language()));
+}
+
+}  // namespace
+
+std::string enter(Session& session, std::string_view text) {
+  if (text.starts_with('=')) return evaluate(session, text.substr(1), session.wishes().format);
+  const Blocks blocks = read_blocks(text);
+  const bool is_block = blocks.are_any && (blocks.are_sound || (blocks.look_like_it && !is_expression(session, text)));
+  if (!is_block) return evaluate(session, text, session.wishes().format);
+  session.standing();
+  std::string all = std::exchange(session.waiting_blocks, {}) + std::string(text) + "\n";
+  if (all.size() > kLongest) throw RequestError(std::string(session.in_language(kTooLong)));
+  const bool are_first = all.size() == text.size() + 1;
+  if (blocks.have_g909 || (are_first && !blocks.need_g909)) return session.run_by_hand(all);
+  session.waiting_blocks = std::move(all);
+  return std::string(session.in_language(kWaits));
+}
+
+}  // namespace isocnc::debugger::session

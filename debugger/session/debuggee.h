@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "debugger/session/program_text.h"
+#include "interpreter/running/history.h"
+
+namespace isocnc::debugger::session {
+
+/// Why something cannot be done with the machine as it stands.
+enum class Hindrance : std::uint8_t {
+  InBlock,       ///< The machine is within a block.
+  Compensation,  ///< G41 or G42 is in force: the tool is beside the contour.
+  HasEnded,      ///< The program has ended.
+};
+
+/// What blocks written by hand have come to.
+struct MdiOutcome {
+  std::vector<running::Event> events;
+  std::optional<running::RunResult> error;  ///< Which has stopped them; then nothing has been done.
+  std::shared_ptr<const std::string> text;  ///< That the error's line lies in.
+};
+
+/// A program on the simulated machine, which goes on and back, and which somebody may interfere with. Registers and
+/// VGPL are set where the run is, and set again when it comes there anew. What changes the machine itself (MDI blocks,
+/// S and F, the override of the feed) brings it to rest, and begins a new stretch of the history: who steps back over
+/// it undoes it.
+class Debuggee {
+ public:
+  Debuggee(ProgramText text, const running::RunOptions& options, const running::TimedMachine& machine);
+
+  const ProgramText& text() const { return *text_; }
+  const running::TimedMachine& machine() const { return *stretches_.back().machine; }
+  const execution::Setup& setup() const { return options_->setup; }
+  const running::Simulation& present() const { return history().present(); }
+  /// Seconds and blocks are those of the run; there is nothing before.
+  bool is_at_begin() const;
+
+  // As in History.
+  std::optional<running::Block> next() { return history().next(); }
+  void step_block() { history().step_block(); }
+  void advance_in_block(double seconds) { history().advance_in_block(seconds); }
+  /// To the end of the instruction, or of the segment of an arc in G49, that the machine is at; between two blocks into
+  /// the next one.
+  void step_instruction();
+  void step_back();
+  /// Undoes step_instruction().
+  void step_instruction_back();
+  void go_to_block(std::uint64_t blocks);
+  /// The last of the blocks [from, blocks) that is it.
+  std::optional<std::uint64_t> find_back(std::uint64_t from, std::uint64_t blocks,
+                                         const std::function<bool(const running::Block&)>& is_it) const;
+
+  void set_register(int number, double value) { history().set_register(number, value); }
+  void set_vgpl(double value) { history().set_vgpl(value); }
+
+  /// Changes to the machine that the present has behind it: fewer when some have been undone.
+  std::size_t change_count() const { return stretches_.size() - 1; }
+
+  std::optional<Hindrance> hindrance() const;
+  // Only where nothing hinders it.
+  void set_state(const execution::State& state);
+  /// 1: feeds as they are written.
+  void set_feed_override(double factor);
+  double feed_override() const { return machine().feed_override; }
+  MdiOutcome run_by_hand(std::string_view text);
+
+ private:
+  struct Stretch {
+    std::unique_ptr<const running::TimedMachine> machine;
+    running::History history;
+    std::uint64_t first_block = 0;
+  };
+
+  running::History& history() { return stretches_.back().history; }
+  const running::History& history() const { return stretches_.back().history; }
+  bool is_at_begin_of_stretch() const;
+  void begin_stretch(const running::Simulation& from, const running::Runner& runner,
+                     const running::TimedMachine& machine);
+
+  // On the heap: what refers to them goes on doing so when this is moved.
+  std::unique_ptr<const ProgramText> text_;
+  std::unique_ptr<const running::Program> program_;
+  std::unique_ptr<const running::RunOptions> options_;
+  std::deque<Stretch> stretches_;
+};
+
+}  // namespace isocnc::debugger::session

@@ -1,0 +1,263 @@
+#include "debugger/session/expression.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "interpreter/dialect/format.h"
+#include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/unicode.h"
+
+namespace isocnc::debugger::session {
+
+using dialect::Language;
+using dialect::Text;
+
+/// Formulas nest no deeper, and their values wait in no more places.
+static constexpr std::size_t kDeepest = 64;
+
+static bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; }
+
+static bool is_true(double value) { return value != 0 && !std::isnan(value); }
+
+static constexpr Text kColumn{"column {}: {}", "colonna {}: {}"};
+static constexpr Text kNothing{"a value is missing here", "qui manca un valore"};
+static constexpr Text kNoSuchName{"there is nothing called {}", "non c'è niente che si chiami {}"};
+static constexpr Text kNoSense{"{} has no meaning here", "{} qui non ha senso"};
+static constexpr Text kUnclosed{"this parenthesis is not closed", "questa parentesi non è chiusa"};
+static constexpr Text kTooDeep{"this nests too deeply", "troppi livelli di parentesi"};
+static constexpr Text kBadFormat{"a format is x (hexadecimal) or a number of decimals, 0 to 12, not {}",
+                                 "un formato è x (esadecimale) o un numero di decimali, da 0 a 12, non {}"};
+
+/// Recursive descent. The first mistake ends it.
+class ExpressionCompiler {
+ public:
+  ExpressionCompiler(std::string_view text, Language language) : text_(text), language_(language) {}
+
+  std::variant<Expression, ExpressionProblem> compile() {
+    parse(0, 0);
+    skip_blanks();
+    if (!problem_ && at_ < text_.size()) fail(at_, no_sense());
+    if (problem_) return *problem_;
+    return std::move(result_);
+  }
+
+ private:
+  using Operation = Expression::Operation;
+
+  struct Operator {
+    std::string_view sign;
+    Operation operation;
+    int rank;  ///< Of what binds more tightly it is greater.
+  };
+  /// Longer signs before those that they begin with.
+  static constexpr std::array<Operator, 14> kOperators{{{"||", Operation::Or, 1},
+                                                        {"&&", Operation::And, 2},
+                                                        {"==", Operation::Equal, 3},
+                                                        {"!=", Operation::NotEqual, 3},
+                                                        {"<>", Operation::NotEqual, 3},
+                                                        {"<=", Operation::LessEqual, 4},
+                                                        {">=", Operation::GreaterEqual, 4},
+                                                        {"<", Operation::Less, 4},
+                                                        {">", Operation::Greater, 4},
+                                                        {"=", Operation::Equal, 3},
+                                                        {"+", Operation::Add, 5},
+                                                        {"-", Operation::Subtract, 5},
+                                                        {"*", Operation::Multiply, 6},
+                                                        {"/", Operation::Divide, 6}}};
+
+  void fail(std::size_t at, const std::string& message) {
+    if (problem_) return;
+    problem_ = ExpressionProblem{dialect::format(kColumn, language_, syntax::column_of(text_, at), message)};
+  }
+  std::string tell(const Text& text, std::string_view what) const {
+    return dialect::format(text, language_, syntax::printable(what));
+  }
+  std::string no_sense() const {
+    const std::string_view rest = text_.substr(at_);
+    return tell(kNoSense, rest.substr(0, std::max<std::size_t>(1, syntax::sequence_length(rest))));
+  }
+
+  void skip_blanks() {
+    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
+  }
+
+  const Operator* next_operator() {
+    skip_blanks();
+    const std::string_view rest = text_.substr(at_);
+    for (const Operator& each : kOperators)
+      if (rest.starts_with(each.sign)) return &each;
+    return nullptr;
+  }
+
+  /// Operands and operators of at least this rank.
+  void parse(int least_rank, std::size_t depth) {
+    parse_operand(depth);
+    while (!problem_) {
+      const Operator* const next = next_operator();
+      if (next == nullptr || next->rank < least_rank) return;
+      at_ += next->sign.size();
+      parse(next->rank + 1, depth + 1);
+      add({.operation = next->operation});
+    }
+  }
+
+  void parse_operand(std::size_t depth) {
+    skip_blanks();
+    if (depth > kDeepest) return fail(at_, std::string(kTooDeep.in(language_)));
+    if (at_ == text_.size()) return fail(at_, std::string(kNothing.in(language_)));
+    const char c = text_[at_];
+    if (c == '(') return parse_parenthesis(depth);
+    if (c == '-' || c == '!' || c == '+') {
+      ++at_;
+      parse_operand(depth + 1);
+      if (c != '+') add({.operation = c == '-' ? Operation::Negate : Operation::Not});
+      return;
+    }
+    if (is_letter(c)) return parse_name();
+    if (syntax::is_digit(c) || c == '.') return parse_number();
+    fail(at_, no_sense());
+  }
+
+  void parse_parenthesis(std::size_t depth) {
+    const std::size_t open = at_++;
+    parse(0, depth + 1);
+    skip_blanks();
+    if (problem_) return;
+    if (at_ == text_.size()) return fail(open, std::string(kUnclosed.in(language_)));
+    if (text_[at_] != ')') return fail(at_, no_sense());
+    ++at_;
+  }
+
+  void parse_name() {
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && (is_letter(text_[at_]) || syntax::is_digit(text_[at_]))) ++at_;
+    const std::string_view name = text_.substr(begin, at_ - begin);
+    const Quantity* const quantity = find_quantity(name);
+    if (quantity == nullptr) return fail(begin, tell(kNoSuchName, name));
+    add({.operation = Operation::Read, .quantity = quantity});
+  }
+
+  void parse_number() {
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && (syntax::is_digit(text_[at_]) || text_[at_] == '.')) ++at_;
+    double value = 0;
+    const char* const end = text_.data() + at_;
+    const auto [behind, error] = std::from_chars(text_.data() + begin, end, value, std::chars_format::fixed);
+    if (error != std::errc{} || behind != end) return fail(begin, tell(kNoSense, text_.substr(begin, at_ - begin)));
+    add({.operation = Operation::Number, .number = value});
+  }
+
+  void add(const Expression::Instruction& instruction) { result_.code_.push_back(instruction); }
+
+  std::string_view text_;
+  Language language_;
+  std::size_t at_ = 0;
+  Expression result_;
+  std::optional<ExpressionProblem> problem_;
+};
+
+std::variant<Expression, ExpressionProblem> Expression::compile(std::string_view text, Language language) {
+  return ExpressionCompiler(text, language).compile();
+}
+
+double Expression::apply(Operation operation, double left, double right) {
+  switch (operation) {
+    case Operation::Add:
+      return left + right;
+    case Operation::Subtract:
+      return left - right;
+    case Operation::Multiply:
+      return left * right;
+    case Operation::Divide:
+      return left / right;
+    case Operation::Less:
+      return left < right;
+    case Operation::LessEqual:
+      return left <= right;
+    case Operation::Greater:
+      return left > right;
+    case Operation::GreaterEqual:
+      return left >= right;
+    case Operation::Equal:
+      return left == right;
+    case Operation::NotEqual:
+      return left != right && !std::isnan(left) && !std::isnan(right);
+    case Operation::And:
+      return is_true(left) && is_true(right);
+    default:
+      return is_true(left) || is_true(right);
+  }
+}
+
+double Expression::at(const Moment& moment) const {
+  // An operand waits for each level of nesting and each rank of operators.
+  std::array<double, 2 * kDeepest + 16> stack{};
+  std::size_t size = 0;
+  for (const Instruction& each : code_) {
+    switch (each.operation) {
+      case Operation::Number:
+        stack[size++] = each.number;
+        break;
+      case Operation::Read:
+        stack[size++] = each.quantity->at(moment);
+        break;
+      case Operation::Negate:
+        stack[size - 1] = -stack[size - 1];
+        break;
+      case Operation::Not:
+        stack[size - 1] = !is_true(stack[size - 1]);
+        break;
+      default:
+        --size;
+        stack[size - 1] = apply(each.operation, stack[size - 1], stack[size]);
+    }
+  }
+  return stack[0];
+}
+
+bool Expression::holds_at(const Moment& moment) const { return is_true(at(moment)); }
+
+const Quantity* Expression::sole_quantity() const { return code_.size() == 1 ? code_.front().quantity : nullptr; }
+
+std::variant<Expression::Formatted, ExpressionProblem> compile_formatted(std::string_view text,
+                                                                         const ValueFormat& format, Language language) {
+  const std::size_t comma = text.rfind(',');
+  auto compiled = Expression::compile(text.substr(0, comma), language);
+  if (const auto* const problem = std::get_if<ExpressionProblem>(&compiled)) return *problem;
+  Expression::Formatted result{std::get<Expression>(std::move(compiled)), format};
+  if (comma == std::string_view::npos) return result;
+  std::string_view wish = text.substr(comma + 1);
+  while (wish.starts_with(' ')) wish.remove_prefix(1);
+  while (wish.ends_with(' ')) wish.remove_suffix(1);
+  if (wish == "x" || wish == "X" || wish == "h") {
+    result.format.is_hexadecimal = true;
+    return result;
+  }
+  int decimals = 0;
+  const auto [behind, error] = std::from_chars(wish.data(), wish.data() + wish.size(), decimals);
+  if (wish.empty() || error != std::errc{} || behind != wish.data() + wish.size() || decimals < 0 || decimals > 12)
+    return ExpressionProblem{dialect::format(kColumn, language, syntax::column_of(text, comma + 1),
+                                             dialect::format(kBadFormat, language, syntax::printable(wish)))};
+  result.format = {.is_hexadecimal = false, .decimals = decimals, .keeps_zeros = true};
+  return result;
+}
+
+std::string show_value(double value, const ValueFormat& format) {
+  constexpr double kMostInteger = 9007199254740992.0;  // Beyond it a double skips integers.
+  if (std::isnan(value)) return "-";
+  if (std::isinf(value)) return value < 0 ? "-∞" : "∞";
+  if (format.is_hexadecimal && value == std::floor(value) && std::abs(value) < kMostInteger)
+    return fmt::format("{}0x{:X}", value < 0 ? "-" : "", static_cast<std::uint64_t>(std::abs(value)));
+  std::string text = fmt::format("{:.{}f}", value, format.decimals);
+  if (!format.keeps_zeros && text.find('.') != std::string::npos) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.ends_with('.')) text.pop_back();
+  }
+  return text == "-0" ? "0" : text;
+}
+
+}  // namespace isocnc::debugger::session

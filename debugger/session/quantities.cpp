@@ -1,0 +1,191 @@
+#include "debugger/session/quantities.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "interpreter/motion/numbers.h"
+#include "interpreter/syntax/characters.h"
+
+namespace isocnc::debugger::session {
+
+using dialect::ModalGroup;
+using geometry::Pose;
+
+static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+Moment moment_of(const running::Simulation& simulation) {
+  const running::RunResult& run = simulation.run();
+  return {.state = run.state,
+          .registers = run.registers,
+          .vgpl = simulation.vgpl(),
+          .line = simulation.line(),
+          .machine = &simulation};
+}
+
+Pose machine_pose(const Moment& moment) {
+  if (moment.machine != nullptr) return moment.machine->sample().tip;
+  const Pose& position = moment.state.position;
+  return {moment.state.to_machine(position.tip), position.b, position.c};
+}
+
+Pose workpiece_pose(const Moment& moment) {
+  Pose pose = machine_pose(moment);
+  pose.tip -= moment.state.workpiece_origin;
+  return pose;
+}
+
+/// Between two blocks what the program says, to the last digit; in a block where the tip is.
+Pose programmed_pose(const Moment& moment) {
+  const execution::State& state = moment.state;
+  if (moment.machine == nullptr || !moment.machine->is_in_block()) return state.position;
+  Pose pose = workpiece_pose(moment);
+  if (state.face_mounted) pose.tip = state.face.to_inner(pose.tip);
+  return pose;
+}
+
+static double component(const Pose& pose, int index) {
+  return index < 3 ? pose.tip[index] : index == 3 ? pose.b : pose.c;
+}
+
+/// What an error has left open is not known.
+static double read_programmed(const Moment& moment, int index) {
+  const bool is_open = (moment.state.unknown & execution::axis_bit(static_cast<execution::Axis>(index))) != 0;
+  return is_open ? kUnknown : component(programmed_pose(moment), index);
+}
+static double read_workpiece(const Moment& moment, int index) { return component(workpiece_pose(moment), index); }
+static double read_machine(const Moment& moment, int index) { return component(machine_pose(moment), index); }
+static double read_joint(const Moment& moment, int index) {
+  return moment.machine != nullptr ? moment.machine->sample().joints[index] : kUnknown;
+}
+static double read_register(const Moment& moment, int index) {
+  return moment.registers[static_cast<std::size_t>(index)];
+}
+static double read_mode(const Moment& moment, int index) {
+  const std::uint8_t number = moment.state.in_force[static_cast<std::size_t>(index)];
+  return number == dialect::kNoMotion ? kUnknown : number;
+}
+static double read_vgpl(const Moment& moment, int) { return moment.vgpl; }
+static double read_override(const Moment& moment, int) { return moment.override_percent; }
+static double read_playback(const Moment& moment, int) { return moment.playback; }
+static double read_line(const Moment& moment, int) { return static_cast<double>(moment.line) + 1; }
+static double read_time(const Moment& moment, int) {
+  return moment.machine != nullptr ? moment.machine->time() : kUnknown;
+}
+static double read_speed(const Moment& moment, int) {
+  return moment.machine != nullptr ? moment.machine->sample().speed * motion::kSecondsPerMinute : kUnknown;
+}
+static double read_feed(const Moment& moment, int) { return execution::feed_in_force(moment.state).number; }
+static double read_spindle_speed(const Moment& moment, int) { return moment.state.spindle_speed; }
+static double read_spindle(const Moment& moment, int) { return moment.state.spindle; }
+static double read_tool(const Moment& moment, int index) {
+  const execution::ToolCode& tool = moment.state.tool;
+  switch (index) {
+    case 0:
+      return tool.head * 100000 + tool.holder * 1000 + tool.tool;
+    case 1:
+      return tool.head;
+    case 2:
+      return tool.holder;
+    default:
+      return tool.tool;
+  }
+}
+
+namespace {
+
+struct Group {
+  std::string_view name;
+  dialect::Text meaning;
+};
+
+constexpr std::array<Group, dialect::kModalGroupCount> kGroups{{
+    {"MOTION", {"motion", "movimento"}},
+    {"PLANE", {"arc plane", "piano di interpolazione"}},
+    {"FACE", {"face frame", "sistema di riferimento di faccia"}},
+    {"REDUCTION", {"profile reduction", "riduzione profilo"}},
+    {"COMPENSATION", {"cutter compensation", "correzione raggio fresa"}},
+    {"INTERPOLATION", {"interpolation", "interpolazione"}},
+    {"UNITS", {"units", "unità di misura"}},
+    {"DISTANCE", {"absolute or incremental", "dimensioni assolute o incrementali"}},
+    {"WORKPIECE", {"workpiece frame", "sistema di riferimento di pezzo"}},
+    {"FEEDMODE", {"feed mode", "modo del feed"}},
+}};
+
+constexpr std::array<std::string_view, 5> kUnits{"mm", "mm", "mm", "°", "°"};
+
+/// `V1` to `V30`.
+std::string_view register_name(int number) {
+  static const std::vector<std::string> kNames = [] {
+    std::vector<std::string> names;
+    for (int i = 0; i <= dialect::kRegisterCount; ++i) names.push_back("V" + std::to_string(i));
+    return names;
+  }();
+  return kNames[static_cast<std::size_t>(number)];
+}
+
+void add_axes(std::vector<Quantity>& quantities, std::span<const std::string_view> names, dialect::Text meaning,
+              Quantity::Read read) {
+  for (std::size_t i = 0; i < names.size(); ++i)
+    quantities.push_back({names[i], meaning, kUnits[i], read, static_cast<int>(i)});
+}
+
+std::vector<Quantity> make_quantities() {
+  std::vector<Quantity> all;
+  static constexpr std::array<std::string_view, 5> kProgrammed{"X", "Y", "Z", "B", "C"};
+  static constexpr std::array<std::string_view, 3> kWorkpiece{"XW", "YW", "ZW"};
+  static constexpr std::array<std::string_view, 5> kMachine{"XM", "YM", "ZM", "BM", "CM"};
+  static constexpr std::array<std::string_view, 5> kJoints{"XJ", "YJ", "ZJ", "BJ", "CJ"};
+  add_axes(all, kProgrammed, {"tool tip, frame in force", "punta utensile, s.d.r. in presa"}, read_programmed);
+  add_axes(all, kWorkpiece, {"tool tip, workpiece frame", "punta utensile, s.d.r. di pezzo"}, read_workpiece);
+  add_axes(all, kMachine, {"tool tip, machine frame", "punta utensile, s.d.r. di macchina"}, read_machine);
+  add_axes(all, kJoints, {"axis of the machine", "asse della macchina"}, read_joint);
+  all.push_back({"S", {"spindle speed", "velocità del mandrino"}, "1/min", read_spindle_speed, 0});
+  all.push_back({"F", {"feed rate as written", "feed come scritto"}, "", read_feed, 0});
+  all.push_back({"SPEED", {"present speed of the tip", "velocità attuale della punta"}, "mm/min", read_speed, 0});
+  all.push_back({"SPINDLE", {"M of the spindle: 3, 4 or 5", "M del mandrino: 3, 4 o 5"}, "", read_spindle, 0});
+  all.push_back({"T", {"tool in the spindle", "utensile nel mandrino"}, "", read_tool, 0});
+  all.push_back({"HEAD", {"head of the tool", "testa dell'utensile"}, "", read_tool, 1});
+  all.push_back({"HOLDER", {"holder of the tool", "portautensile"}, "", read_tool, 2});
+  all.push_back({"TOOL", {"number of the tool", "numero dell'utensile"}, "", read_tool, 3});
+  all.push_back({"VGPL", {"GPL variable that IF compares", "variabile GPL confrontata da IF"}, "", read_vgpl, 0});
+  all.push_back({"LINE", {"line of the program", "riga del programma"}, "", read_line, 0});
+  all.push_back({"TIME", {"time since the begin", "tempo dall'inizio"}, "s", read_time, 0});
+  all.push_back({"OVERRIDE", {"override of the feed", "override del feed"}, "%", read_override, 0});
+  all.push_back({"PLAYBACK",
+                 {"speed of the run: 0 as fast as possible, 1 in real time",
+                  "velocità di esecuzione: 0 la massima, 1 in tempo reale"},
+                 "",
+                 read_playback,
+                 0});
+  for (std::size_t i = 0; i < kGroups.size(); ++i)
+    all.push_back({kGroups[i].name, kGroups[i].meaning, "", read_mode, static_cast<int>(i)});
+  for (int i = 1; i <= dialect::kRegisterCount; ++i)
+    all.push_back({register_name(i), {"register", "registro"}, "", read_register, i, true});
+  return all;
+}
+
+bool is_same_name(std::string_view name, std::string_view upper_name) {
+  return std::equal(name.begin(), name.end(), upper_name.begin(), upper_name.end(),
+                    [](char a, char b) { return syntax::upper(a) == b; });
+}
+
+}  // namespace
+
+std::span<const Quantity> all_quantities() {
+  static const std::vector<Quantity> kQuantities = make_quantities();
+  return kQuantities;
+}
+
+const Quantity* find_quantity(std::string_view name) {
+  for (const Quantity& quantity : all_quantities())
+    if (is_same_name(name, quantity.name)) return &quantity;
+  return nullptr;
+}
+
+std::string_view group_name(ModalGroup group) { return kGroups[static_cast<std::size_t>(group)].name; }
+dialect::Text group_meaning(ModalGroup group) { return kGroups[static_cast<std::size_t>(group)].meaning; }
+
+}  // namespace isocnc::debugger::session

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "interpreter/running/simulation.h"
+
+namespace isocnc::debugger::session {
+
+/// A moment of a run, as expressions see it.
+struct Moment {
+  const execution::State& state;
+  const running::Registers& registers;
+  double vgpl = 0;
+  std::uint64_t line = 0;         ///< From 0.
+  double override_percent = 100;  ///< Of the feed.
+  double playback = 0;            ///< 0: as fast as possible; 1: in real time.
+  /// Where the machine is. Without it, as where the way back is searched, it counts as standing where the program has
+  /// led it, and there is no time.
+  const running::Simulation* machine = nullptr;
+};
+
+/// The present of a simulation.
+Moment moment_of(const running::Simulation& simulation);
+
+/// Something that has a number at any moment, and its name: `X`, `ZM`, `V12`, `MOTION`.
+struct Quantity {
+  using Read = double (*)(const Moment& moment, int index);
+
+  std::string_view name;
+  dialect::Text meaning;
+  std::string_view unit;  ///< `mm`, `°`, ...; empty for plain numbers.
+  Read read = nullptr;
+  int index = 0;  ///< Which one of its kind: of registers the number.
+  bool is_register = false;
+
+  double at(const Moment& moment) const { return read(moment, index); }
+};
+
+/// The quantity with this name, in any case; null when there is none.
+const Quantity* find_quantity(std::string_view name);
+
+/// All of them, in the order of the documentation.
+std::span<const Quantity> all_quantities();
+
+/// The tool tip as the program counts it: in the frame in force, the workpiece frame, the machine frame.
+geometry::Pose programmed_pose(const Moment& moment);
+geometry::Pose workpiece_pose(const Moment& moment);
+geometry::Pose machine_pose(const Moment& moment);
+
+/// The modal group that a quantity stands for, by the name: `MOTION`, `PLANE`.
+std::string_view group_name(dialect::ModalGroup group);
+dialect::Text group_meaning(dialect::ModalGroup group);
+
+}  // namespace isocnc::debugger::session

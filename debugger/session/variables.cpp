@@ -1,0 +1,299 @@
+#include "debugger/session/variables.h"
+
+#include <array>
+
+#include <fmt/format.h>
+
+#include "interpreter/syntax/unicode.h"
+
+namespace isocnc::debugger::session {
+
+using dialect::ModalGroup;
+using dialect::Text;
+
+namespace {
+
+/// References of scopes, and of what lies in them.
+enum Reference : std::int64_t {
+  kPosition = 1,
+  kModes,
+  kFeedAndSpindle,
+  kTool,
+  kFrames,
+  kRegisters,
+  kGpl,
+  kTimes,
+  kMachinePosition,
+  kWorkpiecePosition,
+  kFacePosition,
+  kJointPosition,
+  kToGo,
+  kWorkpieceFrame,
+  kFaceFrame,
+  kToolValues,
+  kFunctionParameters,
+  kFirstFunction = 1000,  ///< Behind it the M's number.
+};
+
+constexpr std::array<Scope, 8> kScopes{{
+    {{"Position", "Posizione"}, kPosition, "locals"},
+    {{"Modal groups", "Gruppi modali"}, kModes, {}},
+    {{"Feed and spindle", "Feed e mandrino"}, kFeedAndSpindle, {}},
+    {{"Tool", "Utensile"}, kTool, {}},
+    {{"Frames", "Sistemi di riferimento"}, kFrames, {}},
+    {{"Registers", "Registri"}, kRegisters, "registers"},
+    {{"GPL variables", "Variabili GPL"}, kGpl, {}},
+    {{"Times", "Tempi"}, kTimes, {}},
+}};
+
+constexpr Text kMachineTip{"Machine", "Macchina"};
+constexpr Text kWorkpieceTip{"Workpiece", "Pezzo"};
+constexpr Text kFaceTip{"Face", "Faccia"};
+constexpr Text kJointsName{"Joints", "Assi"};
+constexpr Text kToGoName{"Distance to go", "Distanza residua"};
+constexpr Text kPath{"Path", "Percorso"};
+constexpr Text kSpindle{"Spindle", "Mandrino"};
+constexpr Text kClockwise{"M03, clockwise", "M03, orario"};
+constexpr Text kCounterclockwise{"M04, counterclockwise", "M04, antiorario"};
+constexpr Text kStopped{"M05, stopped", "M05, fermo"};
+constexpr Text kNone{"none", "nessuno"};
+constexpr Text kName{"Name", "Nome"};
+constexpr Text kLength{"Length", "Lunghezza"};
+constexpr Text kRadius{"Radius", "Raggio"};
+constexpr Text kOrigin{"Origin", "Origine"};
+constexpr Text kWorkpieceFrameName{"Workpiece (machine frame)", "Pezzo (s.d.r. di macchina)"};
+constexpr Text kFaceFrameName{"Face (workpiece frame)", "Faccia (s.d.r. di pezzo)"};
+constexpr Text kLine{"line {}", "riga {}"};
+constexpr Text kDefault{"default", "di default"};
+constexpr Text kNoMotion{"none yet", "ancora nessuno"};
+constexpr Text kBlocks{"Blocks executed", "Blocchi eseguiti"};
+constexpr Text kFeedInForce{"Feed mode", "Modo del feed"};
+constexpr Text kPerMinute{"G94, per minute", "G94, al minuto"};
+constexpr Text kInverse{"G93, inverse time", "G93, inverso del tempo"};
+constexpr Text kNoSuchVariables{"there are no variables with the reference {}",
+                                "non ci sono variabili con il riferimento {}"};
+
+/// Gathers the variables of one place.
+class Listing {
+ public:
+  Listing(const Session& session, const ValueFormat& format)
+      : session_(session), moment_(session.moment()), format_(format) {}
+
+  std::vector<Variable> variables;
+
+  std::string in_language(const Text& text) const { return std::string(session_.in_language(text)); }
+  std::string show(double value) const { return show_value(value, format_); }
+
+  void add(std::string name, std::string value, std::string type = {}) {
+    variables.push_back({.name = std::move(name), .value = std::move(value), .type = std::move(type)});
+  }
+  void add_group(const Text& name, std::string value, Reference reference) {
+    variables.push_back({.name = in_language(name), .value = std::move(value), .reference = reference});
+  }
+  void add_quantity(std::string_view quantity_name, std::string name = {}) {
+    const Quantity* const quantity = find_quantity(quantity_name);
+    const std::string unit = quantity->unit.empty() ? "" : fmt::format(", {}", quantity->unit);
+    variables.push_back({.name = name.empty() ? std::string(quantity->name) : std::move(name),
+                         .value = show(quantity->at(moment_)),
+                         .type = in_language(quantity->meaning) + unit,
+                         .evaluate_name = std::string(quantity->name),
+                         .quantity = session_.can_set(*quantity) ? quantity : nullptr});
+  }
+
+  void list_position() {
+    for (const std::string_view axis : {"X", "Y", "Z", "B", "C"}) add_quantity(axis);
+    add_group(kMachineTip, pose_text(machine_pose(moment_)), kMachinePosition);
+    add_group(kWorkpieceTip, pose_text(workpiece_pose(moment_)), kWorkpiecePosition);
+    if (moment_.state.face_mounted) add_group(kFaceTip, pose_text(programmed_pose(moment_)), kFacePosition);
+    add_group(kJointsName, pose_text(motion::pose(present().sample().joints)), kJointPosition);
+    add_group(kToGoName, fmt::format("{} mm", show(present().to_go().path)), kToGo);
+  }
+
+  void list_machine_position() {
+    for (const std::string_view axis : {"XM", "YM", "ZM", "BM", "CM"}) add_quantity(axis);
+  }
+  void list_workpiece_position() {
+    for (const std::string_view axis : {"XW", "YW", "ZW"}) add_quantity(axis);
+  }
+  void list_face_position() {
+    for (const std::string_view axis : {"X", "Y", "Z"}) add_quantity(axis);
+  }
+  void list_joints() {
+    for (const std::string_view axis : {"XJ", "YJ", "ZJ", "BJ", "CJ"}) add_quantity(axis);
+  }
+
+  void list_to_go() {
+    const running::DistanceToGo to_go = present().to_go();
+    constexpr std::string_view kAxes = "XYZBC";
+    for (int axis = 0; axis < motion::kAxisCount; ++axis)
+      add(std::string(1, kAxes[static_cast<std::size_t>(axis)]), show(to_go.axes[axis]), axis < 3 ? "mm" : "°");
+    add(in_language(kPath), show(to_go.path), "mm");
+  }
+
+  void list_modes() {
+    for (std::size_t i = 0; i < dialect::kModalGroupCount; ++i) add_mode(static_cast<ModalGroup>(i));
+  }
+
+  void list_feed_and_spindle() {
+    add_quantity("F");
+    add(in_language(kFeedInForce), in_language(moment_.state.inverse_time() ? kInverse : kPerMinute));
+    add_quantity("SPEED");
+    add_quantity("OVERRIDE");
+    add_quantity("PLAYBACK");
+    add_quantity("S");
+    const std::uint8_t spindle = moment_.state.spindle;
+    add(in_language(kSpindle), in_language(spindle == 3 ? kClockwise : spindle == 4 ? kCounterclockwise : kStopped));
+  }
+
+  void list_tool() {
+    const execution::ToolCode& tool = moment_.state.tool;
+    if (tool == execution::ToolCode{}) return add("T", in_language(kNone));
+    for (const std::string_view name : {"T", "HEAD", "HOLDER", "TOOL"}) add_quantity(name);
+    const running::TimedMachine& machine = session_.debuggee().machine();
+    if (session_.configuration().machine.tools)
+      for (const configuration::Tool& each : *session_.configuration().machine.tools)
+        if (each.code == tool && !each.name.empty()) add(in_language(kName), syntax::printable(each.name));
+    add(in_language(kLength), show(machine.tool_length(tool)), "mm");
+    const auto radius = machine.tool_radii.find(tool);
+    if (radius != machine.tool_radii.end()) add(in_language(kRadius), show(radius->second), "mm");
+  }
+
+  void list_frames() {
+    add_group(kWorkpieceFrameName, vector_text(moment_.state.workpiece_origin), kWorkpieceFrame);
+    if (moment_.state.face_mounted)
+      add_group(kFaceFrameName, vector_text(moment_.state.face.origin), kFaceFrame);
+    else
+      add(in_language(kFaceFrameName), in_language(kNone));
+  }
+  void list_workpiece_frame() { add_vector(moment_.state.workpiece_origin); }
+  void list_face_frame() {
+    const geometry::Frame& face = moment_.state.face;
+    add(in_language(kOrigin), vector_text(face.origin), "mm");
+    for (int axis = 0; axis < 3; ++axis) add(std::string(1, "ijk"[axis]), vector_text(face.axes.col(axis)));
+  }
+
+  void list_registers() {
+    for (int number = 1; number <= dialect::kRegisterCount; ++number) add_quantity(fmt::format("V{}", number));
+  }
+
+  /// As the GPL of the control calls them (I.4.2 to I.5).
+  void list_gpl() {
+    add_quantity("VGPL", "Var_IF[1]");
+    add_quantity("S", "SValue");
+    const execution::ToolCode& tool = moment_.state.tool;
+    variables.push_back({.name = "TValues",
+                         .value = fmt::format("{}, {}, {}", tool.head, tool.holder, tool.tool),
+                         .reference = kToolValues});
+    variables.push_back({.name = "MxMFunParams", .value = "", .reference = kFunctionParameters});
+  }
+  void list_tool_values() {
+    add_quantity("HEAD", "[1]");
+    add_quantity("HOLDER", "[2]");
+    add_quantity("TOOL", "[3]");
+  }
+  void list_functions() {
+    for (const Journal::Function& function : session_.journal().functions(present().blocks())) {
+      std::string values;
+      for (const execution::FunctionParameter& each : function.call.parameters)
+        values += fmt::format("{}P{}={}", values.empty() ? "" : " ", each.number, show(each.value));
+      variables.push_back({.name = fmt::format("[{}]", function.call.number),
+                           .value = values,
+                           .reference = kFirstFunction + function.call.number});
+    }
+  }
+  void list_function(int number) {
+    for (const Journal::Function& function : session_.journal().functions(present().blocks())) {
+      if (function.call.number != number) continue;
+      for (const execution::FunctionParameter& each : function.call.parameters)
+        add(fmt::format("P{}", each.number), show(each.value));
+    }
+  }
+
+  void list_times() {
+    add_quantity("TIME");
+    add(in_language(kBlocks), std::to_string(present().blocks()));
+    add_quantity("LINE");
+  }
+
+ private:
+  const running::Simulation& present() const { return session_.debuggee().present(); }
+
+  std::string pose_text(const geometry::Pose& pose) const {
+    return fmt::format("X {} Y {} Z {} B {} C {}", show(pose.tip.x()), show(pose.tip.y()), show(pose.tip.z()),
+                       show(pose.b), show(pose.c));
+  }
+  std::string vector_text(const geometry::Vec3& vector) const {
+    return fmt::format("X {} Y {} Z {}", show(vector.x()), show(vector.y()), show(vector.z()));
+  }
+  void add_vector(const geometry::Vec3& vector) {
+    for (int axis = 0; axis < 3; ++axis) add(std::string(1, "XYZ"[axis]), show(vector[axis]), "mm");
+  }
+
+  void add_mode(ModalGroup group) {
+    const std::uint8_t number = moment_.state.mode(group);
+    const auto setter = session_.journal().setter(group, present().blocks());
+    std::string value = in_language(kNoMotion);
+    if (number != dialect::kNoMotion) {
+      const dialect::GCode& code = dialect::kGCodes[dialect::kGCodeRows[number]];
+      const std::string origin = setter ? session_.in_language(kLine, session_.client.to_client_line(*setter))
+                                 : (moment_.state.written & (1u << static_cast<unsigned>(group))) == 0
+                                     ? in_language(kDefault)
+                                     : std::string();
+      value = fmt::format("G{:02} {}", number, in_language(code.name));
+      if (!origin.empty()) value += fmt::format(" ({})", origin);
+    }
+    variables.push_back(
+        {.name = in_language(group_meaning(group)), .value = value, .evaluate_name = std::string(group_name(group))});
+  }
+
+  const Session& session_;
+  const Moment moment_;
+  const ValueFormat format_;
+};
+
+/// What is listed under a reference.
+struct Place {
+  std::int64_t reference = 0;
+  void (Listing::*list)();
+};
+
+constexpr Place kPlaces[] = {
+    {kPosition, &Listing::list_position},
+    {kModes, &Listing::list_modes},
+    {kFeedAndSpindle, &Listing::list_feed_and_spindle},
+    {kTool, &Listing::list_tool},
+    {kFrames, &Listing::list_frames},
+    {kRegisters, &Listing::list_registers},
+    {kGpl, &Listing::list_gpl},
+    {kTimes, &Listing::list_times},
+    {kMachinePosition, &Listing::list_machine_position},
+    {kWorkpiecePosition, &Listing::list_workpiece_position},
+    {kFacePosition, &Listing::list_face_position},
+    {kJointPosition, &Listing::list_joints},
+    {kToGo, &Listing::list_to_go},
+    {kWorkpieceFrame, &Listing::list_workpiece_frame},
+    {kFaceFrame, &Listing::list_face_frame},
+    {kToolValues, &Listing::list_tool_values},
+    {kFunctionParameters, &Listing::list_functions},
+};
+
+}  // namespace
+
+std::span<const Scope> all_scopes() { return kScopes; }
+
+std::vector<Variable> variables_of(const Session& session, std::int64_t reference, const ValueFormat& format) {
+  session.standing();
+  Listing listing(session, format);
+  if (reference > kFirstFunction && reference < kFirstFunction + 1000) {
+    listing.list_function(static_cast<int>(reference - kFirstFunction));
+    return listing.variables;
+  }
+  for (const Place& place : kPlaces) {
+    if (place.reference != reference) continue;
+    (listing.*place.list)();
+    return listing.variables;
+  }
+  throw RequestError(session.in_language(kNoSuchVariables, reference));
+}
+
+}  // namespace isocnc::debugger::session

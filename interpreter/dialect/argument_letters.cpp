@@ -1,0 +1,13 @@
+#include "interpreter/dialect/argument_letters.h"
+
+#include "interpreter/dialect/letters.h"
+
+namespace isocnc::dialect {
+
+Text meaning_of(char letter) {
+  for (const LetterDef& def : all_letters())
+    if (def.letter == letter) return def.meaning;
+  return {};
+}
+
+}  // namespace isocnc::dialect

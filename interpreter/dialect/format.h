@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include <fmt/format.h>
+
+#include "interpreter/dialect/diagnostic.h"
+
+namespace isocnc::dialect {
+
+/// A text in a language, with values in the places that it has for them, as those of fmt::format: `{}`, `{:.1f}`.
+template <class... Values>
+std::string format(const Text& text, Language language, const Values&... values) {
+  return fmt::format(fmt::runtime(text.in(language)), values...);
+}
+
+}  // namespace isocnc::dialect

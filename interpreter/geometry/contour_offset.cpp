@@ -1,0 +1,226 @@
+#include "interpreter/geometry/contour_offset.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace isocnc::geometry {
+
+static constexpr double kSmooth = 1e-4;  // mm: ends this near to each other are one point.
+
+using Box = Eigen::AlignedBox2d;
+
+/// Holds the curve; of an arc, its circle.
+static Box box_around(const PlaneCurve& curve) {
+  Box box(curve.start);
+  box.extend(curve.end);
+  if (!curve.is_arc()) return box;
+  const Vec2 reach = Vec2::Constant(std::max(curve.radius(), (curve.end - curve.center).norm()));
+  return Box(Vec2(curve.center - reach), Vec2(curve.center + reach));
+}
+
+/// How unequally far the ends of an arc are from its center.
+static double imprecision(const PlaneCurve& curve) {
+  return curve.is_arc() ? std::abs(curve.radius() - (curve.end - curve.center).norm()) : 0;
+}
+
+template <class T>
+static std::optional<T> take_first(std::deque<T>& all) {
+  if (all.empty()) return std::nullopt;
+  std::optional<T> first = all.front();
+  all.pop_front();
+  return first;
+}
+
+std::optional<OffsetPiece> ContourOffset::next_piece() { return take_first(out_); }
+std::optional<ContourFlaw> ContourOffset::next_flaw() { return take_first(flaws_); }
+
+void ContourOffset::lead_in(const PlaneCurve& line, const ContourElement& like, bool is_inserted) {
+  pieces_.clear();
+  given_out_ = 0;
+  contour_.clear();
+  side_ = like.side;
+  arriving_ = like.curve.direction_at_end();
+  pieces_.push_back({.out = {.curve = line, .tag = like.tag, .is_inserted = is_inserted},
+                     .number = count_,
+                     .pass = pass_,
+                     .cuts = like.cuts,
+                     .is_lead_in = true});
+}
+
+void ContourOffset::add(const ContourElement& element) {
+  const double to_side = element.side * radius_;
+  PlaneCurve way = beside(element.curve, to_side);
+  Kept kept{.curve = element.curve, .number = ++count_};
+  if (vanishes_beside(element.curve, to_side) && element.curve.radius() < radius_ - kGouge) {
+    kept.is_too_small = true;
+    if (element.cuts) flaws_.push_back({.tag = element.tag, .small_arc = element.curve.radius()});
+  }
+  if (!element.cuts) ++pass_;
+  kept.pass = pass_;
+  const Vec2 arriving = std::exchange(arriving_, element.curve.direction_at_end());
+  constexpr double kStraightOn = 1e-3;
+  kept.is_smooth = !pieces_.back().is_lead_in && (arriving - element.curve.direction_at_start()).norm() < kStraightOn;
+  const std::size_t before = pieces_.size();
+  const std::size_t ended = before - (has_stopped() ? 0 : 1);
+  if (element.cuts) {
+    contour_.push_back(kept);
+    if (contour_.size() > kLookBack) contour_.pop_front();
+    for (std::size_t i = 0; i < ended; ++i) {
+      look_at(pieces_[i], kept);
+      if (i < given_out_) tell(pieces_[i]);
+    }
+  }
+  join(way, element, arriving);
+  side_ = element.side;
+  pieces_.push_back({.out = {.curve = way, .tag = element.tag},
+                     .number = count_,
+                     .pass = pass_,
+                     .cuts = element.cuts,
+                     .is_smooth = kept.is_smooth});
+  for (std::size_t fresh = pieces_.size() - before; element.reduces && fresh > 0; --fresh)
+    reduce(pieces_.size() - fresh);
+  release(element.reduces ? kLookAhead : 1);
+}
+
+/// Brings the last piece and the next together; `next` may begin later than it would, and what comes between them is
+/// inserted. `arriving` is where the contour's last element leads.
+void ContourOffset::join(PlaneCurve& next, const ContourElement& element, const Vec2& arriving) {
+  Piece& last = pieces_.back();
+  PlaneCurve& way = last.out.curve;
+  const bool is_final = has_stopped();
+  if (last.is_lead_in && !is_final) way.end = next.start;
+  if ((way.end - next.start).norm() <= kSmooth) {
+    next.start = way.end;
+    return settle(last);
+  }
+  const Vec2 leaving = element.curve.direction_at_start();
+  const double turn = cross(arriving, leaving) * element.side;
+  const double turned = std::atan2(cross(arriving, leaving), arriving.dot(leaving));
+  constexpr double kReversal = 1e-9;
+  const bool is_inside = turn > 0 && !(turn < kReversal && arriving.dot(leaving) < 0);
+  const bool same_side = side_ == element.side;
+  if (same_side && is_inside && !is_final && trim(next)) return settle(last);
+  PlaneCurve corner{.start = way.end, .end = next.start};
+  if (same_side && !is_inside && last.cuts && element.cuts) {
+    corner.center = element.curve.start;
+    corner.sweep = -element.side * std::abs(turned);
+  }
+  settle(last);
+  insert(corner);
+}
+
+/// Cuts the last piece and the next off where they cross, nearest to their corner.
+bool ContourOffset::trim(PlaneCurve& next) {
+  PlaneCurve& way = pieces_.back().out.curve;
+  const Crossings found = crossings(way, next);
+  const auto nearest = std::min_element(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {
+    return a.along_second - a.along_first < b.along_second - b.along_first;
+  });
+  if (nearest == found.end()) return false;
+  way = way.to(nearest->point, nearest->along_first);
+  next = next.from(nearest->point, nearest->along_second);
+  return true;
+}
+
+void ContourOffset::insert(const PlaneCurve& curve) {
+  Piece piece = pieces_.back();
+  piece.out = {.curve = curve, .tag = piece.out.tag, .is_inserted = true};
+  piece.is_lead_in = piece.is_told = false;
+  pieces_.push_back(piece);
+  settle(pieces_.back());
+}
+
+/// The piece has its end: looks for gouges.
+void ContourOffset::settle(Piece& piece) {
+  piece.gouges = piece.tells = false;
+  for (const Kept& element : contour_) look_at(piece, element);
+}
+
+void ContourOffset::look_at(Piece& piece, const Kept& element) const {
+  if (!piece.cuts || piece.pass != element.pass || piece.tells) return;
+  if (piece.number == element.number && !piece.out.is_inserted && !piece.is_lead_in) return;
+  const auto [first, second] = std::minmax(piece.number, element.number);
+  const bool is_smooth = second == element.number ? element.is_smooth : piece.is_smooth;
+  if (second - first > kNeighbors || (second - first == 1 && is_smooth)) return;
+  // Ways on and off shift the cutter sideways, and so pass the contour's ends at less than the radius.
+  const double wanted = piece.is_lead_in ? radius_ / 2 : radius_;
+  const double least = wanted - kGouge - imprecision(piece.out.curve) - imprecision(element.curve);
+  if (!(least > 0)) return;
+  if (box_around(piece.out.curve).squaredExteriorDistance(box_around(element.curve)) >= least * least) return;
+  if (distance(piece.out.curve, element.curve) >= least) return;
+  piece.gouges = true;
+  piece.tells = !is_explained(piece.number, element.number);
+}
+
+/// A gouge next to an inside arc that is too small comes from it, and one finding is enough.
+bool ContourOffset::is_explained(std::uint64_t a, std::uint64_t b) const {
+  const auto low = std::min(a, b);
+  const auto high = std::max(a, b);
+  if (high - low > 2) return false;
+  return std::any_of(contour_.begin(), contour_.end(), [&](const Kept& element) {
+    return element.is_too_small && low <= element.number && element.number <= high;
+  });
+}
+
+/// Where a loop that gouges leads back to piece `last`, it is cut off. The shortest such loop is.
+void ContourOffset::reduce(std::size_t last) {
+  bool gouges = false;
+  for (std::size_t first = last; first-- > given_out_;) {
+    if (pieces_[first].is_lead_in) return;
+    gouges = gouges || pieces_[first].gouges;
+    if (gouges && cut_loop(first, last)) return;
+  }
+}
+
+bool ContourOffset::cut_loop(std::size_t first, std::size_t last) {
+  for (const Crossing& crossing : crossings(pieces_[first].out.curve, pieces_[last].out.curve)) {
+    Piece cut = pieces_[first];
+    cut.out.curve = cut.out.curve.to(crossing.point, crossing.along_first);
+    settle(cut);
+    if (cut.gouges) continue;
+    pieces_[first] = cut;
+    Piece& rest = pieces_[last];
+    rest.out.curve = rest.out.curve.from(crossing.point, crossing.along_second);
+    if (last + 1 < pieces_.size()) settle(rest);
+    pieces_.erase(pieces_.begin() + static_cast<std::ptrdiff_t>(first) + 1,
+                  pieces_.begin() + static_cast<std::ptrdiff_t>(last));
+    return true;
+  }
+  return false;
+}
+
+void ContourOffset::finish() {
+  if (has_stopped()) return;
+  settle(pieces_.back());
+  release(0);
+}
+
+void ContourOffset::lead_out(const PlaneCurve& line, std::uint64_t tag) {
+  Piece piece{
+      .out = {.curve = line, .tag = tag, .is_inserted = true}, .number = count_ + 1, .pass = pass_, .is_lead_in = true};
+  settle(piece);
+  tell(piece);
+}
+
+/// Gives out what is final, but for so many pieces; what has waited for kLookAhead elements waits no longer.
+void ContourOffset::release(std::size_t held) {
+  const auto has_waited = [&] {
+    return pieces_.size() - given_out_ > 1 && pieces_[given_out_].number + kLookAhead < count_;
+  };
+  for (; pieces_.size() - given_out_ > held || has_waited(); ++given_out_) {
+    out_.push_back(pieces_[given_out_].out);
+    tell(pieces_[given_out_]);
+  }
+  for (; given_out_ > 0 && pieces_.front().number + kLookBack < count_; --given_out_) pieces_.pop_front();
+}
+
+/// Once: who is told needs no second word about the same piece.
+void ContourOffset::tell(Piece& piece) {
+  if (!piece.tells || piece.is_told) return;
+  piece.is_told = true;
+  flaws_.push_back({.tag = piece.out.tag});
+}
+
+}  // namespace isocnc::geometry

@@ -1,0 +1,21 @@
+#include "interpreter/geometry/helix.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace isocnc::geometry {
+
+Helix helix(const Vec3& from, const Vec3& to, const Vec3& center, const Vec3& normal, double sweep_deg) {
+  const Vec3 from_center = from - center;
+  Helix result;
+  result.sweep = std::abs(sweep_deg) * std::numbers::pi / 180;
+  result.out = from_center - normal * normal.dot(from_center);
+  result.side = normal.cross(result.out) * (sweep_deg < 0 ? -1 : 1);
+  result.center = from - result.out;
+  result.rise = to - (result.center + std::cos(result.sweep) * result.out + std::sin(result.sweep) * result.side);
+  return result;
+}
+
+std::array<Range, 3> Helix::extents() const { return wave_ranges(center, out, side, rise / sweep, sweep); }
+
+}  // namespace isocnc::geometry

@@ -1,0 +1,149 @@
+#include "interpreter/geometry/plane_curve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+namespace isocnc::geometry {
+
+static constexpr double kTurn = 2 * std::numbers::pi;
+static constexpr double kOnCurve = 1e-7;  // mm: how far beyond its ends a curve still is met.
+
+static Vec2 unit(const Vec2& vector) {
+  const double length = vector.norm();
+  return length > 0 ? Vec2(vector / length) : Vec2(Vec2::Zero());
+}
+
+/// Along an arc's way at one of its points.
+static Vec2 direction_on_arc(const PlaneCurve& arc, const Vec2& point) {
+  return (arc.sweep > 0 ? 1 : -1) * left_of(unit(point - arc.center));
+}
+
+double PlaneCurve::length() const { return is_arc() ? radius() * std::abs(sweep) : (end - start).norm(); }
+
+Vec2 PlaneCurve::direction_at_start() const { return is_arc() ? direction_on_arc(*this, start) : unit(end - start); }
+
+Vec2 PlaneCurve::direction_at_end() const { return is_arc() ? direction_on_arc(*this, end) : unit(end - start); }
+
+/// How far an arc has turned at a point beside it: radians in its own sense, from a hair before 0 to a full turn.
+static double turned_at(const PlaneCurve& arc, const Vec2& point) {
+  const Vec2 a = arc.start - arc.center;
+  const Vec2 b = point - arc.center;
+  const double angle = std::atan2(cross(a, b), a.dot(b)) * (arc.sweep > 0 ? 1 : -1);
+  const double hair = kOnCurve / std::max(a.norm(), kOnCurve);
+  return angle < -hair ? angle + kTurn : angle;
+}
+
+PlaneCurve PlaneCurve::from(const Vec2& point, double along) const {
+  return {.start = point, .end = end, .center = center, .sweep = is_arc() ? sweep * (1 - along / length()) : 0};
+}
+
+PlaneCurve PlaneCurve::to(const Vec2& point, double along) const {
+  return {.start = start, .end = point, .center = center, .sweep = is_arc() ? sweep * along / length() : 0};
+}
+
+bool vanishes_beside(const PlaneCurve& curve, double distance) {
+  return curve.is_arc() && distance * curve.sweep > 0 && curve.radius() <= std::abs(distance);
+}
+
+PlaneCurve beside(const PlaneCurve& curve, double distance) {
+  PlaneCurve shifted = curve;
+  shifted.start += distance * left_of(curve.direction_at_start());
+  shifted.end += distance * left_of(curve.direction_at_end());
+  if (vanishes_beside(curve, distance)) shifted.sweep = 0;
+  return shifted;
+}
+
+/// How much of the curve lies before a point of the line or circle that it is part of; nothing where it is not met.
+static std::optional<double> length_before(const PlaneCurve& curve, const Vec2& point) {
+  const double length = curve.length();
+  if (!(length > 0)) return std::nullopt;
+  const double before =
+      curve.is_arc() ? turned_at(curve, point) * curve.radius() : (point - curve.start).dot(curve.direction_at_start());
+  if (!(before >= -kOnCurve && before <= length + kOnCurve)) return std::nullopt;
+  return std::clamp(before, 0.0, length);
+}
+
+static void add_crossing(Crossings& found, const PlaneCurve& first, const PlaneCurve& second, const Vec2& point) {
+  const auto along_first = length_before(first, point);
+  const auto along_second = length_before(second, point);
+  if (!along_first || !along_second) return;
+  found.at[static_cast<std::size_t>(found.count++)] = {point, *along_first, *along_second};
+}
+
+/// Where the line through both ends meets a circle.
+static void cross_line_and_circle(const PlaneCurve& line, const PlaneCurve& arc, const auto& add) {
+  const Vec2 way = line.direction_at_start();
+  const double radius = arc.radius();
+  const double off = cross(way, line.start - arc.center);
+  if (!(std::abs(off) <= radius)) return;
+  const Vec2 foot = arc.center + off * left_of(way);
+  const double half = std::sqrt(std::max(radius * radius - off * off, 0.0));
+  add(Vec2(foot - half * way));
+  if (half > 0) add(Vec2(foot + half * way));
+}
+
+static void cross_circles(const PlaneCurve& first, const PlaneCurve& second, const auto& add) {
+  const Vec2 between = second.center - first.center;
+  const double apart = between.norm();
+  const double r1 = first.radius();
+  const double r2 = second.radius();
+  if (!(apart > 0) || apart > r1 + r2 || apart < std::abs(r1 - r2)) return;
+  const double along = (apart * apart + r1 * r1 - r2 * r2) / (2 * apart);
+  const double half = std::sqrt(std::max(r1 * r1 - along * along, 0.0));
+  const Vec2 way = between / apart;
+  const Vec2 foot = first.center + along * way;
+  add(Vec2(foot - half * left_of(way)));
+  if (half > 0) add(Vec2(foot + half * left_of(way)));
+}
+
+Crossings crossings(const PlaneCurve& first, const PlaneCurve& second) {
+  Crossings found;
+  const auto add = [&](const Vec2& point) { add_crossing(found, first, second, point); };
+  if (first.is_arc() && second.is_arc()) {
+    cross_circles(first, second, add);
+  } else if (first.is_arc()) {
+    cross_line_and_circle(second, first, add);
+  } else if (second.is_arc()) {
+    cross_line_and_circle(first, second, add);
+  } else {
+    const Vec2 way = first.direction_at_start();
+    const double slope = cross(way, second.direction_at_start());
+    constexpr double kParallel = 1e-12;
+    if (std::abs(slope) <= kParallel) return found;
+    add(first.start + cross(second.start - first.start, second.direction_at_start()) / slope * way);
+  }
+  return found;
+}
+
+static double distance_to(const Vec2& point, const PlaneCurve& curve) {
+  const double to_ends = std::min((point - curve.start).norm(), (point - curve.end).norm());
+  if (!length_before(curve, point)) return to_ends;
+  const double to_inside = curve.is_arc() ? (point - curve.center).norm() - curve.radius()
+                                          : cross(curve.direction_at_start(), point - curve.start);
+  return std::min(to_ends, std::abs(to_inside));
+}
+
+/// Where a common normal of both can stand on an arc: towards the other's center, or straight towards its line.
+static double distance_along_normals(const PlaneCurve& arc, const PlaneCurve& other) {
+  const Vec2 towards = other.is_arc() ? unit(other.center - arc.center) : left_of(other.direction_at_start());
+  double least = std::numeric_limits<double>::infinity();
+  for (const double way : {arc.radius(), -arc.radius()}) {
+    const Vec2 point = arc.center + way * towards;
+    if (length_before(arc, point)) least = std::min(least, distance_to(point, other));
+  }
+  return least;
+}
+
+double distance(const PlaneCurve& first, const PlaneCurve& second) {
+  if (crossings(first, second).count > 0) return 0;
+  double least = std::min({distance_to(first.start, second), distance_to(first.end, second),
+                           distance_to(second.start, first), distance_to(second.end, first)});
+  if (first.is_arc()) least = std::min(least, distance_along_normals(first, second));
+  if (second.is_arc()) least = std::min(least, distance_along_normals(second, first));
+  return least;
+}
+
+}  // namespace isocnc::geometry

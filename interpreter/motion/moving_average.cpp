@@ -1,0 +1,48 @@
+#include "interpreter/motion/moving_average.h"
+
+#include <algorithm>
+
+namespace isocnc::motion {
+
+/// Shorter times are rounding errors, s.
+static constexpr double kNoTime = 1e-13;
+
+/// The window lies all before the motion.
+void MovingAverage::begin(double from) {
+  lag_ = {Phase{.duration = window_, .from = from}};
+  lag_time_ = 0;
+  s_ = from;
+}
+
+void MovingAverage::append(const Phase& phase, std::vector<Phase>& out) {
+  if (lag_.empty()) begin(phase.from);
+  lag_.push_back(phase);
+  for (double gone = 0; phase.duration - gone > kNoTime;) {
+    while (lag_.front().duration - lag_time_ <= kNoTime) {
+      lag_time_ -= lag_.front().duration;
+      lag_.pop_front();
+    }
+    const double duration = std::min(phase.duration - gone, lag_.front().duration - lag_time_);
+    step(phase.after(gone), duration, out);
+    gone += duration;
+    lag_time_ += duration;
+  }
+}
+
+/// `lead`: the window's end as it is now.
+void MovingAverage::step(const Phase& lead, double duration, std::vector<Phase>& out) {
+  const Phase lag = lag_.front().after(lag_time_);
+  const Phase mean{duration, s_, std::max((lead.from - lag.from) / window_, 0.0), (lead.speed - lag.speed) / window_,
+                   (lead.acceleration - lag.acceleration) / window_};
+  s_ = std::max(mean.after(duration).from, s_);
+  out.push_back(mean);
+}
+
+void MovingAverage::come_to_rest(std::vector<Phase>& out) {
+  if (lag_.empty()) return;
+  const Phase last = lag_.back().after(lag_.back().duration);
+  append({.duration = window_, .from = last.from}, out);
+  lag_.clear();
+}
+
+}  // namespace isocnc::motion

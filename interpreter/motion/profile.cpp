@@ -1,0 +1,222 @@
+#include "interpreter/motion/profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace isocnc::motion {
+
+/// Planning looks back over all that is not planned yet: it pays to let some gather.
+static constexpr std::size_t kPlanningBatch = 256;
+/// Look-ahead ends here, even if the machine cannot stop within so many spans.
+static constexpr std::size_t kMostSpans = 16384;
+/// Phases over a smaller part of their span are rounding errors.
+static constexpr double kNoPart = 1e-14;
+/// What is longer than a span by no more fits in it.
+static constexpr double kRounding = 1 + 1e-9;
+/// How the peak of the speed within a piece of a curve is sought: bisections, and the relative precision that ends
+/// them.
+static constexpr int kBisections = 16;
+static constexpr double kPeakPrecision = 1e-4;
+
+Profile::Profile() : batch_(kPlanningBatch) {}
+
+Profile::Span& Profile::add(SpanKind kind, double begin, double length, double cap) {
+  Span& span = spans_.emplace_back();
+  span.kind = kind;
+  span.begin = begin;
+  span.length = length;
+  span.cap = cap;
+  span.entry_cap = std::min(last_cap_, cap);
+  last_cap_ = cap;
+  return span;
+}
+
+void Profile::append_line(double begin, double length, const LineLimits& limits) {
+  Span& span = add(SpanKind::Line, begin, length, limits.cap);
+  span.acceleration = limits.acceleration;
+  span.fall = limits.fall;
+}
+
+void Profile::append_curve(double begin, double length, double cap, const CurveLimits& limits) {
+  Span& span = add(SpanKind::Curve, begin, length, std::min(limits.cap(), cap));
+  span.bounds = first_bound_ + bounds_.size();
+  const auto keep = [&](Direction direction) {
+    const std::span<const CurveBound> bounds = limits.bounds(direction);
+    bounds_.insert(bounds_.end(), bounds.begin(), bounds.end());
+    return static_cast<std::uint8_t>(bounds.size());
+  };
+  span.forward_count = keep(Direction::Forward);
+  span.backward_count = keep(Direction::Backward);
+}
+
+void Profile::append_level(double length, double cap) { add(SpanKind::Level, 0, length, cap); }
+
+void Profile::come_to_rest() {
+  look_back_from_rest();
+  plan_until(spans_.size(), 0);
+  last_cap_ = 0;
+}
+
+/// With one acceleration all the way, which the limits allow at the larger x and hence everywhere.
+static double reach_on_line(const Profile::Span& span, double x) {
+  if (span.fall == 0) return x + 2 * span.acceleration * span.length;
+  const double way = 2 * span.acceleration * span.length;
+  return x + way * std::max(1 - x * span.fall, 0.0) / (1 + way * span.fall);
+}
+
+std::span<const CurveBound> Profile::bounds(const Span& span, Direction direction) const {
+  const CurveBound* const first = bounds_.data() + (span.bounds - first_bound_);
+  if (direction == Direction::Forward) return {first, span.forward_count};
+  return {first + span.forward_count, span.backward_count};
+}
+
+/// Most x at one end of a span with x at the other: at its end in Direction::Forward, at its begin in
+/// Direction::Backward.
+double Profile::reach(const Span& span, double x, Direction direction) const {
+  switch (span.kind) {
+    case SpanKind::Line:
+      return reach_on_line(span, x);
+    case SpanKind::Curve:
+      return motion::reach(bounds(span, direction), span.length, x);
+    case SpanKind::Level:
+      break;
+  }
+  return x;
+}
+
+void Profile::look_back_from_rest() {
+  double exit = 0;
+  for (std::size_t i = spans_.size(); i-- > planned_;) {
+    Span& span = spans_[i];
+    exit = span.entry = std::min(span.entry_cap, reach(span, exit, Direction::Backward));
+  }
+}
+
+/// Looks back twice, from a stop at the end and from going on there as fast as may be. Where both agree, and before, x
+/// is what it will be whatever follows. Returns the last span whose `entry` is such.
+std::size_t Profile::look_back() {
+  look_back_from_rest();
+  double exit = last_cap_;
+  std::size_t i = spans_.size();
+  while (i-- > planned_) {
+    const Span& span = spans_[i];
+    exit = std::min(span.entry_cap, reach(span, exit, Direction::Backward));
+    if (exit == span.entry) return i;
+  }
+  return planned_;
+}
+
+void Profile::plan_ahead() {
+  std::size_t end = look_back();
+  if (spans_.size() - end > kMostSpans / 2) end = spans_.size() - kMostSpans / 2;
+  if (end > planned_) plan_until(end, spans_[end].entry);
+  batch_ = std::max(kPlanningBatch, 2 * (spans_.size() - planned_));
+}
+
+void Profile::plan_until(std::size_t end, double exit) {
+  for (; planned_ < end; ++planned_) {
+    Span& span = spans_[planned_];
+    const double most = planned_ + 1 < end ? spans_[planned_ + 1].entry : exit;
+    const double entry = speed_square_;
+    const double reached = reach(span, entry, Direction::Forward);
+    speed_square_ = std::min(most, reached);
+    const bool is_reach = reached <= most || (entry == span.entry && entry < span.entry_cap);
+    give_time(span, entry, speed_square_, is_reach);
+  }
+}
+
+/// How x goes through a span: up, level, and down again.
+struct Course {
+  double up = 0;  ///< Length, and acceleration.
+  double up_acceleration = 0;
+  double peak = 0;  ///< x between.
+  double down = 0;
+  double down_acceleration = 0;  ///< Not positive.
+};
+
+static double way(double from, double to, double acceleration) {
+  return to > from ? (to - from) / (2 * acceleration) : 0;
+}
+
+static Course over_peak(double peak, double entry, double exit, double up, double down) {
+  return {way(entry, peak, up), up, peak, way(exit, peak, down), -down};
+}
+
+/// At one acceleration all the way: what reach() found possible.
+static Course straight(double length, double entry, double exit) {
+  const double acceleration = (exit - entry) / (2 * length);
+  return exit > entry ? Course{length, acceleration, exit, 0, 0} : Course{0, 0, entry, length, acceleration};
+}
+
+static Course on_line(const Profile::Span& span, double entry, double exit) {
+  double peak = (entry + exit) / 2 + span.acceleration * span.length;
+  if (span.fall > 0) peak /= 1 + span.acceleration * span.length * span.fall;
+  peak = std::max({std::min(span.cap, peak), entry, exit});
+  const double acceleration = span.acceleration * (1 - span.fall * peak);
+  const Course course = over_peak(peak, entry, exit, acceleration, acceleration);
+  // Where the acceleration has fallen to nothing, what is left of it is rounding.
+  const bool fits = span.fall == 0 || course.up + course.down <= span.length * kRounding;
+  return fits ? course : straight(span.length, entry, exit);
+}
+
+static Course on_curve(std::span<const CurveBound> forward, std::span<const CurveBound> backward, double cap,
+                       double length, double entry, double exit) {
+  const auto over = [&](double peak) {
+    return over_peak(peak, entry, exit, acceleration(forward, entry, peak), acceleration(backward, exit, peak));
+  };
+  const auto fits = [&](const Course& course) { return course.up + course.down <= length; };
+  double least = std::max(entry, exit);
+  Course best = over(cap);
+  if (fits(best)) return best;
+  best = straight(length, entry, exit);
+  double most = cap;
+  for (int i = 0; i < kBisections && most - least > kPeakPrecision * most; ++i) {
+    const double middle = (least + most) / 2;
+    const Course course = over(middle);
+    const bool is_better = fits(course);
+    if (is_better) best = course;
+    (is_better ? least : most) = middle;
+  }
+  return best;
+}
+
+/// `is_reach`: the span changes the speed by as much as it can, which leaves nothing to choose.
+void Profile::give_time(Span& span, double entry, double exit, bool is_reach) {
+  Course course{.peak = entry};
+  if (span.kind == SpanKind::Line) course = on_line(span, entry, exit);
+  if (span.kind == SpanKind::Curve)
+    course = is_reach ? straight(span.length, entry, exit)
+                      : on_curve(bounds(span, Direction::Forward), bounds(span, Direction::Backward), span.cap,
+                                 span.length, entry, exit);
+  double s = span.begin;
+  const auto go = [&](double length, double from, double to, double acceleration) {
+    if (length <= kNoPart * span.length) return;
+    const double time = 2 * length / (from + to);
+    span.phases[span.phase_count++] = {time, s, from, acceleration};
+    span.duration += time;
+    s += length;
+  };
+  const double top = std::sqrt(course.peak);
+  go(course.up, std::sqrt(entry), top, course.up_acceleration);
+  go(span.length - course.up - course.down, top, top, 0);
+  go(course.down, top, std::sqrt(exit), course.down_acceleration);
+  span.start = time_;
+  time_ += span.duration;
+}
+
+bool Profile::holds_much_past() const { return handed_out_ >= kPlanningBatch || handed_out_ == spans_.size(); }
+
+void Profile::forget_handed_out() {
+  if (handed_out_ == 0) return;
+  const std::size_t count = std::exchange(handed_out_, 0);
+  spans_.erase(spans_.begin(), spans_.begin() + static_cast<std::ptrdiff_t>(count));
+  planned_ -= count;
+  const auto first =
+      std::find_if(spans_.begin(), spans_.end(), [](const Span& span) { return span.kind == SpanKind::Curve; });
+  const std::size_t kept = first == spans_.end() ? first_bound_ + bounds_.size() : first->bounds;
+  bounds_.erase(bounds_.begin(), bounds_.begin() + static_cast<std::ptrdiff_t>(kept - first_bound_));
+  first_bound_ = kept;
+}
+
+}  // namespace isocnc::motion

@@ -1,0 +1,154 @@
+#include "interpreter/motion/smooth_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace isocnc::motion {
+
+/// A cell may hold many pieces: so many of them call for planning, too.
+static constexpr std::size_t kCellBatch = 256;
+/// If the machine cannot stop within so many cells, it stops now.
+static constexpr std::size_t kMostUnplanned = 2048;
+/// To find when a place is passed: halvings of the time, if Newton's steps do not find it sooner.
+static constexpr int kMostSteps = 60;
+
+/// Of all joints together.
+static double most_speed(const Machine& machine) {
+  double sum = 0;
+  for (const AxisLimits& axis : machine.axes) sum += axis.speed * axis.speed;
+  return std::sqrt(sum);
+}
+
+SmoothMotion::SmoothMotion(const Machine& machine, const Smoothing& smoothing, double start)
+    : smoothing_(smoothing),
+      most_speed_(most_speed(machine)),
+      erosion_(smoothing.window, most_speed_),
+      plateaus_(smoothing.window),
+      average_(smoothing.window),
+      batch_(kCellBatch),
+      time_(start) {}
+
+void SmoothMotion::append(const Machine& machine, const Piece& piece, const Slopes& slopes, double feed_cap) {
+  pieces_.push_back({piece, end_});
+  end_ += piece.length;
+  erosion_.append(piece.length,
+                  smoothed_limits(machine, smoothing_, slopes, std::min(feed_cap, most_speed_ * most_speed_)));
+  take_cells();
+}
+
+void SmoothMotion::take_cells() {
+  while (const Cell* const cell = erosion_.next()) {
+    profile_.append_line(cell->begin, cell->length, cell->limits);
+    if (!profile_.wants_planning() && pieces_.size() < batch_) continue;
+    profile_.plan_ahead();
+    if (profile_.unplanned() > kMostUnplanned) {
+      pause();
+    } else {
+      take_phases();
+    }
+    batch_ = std::max(kCellBatch, 2 * pieces_.size());
+  }
+}
+
+void SmoothMotion::take_phases() {
+  while (const Profile::Span* const span = profile_.front()) {
+    for (std::size_t i = 0; i < span->phase_count; ++i) plateaus_.append(span->phases[i]);
+    profile_.pop();
+    take_plateaus();
+  }
+  if (profile_.holds_much_past()) profile_.forget_handed_out();
+}
+
+void SmoothMotion::take_plateaus() {
+  while (plateaus_.has_next()) average_.append(plateaus_.next(), smooth_);
+  for (const Phase& phase : smooth_) lay(phase);
+  smooth_.clear();
+}
+
+/// The machine stops where all that is planned ends.
+void SmoothMotion::pause() {
+  profile_.come_to_rest();
+  take_phases();
+  plateaus_.come_to_rest();
+  take_plateaus();
+  average_.come_to_rest(smooth_);
+  take_plateaus();
+}
+
+void SmoothMotion::come_to_rest() {
+  erosion_.come_to_rest();
+  take_cells();
+  pause();
+  while (!pieces_.empty()) finish_piece();
+  end_ = 0;
+}
+
+/// When a phase, which moves on, is at a place within it.
+static double time_at(const Phase& phase, double place) {
+  double least = 0;
+  double most = phase.duration;
+  double time = most / 2;
+  for (int i = 0; i < kMostSteps; ++i) {
+    const Phase now = phase.after(time);
+    const double off = place - now.from;
+    if (off == 0) break;
+    (off > 0 ? least : most) = time;
+    const double step = now.speed > 0 ? time + off / now.speed : least;
+    const double next = step > least && step < most ? step : (least + most) / 2;
+    if (next == time || std::abs(next - time) < 1e-16 * phase.duration) break;
+    time = next;
+  }
+  return time;
+}
+
+/// A phase of the motion, cut where pieces meet.
+void SmoothMotion::lay(Phase phase) {
+  while (pieces_.size() > 1 && phase.after(phase.duration).from > pieces_.front().end()) {
+    const double place = pieces_.front().end();
+    const double time = phase.from < place ? time_at(phase, place) : 0;
+    Phase first = phase;
+    first.duration = time;
+    add(first);
+    finish_piece();
+    phase = phase.after(time);
+  }
+  add(phase);
+}
+
+void SmoothMotion::add(Phase phase) {
+  if (!(phase.duration > 0)) return;
+  if (static_cast<std::size_t>(stretch_.phase_count) == stretch_.phases.size()) emit(false);
+  const PlacedPiece& placed = pieces_.front();
+  phase.from += placed.piece.begin - placed.begin;
+  stretch_.phases[static_cast<std::size_t>(stretch_.phase_count++)] = phase;
+  stretch_.duration += phase.duration;
+}
+
+void SmoothMotion::finish_piece() {
+  const Piece& piece = pieces_.front().piece;
+  if (stretch_.phase_count == 0 && piece.ends_move)
+    stretch_.phases[static_cast<std::size_t>(stretch_.phase_count++)] = {.from = piece.begin + piece.length};
+  if (stretch_.phase_count > 0) emit(piece.ends_move);
+  pieces_.pop_front();
+}
+
+void SmoothMotion::emit(bool ends_move) {
+  const Piece& piece = pieces_.front().piece;
+  stretch_.tag = piece.tag;
+  stretch_.ends_move = ends_move;
+  stretch_.path = piece.path;
+  stretch_.start = time_;
+  time_ += stretch_.duration;
+  stretches_.push_back(stretch_);
+  stretch_.phase_count = 0;
+  stretch_.duration = 0;
+}
+
+const Stretch* SmoothMotion::next() {
+  if (handed_out_ < stretches_.size()) return &stretches_[handed_out_++];
+  stretches_.clear();
+  handed_out_ = 0;
+  return nullptr;
+}
+
+}  // namespace isocnc::motion

@@ -1,0 +1,47 @@
+#include "interpreter/running/program.h"
+
+#include <limits>
+
+#include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/tree_store.h"
+
+namespace isocnc::running {
+
+std::optional<Place> Program::landing(const Place& jump, std::uint64_t label) const {
+  {
+    const std::lock_guard lock(mutex_);
+    const auto known = landings_.find(jump.offset);
+    if (known != landings_.end()) return known->second;
+  }
+  const char* const begin = text_.data() + jump.offset;
+  const char* const end = text_.data() + text_.size();
+  const std::size_t length = std::string_view(begin, end).find_first_of("\r\n");
+  std::optional<Place> found;
+  if (length != std::string_view::npos) {
+    const char* const below = syntax::skip_line_end(begin + length, end);
+    found = find_label(label, {jump.line + 1, static_cast<std::size_t>(below - text_.data())},
+                       std::numeric_limits<std::uint64_t>::max());
+  }
+  const std::lock_guard lock(mutex_);
+  return landings_.emplace(jump.offset, found).first->second;
+}
+
+bool Program::has_label_above(const Place& jump, std::uint64_t label) const {
+  return find_label(label, {}, jump.line + 1).has_value();
+}
+
+std::optional<Place> Program::find_label(std::uint64_t label, Place from, std::uint64_t end_line) const {
+  syntax::TreeStore store;
+  const char* p = text_.data() + from.offset;
+  const char* const end = text_.data() + text_.size();
+  for (std::uint64_t line = from.line; line < end_line && p != end; ++line) {
+    store.clear();
+    const char* const line_end = store.append_line(p, end);
+    const syntax::LineTree tree = store.tree(0, p);
+    if (tree.has_label() && tree.label == label) return Place{line, static_cast<std::size_t>(p - text_.data())};
+    p = syntax::skip_line_end(line_end, end);
+  }
+  return std::nullopt;
+}
+
+}  // namespace isocnc::running

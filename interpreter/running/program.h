@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string_view>
+
+namespace isocnc::running {
+
+/// The begin of a line of a program.
+struct Place {
+  std::uint64_t line = 0;  ///< From 0.
+  std::size_t offset = 0;  ///< Of its first byte.
+
+  friend bool operator==(const Place&, const Place&) = default;
+};
+
+/// The text of a program and where its jumps lead, which is looked for once for each jump that somebody takes. Nothing
+/// about it changes that could be seen: runs share it, on several threads, too. The text has to outlive it; a UTF-8
+/// byte-order mark is not part of it.
+class Program {
+ public:
+  explicit Program(std::string_view text) : text_(text) {}
+
+  std::string_view text() const { return text_; }
+
+  /// The first line below the jump's that has the label (D50).
+  std::optional<Place> landing(const Place& jump, std::uint64_t label) const;
+
+  /// Whether the jump's line, or one above it, has the label (E005).
+  bool has_label_above(const Place& jump, std::uint64_t label) const;
+
+ private:
+  std::optional<Place> find_label(std::uint64_t label, Place from, std::uint64_t end_line) const;
+
+  std::string_view text_;
+  mutable std::mutex mutex_;
+  mutable std::map<std::size_t, std::optional<Place>> landings_;  ///< By the offset of the jump.
+};
+
+}  // namespace isocnc::running

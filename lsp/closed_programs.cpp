@@ -1,0 +1,89 @@
+#include "lsp/closed_programs.h"
+
+#include <system_error>
+#include <utility>
+#include <variant>
+
+#include "analyzer/files.h"
+#include "interpreter/running/source_file.h"
+#include "lsp/documents/open_document.h"
+#include "lsp/documents/snapshot.h"
+#include "lsp/documents/uri.h"
+
+namespace isocnc::lsp {
+
+/// Of documents that no editor has numbered.
+static constexpr std::int64_t kNoVersion = -1;
+
+std::vector<std::filesystem::path> ClosedPrograms::programs_in(const std::vector<std::filesystem::path>& folders) {
+  const auto rules = [this](const std::filesystem::path& folder) -> analyzer::SearchRules {
+    const configuration::Lint& lint = settings_.of(folder / "program").configuration->lint;
+    return {lint.extensions, &lint.excluded};
+  };
+  std::vector<std::string> paths;
+  for (const std::filesystem::path& folder : folders) paths.push_back(folder.string());
+  // What stands in the way of reading a folder is the user's to see where the folders are shown.
+  return analyzer::select_files(paths, rules, dialect::Language::English).files;
+}
+
+/// Nothing where the file cannot be read, or the answer is not wanted any more.
+std::optional<std::string> ClosedPrograms::answer_of(const std::filesystem::path& program, const std::string& uri,
+                                                     const documents::Client& client,
+                                                     const std::atomic<bool>& cancelled, const Answer& answer) {
+  const auto opened = running::SourceFile::open(program, dialect::Language::English);
+  const auto* const source = std::get_if<running::SourceFile>(&opened);
+  if (source == nullptr) return std::nullopt;
+  documents::OpenDocument document(uri, settings_);
+  document.open(kNoVersion, source->text());
+  try {
+    return answer(documents::Snapshot(document, client, documents::Interest{&cancelled, nullptr}));
+  } catch (const rpc::Error&) {
+    return std::nullopt;
+  }
+}
+
+/// Nothing where the file cannot be read, or the answer is not wanted any more.
+std::optional<std::string> ClosedPrograms::ask(const std::filesystem::path& program, const std::string& uri,
+                                               const Wish& wish) {
+  std::error_code error;
+  Cause cause{.written = std::filesystem::last_write_time(program, error),
+              .size = error ? 0 : std::filesystem::file_size(program, error),
+              .settings = settings_.of(program).owner,
+              .client = wish.client};
+  if (error) return std::nullopt;
+  Known& known = known_[{std::string(wish.gathering.name), uri}];
+  if (known.cause == cause) return known.answer;
+  known = {};
+  auto answer = answer_of(program, uri, *wish.client, *wish.cancelled, [&](const documents::Snapshot& snapshot) {
+    return wish.gathering.answer(snapshot, rpc::Json::object());
+  });
+  if (answer) known = {std::move(cause), *answer};
+  return answer;
+}
+
+void ClosedPrograms::ask_one(const features::Method& method, rpc::Json params, const std::string& uri,
+                             ClientPointer client, std::shared_ptr<const std::atomic<bool>> cancelled,
+                             std::function<void(std::optional<std::string> result)> done) {
+  strand_.post([this, method, params = std::move(params), uri, client = std::move(client),
+                cancelled = std::move(cancelled), done = std::move(done)] {
+    const auto program = documents::path_of(uri);
+    if (!program || cancelled->load()) return done(std::nullopt);
+    done(answer_of(*program, uri, *client, *cancelled,
+                   [&](const documents::Snapshot& snapshot) { return method.answer(snapshot, params); }));
+  });
+}
+
+void ClosedPrograms::ask(Wish wish, std::function<void(std::vector<std::string> results)> done) {
+  strand_.post([this, wish = std::move(wish), done = std::move(done)] {
+    std::vector<std::string> results;
+    for (const std::filesystem::path& program : programs_in(wish.folders)) {
+      if (wish.cancelled->load()) return;
+      const std::string uri = documents::uri_of(program);
+      if (wish.open.contains(uri)) continue;
+      if (auto answer = ask(program, uri, wish)) results.push_back(std::move(*answer));
+    }
+    done(std::move(results));
+  });
+}
+
+}  // namespace isocnc::lsp

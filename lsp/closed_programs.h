@@ -1,0 +1,72 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "lsp/documents/settings_store.h"
+#include "lsp/features/feature.h"
+#include "lsp/rpc/strand.h"
+
+namespace isocnc::lsp {
+
+/// The programs in the workspace's folders that the editor does not hold open, as isolint would find them. A file is
+/// read again only when it, or what stands in configuration files, has changed.
+///
+/// Called on the loop's thread; the work, and the results, come on a strand.
+class ClosedPrograms {
+ public:
+  using ClientPointer = std::shared_ptr<const documents::Client>;
+  struct Wish {
+    features::Gathering gathering;
+    std::vector<std::filesystem::path> folders;
+    std::set<std::string> open;  ///< URIs that the editor holds open.
+    ClientPointer client;
+    std::shared_ptr<const std::atomic<bool>> cancelled;  ///< Whoever sets it answers the request, too.
+  };
+
+  ClosedPrograms(rpc::Pool& pool, documents::SettingsStore& settings) : settings_(settings), strand_(pool) {}
+
+  /// Asks one program, wherever it lies; nothing where its file cannot be read.
+  void ask_one(const features::Method& method, rpc::Json params, const std::string& uri, ClientPointer client,
+               std::shared_ptr<const std::atomic<bool>> cancelled,
+               std::function<void(std::optional<std::string> result)> done);
+  /// Asks each program; `done` gets all answers, in the order of the paths. Files that cannot be read have none.
+  void ask(Wish wish, std::function<void(std::vector<std::string> results)> done);
+
+ private:
+  /// What an answer depends on.
+  struct Cause {
+    std::filesystem::file_time_type written;
+    std::uintmax_t size = 0;
+    std::shared_ptr<const void> settings;
+    ClientPointer client;
+
+    friend bool operator==(const Cause&, const Cause&) = default;
+  };
+  struct Known {
+    Cause cause;
+    std::string answer;
+  };
+
+  using Answer = std::function<std::string(const documents::Snapshot& snapshot)>;
+
+  std::optional<std::string> answer_of(const std::filesystem::path& program, const std::string& uri,
+                                       const documents::Client& client, const std::atomic<bool>& cancelled,
+                                       const Answer& answer);
+  std::vector<std::filesystem::path> programs_in(const std::vector<std::filesystem::path>& folders);
+  std::optional<std::string> ask(const std::filesystem::path& program, const std::string& uri, const Wish& wish);
+
+  documents::SettingsStore& settings_;
+  std::map<std::pair<std::string, std::string>, Known> known_;  // By request and URI; of the strand.
+  rpc::Strand strand_;
+};
+
+}  // namespace isocnc::lsp

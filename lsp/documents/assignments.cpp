@@ -1,0 +1,30 @@
+#include "lsp/documents/assignments.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+
+#include "lsp/documents/ways.h"
+
+namespace isocnc::lsp::documents {
+
+std::vector<Occurrence> assignments_reaching(const Snapshot& snapshot, const Occurrence& read) {
+  std::vector<Occurrence> all = occurrences(snapshot, read.name);
+  std::erase_if(all, [](const Occurrence& each) { return !each.is_definition; });
+  const std::vector<std::size_t> lines =
+      Ways(snapshot).nearest_above(read.line, [&](std::size_t first, std::size_t behind) -> std::optional<std::size_t> {
+        const auto below = std::lower_bound(all.begin(), all.end(), behind,
+                                            [](const Occurrence& each, std::size_t line) { return each.line < line; });
+        return below == all.begin() || std::prev(below)->line < first ? std::nullopt
+                                                                      : std::optional(std::prev(below)->line);
+      });
+  // Of several on a line the last counts.
+  std::vector<Occurrence> reaching;
+  for (const std::size_t line : lines) {
+    const auto last = std::find_if(all.rbegin(), all.rend(), [&](const Occurrence& each) { return each.line == line; });
+    reaching.push_back(*last);
+  }
+  return reaching;
+}
+
+}  // namespace isocnc::lsp::documents

@@ -1,0 +1,71 @@
+#include "lsp/documents/client.h"
+
+#include <string>
+
+#include "interpreter/configuration/configuration.h"
+#include "interpreter/dialect/locale.h"
+#include "interpreter/dialect/near_names.h"
+
+namespace isocnc::lsp::documents {
+
+using dialect::Language;
+
+/// The member of an object, or null.
+static const Json& find(const Json& json, const char* key) {
+  static const Json kNothing;
+  if (!json.is_object()) return kNothing;
+  const auto found = json.find(key);
+  return found == json.end() ? kNothing : *found;
+}
+
+static std::string text_of(const Json& json) { return json.is_string() ? json.get<std::string>() : std::string(); }
+
+static bool is_on(const Json& json) { return !json.is_boolean() || json.get<bool>(); }
+
+ClientSettings read_settings(const Json& settings) {
+  const Json& hints = find(settings, "inlayHints");
+  return {.language = configuration::language_named(text_of(find(settings, "language"))),
+          .checks_workspace = is_on(find(settings, "workspaceDiagnostics")),
+          .shows_end_positions = is_on(find(hints, "endPosition")),
+          .shows_section_times = is_on(find(hints, "sectionTime")),
+          .shows_motion_in_force = is_on(find(hints, "motionInForce"))};
+}
+
+bool Client::can(const char* capability) const {
+  const Json::json_pointer pointer(capability);
+  if (!capabilities.contains(pointer)) return false;
+  const Json& found = capabilities.at(pointer);
+  return !found.is_null() && found != Json(false);
+}
+
+Language Client::language(std::optional<Language> configured) const {
+  if (settings.language) return *settings.language;
+  if (commanded) return *commanded;
+  if (configured) return *configured;
+  return locale.value_or(dialect::language_of_environment());
+}
+
+/// The first of the client's encodings that we know; UTF-16 where it tells none.
+static Encoding best_encoding(const Json& capabilities) {
+  const Json& wanted = find(find(capabilities, "general"), "positionEncodings");
+  for (const Json& name : wanted.is_array() ? wanted : Json::array())
+    if (const auto encoding = encoding_named(text_of(name))) return *encoding;
+  return Encoding::Utf16;
+}
+
+static std::optional<Language> language_of_locale(const std::string& locale) {
+  if (locale.empty()) return std::nullopt;
+  return dialect::begins_with(locale, "it") ? Language::Italian : Language::English;
+}
+
+Client read_client(const Json& initialize_params) {
+  const Json& capabilities = find(initialize_params, "capabilities");
+  Client client;
+  if (capabilities.is_object()) client.capabilities = capabilities;
+  client.encoding = best_encoding(capabilities);
+  client.locale = language_of_locale(text_of(find(initialize_params, "locale")));
+  client.settings = read_settings(find(initialize_params, "initializationOptions"));
+  return client;
+}
+
+}  // namespace isocnc::lsp::documents

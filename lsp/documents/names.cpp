@@ -1,0 +1,90 @@
+#include "lsp/documents/names.h"
+
+#include <algorithm>
+
+#include "interpreter/syntax/characters.h"
+
+namespace isocnc::lsp::documents {
+
+using syntax::LineTree;
+using syntax::Span;
+using syntax::Word;
+
+const Word* label_word(const LineTree& line) {
+  if (!line.has_label()) return nullptr;
+  for (const Word& word : line.words)
+    if (word.letter == 'N' && word.is_plain_integer() && !(line.jump && word.span() == line.jump->target_span))
+      return &word;
+  return nullptr;
+}
+
+static std::vector<Occurrence> names_of(const LineTree& tree, std::size_t line) {
+  std::vector<Occurrence> names;
+  const auto add = [&](NameKind kind, std::uint64_t number, Span span, bool is_definition) {
+    names.push_back({line, span, {kind, number}, is_definition});
+  };
+  if (const Word* const label = label_word(tree)) add(NameKind::Label, tree.label, label->span(), true);
+  for (const syntax::Instruction& instruction : tree.instructions) {
+    const Word& command = tree.command(instruction);
+    if (instruction.kind == syntax::InstructionKind::Assignment && command.value >= 1 &&
+        command.value <= dialect::kRegisterCount)
+      add(NameKind::Register, static_cast<std::uint64_t>(command.value), command.span(), true);
+  }
+  if (!tree.jump) return names;
+  if (tree.jump->variable > 0)
+    add(NameKind::Register, static_cast<std::uint64_t>(tree.jump->variable), tree.jump->variable_span, false);
+  if (tree.jump->has_target) add(NameKind::Label, tree.jump->target, tree.jump->target_span, false);
+  return names;
+}
+
+std::optional<Occurrence> name_at(const Snapshot& snapshot, const syntax::Position& place) {
+  const std::vector<Occurrence> names = names_of(snapshot.document().line(place.line), place.line);
+  const auto column = static_cast<std::uint32_t>(place.column);
+  const auto holds = [&](const Occurrence& each) { return each.span.holds(column); };
+  const auto ends = [&](const Occurrence& each) { return each.span.end == column; };
+  auto found = std::find_if(names.begin(), names.end(), holds);
+  if (found == names.end()) found = std::find_if(names.begin(), names.end(), ends);
+  return found == names.end() ? std::nullopt : std::optional(*found);
+}
+
+std::vector<Occurrence> occurrences(const Snapshot& snapshot, const Name& name) {
+  const bool is_label = name.kind == NameKind::Label;
+  const LandmarkKinds wanted =
+      is_label ? kinds(LandmarkKind::Jump) : LandmarkKind::Assignment | LandmarkKind::Comparison;
+  const ProgramIndex& index = snapshot.index();
+  std::vector<Occurrence> found;
+  for (const Landmark& landmark : index.landmarks(wanted, name.number))
+    found.push_back({landmark.line, landmark.span, name, landmark.kind == LandmarkKind::Assignment});
+  if (is_label)
+    for (const std::size_t line : index.lines_of_label(name.number))
+      if (const Word* const word = label_word(snapshot.document().line(line)))
+        found.push_back({line, word->span(), name, true});
+  std::sort(found.begin(), found.end(), [](const Occurrence& a, const Occurrence& b) {
+    return std::pair(a.line, a.span) < std::pair(b.line, b.span);
+  });
+  return found;
+}
+
+static Span without_blanks(const LineTree& line, Span span) {
+  while (!span.empty() && syntax::is_blank(line.text[span.begin])) ++span.begin;
+  while (!span.empty() && syntax::is_blank(line.text[span.end - 1])) --span.end;
+  return span;
+}
+
+std::vector<Span> outside_comments(const LineTree& line, Span span) {
+  std::vector<Span> pieces;
+  const auto add = [&](Span piece) {
+    piece = without_blanks(line, piece);
+    if (!piece.empty()) pieces.push_back(piece);
+  };
+  for (const Span comment : line.comments) {
+    if (comment.end <= span.begin) continue;
+    if (comment.begin >= span.end) break;
+    add({span.begin, std::max(span.begin, comment.begin)});
+    span.begin = std::min(comment.end, span.end);
+  }
+  add(span);
+  return pieces;
+}
+
+}  // namespace isocnc::lsp::documents

@@ -1,0 +1,144 @@
+#include "lsp/documents/open_document.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "analyzer/style_findings.h"
+#include "analyzer/suppressions.h"
+#include "interpreter/running/source_file.h"
+#include "lsp/documents/uri.h"
+
+namespace isocnc::lsp::documents {
+
+OpenDocument::OpenDocument(std::string uri, SettingsStore& settings) : uri_(std::move(uri)), store_(settings) {}
+
+void OpenDocument::open(std::int64_t version, std::string_view text) {
+  version_ = version;
+  has_byte_order_mark_ = text.starts_with(running::kByteOrderMark);
+  if (has_byte_order_mark_) text.remove_prefix(running::kByteOrderMark.size());
+  settings_ = store_.of(path_of(uri_));
+  analysis_.reset();
+  index_ = {};
+  speaks_ = {};
+  report_.reset();
+  memories_.clear();  // The new text numbers its chunks anew.
+  document_ = syntax::Document(text);
+  is_up_to_date_ = false;
+}
+
+void OpenDocument::edit(std::int64_t version, const std::vector<ContentChange>& changes, Encoding encoding) {
+  for (const ContentChange& change : changes) {
+    if (change.range) {
+      replace(change, encoding);
+    } else {
+      open(version, change.text);
+    }
+  }
+  version_ = version;
+  is_up_to_date_ = false;
+}
+
+void OpenDocument::replace(const ContentChange& change, Encoding encoding) {
+  ClientPosition first = change.range->start;
+  ClientPosition last = change.range->end;
+  if (last < first) std::swap(first, last);
+  // For the client the mark is a character like any other.
+  if (first.line == 0 && std::exchange(has_byte_order_mark_, false)) document_.replace({}, {}, running::kByteOrderMark);
+  document_.replace(from_client(first, encoding), from_client(last, encoding), change.text);
+  if (first.line > 0 || !document_.line(0).text.starts_with(running::kByteOrderMark)) return;
+  has_byte_order_mark_ = true;
+  document_.replace({}, {0, running::kByteOrderMark.size()}, {});
+}
+
+void OpenDocument::reread_settings() {
+  DocumentSettings settings = store_.of(path_of(uri_));
+  if (settings.program == settings_.program) return;
+  settings_ = std::move(settings);
+  analysis_.reset();
+  report_.reset();
+  is_up_to_date_ = false;
+}
+
+bool OpenDocument::update(const std::function<bool()>& stop) {
+  if (is_up_to_date_) return true;
+  report_.reset();
+  if (!analysis_) analysis_.emplace(document_, settings_.program->setup, analyzer::Analysis::Unchecked{});
+  is_up_to_date_ = analysis_->update(stop);
+  return is_up_to_date_;
+}
+
+const ProgramIndex& OpenDocument::index() {
+  index_.update(document_);
+  return index_;
+}
+
+/// What the program's comments say to isolint.
+analyzer::Suppressions OpenDocument::read_suppressions() {
+  speaks_.update(document_,
+                 [&](std::size_t chunk) { return analyzer::Suppressions::may_speak(document_.chunk_text(chunk)); });
+  analyzer::Suppressions suppressions;
+  for (std::size_t chunk = 0; chunk < speaks_.size(); ++chunk)
+    for (std::size_t i = 0; speaks_[chunk] && i < document_.chunk_lines(chunk); ++i)
+      suppressions.read_line(document_.first_line_of_chunk(chunk) + i, document_.line_of_chunk(chunk, i).text);
+  return suppressions;
+}
+
+/// As isolint would tell it.
+analyzer::Report OpenDocument::shown_report() {
+  const analyzer::Selection& selection = settings_.program->selection;
+  analyzer::Report report = analyzer::with_style(selection.shown(analysis_->report()), document_, selection);
+  return selection.shown(read_suppressions().apply(std::move(report), selection));
+}
+
+const analyzer::Report& OpenDocument::report() {
+  if (!report_) report_ = shown_report();
+  return *report_;
+}
+
+/// Findings that are put together in no time.
+static constexpr std::size_t kFewFindings = 4'000;
+
+/// Whether the report has so many findings that it is not made as a whole unless somebody asks for it. Not where
+/// comments, or opinions on style, have a say in what it holds.
+bool OpenDocument::is_long() {
+  return !report_ && analysis_->finding_count() > kFewFindings && !analyzer::has_style(settings_.program->selection) &&
+         read_suppressions().empty();
+}
+
+analyzer::FirstFindings OpenDocument::excerpt(std::size_t most) {
+  if (!is_long()) return {report(), 0};
+  const analyzer::Selection& selection = settings_.program->selection;
+  analyzer::FirstFindings first =
+      analysis_->excerpt({.most = most, .counts = [&](dialect::DiagnosticId id) { return selection.shows(id); }});
+  first.report = selection.shown(std::move(first.report));
+  return first;
+}
+
+std::vector<analyzer::LocatedFinding> OpenDocument::findings_on(std::size_t line) {
+  if (is_long())
+    return settings_.program->selection.shown({.findings = analysis_->findings_on(line), .paths = {}}).findings;
+  const auto [begin, end] = std::equal_range(
+      report().findings.begin(), report().findings.end(), analyzer::LocatedFinding{.line = line, .finding = {}},
+      [](const analyzer::LocatedFinding& a, const analyzer::LocatedFinding& b) { return a.line < b.line; });
+  return {begin, end};
+}
+
+ClientPosition OpenDocument::to_client(const syntax::Position& position, Encoding encoding) const {
+  const std::string_view line = document_.line(position.line).text;
+  std::uint32_t column = units_before(line, position.column, encoding);
+  if (has_byte_order_mark_ && position.line == 0) column += units_before(running::kByteOrderMark, 3, encoding);
+  return {static_cast<std::uint32_t>(position.line), column};
+}
+
+syntax::Position OpenDocument::from_client(const ClientPosition& position, Encoding encoding) const {
+  if (position.line >= document_.line_count()) {
+    const std::size_t last = document_.line_count() - 1;
+    return {last, document_.line(last).text.size()};
+  }
+  std::uint32_t column = position.character;
+  if (has_byte_order_mark_ && position.line == 0)
+    column -= std::min(column, units_before(running::kByteOrderMark, 3, encoding));
+  return {position.line, byte_at(document_.line(position.line).text, column, encoding)};
+}
+
+}  // namespace isocnc::lsp::documents

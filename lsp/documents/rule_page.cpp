@@ -1,0 +1,33 @@
+#include "lsp/documents/rule_page.h"
+
+#include <filesystem>
+
+#include "analyzer/rendering.h"
+#include "lsp/documents/uri.h"
+
+namespace isocnc::lsp::documents {
+
+namespace fs = std::filesystem;
+
+/// The file that a relative page stands in, as a URI; empty where it is not found.
+static std::string find_page(const fs::path& page) {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (error) return {};
+  // Beside bin/ where it is installed; above build/PRESET/bin where it has been built.
+  const fs::path places[] = {program.parent_path() / "../share/doc/isocnc" / page.filename(),
+                             program.parent_path() / "../../.." / page};
+  for (const fs::path& place : places)
+    if (fs::exists(place, error)) return uri_of(fs::weakly_canonical(place, error));
+  return {};
+}
+
+std::string rule_page(dialect::DiagnosticId id) {
+  std::string url = analyzer::rule_url(id);
+  if (url.find("://") != std::string::npos) return url;
+  const std::size_t anchor = url.find('#');
+  static const std::string kFile = find_page(url.substr(0, anchor));
+  return kFile.empty() ? url : kFile + url.substr(anchor);
+}
+
+}  // namespace isocnc::lsp::documents

@@ -1,0 +1,63 @@
+#include "lsp/documents/section_times.h"
+
+#include <cmath>
+#include <variant>
+
+#include <fmt/format.h>
+
+namespace isocnc::lsp::documents {
+
+namespace {
+
+/// Adds up what it hears of a run.
+struct Adder {
+  void add(const running::TimedEvent& timed) {
+    if (std::holds_alternative<running::ToolEvent>(timed.event.what)) {
+      line = timed.event.line;
+      sections.try_emplace(line, TimedSection{.start = timed.start});
+    }
+    TimedSection& section = sections[line];
+    section.seconds += timed.duration;
+    if (const auto* const move = std::get_if<running::MoveEvent>(&timed.event.what)) section.mm += move->length;
+  }
+
+  Sections sections;
+  std::uint64_t line = 0;
+};
+
+}  // namespace
+
+std::string clock_text(double seconds) {
+  const auto whole = static_cast<std::int64_t>(std::llround(seconds));
+  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+std::shared_ptr<SectionTimes> SectionTimes::of(const Snapshot& snapshot) {
+  auto& times = snapshot.memory<std::shared_ptr<SectionTimes>>();
+  if (!times) times = std::make_shared<SectionTimes>();
+  return times;
+}
+
+std::shared_ptr<const Sections> SectionTimes::known(std::int64_t version, const configuration::Machine& machine) {
+  const std::lock_guard lock(mutex_);
+  return version == version_ && &machine == machine_ ? sections_ : nullptr;
+}
+
+std::shared_ptr<const Sections> SectionTimes::known(const Snapshot& snapshot) {
+  return known(snapshot.version(), snapshot.configuration().machine);
+}
+
+std::shared_ptr<const Sections> SectionTimes::time(const TimedProgram& program, const std::function<bool()>& stop) {
+  if (auto found = known(program.version(), program.machine())) return found;
+  Adder adder;
+  const running::RunResult result =
+      program.run(stop, {.event = [&](const running::TimedEvent& timed) { adder.add(timed); }, .stretch = {}});
+  if (result.ending == running::Ending::Error) adder.sections.erase(adder.line);
+  const std::lock_guard lock(mutex_);
+  version_ = program.version();
+  machine_ = &program.machine();
+  sections_ = std::make_shared<const Sections>(std::move(adder.sections));
+  return sections_;
+}
+
+}  // namespace isocnc::lsp::documents

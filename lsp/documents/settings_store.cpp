@@ -1,0 +1,44 @@
+#include "lsp/documents/settings_store.h"
+
+#include <set>
+
+#include "interpreter/dialect/locale.h"
+
+namespace isocnc::lsp::documents {
+
+/// What has been read of the configuration files since they were last forgotten.
+struct SettingsStore::Generation {
+  std::mutex mutex;  // Guards all below.
+  configuration::Configurations found{{}, dialect::language_of_environment()};
+  configuration::Configurations none{{.file = {}, .none = true}, dialect::language_of_environment()};
+  analyzer::SettingsFinder settings{found, {}};
+  analyzer::SettingsFinder settings_of_none{none, {}};
+  std::set<std::filesystem::path> claimed;
+};
+
+SettingsStore::SettingsStore() : generation_(std::make_shared<Generation>()) {}
+
+std::shared_ptr<SettingsStore::Generation> SettingsStore::present() {
+  const std::lock_guard lock(mutex_);
+  return generation_;
+}
+
+bool SettingsStore::claim(const std::filesystem::path& file) {
+  const auto generation = present();
+  const std::lock_guard lock(generation->mutex);
+  return generation->claimed.insert(file).second;
+}
+
+DocumentSettings SettingsStore::of(const std::optional<std::filesystem::path>& program) {
+  const auto generation = present();
+  const std::lock_guard lock(generation->mutex);
+  if (!program) return {generation, &generation->settings_of_none.of({}), &generation->none.in_folder({})};
+  return {generation, &generation->settings.of(*program), &generation->found.in_folder(program->parent_path())};
+}
+
+void SettingsStore::forget() {
+  const std::lock_guard lock(mutex_);
+  generation_ = std::make_shared<Generation>();
+}
+
+}  // namespace isocnc::lsp::documents

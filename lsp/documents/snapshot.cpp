@@ -1,0 +1,31 @@
+#include "lsp/documents/snapshot.h"
+
+#include "lsp/rpc/message.h"
+
+namespace isocnc::lsp::documents {
+
+Snapshot::Snapshot(OpenDocument& document, const Client& client, const Interest& interest)
+    : document_(document), client_(client), interest_(interest) {
+  const bool is_done = document_.update([&] { return !is_wanted(); });
+  if (!is_done) give_way();
+}
+
+bool Snapshot::is_wanted() const {
+  const bool is_cancelled = interest_.cancelled && interest_.cancelled->load();
+  return !is_cancelled && (!interest_.edits_waiting || interest_.edits_waiting->load() == 0);
+}
+
+std::optional<execution::State> Snapshot::state_before(std::size_t line) const {
+  const analyzer::Frontier frontier = frontier_before(line);
+  if (frontier.live.size() != 1 || frontier.reduced) return std::nullopt;
+  return frontier.live[0].state;
+}
+
+void Snapshot::give_way() const {
+  if (interest_.cancelled && interest_.cancelled->load())
+    throw rpc::Error(rpc::ErrorCode::RequestCancelled, "the request has been cancelled");
+  if (interest_.edits_waiting && interest_.edits_waiting->load() > 0)
+    throw rpc::Error(rpc::ErrorCode::ContentModified, "the document has been edited");
+}
+
+}  // namespace isocnc::lsp::documents

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "analyzer/fixes/fix.h"
+#include "analyzer/renumbering.h"
+#include "lsp/documents/snapshot.h"
+
+namespace isocnc::lsp::documents {
+
+/// A snapshot as fixes and rewrites look at it.
+class SnapshotProgram final : public analyzer::fixes::Program {
+ public:
+  explicit SnapshotProgram(const Snapshot& snapshot) : snapshot_(snapshot) {}
+
+  std::uint64_t line_count() const override { return snapshot_.document().line_count(); }
+  std::string_view text(std::uint64_t line) override { return snapshot_.document().line(line).text; }
+  syntax::LineTree line(std::uint64_t line) override;
+  std::optional<execution::State> state_before(std::uint64_t line) override { return snapshot_.state_before(line); }
+  bool is_jumped_to(std::uint64_t label) override;
+  std::optional<std::uint64_t> free_line_number() override;
+
+ private:
+  const Snapshot& snapshot_;
+  std::uint32_t lines_seen_ = 0;
+  std::uint64_t last_line_number_ = 0;  // That has been handed out.
+};
+
+/// All lines of the snapshot's document, which gives way now and then.
+analyzer::EachLine each_line_of(const Snapshot& snapshot);
+
+}  // namespace isocnc::lsp::documents

@@ -1,0 +1,33 @@
+#include "lsp/documents/ways.h"
+
+namespace isocnc::lsp::documents {
+
+Ways::Ways(const Snapshot& snapshot) {
+  const ProgramIndex& index = snapshot.index();
+  std::map<std::uint64_t, std::vector<std::size_t>> lines_by_label;
+  for (const Landmark& landmark : index.landmarks(LandmarkKind::Jump)) {
+    snapshot.give_way();
+    const auto [entry, is_new] = lines_by_label.try_emplace(landmark.number);
+    std::vector<std::size_t>& lines = entry->second;
+    if (is_new) lines = index.lines_of_label(landmark.number);
+    const auto target = std::upper_bound(lines.begin(), lines.end(), landmark.line);
+    Jump jump{landmark, std::nullopt};
+    if (target != lines.end()) {
+      jump.target = *target;
+      landings_.emplace(*target, landmark.line);
+    }
+    jumps_.push_back(jump);
+  }
+  for (const Landmark& end : index.landmarks(LandmarkKind::ProgramEnd)) behind_ends_.insert(end.line + 1);
+}
+
+/// The first line of those above that can only be left downward, into this one.
+std::size_t Ways::stretch_start(std::size_t line) const {
+  std::size_t start = 0;
+  if (const auto landing = landings_.lower_bound(line); landing != landings_.begin()) start = std::prev(landing)->first;
+  if (const auto end = behind_ends_.lower_bound(line); end != behind_ends_.begin())
+    start = std::max(start, *std::prev(end));
+  return start;
+}
+
+}  // namespace isocnc::lsp::documents

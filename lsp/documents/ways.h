@@ -1,0 +1,64 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "lsp/documents/snapshot.h"
+
+namespace isocnc::lsp::documents {
+
+/// The ways that a program's jumps leave it, whatever their conditions say.
+class Ways {
+ public:
+  struct Jump {
+    Landmark landmark;                  ///< The label behind the GOTO.
+    std::optional<std::size_t> target;  ///< The line that it leads to: the first of its label below it (D50).
+  };
+
+  explicit Ways(const Snapshot& snapshot);
+
+  /// In the order of the program.
+  const std::vector<Jump>& jumps() const { return jumps_; }
+  /// Whether a jump leads to this line.
+  bool lands_on(std::size_t line) const { return landings_.contains(line); }
+
+  /// Goes back from a line on every way that leads there, until it finds something: `find(first, behind)` gives the
+  /// last of what it looks for in the lines [first, behind), if there is any. Each of them once, in their order.
+  template <class Find>
+  auto nearest_above(std::size_t line, Find find) const {
+    using Found = typename decltype(find(line, line))::value_type;
+    std::set<Found> found;
+    std::set<std::size_t> seen;
+    std::vector<std::size_t> open{line};
+    while (!open.empty()) {
+      const std::size_t at = open.back();
+      open.pop_back();
+      if (!seen.insert(at).second) continue;
+      const auto [first_landing, last_landing] = landings_.equal_range(at);
+      for (auto landing = first_landing; landing != last_landing; ++landing) open.push_back(landing->second);
+      if (at == 0 || ends_before(at)) continue;
+      const std::size_t first = stretch_start(at);
+      if (const auto nearest = find(first, at)) {
+        found.insert(*nearest);
+      } else {
+        open.push_back(first);
+      }
+    }
+    return std::vector<Found>(found.begin(), found.end());
+  }
+
+ private:
+  bool ends_before(std::size_t line) const { return behind_ends_.contains(line); }
+  std::size_t stretch_start(std::size_t line) const;
+
+  std::vector<Jump> jumps_;
+  std::multimap<std::size_t, std::size_t> landings_;  // Line of a label that a jump leads to; line of the jump.
+  std::set<std::size_t> behind_ends_;                 // Lines below an M02: nothing goes on from above.
+};
+
+}  // namespace isocnc::lsp::documents

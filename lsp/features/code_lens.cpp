@@ -1,0 +1,89 @@
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+#include "interpreter/dialect/format.h"
+#include "lsp/documents/section_times.h"
+#include "lsp/features/feature.h"
+
+/// Over each tool section: how long it takes and how far it goes, and, in editors that can, to run the program or to
+/// debug it from here.
+namespace isocnc::lsp::features {
+
+using dialect::Text;
+using documents::LandmarkKind;
+
+namespace {
+
+std::string describe(const documents::TimedSection& section, dialect::Language language) {
+  static constexpr Text kTold = {"{}, path {:.1f} m", "{}, percorso {:.1f} m"};
+  return dialect::format(kTold, language, documents::clock_text(section.seconds), section.mm / 1000);
+}
+
+/// Whether the editor knows a command of this name, as it tells in `experimental.commands.commands`.
+bool knows(const Client& client, const char* command) {
+  const Json known = client.capabilities.value(Json::json_pointer("/experimental/commands/commands"), Json::array());
+  return std::find(known.begin(), known.end(), Json(command)) != known.end();
+}
+
+struct LensResolveParams {
+  Json lens;
+};
+
+void from_json(const Json& json, LensResolveParams& params) { params.lens = json; }
+
+struct Offered {
+  const char* command;
+  Text title;
+};
+
+constexpr Offered kCommands[] = {{"isocnc.run", {"run", "eseguire"}},
+                                 {"isocnc.debug", {"debug from here", "debug da qui"}}};
+
+Json answer_code_lens(const Snapshot& snapshot, const documents::DocumentParams&) {
+  Json lenses = Json::array();
+  for (const documents::Landmark& change : snapshot.index().landmarks(LandmarkKind::ToolChange)) {
+    const ClientRange range = snapshot.to_client(change.line, change.span);
+    lenses.push_back({{"range", range},
+                      {"data", {{"uri", snapshot.uri()}, {"version", snapshot.version()}, {"line", change.line}}}});
+    for (const Offered& each : kCommands) {
+      if (!knows(snapshot.client(), each.command)) continue;
+      const Json place = {{"uri", snapshot.uri()}, {"line", change.line}};
+      lenses.push_back({{"range", range},
+                        {"command",
+                         {{"title", each.title.in(snapshot.language())},
+                          {"command", each.command},
+                          {"arguments", Json::array({place})}}}});
+    }
+  }
+  return lenses;
+}
+
+Study resolve_lens(const Snapshot& snapshot, const LensResolveParams& params) {
+  const Json& data = params.lens.at("data");
+  if (data.at("version") != snapshot.version())
+    throw rpc::Error(rpc::ErrorCode::ContentModified, "the document has been edited");
+  const auto times = documents::SectionTimes::of(snapshot);
+  const auto known = times->known(snapshot);
+  const auto program = known ? nullptr : std::make_shared<documents::TimedProgram>(snapshot, 0);
+  return [times, known, program, lens = params.lens, line = data.at("line").get<std::uint64_t>(),
+          language = snapshot.language()](const std::function<bool()>& stop) mutable {
+    static constexpr Text kNotRun = {"not run", "non eseguita"};
+    const auto sections = known ? known : times->time(*program, stop);
+    const auto section = sections->find(line);
+    const std::string title =
+        section == sections->end() ? std::string(kNotRun.in(language)) : describe(section->second, language);
+    lens["command"] = {{"title", title}, {"command", ""}};
+    return rpc::write(lens);
+  };
+}
+
+Json code_lens_capabilities(const Client&) { return {{"codeLensProvider", {{"resolveProvider", true}}}}; }
+
+}  // namespace
+
+extern const Feature code_lens = {
+    .capabilities = code_lens_capabilities,
+    .methods = {on<&answer_code_lens>("textDocument/codeLens"), begun_by<&resolve_lens>("codeLens/resolve")}};
+
+}  // namespace isocnc::lsp::features

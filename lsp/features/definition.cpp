@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "lsp/documents/assignments.h"
+#include "lsp/documents/ways.h"
+#include "lsp/features/feature.h"
+
+/// From a GOTO to its label, from a register to where it got its value, from coordinates alone to the G that they go on
+/// with.
+namespace isocnc::lsp::features {
+
+using documents::Location;
+using documents::NameKind;
+using documents::Occurrence;
+using documents::Ways;
+using syntax::Span;
+
+namespace {
+
+/// Where something stands; ordered, so that equal ones are told once.
+using Spot = std::pair<std::size_t, Span>;
+
+std::vector<Spot> spots_of(const std::vector<Occurrence>& all) {
+  std::vector<Spot> spots;
+  for (const Occurrence& each : all)
+    if (each.is_definition) spots.emplace_back(each.line, each.span);
+  return spots;
+}
+
+/// The label that the jump leads to; those that it was meant for where it leads nowhere.
+std::vector<Spot> labels_of(const Snapshot& snapshot, const Occurrence& target) {
+  std::vector<Spot> labels = spots_of(documents::occurrences(snapshot, target.name));
+  const auto below =
+      std::find_if(labels.begin(), labels.end(), [&](const Spot& label) { return label.first > target.line; });
+  return below == labels.end() ? labels : std::vector<Spot>{*below};
+}
+
+/// The assignments whose value may be there when the register is read; all where none can.
+std::vector<Spot> assignments_of(const Snapshot& snapshot, const Occurrence& read) {
+  const std::vector<Occurrence> reaching = documents::assignments_reaching(snapshot, read);
+  return spots_of(reaching.empty() ? documents::occurrences(snapshot, read.name) : reaching);
+}
+
+/// The last motion G of a line.
+std::optional<Span> motion_span(const syntax::LineTree& line) {
+  for (auto instruction = line.instructions.rbegin(); instruction != line.instructions.rend(); ++instruction) {
+    const bool is_g = instruction->kind == syntax::InstructionKind::G;
+    if (is_g && instruction->g() && instruction->g()->is_motion()) return line.command(*instruction).span();
+  }
+  return std::nullopt;
+}
+
+bool is_continuation(const syntax::LineTree& line, std::uint32_t column) {
+  for (const syntax::Instruction& instruction : line.instructions) {
+    if (instruction.kind != syntax::InstructionKind::Continuation) continue;
+    const Span span = syntax::hull(line.words[instruction.begin].span(), line.words[instruction.end - 1u].span());
+    if (span.begin <= column && column <= span.end) return true;
+  }
+  return false;
+}
+
+/// The motion Gs that may be in force before a line.
+std::vector<Spot> motions_before(const Snapshot& snapshot, std::size_t line) {
+  return Ways(snapshot).nearest_above(line, [&](std::size_t first, std::size_t behind) -> std::optional<Spot> {
+    for (std::size_t at = behind; at-- > first;) {
+      if (at % 1024 == 0) snapshot.give_way();
+      if (const auto span = motion_span(snapshot.document().line(at))) return Spot{at, *span};
+    }
+    return std::nullopt;
+  });
+}
+
+std::vector<Spot> spots_for(const Snapshot& snapshot, const syntax::Position& place) {
+  if (const auto name = documents::name_at(snapshot, place)) {
+    if (name->is_definition) return {{name->line, name->span}};
+    return name->name.kind == NameKind::Label ? labels_of(snapshot, *name) : assignments_of(snapshot, *name);
+  }
+  const syntax::LineTree line = snapshot.document().line(place.line);
+  if (!is_continuation(line, static_cast<std::uint32_t>(place.column))) return {};
+  return motions_before(snapshot, place.line);
+}
+
+std::optional<std::vector<Location>> answer_definition(const Snapshot& snapshot,
+                                                       const documents::PositionParams& params) {
+  std::vector<Location> locations;
+  for (const auto& [line, span] : spots_for(snapshot, snapshot.from_client(params.position)))
+    locations.push_back({snapshot.uri(), snapshot.to_client(line, span)});
+  return locations.empty() ? std::nullopt : std::optional(std::move(locations));
+}
+
+Json definition_capabilities(const Client&) { return {{"definitionProvider", true}}; }
+
+}  // namespace
+
+extern const Feature definition = {.capabilities = definition_capabilities,
+                                   .methods = {on<&answer_definition>("textDocument/definition")}};
+
+}  // namespace isocnc::lsp::features

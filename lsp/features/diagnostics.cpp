@@ -1,0 +1,196 @@
+#include <algorithm>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "analyzer/rendering.h"
+#include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/dialect/format.h"
+#include "lsp/documents/rule_page.h"
+#include "lsp/features/feature.h"
+
+/// What isolint would tell, as the editor's Problems list: pushed after each edit, or pulled by clients that can.
+namespace isocnc::lsp::features {
+
+using namespace dialect::literals;
+using analyzer::LocatedFinding;
+
+/// Findings that are told of one program; a last one says how many there are.
+static constexpr std::size_t kMostFindings = 1000;
+
+/// Of a configuration: what is wrong with one is pushed in any case.
+static constexpr std::string_view kNothing = R"({"kind":"full","items":[]})";
+
+static constexpr const char* kPull = "/textDocument/diagnostic";
+
+namespace {
+
+struct PullParams : documents::DocumentParams {
+  std::optional<std::string> previous_result_id;
+};
+
+void from_json(const Json& json, PullParams& params) {
+  from_json(json, static_cast<documents::DocumentParams&>(params));
+  params.previous_result_id = documents::member<std::string>(json, "previousResultId");
+}
+
+/// The findings of one snapshot on their way to the client.
+class DiagnosticWriter {
+ public:
+  explicit DiagnosticWriter(const Snapshot& snapshot)
+      : snapshot_(snapshot),
+        language_(snapshot.language()),
+        first_(snapshot.excerpt(kMostFindings + 1)),
+        tells_related_(snapshot.client().can("/textDocument/publishDiagnostics/relatedInformation")) {}
+
+  /// The list, as JSON: written at once, for it may be long, and is wanted after each edit.
+  std::string all() const {
+    const std::vector<LocatedFinding>& findings = first_.report.findings;
+    std::string list = "[";
+    for (std::size_t i = 0; i < std::min(findings.size(), kMostFindings); ++i) {
+      if (i > 0) list += ',';
+      append(findings[i], list);
+    }
+    if (findings.size() > kMostFindings) append_rest(findings[kMostFindings], list);
+    return list + "]";
+  }
+
+ private:
+  void append(const LocatedFinding& located, std::string& list) const {
+    const syntax::Finding& finding = located.finding;
+    const dialect::DiagnosticDef& def = dialect::definition(finding.id);
+    const std::string_view marked = snapshot_.document().line(located.line).text_of(finding.span);
+    append_head(located, 1 + static_cast<int>(located.severity()),
+                dialect::message(finding.id, language_, marked, finding.values), list);
+    fmt::format_to(std::back_inserter(list), R"(,"code":"{}","codeDescription":{{"href":"{}"}},"data":{{"name":"{}"}})",
+                   def.code, page_of(finding.id), def.name);
+    if (finding.id == "never-runs"_diag) list += R"(,"tags":[1])";
+    if (tells_related_ && located.path >= 0) list += R"(,"relatedInformation":)" + rpc::write(path_of(located));
+    list += '}';
+  }
+
+  void append_head(const LocatedFinding& located, int severity, const std::string& message, std::string& list) const {
+    const ClientRange range = snapshot_.to_client(located.line, located.finding.span);
+    fmt::format_to(std::back_inserter(list),
+                   R"({{"range":{{"start":{{"line":{},"character":{}}},"end":{{"line":{},"character":{}}}}},)"
+                   R"("severity":{},"source":"isolint","message":{})",
+                   range.start.line, range.start.character, range.end.line, range.end.character, severity,
+                   rpc::write(Json(message)));
+  }
+
+  static const std::string& page_of(dialect::DiagnosticId id) {
+    static const auto kPages = [] {
+      std::vector<std::string> pages;
+      for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i)
+        pages.push_back(documents::rule_page(static_cast<dialect::DiagnosticId>(i)));
+      return pages;
+    }();
+    return kPages[static_cast<std::size_t>(id)];
+  }
+
+  /// The jumps through which a finding is reached.
+  Json path_of(const LocatedFinding& located) const {
+    Json steps = Json::array();
+    for (const analyzer::PathStep& step : first_.report.paths[static_cast<std::size_t>(located.path)]) {
+      const syntax::LineTree line = snapshot_.document().line(step.line);
+      const syntax::Span span =
+          line.jump ? syntax::Span{line.jump->if_span.begin, line.jump->target_span.end} : syntax::Span{};
+      steps.push_back({{"location", documents::Location{snapshot_.uri(), snapshot_.to_client(step.line, span)}},
+                       {"message", analyzer::describe_step(step, line.text, language_)}});
+    }
+    return steps;
+  }
+
+  /// In the place of all further findings, at the first of them.
+  void append_rest(const LocatedFinding& next, std::string& list) const {
+    static constexpr dialect::Text kRest = {"{} more findings are not shown; isolint tells them all",
+                                            "altre {} segnalazioni non sono mostrate; isolint le riporta tutte"};
+    const std::size_t count = first_.report.findings.size() + first_.left_out - kMostFindings;
+    list += ',';
+    append_head(next, 3, dialect::format(kRest, language_, count), list);
+    list += '}';
+  }
+
+  const Snapshot& snapshot_;
+  const dialect::Language language_;
+  const analyzer::FirstFindings first_;
+  const bool tells_related_;
+};
+
+/// Equal findings have equal ids, so that a client that has them need not be told again.
+std::string id_of(const std::string& items) { return fmt::format("{:x}", std::hash<std::string>()(items)); }
+
+documents::RawJson pull(const Snapshot& snapshot, const PullParams& params) {
+  const std::string items = DiagnosticWriter(snapshot).all();
+  const std::string id = id_of(items);
+  if (params.previous_result_id == id) return {fmt::format(R"({{"kind":"unchanged","resultId":"{}"}})", id)};
+  return {fmt::format(R"({{"kind":"full","resultId":"{}","items":{}}})", id, items)};
+}
+
+/// The same of each program of the workspace, open or not.
+documents::RawJson pull_each(const Snapshot& snapshot, const Json& /*params*/) {
+  const std::string report = pull(snapshot, {}).text;
+  const std::string version = snapshot.version() < 0 ? "null" : std::to_string(snapshot.version());
+  return {fmt::format(R"([{{"uri":{},"version":{},{}])", rpc::write(Json(snapshot.uri())), version,
+                      std::string_view(report).substr(1))};
+}
+
+/// Leaves out what the client has, and takes away what it has of programs that are gone.
+std::string conclude_pull(std::string all, const Json& params) {
+  std::map<std::string, std::string> before;
+  for (const Json& each : params.value("previousResultIds", Json::array())) before[each.at("uri")] = each.at("value");
+  if (before.empty()) return fmt::format(R"({{"items":{}}})", all);
+  Json reports = Json::parse(all);
+  for (Json& report : reports) {
+    const auto known = before.find(report["uri"].get_ref<const std::string&>());
+    if (known == before.end()) continue;
+    if (known->second == report["resultId"]) {
+      report["kind"] = "unchanged";
+      report.erase("items");
+    }
+    before.erase(known);
+  }
+  for (const auto& [uri, id] : before)
+    if (id != id_of("[]"))
+      reports.push_back(
+          {{"kind", "full"}, {"uri", uri}, {"version", nullptr}, {"resultId", id_of("[]")}, {"items", Json::array()}});
+  return rpc::write({{"items", reports}});
+}
+
+/// A client that pulls would show what is pushed a second time.
+bool is_pushed(const Client& client) { return !client.can(kPull); }
+
+void push(const Snapshot& snapshot, const Notify& notify) {
+  if (!is_pushed(snapshot.client())) return;
+  notify("textDocument/publishDiagnostics",
+         fmt::format(R"({{"uri":{},"version":{},"diagnostics":{}}})", rpc::write(Json(snapshot.uri())),
+                     snapshot.version(), DiagnosticWriter(snapshot).all()));
+}
+
+void clear(const std::string& uri, const Client& client, const Notify& notify) {
+  if (is_pushed(client))
+    notify("textDocument/publishDiagnostics", rpc::write({{"uri", uri}, {"diagnostics", Json::array()}}));
+}
+
+Json diagnostics_capabilities(const Client& client) {
+  return {{"diagnosticProvider",
+           {{"identifier", "isolint"},
+            {"interFileDependencies", false},
+            {"workspaceDiagnostics", client.settings.checks_workspace}}}};
+}
+
+}  // namespace
+
+extern const Feature diagnostics = {.capabilities = diagnostics_capabilities,
+                                    .methods = {on_any<&pull>("textDocument/diagnostic", kNothing)},
+                                    .gatherings = {on_each<&pull_each>("workspace/diagnostic", conclude_pull)},
+                                    .changed = push,
+                                    .closed = clear};
+
+}  // namespace isocnc::lsp::features

@@ -1,0 +1,88 @@
+#include <string>
+#include <vector>
+
+#include "lsp/documents/outline.h"
+#include "lsp/features/feature.h"
+
+/// The program's outline: tools, frames, labels and headings.
+namespace isocnc::lsp::features {
+
+using documents::Section;
+
+namespace {
+
+/// Writes the sections as the client takes them: one in the other where it can, else in a row.
+class SymbolWriter {
+ public:
+  explicit SymbolWriter(const Snapshot& snapshot) : snapshot_(snapshot), sections_(documents::outline(snapshot)) {}
+
+  documents::RawJson tree() {
+    write_children(-1);
+    return {std::move(text_)};
+  }
+
+  documents::RawJson row() {
+    text_ = "[";
+    for (const Section& section : sections_) {
+      snapshot_.give_way();
+      separate();
+      Json json = {{"name", section.title},
+                   {"kind", documents::symbol_kind(section.kind)},
+                   {"location", documents::Location{snapshot_.uri(), range_of(section)}}};
+      if (section.parent >= 0) json["containerName"] = sections_[static_cast<std::size_t>(section.parent)].title;
+      text_ += rpc::write(json);
+    }
+    text_ += "]";
+    return {std::move(text_)};
+  }
+
+ private:
+  ClientRange range_of(const Section& section) const {
+    const std::size_t end = snapshot_.document().line(section.last_line).text.size();
+    return {snapshot_.to_client({section.first_line, 0}), snapshot_.to_client({section.last_line, end})};
+  }
+
+  /// Sections stand behind the one that holds them, so they are written as they come.
+  void write_children(int parent) {
+    text_ += "[";
+    while (next_ < sections_.size() && sections_[next_].parent == parent) {
+      snapshot_.give_way();
+      const Section& section = sections_[next_];
+      separate();
+      std::string symbol = rpc::write({{"name", section.title},
+                                       {"detail", section.detail},
+                                       {"kind", documents::symbol_kind(section.kind)},
+                                       {"range", range_of(section)},
+                                       {"selectionRange", snapshot_.to_client(section.head_line, section.head)}});
+      symbol.pop_back();
+      text_ += symbol + ",\"children\":";
+      write_children(static_cast<int>(next_++));
+      text_ += "}";
+    }
+    text_ += "]";
+  }
+
+  void separate() {
+    if (text_.back() != '[') text_ += ",";
+  }
+
+  const Snapshot& snapshot_;
+  const std::vector<Section> sections_;
+  std::size_t next_ = 0;
+  std::string text_;
+};
+
+documents::RawJson answer_document_symbols(const Snapshot& snapshot, const documents::DocumentParams&) {
+  SymbolWriter writer(snapshot);
+  return snapshot.client().can("/textDocument/documentSymbol/hierarchicalDocumentSymbolSupport") ? writer.tree()
+                                                                                                 : writer.row();
+}
+
+Json document_symbols_capabilities(const Client&) { return {{"documentSymbolProvider", true}}; }
+
+}  // namespace
+
+extern const Feature document_symbols = {.capabilities = document_symbols_capabilities,
+                                         .methods = {on<&answer_document_symbols>("textDocument/documentSymbol")}};
+
+}  // namespace isocnc::lsp::features

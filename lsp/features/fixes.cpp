@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "analyzer/fixer.h"
+#include "analyzer/fixes/fix.h"
+#include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/dialect/format.h"
+#include "lsp/documents/snapshot_program.h"
+#include "lsp/documents/text_edits.h"
+#include "lsp/features/feature.h"
+
+/// How findings are mended, one by one or all that is safe, and how they are silenced.
+namespace isocnc::lsp::features {
+
+using analyzer::LocatedFinding;
+using analyzer::fixes::Edit;
+using analyzer::fixes::Fix;
+using dialect::Text;
+using documents::SnapshotProgram;
+
+static constexpr std::string_view kQuickFix = "quickfix";
+static constexpr std::string_view kFixAll = "source.fixAll.isocnc";
+
+/// Findings for which actions are offered at once.
+static constexpr std::ptrdiff_t kMostFixed = 50;
+
+namespace {
+
+/// Findings of the lines, as many as are looked at.
+std::span<const LocatedFinding> findings_of(const Snapshot& snapshot, const ActionParams& params) {
+  const std::vector<LocatedFinding>& all = snapshot.report().findings;
+  const auto first =
+      std::partition_point(all.begin(), all.end(), [&](const auto& each) { return each.line < params.first_line(); });
+  const auto behind =
+      std::partition_point(first, all.end(), [&](const auto& each) { return each.line <= params.last_line(); });
+  return {first, std::min(behind, first + std::min(kMostFixed, behind - first))};
+}
+
+/// The client's diagnostic of a finding.
+Json diagnostics_of(const Snapshot& snapshot, const LocatedFinding& located, const ActionParams& params) {
+  const Json start = snapshot.to_client(located.line, located.finding.span).start;
+  const Json code = dialect::definition(located.finding.id).code;
+  for (const Json& diagnostic : params.diagnostics)
+    if (diagnostic.is_object() && diagnostic.value("code", Json()) == code &&
+        diagnostic.value(Json::json_pointer("/range/start"), Json()) == start)
+      return Json::array({diagnostic});
+  return nullptr;
+}
+
+void offer_fixes(const Snapshot& snapshot, const ActionParams& params, std::vector<Action>& actions) {
+  SnapshotProgram program(snapshot);
+  for (const LocatedFinding& located : findings_of(snapshot, params)) {
+    const bool on_every_path = located.path < 0 && !snapshot.frontier_before(located.line).reduced;
+    const std::optional<Fix> fix = analyzer::fixes::fix_of({located.line, located.finding, on_every_path}, program);
+    if (!fix) continue;
+    actions.push_back({.title = fix->title_in(snapshot.language()),
+                       .kind = kQuickFix,
+                       .is_preferred = fix->safety == analyzer::fixes::Safety::Safe,
+                       .diagnostics = diagnostics_of(snapshot, located, params),
+                       .edit = workspace_edit(snapshot, to_client(snapshot, fix->edits)),
+                       .data = nullptr});
+  }
+}
+
+// --- Silencing
+
+constexpr Text kSilenceLine = {"silence {} on this line", "tacere {} su questa riga"};
+constexpr Text kSilenceFile = {"silence {} in the whole program", "tacere {} in tutto il programma"};
+
+/// Behind all that stands on the line, in its comment where it ends in one that goes on to the end of the line.
+Edit silencing_line(const syntax::LineTree& line, std::size_t number, std::string_view code) {
+  const auto is_open = [&](syntax::Span comment) {
+    return comment.end == line.text.size() &&
+           (line.text[comment.begin] == ';' || line.has(syntax::LineTree::kUnclosed));
+  };
+  const bool goes_on = std::any_of(line.comments.begin(), line.comments.end(), is_open);
+  const syntax::Position end{number, line.text.size()};
+  return {end, end, fmt::format(" {}isolint: ignore {}", goes_on ? "" : ";", code)};
+}
+
+void offer_silence(const Snapshot& snapshot, const ActionParams& params, std::vector<Action>& actions) {
+  const auto offer = [&](const Text& title, const LocatedFinding& located, const Edit& edit) {
+    const std::string_view code = dialect::definition(located.finding.id).code;
+    Action action{.title = dialect::format(title, snapshot.language(), code),
+                  .kind = kQuickFix,
+                  .diagnostics = diagnostics_of(snapshot, located, params),
+                  .edit = workspace_edit(snapshot, to_client(snapshot, {edit})),
+                  .data = nullptr};
+    const auto is_there = [&](const Action& each) { return each.title == action.title && each.edit == action.edit; };
+    if (std::none_of(actions.begin(), actions.end(), is_there)) actions.push_back(std::move(action));
+  };
+  for (const LocatedFinding& located : findings_of(snapshot, params)) {
+    const std::string_view code = dialect::definition(located.finding.id).code;
+    offer(kSilenceLine, located, silencing_line(snapshot.document().line(located.line), located.line, code));
+    offer(kSilenceFile, located, {{0, 0}, {0, 0}, fmt::format(";isolint: ignore-file {}\n", code)});
+  }
+}
+
+// --- All at once
+
+std::vector<documents::TextEdit> edits_of_all(const Snapshot& snapshot) {
+  const std::string text = snapshot.document().text();
+  const auto pause = [&](analyzer::Report report, std::string_view) {
+    snapshot.give_way();
+    return report;
+  };
+  const analyzer::FixedText fixed =
+      analyzer::fix_text(text, {.selection = snapshot.selection(), .setup = snapshot.setup(), .concern = pause});
+  return edits_to(snapshot, fixed.text, fixed.origins);
+}
+
+Json fix_all(const Snapshot& snapshot, const Json&) {
+  const std::vector<documents::TextEdit> edits = edits_of_all(snapshot);
+  if (edits.empty()) throw rpc::Error(rpc::ErrorCode::RequestFailed, "nothing can be fixed safely");
+  return workspace_edit(snapshot, edits);
+}
+
+void offer_fix_all(const Snapshot& snapshot, const ActionParams&, std::vector<Action>& actions) {
+  static constexpr Text kTitle = {"fix all that can be fixed safely", "correggere tutto ciò che è sicuro"};
+  if (snapshot.report().findings.empty()) return;
+  actions.push_back(
+      {.title = std::string(kTitle.in(snapshot.language())), .kind = kFixAll, .diagnostics = nullptr, .data = nullptr});
+}
+
+struct FixAllParams {};
+void from_json(const Json&, FixAllParams&) {}
+
+Json fix_all_now(const Snapshot& snapshot, const FixAllParams&) {
+  return {{"edit", workspace_edit(snapshot, edits_of_all(snapshot))}};
+}
+
+}  // namespace
+
+extern const Feature fixes = {.commands = {on<&fix_all_now>("isocnc.fixAll")},
+                              .actions = {{.kind = kQuickFix, .offer = offer_fixes},
+                                          {.kind = kQuickFix, .offer = offer_silence},
+                                          {.kind = kFixAll, .offer = offer_fix_all, .edit = fix_all}}};
+
+}  // namespace isocnc::lsp::features

@@ -1,0 +1,106 @@
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analyzer/program_formatter.h"
+#include "interpreter/syntax/characters.h"
+#include "lsp/documents/snapshot_program.h"
+#include "lsp/documents/text_edits.h"
+#include "lsp/features/feature.h"
+
+/// The program as isofmt would write it, by the configuration. Where it cannot be renumbered, the rest is done.
+namespace isocnc::lsp::features {
+
+using analyzer::LinesFormatter;
+using analyzer::ProgramStyle;
+using documents::TextEdit;
+
+namespace {
+
+struct OnTypeParams : documents::PositionParams {
+  std::string character;
+};
+
+void from_json(const Json& json, OnTypeParams& params) {
+  from_json(json, static_cast<documents::PositionParams&>(params));
+  params.character = json.at("ch");
+}
+
+/// Of lines [first, behind); the others are only looked at.
+std::vector<TextEdit> format_lines(const Snapshot& snapshot, LinesFormatter& formatter, std::size_t first,
+                                   std::size_t behind) {
+  std::vector<TextEdit> edits;
+  std::size_t number = 0;
+  documents::each_line_of(snapshot)([&](const syntax::LineTree& line) {
+    const std::size_t at = number++;
+    if (at >= behind) return;
+    const syntax::LineChange change = formatter.next(line);
+    if (at < first) return;
+    if (auto edit = line_edit(snapshot, at, formatter.written(line, change))) edits.push_back(std::move(*edit));
+  });
+  return edits;
+}
+
+documents::RawJson format(const Snapshot& snapshot, const documents::DocumentParams&) {
+  ProgramStyle style = analyzer::style_by(snapshot.configuration().format);
+  const analyzer::EachLine each_line = documents::each_line_of(snapshot);
+  std::optional<LinesFormatter> formatter(std::in_place, style, each_line);
+  if (formatter->obstacle()) {
+    style.numbers.reset();
+    formatter.emplace(style, each_line);
+  }
+  return documents::written(format_lines(snapshot, *formatter, 0, snapshot.document().line_count()));
+}
+
+/// Line numbers are the whole program's concern, and stay.
+documents::RawJson format_range(const Snapshot& snapshot, const documents::RangeParams& params) {
+  ProgramStyle style = analyzer::style_by(snapshot.configuration().format);
+  style.numbers.reset();
+  LinesFormatter formatter(style, {});
+  const bool ends_before_line = params.range.end.character == 0 && params.range.end.line > params.range.start.line;
+  const std::size_t behind = std::size_t{params.range.end.line} + (ends_before_line ? 0 : 1);
+  return documents::written(format_lines(snapshot, formatter, params.range.start.line, behind));
+}
+
+/// All letters of a line that are no comment's.
+std::string in_capitals(const syntax::LineTree& line) {
+  std::string text(line.text);
+  std::transform(text.begin(), text.end(), text.begin(), syntax::upper);
+  for (const syntax::Span comment : line.comments)
+    std::copy(line.text.begin() + comment.begin, line.text.begin() + comment.end, text.begin() + comment.begin);
+  return text;
+}
+
+/// A line that is being written gets capitals; one that has been ended is formatted, for what is wrong with it may not
+/// be what its author still has to write.
+std::vector<TextEdit> format_on_type(const Snapshot& snapshot, const OnTypeParams& params) {
+  const std::size_t line = snapshot.from_client(params.position).line;
+  std::optional<TextEdit> edit;
+  if (params.character != "\n") {
+    edit = line_edit(snapshot, line, in_capitals(snapshot.document().line(line)));
+  } else if (line > 0) {
+    ProgramStyle style = analyzer::style_by(snapshot.configuration().format);
+    syntax::Formatter formatter(style.line);
+    edit = line_edit(snapshot, line - 1, formatter.format(snapshot.document().line(line - 1)));
+  }
+  return edit ? std::vector{*edit} : std::vector<TextEdit>{};
+}
+
+/// The letters that words begin with, small, and the line's end.
+Json formatting_capabilities(const Client&) {
+  Json letters = Json::array();
+  for (char letter = 'a'; letter <= 'z'; ++letter) letters.push_back(std::string(1, letter));
+  return {{"documentFormattingProvider", true},
+          {"documentRangeFormattingProvider", true},
+          {"documentOnTypeFormattingProvider", {{"firstTriggerCharacter", "\n"}, {"moreTriggerCharacter", letters}}}};
+}
+
+}  // namespace
+
+extern const Feature formatting = {
+    .capabilities = formatting_capabilities,
+    .methods = {on<&format>("textDocument/formatting"), on<&format_range>("textDocument/rangeFormatting"),
+                on<&format_on_type>("textDocument/onTypeFormatting")}};
+
+}  // namespace isocnc::lsp::features

@@ -1,0 +1,38 @@
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "lsp/documents/names.h"
+#include "lsp/features/feature.h"
+
+/// Marks the label or register under the cursor wherever it stands.
+namespace isocnc::lsp::features {
+namespace {
+
+struct Highlight {
+  ClientRange range;
+  bool writes = false;
+};
+
+void to_json(Json& json, const Highlight& highlight) {
+  json = {{"range", highlight.range}, {"kind", highlight.writes ? 3 : 2}};
+}
+
+std::optional<std::vector<Highlight>> answer_highlights(const Snapshot& snapshot,
+                                                        const documents::PositionParams& params) {
+  const auto name = documents::name_at(snapshot, snapshot.from_client(params.position));
+  if (!name) return std::nullopt;
+  std::vector<Highlight> highlights;
+  for (const documents::Occurrence& each : documents::occurrences(snapshot, name->name))
+    highlights.push_back({snapshot.to_client(each.line, each.span), each.is_definition});
+  return highlights;
+}
+
+Json highlights_capabilities(const Client&) { return {{"documentHighlightProvider", true}}; }
+
+}  // namespace
+
+extern const Feature highlights = {.capabilities = highlights_capabilities,
+                                   .methods = {on<&answer_highlights>("textDocument/documentHighlight")}};
+
+}  // namespace isocnc::lsp::features

@@ -1,0 +1,204 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "interpreter/execution/execute.h"
+#include "interpreter/execution/silent_sink.h"
+#include "lsp/documents/section_times.h"
+#include "lsp/documents/ways.h"
+#include "lsp/features/feature.h"
+
+/// What a line leaves unsaid: where incremental motions lead, the G that coordinates alone go on with, and when a tool
+/// section begins.
+namespace isocnc::lsp::features {
+
+using dialect::ModalGroup;
+using execution::State;
+using syntax::LineTree;
+
+namespace {
+
+struct Hint {
+  ClientPosition position;
+  std::string label;
+  std::string_view tooltip;
+  bool is_behind = false;  ///< Behind what it belongs to, not before it.
+};
+
+void to_json(Json& json, const Hint& hint) {
+  json = {{"position", hint.position},
+          {"label", hint.label},
+          {"tooltip", hint.tooltip},
+          {hint.is_behind ? "paddingLeft" : "paddingRight", true}};
+}
+
+/// The state before each line of a stretch, where it is the same on all paths. Lines are executed once; the snapshot is
+/// asked again only where paths may part or meet.
+class StateWalk {
+ public:
+  StateWalk(const Snapshot& snapshot, std::size_t line)
+      : snapshot_(snapshot), ways_(snapshot), state_(snapshot.state_before(line)) {}
+
+  /// Of the way from the line above.
+  const std::optional<State>& state() const { return state_; }
+  /// Whether other ways lead to the line, too.
+  bool is_joined_at(std::size_t line) const { return ways_.lands_on(line); }
+
+  /// Goes over the line to the next.
+  void step(std::size_t line, const LineTree& tree) {
+    if (!state_ || tree.jump || ways_.lands_on(line)) {
+      state_ = snapshot_.state_before(line + 1);
+      return;
+    }
+    execution::SilentSink sink;
+    execution::execute(tree, *state_, snapshot_.setup(), sink);
+    if (state_->ended) state_.reset();
+  }
+
+ private:
+  const Snapshot& snapshot_;
+  const documents::Ways ways_;
+  std::optional<State> state_;
+};
+
+const syntax::Instruction* motion_of(const LineTree& line) {
+  for (const syntax::Instruction& instruction : line.instructions) {
+    const bool is_g = instruction.kind == syntax::InstructionKind::G && instruction.g();
+    if (instruction.kind == syntax::InstructionKind::Continuation || (is_g && instruction.g()->is_motion()))
+      return &instruction;
+  }
+  return nullptr;
+}
+
+/// Three decimals at most: a thousandth of a millimeter is what one reads.
+std::string number_text(double value) {
+  const double rounded = std::round(value * 1000) / 1000;
+  return fmt::format("{}", rounded == 0 ? 0.0 : rounded);
+}
+
+/// Finds the hints of a stretch of lines.
+class HintFinder {
+ public:
+  HintFinder(const Snapshot& snapshot, std::size_t first_line) : snapshot_(snapshot), walk_(snapshot, first_line) {}
+
+  void look_at(std::size_t index) {
+    const LineTree line = snapshot_.document().line(index);
+    const syntax::Instruction* const motion = motion_of(line);
+    if (motion && motion->kind == syntax::InstructionKind::Continuation) tell_of_motion(index, line, *motion);
+    walk_.step(index, line);
+    if (motion) tell_of_end(index, line, *motion);
+  }
+
+  std::vector<Hint> hints;
+
+ private:
+  void tell_of_motion(std::size_t index, const LineTree& line, const syntax::Instruction& motion) {
+    static constexpr dialect::Text kTooltip = {"the motion in force", "il movimento in presa"};
+    if (!snapshot_.client().settings.shows_motion_in_force || !walk_.state() || walk_.is_joined_at(index)) return;
+    const std::uint8_t g = walk_.state()->mode(ModalGroup::Motion);
+    if (g == dialect::kNoMotion) return;
+    hints.push_back({.position = snapshot_.to_client({index, line.command(motion).begin}),
+                     .label = fmt::format("G{:02}", g),
+                     .tooltip = kTooltip.in(snapshot_.language())});
+  }
+
+  /// The coordinates that the line moves, as they would be written in G90.
+  void tell_of_end(std::size_t index, const LineTree& line, const syntax::Instruction& motion) {
+    static constexpr dialect::Text kTooltip = {"where the motion ends, in the frame in force",
+                                               "dove finisce il movimento, nel riferimento in uso"};
+    const std::optional<State>& after = walk_.state();
+    if (!snapshot_.client().settings.shows_end_positions || !after || !after->incremental()) return;
+    std::string label = "→";
+    std::uint32_t end = 0;
+    for (std::size_t i = motion.begin; i < motion.end; ++i) {
+      const syntax::Word& word = line.words[i];
+      end = std::max(end, word.end);
+      if (word.owner == motion.number) label += coordinate_text(*after, word.letter);
+    }
+    if (label.find(' ') == std::string::npos) return;
+    hints.push_back({.position = snapshot_.to_client({index, end}),
+                     .label = std::move(label),
+                     .tooltip = kTooltip.in(snapshot_.language()),
+                     .is_behind = true});
+  }
+
+  /// ` X12.5`; nothing for what is no coordinate, or not known.
+  static std::string coordinate_text(const State& state, char letter) {
+    constexpr std::string_view kLetters = "XYZBC";
+    const std::size_t axis = kLetters.find(letter);
+    if (axis == std::string_view::npos) return {};
+    if ((state.unknown & execution::axis_bit(static_cast<execution::Axis>(axis))) != 0) return {};
+    const bool is_linear = axis < 3;
+    const double value = is_linear ? state.position.tip[static_cast<int>(axis)] / state.mm_per_unit()
+                                   : (axis == 3 ? state.position.b : state.position.c);
+    return fmt::format(" {}{}", letter, number_text(value));
+  }
+
+  const Snapshot& snapshot_;
+  StateWalk walk_;
+};
+
+/// Programs of more lines are not timed for hints alone: those then come once the code lenses have had them timed.
+constexpr std::size_t kMostLinesToTime = 20'000;
+
+std::shared_ptr<const documents::Sections> timed_sections(const Snapshot& snapshot) {
+  const auto times = documents::SectionTimes::of(snapshot);
+  if (auto known = times->known(snapshot)) return known;
+  if (snapshot.document().line_count() > kMostLinesToTime) return nullptr;
+  return times->time(documents::TimedProgram(snapshot, 0), [&] {
+    snapshot.give_way();
+    return false;
+  });
+}
+
+/// Behind each M06 of the stretch the time since the program's begin.
+void add_section_times(const Snapshot& snapshot, std::size_t first, std::size_t last, std::vector<Hint>& hints) {
+  static constexpr dialect::Text kTooltip = {"time since the beginning of the program, with VGPL 0",
+                                             "tempo dall'inizio del programma, con VGPL 0"};
+  std::vector<documents::Landmark> changes = snapshot.index().landmarks(documents::LandmarkKind::ToolChange);
+  std::erase_if(changes, [&](const documents::Landmark& change) { return change.line < first || change.line > last; });
+  if (changes.empty()) return;
+  const auto sections = timed_sections(snapshot);
+  if (!sections) return;
+  for (const documents::Landmark& change : changes) {
+    const auto section = sections->find(change.line);
+    if (section == sections->end()) continue;
+    const LineTree line = snapshot.document().line(change.line);
+    hints.push_back({.position = snapshot.to_client({change.line, line.words.back().end}),
+                     .label = documents::clock_text(section->second.start),
+                     .tooltip = kTooltip.in(snapshot.language()),
+                     .is_behind = true});
+  }
+}
+
+std::vector<Hint> answer_inlay_hints(const Snapshot& snapshot, const documents::RangeParams& params) {
+  const documents::ClientSettings& settings = snapshot.client().settings;
+  const std::size_t first = snapshot.from_client(params.range.start).line;
+  const std::size_t last = snapshot.from_client(params.range.end).line;
+  std::vector<Hint> times;
+  if (settings.shows_section_times) add_section_times(snapshot, first, last, times);
+  if (!settings.shows_end_positions && !settings.shows_motion_in_force) return times;
+  HintFinder finder(snapshot, first);
+  for (std::size_t line = first; line <= last; ++line) {
+    if (line % 256 == 0) snapshot.give_way();
+    finder.look_at(line);
+  }
+  std::vector<Hint> hints = std::move(finder.hints);
+  hints.insert(hints.end(), times.begin(), times.end());
+  return hints;
+}
+
+Json inlay_hints_capabilities(const Client&) { return {{"inlayHintProvider", true}}; }
+
+}  // namespace
+
+extern const Feature inlay_hints = {.capabilities = inlay_hints_capabilities,
+                                    .methods = {on<&answer_inlay_hints>("textDocument/inlayHint")}};
+
+}  // namespace isocnc::lsp::features

@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "interpreter/dialect/format.h"
+#include "interpreter/running/restart.h"
+#include "lsp/documents/uri.h"
+#include "lsp/features/feature.h"
+
+/// A program that takes this one up again from a line: a new document beside it.
+namespace isocnc::lsp::features {
+
+using dialect::Text;
+
+static constexpr std::string_view kKind = "refactor.rewrite.isocnc.restart";
+
+namespace {
+
+struct RestartParams {
+  std::uint64_t line = 0;  // From 0, as all lines of the protocol.
+  std::optional<double> vgpl;
+};
+
+void from_json(const Json& json, RestartParams& params) {
+  if (!json.at("line").is_number_unsigned()) throw Json::type_error::create(302, "the line is no line", &json);
+  params.line = json.at("line");
+  params.vgpl = documents::member<double>(json, "vgpl");
+}
+
+/// The file's name without its folder.
+std::string name_of(const Snapshot& snapshot) {
+  const std::string& uri = snapshot.uri();
+  const auto path = documents::path_of(uri);
+  return path ? path->filename().string() : uri.substr(uri.find_last_of("/:") + 1);
+}
+
+/// `part-from-120.iso` beside `part.iso`; lines from 1, as people count.
+std::string uri_of_restart(const std::string& uri, std::uint64_t line) {
+  const std::size_t name = uri.find_last_of("/:") + 1;
+  const std::size_t point = uri.find_last_of('.');
+  const bool has_extension = point != std::string::npos && point > name;
+  const std::size_t stem = has_extension ? point : uri.size();
+  return fmt::format("{}-from-{}{}", uri.substr(0, stem), line + 1, uri.substr(stem));
+}
+
+/// What stands in the way, for people.
+std::string why_not(const running::RestartRefusal& refusal, dialect::Language language) {
+  static constexpr Text kError = {"the program stops at line {} with an error; correct it first",
+                                  "il programma si ferma alla riga {} con un errore: va prima corretto"};
+  if (refusal.obstacle == running::Obstacle::ProgramError)
+    return dialect::format(kError, language, refusal.run.line + 1);
+  return message(refusal, language);
+}
+
+std::string restart_text(const Snapshot& snapshot, const RestartParams& params) {
+  running::RestartOptions options;
+  options.run.setup = snapshot.setup();
+  options.run.vgpl = params.vgpl.value_or(0);
+  options.line = params.line;
+  options.name = name_of(snapshot);
+  options.language = snapshot.language();
+  auto made = running::restart_program(snapshot.document().text(), options);
+  if (const auto* const refusal = std::get_if<running::RestartRefusal>(&made))
+    throw rpc::Error(rpc::ErrorCode::RequestFailed, why_not(*refusal, snapshot.language()));
+  return std::get<std::string>(std::move(made));
+}
+
+/// Whether the client can be told to make a document.
+bool makes_documents(const Client& client) {
+  const Json operations =
+      client.capabilities.value(Json::json_pointer("/workspace/workspaceEdit/resourceOperations"), Json::array());
+  return client.can("/workspace/workspaceEdit/documentChanges") &&
+         std::find(operations.begin(), operations.end(), Json("create")) != operations.end();
+}
+
+Json new_document(const std::string& uri, std::string text) {
+  const Json nowhere = {{"line", 0}, {"character", 0}};
+  const Json insertion = {{"range", {{"start", nowhere}, {"end", nowhere}}}, {"newText", std::move(text)}};
+  return {{"documentChanges",
+           {{{"kind", "create"}, {"uri", uri}},
+            {{"textDocument", {{"uri", uri}, {"version", nullptr}}}, {"edits", Json::array({insertion})}}}}};
+}
+
+void offer_restart(const Snapshot& snapshot, const ActionParams& params, std::vector<Action>& actions) {
+  static constexpr Text kTitle = {"make a restart program from line {}",
+                                  "creare un programma di ripresa dalla riga {}"};
+  if (!makes_documents(snapshot.client()) || params.is_selection()) return;
+  actions.push_back({.title = dialect::format(kTitle, snapshot.language(), params.first_line() + 1),
+                     .kind = kKind,
+                     .diagnostics = nullptr,
+                     .data = {{"line", params.first_line()}}});
+}
+
+Json make(const Snapshot& snapshot, const Json& data) {
+  const auto params = data.get<RestartParams>();
+  return new_document(uri_of_restart(snapshot.uri(), params.line), restart_text(snapshot, params));
+}
+
+/// The edit that makes the document, or for clients that make none the text alone.
+Json restart_here(const Snapshot& snapshot, const RestartParams& params) {
+  std::string text = restart_text(snapshot, params);
+  if (!makes_documents(snapshot.client())) return {{"text", std::move(text)}};
+  return {{"edit", new_document(uri_of_restart(snapshot.uri(), params.line), std::move(text))}};
+}
+
+}  // namespace
+
+extern const Feature restart = {.commands = {on<&restart_here>("isocnc.restart")},
+                                .actions = {{.kind = kKind, .offer = offer_restart, .edit = make}}};
+
+}  // namespace isocnc::lsp::features

@@ -1,0 +1,77 @@
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "lsp/documents/line_run.h"
+#include "lsp/features/feature.h"
+
+/// Our own request `isocnc/state`: the modal state and the position before and after a line.
+namespace isocnc::lsp::features {
+namespace {
+
+struct StateParams : documents::DocumentParams {
+  std::uint32_t line = 0;
+};
+
+void from_json(const Json& json, StateParams& params) {
+  from_json(json, static_cast<documents::DocumentParams&>(params));
+  // Read as the line of a position: the same numbers are right.
+  params.line = Json{{"line", json.at("line")}, {"character", 0u}}.get<ClientPosition>().line;
+}
+
+struct StateResult {
+  std::optional<documents::LineRun> run;
+};
+
+constexpr const char* kGroupNames[] = {"motion",        "plane", "face",     "profileReduction", "cutterCompensation",
+                                       "interpolation", "units", "distance", "workpiece",        "feedMode"};
+static_assert(std::size(kGroupNames) == dialect::kModalGroupCount);
+
+Json vector_json(const geometry::Vec3& vector) { return {{"x", vector.x()}, {"y", vector.y()}, {"z", vector.z()}}; }
+
+/// Axes whose position an error has left open are null.
+Json position_json(const execution::State& state) {
+  const geometry::Pose& pose = state.position;
+  const double values[] = {pose.tip.x(), pose.tip.y(), pose.tip.z(), pose.b, pose.c};
+  Json json;
+  for (int axis = 0; axis < execution::kAxisCount; ++axis) {
+    const bool is_known = (state.unknown & execution::axis_bit(static_cast<execution::Axis>(axis))) == 0;
+    json[std::string(1, "xyzbc"[axis])] = is_known ? Json(values[axis]) : Json();
+  }
+  return json;
+}
+
+Json state_json(const execution::State& state) {
+  Json in_force;
+  for (std::size_t i = 0; i < dialect::kModalGroupCount; ++i)
+    in_force[kGroupNames[i]] = state.in_force[i] == dialect::kNoMotion ? Json() : Json(state.in_force[i]);
+  const bool knows_linear = (state.unknown & execution::kLinearAxes) == 0;
+  Json json = {{"inForce", in_force},
+               {"position", position_json(state)},
+               {"machinePosition", knows_linear ? vector_json(state.to_machine(state.position.tip)) : Json()},
+               {"workpieceOrigin", vector_json(state.workpiece_origin)},
+               {"faceMounted", state.face_mounted},
+               {"spindle", {{"function", state.spindle}, {"speed", state.spindle_speed}}},
+               {"tool", nullptr},
+               {"feed", nullptr}};
+  const execution::Feed feed = execution::feed_in_force(state);
+  if (state.feed_given) json["feed"] = feed.number * feed.mm_per_unit;
+  if (state.tool != execution::ToolCode{})
+    json["tool"] = fmt::format("{:d}{:02d}{:03d}", state.tool.head, state.tool.holder, state.tool.tool);
+  return json;
+}
+
+void to_json(Json& json, const StateResult& result) {
+  json = {{"before", result.run ? state_json(result.run->before) : Json()},
+          {"after", result.run ? state_json(result.run->after) : Json()}};
+}
+
+StateResult answer_state(const Snapshot& snapshot, const StateParams& params) {
+  return {documents::run_line(snapshot, params.line)};
+}
+
+}  // namespace
+
+extern const Feature state = {.methods = {on<&answer_state>("isocnc/state")}};
+
+}  // namespace isocnc::lsp::features

@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "interpreter/configuration/plot_tools.h"
+#include "interpreter/running/path_recording.h"
+#include "lsp/documents/timed_program.h"
+#include "lsp/documents/uri.h"
+#include "lsp/features/feature.h"
+
+/// `isocnc/toolpath`: the way of the tool tip through the whole program, and after an edit what has changed of it.
+/// Steps and points are told by how they differ from the ones before, so that an edit changes few bytes.
+namespace isocnc::lsp::features {
+namespace {
+
+/// A recording that has been handed out.
+struct ToldPath {
+  std::int64_t id = 0;
+  std::string steps;
+  std::string points;
+  std::string turns;
+};
+
+/// The last one, which studies exchange.
+struct LastTold {
+  std::mutex mutex;
+  std::int64_t last_id = 0;
+  std::shared_ptr<const ToldPath> told;
+};
+
+struct ToolpathParams : documents::DocumentParams {
+  std::string previous;  ///< A resultId; empty without one.
+  double vgpl = 0;
+};
+
+void from_json(const Json& json, ToolpathParams& params) {
+  from_json(json, static_cast<documents::DocumentParams&>(params));
+  params.previous = documents::member<std::string>(json, "previousResultId").value_or("");
+  params.vgpl = documents::member<double>(json, "vgpl").value_or(0);
+}
+
+/// A stream, or how it differs from the one that the client has.
+std::string stream(std::string_view now, const std::string* before) {
+  if (!before) return fmt::format(R"({{"data":"{}"}})", running::base64(now));
+  const auto head = static_cast<std::size_t>(
+      std::mismatch(now.begin(), now.end(), before->begin(), before->end()).first - now.begin());
+  const std::size_t most_tail = std::min(now.size(), before->size()) - head;
+  const auto tail = static_cast<std::size_t>(
+      std::mismatch(now.rbegin(), now.rbegin() + static_cast<std::ptrdiff_t>(most_tail), before->rbegin()).first -
+      now.rbegin());
+  return fmt::format(R"({{"start":{},"removed":{},"data":"{}"}})", head, before->size() - head - tail,
+                     running::base64(now.substr(head, now.size() - head - tail)));
+}
+
+/// All that the study takes with it.
+struct Task {
+  documents::TimedProgram program;
+  running::PlotSubject subject;
+  std::string previous;
+  std::shared_ptr<LastTold> last;
+
+  std::string study(const std::function<bool()>& stop);
+};
+
+std::string Task::study(const std::function<bool()>& stop) {
+  const running::TimedMachine& machine = program.machine().timed;
+  running::PathRecording recording(subject, machine);
+  running::Toolpath path(machine, subject.home, [&](const running::ToolpathStep& step) { recording.add(step); });
+  const running::RunResult result = program.run(
+      stop, {.event = [&](const running::TimedEvent& timed) { path.add(timed); },
+             .stretch = [&](const motion::Stretch& stretch, const running::TimedEvent&) { path.add(stretch); }});
+  const auto now = std::make_shared<ToldPath>(ToldPath{.id = 0,
+                                                       .steps = std::string(recording.steps()),
+                                                       .points = std::string(recording.points()),
+                                                       .turns = std::string(recording.turns())});
+  std::shared_ptr<const ToldPath> before;
+  {
+    const std::lock_guard lock(last->mutex);
+    now->id = ++last->last_id;
+    if (last->told && fmt::to_string(last->told->id) == previous) before = last->told;
+    last->told = now;
+  }
+  return fmt::format(
+      R"({{"resultId":"{}","version":{},"facts":{},"steps":{},"points":{},"turns":{}}})", now->id, program.version(),
+      recording.facts(path, result), stream(now->steps, before ? &before->steps : nullptr),
+      stream(now->points, before ? &before->points : nullptr), stream(now->turns, before ? &before->turns : nullptr));
+}
+
+Study begin(const Snapshot& snapshot, const ToolpathParams& params) {
+  auto& last = snapshot.memory<std::shared_ptr<LastTold>>();
+  if (!last) last = std::make_shared<LastTold>();
+  const auto path = documents::path_of(snapshot.uri());
+  const configuration::Machine& machine = snapshot.configuration().machine;
+  const auto task = std::make_shared<Task>(Task{.program = documents::TimedProgram(snapshot, params.vgpl),
+                                                .subject = {.name = path ? path->filename().string() : snapshot.uri(),
+                                                            .program = {},
+                                                            .home = machine.setup.home,
+                                                            .tools = configuration::plot_tools(machine),
+                                                            .page = {},
+                                                            .language = snapshot.language()},
+                                                .previous = params.previous,
+                                                .last = last});
+  return [task](const std::function<bool()>& stop) { return task->study(stop); };
+}
+
+Json toolpath_capabilities(const Client&) { return {{"experimental", {{"toolpath", true}}}}; }
+
+}  // namespace
+
+extern const Feature toolpath = {.capabilities = toolpath_capabilities,
+                                 .methods = {begun_by<&begin>("isocnc/toolpath")}};
+
+}  // namespace isocnc::lsp::features

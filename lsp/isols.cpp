@@ -1,0 +1,71 @@
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "interpreter/configuration/configuration.h"
+#include "interpreter/running/program_app.h"
+#include "interpreter/running/program_main.h"
+#include "lsp/rpc/serve.h"
+#include "lsp/server.h"
+
+namespace isocnc::lsp {
+namespace {
+
+struct Options {
+  bool stdio = false;
+  std::optional<std::uint16_t> port;
+  std::string language;
+};
+
+void complain(std::string_view what) { running::complain("isols", what); }
+
+int run(const Options& options) {
+  const auto make = [&](rpc::Loop& loop, rpc::Send send) {
+    return std::make_unique<Server>(loop, std::move(send), configuration::language_named(options.language));
+  };
+  rpc::serve(options.port, make, complain);
+  return running::kTroubleStatus;  // The port cannot be had.
+}
+
+int run_main(int argc, char** argv) {
+  Options options;
+  running::ProgramApp program(
+      argc, argv,
+      {"The language server for ISOCNC programs: an editor starts it and speaks with it.",
+       "Il language server per i programmi ISOCNC: un editor lo avvia e parla con lui."},
+      {.program = "isols",
+       .version = ISOCNC_VERSION,
+       .purpose = "language server for ISOCNC programs",
+       .operands = "",
+       .paragraphs = {"isols speaks the language server protocol, version 3.17. An editor starts it, and tells by it "
+                      "what isolint would find, while the program is being written.",
+                      "How programs are checked stands in the isocnc.json beside them or above, as for isolint."},
+       .exit = {{"0", "The editor has shut the server down."},
+                {"1", "The editor is gone, or ended the server without shutting it down."},
+                {"2", "A mistake in the command, or the port cannot be had."}},
+       .see_also = {"isolint", "isofmt", "isorun"}});
+  const running::ProgramOption stdio = program.add_flag(
+      "--stdio", options.stdio,
+      {"Speak by standard input and output; so without", "Parla via standard input e output; così anche senza"});
+  program
+      .add_option("--tcp", options.port, {"PORT", "PORTA"},
+                  {"Wait for one editor on this port of the loopback\ninterface; 0: any",
+                   "Aspetta un editor su questa porta dell'interfaccia\nloopback; 0: una qualsiasi"})
+      .excludes(stdio);
+  program.add_choice("--lang", options.language, {"en", "it"}, {"LANG", "LINGUA"},
+                     {"en or it; else as the editor, the configuration\nor the locale says",
+                      "en o it; altrimenti secondo l'editor, la\nconfigurazione o il locale"});
+  // What some clients add by themselves.
+  int client_process = 0;
+  program.add_option("--clientProcessId", client_process, {}, {}).hidden();
+  if (const auto status = program.answer(argc, argv)) return *status;
+  return run(options);
+}
+
+}  // namespace
+}  // namespace isocnc::lsp
+
+int main(int argc, char** argv) { return isocnc::running::program_main("isols", isocnc::lsp::run_main, argc, argv); }

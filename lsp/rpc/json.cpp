@@ -1,0 +1,3 @@
+#include "lsp/rpc/json.h"
+
+template class nlohmann::basic_json<>;

@@ -1,0 +1,47 @@
+#include "lsp/rpc/loop.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace isocnc::lsp::rpc {
+
+void Loop::post(Task task) {
+  {
+    const std::lock_guard lock(mutex_);
+    tasks_.push_back(std::move(task));
+  }
+  came_.notify_one();
+}
+
+void Loop::post_at(std::chrono::steady_clock::time_point time, Task task) {
+  {
+    const std::lock_guard lock(mutex_);
+    later_.emplace(time, std::move(task));
+  }
+  came_.notify_one();
+}
+
+/// What was to be done later and is due now.
+void Loop::take_due(std::chrono::steady_clock::time_point now) {
+  const auto end = later_.upper_bound(now);
+  for (auto each = later_.begin(); each != end; ++each) tasks_.push_back(std::move(each->second));
+  later_.erase(later_.begin(), end);
+}
+
+void Loop::run(std::chrono::milliseconds patience, const Task& idle) {
+  using Clock = std::chrono::steady_clock;
+  std::deque<Task> due;
+  while (!stopped_) {
+    {
+      std::unique_lock lock(mutex_);
+      const Clock::time_point end = Clock::now() + patience;
+      for (take_due(Clock::now()); tasks_.empty() && Clock::now() < end; take_due(Clock::now()))
+        came_.wait_until(lock, later_.empty() ? end : std::min(end, later_.begin()->first));
+      due.swap(tasks_);
+    }
+    if (due.empty()) idle();
+    for (; !due.empty() && !stopped_; due.pop_front()) due.front()();
+  }
+}
+
+}  // namespace isocnc::lsp::rpc

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "lsp/rpc/long_text.h"
+
+namespace isocnc::lsp::rpc {
+
+/// The codes of JSON-RPC 2.0, and those that LSP adds.
+enum class ErrorCode : int {
+  ParseError = -32700,
+  InvalidRequest = -32600,
+  MethodNotFound = -32601,
+  InvalidParams = -32602,
+  InternalError = -32603,
+  ServerNotInitialized = -32002,
+  RequestFailed = -32803,
+  ContentModified = -32801,
+  RequestCancelled = -32800,
+};
+
+/// What a request is answered with that cannot be fulfilled.
+class Error : public std::runtime_error {
+ public:
+  Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  ErrorCode code() const { return code_; }
+
+ private:
+  ErrorCode code_;
+};
+
+/// A call of the other side. A notification is one that wants no answer.
+struct Call {
+  std::optional<Json> id;  ///< A number or a string; a notification has none.
+  std::string method;
+  Parsed message;  ///< All of it.
+
+  bool is_notification() const { return !id; }
+  /// An object, an array or null.
+  const Json& params() const;
+};
+
+/// The answer to a call of ours.
+struct Answer {
+  Json id;
+  Json result;  ///< Null where there is an error.
+  Json error;   ///< Null where there is none.
+};
+
+/// What is wrong with a message, and the id to answer with: null where it cannot be told.
+struct BadMessage {
+  Json id;
+  Error error;
+};
+
+using Message = std::variant<Call, Answer, BadMessage>;
+
+/// Reads the body of a frame.
+Message read_message(std::string body);
+
+/// The bodies of messages. A `result`, or `params`, is JSON already.
+std::string result_message(const Json& id, std::string_view result);
+std::string error_message(const Json& id, ErrorCode code, std::string_view message);
+std::string notification_message(std::string_view method, std::string_view params);
+std::string request_message(std::int64_t id, std::string_view method, std::string_view params);
+
+/// JSON as it is sent: in as few characters as it takes, and what is no UTF-8 replaced.
+std::string write(const Json& json);
+
+}  // namespace isocnc::lsp::rpc

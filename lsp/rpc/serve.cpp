@@ -1,0 +1,60 @@
+#include "lsp/rpc/serve.h"
+
+#include <chrono>
+#include <cstdlib>
+#include <system_error>
+#include <utility>
+#include <variant>
+
+#include <malloc.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "lsp/rpc/channel.h"
+#include "lsp/rpc/listen.h"
+
+namespace isocnc::lsp::rpc {
+
+/// How long nothing comes before the party may look whether the client is still there.
+static constexpr std::chrono::seconds kPatience{3};
+
+/// All threads share one heap, which grows by so much: a heap for each would ask the system again for every page, which
+/// takes a long program a tenth of its opening.
+static void prepare_heap() {
+#ifdef __GLIBC__
+  mallopt(M_ARENA_MAX, 1);
+  mallopt(M_TOP_PAD, 8 << 20);
+#endif
+}
+
+[[noreturn]] static void speak(Descriptors descriptors, const MakeParty& make_party) {
+  prepare_heap();
+  Loop loop;
+  Channel* open_channel = nullptr;
+  const std::unique_ptr<Party> party = make_party(loop, [&](std::string body) { open_channel->send(std::move(body)); });
+  {
+    Channel channel(descriptors,
+                    {.frame =
+                         [&](Frame frame) {
+                           loop.post([&, frame = std::move(frame)]() mutable { party->receive(std::move(frame)); });
+                         },
+                     .end = [&] { loop.post([&] { party->end(); }); }});
+    open_channel = &channel;
+    loop.run(kPatience, [&] { party->idle(); });
+  }
+  // What is still being worked on was for a client that is gone: it is not waited for.
+  std::_Exit(party->exit_status());
+}
+
+void serve(const std::optional<std::uint16_t>& port, const MakeParty& make_party,
+           const std::function<void(const std::string&)>& tell) {
+  if (!port) speak({STDIN_FILENO, STDOUT_FILENO}, make_party);
+  const auto address = [](std::uint16_t number) { return fmt::format("127.0.0.1:{}", number); };
+  const auto accepted = accept_on_loopback(*port, [&](std::uint16_t number) { tell(address(number)); });
+  if (const auto* const error = std::get_if<std::error_code>(&accepted))
+    return tell(fmt::format("{}: {}", address(*port), error->message()));
+  speak({std::get<int>(accepted), std::get<int>(accepted)}, make_party);
+}
+
+}  // namespace isocnc::lsp::rpc

@@ -1,0 +1,60 @@
+#include "lsp/rpc/strand.h"
+
+#include <utility>
+
+namespace isocnc::lsp::rpc {
+
+Pool::~Pool() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_ending_ = true;
+    tasks_.clear();
+  }
+  came_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+void Pool::post(Task task) {
+  const std::lock_guard lock(mutex_);
+  tasks_.push_back(std::move(task));
+  if (tasks_.size() > waiting_ && threads_.size() < most_threads_) threads_.emplace_back([this] { work(); });
+  came_.notify_one();
+}
+
+void Pool::work() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    ++waiting_;
+    came_.wait(lock, [&] { return is_ending_ || !tasks_.empty(); });
+    --waiting_;
+    if (tasks_.empty()) return;
+    const Task task = std::move(tasks_.front());
+    tasks_.pop_front();
+    lock.unlock();
+    task();
+    lock.lock();
+  }
+}
+
+void Strand::post(Pool::Task task) {
+  const std::lock_guard lock(queue_->mutex);
+  queue_->tasks.push_back(std::move(task));
+  if (std::exchange(queue_->is_running, true)) return;
+  pool_.post([queue = queue_] { run(*queue); });
+}
+
+void Strand::run(Queue& queue) {
+  std::unique_lock lock(queue.mutex);
+  while (!queue.tasks.empty()) {
+    {
+      const Pool::Task task = std::move(queue.tasks.front());
+      queue.tasks.pop_front();
+      lock.unlock();
+      task();
+    }
+    lock.lock();
+  }
+  queue.is_running = false;
+}
+
+}  // namespace isocnc::lsp::rpc

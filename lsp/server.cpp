@@ -1,0 +1,469 @@
+#include "lsp/server.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <iterator>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "interpreter/configuration/configurations.h"
+#include "lsp/documents/uri.h"
+
+namespace isocnc::lsp {
+
+using documents::Client;
+using rpc::Call;
+using rpc::ErrorCode;
+using rpc::Json;
+
+/// Threads for documents that are all busy at once; beyond that they take turns.
+static constexpr std::size_t kMostThreads = 32;
+
+Server::Server(rpc::Loop& loop, rpc::Send send, std::optional<dialect::Language> language)
+    : loop_(loop), send_(std::move(send)), language_(language), pool_(kMostThreads) {
+  for (const features::Feature* const feature : features::all_features()) {
+    for (const features::Method& method : feature->methods) methods_[method.name] = method;
+    for (const features::Gathering& gathering : feature->gatherings) gatherings_[gathering.name] = gathering;
+    for (const features::Method& command : feature->commands) commands_[command.name] = command;
+  }
+}
+
+const std::unordered_map<std::string_view, Server::Handler>& Server::handlers() {
+  static const std::unordered_map<std::string_view, Handler> kHandlers = {
+      {"initialize", &Server::initialize},
+      {"initialized", &Server::initialized},
+      {"shutdown", &Server::shut_down},
+      {"$/cancelRequest", &Server::cancel},
+      {"$/setTrace", &Server::ignore},
+      {"textDocument/didOpen", &Server::open},
+      {"textDocument/didChange", &Server::edit},
+      {"textDocument/didClose", &Server::close},
+      {"textDocument/didSave", &Server::save},
+      {"workspace/didChangeConfiguration", &Server::change_settings},
+      {"workspace/didChangeWorkspaceFolders", &Server::change_folders},
+      {"workspace/didChangeWatchedFiles", &Server::look_at_changed_files},
+      {"workspace/executeCommand", &Server::execute_command},
+  };
+  return kHandlers;
+}
+
+void Server::receive(rpc::Frame frame) {
+  switch (frame.problem) {
+    case rpc::Frame::Problem::NoLength:
+      return send_(rpc::error_message(nullptr, ErrorCode::ParseError, "a header tells no Content-Length"));
+    case rpc::Frame::Problem::TooLong:
+      return send_(rpc::error_message(nullptr, ErrorCode::ParseError, "the message is longer than any that is taken"));
+    case rpc::Frame::Problem::None:
+      break;
+  }
+  rpc::Message message = rpc::read_message(std::move(frame.body));
+  if (const auto* const bad = std::get_if<rpc::BadMessage>(&message))
+    return send_(rpc::error_message(bad->id, bad->error.code(), bad->error.what()));
+  if (auto* const call = std::get_if<Call>(&message)) dispatch(std::make_shared<const Call>(std::move(*call)));
+}
+
+/// Whether the call fits the phase that we are in; a request that does not is refused.
+bool Server::is_allowed(const Call& call) {
+  const bool is_initialize = call.method == "initialize";
+  if (phase_ == Phase::Starting && !is_initialize) {
+    refuse(call, ErrorCode::ServerNotInitialized, "initialize comes first");
+    return false;
+  }
+  if (phase_ == Phase::ShutDown) {
+    refuse(call, ErrorCode::InvalidRequest, "the server has been shut down");
+    return false;
+  }
+  if (phase_ == Phase::Running && is_initialize) {
+    refuse(call, ErrorCode::InvalidRequest, "the server is initialized already");
+    return false;
+  }
+  return phase_ != Phase::Ended;
+}
+
+void Server::dispatch(const CallPointer& call) {
+  if (call->method == "exit") return end();
+  if (!is_allowed(*call)) return;
+  try {
+    const auto handler = handlers().find(call->method);
+    if (handler != handlers().end()) return (this->*handler->second)(call);
+    call_method(call);
+  } catch (const Json::exception& error) {
+    refuse(*call, ErrorCode::InvalidParams, error.what());
+    if (call->is_notification()) log(fmt::format("{}: {}", call->method, error.what()));
+  }
+}
+
+void Server::call_method(const CallPointer& call) {
+  if (call->is_notification()) return;
+  if (const auto method = methods_.find(call->method); method != methods_.end())
+    return ask(method->second, call, call->params());
+  if (const auto gathering = gatherings_.find(call->method); gathering != gatherings_.end())
+    return gather(gathering->second, call);
+  refuse(*call, ErrorCode::MethodNotFound, fmt::format("there is no method {}", call->method));
+}
+
+// --- Lifecycle
+
+/// What the server can do: its own part, and that of each feature.
+static Json capabilities_for(const Client& client) {
+  Json all = {{"positionEncoding", documents::name_of(client.encoding)},
+              {"textDocumentSync", {{"openClose", true}, {"change", 2}, {"save", {{"includeText", false}}}}},
+              {"workspace", {{"workspaceFolders", {{"supported", true}, {"changeNotifications", true}}}}}};
+  Json commands = Json::array();
+  for (const features::Feature* const feature : features::all_features()) {
+    if (feature->capabilities) all.update(feature->capabilities(client), true);
+    for (const features::Method& command : feature->commands) commands.push_back(command.name);
+  }
+  if (!commands.empty()) all["executeCommandProvider"] = {{"commands", commands}};
+  return all;
+}
+
+/// Of `initialize`; older clients know one folder.
+static std::set<std::string> folders_in(const Json& params) {
+  std::set<std::string> folders;
+  for (const Json& folder : documents::member<Json>(params, "workspaceFolders").value_or(Json::array()))
+    folders.insert(folder.at("uri").get<std::string>());
+  if (const auto root = documents::member<std::string>(params, "rootUri"); root && !params.contains("workspaceFolders"))
+    folders.insert(*root);
+  return folders;
+}
+
+void Server::initialize(const CallPointer& call) {
+  if (call->is_notification()) return;
+  const Json& params = call->params();
+  Client client = documents::read_client(params);
+  client.commanded = language_;
+  folders_ = folders_in(params);
+  client_ = std::make_shared<const Client>(std::move(client));
+  if (const auto parent = params.find("processId"); parent != params.end() && parent->is_number_integer())
+    parent_ = *parent;
+  phase_ = Phase::Running;
+  reply(*call, {{"capabilities", capabilities_for(*client_)},
+                {"serverInfo", {{"name", "isols"}, {"version", ISOCNC_VERSION}}}});
+}
+
+void Server::initialized(const CallPointer&) {
+  if (!client_->can("/workspace/didChangeWatchedFiles/dynamicRegistration")) return;
+  const Json watcher = {{"globPattern", fmt::format("**/{}", configuration::kFileName)}};
+  const Json registration = {{"id", "configuration files"},
+                             {"method", "workspace/didChangeWatchedFiles"},
+                             {"registerOptions", {{"watchers", Json::array({watcher})}}}};
+  request("client/registerCapability", {{"registrations", Json::array({registration})}});
+}
+
+void Server::shut_down(const CallPointer& call) {
+  if (call->is_notification()) return;
+  phase_ = Phase::ShutDown;
+  reply(*call, nullptr);
+}
+
+void Server::end() {
+  if (phase_ == Phase::Ended) return;
+  exit_status_ = phase_ == Phase::ShutDown ? 0 : 1;
+  phase_ = Phase::Ended;
+  for (const auto& [id, ongoing] : ongoing_) ongoing->store(true);
+  loop_.stop();
+}
+
+void Server::idle() {
+  if (parent_ > 0 && ::kill(parent_, 0) != 0 && errno == ESRCH) end();
+}
+
+void Server::cancel(const CallPointer& call) {
+  const Json& id = call->params().at("id");
+  const auto found = ongoing_.find(rpc::write(id));
+  if (found == ongoing_.end()) return;
+  found->second->store(true);
+  ongoing_.erase(found);
+  send_(rpc::error_message(id, ErrorCode::RequestCancelled, "the request has been cancelled"));
+}
+
+// --- Documents
+
+features::Notify Server::notifier_of(const std::string& uri, std::size_t generation) {
+  return [this, uri, generation](std::string_view method, std::string params) {
+    loop_.post([this, uri, generation, method, params = std::move(params)] {
+      const auto found = tabs_.find(uri);
+      if (found != tabs_.end() && found->second.generation == generation) notify(method, params);
+    });
+  };
+}
+
+void Server::open(const CallPointer& call) {
+  const Json& document = call->params().at("textDocument");
+  const std::string uri = document.at("uri");
+  if (!document.at("text").is_string()) throw Json::type_error::create(302, "the text is no string", &document);
+  const std::size_t generation = ++generations_;
+  const auto tell_configuration = [this](const std::string& file, const std::string& params) {
+    loop_.post([this, file, params] { tell_of_configuration(file, params); });
+  };
+  Opened& opened = tabs_[uri];
+  const auto tell_progress = [this, generation](const std::optional<std::string>& title) {
+    loop_.post([this, generation, title] { tell_of_progress(fmt::format("opening {}", generation), title); });
+  };
+  opened = {std::make_shared<Tab>(pool_, settings_, uri,
+                                  Tab::Teller{notifier_of(uri, generation), tell_configuration, tell_progress}),
+            generation};
+  opened.tab->open(call, client_);
+}
+
+void Server::tell_of_progress(const std::string& token, const std::optional<std::string>& title) {
+  if (title) request("window/workDoneProgress/create", {{"token", token}});
+  const Json value = title ? Json{{"kind", "begin"}, {"title", *title}, {"cancellable", false}} : Json{{"kind", "end"}};
+  notify("$/progress", rpc::write({{"token", token}, {"value", value}}));
+}
+
+/// What the editor holds open is told by its tab.
+void Server::tell_of_configuration(const std::string& uri, const std::string& params) {
+  if (tabs_.contains(uri)) return;
+  told_configurations_.insert(uri);
+  notify("textDocument/publishDiagnostics", params);
+}
+
+Tab* Server::find_tab(const Json& params) const {
+  if (!params.is_object()) return nullptr;
+  static const Json::json_pointer kPlaces[] = {Json::json_pointer("/textDocument/uri"), Json::json_pointer("/data/uri"),
+                                               Json::json_pointer("/item/data/uri"), Json::json_pointer("/uri")};
+  for (const Json::json_pointer& place : kPlaces) {
+    if (!params.contains(place) || !params.at(place).is_string()) continue;
+    const auto found = tabs_.find(params.at(place).get_ref<const std::string&>());
+    return found == tabs_.end() ? nullptr : found->second.tab.get();
+  }
+  return nullptr;
+}
+
+void Server::edit(const CallPointer& call) {
+  if (Tab* const tab = find_tab(call->params())) tab->edit(call, client_);
+}
+
+void Server::close(const CallPointer& call) {
+  Tab* const tab = find_tab(call->params());
+  if (!tab) return;
+  const std::string uri = tab->uri();
+  const bool is_configuration = tab->is_configuration();
+  tab->close();
+  tabs_.erase(uri);
+  if (is_configuration) {
+    // From now on the file counts, not what was typed.
+    told_configurations_.insert(uri);
+    return reconfigure_all();
+  }
+  for (const features::Feature* const feature : features::all_features())
+    if (feature->closed)
+      feature->closed(uri, *client_,
+                      [&](std::string_view method, const std::string& params) { notify(method, params); });
+}
+
+void Server::save(const CallPointer& call) {
+  const Json& params = call->params();
+  if (documents::names_configuration(params.at("textDocument").at("uri").get<std::string>())) reconfigure_all();
+}
+
+// --- Workspace
+
+void Server::change_folders(const CallPointer& call) {
+  const Json& event = call->params().at("event");
+  for (const Json& folder : event.at("removed")) folders_.erase(folder.at("uri").get<std::string>());
+  for (const Json& folder : event.at("added")) folders_.insert(folder.at("uri").get<std::string>());
+}
+
+void Server::change_settings(const CallPointer& call) {
+  const Json& params = call->params();
+  Client changed = *client_;
+  const Json settings = params.is_object() && params.contains("settings") ? params["settings"] : Json();
+  changed.settings = documents::read_settings(settings.is_object() ? settings.value("isocnc", settings) : settings);
+  client_ = std::make_shared<const Client>(std::move(changed));
+  for (const auto& [uri, opened] : tabs_) opened.tab->reconfigure(client_);
+}
+
+void Server::look_at_changed_files(const CallPointer& call) {
+  for (const Json& change : call->params().at("changes"))
+    if (documents::names_configuration(change.at("uri").get<std::string>())) return reconfigure_all();
+}
+
+void Server::reconfigure_all() {
+  settings_.forget();
+  // Those that are still there will be told of again.
+  for (const std::string& uri : std::exchange(told_configurations_, {}))
+    if (!tabs_.contains(uri))
+      notify("textDocument/publishDiagnostics", rpc::write({{"uri", uri}, {"diagnostics", Json::array()}}));
+  for (const auto& [uri, opened] : tabs_) opened.tab->reconfigure(client_);
+}
+
+/// The first argument names the document. Where the result has an edit, the client is asked to make it.
+void Server::execute_command(const CallPointer& call) {
+  const Json& params = call->params();
+  const std::string name = params.at("command");
+  const auto command = commands_.find(name);
+  if (command == commands_.end())
+    return refuse(*call, ErrorCode::InvalidParams, fmt::format("there is no command {}", name));
+  const Json arguments = params.value("arguments", Json::array());
+  ask(command->second, call, arguments.empty() ? Json::object() : arguments.at(0), [this, name](std::string result) {
+    const Json json = Json::parse(result, nullptr, false);
+    if (!json.is_object() || !json.contains("edit")) return result;
+    request("workspace/applyEdit", {{"label", name}, {"edit", json["edit"]}});
+    return std::string("null");
+  });
+}
+
+// --- Requests
+
+Server::Ongoing Server::begin(const Call& call) {
+  auto ongoing = std::make_shared<std::atomic<bool>>(false);
+  if (ongoing_.try_emplace(rpc::write(*call.id), ongoing).second) return ongoing;
+  refuse(call, ErrorCode::InvalidRequest, "a request with this id has no answer yet");
+  return nullptr;
+}
+
+void Server::finish(const Json& id, const Ongoing& ongoing, std::string body) {
+  const auto found = ongoing_.find(rpc::write(id));
+  if (found == ongoing_.end() || found->second != ongoing) return;  // Cancelled, and so answered.
+  ongoing_.erase(found);
+  send_(std::move(body));
+}
+
+void Server::ask(const features::Method& method, const CallPointer& call, Json params,
+                 const std::function<std::string(std::string)>& finish_result) {
+  if (call->is_notification()) return;
+  Tab* const tab = find_tab(params);
+  if (!tab && method.serves_closed) return ask_closed(method, call, params.at("textDocument").at("uri"));
+  if (tab && tab->is_configuration() && !method.of_configuration.empty())
+    return send_(rpc::result_message(*call->id, method.of_configuration));
+  if (!tab || tab->is_configuration()) return refuse(*call, ErrorCode::InvalidParams, "this document is not open");
+  const Ongoing ongoing = begin(*call);
+  if (!ongoing) return;
+  const Json id = *call->id;
+  const auto done = [this, id, ongoing, finish_result](std::string result) {
+    std::string body = finish_result ? std::string() : rpc::result_message(id, result);
+    loop_.post([this, id, ongoing, finish_result, result = finish_result ? std::move(result) : std::string(),
+                body = std::move(body)]() mutable {
+      finish(id, ongoing, finish_result ? rpc::result_message(id, finish_result(std::move(result))) : std::move(body));
+    });
+  };
+  const auto failed = [this, id, ongoing](const rpc::Error& error) {
+    loop_.post(
+        [this, id, ongoing, body = rpc::error_message(id, error.code(), error.what())] { finish(id, ongoing, body); });
+  };
+  tab->ask(method, std::move(params), client_, ongoing, done, failed);
+}
+
+bool Server::is_in_workspace(const std::string& uri) const {
+  const auto path = documents::path_of(uri);
+  return path && std::any_of(folders_.begin(), folders_.end(), [&](const std::string& folder) {
+           const auto root = documents::path_of(folder);
+           const auto inside = root ? path->lexically_relative(*root) : std::filesystem::path();
+           return !inside.empty() && *inside.begin() != "..";
+         });
+}
+
+/// No other files than those in the folders that the user has opened are read because a message names them.
+void Server::ask_closed(const features::Method& method, const CallPointer& call, const std::string& uri) {
+  if (documents::names_configuration(uri)) return send_(rpc::result_message(*call->id, method.of_configuration));
+  if (!is_in_workspace(uri)) return refuse(*call, ErrorCode::ContentModified, "this document is not open");
+  const Ongoing ongoing = begin(*call);
+  if (!ongoing) return;
+  closed_programs_.ask_one(method, call->params(), uri, client_, ongoing,
+                           [this, id = *call->id, ongoing](const std::optional<std::string>& result) {
+                             // The editor may have closed, or lost, what it asks about: nothing that its user would
+                             // want to hear of.
+                             loop_.post([this, id, ongoing,
+                                         body = result ? rpc::result_message(id, *result)
+                                                       : rpc::error_message(id, ErrorCode::ContentModified,
+                                                                            "there is no such program any more")] {
+                               finish(id, ongoing, body);
+                             });
+                           });
+}
+
+/// The results of all documents, as they come in.
+struct Server::Gathered {
+  std::vector<std::string> results;
+  std::size_t awaited = 0;
+};
+
+/// One array of them all.
+static std::string joined(const std::vector<std::string>& arrays) {
+  std::string all = "[";
+  for (const std::string& array : arrays) {
+    const std::string_view items = std::string_view(array).substr(1, array.size() - 2);
+    if (items.empty()) continue;
+    if (all.size() > 1) all += ',';
+    all += items;
+  }
+  return all + "]";
+}
+
+void Server::gather(const features::Gathering& gathering, const CallPointer& call) {
+  const Ongoing ongoing = begin(*call);
+  if (!ongoing) return;
+  const Json id = *call->id;
+  const auto gathered = std::make_shared<Gathered>();
+  std::set<std::string> open;
+  for (const auto& [uri, opened] : tabs_)
+    if (!opened.tab->is_configuration()) open.insert(uri);
+  gathered->awaited = open.size() + (gathering.conclude ? 1 : 0);
+  const auto conclude = [this, id, ongoing, gathered, gathering, call] {
+    // Away from the loop: the results may be long.
+    pool_.post([this, id, ongoing, gathered, gathering, call] {
+      std::string body;
+      try {
+        std::string all = joined(gathered->results);
+        body = rpc::result_message(id, gathering.conclude ? gathering.conclude(std::move(all), call->params()) : all);
+      } catch (const Json::exception& error) {
+        body = rpc::error_message(id, ErrorCode::InvalidParams, error.what());
+      }
+      loop_.post([this, id, ongoing, body = std::move(body)]() mutable { finish(id, ongoing, std::move(body)); });
+    });
+  };
+  if (gathered->awaited == 0) return conclude();
+  const auto take = [this, gathered, conclude](std::vector<std::string> results) {
+    loop_.post([gathered, conclude, results = std::move(results)]() mutable {
+      std::move(results.begin(), results.end(), std::back_inserter(gathered->results));
+      if (--gathered->awaited == 0) conclude();
+    });
+  };
+  const features::Method method = {.name = gathering.name, .answer = gathering.answer, .begin = nullptr};
+  for (const std::string& uri : open)
+    // A document that is being edited has nothing to say just now.
+    tabs_[uri].tab->ask(
+        method, call->params(), client_, ongoing, [take](std::string result) { take({std::move(result)}); },
+        [take](const rpc::Error&) { take({}); });
+  if (!gathering.conclude) return;
+  std::vector<std::filesystem::path> folders;
+  for (const std::string& uri : folders_)
+    if (const auto path = documents::path_of(uri)) folders.push_back(*path);
+  closed_programs_.ask({.gathering = gathering,
+                        .folders = std::move(folders),
+                        .open = std::move(open),
+                        .client = client_,
+                        .cancelled = ongoing},
+                       take);
+}
+
+// --- Messages
+
+void Server::reply(const Call& call, const Json& result) {
+  if (call.id) send_(rpc::result_message(*call.id, rpc::write(result)));
+}
+
+void Server::refuse(const Call& call, ErrorCode code, const std::string& message) {
+  if (call.id) send_(rpc::error_message(*call.id, code, message));
+}
+
+void Server::notify(std::string_view method, const std::string& params) {
+  send_(rpc::notification_message(method, params));
+}
+
+void Server::request(std::string_view method, const Json& params) {
+  send_(rpc::request_message(next_request_++, method, rpc::write(params)));
+}
+
+void Server::log(const std::string& message) {
+  notify("window/logMessage", rpc::write({{"type", 1}, {"message", message}}));
+}
+
+}  // namespace isocnc::lsp

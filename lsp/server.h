@@ -1,0 +1,119 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "lsp/closed_programs.h"
+#include "lsp/documents/client.h"
+#include "lsp/documents/settings_store.h"
+#include "lsp/features/feature.h"
+#include "lsp/rpc/message.h"
+#include "lsp/rpc/serve.h"
+#include "lsp/rpc/strand.h"
+#include "lsp/tab.h"
+
+namespace isocnc::lsp {
+
+/// The language server: the lifecycle of the protocol, and who does what. It lives on the loop's thread and does
+/// nothing there that takes time; what concerns a document is done on its Tab's strand, and the answer comes back as a
+/// task of the loop.
+class Server final : public rpc::Party {
+ public:
+  /// The language outweighs those of configurations and of the editor's own texts.
+  Server(rpc::Loop& loop, rpc::Send send, std::optional<dialect::Language> language = {});
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  // All on the loop's thread.
+  void receive(rpc::Frame frame) override;
+  /// As `exit`.
+  void end() override;
+  /// Ends when the process that started us is no more.
+  void idle() override;
+
+  /// 0 after `shutdown` and `exit`, 1 after any other end.
+  int exit_status() const override { return exit_status_; }
+
+ private:
+  using CallPointer = std::shared_ptr<const rpc::Call>;
+  /// A request of the client's that has no answer yet; set when it is cancelled.
+  using Ongoing = std::shared_ptr<std::atomic<bool>>;
+  struct Gathered;
+
+  void dispatch(const CallPointer& call);
+  bool is_allowed(const rpc::Call& call);
+  void call_method(const CallPointer& call);
+
+  // Lifecycle.
+  void initialize(const CallPointer& call);
+  void initialized(const CallPointer& call);
+  void shut_down(const CallPointer& call);
+  void cancel(const CallPointer& call);
+  void ignore(const CallPointer&) {}
+  // Documents.
+  void open(const CallPointer& call);
+  void edit(const CallPointer& call);
+  void close(const CallPointer& call);
+  void save(const CallPointer& call);
+  // Workspace.
+  void change_folders(const CallPointer& call);
+  void change_settings(const CallPointer& call);
+  void look_at_changed_files(const CallPointer& call);
+  void execute_command(const CallPointer& call);
+
+  void reconfigure_all();
+  void ask(const features::Method& method, const CallPointer& call, rpc::Json params,
+           const std::function<std::string(std::string)>& finish_result = {});
+  bool is_in_workspace(const std::string& uri) const;
+  void ask_closed(const features::Method& method, const CallPointer& call, const std::string& uri);
+  void gather(const features::Gathering& gathering, const CallPointer& call);
+  Ongoing begin(const rpc::Call& call);
+  void finish(const rpc::Json& id, const Ongoing& ongoing, std::string body);
+  void reply(const rpc::Call& call, const rpc::Json& result);
+  void refuse(const rpc::Call& call, rpc::ErrorCode code, const std::string& message);
+  void notify(std::string_view method, const std::string& params);
+  void request(std::string_view method, const rpc::Json& params);
+  void log(const std::string& message);
+  void tell_of_progress(const std::string& token, const std::optional<std::string>& title);
+  void tell_of_configuration(const std::string& uri, const std::string& params);
+  Tab* find_tab(const rpc::Json& params) const;
+  features::Notify notifier_of(const std::string& uri, std::size_t generation);
+
+  enum class Phase { Starting, Running, ShutDown, Ended };
+  using Handler = void (Server::*)(const CallPointer& call);
+
+  static const std::unordered_map<std::string_view, Handler>& handlers();
+
+  rpc::Loop& loop_;
+  const rpc::Send send_;
+  const std::optional<dialect::Language> language_;
+  Phase phase_ = Phase::Starting;
+  int exit_status_ = 1;
+  int parent_ = 0;  // The process that started us; 0 where it has not been told.
+  std::shared_ptr<const documents::Client> client_ = std::make_shared<const documents::Client>();
+  documents::SettingsStore settings_;
+  struct Opened {
+    std::shared_ptr<Tab> tab;
+    std::size_t generation = 0;
+  };
+  std::unordered_map<std::string, Opened> tabs_;  // By URI.
+  std::size_t generations_ = 0;
+  std::set<std::string> told_configurations_;         // Files of which something wrong may have been told.
+  std::unordered_map<std::string, Ongoing> ongoing_;  // By id, as JSON.
+  std::unordered_map<std::string_view, features::Method> methods_;
+  std::unordered_map<std::string_view, features::Gathering> gatherings_;
+  std::unordered_map<std::string_view, features::Method> commands_;
+  std::int64_t next_request_ = 1;
+  std::set<std::string> folders_;  // Of the workspace, by URI.
+  ClosedPrograms closed_programs_{pool_, settings_};
+  rpc::Pool pool_;  // Last: its threads end before anything else does.
+};
+
+}  // namespace isocnc::lsp

@@ -1,0 +1,167 @@
+#include "lsp/tab.h"
+
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "interpreter/configuration/configurations.h"
+#include "interpreter/dialect/format.h"
+#include "lsp/documents/configuration_diagnostics.h"
+#include "lsp/documents/uri.h"
+
+namespace isocnc::lsp {
+
+using documents::Client;
+using documents::ContentChange;
+using documents::Interest;
+using documents::Snapshot;
+using rpc::Json;
+
+/// Texts of fewer bytes are open before anybody could read that they are being opened.
+static constexpr std::size_t kLongText = 16 << 20;
+
+Tab::Tab(rpc::Pool& pool, documents::SettingsStore& settings, std::string uri, Teller teller)
+    : uri_(uri),
+      is_configuration_(documents::names_configuration(uri)),
+      settings_(settings),
+      tell_(std::move(teller)),
+      document_(std::move(uri), settings),
+      strand_(pool),
+      studies_(pool) {}
+
+static std::int64_t version_of(const Json& params) {
+  return documents::member<std::int64_t>(params.at("textDocument"), "version").value_or(0);
+}
+
+void Tab::open(std::shared_ptr<const rpc::Call> call, ClientPointer client) {
+  post_edit(
+      [this, call = std::move(call), client] {
+        const Json& params = call->params();
+        const std::string text = call->message.text(params.at("textDocument").at("text"));
+        begin_progress(*client, text.size());
+        document_.open(version_of(params), text);
+      },
+      client);
+}
+
+static std::vector<ContentChange> changes_in(const rpc::Call& call) {
+  std::vector<ContentChange> changes;
+  for (const Json& change : call.params().at("contentChanges"))
+    changes.push_back(
+        {documents::member<documents::ClientRange>(change, "range"), call.message.text(change.at("text"))});
+  return changes;
+}
+
+void Tab::edit(std::shared_ptr<const rpc::Call> call, ClientPointer client) {
+  post_edit([this, call = std::move(call),
+             encoding = client->encoding] { document_.edit(version_of(call->params()), changes_in(*call), encoding); },
+            client);
+}
+
+void Tab::reconfigure(ClientPointer client) {
+  post_edit([this] { document_.reread_settings(); }, std::move(client));
+}
+
+/// Only after the last of the edits that wait does anybody look at the document.
+void Tab::post_edit(std::function<void()> edit, ClientPointer client) {
+  ++edits_waiting_;
+  strand_.post([self = shared_from_this(), edit = std::move(edit), client = std::move(client)] {
+    try {
+      edit();
+    } catch (const std::exception& error) {
+      self->log(error);
+    }
+    if (--self->edits_waiting_ == 0) self->tell_of_change(*client);
+    if (self->edits_waiting_ == 0 || self->is_closed_) self->end_progress();
+  });
+}
+
+void Tab::begin_progress(const Client& client, std::size_t bytes) {
+  if (bytes < kLongText || !client.can("/window/workDoneProgress")) return;
+  static constexpr dialect::Text kOpening = {"opening {}", "apertura di {}"};
+  const auto path = documents::path_of(uri_);
+  tell_.progress(dialect::format(kOpening, client.language({}), path ? path->filename().string() : uri_));
+  shows_progress_ = true;
+}
+
+void Tab::end_progress() {
+  if (std::exchange(shows_progress_, false)) tell_.progress(std::nullopt);
+}
+
+void Tab::log(const std::exception& error) {
+  tell_.notify("window/logMessage", rpc::write({{"type", 1}, {"message", fmt::format("{}: {}", uri_, error.what())}}));
+}
+
+void Tab::tell_of_change(const Client& client) {
+  if (is_configuration_) return tell_as_configuration(client);
+  try {
+    tell_of_configuration(client);
+    const Snapshot snapshot(document_, client, Interest{nullptr, &edits_waiting_});
+    for (const features::Feature* const feature : features::all_features())
+      if (feature->changed) feature->changed(snapshot, tell_.notify);
+  } catch (const rpc::Error&) {
+    return;  // An edit has come; it will be told of.
+  } catch (const std::exception& error) {
+    log(error);
+  }
+}
+
+static std::string published(const std::string& uri, Json diagnostics) {
+  return rpc::write({{"uri", uri}, {"diagnostics", std::move(diagnostics)}});
+}
+
+/// Tells what is wrong with the program's configuration file, once for all programs that have it.
+void Tab::tell_of_configuration(const Client& client) {
+  const configuration::Configuration& found = *document_.settings().configuration;
+  if (found.file.empty() || !settings_.claim(found.file)) return;
+  const std::filesystem::path file = configuration::real_path(found.file);
+  const auto language = client.language(found.language);
+  tell_.configuration(
+      documents::uri_of(file),
+      published(documents::uri_of(file), documents::configuration_diagnostics(file, client.encoding, language)));
+}
+
+void Tab::tell_as_configuration(const Client& client) {
+  const std::filesystem::path folder = configuration::real_path(documents::path_of(uri_)->parent_path());
+  tell_.notify("textDocument/publishDiagnostics",
+               published(uri_, documents::configuration_diagnostics(document_.document().text(), folder,
+                                                                    client.encoding, client.language({}))));
+}
+
+struct Tab::Request {
+  std::shared_ptr<const std::atomic<bool>> cancelled;
+  std::function<void(std::string result)> done;
+  std::function<void(rpc::Error error)> failed;
+};
+
+/// Turns what the work throws into the request's error.
+void Tab::work_on(const std::shared_ptr<Request>& request, const std::function<void()>& work) {
+  if (request->cancelled->load()) return;
+  try {
+    work();
+  } catch (const rpc::Error& error) {
+    request->failed(error);
+  } catch (const Json::exception& error) {
+    request->failed(rpc::Error(rpc::ErrorCode::InvalidParams, error.what()));
+  } catch (const std::exception& error) {
+    request->failed(rpc::Error(rpc::ErrorCode::InternalError, error.what()));
+  }
+}
+
+void Tab::ask(features::Method method, Json params, ClientPointer client,
+              std::shared_ptr<const std::atomic<bool>> cancelled, std::function<void(std::string result)> done,
+              std::function<void(rpc::Error error)> failed) {
+  const auto request = std::make_shared<Request>(Request{std::move(cancelled), std::move(done), std::move(failed)});
+  strand_.post([self = shared_from_this(), method, params = std::move(params), client = std::move(client), request] {
+    work_on(request, [&] {
+      const Snapshot snapshot(self->document_, *client, Interest{request->cancelled.get(), &self->edits_waiting_});
+      if (!method.begin) return request->done(method.answer(snapshot, params));
+      self->studies_.post([self, study = method.begin(snapshot, params), request] {
+        work_on(request, [&] { request->done(study([&] { return request->cancelled->load() || self->is_closed_; })); });
+      });
+    });
+  });
+}
+
+}  // namespace isocnc::lsp

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "lsp/documents/open_document.h"
+#include "lsp/features/feature.h"
+#include "lsp/rpc/message.h"
+#include "lsp/rpc/strand.h"
+
+namespace isocnc::lsp {
+
+/// A document that the client holds open, and the strand on which everything about it is done: edits and requests in
+/// the order in which they came, while other documents go their own way. So there is one analysis, without a lock, and
+/// each answer is about the text that the client saw when it asked.
+///
+/// The editor may also hold an isocnc.json open: then what is told of it is what is wrong with its text, saved or not.
+///
+/// Called on the loop's thread; the work, and the answers, come on the strand.
+class Tab : public std::enable_shared_from_this<Tab> {
+ public:
+  using ClientPointer = std::shared_ptr<const documents::Client>;
+  /// The result or error of a request, as the body of a message.
+  using Reply = std::function<void(std::string body)>;
+
+  /// What is wrong with a configuration file, told as diagnostics of its own.
+  using TellConfiguration = std::function<void(std::string uri, std::string params)>;
+
+  /// Work on the document goes on that the user may want to see, under a title; without one it is over.
+  using TellProgress = std::function<void(std::optional<std::string> title)>;
+
+  struct Teller {
+    features::Notify notify;
+    TellConfiguration configuration;
+    TellProgress progress;
+  };
+
+  Tab(rpc::Pool& pool, documents::SettingsStore& settings, std::string uri, Teller teller);
+
+  const std::string& uri() const { return uri_; }
+  bool is_configuration() const { return is_configuration_; }
+
+  void open(std::shared_ptr<const rpc::Call> call, ClientPointer client);
+  void edit(std::shared_ptr<const rpc::Call> call, ClientPointer client);
+  /// Nobody looks at the document any more. What it still has to say is for the caller to drop.
+  void close() {
+    is_closed_ = true;
+    ++edits_waiting_;
+  }
+  /// The client's settings or the configuration files have changed.
+  void reconfigure(ClientPointer client);
+  /// Whoever sets `cancelled` answers the request, too.
+  void ask(features::Method method, rpc::Json params, ClientPointer client,
+           std::shared_ptr<const std::atomic<bool>> cancelled, std::function<void(std::string result)> done,
+           std::function<void(rpc::Error error)> failed);
+
+ private:
+  struct Request;
+  static void work_on(const std::shared_ptr<Request>& request, const std::function<void()>& work);
+
+  void post_edit(std::function<void()> edit, ClientPointer client);
+  void tell_of_change(const documents::Client& client);
+  void begin_progress(const documents::Client& client, std::size_t bytes);
+  void end_progress();
+  void tell_of_configuration(const documents::Client& client);
+  void tell_as_configuration(const documents::Client& client);
+  void log(const std::exception& error);
+
+  const std::string uri_;
+  const bool is_configuration_;  // An isocnc.json, in which no program is looked for.
+  documents::SettingsStore& settings_;
+  const Teller tell_;
+  std::atomic<int> edits_waiting_ = 0;
+  std::atomic<bool> is_closed_ = false;
+  bool shows_progress_ = false;       // Of the strand.
+  documents::OpenDocument document_;  // Of the strand.
+  rpc::Strand strand_;
+  rpc::Strand studies_;  // What takes long, one after another.
+};
+
+}  // namespace isocnc::lsp

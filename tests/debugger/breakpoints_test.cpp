@@ -1,0 +1,211 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "debug_client.h"
+#include "programs.h"
+
+namespace isocnc::debugger {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(Breakpoints, MoveToTheNextBlock) {
+  DebugClient client;
+  client.launch(kPart);
+  const Json breakpoints = client.set_lines({1, 6, 8, 500});
+  EXPECT_EQ(breakpoints.at(0).at("line"), 2);
+  EXPECT_EQ(breakpoints.at(1).at("line"), 7);
+  EXPECT_EQ(breakpoints.at(2).at("line"), 8);
+  EXPECT_FALSE(breakpoints.at(3).at("verified"));
+  EXPECT_EQ(client.run("configurationDone").at("hitBreakpointIds"), Json::array({breakpoints.at(0).at("id")}));
+  EXPECT_EQ(client.line(), 2);
+  EXPECT_EQ(client.run("continue").at("reason"), "breakpoint");
+  EXPECT_EQ(client.line(), 7);
+  client.run("continue");
+  EXPECT_EQ(client.line(), 8);
+  client.run("reverseContinue");
+  EXPECT_EQ(client.line(), 7);
+  client.run("reverseContinue");
+  EXPECT_EQ(client.line(), 2);
+}
+
+TEST(Breakpoints, GoBackToTheBeginWhereNothingStops) {
+  DebugClient client;
+  client.launch(kPart);
+  client.set_lines({16});
+  client.run("configurationDone");
+  client.set_lines({});
+  EXPECT_EQ(client.run("reverseContinue").at("reason"), "entry");
+  EXPECT_EQ(client.line(), 2);
+  EXPECT_EQ(client.evaluate("TIME"), "0");
+}
+
+struct ConditionCase {
+  Json breakpoint;
+  int line;  ///< That the run stops at; 0: it does not.
+};
+
+class Conditions : public testing::TestWithParam<ConditionCase> {};
+
+TEST_P(Conditions, DecideWhetherTheRunStops) {
+  DebugClient client;
+  client.launch(kPart);
+  client.set_breakpoints({GetParam().breakpoint});
+  client.request("configurationDone");
+  if (GetParam().line == 0) {
+    client.event("terminated");
+    EXPECT_FALSE(client.has_event("stopped"));
+    return;
+  }
+  client.event("stopped");
+  EXPECT_EQ(client.line(), GetParam().line);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, Conditions,
+    testing::Values(ConditionCase{{{"line", 9}, {"condition", "Z < 0 && S > 0"}}, 9},
+                    ConditionCase{{{"line", 9}, {"condition", "Z >= 0 || S == 0"}}, 0},
+                    ConditionCase{{{"line", 11}, {"condition", "V3 = 7"}}, 11},
+                    ConditionCase{{{"line", 9}, {"condition", "XM > 109.9 && XW < 10.1"}}, 9},
+                    ConditionCase{{{"line", 9}, {"condition", "MOTION == 1 && !(FEEDMODE == 93)"}}, 9},
+                    ConditionCase{{{"line", 16}, {"condition", "T == 101002"}}, 16},
+                    ConditionCase{{{"line", 9}, {"hitCondition", "1"}}, 9},
+                    ConditionCase{{{"line", 9}, {"hitCondition", ">1"}}, 0}, ConditionCase{{{"line", 13}}, 0}));
+
+TEST(Breakpoints, TellTheColumnOfAConditionsMistake) {
+  DebugClient client;
+  client.launch(kPart);
+  const Json breakpoints = client.set_breakpoints({{{"line", 9}, {"condition", "Z < 0 && W > 1"}},
+                                                   {{"line", 9}, {"condition", "(Z"}},
+                                                   {{"line", 9}, {"hitCondition", "often"}},
+                                                   {{"line", 9}, {"logMessage", "Z is {Z"}}});
+  EXPECT_EQ(breakpoints.at(0).at("message"), "column 10: there is nothing called W");
+  EXPECT_EQ(breakpoints.at(1).at("message"), "column 1: this parenthesis is not closed");
+  EXPECT_THAT(breakpoints.at(2).at("message").get<std::string>(), HasSubstr("often"));
+  EXPECT_EQ(breakpoints.at(3).at("message"), "{ has no } behind it");
+  for (const Json& breakpoint : breakpoints) EXPECT_FALSE(breakpoint.at("verified"));
+}
+
+TEST(Breakpoints, LogPointsTellAndDoNotStop) {
+  DebugClient client;
+  client.launch("M06 T101001\nG00 X12.3456 Z5\nG01 Z-1 F100\nM02\n");
+  client.set_breakpoints({{{"line", 3}, {"logMessage", "at {X,2} {{mm}}, T {T,x}"}}});
+  client.request("configurationDone");
+  client.event("output");  // The tool change.
+  EXPECT_EQ(client.event("output").at("output"), "at 12.35 {mm}, T 0x18A89\n");
+  client.event("terminated");
+  EXPECT_FALSE(client.has_event("stopped"));
+}
+
+/// Lines at which a run stops, on and then back.
+struct Stops {
+  std::vector<int> on;
+  std::vector<int> back;
+};
+
+Stops stops_of(DebugClient& client) {
+  Stops stops;
+  client.request("configurationDone");
+  for (;;) {
+    Json stopped;
+    while (!client.has_event("stopped") && !client.has_event("terminated")) std::this_thread::yield();
+    if (!client.has_event("stopped")) return stops;
+    client.event("stopped");
+    stops.on.push_back(client.line());
+    if (stops.on.back() >= 16) break;
+    client.request("continue");
+  }
+  while (client.run("reverseContinue").at("reason") != "entry") stops.back.push_back(client.line());
+  return stops;
+}
+
+TEST(Breakpoints, FunctionBreakpointsWaitForCodes) {
+  DebugClient client;
+  client.launch(kPart);
+  const Json breakpoints =
+      client
+          .request("setFunctionBreakpoints",
+                   {{"breakpoints", {{{"name", "M06"}}, {{"name", "m100"}}, {{"name", "G29"}}, {{"name", "X10"}}}}})
+          .at("breakpoints");
+  EXPECT_TRUE(breakpoints.at(2).at("verified"));
+  EXPECT_FALSE(breakpoints.at(3).at("verified"));
+  const Stops stops = stops_of(client);
+  EXPECT_THAT(stops.on, ElementsAre(4, 15, 17));
+  EXPECT_THAT(stops.back, ElementsAre(15, 4));
+}
+
+TEST(Breakpoints, FunctionBreakpointsCountTheirHits) {
+  DebugClient client;
+  client.launch(kPart);
+  client.request("setFunctionBreakpoints", {{"breakpoints", {{{"name", "M6"}, {"hitCondition", "2"}}}}});
+  client.run("configurationDone");
+  EXPECT_EQ(client.line(), 15);
+}
+
+TEST(Breakpoints, DataBreakpointsWatchValuesAndThresholds) {
+  DebugClient client;
+  client.launch(kPart);
+  for (const char* const name : {"V3", "Z = 0", "T"})
+    EXPECT_EQ(client.request("dataBreakpointInfo", {{"name", name}}).at("dataId"), name);
+  EXPECT_TRUE(client.request("dataBreakpointInfo", {{"name", "W"}}).at("dataId").is_null());
+  client.request("setDataBreakpoints", {{"breakpoints", {{{"dataId", "V3"}}, {{"dataId", "Z = 0"}}}}});
+  const Stops stops = stops_of(client);
+  EXPECT_THAT(stops.on, ElementsAre(9, 11, 15));
+}
+
+TEST(Breakpoints, DataBreakpointsWorkBackwards) {
+  DebugClient client;
+  client.launch(kPart);
+  client.set_lines({16});
+  client.run("configurationDone");
+  client.set_lines({});
+  client.request("setDataBreakpoints", {{"breakpoints", {{{"dataId", "V3"}}, {{"dataId", "Z = 0"}}}}});
+  std::vector<int> lines;
+  while (client.run("reverseContinue").at("reason") != "entry") lines.push_back(client.line());
+  EXPECT_THAT(lines, ElementsAre(15, 11, 9));
+}
+
+TEST(Breakpoints, ExceptionsAreWhatTheFiltersSay) {
+  DebugClient client;
+  client.launch(kPart);
+  client.request("setExceptionBreakpoints", {{"filters", {"errors", "toolChange", "firstCut"}}});
+  const Stops stops = stops_of(client);
+  EXPECT_THAT(stops.on, ElementsAre(4, 8, 15, 16));
+  EXPECT_THAT(stops.back, ElementsAre(15, 8, 4));
+}
+
+TEST(Breakpoints, WarningsStopTheRunWhereTheyAreAskedFor) {
+  DebugClient client;
+  client.launch("M06 T101001\nG00 X1\nG17\nG17\nM02\n", {{"breakOnWarnings", true}});
+  const Json stopped = client.run("configurationDone");
+  EXPECT_EQ(stopped.at("text"), "W001");
+  EXPECT_EQ(client.line(), 4);
+}
+
+TEST(Breakpoints, TravelStopsTheRunBeforeTheMoveThatExceedsIt) {
+  DebugClient client;
+  client.write("isocnc.json", R"({"machine": {"axes": {"X": {"min": -10, "max": 100}}}})");
+  client.launch("M06 T101001\nG00 X100\nX100.5\nX20\nM02\n");
+  client.request("setExceptionBreakpoints", {{"filters", {"limits"}}});
+  EXPECT_EQ(client.run("configurationDone").at("reason"), "exception");
+  EXPECT_EQ(client.line(), 3);
+  EXPECT_THAT(client.request("exceptionInfo", {{"threadId", 1}}).at("description").get<std::string>(),
+              HasSubstr("100.5"));
+}
+
+TEST(Breakpoints, LocationsAreLinesThatDoSomething) {
+  DebugClient client;
+  client.launch(kPart);
+  std::vector<int> lines;
+  for (const Json& each :
+       Json(client
+                .request("breakpointLocations",
+                         {{"source", {{"path", client.program().string()}}}, {"line", 1}, {"endLine", 8}})
+                .at("breakpoints")))
+    lines.push_back(each.at("line"));
+  EXPECT_THAT(lines, ElementsAre(2, 3, 4, 5, 7, 8));
+}
+
+}  // namespace
+}  // namespace isocnc::debugger

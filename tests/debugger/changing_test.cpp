@@ -1,0 +1,201 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "debug_client.h"
+#include "programs.h"
+
+namespace isocnc::debugger {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+Json reference_of(DebugClient& client, const std::string& scope) {
+  for (const Json& each : Json(client.request("scopes", {{"frameId", 1}}).at("scopes")))
+    if (each.at("name") == scope) return each.at("variablesReference");
+  return nullptr;
+}
+
+TEST(Changing, ARegisterDecidesTheJumpsThatFollow) {
+  DebugClient client;
+  client.launch(kPart);
+  client.set_lines({12, 13, 14});
+  client.run("configurationDone");
+  const Json arguments = {
+      {"variablesReference", reference_of(client, "Registers")}, {"name", "V3"}, {"value", "2 * 3"}};
+  EXPECT_EQ(client.request("setVariable", arguments).at("value"), "6");
+  EXPECT_EQ(client.event("invalidated").at("areas"), Json({"all"}));
+  client.run("continue");
+  EXPECT_EQ(client.line(), 13);
+}
+
+TEST(Changing, ExpressionsThatNameSomethingCanBeSet) {
+  DebugClient client;
+  client.stand_at_begin(kPart);
+  for (const char* const name : {"V30", "VGPL", "S", "F", "OVERRIDE", "PLAYBACK"}) {
+    EXPECT_EQ(client.request("setExpression", {{"expression", name}, {"value", "12.5"}}).at("value"), "12.5") << name;
+    EXPECT_EQ(client.evaluate(name), "12.5") << name;
+  }
+}
+
+struct Refused {
+  std::string expression;
+  std::string value;
+  std::string message;
+};
+
+class Refusals : public testing::TestWithParam<Refused> {};
+
+TEST_P(Refusals, TellWhy) {
+  DebugClient client;
+  client.stand_at_begin(kPart);
+  EXPECT_THAT(client.refusal("setExpression", {{"expression", GetParam().expression}, {"value", GetParam().value}}),
+              HasSubstr(GetParam().message));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Refusals,
+                         testing::Values(Refused{"X", "1", "X cannot be set"}, Refused{"V3 + 1", "1", "cannot be set"},
+                                         Refused{"V3", "oops", "nothing called oops"},
+                                         Refused{"V3", "1/0", "V3 cannot be"}, Refused{"F", "0", "F cannot be 0"},
+                                         Refused{"S", "-1", "S cannot be -1"},
+                                         Refused{"OVERRIDE", "2000", "OVERRIDE cannot be"}));
+
+TEST(Changing, AFeedOverrideMakesTheRestTakeLonger) {
+  const std::string program = "M06 T101001\nG00 X0\nG01 X1000 F600\nM02\n";
+  double times[2];
+  for (const bool is_halved : {false, true}) {
+    DebugClient client;
+    client.launch(program);
+    client.set_lines({3});
+    client.run("configurationDone");
+    const double begin = std::stod(client.evaluate("TIME,6"));
+    if (is_halved) client.request("setExpression", {{"expression", "OVERRIDE"}, {"value", "50"}});
+    client.run("next");
+    times[is_halved ? 1 : 0] = std::stod(client.evaluate("TIME,6")) - begin;
+    EXPECT_EQ(client.evaluate("XM"), "1000");
+  }
+  EXPECT_NEAR(times[0], 100, 1);
+  EXPECT_NEAR(times[1], 200, 1);
+}
+
+TEST(Console, RunsBlocksOnTheMachineAndStepsBackOverThem) {
+  DebugClient client;
+  client.launch(kPart);
+  client.set_lines({9});
+  client.run("configurationDone");
+  const std::string state = client.state();
+  EXPECT_THAT(client.evaluate("G00 Z30", "repl"), HasSubstr("ZM 30"));
+  EXPECT_EQ(client.evaluate("Z"), "30");
+  EXPECT_EQ(client.evaluate("MOTION"), "0");
+  EXPECT_EQ(client.line(), 9);
+  client.run("stepBack");
+  EXPECT_EQ(client.state(), state);
+}
+
+TEST(Console, WhatIsUndoneIsNotRemembered) {
+  DebugClient client;
+  client.launch(kPart);
+  client.set_lines({12, 14});
+  client.run("configurationDone");
+  client.evaluate("V3=1 G909", "repl");
+  client.run("continue");
+  EXPECT_EQ(client.request("stackTrace", {{"threadId", 1}}).at("totalFrames"), 1);  // It has not jumped.
+  for (int i = 0; i < 3; ++i) client.run("stepBack");
+  client.run("continue");
+  EXPECT_EQ(client.line(), 14);
+  EXPECT_EQ(client.request("stackTrace", {{"threadId", 1}}).at("totalFrames"), 2);
+}
+
+TEST(Console, GoesOnFromWhereItsBlocksHaveLed) {
+  DebugClient client;
+  client.launch(kPart);
+  client.set_lines({9});
+  client.run("configurationDone");
+  client.evaluate("G00 Z30", "repl");
+  client.evaluate("G01 F500 X12", "repl");
+  client.run("next");
+  EXPECT_EQ(client.line(), 10);
+  EXPECT_EQ(client.evaluate("X"), "40");
+  EXPECT_EQ(client.evaluate("Z"), "30");
+  client.set_lines({});
+  client.request("continue");
+  client.event("terminated");
+}
+
+TEST(Console, KeepsBlocksForAG909) {
+  DebugClient client;
+  client.launch(kPart);
+  client.set_lines({9});
+  client.run("configurationDone");
+  EXPECT_EQ(client.evaluate("G91", "repl"), "waits for G909");
+  EXPECT_EQ(client.evaluate("V5=3", "repl"), "waits for G909");
+  EXPECT_EQ(client.evaluate("DISTANCE"), "90");
+  EXPECT_EQ(client.evaluate("X", "repl"), "10");
+  client.evaluate("G00 X1 G909", "repl");
+  EXPECT_EQ(client.evaluate("DISTANCE"), "91");
+  EXPECT_EQ(client.evaluate("V5"), "3");
+  EXPECT_EQ(client.evaluate("X"), "11");
+}
+
+TEST(Console, AWrongBlockDoesNothing) {
+  DebugClient client;
+  client.launch(kPart);
+  client.set_lines({9});
+  client.run("configurationDone");
+  const std::string state = client.state();
+  EXPECT_THAT(client.refusal("evaluate", {{"expression", "G00 Z30\nG02 X5"}, {"context", "repl"}}),
+              HasSubstr("ISO028"));
+  EXPECT_EQ(client.state(), state);
+}
+
+TEST(Console, AnswersExpressions) {
+  DebugClient client;
+  client.stand_at_begin(kPart, {{"registers", {{"V2", 255}}}, {"vgpl", 4}, {"decimals", 2}});
+  EXPECT_EQ(client.evaluate("V2 / 3", "repl"), "85");
+  EXPECT_EQ(client.evaluate("V2,x", "repl"), "0xFF");
+  EXPECT_EQ(client.evaluate("=1-3", "repl"), "-2");
+  EXPECT_EQ(client.evaluate("VGPL / 3", "repl"), "1.33");
+  EXPECT_EQ(client.evaluate("X10.5", "hover"), "0");
+  EXPECT_EQ(client.request("evaluate", {{"expression", "V2"}, {"format", {{"hex", true}}}}).at("result"), "0xFF");
+}
+
+TEST(Console, CompletesNamesAndCodes) {
+  DebugClient client;
+  client.stand_at_begin(kPart);
+  std::vector<std::string> labels;
+  for (const Json& each : Json(client.request("completions", {{"text", "Z + v1"}, {"column", 7}}).at("targets"))) {
+    labels.push_back(each.at("label"));
+    EXPECT_EQ(each.at("start"), 5);
+  }
+  EXPECT_EQ(labels.size(), 11u);
+  EXPECT_THAT(labels, Contains("V17"));
+}
+
+TEST(Reading, ScopesShowTheMachine) {
+  DebugClient client;
+  client.launch(kPart);
+  client.set_lines({18});
+  client.run("configurationDone");
+  EXPECT_EQ(client.variable("Position", "Machine"), "X 100 Y 50 Z 50 B 0 C 0");
+  EXPECT_EQ(client.variable("Position", "Workpiece"), "X 0 Y 0 Z 50 B 0 C 0");
+  EXPECT_EQ(client.variable("Modal groups", "motion"), "G01 linear interpolation (line 16)");
+  EXPECT_EQ(client.variable("Modal groups", "arc plane"), "G17 arc plane XY");
+  EXPECT_EQ(client.variable("Modal groups", "interpolation"), "G48 three-axis interpolation (default)");
+  EXPECT_EQ(client.variable("Feed and spindle", "Spindle"), "M03, clockwise");
+  EXPECT_EQ(client.variable("Tool", "T"), "101002");
+  EXPECT_EQ(client.variable("Registers", "V3"), "7");
+  EXPECT_EQ(client.variable("GPL variables", "TValues"), "1, 1, 2");
+  EXPECT_EQ(client.variable("GPL variables", "SValue"), "18000");
+  const Json functions = [&] {
+    for (const Json& each : client.variables("GPL variables"))
+      if (each.at("name") == "MxMFunParams")
+        return client.request("variables", {{"variablesReference", each.at("variablesReference")}}).at("variables");
+    return Json();
+  }();
+  ASSERT_EQ(functions.size(), 1u);
+  EXPECT_EQ(functions.at(0).at("name"), "[100]");
+  EXPECT_EQ(functions.at(0).at("value"), "P1=2.5 P2=8");
+}
+
+}  // namespace
+}  // namespace isocnc::debugger

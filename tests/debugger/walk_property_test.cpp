@@ -1,0 +1,92 @@
+#include <gtest/gtest.h>
+
+#include "debugger/session/debuggee.h"
+#include "tests/running/random_run.h"
+
+namespace isocnc::debugger::session {
+namespace {
+
+using running::Simulation;
+
+bool are_equal(const Simulation& a, const Simulation& b) {
+  const motion::Sample here = a.sample();
+  const motion::Sample there = b.sample();
+  return a.blocks() == b.blocks() && a.time() == b.time() && a.is_in_block() == b.is_in_block() &&
+         a.line() == b.line() && a.has_ended() == b.has_ended() && a.run().state == b.run().state &&
+         a.run().registers == b.run().registers && here.tip == there.tip && here.joints == there.joints &&
+         a.to_go().path == b.to_go().path;
+}
+
+/// A fresh run to the same moment.
+Simulation fresh_run_to(const Simulation& moment, const running::Program& program, const running::RunOptions& options,
+                        const running::TimedMachine& machine) {
+  Simulation fresh(program, options, machine);
+  const std::uint64_t whole = moment.blocks() - (moment.is_in_block() ? 1 : 0);
+  while (!fresh.has_ended() && (fresh.blocks() < whole || fresh.is_in_block())) fresh.step_block();
+  if (moment.is_in_block()) {
+    fresh.step_instruction();
+    fresh.advance_in_block(moment.time());
+  }
+  if (moment.has_ended() && !fresh.has_ended()) fresh.step_block();
+  return fresh;
+}
+
+class Walks : public testing::TestWithParam<int> {};
+
+TEST_P(Walks, EndWhereAFreshRunDoes) {
+  support::Random random(static_cast<std::uint64_t>(GetParam()));
+  const std::string text = running::RandomRun(random).text(3);
+  const running::TimedMachine machine = running::machine_of_tests();
+  const running::RunOptions options = running::options_for(machine);
+  const running::Program program(text);
+  Debuggee walker(ProgramText(text), options, machine);
+  for (int step = 0; step < 60; ++step) {
+    switch (random.between(0, 5)) {
+      case 0:
+      case 1:
+        walker.step_block();
+        break;
+      case 2:
+        walker.step_instruction();
+        break;
+      case 3:
+        walker.step_back();
+        break;
+      case 4:
+        walker.step_instruction_back();
+        break;
+      default:
+        walker.go_to_block(static_cast<std::uint64_t>(random.between(0, 40)));
+    }
+    if (step % 10 != 9) continue;
+    ASSERT_TRUE(are_equal(walker.present(), fresh_run_to(walker.present(), program, options, machine)))
+        << "step " << step << " of\n"
+        << text;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, Walks, testing::Range(0, 8));
+
+TEST(ByHand, WhatIsUndoneLeavesNoTrace) {
+  int undone = 0;
+  for (int seed = 0; seed < 10; ++seed) {
+    support::Random random(static_cast<std::uint64_t>(seed));
+    const std::string text = running::RandomRun(random).text(2);
+    const running::TimedMachine machine = running::machine_of_tests();
+    Debuggee walker(ProgramText(text), running::options_for(machine), machine);
+    for (int i = random.between(1, 20); i > 0; --i) walker.step_block();
+    if (walker.hindrance()) continue;
+    const Simulation before = walker.present();
+    ASSERT_FALSE(walker.run_by_hand("G90\nG00 X5 Y7\nG91\n").error);
+    EXPECT_FALSE(are_equal(before, walker.present()));
+    walker.step_block();
+    walker.go_to_block(before.blocks());
+    walker.step_back();
+    EXPECT_TRUE(are_equal(before, walker.present())) << seed;
+    ++undone;
+  }
+  EXPECT_GT(undone, 3);
+}
+
+}  // namespace
+}  // namespace isocnc::debugger::session

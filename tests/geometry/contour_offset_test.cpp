@@ -1,0 +1,258 @@
+#include "interpreter/geometry/contour_offset.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+#include <set>
+#include <vector>
+
+#include "tests/support/plane_curves.h"
+#include "tests/support/random.h"
+
+namespace isocnc::geometry {
+namespace {
+
+using std::numbers::pi;
+using support::arc;
+using support::line;
+using support::point_on;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+/// What becomes of a contour that the cutter enters from a point; tags are places in the contour, from 1.
+struct Offset {
+  std::vector<OffsetPiece> pieces;
+  std::vector<std::uint64_t> gouges;
+  std::vector<std::uint64_t> small_arcs;
+};
+
+struct Wish {
+  double radius = 5;
+  int side = 1;
+  bool reduces = false;
+  std::uint64_t stop_behind = 0;  ///< The tag of an element.
+};
+
+void drain(ContourOffset& contour, Offset& offset) {
+  while (const auto piece = contour.next_piece()) offset.pieces.push_back(*piece);
+  while (const auto flaw = contour.next_flaw())
+    (flaw->small_arc ? offset.small_arcs : offset.gouges).push_back(flaw->tag);
+}
+
+Offset offset(const std::vector<PlaneCurve>& curves, const Vec2& from, const Wish& wish) {
+  ContourOffset contour(wish.radius);
+  Offset result;
+  ContourElement element{.curve = line(from, curves.front().start), .side = wish.side, .reduces = wish.reduces};
+  contour.lead_in(element.curve, element, false);
+  for (const PlaneCurve& curve : curves) {
+    element.curve = curve;
+    ++element.tag;
+    contour.add(element);
+    if (element.tag == wish.stop_behind) contour.finish();
+    drain(contour, result);
+  }
+  contour.finish();
+  drain(contour, result);
+  return result;
+}
+
+/// A contour that leads from point to point.
+std::vector<PlaneCurve> lines(const std::vector<Vec2>& points) {
+  std::vector<PlaneCurve> curves;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) curves.push_back(line(points[i], points[i + 1]));
+  return curves;
+}
+
+std::vector<std::uint64_t> tags(const Offset& offset) {
+  std::vector<std::uint64_t> all;
+  for (const OffsetPiece& piece : offset.pieces)
+    if (!piece.is_inserted) all.push_back(piece.tag);
+  return all;
+}
+
+/// A slot 6 mm wide in the upper side of a block.
+const std::vector<PlaneCurve> kSlot = lines({{-50, 0}, {0, 0}, {0, -20}, {6, -20}, {6, 0}, {50, 0}});
+
+TEST(ContourOffset, GougesWhereThereIsNoRoom) {
+  const Offset kept = offset(kSlot, {-50, 10}, {.radius = 5});
+  EXPECT_THAT(tags(kept), ElementsAre(0, 1, 2, 3, 4, 5));
+  EXPECT_THAT(std::set<std::uint64_t>(kept.gouges.begin(), kept.gouges.end()), testing::IsSupersetOf({2, 4}));
+  EXPECT_THAT(offset(kSlot, {-50, 10}, {.radius = 2.9}).gouges, IsEmpty());
+}
+
+TEST(ContourOffset, LeavesOutWhatItCannotReach) {
+  const Offset reduced = offset(kSlot, {-50, 10}, {.radius = 5, .reduces = true});
+  EXPECT_THAT(tags(reduced), ElementsAre(0, 1, 5));
+  EXPECT_THAT(reduced.gouges, IsEmpty());
+  // Both rounded corners of the slot meet in its middle.
+  ASSERT_EQ(reduced.pieces.size(), 5u);
+  EXPECT_NEAR(reduced.pieces[2].curve.end.x(), 3, 1e-9);
+  EXPECT_NEAR(reduced.pieces[2].curve.end.y(), 4, 1e-9);
+}
+
+TEST(ContourOffset, LeavesOutAnInsideArcThatIsTooSmall) {
+  const std::vector<PlaneCurve> corner = {line({0, 0}, {30, 0}), arc({30, 0}, {30, 4}, pi / 2),
+                                          line({34, 4}, {34, 40})};
+  const Offset kept = offset(corner, {0, 20}, {.radius = 5});
+  EXPECT_THAT(kept.small_arcs, ElementsAre(2));
+  EXPECT_THAT(kept.gouges, IsEmpty()) << "the arc tells of them";
+  const Offset reduced = offset(corner, {0, 20}, {.radius = 5, .reduces = true});
+  EXPECT_THAT(reduced.small_arcs, ElementsAre(2));
+  EXPECT_THAT(tags(reduced), ElementsAre(0, 1, 3));
+  EXPECT_NEAR(reduced.pieces[1].curve.end.x(), 29, 1e-9);
+  EXPECT_NEAR(reduced.pieces[1].curve.end.y(), 5, 1e-9);
+}
+
+TEST(ContourOffset, FitsIntoAnArcOfItsOwnSize) {
+  const Offset fits =
+      offset({line({0, 0}, {30, 0}), arc({30, 0}, {30, 5}, pi / 2), line({35, 5}, {35, 40})}, {0, 20}, {.radius = 5});
+  EXPECT_THAT(fits.small_arcs, IsEmpty());
+  EXPECT_THAT(fits.gouges, IsEmpty());
+}
+
+/// A way off the contour leads across its begin; in the air that matters to nobody.
+TEST(ContourOffset, ForgetsWhatItHasCutWhenRaised) {
+  for (const bool raised : {false, true}) {
+    ContourOffset contour(5);
+    const ContourElement element{.curve = line({0, 0}, {50, 0}), .tag = 1};
+    contour.lead_in(line({0, 20}, {0, 0}), element, false);
+    contour.add(element);
+    contour.finish();
+    if (raised) contour.forget();
+    contour.lead_out(line({50, 5}, {20, -10}), 2);
+    Offset result;
+    drain(contour, result);
+    EXPECT_EQ(result.gouges.empty(), raised);
+  }
+}
+
+TEST(ContourOffset, IsAValue) {
+  ContourOffset contour(5);
+  const ContourElement first{.curve = line({0, 0}, {50, 0}), .tag = 1};
+  contour.lead_in(line({0, 20}, {0, 0}), first, false);
+  contour.add(first);
+  ContourOffset copy = contour;
+  copy.add({.curve = line({50, 0}, {50, -50}), .tag = 2});
+  contour.finish();
+  Offset ends;
+  drain(contour, ends);
+  ASSERT_EQ(ends.pieces.size(), 2u);
+  EXPECT_NEAR(ends.pieces[1].curve.end.x(), 50, 1e-9);
+  copy.finish();
+  Offset goes_on;
+  drain(copy, goes_on);
+  EXPECT_EQ(goes_on.pieces.size(), 4u);
+}
+
+/// Round a convex contour a stop changes nothing; into an inside corner the cutter has then gone too far.
+TEST(ContourOffset, GoesOnFromWhereItHasStopped) {
+  const std::vector<PlaneCurve> convex = {line({0, 0}, {50, 0}), line({50, 0}, {80, 0}),
+                                          arc({80, 0}, {80, -20}, -pi / 2), line({100, -20}, {100, -50}),
+                                          line({100, -50}, {0, -50})};
+  const Offset at_once = offset(convex, {0, 10}, {});
+  for (std::uint64_t tag = 1; tag <= convex.size(); ++tag) {
+    const Offset stopped = offset(convex, {0, 10}, {.stop_behind = tag});
+    ASSERT_EQ(stopped.pieces.size(), at_once.pieces.size()) << tag;
+    for (std::size_t i = 0; i < at_once.pieces.size(); ++i) {
+      EXPECT_EQ(stopped.pieces[i].curve.end, at_once.pieces[i].curve.end) << tag;
+      EXPECT_EQ(stopped.pieces[i].curve.sweep, at_once.pieces[i].curve.sweep) << tag;
+    }
+    EXPECT_THAT(stopped.gouges, IsEmpty()) << tag;
+  }
+  const Offset corner = offset(lines({{0, 0}, {50, 0}, {50, 40}}), {0, 10}, {.stop_behind = 1});
+  ASSERT_EQ(corner.pieces.size(), 4u);
+  EXPECT_NEAR(corner.pieces[1].curve.end.x(), 50, 1e-9);
+  EXPECT_FALSE(corner.pieces[2].curve.is_arc());
+  EXPECT_NEAR((corner.pieces[2].curve.end - Vec2(45, 0)).norm(), 0, 1e-9);
+  EXPECT_THAT(corner.gouges, testing::Contains(1));
+}
+
+/// Lines and arcs, tangent or not, some of them back and forth.
+std::vector<PlaneCurve> random_contour(support::Random& random) {
+  std::vector<PlaneCurve> curves;
+  Vec2 at = Vec2::Zero();
+  double heading = random.real(-pi, pi);
+  const int count = random.between(1, 24);
+  for (int i = 0; i < count; ++i) {
+    if (!random.one_in(3)) heading += random.one_in(3) ? random.real(-pi, pi) : random.real(-1, 1);
+    const double length = random.one_in(4) ? random.real(0.1, 3) : random.real(3, 60);
+    const Vec2 way = support::turned(Vec2::UnitX(), heading);
+    if (random.one_in(2)) {
+      curves.push_back(line(at, at + length * way));
+    } else {
+      const double radius = random.real(1, 30);
+      const double sweep = std::min(length / radius, 6.0) * (random.one_in(2) ? 1 : -1);
+      curves.push_back(arc(at, at + std::copysign(radius, sweep) * left_of(way), sweep));
+      heading += sweep;
+    }
+    at = curves.back().end;
+  }
+  return curves;
+}
+
+/// From a point of a piece to the nearest element that it has to spare.
+double nearest_to(const Vec2& point, const OffsetPiece& piece, const std::vector<PlaneCurve>& contour) {
+  double least = 1e9;
+  const auto goes_on = [&](std::uint64_t first) {
+    return first > 0 && (contour[first - 1].direction_at_end() - contour[first].direction_at_start()).norm() < 1e-3;
+  };
+  for (std::uint64_t tag = 1; tag <= contour.size(); ++tag) {
+    const std::uint64_t apart = std::max(tag, piece.tag) - std::min(tag, piece.tag);
+    if (apart > ContourOffset::kNeighbors || (apart == 1 && goes_on(std::min(tag, piece.tag)))) continue;
+    least = std::min(least, support::distance_from(point, contour[tag - 1]));
+  }
+  return least;
+}
+
+/// The cutter's center is never nearer to the contour than its radius, but on motions that are told of; it is where the
+/// piece before has left it; and who is told of a gouge can find it.
+TEST(ContourOffsetProperty, SparesTheContourOrTells) {
+  constexpr int kPoints = 10;
+  int clean = 0;
+  int told = 0;
+  for (const std::uint64_t seed : support::seeds(100)) {
+    support::Random random(seed);
+    const std::vector<PlaneCurve> contour = random_contour(random);
+    const Wish wish{.radius = random.real(0.5, 8),
+                    .side = random.one_in(2) ? 1 : -1,
+                    .reduces = random.one_in(2),
+                    .stop_behind = static_cast<std::uint64_t>(random.between(0, 24))};
+    const Vec2 beside =
+        contour.front().start + 3 * wish.radius * wish.side * left_of(contour.front().direction_at_start());
+    const Offset result = offset(contour, beside, wish);
+    ++(result.gouges.empty() && result.small_arcs.empty() ? clean : told);
+    Vec2 at = beside;
+    std::set<std::uint64_t> gouging;
+    for (const OffsetPiece& piece : result.pieces) {
+      EXPECT_NEAR((piece.curve.start - at).norm(), 0, 1e-9) << seed;
+      at = piece.curve.end;
+      EXPECT_NEAR((point_on(piece.curve, 1) - at).norm(), 0, 2e-4) << seed;
+      for (int i = 0; i <= kPoints; ++i)
+        if (nearest_to(point_on(piece.curve, 1.0 * i / kPoints), piece, contour) +
+                (piece.tag == 0 ? wish.radius / 2 : 0) <
+            wish.radius - ContourOffset::kGouge - 3e-4)
+          gouging.insert(piece.tag);
+    }
+    for (const std::uint64_t tag : gouging) {
+      const bool is_told = std::find(result.gouges.begin(), result.gouges.end(), tag) != result.gouges.end();
+      const bool is_explained = std::any_of(result.small_arcs.begin(), result.small_arcs.end(), [&](std::uint64_t arc) {
+        return std::max(arc, tag) - std::min(arc, tag) <= 2;
+      });
+      EXPECT_TRUE(is_told || is_explained) << seed << " element " << tag;
+    }
+    for (const std::uint64_t tag : result.gouges) {
+      double least = wish.radius;
+      for (const OffsetPiece& piece : result.pieces)
+        for (int i = 0; piece.tag == tag && i <= 6 * kPoints; ++i)
+          least = std::min(least, nearest_to(point_on(piece.curve, i / (6.0 * kPoints)), piece, contour));
+      EXPECT_LT(least, wish.radius - ContourOffset::kGouge / 2) << seed << " element " << tag;
+    }
+  }
+  EXPECT_GT(clean, static_cast<int>(support::often(20)));
+  EXPECT_GT(told, static_cast<int>(support::often(20)));
+}
+
+}  // namespace
+}  // namespace isocnc::geometry

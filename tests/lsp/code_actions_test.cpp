@@ -1,0 +1,198 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "client_text.h"
+#include "interpreter/running/restart.h"
+#include "session.h"
+
+/// What an editor offers to do with a line or a selection, and what becomes of the program.
+namespace isocnc::lsp {
+namespace {
+
+constexpr const char* kUri = "file:///nowhere/part.iso";
+
+const Json kResolves = {
+    {"textDocument", {{"codeAction", {{"resolveSupport", {{"properties", Json::array({"edit"})}}}}}}},
+    {"workspace", {{"workspaceEdit", {{"documentChanges", true}, {"resourceOperations", Json::array({"create"})}}}}}};
+
+Json params_of(const SelectedProgram& program, const Json& only = nullptr, const Json& diagnostics = Json::array()) {
+  Json context = {{"diagnostics", diagnostics}};
+  if (!only.is_null()) context["only"] = only;
+  return {{"textDocument", {{"uri", kUri}}},
+          {"range", ClientText(program.text).range(program.begin, program.end)},
+          {"context", context}};
+}
+
+class CodeActions : public testing::Test {
+ protected:
+  CodeActions() { session_.start(); }
+
+  /// The program after the action whose title begins so; nothing where it is not offered.
+  std::optional<std::string> after(const char* marked, const std::string& title, const char* only) {
+    const SelectedProgram program(marked);
+    session_.open(kUri, program.text);
+    for (const Json& action : session_.request("textDocument/codeAction", params_of(program, Json::array({only}))))
+      if (action["title"].get<std::string>().starts_with(title))
+        return ClientText(program.text).with(action["edit"]["changes"][kUri]);
+    return std::nullopt;
+  }
+
+  Session session_;
+};
+
+struct Case {
+  const char* title;
+  const char* before;
+  const char* after;  // Null: is not offered.
+};
+
+constexpr Case kFixes[] = {
+    {"remove G71", "M06 T101001\nG71\n[!!]G71 G00 X1\nM02\n", "M06 T101001\nG71\nG00 X1\nM02\n"},
+    {"silence ISO066 on this line", "M06 T101001\nG01[!!] X10\nM02\n",
+     "M06 T101001\nG01 X10 ;isolint: ignore ISO066\nM02\n"},
+    {"silence ISO066 on this line", "M06 T101001\nG01[!!] X10 ; più\nM02\n",
+     "M06 T101001\nG01 X10 ; più isolint: ignore ISO066\nM02\n"},
+    {"silence ISO066 in the whole program", "M06 T101001\r\nG01[!!] X10\r\nM02\r\n",
+     ";isolint: ignore-file ISO066\r\nM06 T101001\r\nG01 X10\r\nM02\r\n"},
+    {"silence", "M06 T101001\n[!!]G00 X10\nM02\n", nullptr},
+};
+
+TEST_F(CodeActions, FindingsAreFixedOrSilenced) {
+  for (const Case& each : kFixes) {
+    const auto fixed = after(each.before, each.title, "quickfix");
+    EXPECT_EQ(fixed, each.after ? std::optional<std::string>(each.after) : std::nullopt) << each.before;
+    if (!fixed) continue;
+    session_.open(kUri, *fixed, 2);
+    EXPECT_EQ(session_.diagnostics(kUri, 2), Json::array()) << *fixed;
+  }
+}
+
+TEST_F(CodeActions, SafeFixesArePreferredAndNameWhatTheyMend) {
+  const SelectedProgram program("M06 T101001\nG71\n[!!](è 😀) G71 G00 X1\nM02\n");
+  session_.open(kUri, program.text);
+  const Json diagnostics = session_.diagnostics(kUri, 1);
+  ASSERT_EQ(diagnostics.size(), 1u);
+  const Json actions =
+      session_.request("textDocument/codeAction", params_of(program, Json::array({"quickfix"}), diagnostics));
+  ASSERT_EQ(actions.size(), 3u) << actions;
+  EXPECT_EQ(actions[0]["isPreferred"], true);
+  EXPECT_EQ(actions[0]["diagnostics"], diagnostics);
+  EXPECT_FALSE(actions[1].contains("isPreferred"));
+  EXPECT_EQ(ClientText(program.text).with(actions[0]["edit"]["changes"][kUri]),
+            "M06 T101001\nG71\n(è 😀) G00 X1\nM02\n");
+}
+
+TEST_F(CodeActions, AllThatIsSafeIsFixedAtOnce) {
+  const char* const kBefore =
+      "[!!]M06 T101001\r\nG71\r\nG71 G00 X1\r\nG01 X5 F100 G40\r\n(è) G71\r\nG00 Z50\r\nM02\r\n";
+  const SelectedProgram program(kBefore);
+  session_.open(kUri, program.text);
+  const Json actions = session_.request("textDocument/codeAction", params_of(program, Json::array({"source.fixAll"})));
+  ASSERT_EQ(actions.size(), 1u) << actions;
+  EXPECT_EQ(actions[0]["kind"], "source.fixAll.isocnc");
+  const Json edits = actions[0]["edit"]["changes"][kUri];
+  const std::string fixed = ClientText(program.text).with(edits);
+  EXPECT_EQ(fixed, "M06 T101001\r\nG71\r\nG00 X1\r\nG01 X5 F100 G40\r\n(è)\r\nG00 Z50\r\nM02\r\n");
+  EXPECT_EQ(edits.size(), 2u) << edits;
+  session_.ask("workspace/executeCommand", {{"command", "isocnc.fixAll"}, {"arguments", {{{"uri", kUri}}}}});
+  EXPECT_EQ(session_.wait_for("workspace/applyEdit")["params"]["edit"]["changes"][kUri], edits);
+}
+
+constexpr Case kRewrites[] = {
+    {"give the arc's radius", "M06 T101001\nG00 X0 Y0\nG02[!!] X10 Y10 I10 J0 F500\nM02\n",
+     "M06 T101001\nG00 X0 Y0\nG02 X10 Y10 R10 F500\nM02\n"},
+    {"give the arc's radius", "M06 T101001\nG00 X0 Y0\nG02[!!] X10 Y10 I0 J10 F500\nM02\n", nullptr},  // 270 degrees.
+    {"give the arc's center", "M06 T101001\nG00 X0 Y0\n(è 😀) G02[!!] X10 Y10 R10 F500 ; arco\nM02\n",
+     "M06 T101001\nG00 X0 Y0\n(è 😀) G02 X10 Y10 I10 J0 F500 ; arco\nM02\n"},
+    {"give the arc's center", "M06 T101001\nG91 G70 G18\nG03[!!] X1 Z1 R1 F50\nM02\n",
+     "M06 T101001\nG91 G70 G18\nG03 X1 Z1 I1 K0 F50\nM02\n"},
+    {"write the selection in incremental",
+     "M06 T101001\nG00 X10 Y20\n[!G01 X15 Y20.5 F500\nG02 X25 Y20.5 I20 J20.5\n!]M02\n",
+     "M06 T101001\nG00 X10 Y20\nG91\nG01 X5 Y0.5 F500\nG02 X10 Y0 I5 J0\nG90\nM02\n"},
+    {"write the selection in absolute", "M06 T101001\nG91\n[!N10 G00 X10\nN20 X0.1\nN30 X0.2\nM02!]\n",
+     "M06 T101001\nG91\nG90\nN10 G00 X10\nN20 X10.1\nN30 X10.3\nM02\n"},
+    {"write the selection in absolute", "M06 T101001\n[!G91 G00 X10\nX5\nM02\n!]", "M06 T101001\nG00 X10\nX15\nM02\n"},
+    {"write the selection in absolute", "M06 T101001\nG91\n[!G00 X10\nIF VGPL = 1 GOTO N10\nX5\n!]N10 G90\nM02\n",
+     nullptr},
+    {"write the selection in incremental", "M06 T101001\nG00 X10\nG01[!!] X15 F500\nM02\n", nullptr},
+    {"write the selection in millimeters", "M06 T101001\nG70\n[!G00 X1 Y0.5\nG01 X2 F40\nG02 X3 Y0.5 R0.5\nM02\n!]",
+     "M06 T101001\nG70\nG71\nG00 X25.4 Y12.7\nG01 X50.8 F1016\nG02 X76.2 Y12.7 R12.7\nM02\n"},
+    {"write the selection in millimeters",
+     "M06 T101001\n[!G70\nG92 X1 Y0 Z0\nG29 X1 Y0 Z0 B0 C90\nG00 X1\nG27\nM02\n!]",
+     "M06 T101001\nG92 X25.4 Y0 Z0\nG29 X25.4 Y0 Z0 B0 C90\nG00 X25.4\nG27\nM02\n"},
+    {"write the selection in inches", "M06 T101001\n[!G00 X25.4\nG01 X10 F508\n!]X1\nM02\n",
+     "M06 T101001\nG70\nG00 X1\nG01 X0.3937008 F20\nG71\nX1\nM02\n"},
+    {"write the motion G on each line", "M06 T101001\ng00 x1\n[!!]x2\nX3\nM02\n",
+     "M06 T101001\ng00 x1\nG00 X2\nG00 X3\nM02\n"},
+    {"write the motion G only", "M06 T101001\nG00 X1\n[!G00 X2\n!]G00 X3\nM02\n",
+     "M06 T101001\nG00 X1\nX2\nG00 X3\nM02\n"},
+    {"renumber", "M06 T101001\nIF VGPL = 1 GOTO N7\nN3 G00 X1\nN7[!!] X2\nM02\n",
+     "M06 T101001\nIF VGPL = 1 GOTO N20\nN10 G00 X1\nN20 X2\nM02\n"},
+    {"renumber", "M06 T101001\nIF VGPL = 1 GOTO N9\nN3 G00 X1\nM02[!!]\n", nullptr},
+};
+
+TEST_F(CodeActions, RewritesReadSo) {
+  for (const Case& each : kRewrites)
+    EXPECT_EQ(after(each.before, each.title, "refactor.rewrite"),
+              each.after ? std::optional<std::string>(each.after) : std::nullopt)
+        << each.title << '\n'
+        << each.before;
+}
+
+TEST(CodeActionsResolved, AreMadeWhenTheyAreChosen) {
+  Session session;
+  session.start(kResolves);
+  const SelectedProgram program("M06 T101001\nG00 X1\n[!!]G00 X2\nM02\n");
+  session.open(kUri, program.text);
+  const Json actions =
+      session.request("textDocument/codeAction", params_of(program, Json::array({"refactor.rewrite.isocnc.modal"})));
+  ASSERT_EQ(actions.size(), 2u) << actions;
+  EXPECT_FALSE(actions[1].contains("edit"));
+  const Json resolved = session.request("codeAction/resolve", actions[1]);
+  const Json change = resolved["edit"]["documentChanges"][0];
+  EXPECT_EQ(change["textDocument"], Json({{"uri", kUri}, {"version", 1}}));
+  EXPECT_EQ(ClientText(program.text).with(change["edits"]), "M06 T101001\nG00 X1\nX2\nM02\n");
+  session.edit(kUri, 2, {lsp::change(0, 0, 0, 0, " ")});
+  EXPECT_EQ(session.respond("codeAction/resolve", actions[1])["error"]["code"], -32801);
+  Json wrong = actions[1];
+  wrong["data"]["version"] = 2;
+  wrong["data"]["source"] = 99;
+  EXPECT_TRUE(session.respond("codeAction/resolve", wrong).contains("error"));
+}
+
+TEST(Restart, IsANewDocumentBesideTheProgram) {
+  Session session;
+  session.start(kResolves);
+  const SelectedProgram program(
+      "M06 T101001 M03 S9000\nG00 X1 Z50\nG01 Z-1 F500\nG00 Z50\n[!!]X20\nG01 Z-1\nG00 Z50\nM02\n");
+  session.open(kUri, program.text);
+  const Json actions =
+      session.request("textDocument/codeAction", params_of(program, Json::array({"refactor.rewrite.isocnc.restart"})));
+  ASSERT_EQ(actions.size(), 1u) << actions;
+  const Json changes = session.request("codeAction/resolve", actions[0])["edit"]["documentChanges"];
+  EXPECT_EQ(changes[0], Json({{"kind", "create"}, {"uri", "file:///nowhere/part-from-5.iso"}}));
+  running::RestartOptions options{.line = 4};
+  options.name = "part.iso";
+  const auto made = running::restart_program(program.text, options);
+  ASSERT_TRUE(std::holds_alternative<std::string>(made));
+  EXPECT_EQ(changes[1]["edits"][0]["newText"], std::get<std::string>(made));
+}
+
+TEST(Restart, IsTheCommandsResultForEditorsThatMakeNoDocuments) {
+  Session session;
+  session.start();
+  session.open(kUri, "M06 T101001\nG00 X1 Z50\nX20\nM02\n");
+  const auto restart = [&](const Json& line) {
+    return session.respond("workspace/executeCommand",
+                           {{"command", "isocnc.restart"}, {"arguments", {{{"uri", kUri}, {"line", line}}}}});
+  };
+  EXPECT_THAT(restart(2)["result"]["text"].get<std::string>(), testing::EndsWith("X20\nM02\n"));
+  EXPECT_EQ(restart(99)["error"]["code"], -32803);
+  EXPECT_EQ(restart(-1)["error"]["code"], -32602);
+  EXPECT_EQ(restart("2")["error"]["code"], -32602);
+}
+
+}  // namespace
+}  // namespace isocnc::lsp

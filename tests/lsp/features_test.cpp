@@ -1,0 +1,117 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "session.h"
+
+/// What features answer about one document.
+namespace isocnc::lsp {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kUri = "untitled:part";
+
+Json at(int line, int column) {
+  return {{"textDocument", {{"uri", kUri}}}, {"position", {{"line", line}, {"character", column}}}};
+}
+
+/// What a hover says, in English; empty where it says nothing.
+std::string hover(const std::string& text, int line, int column) {
+  Session session;
+  session.start(Json::object(), {{"locale", "en"}});
+  session.open(kUri, text);
+  const Json result = session.request("textDocument/hover", at(line, column));
+  return result.is_null() ? "" : result["contents"]["value"].get<std::string>();
+}
+
+constexpr const char* kProgram =
+    "M06 T101001\n"
+    "G92 X100\n"
+    "G70 G00 X1 Y2 Z1\n"
+    "G71 G01 X30 F1000\n"
+    "G02 X50 Y50.8 I40 J50.8\n"
+    "N5 V1=3\n"
+    "IF V1=3 GOTO N9\n"
+    "N9 M05 Z5\n"
+    "G01 G40 X7\n"
+    "M02\n";
+
+TEST(Hover, TellsOfEachWordWhatItMeansWhereItStands) {
+  EXPECT_THAT(hover(kProgram, 0, 0), HasSubstr("tool change"));
+  EXPECT_THAT(hover(kProgram, 0, 5), HasSubstr("head 1, holder 1, tool 1"));
+  EXPECT_THAT(hover(kProgram, 1, 1), HasSubstr("I.3.2"));
+  EXPECT_THAT(hover(kProgram, 2, 8), HasSubstr("workpiece frame: X25.4 Y50.8 Z25.4 B0 C0"));
+  EXPECT_THAT(hover(kProgram, 2, 8), HasSubstr("machine frame: X125.4 Y50.8 Z25.4 B0 C0"));
+  EXPECT_THAT(hover(kProgram, 3, 9), HasSubstr("length 4.6 mm"));
+  EXPECT_THAT(hover(kProgram, 4, 1), HasSubstr("center X40 Y50.8 Z25.4, radius 10 mm, sweep -180°, length 31.4159 mm"));
+  EXPECT_THAT(hover(kProgram, 5, 3), HasSubstr("compared: lines 7"));
+  EXPECT_THAT(hover(kProgram, 3, 9), HasSubstr("at the programmed feed 0.28 s"));
+  EXPECT_THAT(hover(kProgram, 6, 4), HasSubstr("here it may be 3 (line 6)"));
+  EXPECT_THAT(hover(kProgram, 6, 14), HasSubstr("jumps to it: lines 7"));
+  EXPECT_THAT(hover(kProgram, 7, 0), HasSubstr("jumps to it: lines 7"));
+  EXPECT_THAT(hover(kProgram, 8, 5), HasSubstr("ISO035"));
+  EXPECT_EQ(hover(kProgram, 2, 3), "");   // A blank.
+  EXPECT_EQ(hover(kProgram, 99, 3), "");  // Behind the end.
+}
+
+TEST(Hover, SpeaksTheLanguageOfTheSettings) {
+  Session session;
+  session.start(Json::object(), {{"locale", "it-IT"}});
+  session.open(kUri, kProgram);
+  EXPECT_THAT(session.request("textDocument/hover", at(0, 0))["contents"]["value"].get<std::string>(),
+              HasSubstr("cambio utensile"));
+  session.notify("workspace/didChangeConfiguration", {{"settings", {{"isocnc", {{"language", "en"}}}}}});
+  EXPECT_THAT(session.request("textDocument/hover", at(0, 0))["contents"]["value"].get<std::string>(),
+              HasSubstr("tool change"));
+}
+
+TEST(State, IsThatBeforeAndAfterALine) {
+  Session session;
+  session.start();
+  session.open(kUri, kProgram);
+  const Json result = session.request("isocnc/state", {{"textDocument", {{"uri", kUri}}}, {"line", 3}});
+  EXPECT_EQ(result["before"]["inForce"]["units"], 70);
+  EXPECT_EQ(result["before"]["feed"], nullptr);
+  EXPECT_EQ(result["after"]["inForce"]["motion"], 1);
+  EXPECT_EQ(result["after"]["position"]["x"], 30);
+  EXPECT_EQ(result["after"]["machinePosition"]["x"], 130);
+  EXPECT_EQ(result["after"]["feed"], 1000);
+  EXPECT_EQ(result["after"]["tool"], "101001");
+  const Json behind = session.request("isocnc/state", {{"textDocument", {{"uri", kUri}}}, {"line", 99}});
+  EXPECT_EQ(behind["before"], nullptr);
+}
+
+TEST(SyntaxTree, ShowsHowLinesAreRead) {
+  Session session;
+  session.start();
+  session.open(kUri, "G01 X10 F5 (note)\nX1.2.3\n");
+  const std::string tree = session.request("isocnc/syntaxTree", {{"textDocument", {{"uri", kUri}}}});
+  EXPECT_THAT(tree,
+              HasSubstr("Line 1\n  G\n    Word 0-3 G01\n    Word 4-7 X10\n  Word 8-10 F5\n  Comment 11-17 (note)\n"));
+  EXPECT_THAT(tree, HasSubstr("Finding ISO006 "));
+}
+
+TEST(Diagnostics, AHundredThousandFindingsAreCutShortAndCounted) {
+  Session session;
+  session.start(Json::object(), {{"locale", "en"}});
+  std::string text = "M06 T101001\n";
+  for (int i = 0; i < 20'000; ++i) text += "X1 X2\n";
+  session.open(kUri, text);
+  const Json found = session.diagnostics(kUri, 1);
+  ASSERT_EQ(found.size(), 1'001u);
+  EXPECT_THAT(found.back()["message"].get<std::string>(), HasSubstr("more findings are not shown"));
+  session.edit(kUri, 2, {change(1, 0, 20'001, 0, "")});
+  EXPECT_LE(session.diagnostics(kUri, 2).size(), 2u);
+}
+
+TEST(Diagnostics, FollowCommentsThatSilenceThem) {
+  Session session;
+  session.start();
+  session.open(kUri, "M06 T101001\nG01 X10\nM02\n");
+  EXPECT_EQ(session.diagnostics(kUri, 1).size(), 1u);
+  session.edit(kUri, 2, {change(1, 7, 1, 7, " (isolint: ignore ISO066)")});
+  EXPECT_EQ(session.diagnostics(kUri, 2), Json::array());
+}
+
+}  // namespace
+}  // namespace isocnc::lsp

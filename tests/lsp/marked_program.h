@@ -1,0 +1,63 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lsp/documents/encoding.h"
+#include "lsp/rpc/json.h"
+
+namespace isocnc::lsp {
+
+/// A program with places marked in it: `|` is the cursor, `[...]` a stretch that is expected. The marks are no part of
+/// the text.
+struct MarkedProgram {
+  std::string text;
+  rpc::Json cursor;  ///< As the protocol writes it: {"line", "character"}.
+  std::vector<rpc::Json> stretches;
+
+  MarkedProgram(std::string_view marked, documents::Encoding encoding) {
+    rpc::Json begin;
+    std::size_t line = 0;
+    std::size_t line_start = 0;
+    const auto here = [&] {
+      const std::string_view before = std::string_view(text).substr(line_start);
+      return rpc::Json{{"line", line}, {"character", documents::units_before(before, before.size(), encoding)}};
+    };
+    for (const char c : marked) {
+      if (c == '|') {
+        cursor = here();
+      } else if (c == '[') {
+        begin = here();
+      } else if (c == ']') {
+        stretches.push_back({{"start", begin}, {"end", here()}});
+      } else {
+        text += c;
+        if (c != '\n') continue;
+        ++line;
+        line_start = text.size();
+      }
+    }
+  }
+};
+
+/// The text without what no message can hold, or would end a line.
+inline std::string message_text(std::string text) {
+  const auto is_strange = [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7E;
+  };
+  text.erase(std::remove_if(text.begin(), text.end(), is_strange), text.end());
+  return text;
+}
+
+inline constexpr documents::Encoding kEncodings[] = {documents::Encoding::Utf8, documents::Encoding::Utf16,
+                                                     documents::Encoding::Utf32};
+
+/// What a client says that wants this encoding.
+inline rpc::Json capabilities_with(documents::Encoding encoding) {
+  return {{"general", {{"positionEncodings", {documents::name_of(encoding)}}}}};
+}
+
+}  // namespace isocnc::lsp

@@ -1,0 +1,170 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "session.h"
+
+/// The protocol as such: what comes when, and what is answered to what should not have come.
+namespace isocnc::lsp {
+namespace {
+
+constexpr const char* kUri = "file:///nowhere/part.iso";
+
+int error_code(const Json& response) { return response.at("error").at("code"); }
+
+TEST(Lifecycle, ShutdownAndExitAreCleanEverythingElseIsNot) {
+  Session clean;
+  clean.start();
+  EXPECT_EQ(clean.request("shutdown"), nullptr);
+  EXPECT_EQ(clean.end(), 0);
+  Session hasty;
+  hasty.start();
+  EXPECT_EQ(hasty.end(), 1);
+  Session gone;
+  gone.start();
+  EXPECT_EQ(gone.end(false), 1);
+  Session never_started;
+  EXPECT_EQ(never_started.end(), 1);
+}
+
+TEST(Lifecycle, RequestsOutOfPlaceAreRefused) {
+  Session session;
+  EXPECT_EQ(error_code(session.respond("textDocument/hover")), -32002);
+  session.open(kUri, "M02\n");  // Is dropped.
+  session.start();
+  EXPECT_EQ(error_code(session.respond("initialize", {{"capabilities", Json::object()}})), -32600);
+  EXPECT_EQ(error_code(session.respond("textDocument/hover", {{"textDocument", {{"uri", kUri}}}})), -32602);
+  session.request("shutdown");
+  EXPECT_EQ(error_code(session.respond("textDocument/hover")), -32600);
+  EXPECT_EQ(error_code(session.respond("shutdown")), -32600);
+  EXPECT_EQ(session.end(), 0);
+}
+
+struct BadMessage {
+  const char* body;
+  int code;
+  const char* id;
+};
+
+TEST(Messages, WhatIsWrongIsAnsweredAsTheProtocolAsks) {
+  const BadMessage kMessages[] = {
+      {"", -32700, "null"},
+      {"{", -32700, "null"},
+      {"\xff\xfe", -32700, "null"},
+      {"[]", -32600, "null"},
+      {"3", -32600, "null"},
+      {"null", -32600, "null"},
+      {"{}", -32600, "null"},
+      {R"({"id":7})", -32600, "7"},
+      {R"({"id":8,"method":5})", -32600, "8"},
+      {R"({"id":{},"method":"x"})", -32600, "null"},
+      {R"({"id":null,"method":"x"})", -32600, "null"},
+      {R"({"id":9,"method":"x","params":3})", -32600, "9"},
+      {R"({"id":"ten","method":"no/such"})", -32601, "\"ten\""},
+      {R"({"id":11,"method":"$/no/such"})", -32601, "11"},
+      {R"({"id":12,"method":"textDocument/hover","params":[]})", -32602, "12"},
+      {R"({"id":13,"method":"textDocument/hover","params":{"textDocument":{"uri":"file:///nowhere/part.iso"}}})",
+       -32602, "13"},
+      {R"({"id":14,"method":"textDocument/hover","params":{"textDocument":{"uri":"file:///nowhere/part.iso"},)"
+       R"("position":{"line":-1,"character":0}}})",
+       -32602, "14"},
+      {R"({"id":15,"method":"workspace/executeCommand","params":{"command":"no.such"}})", -32602, "15"},
+  };
+  Session session;
+  session.start();
+  session.open(kUri, "G01 X10\n");
+  for (const BadMessage& message : kMessages) {
+    session.send_raw(message.body);
+    const Json response = session.wait_for([](const Json& each) { return each.contains("error"); });
+    EXPECT_EQ(response.at("id"), Json::parse(message.id)) << message.body;
+    EXPECT_EQ(error_code(response), message.code) << message.body;
+  }
+  session.receive({rpc::Frame::Problem::NoLength, {}});
+  EXPECT_EQ(error_code(session.response_to(nullptr)), -32700);
+  session.receive({rpc::Frame::Problem::TooLong, {}});
+  EXPECT_EQ(error_code(session.response_to(nullptr)), -32700);
+  // Wrong notifications have no answer, and do no harm.
+  session.send_raw(R"({"method":"no/such"})");
+  session.send_raw(R"({"method":"textDocument/didOpen","params":{}})");
+  session.send_raw(R"({"method":"textDocument/didChange","params":{"textDocument":{"uri":"file:///other"}}})");
+  session.send_raw(R"({"id":99,"result":null})");
+  EXPECT_EQ(session.request("textDocument/diagnostic", {{"textDocument", {{"uri", kUri}}}})["kind"], "full");
+}
+
+TEST(Lifecycle, TheClientsFirstKnownEncodingIsTaken) {
+  const std::pair<Json, const char*> kCases[] = {
+      {Json::object(), "utf-16"},
+      {{{"general", {{"positionEncodings", Json::array()}}}}, "utf-16"},
+      {{{"general", {{"positionEncodings", {"utf-7", "utf-32", "utf-16"}}}}}, "utf-32"},
+      {{{"general", {{"positionEncodings", {"utf-8", "utf-16"}}}}}, "utf-8"},
+  };
+  for (const auto& [capabilities, encoding] : kCases) {
+    Session session;
+    EXPECT_EQ(session.start(capabilities)["capabilities"]["positionEncoding"], encoding);
+  }
+}
+
+TEST(Progress, IsToldWhileALongProgramIsOpened) {
+  Session session;
+  session.start({{"window", {{"workDoneProgress", true}}}});
+  std::string text;
+  while (text.size() < (16u << 20))
+    text += "(a long comment, so that few lines make a long program: 0123456789012345678901234567890123456789)\n";
+  session.open(kUri, text);
+  const Json token = session.wait_for("window/workDoneProgress/create")["params"]["token"];
+  const Json begin = session.wait_for("$/progress")["params"];
+  EXPECT_EQ(begin["token"], token);
+  EXPECT_EQ(begin["value"]["kind"], "begin");
+  EXPECT_EQ(begin["value"]["title"], "opening part.iso");
+  const Json end = session.wait_for("$/progress")["params"];
+  EXPECT_EQ(end["token"], token);
+  EXPECT_EQ(end["value"]["kind"], "end");
+}
+
+TEST(Diagnostics, ArePushedForEachVersionAndTakenBackAtTheEnd) {
+  Session session;
+  session.start();
+  session.open(kUri, "M06 T101001\nG01 X10\nM02\n");
+  const Json first = session.diagnostics(kUri, 1);
+  ASSERT_EQ(first.size(), 1u);
+  EXPECT_EQ(first[0]["code"], "ISO066");
+  EXPECT_EQ(first[0]["range"], Json::parse(R"({"start":{"line":1,"character":0},"end":{"line":1,"character":3}})"));
+  session.edit(kUri, 2, {change(1, 7, 1, 7, " F2000")});
+  EXPECT_EQ(session.diagnostics(kUri, 2), Json::array());
+  session.close(kUri);
+  EXPECT_EQ(session.wait_for("textDocument/publishDiagnostics")["params"]["diagnostics"], Json::array());
+}
+
+TEST(Diagnostics, ArePulledByResultId) {
+  Session session;
+  session.start({{"textDocument", {{"diagnostic", Json::object()}}}});
+  session.open(kUri, "M06 T101001\nG01 X10\nM02\n");
+  const Json params = {{"textDocument", {{"uri", kUri}}}};
+  const Json full = session.request("textDocument/diagnostic", params);
+  EXPECT_EQ(full["kind"], "full");
+  EXPECT_EQ(full["items"].size(), 1u);
+  Json again = params;
+  again["previousResultId"] = full["resultId"];
+  EXPECT_EQ(session.request("textDocument/diagnostic", again)["kind"], "unchanged");
+  session.edit(kUri, 2, {change(1, 7, 1, 7, " F2000")});
+  EXPECT_EQ(session.request("textDocument/diagnostic", again)["items"], Json::array());
+}
+
+TEST(Requests, AreCancelledOrAnsweredNeverBoth) {
+  Session session;
+  session.start();
+  std::string text;
+  for (int i = 0; i < 20'000; ++i) text += "G01 X1 Y2 F100\n";
+  session.open(kUri, text);
+  const Json params = {{"textDocument", {{"uri", kUri}}}};
+  const std::int64_t cancelled = session.ask("textDocument/diagnostic", params);
+  session.notify("$/cancelRequest", {{"id", cancelled}});
+  const std::int64_t kept = session.ask("textDocument/diagnostic", params);
+  EXPECT_TRUE(session.response_to(kept).contains("result"));
+  const Json response = session.response_to(cancelled);
+  EXPECT_TRUE(response.contains("result") || error_code(response) == -32800) << response;
+  session.notify("$/cancelRequest", {{"id", "no such"}});
+  EXPECT_EQ(session.request("shutdown"), nullptr);
+}
+
+}  // namespace
+}  // namespace isocnc::lsp

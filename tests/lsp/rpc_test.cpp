@@ -1,0 +1,163 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "lsp/rpc/frame.h"
+#include "lsp/rpc/message.h"
+#include "lsp/rpc/strand.h"
+#include "tests/support/random.h"
+
+namespace isocnc::lsp::rpc {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+/// The bodies that come of a stream; a problem as its name.
+std::vector<std::string> read(const std::vector<std::string>& pieces, std::size_t longest = 100) {
+  FrameReader reader(longest);
+  std::deque<Frame> frames;
+  for (const std::string& piece : pieces) reader.read(piece, frames);
+  std::vector<std::string> bodies;
+  for (const Frame& frame : frames)
+    bodies.push_back(frame.problem == Frame::Problem::None       ? frame.body
+                     : frame.problem == Frame::Problem::NoLength ? "<no length>"
+                                                                 : "<too long>");
+  return bodies;
+}
+
+struct FrameCase {
+  std::string stream;
+  std::vector<std::string> frames;
+};
+
+const FrameCase kFrameCases[] = {
+    {"", {}},
+    {"Content-Length: 2\r\n\r\n{}", {"{}"}},
+    {"content-length:2\n\n{}", {"{}"}},
+    {"Content-Type: x; charset=utf-8\r\nContent-Length:\t2 \r\n\r\n{}Content-Length: 1\r\n\r\n3", {"{}", "3"}},
+    {"Content-Length: 0\r\n\r\nContent-Length: 2\r\n\r\n{}", {"", "{}"}},
+    {"Content-Length: 2\r\nContent-Length: 2\r\n\r\n{}", {"{}"}},
+    {"Content-Length: 5\r\n\r\n{}", {}},
+    // No length, or none that can be read: on with the next header, wherever it stands.
+    {"X: 1\r\n\r\n{}Content-Length: 2\r\n\r\n{}", {"<no length>", "{}"}},
+    {"Content-Length: -2\r\n\r\n{}{}Content-Length: 2\r\n\r\n{}", {"<no length>", "{}"}},
+    {"Content-Length: 0x2\r\n\r\n{}", {"<no length>"}},
+    {"Content-Length: +2\r\n\r\n{}", {"<no length>"}},
+    {"Content-Length: 2a\r\n\r\n{}", {"<no length>"}},
+    {"Content-Length:\r\n\r\n{}", {"<no length>"}},
+    {"Content-Length: 2\r\nContent-Length: 3\r\n\r\n{}", {"<no length>"}},
+    {"\r\n\r\n\r\nContent-Length: 2\r\n\r\n{}", {"<no length>", "{}"}},
+    {"GET / HTTP/1.1\r\nHost: x\r\n\r\nCoCoContent-Length: 2\r\n\r\n{}", {"<no length>", "{}"}},
+    {std::string(2 * FrameReader::kLongestHeader, 'x') + "Content-Length: 2\r\n\r\n{}", {"<no length>", "{}"}},
+    // Longer than what is taken: passed over.
+    {"Content-Length: 101\r\n\r\n" + std::string(101, 'x') + "Content-Length: 2\r\n\r\n{}", {"<too long>", "{}"}},
+    {"Content-Length: 99999999999999999999999999\r\n\r\n{}", {"<too long>"}},
+};
+
+TEST(FrameReader, CutsAStreamIntoMessages) {
+  for (const FrameCase& each : kFrameCases) EXPECT_EQ(read({each.stream}), each.frames) << each.stream;
+}
+
+TEST(FrameReader, DoesNotCareHowTheStreamIsCut) {
+  for (const FrameCase& each : kFrameCases) {
+    std::vector<std::string> bytes;
+    for (const char c : each.stream) bytes.emplace_back(1, c);
+    EXPECT_EQ(read(bytes), each.frames) << each.stream;
+  }
+}
+
+TEST(FrameReader, KnowsWhetherAMessageWasCutOff) {
+  FrameReader reader;
+  std::deque<Frame> frames;
+  EXPECT_TRUE(reader.is_between_messages());
+  reader.read("Content-Length: 2\r\n\r\n{", frames);
+  EXPECT_FALSE(reader.is_between_messages());
+  reader.read("}", frames);
+  EXPECT_TRUE(reader.is_between_messages());
+}
+
+/// A message whose text is long, as JSON writes it.
+std::string message_with(const std::string& written) { return R"({"a":[1,")" + written + R"(",{"b":"short"}]})"; }
+
+TEST(Parsed, ReadsLongStringsAsJsonDoes) {
+  support::Random random(1);
+  for (int i = 0; i < 200; ++i) {
+    std::string written;
+    while (written.size() < Parsed::kLong)
+      written += random.any_of({"G01 X1", "\\n", "\\r\\n", "\\\\", "\\\"", "\\/", "\\t", "\\b\\f", "\\u00e0",
+                                "\xC3\xA0", "\\ud83d\\ude00", "\xF0\x9F\x98\x80", "\\u0000", "\\u20AC"});
+    const std::string message = message_with(written);
+    const Json expected = Json::parse(message);
+    const Parsed parsed = Parsed::parse(message);
+    ASSERT_FALSE(parsed.json.is_discarded());
+    EXPECT_LT(parsed.json.dump().size(), 100u);
+    EXPECT_EQ(parsed.text(parsed.json["a"][1]), expected["a"][1].get<std::string>());
+    EXPECT_EQ(parsed.text(parsed.json["a"][2]["b"]), "short");
+  }
+}
+
+TEST(Parsed, HalfACharacterIsReplacedInALongString) {
+  const std::string padding(Parsed::kLong, 'x');
+  const std::pair<std::string, std::string> kCases[] = {
+      {"\\ud800", "\xEF\xBF\xBD"},
+      {"\\udc00\\ud800", "\xEF\xBF\xBD\xEF\xBF\xBD"},
+      {"\\ud800\\u0041", "\xEF\xBF\xBD\x41"},
+      {"\\u12", "\xEF\xBF\xBD\x31\x32"},
+  };
+  for (const auto& [written, text] : kCases) {
+    const Parsed parsed = Parsed::parse(message_with(padding + written));
+    EXPECT_EQ(parsed.text(parsed.json["a"][1]), padding + text) << written;
+  }
+}
+
+TEST(Parsed, WhatIsNoJsonIsNoneHoweverLong) {
+  const std::string padding(Parsed::kLong, 'x');
+  for (const std::string& text : {"\"" + padding, padding, "{\"a\":\"" + padding + "\"", "[\"" + padding + "\"]]"})
+    EXPECT_TRUE(Parsed::parse(text).json.is_discarded());
+}
+
+TEST(Strand, DoesItsTasksInTheirOrderBesideOthers) {
+  Pool pool(4);
+  constexpr int kStrands = 8;
+  constexpr int kTasks = 500;
+  std::vector<std::vector<int>> done(kStrands);
+  std::mutex mutex;
+  std::condition_variable changed;
+  int left = kStrands;
+  std::vector<Strand> strands;
+  for (int i = 0; i < kStrands; ++i) strands.emplace_back(pool);
+  for (int task = 0; task < kTasks; ++task)
+    for (std::size_t i = 0; i < kStrands; ++i)
+      strands[i].post([&, task, i] {
+        done[i].push_back(task);
+        if (task + 1 < kTasks) return;
+        const std::lock_guard lock(mutex);
+        --left;
+        changed.notify_all();
+      });
+  std::unique_lock lock(mutex);
+  changed.wait(lock, [&] { return left == 0; });
+  for (const std::vector<int>& each : done) {
+    EXPECT_EQ(each.size(), static_cast<std::size_t>(kTasks));
+    EXPECT_TRUE(std::is_sorted(each.begin(), each.end()));
+  }
+}
+
+TEST(Pool, EndsWhileTasksWait) {
+  std::atomic<int> done = 0;
+  {
+    Pool pool(1);
+    for (int i = 0; i < 100; ++i) pool.post([&] { ++done; });
+  }
+  EXPECT_LE(done, 100);
+}
+
+}  // namespace
+}  // namespace isocnc::lsp::rpc

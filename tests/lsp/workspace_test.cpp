@@ -1,0 +1,127 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "lsp/documents/uri.h"
+#include "session.h"
+#include "tests/commands/temporary_folder.h"
+
+/// What is told of the programs in the workspace's folders, open or not.
+namespace isocnc::lsp {
+namespace {
+
+namespace fs = std::filesystem;
+
+const Json kPulls = {{"textDocument", {{"diagnostic", Json::object()}}}};
+
+class Workspace : public testing::Test {
+ protected:
+  Workspace() { write("good.iso", "M02\n"), write("sub/bad.iso", "G00 X10mm\nM02\n"), write("notes.txt", "G00\n"); }
+
+  void write(const std::string& name, const std::string& text) const { temporary_.write(name, text); }
+  std::string uri(const std::string& name) const { return documents::uri_of(folder_ / name); }
+  Json start(const Json& more = Json::object()) {
+    Json params = {{"workspaceFolders", Json::array({{{"uri", documents::uri_of(folder_)}, {"name", "parts"}}})}};
+    params.update(more);
+    return session_.start(kPulls, params);
+  }
+
+  /// `full 2` or `unchanged`, by the program's name; what is told is known from then on.
+  std::map<std::string, std::string> pull() {
+    Json previous = Json::array();
+    for (const auto& [uri, id] : ids_) previous.push_back({{"uri", uri}, {"value", id}});
+    std::map<std::string, std::string> told;
+    const Json result = session_.request("workspace/diagnostic", {{"previousResultIds", previous}});
+    for (const Json& report : result["items"]) {
+      const std::string uri = report["uri"];
+      ids_[uri] = report["resultId"];
+      told[uri.substr(this->uri("").size())] =
+          report["kind"] == "full" ? fmt::format("full {}", report["items"].size()) : report["kind"].get<std::string>();
+    }
+    return told;
+  }
+
+  using Told = std::map<std::string, std::string>;
+  const commands::TemporaryFolder temporary_;
+  const fs::path folder_ = fs::canonical(temporary_.path());
+  std::map<std::string, std::string> ids_;
+  Session session_;
+};
+
+TEST_F(Workspace, TellsOfProgramsThatAreNotOpen) {
+  EXPECT_EQ(start()["capabilities"]["diagnosticProvider"]["workspaceDiagnostics"], true);
+  EXPECT_EQ(pull(), (Told{{"good.iso", "full 0"}, {"sub/bad.iso", "full 3"}}));
+  EXPECT_EQ(pull(), (Told{{"good.iso", "unchanged"}, {"sub/bad.iso", "unchanged"}}));
+}
+
+TEST_F(Workspace, SaysOfClosedProgramsWhatItSaysOfOpenOnes) {
+  start();
+  const Json closed = session_.request("workspace/diagnostic", {{"previousResultIds", Json::array()}})["items"][1];
+  EXPECT_EQ(closed["version"], nullptr);
+  session_.open(closed["uri"], "G00 X10mm\nM02\n", 7);
+  const Json open = session_.request("textDocument/diagnostic", {{"textDocument", {{"uri", closed["uri"]}}}});
+  EXPECT_EQ(open["items"], closed["items"]);
+  EXPECT_EQ(open["resultId"], closed["resultId"]);
+}
+
+TEST_F(Workspace, AnswersOfATabWhoseFileIsNotOpen) {
+  start();
+  const auto pull_of = [&](const std::string& uri) {
+    return session_.respond("textDocument/diagnostic", {{"textDocument", {{"uri", uri}}}});
+  };
+  EXPECT_EQ(pull_of(uri("sub/bad.iso"))["result"]["items"].size(), 3u);
+  EXPECT_EQ(pull_of(uri("gone.iso"))["error"]["code"], -32801);
+  EXPECT_EQ(pull_of(uri("isocnc.json"))["result"]["items"].size(), 0u);
+  session_.open(uri("isocnc.json"), "{");
+  EXPECT_EQ(pull_of(uri("isocnc.json"))["result"]["items"].size(), 0u);
+  EXPECT_EQ(pull_of("file:///etc/hostname")["error"]["code"], -32801);
+  EXPECT_EQ(pull_of(uri("../other/part.iso"))["error"]["code"], -32801);
+  EXPECT_EQ(pull_of("untitled:a")["error"]["code"], -32801);
+}
+
+TEST_F(Workspace, SeesWhatTheEditorAndOthersChange) {
+  start();
+  pull();
+  session_.open(uri("good.iso"), "G00 X10 Q\nM02\n");
+  write("sub/bad.iso", "M02\n");
+  write("new.nc", "M02\n");
+  EXPECT_EQ(pull(), (Told{{"good.iso", "full 2"}, {"sub/bad.iso", "full 0"}, {"new.nc", "full 0"}}));
+  session_.close(uri("good.iso"));
+  EXPECT_EQ(pull(), (Told{{"good.iso", "full 0"}, {"sub/bad.iso", "unchanged"}, {"new.nc", "unchanged"}}));
+}
+
+TEST_F(Workspace, TakesAwayWhatWasToldOfProgramsThatAreGone) {
+  start();
+  pull();
+  fs::remove_all(folder_ / "sub");
+  EXPECT_EQ(pull(), (Told{{"good.iso", "unchanged"}, {"sub/bad.iso", "full 0"}}));
+  EXPECT_EQ(pull(), (Told{{"good.iso", "unchanged"}}));
+}
+
+TEST_F(Workspace, KeepsToTheConfiguration) {
+  write("isocnc.json", R"({"lint": {"exclude": ["sub/"]}})");
+  start();
+  EXPECT_EQ(pull(), (Told{{"good.iso", "full 0"}}));
+}
+
+TEST_F(Workspace, ComesAndGoesByFolder) {
+  start({{"workspaceFolders", nullptr}});
+  EXPECT_EQ(pull(), Told{});
+  const Json folders = Json::array({{{"uri", documents::uri_of(folder_ / "sub")}, {"name", "sub"}}});
+  session_.notify("workspace/didChangeWorkspaceFolders", {{"event", {{"added", folders}, {"removed", Json::array()}}}});
+  EXPECT_EQ(pull(), (Told{{"sub/bad.iso", "full 3"}}));
+  session_.notify("workspace/didChangeWorkspaceFolders", {{"event", {{"added", Json::array()}, {"removed", folders}}}});
+  EXPECT_EQ(pull(), (Told{{"sub/bad.iso", "full 0"}}));
+}
+
+TEST_F(Workspace, IsLeftAloneWhereTheUserWantsItSo) {
+  const Json initialized = start({{"initializationOptions", {{"workspaceDiagnostics", false}}}});
+  EXPECT_EQ(initialized["capabilities"]["diagnosticProvider"]["workspaceDiagnostics"], false);
+}
+
+}  // namespace
+}  // namespace isocnc::lsp

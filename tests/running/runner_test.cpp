@@ -1,0 +1,148 @@
+#include "interpreter/running/runner.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "random_run.h"
+
+namespace isocnc::running {
+namespace {
+
+using support::Random;
+using support::seeds;
+using testing::ElementsAre;
+
+constexpr std::string_view kJumps =
+    "M06 T101001\n"
+    "V1=1\n"
+    "\n"
+    "IF V1=1 GOTO N20\n"
+    "N10 V2=1\n"
+    "N20 V3=1\n"
+    "N10 M02\n";
+
+std::vector<std::string> told_by(Runner runner) {
+  std::vector<std::string> told;
+  while (!runner.has_ended()) {
+    runner.step();
+    for (const Event& event : runner.events()) told.push_back(to_json(event));
+  }
+  return told;
+}
+
+TEST(Runner, ExecutesLineByLine) {
+  const Program program(kJumps);
+  const RunOptions options;
+  Runner runner(program, options);
+  std::vector<std::uint64_t> lines;
+  for (; const auto block = runner.next(); runner.step()) lines.push_back(block->line + 1);
+  EXPECT_THAT(lines, ElementsAre(1, 2, 3, 4, 6, 7));
+  EXPECT_TRUE(runner.has_ended());
+  EXPECT_EQ(runner.result().ending, Ending::ProgramEnd);
+  EXPECT_EQ(runner.result().blocks, 5u);
+  EXPECT_EQ(runner.result().registers[2], 0);
+  EXPECT_EQ(runner.result().registers[3], 1);
+}
+
+TEST(Runner, PassesEmptyLines) {
+  const Program program("M06 T101001\n; note\n\nN7 (note)\nG1 X1 F100\n\n");
+  const RunOptions options;
+  Runner runner(program, options);
+  runner.step();
+  runner.pass_empty_lines();
+  EXPECT_EQ(runner.place().line, 4u);
+  runner.step();
+  runner.pass_empty_lines();
+  EXPECT_FALSE(runner.next());
+  EXPECT_FALSE(runner.has_ended()) << "what is missing is an error of its own";
+  runner.step();
+  EXPECT_TRUE(runner.has_ended());
+  EXPECT_EQ(dialect::definition(runner.result().error.id).code, "ISO045");
+}
+
+TEST(Runner, StandsBeforeTheBlockInError) {
+  const Program program("M06 T101001\nV1=2 G02 X1 F100\nM02\n");
+  const RunOptions options;
+  Runner runner(program, options);
+  runner.step();
+  const Runner before = runner;
+  runner.step();
+  EXPECT_TRUE(runner.has_ended());
+  EXPECT_TRUE(runner.events().empty());
+  EXPECT_EQ(runner.place(), before.place());
+  EXPECT_EQ(runner.result().state, before.result().state);
+  EXPECT_EQ(runner.result().registers, before.result().registers);
+}
+
+TEST(Runner, DecidesJumpsByWhatHasBeenSet) {
+  const Program program("IF VGPL=2 GOTO N5\nV1=1\nIF V1=7 GOTO N5\nM02\nN5\nM02\n");
+  const RunOptions options;
+  Runner runner(program, options);
+  Runner other = runner;
+  other.set_vgpl(2);
+  other.step();
+  EXPECT_EQ(other.place().line, 4u);
+  runner.step();
+  runner.step();
+  EXPECT_EQ(runner.place().line, 2u);
+  runner.set_register(1, 7);
+  runner.step();
+  EXPECT_EQ(runner.place().line, 4u);
+}
+
+TEST(Runner, StopsWhereAJumpLeadsOverTheLineAskedFor) {
+  const Program program(kJumps);
+  RunOptions options;
+  options.until = 4;
+  Runner runner(program, options);
+  while (!runner.has_ended()) runner.step();
+  EXPECT_EQ(runner.result().ending, Ending::Until);
+  EXPECT_EQ(runner.result().line, 5u);
+  EXPECT_EQ(runner.result().jumped_over_from, 3u);
+}
+
+/// Wherever a run is stopped, its copy does what it does, and what a run in one go has left to do.
+TEST(RunnerProperty, CopiesGoOnAsTheOriginal) {
+  for (const std::uint64_t seed : seeds(60)) {
+    Random random(seed);
+    const std::string text = RandomRun(random).text(3);
+    const Program program(text);
+    const RunOptions options;
+    std::vector<std::string> all;
+    const RunResult result = run(text, options, [&](const Event& event) { all.push_back(to_json(event)); });
+    Runner runner(program, options);
+    std::vector<std::string> told;
+    while (!runner.has_ended()) {
+      const Runner copy = runner;
+      if (random.one_in(5)) {
+        std::vector<std::string> rest(all.begin() + static_cast<std::ptrdiff_t>(told.size()), all.end());
+        ASSERT_EQ(told_by(copy), rest) << seed;
+      }
+      if (random.one_in(2)) runner = copy;
+      runner.step();
+      for (const Event& event : runner.events()) told.push_back(to_json(event));
+    }
+    EXPECT_EQ(told, all) << seed;
+    EXPECT_EQ(runner.result().state, result.state) << seed;
+    EXPECT_EQ(runner.result().blocks, result.blocks) << seed;
+  }
+}
+
+TEST(Program, IsSharedByThreads) {
+  const Program program(kJumps);
+  const RunOptions options;
+  std::vector<std::vector<std::string>> told(4);
+  std::vector<std::thread> threads;
+  for (std::vector<std::string>& mine : told) threads.emplace_back([&] { mine = told_by(Runner(program, options)); });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_THAT(told, testing::Each(told_by(Runner(program, options))));
+  EXPECT_EQ(told.front().size(), 3u);
+}
+
+}  // namespace
+}  // namespace isocnc::running

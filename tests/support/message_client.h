@@ -1,0 +1,90 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "lsp/rpc/json.h"
+#include "lsp/rpc/serve.h"
+
+namespace isocnc::support {
+
+using lsp::rpc::Json;
+
+/// A client within the process: speaks with a party whose loop runs on a thread of its own.
+class MessageClient {
+ public:
+  explicit MessageClient(const lsp::rpc::MakeParty& make_party)
+      : party_(make_party(loop_, [this](std::string body) { take(std::move(body)); })),
+        thread_([this] { loop_.run(std::chrono::seconds(3), [] {}); }) {}
+  MessageClient(const MessageClient&) = delete;
+  MessageClient& operator=(const MessageClient&) = delete;
+  ~MessageClient() {
+    if (is_speaking()) hang_up();
+  }
+
+  void receive(lsp::rpc::Frame frame) {
+    loop_.post([this, frame = std::move(frame)]() mutable { party_->receive(std::move(frame)); });
+  }
+  /// The body of a message, as it stands.
+  void send_raw(std::string body) { receive({lsp::rpc::Frame::Problem::None, std::move(body)}); }
+
+  /// Waits for the next message that fits and takes it out of those that have come.
+  Json wait_for(const std::function<bool(const Json&)>& fits) {
+    static constexpr std::chrono::seconds kLongest{120};  // Nothing takes this long: a test that waits for it hangs.
+    std::unique_lock lock(mutex_);
+    Json found;
+    const auto take = [&] {
+      const auto message = std::find_if(messages_.begin(), messages_.end(), fits);
+      if (message == messages_.end()) return false;
+      found = std::move(*message);
+      messages_.erase(message);
+      return true;
+    };
+    if (!came_.wait_for(lock, kLongest, take)) throw std::runtime_error("no such message has come");
+    return found;
+  }
+  /// Whether a message has come that fits, and that nobody has waited for.
+  bool has(const std::function<bool(const Json&)>& fits) {
+    const std::lock_guard lock(mutex_);
+    return std::any_of(messages_.begin(), messages_.end(), fits);
+  }
+
+  bool is_speaking() const { return thread_.joinable(); }
+  /// Is gone without a word: the party's exit status.
+  int hang_up() {
+    loop_.post([this] { party_->end(); });
+    return wait_for_end();
+  }
+  /// Waits for the party's own end: its exit status.
+  int wait_for_end() {
+    thread_.join();
+    return party_->exit_status();
+  }
+
+ private:
+  void take(std::string body) {
+    {
+      const std::lock_guard lock(mutex_);
+      messages_.push_back(Json::parse(body));
+    }
+    came_.notify_all();
+  }
+
+  lsp::rpc::Loop loop_;
+  std::mutex mutex_;
+  std::condition_variable came_;
+  std::deque<Json> messages_;
+  std::unique_ptr<lsp::rpc::Party> party_;
+  std::thread thread_;
+};
+
+}  // namespace isocnc::support

@@ -1,0 +1,441 @@
+// The packaged extension in a real VS Code in a real browser, as its users have it: what is on the page is what counts.
+// With ISOCNC_SCREENSHOTS=FOLDER it leaves pictures there, which docs/images/ has.
+import assert from 'node:assert/strict';
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, afterEach, test } from 'node:test';
+import { Editor, eventually, root } from './editor.mjs';
+
+const { ISOCNC_VSIX: extension, ISOCNC_CODE_SERVER: codeServer, ISOCNC_SCREENSHOTS: pictures } = process.env;
+const hasDebugger = existsSync(join(root, 'build/vscode-extension/stage/bin/isodap'));
+const withDebugger = { skip: hasDebugger ? false : 'there is no isodap in the package: build it first' };
+
+const plate = `; plate
+N10 G17 G71 G90 G94
+N20 M06 T101001
+N30 S16000 M03
+N40 G00 X0 Y0 Z30
+N50 Z2
+N60 G01 Z-3 F1500
+N70 X100 F6000
+N80 G03 X110 Y10 I100 J10
+N90 G01 Y60
+N100 X0
+N110 Y0
+N120 G00 Z30
+N130 M06 T102003
+N140 S12000 M03
+N150 G00 X50 Y30
+N160 G01 Z-3 F1200
+N170 G00 Z30
+N180 M05
+N190 M02
+`;
+const registers = `; registers
+M06 T101001
+S12000 M03
+V1 = 2.5
+G00 X0 Y0 Z20
+G01 Z-2 F1000
+V1 = 7
+X50 F3000
+IF V1 > 5 GOTO N100
+X80
+N100 Y40
+G00 Z20
+M05
+M02
+`;
+
+assert.ok(extension && codeServer, 'ISOCNC_VSIX and ISOCNC_CODE_SERVER name the package and the editor: start tests/vscode/run');
+// Without an editor there is nothing to test.
+const editor = await Editor.start({ codeServer, extension });
+const { page } = editor;
+
+/** A picture of what is there, once it is drawn. */
+async function keep(name) {
+  if (!pictures) return;
+  mkdirSync(pictures, { recursive: true });
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  await page.screenshot({ path: join(pictures, `vscode-${name}.png`) });
+}
+
+for (const name of ['start-here.iso', 'isocnc.json']) editor.add(name, join(root, 'vscode-extension/test-drive', name));
+for (const name of ['pocket.iso', 'five-axis.iso']) editor.add(name, join(root, 'examples', name));
+editor.add('plate.iso', plate);
+editor.add('registers.iso', registers);
+editor.add('program.tap', 'G71 G90\nM06 T101001\nM02\n');
+editor.add('notes.tap', 'feeds to try\nM06 T101001\n');
+await editor.openWorkbench();
+
+after(async () => {
+  await editor.stop();
+});
+afterEach(async (context) => {
+  if (!context.error && context.passed !== false) return;
+  const folder = join(root, 'build/vscode-extension');
+  await page.screenshot({ path: join(folder, 'failed.png') }).catch(() => {});
+  writeFileSync(join(folder, 'failed.log'), editor.log);
+});
+
+/** More room for the editors. */
+async function hidePanel() {
+  const close = page.locator('.part.panel .codicon-panel-close').first();
+  if (!(await close.isVisible())) return;
+  await close.click();
+  await close.waitFor({ state: 'hidden' });
+}
+
+const squiggles = () => page.locator('.squiggly-error').count();
+const problems = () => editor.texts('.markers-panel .monaco-list-row');
+
+test('what would stop the control is underlined and listed among the problems', async () => {
+  await editor.open('start-here.iso');
+  await eventually(squiggles, 'nothing is underlined', (count) => count >= 3);
+  await editor.command('Problems: Focus on Problems View');
+  const listed = await eventually(problems, 'the problems are not listed', (rows) => rows.some((row) => row.includes('ISO031')));
+  for (const code of ['ISO031', 'ISO054', 'ISO006', 'W001']) assert.ok(listed.some((row) => row.includes(code)), `${code} in ${listed}`);
+  assert.match(listed.find((row) => row.includes('ISO031')), /the center is 11\.1803 mm from the start and 15 mm from the end/);
+});
+
+test('the colors of the dialect are there', async () => {
+  const colorOf = (text) =>
+    page.evaluate((wanted) => {
+      const spans = [...document.querySelectorAll('.editor-instance .view-line span span')];
+      const span = spans.find((each) => each.textContent.replaceAll('\u00a0', ' ').trim() === wanted);
+      return span ? getComputedStyle(span).color : null;
+    }, text);
+  await editor.focus();
+  await eventually(() => colorOf('G03'), 'G03 has no color');
+  const colors = await eventually(
+    async () => [await colorOf('G03'), await colorOf('T101001'), await colorOf('N90')],
+    'motion, tool and line number have one color',
+    (all) => !all.includes(null) && new Set(all).size === 3,
+  );
+  assert.equal(colors.length, 3);
+});
+
+test('a hover tells what a word means, and what is wrong', async () => {
+  await editor.focus();
+  await editor.goTo(16, 22);
+  await editor.press('Control+k', 'Control+i');
+  const text = await eventually(
+    async () => (await editor.texts('.monaco-hover:not(.hidden) .hover-row')).join(' '),
+    'there is no hover',
+    (hover) => hover.includes('ISO031') && /radius|center/i.test(hover),
+  );
+  assert.match(text, /15 mm/);
+  await keep('editor');
+  await editor.press('Escape');
+});
+
+test('the outline has the tool sections', async () => {
+  await editor.command('Explorer: Focus on Outline View');
+  const rows = await eventually(() => editor.texts('.outline-tree .monaco-list-row'), 'the outline is empty', (all) => all.length > 1);
+  assert.ok(rows.some((row) => /T101001/.test(row)), rows.join('; '));
+});
+
+test('a quick fix mends the line', async () => {
+  await editor.focus();
+  await editor.goTo(24, 8);
+  await editor.press('Control+.');
+  // The preferred one comes first, and has the focus.
+  await page.locator('.action-widget .monaco-list-row.focused', { hasText: 'M06' }).first().waitFor();
+  await editor.press('Enter');
+  await eventually(() => editor.lineText(24), 'the fix is not made', (text) => /^N180 M06 T102003/.test(text ?? ''));
+  await eventually(problems, 'the problem stays', (rows) => !rows.some((row) => row.includes('ISO054')));
+});
+
+test('what is typed is completed', async () => {
+  await editor.focus();
+  await editor.goTo(27, 1);
+  await editor.press('End', 'Enter');
+  await page.keyboard.type('arc-c');
+  await editor.press('Control+Space');
+  await page.locator('.suggest-widget.visible .monaco-list-row', { hasText: 'arc-center' }).first().waitFor();
+  await editor.press('Enter');
+  await eventually(() => editor.lineText(28), 'the snippet is not there', (text) => /^G02 X0 Y0 I0 J0/.test(text ?? ''));
+  await editor.press('Escape', 'Escape', 'Control+z', 'Control+z', 'Control+z');
+});
+
+test('a register has its new name everywhere', async () => {
+  await editor.open('registers.iso');
+  await editor.goTo(4, 2);
+  await editor.press('F2');
+  const input = page.locator('.rename-box input');
+  await input.waitFor();
+  await input.fill('V9');
+  await editor.press('Enter');
+  await eventually(async () => [await editor.lineText(4), await editor.lineText(7), await editor.lineText(9)], 'nothing is renamed', (lines) =>
+    lines.every((line) => line?.includes('V9')),
+  );
+  await editor.press('Control+z');
+  await eventually(() => editor.lineText(4), 'the renaming is not undone', (text) => /^V1 = 2\.5/.test(text ?? ''));
+});
+
+test('a program is formatted', async () => {
+  await editor.open('plate.iso');
+  await editor.goTo(5, 5);
+  await page.keyboard.type('   ');
+  await eventually(() => editor.lineText(5), 'nothing is typed', (text) => /^N40 {4}G00/.test(text ?? ''));
+  await editor.command('Format Document');
+  await eventually(() => editor.lineText(5), 'the line is not formatted', (text) => text?.trimEnd() === 'N40 G00 X0 Y0 Z30');
+  await editor.press('Control+z');
+});
+
+test('commands walk through the tool changes, and renumber', async () => {
+  await editor.open('plate.iso');
+  await editor.command('File: Revert File');
+  await editor.goTo(1);
+  await editor.press('Control+Alt+n');
+  assert.equal((await eventually(() => editor.place(), 'the cursor stays', ({ line }) => line === 3)).line, 3);
+  await editor.press('Control+Alt+n');
+  await eventually(() => editor.place(), 'the cursor stays', ({ line }) => line === 14);
+  await editor.press('Control+Alt+b');
+  await eventually(() => editor.place(), 'the cursor stays', ({ line }) => line === 3);
+  await editor.goTo(2);
+  await editor.press('Home', 'Control+d');
+  await editor.command('ISOCNC: Show State Here');
+  await eventually(
+    async () => (await page.locator('.editor-instance').allInnerTexts()).join('\n').replaceAll('\u00a0', ' '),
+    'the state does not show',
+    (text) => /arc plane/.test(text) && /G17/.test(text) && /before\s+after/.test(text),
+  );
+  await editor.focus();
+});
+
+/** A toolpath that has taken in what the editor has: another one than before. */
+const generation = async () => Number(await (await editor.toolpath()).evaluate(() => document.documentElement.dataset.ready));
+
+test('the toolpath shows the moves of the program', async () => {
+  await editor.open('pocket.iso');
+  await hidePanel();
+  await editor.command('ISOCNC: Show Toolpath');
+  const frame = await editor.toolpath();
+  const { steps, hasView } = await frame.evaluate(() => ({ steps: globalThis.isocnc.path.stepCount, hasView: globalThis.isocnc.view !== null }));
+  assert.ok(hasView);
+  assert.ok(steps > 50, `${steps} steps`);
+  assert.match(await frame.locator('#totals').innerText(), /time/);
+  await eventually(() => editor.texts('#isocnc\\.isocnc\\.isocnc\\.cycleTime, .statusbar-item[id*="cycleTime"]'), 'no cycle time', (texts) =>
+    texts.some((text) => /\d:\d\d\.\d/.test(text)),
+  );
+});
+
+const litLine = async () => {
+  const frame = await editor.toolpath();
+  return frame.evaluate(() => {
+    const { path, player } = globalThis.isocnc;
+    return path.stepLine[player.step] + 1;
+  });
+};
+
+test('the move of the line at the cursor lights up', async () => {
+  await editor.focus();
+  await editor.goTo(22);
+  await eventually(litLine, 'line 22 does not light up', (line) => line === 22);
+  await editor.press('ArrowDown');
+  await eventually(litLine, 'line 23 does not light up', (line) => line === 23);
+  await keep('toolpath');
+});
+
+test('a click on a move reveals its line', async () => {
+  const frame = await editor.toolpath();
+  await frame.getByRole('button', { name: 'Top', exact: true }).click();
+  const place = await frame.evaluate(() => {
+    const { path, view } = globalThis.isocnc;
+    // The middle of a long side of the pocket: line 15, X186 Y84.
+    const { begin, end } = path.stepsOf(15);
+    const [from, to] = [path.tipOf(path.stepBegin[begin]), path.tipOf(path.stepBegin[end])];
+    return view.project(from.map((value, i) => (value + to[i]) / 2));
+  });
+  await frame.locator('#stage').click({ position: place });
+  const line = await eventually(() => editor.currentLine(), 'no line is revealed', (at) => at !== 23 && at > 0);
+  // The same move is made in both passes.
+  const isThere = await frame.evaluate((number) => {
+    const { path } = globalThis.isocnc;
+    const at = (index) => path.tipOf(path.stepBegin[path.stepsOf(index).end]).slice(0, 2).join();
+    return at(number - 1) === at(15);
+  }, line);
+  assert.ok(isThere, `line ${line}`);
+});
+
+test('the toolpath follows what is typed', async () => {
+  const before = await generation();
+  const furthest = async () => (await editor.toolpath()).evaluate(() => globalThis.isocnc.path.work.most[0]);
+  const most = await furthest();
+  await editor.focus();
+  await editor.goTo(25);
+  await editor.press('End');
+  await page.keyboard.type('5');
+  await eventually(generation, 'no other toolpath comes', (now) => now > before);
+  await eventually(furthest, 'the toolpath stays', (now) => now > most + 500);
+  await editor.press('Control+z');
+  await eventually(furthest, 'the toolpath does not come back', (now) => Math.abs(now - most) < 1e-6);
+});
+
+test('the run plays, and keys move through it', async () => {
+  const frame = await editor.toolpath();
+  await frame.locator('#stage').focus();
+  await frame.locator('#stage').press('Home');
+  await eventually(() => frame.evaluate(() => globalThis.isocnc.player.time), 'the start is not reached', (time) => time === 0);
+  await frame.locator('#stage').press('Space');
+  await eventually(() => frame.evaluate(() => globalThis.isocnc.player.time), 'the time stands still', (time) => time > 0);
+  await frame.locator('#stage').press('Space');
+  assert.equal(await frame.evaluate(() => globalThis.isocnc.player.isPlaying), false);
+  await frame.getByLabel('Kind').check({ force: true });
+  assert.match(await frame.locator('#legend').innerText(), /rapid[\s\S]*feed move[\s\S]*arc/);
+});
+
+test('nothing runs in the page but its own script', async () => {
+  const frame = await editor.toolpath();
+  const policy = await frame.locator('meta[http-equiv="Content-Security-Policy"]').first().getAttribute('content');
+  assert.match(policy, /default-src 'none'; script-src 'nonce-[\w+/=]+';/);
+  assert.doesNotMatch(policy, /unsafe/);
+  await frame.evaluate(() => {
+    const script = document.createElement('script');
+    script.textContent = 'globalThis.hacked = 1';
+    document.body.append(script);
+  });
+  assert.equal(await frame.evaluate(() => globalThis.hacked), undefined);
+});
+
+test('five axes have their tool turned, in the light theme', async () => {
+  await editor.open('five-axis.iso');
+  await editor.command('Preferences: Toggle between Light/Dark Themes');
+  const frame = await editor.toolpath();
+  await eventually(() => frame.evaluate(() => document.body.classList.contains('vscode-light')), 'the theme stays dark');
+  await eventually(() => frame.evaluate(() => globalThis.isocnc.path.facts.name), 'another program shows', (name) => name.includes('five-axis'));
+  const isInSight = () =>
+    frame.evaluate(() => {
+      const { path, view } = globalThis.isocnc;
+      const { least, most } = path.work;
+      const { x, y } = view.project(least.map((value, i) => (value + most[i]) / 2));
+      return x > 0 && y > 0 && x < view.canvas.clientWidth && y < view.canvas.clientHeight;
+    });
+  await eventually(isInSight, 'the program is out of sight');
+  await editor.focus();
+  await editor.goTo(25);
+  await eventually(litLine, 'line 25 does not light up', (line) => line === 25);
+  assert.ok(await frame.evaluate(() => Math.abs(globalThis.isocnc.path.at(globalThis.isocnc.player.time).b) > 60));
+  await frame.getByRole('button', { name: 'Iso', exact: true }).click();
+  await keep('five-axis');
+  await editor.command('Preferences: Toggle between Light/Dark Themes');
+  await eventually(() => frame.evaluate(() => document.body.classList.contains('vscode-dark')), 'the theme stays light');
+});
+
+test('a program runs on the simulator, in the terminal', async () => {
+  await editor.open('plate.iso');
+  await editor.press('Control+Alt+r');
+  await eventually(() => editor.texts('.terminal-wrapper.active, .tabs-list .monaco-list-row'), 'no terminal', (texts) =>
+    texts.some((text) => text.length > 0),
+  );
+  await eventually(() => page.locator('.terminal-wrapper .xterm').count(), 'nothing has been run');
+});
+
+test('isocnc.json is validated and completed by its schema', async () => {
+  await editor.open('isocnc.json');
+  await editor.goTo(3);
+  await editor.press('End', 'Enter');
+  await page.keyboard.type('"homes": 1,');
+  await editor.command('Problems: Focus on Problems View');
+  await eventually(problems, 'the key is not refused', (rows) => rows.some((row) => /homes/.test(row)));
+  await editor.focus();
+  await editor.press('Control+z', 'Control+z', 'Control+z');
+  await editor.command('File: Revert File');
+});
+
+test('text of another ending is known by its first line', async () => {
+  await editor.open('notes.tap');
+  await page.locator('#status\\.editor\\.mode', { hasText: 'Plain Text' }).waitFor();
+  await editor.open('program.tap');
+  await page.locator('#status\\.editor\\.mode', { hasText: 'ISOCNC' }).waitFor();
+});
+
+test('the server is started anew', async () => {
+  await editor.open('start-here.iso');
+  await editor.command('ISOCNC: Restart Language Server');
+  await eventually(squiggles, 'nothing is underlined after a restart', (count) => count >= 2);
+});
+
+/** VS Code unfolds the first scope at every stop, and has but those rows on the page that there is room for: it is folded again. */
+async function variables() {
+  const first = page.locator('.debug-variables .monaco-list-row[data-index="0"]').first();
+  if ((await first.getAttribute('aria-expanded', { timeout: 2000 })) === 'true') await first.locator('.monaco-tl-twistie').click({ timeout: 2000 });
+  return editor.texts('.debug-variables .monaco-list-row');
+}
+async function unfold(scope) {
+  await eventually(variables, `there is no ${scope}`, (rows) => rows.includes(scope));
+  const row = page.locator('.debug-variables .monaco-list-row[aria-level="1"]', { hasText: scope }).first();
+  if ((await row.getAttribute('aria-expanded')) !== 'true') await row.locator('.monaco-tl-twistie').click();
+}
+const stoppedAt = async () =>
+  Number(/(\d+):\d+/.exec((await editor.texts('.debug-call-stack .stack-frame.focused, .debug-call-stack .stack-frame')).join(' '))?.[1] ?? NaN);
+const step = async (key, line) => {
+  await editor.press(key);
+  await eventually(stoppedAt, `${key} does not lead to line ${line}`, (now) => now === line);
+};
+
+test('F5 runs the open program; steps go forward and back', withDebugger, async () => {
+  await editor.open('registers.iso');
+  await editor.focus();
+  await editor.goTo(8);
+  await editor.press('F9');
+  await page.locator('.codicon-debug-breakpoint').first().waitFor();
+  await editor.press('F5');
+  await page.locator('.debug-toolbar').waitFor();
+  await eventually(stoppedAt, 'it does not stop at the first block', (line) => line === 2);
+  await unfold('Registers');
+  await editor.focus();
+  await editor.press('F5');
+  await eventually(stoppedAt, 'it does not stop at the breakpoint', (line) => line === 8);
+  await eventually(variables, 'V1 is not 7', (rows) => rows.some((row) => /V1\D.*7/.test(row)));
+  await step('F10', 9);
+  await page.locator('.debug-toolbar .codicon-debug-step-back').click();
+  await eventually(stoppedAt, 'it does not step back', (line) => line === 8);
+  await page.locator('.debug-toolbar .codicon-debug-step-back').click();
+  await eventually(stoppedAt, 'it does not step back', (line) => line === 7);
+  await eventually(variables, 'V1 is not 2.5 again', (rows) => rows.some((row) => /V1\D.*2\.5/.test(row)));
+  await keep('debug');
+});
+
+test('the toolpath has the tool where the debugger has it', withDebugger, async () => {
+  const frame = await editor.toolpath();
+  await eventually(() => frame.evaluate(() => globalThis.isocnc.path.facts.name), 'another program shows', (name) => name.includes('registers'));
+  await step('F10', 8);
+  await step('F10', 9);
+  await eventually(
+    () => frame.evaluate(() => globalThis.isocnc.path.at(globalThis.isocnc.player.time).tip[0]),
+    'the tool is not at X50, where line 8 has led it',
+    (x) => Math.abs(x - 50) < 0.2,
+  );
+});
+
+test('the console carries out MDI blocks, and changes registers', withDebugger, async () => {
+  await editor.command('Debug Console: Focus on Debug Console View');
+  await page.locator('.repl .monaco-editor').first().click();
+  for (const entered of ['V1 = 3', 'G01 X70 F2000', 'G909', 'X']) {
+    await page.keyboard.type(entered);
+    await editor.press('Enter');
+  }
+  const told = () => editor.texts('.repl .monaco-list-row');
+  await eventually(told, 'X is not 70, where the MDI block leads', (rows) => rows.some((row) => /^70(\.0*)?$/.test(row.trim())));
+  await eventually(variables, 'V1 is not 3', (rows) => rows.some((row) => /V1\D.*3/.test(row)));
+  await editor.press('Shift+F5');
+  await page.locator('.debug-toolbar').waitFor({ state: 'hidden' });
+});
+
+test('F5 says what is missing where there is no debugger', { skip: hasDebugger }, async () => {
+  await editor.open('plate.iso');
+  await editor.press('F5');
+  await eventually(() => editor.texts('.notification-toast, .notifications-toasts .monaco-list-row'), 'no advice', (texts) =>
+    texts.some((text) => /isodap did not come with this extension/.test(text)),
+  );
+  await editor.command('Notifications: Clear All Notifications');
+});
+
+test('nothing has gone wrong in the extension host', async () => {
+  const notices = await editor.texts('.notification-toast, .notifications-toasts .monaco-list-row');
+  assert.deepEqual(notices.filter((text) => /failed|error/i.test(text)), []);
+  const lines = editor.log.split('\n').filter((line) => /isocnc/i.test(line) && /\b(TypeError|ReferenceError|Activating extension .* failed)\b/.test(line));
+  assert.deepEqual(lines, []);
+});

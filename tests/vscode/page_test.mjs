@@ -1,0 +1,151 @@
+// The page of the toolpath's panel, with an editor that is played: what it says and does when it is told something, in all
+// themes.
+import assert from 'node:assert/strict';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { module } from './modules.mjs';
+import { openPage, recordingOf, tell as tellPage, wholePath, without } from './page.mjs';
+
+const { applied } = await module('toolpath/streams');
+
+const square = (side) => `M06 T101001
+S12000 M03
+G92 X100 Y100 Z0
+G00 X0 Y0 Z20
+G01 Z0 F1200
+X${side}
+Y${side}
+G03 X${side - 20} Y${side + 20} R20
+G01 X0 F4000
+Y0
+G00 Z20
+M02
+`;
+
+let browser;
+let page;
+let problems = [];
+const tell = (message) => tellPage(page, message);
+const said = () => page.evaluate(() => globalThis.said.splice(0));
+const drawn = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+const now = () =>
+  page.evaluate(() => {
+    const { path, player } = globalThis.isocnc;
+    return { line: path.stepLine[player.step] + 1, tip: path.at(player.time).tip, most: path.work.most };
+  });
+
+before(async () => {
+  if (!without) ({ browser, page, problems } = await openPage());
+});
+after(async () => {
+  await browser?.close();
+});
+
+const shown = { skip: without };
+
+test('it says that it is ready, and what has gone wrong', shown, async () => {
+  assert.deepEqual(await said(), [{ type: 'ready' }]);
+  await tell({ type: 'problem', message: 'no isols <b>' });
+  assert.equal(await page.locator('.problem').innerText(), 'no isols <b>');
+});
+
+test('it shows a path, and lights the lines up that it is told', shown, async () => {
+  await tell(wholePath('1', recordingOf(square(200))));
+  assert.equal(await page.locator('.problem').count(), 0);
+  await tell({ type: 'lines', first: 5, last: 5 });
+  // The corner is rounded by the look-ahead.
+  assert.ok((await now()).tip.every((value, i) => Math.abs(value - [300, 100, 0][i]) < 0.1), String((await now()).tip));
+  const one = await page.locator('#totals').innerText();
+  await tell({ type: 'lines', first: 5, last: 7 });
+  const three = await page.locator('#totals').innerText();
+  assert.match(three, /selection/);
+  assert.notEqual(three, one);
+  await tell({ type: 'lines', first: 2, last: 2 });
+  assert.deepEqual((await now()).line, 8, 'a line without a move leaves the tool where it is');
+});
+
+test('it takes in what an edit has changed, and asks again where it has something else', shown, async () => {
+  const [old, next] = [recordingOf(square(200)), recordingOf(square(300))];
+  const patches = Object.fromEntries(
+    ['steps', 'points', 'turns'].map((name) => {
+      const [from, to] = [old[name], next[name]].map((text) => Buffer.from(text, 'base64'));
+      let start = 0;
+      while (start < from.length && start < to.length && from[start] === to[start]) ++start;
+      const patch = { start, removed: from.length - start, data: to.subarray(start) };
+      assert.deepEqual(applied({ [name]: from, steps: from, points: from, turns: from }, {}, { steps: patch, points: patch, turns: patch }).steps, new Uint8Array(to));
+      return [name, { ...patch, data: patch.data.toString('base64') }];
+    }),
+  );
+  await tell({ type: 'path', resultId: '2', previousResultId: '1', facts: next.facts, language: 'en', patches });
+  assert.deepEqual((await now()).most.slice(0, 2), [400, 420]);
+  assert.deepEqual(await said(), []);
+  await tell({ type: 'path', resultId: '9', previousResultId: '8', facts: next.facts, language: 'en', patches });
+  assert.deepEqual(await said(), [{ type: 'resend' }]);
+  assert.deepEqual((await now()).most.slice(0, 2), [400, 420]);
+});
+
+test('a click on a move tells its line', shown, async () => {
+  await page.getByRole('button', { name: 'Top', exact: true }).click();
+  await drawn();
+  const position = await page.evaluate(() => globalThis.isocnc.view.project([250, 100, 0]));
+  await page.locator('#stage').click({ position });
+  assert.deepEqual(await said(), [{ type: 'picked', line: 5 }]);
+  assert.equal((await now()).line, 6);
+});
+
+test('the tool goes where the debugger has it', shown, async () => {
+  await tell({ type: 'pose', line: 5, tip: [270, 100, 0], b: 0, c: 0 });
+  const { line, tip } = await now();
+  assert.equal(line, 6);
+  assert.ok(Math.abs(tip[0] - 270) < 0.01, String(tip));
+  const before = await page.locator('#stage').screenshot();
+  // Beside the path: the tool is there all the same.
+  await tell({ type: 'pose', line: 5, tip: [250, 300, 0], b: 0, c: 0 });
+  await drawn();
+  assert.notDeepEqual(await page.locator('#stage').screenshot(), before);
+});
+
+test('the stock has the size that it is told', shown, async () => {
+  await page.getByRole('button', { name: 'Iso', exact: true }).click();
+  await drawn();
+  const before = await page.locator('#stage').screenshot();
+  await tell({ type: 'stock', size: [320, 350, 40] });
+  await drawn();
+  assert.notDeepEqual(await page.locator('#stage').screenshot(), before);
+});
+
+test('it has the colors of the theme', shown, async () => {
+  const pictures = new Set();
+  for (const name of ['vscode-dark', 'vscode-light', 'vscode-high-contrast vscode-high-contrast-light', 'vscode-high-contrast']) {
+    await page.evaluate((classes) => (document.body.className = classes), name);
+    await drawn();
+    await drawn();
+    pictures.add((await page.locator('#stage').screenshot()).toString('base64'));
+    const background = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+    assert.equal(background, { 'vscode-dark': 'rgb(31, 31, 31)', 'vscode-high-contrast': 'rgb(0, 0, 0)' }[name] ?? 'rgb(255, 255, 255)', name);
+    if (process.env.ISOCNC_SCREENSHOTS) await page.screenshot({ path: join(process.env.ISOCNC_SCREENSHOTS, `page-${name.split(' ').at(-1)}.png`) });
+  }
+  assert.equal(pictures.size, 4);
+});
+
+test('it speaks Italian', shown, async () => {
+  await tell(wholePath('3', recordingOf(square(200)), 'it'));
+  assert.match(await page.locator('#totals').innerText(), /tempo/);
+});
+
+test('all can be done by keys', shown, async () => {
+  await page.locator('#stage').focus();
+  const reached = new Set();
+  for (let i = 0; i < 40; ++i) {
+    await page.keyboard.press('Tab');
+    reached.add(await page.evaluate(() => document.activeElement?.id || document.activeElement?.textContent));
+  }
+  for (const wanted of ['play', 'scrubber', 'speed', 'help', 'stage', 'mode-tool', 'layer-rapids', 'Iso']) assert.ok(reached.has(wanted), wanted);
+  await page.locator('#stage').focus();
+  await page.keyboard.press('End');
+  const atEnd = (await now()).line;
+  await page.keyboard.press('Home');
+  assert.ok((await now()).line < atEnd);
+});
+
+test('nothing has gone wrong', shown, () => assert.deepEqual(problems, []));

@@ -1,0 +1,26 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { module } from '../modules.mjs';
+
+const { completed } = await module('debug_configuration');
+const { readPosition } = await module('toolpath/position');
+
+test('F5 without a configuration runs the open program, and stops at its first block', () => {
+  assert.deepEqual(completed({}, '/parts/a.iso', 'Debug'), {
+    type: 'isocnc', request: 'launch', name: 'Debug', program: '/parts/a.iso', stopOnEntry: true,
+  });
+});
+
+test('what is given stays', () => {
+  const given = { type: 'isocnc', request: 'launch', name: 'Mine', program: '/b.iso', speed: 2 };
+  assert.deepEqual(completed(given, '/parts/a.iso', 'Debug'), { ...given, stopOnEntry: false });
+});
+
+test('there may be nothing to run', () => assert.equal(completed({}, null, 'Debug'), null));
+
+test('the position of the machine is read', () => {
+  const tip = { x: 1, y: 2, z: 3, b: 90, c: -5 };
+  assert.deepEqual(readPosition({ line: 12, tip, speed: 0 }), { line: 11, tip: [1, 2, 3], b: 90, c: -5 });
+  for (const body of [undefined, null, 5, {}, { line: 1 }, { line: 1, tip: { ...tip, c: undefined } }, { line: '1', tip }, { line: 1, tip: { ...tip, y: NaN } }])
+    assert.equal(readPosition(body), null, JSON.stringify(body));
+});

@@ -1,0 +1,138 @@
+/** Colors of the path. All sets are told apart with every kind of color vision, by lightness where hues fail. */
+import { Kind, type Toolpath } from './toolpath';
+
+export type Theme = 'light' | 'dark' | 'contrastLight' | 'contrastDark';
+export type Mode = 'tool' | 'feed' | 'kind' | 'time';
+export const modes: Mode[] = ['tool', 'feed', 'kind', 'time'];
+
+/** Red, green, blue, 0 to 255. */
+export type Color = [number, number, number];
+
+function color(hex: string): Color {
+  const value = parseInt(hex.slice(1), 16);
+  return [value >> 16, (value >> 8) & 0xff, value & 0xff];
+}
+export const css = ([r, g, b]: Color) => `rgb(${r} ${g} ${b})`;
+export const number = ([r, g, b]: Color) => (r << 16) | (g << 8) | b;
+
+interface Palette {
+  background: Color;
+  grid: Color;
+  highlight: Color;
+  neutral: Color;
+  /** Of tools; the first is none. */
+  tools: Color[];
+  kinds: [rapid: Color, feed: Color, arc: Color];
+  feed: Color[];
+  time: Color[];
+  axes: [x: Color, y: Color, z: Color];
+  travel: Color;
+  cutter: Color;
+  holder: Color;
+}
+
+const colors = (...hex: string[]) => hex.map(color);
+
+export const palettes: Record<Theme, Palette> = {
+  light: {
+    background: color('#f7f8fa'),
+    grid: color('#d9dde4'),
+    highlight: color('#d6006c'),
+    neutral: color('#8b929e'),
+    tools: colors('#6b7280', '#0072b2', '#d55e00', '#009e73', '#b84d8f', '#a67c00', '#3d9fd6', '#1c1f26'),
+    kinds: [color('#8b929e'), color('#0072b2'), color('#d55e00')],
+    feed: colors('#0b3c7d', '#3f7fb5', '#8a8f98', '#d08a36', '#a84300'),
+    time: colors('#440154', '#3b528b', '#21918c', '#49a84f', '#a39400'),
+    axes: [color('#c2410c'), color('#15803d'), color('#1d4ed8')],
+    travel: color('#9aa2af'),
+    cutter: color('#5b6472'),
+    holder: color('#a9b1bd'),
+  },
+  dark: {
+    background: color('#14171c'),
+    grid: color('#2a2f38'),
+    highlight: color('#ff5fa8'),
+    neutral: color('#7f8896'),
+    tools: colors('#8b93a1', '#56b4e9', '#e69f00', '#2fc99e', '#e58ac0', '#f0e442', '#7f9cff', '#ffffff'),
+    kinds: [color('#7f8896'), color('#56b4e9'), color('#e69f00')],
+    feed: colors('#3f8cff', '#8fc1ff', '#c9ccd2', '#ffc37d', '#ff8a2a'),
+    time: colors('#7a66e8', '#4590d8', '#2fb7a8', '#86d05c', '#fde725'),
+    axes: [color('#ff8a65'), color('#5fd08a'), color('#7aa2ff')],
+    travel: color('#5c6674'),
+    cutter: color('#c3cad5'),
+    holder: color('#6d7684'),
+  },
+  contrastLight: {
+    background: color('#ffffff'),
+    grid: color('#c4c4c4'),
+    highlight: color('#c00060'),
+    neutral: color('#4a4a4a'),
+    tools: colors('#3a3a3a', '#00558a', '#a63c00', '#00664a', '#8a1f66', '#6b5000', '#0f6fa8', '#000000'),
+    kinds: [color('#4a4a4a'), color('#00558a'), color('#a63c00')],
+    feed: colors('#06285a', '#1f5f96', '#55585e', '#8f5408', '#7a2f00'),
+    time: colors('#2d0038', '#2c3f73', '#11605c', '#246b2a', '#665c00'),
+    axes: [color('#a33000'), color('#00601f'), color('#0f3cc9')],
+    travel: color('#292929'),
+    cutter: color('#333333'),
+    holder: color('#777777'),
+  },
+  contrastDark: {
+    background: color('#000000'),
+    grid: color('#3d3d3d'),
+    highlight: color('#ff7ab8'),
+    neutral: color('#bdbdbd'),
+    tools: colors('#c8c8c8', '#7cc8ff', '#ffb733', '#45e6b5', '#ffa8dc', '#fff36b', '#a8bcff', '#ffffff'),
+    kinds: [color('#c8c8c8'), color('#7cc8ff'), color('#ffb733')],
+    feed: colors('#6fa8ff', '#a8d0ff', '#e6e6e6', '#ffd39a', '#ff9d45'),
+    time: colors('#a596ff', '#6fb2f2', '#4bd6c6', '#a3ea7a', '#fff24d'),
+    axes: [color('#ff9d7a'), color('#7df0a6'), color('#9db9ff')],
+    travel: color('#d4d4d4'),
+    cutter: color('#ffffff'),
+    holder: color('#a0a0a0'),
+  },
+};
+
+export function toolColor(theme: Theme, tool: number): Color {
+  const { tools } = palettes[theme];
+  return tool === 0 ? tools[0] : tools[1 + ((tool - 1) % (tools.length - 1))];
+}
+
+function gradient(stops: Color[], part: number): Color {
+  const at = Math.min(Math.max(part, 0), 1) * (stops.length - 1);
+  const i = Math.min(Math.floor(at), stops.length - 2);
+  const mix = (channel: number) => Math.round(stops[i][channel] + (at - i) * (stops[i + 1][channel] - stops[i][channel]));
+  return [mix(0), mix(1), mix(2)];
+}
+
+export function feedRange(path: Toolpath): { least: number; most: number } | null {
+  let [least, most] = [Infinity, -Infinity];
+  for (let step = 0; step < path.stepCount; ++step) {
+    const feed = path.stepFeed[step];
+    if (!(feed > 0)) continue;
+    least = Math.min(least, feed);
+    most = Math.max(most, feed);
+  }
+  return least <= most ? { least, most } : null;
+}
+
+/** The color of each step. */
+export function stepColors(path: Toolpath, mode: Mode, theme: Theme): (step: number) => Color {
+  const palette = palettes[theme];
+  switch (mode) {
+    case 'tool':
+      return (step) => toolColor(theme, path.stepTool[step]);
+    case 'kind':
+      return (step) => palette.kinds[Math.min(path.stepKind[step], Kind.Arc)];
+    case 'time': {
+      const whole = path.seconds || 1;
+      return (step) => gradient(palette.time, path.endOf(step) / whole);
+    }
+    case 'feed': {
+      const range = feedRange(path);
+      if (!range) return () => palette.neutral;
+      const width = range.most - range.least || 1;
+      return (step) =>
+        path.stepFeed[step] > 0 ? gradient(palette.feed, (path.stepFeed[step] - range.least) / width) : palette.neutral;
+    }
+  }
+}

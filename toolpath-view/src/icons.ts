@@ -1,0 +1,15 @@
+/** Drawn, since not every system has letters for them. */
+import { svg } from './elements';
+
+const shapes = {
+  play: 'M5 3l9 5-9 5z',
+  pause: 'M4 3h3v10H4zM9 3h3v10H9z',
+  previous: 'M3 3h2v10H3zM13 3v10L6 8z',
+  next: 'M11 3h2v10h-2zM3 3v10l7-5z',
+  theme: 'M8 1.5a6.5 6.5 0 1 0 0 13a6.5 6.5 0 1 0 0-13zM8 3v10a5 5 0 1 1 0-10z',
+};
+
+export function icon(name: keyof typeof shapes): SVGElement {
+  const shape = svg('path', { d: shapes[name], fill: 'currentColor', 'fill-rule': 'evenodd' });
+  return svg('svg', { width: '16', height: '16', viewBox: '0 0 16 16', 'aria-hidden': 'true' }, shape);
+}

@@ -1,0 +1,50 @@
+/** What the colors mean. */
+import { css, feedRange, palettes, toolColor, type Color, type Mode, type Theme } from './colors';
+import { element, svg } from './elements';
+import { clock, feed as shownFeed } from './format';
+import type { Texts } from './texts';
+import type { Toolpath } from './toolpath';
+
+/** A short piece of line: dashed for rapids. */
+function sample(color: Color, isDashed: boolean): SVGElement {
+  const stroke = { stroke: css(color), 'stroke-width': isDashed ? '1.5' : '2.4', 'stroke-dasharray': isDashed ? '5 3' : 'none' };
+  return svg('svg', { width: '28', height: '10', 'aria-hidden': 'true' }, svg('path', { d: 'M1 5h26', ...stroke }));
+}
+
+function entry(color: Color, text: string, isDashed = false): HTMLElement {
+  return element('div', { className: 'entry' }, sample(color, isDashed), text);
+}
+
+function scale(stops: Color[], least: string, most: string): HTMLElement[] {
+  const bar = element('div', { className: 'scale' });
+  bar.style.background = `linear-gradient(to right, ${stops.map(css).join(', ')})`;
+  return [bar, element('div', { className: 'ends' }, element('span', {}, least), element('span', {}, most))];
+}
+
+export function legend(path: Toolpath, mode: Mode, theme: Theme, texts: Texts): HTMLElement[] {
+  const palette = palettes[theme];
+  const dashed = entry(palette.neutral, texts.rapid, true);
+  switch (mode) {
+    case 'tool': {
+      const used = new Set(path.stepTool);
+      const entries = path.facts.tools.flatMap((tool, i) =>
+        used.has(i) ? [entry(toolColor(theme, i), tool.name ?? texts.noTool)] : [],
+      );
+      return [...entries, dashed];
+    }
+    case 'kind':
+      return [
+        entry(palette.kinds[0], texts.rapid, true),
+        entry(palette.kinds[1], texts.feedMove),
+        entry(palette.kinds[2], texts.arc),
+      ];
+    case 'feed': {
+      const range = feedRange(path);
+      const noFeed = entry(palette.neutral, texts.noFeed, true);
+      if (!range) return [noFeed];
+      return [...scale(palette.feed, shownFeed(range.least), `${shownFeed(range.most)} ${texts.unit}`), noFeed];
+    }
+    case 'time':
+      return [...scale(palette.time, clock(0), clock(path.seconds)), dashed];
+  }
+}

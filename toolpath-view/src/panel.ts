@@ -1,0 +1,419 @@
+/** A path with all that one can choose about it, and its time: what the page of isorun and the panel of an editor share. It
+ * fills the elements of page.html. */
+import { modes, type Color, type Mode, type Theme } from './colors';
+import { byId, element } from './elements';
+import { clock, coordinate, feed, way } from './format';
+import { hasTravel } from './furniture';
+import { icon } from './icons';
+import { legend } from './legend';
+import { Player, speeds } from './player';
+import { texts, type Language, type Texts } from './texts';
+import { Kind, type Steps, type Toolpath, type Vector } from './toolpath';
+import { ToolpathView, type Layer, type Look } from './toolpath_view';
+
+const looks: Look[] = ['iso', 'top', 'front', 'side'];
+const layers: [Layer, keyof Texts][] = [
+  ['rapids', 'rapids'],
+  ['tool', 'toolShown'],
+  ['head', 'head'],
+  ['frames', 'frames'],
+  ['travel', 'travel'],
+  ['stock', 'stock'],
+  ['grid', 'grid'],
+  ['ahead', 'ahead'],
+];
+
+export class Panel {
+  readonly player: Player;
+  readonly view: ToolpathView | null;
+  /** The line whose turn it is has changed; -1 is none. */
+  onLine: (line: number) => void = () => {};
+  /** Somebody clicked a move of this line. */
+  onPick: (line: number) => void = () => {};
+
+  private readonly shown: Record<Layer, boolean>;
+  private readonly littleMotion = matchMedia('(prefers-reduced-motion: reduce)');
+  private totals: Totals;
+  private selected: Steps | null = null;
+  private mode: Mode = 'tool';
+  private line = -1;
+
+  constructor(
+    private path: Toolpath,
+    private language: Language,
+    private theme: Theme,
+    hidden: Layer[] = [],
+  ) {
+    this.shown = Object.fromEntries(layers.map(([layer]) => [layer, !hidden.includes(layer)])) as Record<Layer, boolean>;
+    this.totals = totalsOf(path);
+    this.player = new Player(path);
+    this.view = this.makeView();
+    this.setUp();
+    this.write();
+    this.player.onChange = () => this.update();
+    this.player.seek(0);
+    const settings = byId('settings').offsetWidth + 20;
+    this.view?.leaveFree(byId('stage').offsetWidth > 3 * settings ? settings : 0);
+    this.view?.look('iso');
+  }
+
+  private get texts(): Texts {
+    return texts[this.language];
+  }
+
+  /** Shows another path, as after an edit, from where one looks and at the line that was shown. */
+  take(path: Toolpath): void {
+    const line = this.line;
+    this.path = path;
+    this.totals = totalsOf(path);
+    this.selected = null;
+    this.view?.take(path);
+    byId<HTMLInputElement>('scrubber').max = String(path.seconds);
+    this.player.take(path);
+    const { begin, end } = path.stepsOf(line);
+    if (end > begin && !this.player.isPlaying) this.player.seekStep(end - 1);
+    this.write();
+  }
+
+  setTheme(theme: Theme, background?: Color): void {
+    this.theme = theme;
+    this.view?.setTheme(theme, background);
+    this.writeLegend();
+  }
+
+  setLanguage(language: Language): void {
+    this.language = language;
+    this.write();
+  }
+
+  /** Lights the moves of these lines up, and brings the tool to the end of the last one. */
+  choose(first: number, last = first): void {
+    const [begin, end] = [this.path.stepsOf(first).begin, this.path.stepsOf(last).end];
+    this.select(last > first && end > begin ? { begin, end } : null);
+    if (end > begin) this.player.seekStep(end - 1);
+  }
+
+  /** Brings the tool to a line above or below, the next on which something is done. */
+  walk(direction: 1 | -1): void {
+    const { path, player } = this;
+    if (player.step < 0) return;
+    const { begin, end } = path.stepsOf(path.stepLine[player.step]);
+    const step = direction > 0 ? end : begin - 1;
+    if (step >= 0 && step < path.stepCount) this.choose(path.stepLine[step]);
+  }
+
+  /** Puts the tool where a machine has it that carries out this line, whether the path leads there or not, and lights the
+   * line's moves up. */
+  pose(line: number, tip: Vector, b: number, c: number): void {
+    this.player.isPlaying = false;
+    this.select(null);
+    this.player.seek(this.path.timeNear(line, tip));
+    const steps = this.path.stepsOf(line);
+    if (steps.end > steps.begin) this.view?.select(steps);
+    this.view?.pose(tip, b, c);
+  }
+
+  private makeView(): ToolpathView | null {
+    try {
+      const view = new ToolpathView(byId('stage'), this.path, this.theme, this.shown);
+      view.onPick = (hit) => {
+        if (!hit) return;
+        this.player.isPlaying = false;
+        this.select(null);
+        this.player.seek(this.path.timeOn(hit.point, hit.part));
+        this.onPick(this.path.stepLine[this.path.pointStep[hit.point]]);
+      };
+      return view;
+    } catch {
+      return null;
+    }
+  }
+
+  private setUp(): void {
+    const { player } = this;
+    byId('help').addEventListener('click', () => byId<HTMLDialogElement>('keys').showModal());
+    byId('play').addEventListener('click', () => this.play());
+    byId('previous').addEventListener('click', () => this.seekStep(this.neighbor(-1)));
+    byId('next').addEventListener('click', () => this.seekStep(this.neighbor(1)));
+    const speed = byId<HTMLSelectElement>('speed');
+    for (const each of speeds) speed.append(element('option', { value: String(each) }, `${each}×`));
+    speed.addEventListener('change', () => (player.speed = Number(speed.value)));
+    speed.value = '1';
+    const scrubber = byId<HTMLInputElement>('scrubber');
+    scrubber.max = String(this.path.seconds);
+    scrubber.addEventListener('input', () => {
+      player.isPlaying = false;
+      this.select(null);
+      player.seek(Number(scrubber.value));
+    });
+    byId('settings').addEventListener('submit', (event) => event.preventDefault());
+    document.addEventListener('keydown', (event) => this.onKey(event));
+    for (const name of ['previous', 'next'] as const) byId(name).append(icon(name));
+  }
+
+  private select(steps: Steps | null): void {
+    const isOther = steps !== this.selected;
+    this.selected = steps;
+    this.view?.select(steps);
+    if (isOther) this.writeTotals();
+  }
+
+  private play(): void {
+    this.select(null);
+    this.player.toggle();
+  }
+
+  private seekStep(step: number): void {
+    this.select(null);
+    this.player.seekStep(step);
+  }
+
+  /** Who wants little motion sees the tool at the ends of its moves alone. */
+  private get shownTime(): number {
+    const { player, path } = this;
+    return player.isPlaying && player.step >= 0 && this.littleMotion.matches ? path.endOf(player.step) : player.time;
+  }
+
+  /** The step of which the time is another moment than that of the present one. */
+  private neighbor(direction: 1 | -1): number {
+    let step = this.player.step;
+    const isAtEnd = step >= 0 && this.player.time >= this.path.endOf(step) - 1e-9;
+    if (direction > 0 && step >= 0 && !isAtEnd) return step;
+    do step += direction;
+    while (step > 0 && step < this.path.stepCount - 1 && this.path.stepBegin[step] === this.path.stepBegin[step + 1]);
+    return step;
+  }
+
+  private setMode(mode: Mode): void {
+    this.mode = mode;
+    this.view?.colorBy(mode);
+    byId<HTMLInputElement>(`mode-${mode}`).checked = true;
+    this.writeLegend();
+  }
+
+  /** All that is said, in the language chosen. */
+  private write(): void {
+    const { texts } = this;
+    document.documentElement.lang = this.language;
+    for (const each of document.querySelectorAll<HTMLElement>('[data-label]')) {
+      const text = texts[each.dataset.label as keyof Texts];
+      each.setAttribute('aria-label', text);
+      if (each instanceof HTMLButtonElement) each.title = text;
+    }
+    for (const each of document.querySelectorAll<HTMLElement>('[data-text]'))
+      each.textContent = texts[each.dataset.text as keyof Texts];
+    byId('help').title = texts.help;
+    byId('help').setAttribute('aria-label', texts.help);
+    const outcome = byId('outcome');
+    const { ending, endLine } = this.path.facts;
+    outcome.textContent = texts[ending].replace('{}', String(endLine + 1));
+    outcome.className = ending;
+    this.writeTotals();
+    this.writeLooks();
+    this.writeModes();
+    this.writeLayers();
+    this.writeLegend();
+    this.writeKeys();
+    if (!this.view) byId('stage').replaceChildren(element('p', { className: 'problem' }, texts.noWebgl));
+    this.update();
+  }
+
+  private writeTotals(): void {
+    const { texts, path } = this;
+    const totals = this.selected ? totalsOf(path, this.selected) : this.totals;
+    const { least, most } = totals.extents ?? path;
+    const extents = ['X', 'Y', 'Z'].map((axis, i) => `${axis} ${coordinate(least[i])}…${coordinate(most[i])}`);
+    const rows: [string, string][] = [
+      [this.selected ? texts.selection : texts.cycleTime, clock(totals.seconds)],
+      [texts.moves, String(totals.moves)],
+      [texts.cut, way(totals.cut)],
+      [texts.rapidWay, way(totals.rapid)],
+    ];
+    if (totals.moves > 0) rows.push([texts.extents, extents.join('  ')]);
+    byId('totals').replaceChildren(...rows.map(([name, value]) => element('div', {}, element('dt', {}, name), element('dd', {}, value))));
+  }
+
+  private writeLooks(): void {
+    const buttons = looks.map((look) => {
+      const button = element('button', { type: 'button' }, this.texts[look]);
+      button.addEventListener('click', () => this.view?.look(look));
+      return button;
+    });
+    const fit = element('button', { type: 'button', title: this.texts.fitTitle }, this.texts.fit);
+    fit.addEventListener('click', (event) => this.view?.fit(event.shiftKey));
+    byId('looks').replaceChildren(...buttons, fit);
+  }
+
+  private writeModes(): void {
+    const radios = modes.map((mode) => {
+      const input = element('input', { type: 'radio', name: 'mode', id: `mode-${mode}`, checked: mode === this.mode });
+      input.addEventListener('change', () => this.setMode(mode));
+      return element('label', {}, input, this.texts[mode]);
+    });
+    byId('modes').replaceChildren(...radios);
+  }
+
+  private writeLayers(): void {
+    const boxes = layers
+      .filter(([layer]) => (layer !== 'travel' || hasTravel(this.path)) && (layer !== 'head' || this.path.turned.length > 0))
+      .map(([layer, text]) => {
+        const input = element('input', { type: 'checkbox', id: `layer-${layer}`, checked: this.shown[layer] });
+        input.addEventListener('change', () => {
+          this.shown[layer] = input.checked;
+          this.view?.show(layer, input.checked);
+        });
+        return element('label', {}, input, this.texts[text]);
+      });
+    byId('layers').replaceChildren(...boxes);
+  }
+
+  private writeLegend(): void {
+    const squares = this.view ? [element('div', { className: 'ends' }, this.texts.squares.replace('{}', way(this.view.cell)))] : [];
+    byId('legend').replaceChildren(...legend(this.path, this.mode, this.theme, this.texts), ...squares);
+  }
+
+  private writeKeys(): void {
+    const { texts } = this;
+    const rows: [string[], string][] = [
+      [['Space'], texts.keyPlay],
+      [['←', '→'], texts.keyStep],
+      [['Home', 'End'], texts.keyEnds],
+      [[',', '.'], texts.keySpeed],
+      [['1', '2', '3', '4'], texts.keyLooks],
+      [['F'], texts.keyFit],
+      [['T', 'V', 'K', 'M'], texts.keyColors],
+      [['←', '→', '↑', '↓', '+', '-'], texts.keyStage],
+      [['↑', '↓'], texts.keyProgram],
+    ];
+    const table = element(
+      'table',
+      {},
+      ...rows.map(([keys, text]) =>
+        element('tr', {}, element('td', {}, ...keys.flatMap((key) => [element('kbd', {}, key), ' '])), element('td', {}, text)),
+      ),
+    );
+    const close = element('button', { type: 'button', autofocus: true }, texts.close);
+    close.addEventListener('click', () => byId<HTMLDialogElement>('keys').close());
+    byId('keys').setAttribute('aria-label', texts.help);
+    byId('keys').replaceChildren(table, element('p', {}, texts.mouse), close);
+  }
+
+  /** What changes with the time. */
+  private update(): void {
+    const { player, path, texts } = this;
+    const place = path.at(this.shownTime);
+    this.view?.setTime(this.shownTime);
+    const line = place.step < 0 ? -1 : path.stepLine[place.step];
+    if (line !== this.line) {
+      this.line = line;
+      this.onLine(line);
+    }
+    const play = byId('play');
+    if (play.dataset.icon !== String(player.isPlaying)) play.replaceChildren(icon(player.isPlaying ? 'pause' : 'play'));
+    play.dataset.icon = String(player.isPlaying);
+    play.title = player.isPlaying ? texts.pause : texts.play;
+    play.setAttribute('aria-label', play.title);
+    const scrubber = byId<HTMLInputElement>('scrubber');
+    scrubber.value = String(player.time);
+    scrubber.setAttribute('aria-valuetext', clock(player.time));
+    byId('clock').textContent = `${clock(player.time)} / ${clock(path.seconds)}`;
+    this.writeReadout();
+  }
+
+  private writeReadout(): void {
+    const { path, texts } = this;
+    const place = path.at(this.shownTime);
+    const axes: [string, number][] = [['X', place.tip[0]], ['Y', place.tip[1]], ['Z', place.tip[2]]];
+    if (path.turned.length > 0) axes.push(['B', place.b], ['C', place.c]);
+    const rows: (Node | string)[] = axes.flatMap(([axis, value]) => [
+      element('span', { className: 'faint' }, axis),
+      ` ${coordinate(value).padStart(10)}\n`,
+    ]);
+    if (place.step >= 0) {
+      const kind = path.stepKind[place.step];
+      const names = { [Kind.Rapid]: texts.rapid, [Kind.Feed]: texts.feedMove, [Kind.Arc]: texts.arc, [Kind.Wait]: texts.waits };
+      const rate = path.stepFeed[place.step];
+      rows.push(`${texts.line} ${path.stepLine[place.step] + 1}: ${names[kind as keyof typeof names]}`);
+      if (rate > 0) rows.push(`, F ${feed(rate)}`);
+      const tool = path.facts.tools[path.stepTool[place.step]].name ?? texts.noTool;
+      rows.push('\n', element('span', { className: 'faint' }, `${tool}, ${(place.speed * 60).toFixed(0)} ${texts.unit}`));
+    }
+    byId('readout').replaceChildren(...rows);
+  }
+
+  private onKey(event: KeyboardEvent): void {
+    const target = event.target as HTMLElement;
+    if (event.defaultPrevented || event.ctrlKey || event.altKey || event.metaKey || byId<HTMLDialogElement>('keys').open) return;
+    const handler = this.keyOn(target, event);
+    if (!handler) return;
+    event.preventDefault();
+    handler();
+  }
+
+  private keyOn(target: HTMLElement, { key, shiftKey }: KeyboardEvent): (() => void) | undefined {
+    const { view, path } = this;
+    if (target.id === 'stage') {
+      const turns: Record<string, () => void> = {
+        ArrowLeft: () => view?.orbit(-5, 0),
+        ArrowRight: () => view?.orbit(5, 0),
+        ArrowUp: () => view?.orbit(0, 5),
+        ArrowDown: () => view?.orbit(0, -5),
+        '+': () => view?.zoom(1.2),
+        '-': () => view?.zoom(1 / 1.2),
+      };
+      if (turns[key]) return turns[key];
+    }
+    const isControl = target.matches('button, select, input[type=radio], input[type=checkbox]');
+    if (isControl && (key === ' ' || key.startsWith('Arrow') || key === 'Home' || key === 'End')) return undefined;
+    if (target.matches('select')) return undefined;
+    const many = (step: number, sign: number) => Math.min(Math.max(step + sign * 9, -1), path.stepCount - 1);
+    const keys: Record<string, () => void> = {
+      ' ': () => this.play(),
+      ArrowLeft: () => this.seekStep(shiftKey ? many(this.neighbor(-1), -1) : this.neighbor(-1)),
+      ArrowRight: () => this.seekStep(shiftKey ? many(this.neighbor(1), 1) : this.neighbor(1)),
+      Home: () => this.seekStep(-1),
+      End: () => this.seekStep(path.stepCount - 1),
+      ',': () => this.setSpeed(-1),
+      '.': () => this.setSpeed(1),
+      '1': () => view?.look('iso'),
+      '2': () => view?.look('top'),
+      '3': () => view?.look('front'),
+      '4': () => view?.look('side'),
+      f: () => view?.fit(shiftKey),
+      t: () => this.setMode('tool'),
+      v: () => this.setMode('feed'),
+      k: () => this.setMode('kind'),
+      m: () => this.setMode('time'),
+      '?': () => byId<HTMLDialogElement>('keys').showModal(),
+    };
+    return keys[key.length === 1 ? key.toLowerCase() : key];
+  }
+
+  private setSpeed(direction: 1 | -1): void {
+    const at = speeds.indexOf(this.player.speed) + direction;
+    this.player.speed = speeds[Math.min(Math.max(at, 0), speeds.length - 1)];
+    byId<HTMLSelectElement>('speed').value = String(this.player.speed);
+  }
+}
+
+
+interface Totals {
+  moves: number;
+  seconds: number;
+  cut: number;
+  rapid: number;
+  extents: { least: Vector; most: Vector } | null;
+}
+
+function totalsOf(path: Toolpath, steps: Steps = { begin: 0, end: path.stepCount }): Totals {
+  const totals = { moves: 0, seconds: 0, cut: 0, rapid: 0, extents: path.extents((kind) => kind !== Kind.Wait, steps) };
+  for (let step = steps.begin; step < steps.end; ++step) if (path.stepKind[step] !== Kind.Wait) ++totals.moves;
+  const [first, last] = [path.stepBegin[steps.begin], path.stepBegin[steps.end]];
+  for (let point = first + 1; point <= last; ++point) {
+    const kind = path.stepKind[path.pointStep[point]];
+    if (kind === Kind.Rapid) totals.rapid += path.lengthTo(point);
+    else if (kind !== Kind.Wait) totals.cut += path.lengthTo(point);
+  }
+  totals.seconds = path.times[last] - path.times[first];
+  return totals;
+}

@@ -1,0 +1,337 @@
+/** The path of the tool tip, as isorun has recorded it (interpreter/running/path_recording.cpp writes it). Machine frame; mm,
+ * degrees, seconds. Lines count from 0. */
+
+export const Kind = { Rapid: 0, Feed: 1, Arc: 2, Wait: 3 } as const;
+export type Vector = [number, number, number];
+
+export interface Tool {
+  name: string | null;
+  length: number | null;
+  radius: number | null;
+}
+
+export interface FrameFact {
+  line: number;
+  origin: Vector;
+  i: Vector;
+  j: Vector;
+  k: Vector;
+}
+
+/** What is told beside the path. */
+export interface Facts {
+  version: number;
+  name: string;
+  language: 'en' | 'it';
+  ending: 'end' | 'error' | 'until';
+  endLine: number;
+  /** Whether B and C turn the tool (or the workpiece under it). */
+  turnsTool: boolean;
+  /** X, Y, Z in µm, B, C in 0.0001 degrees. */
+  home: [number, number, number, number, number];
+  /** The first is no tool. */
+  tools: Tool[];
+  frames: FrameFact[];
+  /** Of X, Y, Z, B, C: of the spindle nose and the rotary axes; null where an axis has no end. */
+  travel: [number | null, number | null][];
+}
+
+export interface Recording {
+  facts: Facts;
+  steps: Uint8Array;
+  points: Uint8Array;
+  turns: Uint8Array;
+}
+
+/** Steps one after another, `end` behind the last. */
+export interface Steps {
+  begin: number;
+  end: number;
+}
+
+/** Where the tool is at a time. */
+export interface Place {
+  /** The point that the tool is on the way to. */
+  point: number;
+  /** How much of the way it has gone, 0 to 1. */
+  part: number;
+  /** -1 where nothing is done at all. */
+  step: number;
+  tip: Vector;
+  b: number;
+  c: number;
+  /** mm/s; deg/s where B and C alone turn. */
+  speed: number;
+}
+
+/** Reads numbers of seven bits a byte, the least first. */
+class Reader {
+  private at = 0;
+  constructor(private readonly bytes: Uint8Array) {}
+
+  get isAtEnd(): boolean {
+    return this.at >= this.bytes.length;
+  }
+  next(): number {
+    let value = 0;
+    let scale = 1;
+    for (;;) {
+      const byte = this.bytes[this.at++] ?? 0;
+      value += (byte & 0x7f) * scale;
+      if (byte < 0x80) return value;
+      scale *= 0x80;
+    }
+  }
+  nextSigned(): number {
+    const value = this.next();
+    return value % 2 === 0 ? value / 2 : -(value + 1) / 2;
+  }
+}
+
+const Bits = { kind: 0x03, otherLine: 0x04, otherTool: 0x08, otherFeed: 0x10, pause: 0x20, pointCount: 0x40 };
+
+/** Steps are what the machine did for one block. Step s runs over the points stepBegin[s] to stepBegin[s + 1]; a point
+ * belongs to the step that leads to it. */
+export class Toolpath {
+  readonly facts: Facts;
+  readonly stepCount: number;
+  readonly stepLine: Uint32Array;
+  readonly stepKind: Uint8Array;
+  readonly stepTool: Uint32Array;
+  /** mm/min; degrees/min where B and C alone turn. */
+  readonly stepFeed: Float64Array;
+  readonly stepBegin: Uint32Array;
+
+  readonly pointCount: number;
+  /** X, Y, Z of each. */
+  readonly tips: Float64Array;
+  /** B, C of each; empty where neither ever turns. */
+  readonly turned: Float32Array;
+  readonly times: Float64Array;
+  readonly speeds: Float32Array;
+  readonly pointStep: Uint32Array;
+
+  readonly least: Vector;
+  readonly most: Vector;
+  /** Of feed moves and arcs alone. */
+  readonly work: { least: Vector; most: Vector } | null;
+
+  constructor(recording: Recording) {
+    this.facts = recording.facts;
+    const size = measure(recording.steps);
+    this.stepCount = size.steps;
+    this.pointCount = size.points;
+    this.stepLine = new Uint32Array(size.steps);
+    this.stepKind = new Uint8Array(size.steps);
+    this.stepTool = new Uint32Array(size.steps);
+    this.stepFeed = new Float64Array(size.steps);
+    this.stepBegin = new Uint32Array(size.steps + 1);
+    this.tips = new Float64Array(3 * size.points);
+    this.turned = new Float32Array(recording.turns.length > 0 || this.facts.home[3] || this.facts.home[4] ? 2 * size.points : 0);
+    this.times = new Float64Array(size.points);
+    this.speeds = new Float32Array(size.points);
+    this.pointStep = new Uint32Array(size.points);
+    this.read(recording);
+    this.work = this.extents((kind) => kind === Kind.Feed || kind === Kind.Arc);
+    const whole = this.extents((kind) => kind !== Kind.Wait);
+    this.least = whole?.least ?? this.tipOf(0);
+    this.most = whole?.most ?? this.tipOf(0);
+  }
+
+  get seconds(): number {
+    return this.times[this.pointCount - 1];
+  }
+  tipOf(point: number): Vector {
+    return [this.tips[3 * point], this.tips[3 * point + 1], this.tips[3 * point + 2]];
+  }
+  /** When a step is done. */
+  endOf(step: number): number {
+    return this.times[this.stepBegin[step + 1]];
+  }
+  lengthTo(point: number): number {
+    const at = 3 * point;
+    return Math.hypot(
+      this.tips[at] - this.tips[at - 3],
+      this.tips[at + 1] - this.tips[at - 2],
+      this.tips[at + 2] - this.tips[at - 1],
+    );
+  }
+
+  at(time: number): Place {
+    const point = this.pointAt(time);
+    const begin = point - 1;
+    const duration = this.times[point] - this.times[begin];
+    const u = duration > 0 ? Math.min(1, Math.max(0, (time - this.times[begin]) / duration)) : 1;
+    const [v0, v1] = [this.speeds[begin], this.speeds[point]];
+    const part = v0 + v1 > 0 ? (u * (2 * v0 + u * (v1 - v0))) / (v0 + v1) : u;
+    return { ...this.on(point, part), speed: v0 + u * (v1 - v0) };
+  }
+
+  /** When the tool has gone this part of the way to a point. */
+  timeOn(point: number, part: number): number {
+    const [begin, end] = [this.times[point - 1], this.times[point]];
+    const [v0, v1] = [this.speeds[point - 1], this.speeds[point]];
+    const sum = v0 + v1;
+    if (sum === 0 || v0 === v1) return begin + part * (end - begin);
+    const root = Math.sqrt(Math.max(0, v0 * v0 + part * sum * (v1 - v0)));
+    return begin + ((root - v0) / (v1 - v0)) * (end - begin);
+  }
+
+  /** Steps of a line, the last behind the others; lines never run twice. */
+  stepsOf(line: number): Steps {
+    const begin = lowerBound(this.stepLine, line, this.stepCount);
+    return { begin, end: lowerBound(this.stepLine, line + 1, this.stepCount) };
+  }
+
+  /** When the tool is nearest to a place while a line is carried out; where nothing is done on it, when it comes there. */
+  timeNear(line: number, tip: Vector): number {
+    const { begin, end } = this.stepsOf(line);
+    if (begin === end) return begin > 0 ? this.endOf(begin - 1) : 0;
+    let best = { distance: Infinity, time: this.times[this.stepBegin[end]] };
+    for (let point = this.stepBegin[begin] + 1; point <= this.stepBegin[end]; ++point) {
+      const [from, to] = [this.tipOf(point - 1), this.tipOf(point)];
+      const way = to.map((value, i) => value - from[i]);
+      const square = way.reduce((sum, value) => sum + value * value, 0);
+      const along = way.reduce((sum, value, i) => sum + value * (tip[i] - from[i]), 0);
+      const part = square > 0 ? Math.min(1, Math.max(0, along / square)) : 1;
+      const distance = Math.hypot(...tip.map((value, i) => value - from[i] - part * way[i]));
+      if (distance < best.distance) best = { distance, time: this.timeOn(point, part) };
+    }
+    return best.time;
+  }
+
+  private on(point: number, part: number): Omit<Place, 'speed'> {
+    const mix = (values: Float64Array | Float32Array, stride: number, i: number) => {
+      const end = values[stride * point + i];
+      const begin = values[stride * (point - 1) + i];
+      return part === 1 ? end : begin + part * (end - begin);
+    };
+    const tip: Vector = [mix(this.tips, 3, 0), mix(this.tips, 3, 1), mix(this.tips, 3, 2)];
+    const turns = this.turned.length > 0;
+    const b = turns ? mix(this.turned, 2, 0) : 0;
+    const c = turns ? mix(this.turned, 2, 1) : 0;
+    return { point, part, step: this.stepCount > 0 ? this.pointStep[point] : -1, tip, b, c };
+  }
+
+  /** The first that is reached then or later; never that of the start. */
+  private pointAt(time: number): number {
+    return Math.min(Math.max(1, lowerBound(this.times, time, this.pointCount)), this.pointCount - 1);
+  }
+
+  private read(recording: Recording): void {
+    const steps = new Reader(recording.steps);
+    const points = new Reader(recording.points);
+    const turns = new Reader(recording.turns);
+    let untilTurn = turns.isAtEnd ? Infinity : turns.next();
+    const [x, y, z, b, c] = this.facts.home;
+    const at = { x, y, z, b, c, time: 0, speed: 0 };
+    let point = 0;
+    const put = (step: number) => {
+      this.tips[3 * point] = at.x / 1e3;
+      this.tips[3 * point + 1] = at.y / 1e3;
+      this.tips[3 * point + 2] = at.z / 1e3;
+      if (this.turned.length > 0) {
+        this.turned[2 * point] = at.b / 1e4;
+        this.turned[2 * point + 1] = at.c / 1e4;
+      }
+      this.times[point] = at.time / 1e8;
+      this.speeds[point] = at.speed / 1e3;
+      this.pointStep[point++] = step;
+    };
+    put(0);
+    let [line, tool, feed] = [0, 0, 0];
+    for (let step = 0; step < this.stepCount; ++step) {
+      const head = steps.next();
+      line += head & Bits.otherLine ? steps.next() : 1;
+      if (head & Bits.otherTool) tool = steps.next();
+      if (head & Bits.otherFeed) feed += steps.nextSigned();
+      this.stepLine[step] = line;
+      this.stepKind[step] = head & Bits.kind;
+      this.stepTool[step] = tool;
+      this.stepFeed[step] = feed / 1e3;
+      this.stepBegin[step] = point - 1;
+      if (head & Bits.pause) {
+        at.time += steps.next();
+        put(step);
+      }
+      for (let count = head & Bits.pointCount ? steps.next() : 1; count > 0; --count) {
+        at.x += points.nextSigned();
+        at.y += points.nextSigned();
+        at.z += points.nextSigned();
+        at.time += points.next();
+        at.speed += points.nextSigned();
+        if (--untilTurn === 0) {
+          at.b += turns.nextSigned();
+          at.c += turns.nextSigned();
+          untilTurn = turns.isAtEnd ? Infinity : turns.next();
+        }
+        put(step);
+      }
+    }
+    this.stepBegin[this.stepCount] = point - 1;
+    if (point < this.pointCount) put(0);
+  }
+
+  /** Of where those of the steps go whose kind `includes` names. */
+  extents(
+    includes: (kind: number) => boolean,
+    steps: Steps = { begin: 0, end: this.stepCount },
+  ): { least: Vector; most: Vector } | null {
+    const [least, most]: Vector[] = [
+      [Infinity, Infinity, Infinity],
+      [-Infinity, -Infinity, -Infinity],
+    ];
+    for (let point = this.stepBegin[steps.begin] + 1; point <= this.stepBegin[steps.end]; ++point) {
+      if (!includes(this.stepKind[this.pointStep[point]])) continue;
+      for (let at = 3 * point - 3; at < 3 * point + 3; ++at) {
+        const value = this.tips[at];
+        if (value < least[at % 3]) least[at % 3] = value;
+        if (value > most[at % 3]) most[at % 3] = value;
+      }
+    }
+    return least[0] <= most[0] ? { least, most } : null;
+  }
+}
+
+/** How long the recorded run takes, without making a path of it. */
+export function secondsOf({ steps, points }: Recording): number {
+  let time = 0;
+  for (const reader = new Reader(steps); !reader.isAtEnd; ) {
+    const head = reader.next();
+    for (const bit of [Bits.otherLine, Bits.otherTool, Bits.otherFeed]) if (head & bit) reader.next();
+    if (head & Bits.pause) time += reader.next();
+    if (head & Bits.pointCount) reader.next();
+  }
+  for (const reader = new Reader(points); !reader.isAtEnd; reader.next()) {
+    for (let axis = 0; axis < 3; ++axis) reader.next();
+    time += reader.next();
+  }
+  return time / 1e8;
+}
+
+/** How many there are, counted before they are read. A program without any motion has one point twice, where it is. */
+function measure(bytes: Uint8Array): { steps: number; points: number } {
+  const reader = new Reader(bytes);
+  let [steps, points] = [0, 1];
+  for (; !reader.isAtEnd; ++steps) {
+    const head = reader.next();
+    for (const bit of [Bits.otherLine, Bits.otherTool, Bits.otherFeed]) if (head & bit) reader.next();
+    if (head & Bits.pause) {
+      reader.next();
+      ++points;
+    }
+    points += head & Bits.pointCount ? reader.next() : 1;
+  }
+  return { steps, points: Math.max(2, points) };
+}
+
+/** The first of `count` growing values that is not less. */
+function lowerBound(values: { readonly [index: number]: number }, wanted: number, count: number): number {
+  let [from, to] = [0, count];
+  while (from < to) {
+    const middle = (from + to) >>> 1;
+    if (values[middle] < wanted) from = middle + 1;
+    else to = middle;
+  }
+  return from;
+}

@@ -1,0 +1,410 @@
+/** A path in three dimensions, in a container that somebody else lays out. It knows no page around it: whoever has a
+ * Toolpath and an element can show one. */
+import * as THREE from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { number, palettes, stepColors, type Color, type Mode, type Theme } from './colors';
+import { frames, grid, HeadModel, stock, ToolModel, travel, type Box } from './furniture';
+import { PathLines } from './path_lines';
+import { Kind, type Steps, type Toolpath, type Vector } from './toolpath';
+
+export type Look = 'iso' | 'top' | 'front' | 'side';
+export type Layer = 'rapids' | 'frames' | 'travel' | 'tool' | 'head' | 'stock' | 'grid' | 'ahead';
+
+/** From where one looks. From above a little from the front, so that Y goes up. */
+const looks: Record<Look, Vector> = { iso: [-1, -1, 0.816], top: [0, -1e-5, 1], front: [0, -1, 0], side: [1, 0, 0] };
+
+const near = 9; // Pixels within which a click hits a line.
+const frameSize = 44; // Pixels.
+const nothing: Steps = { begin: -1, end: -1 };
+
+export interface Hit {
+  point: number;
+  part: number;
+}
+
+export class ToolpathView {
+  /** Somebody clicked the path, or beside it. */
+  onPick: (hit: Hit | null) => void = () => {};
+
+  private readonly renderer: THREE.WebGLRenderer;
+  private readonly scene = new THREE.Scene();
+  private readonly world = new THREE.Group();
+  private readonly camera = new THREE.OrthographicCamera();
+  private readonly controls: OrbitControls;
+  private readonly center: THREE.Vector3;
+  private size: number;
+  private lines: PathLines;
+  private readonly tool = new ToolModel();
+  private readonly head = new HeadModel();
+  private readonly tip: THREE.Sprite;
+  private readonly resizing: ResizeObserver;
+  private frames = new THREE.Group();
+  private travel: THREE.LineSegments | null = null;
+  private grid: THREE.LineSegments | null = null;
+  private stock: THREE.LineSegments | null = null;
+  /** Corners that somebody knows; else it is around what is cut. */
+  private stockKnown: Box | null = null;
+  private lit: PathLines | null = null;
+  private litSteps: Steps = nothing;
+  private selected: Steps | null = null;
+  private mode: Mode = 'tool';
+  private readonly shown: Record<Layer, boolean>;
+  private background: Color;
+  private time = 0;
+  /** Pixels at the right that something else covers. */
+  private covered = 0;
+  private isDue = false;
+  private isGone = false;
+
+  /** Throws where there is no WebGL 2. */
+  constructor(
+    private readonly container: HTMLElement,
+    private path: Toolpath,
+    private theme: Theme,
+    shown: Record<Layer, boolean>,
+  ) {
+    this.shown = { ...shown };
+    this.background = palettes[theme].background;
+    this.renderer = new THREE.WebGLRenderer({ antialias: true });
+    const canvas = this.renderer.domElement;
+    container.append(canvas);
+    this.center = new THREE.Vector3(...path.least).add(new THREE.Vector3(...path.most)).multiplyScalar(0.5);
+    this.size = sizeOf(path);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.zoomToCursor = true;
+    this.controls.addEventListener('change', () => this.invalidate());
+    this.world.position.copy(this.center).negate();
+    this.lines = new PathLines(path, this.center);
+    this.lines.mesh.renderOrder = 1;
+    this.tip = new THREE.Sprite(new THREE.SpriteMaterial({ map: dot(), depthTest: false, sizeAttenuation: false }));
+    this.tip.renderOrder = 4;
+    this.world.add(this.tool.object, this.head.object, this.tip);
+    const sky = new THREE.HemisphereLight(0xffffff, 0x777788, 2.2);
+    sky.position.set(0, 0, 1);
+    const sun = new THREE.DirectionalLight(0xffffff, 1.6);
+    sun.position.set(-0.6, -1, 1.4);
+    this.scene.add(this.world, this.lines.mesh, sky, sun);
+    this.setTheme(theme);
+    listenForClicks(canvas, (x, y) => this.onPick(this.pick(x, y)));
+    this.resizing = new ResizeObserver(() => {
+      // A canvas is empty once it has another size.
+      if (this.resize()) this.draw();
+    });
+    this.resize();
+    this.resizing.observe(container);
+    this.look('iso');
+    this.setTime(0);
+  }
+
+  get canvas(): HTMLCanvasElement {
+    return this.renderer.domElement;
+  }
+
+  setTheme(theme: Theme, background = palettes[theme].background): void {
+    this.theme = theme;
+    this.background = background;
+    this.scene.background = new THREE.Color(number(background));
+    (this.tip.material as THREE.SpriteMaterial).color.setHex(number(palettes[theme].highlight));
+    this.furnish();
+    this.paint();
+    this.litSteps = nothing;
+    this.setTime(this.time);
+  }
+
+  /** Shows another path, as after an edit. One looks at it as before, or at all of it where there was none to look at. */
+  take(path: Toolpath): void {
+    const wasEmpty = this.path.work === null;
+    const size = sizeOf(path);
+    this.path = path;
+    this.camera.zoom *= size / this.size;
+    this.size = size;
+    this.scene.remove(this.lines.mesh);
+    this.lines.dispose();
+    this.lines = new PathLines(path, this.center);
+    this.lines.mesh.renderOrder = 1;
+    this.scene.add(this.lines.mesh);
+    this.selected = null;
+    this.time = Math.min(this.time, path.seconds);
+    this.frameCamera();
+    this.setTheme(this.theme, this.background);
+    if (wasEmpty) this.fit();
+  }
+
+  /** Steps that are lit up in place of the one at the time shown; null is none. */
+  select(steps: Steps | null): void {
+    this.selected = steps;
+    this.setTime(this.time);
+  }
+
+  /** The stock's corners; null where nobody knows them. */
+  setStock(box: Box | null): void {
+    this.stockKnown = box;
+    this.furnish();
+    this.invalidate();
+  }
+
+  colorBy(mode: Mode): void {
+    this.mode = mode;
+    this.paint();
+    this.invalidate();
+  }
+
+  show(layer: Layer, is: boolean): void {
+    this.shown[layer] = is;
+    this.frames.visible = this.shown.frames;
+    if (this.travel) this.travel.visible = this.shown.travel;
+    if (this.grid) this.grid.visible = this.shown.grid;
+    if (this.stock) this.stock.visible = this.shown.stock;
+    if (layer === 'rapids') this.paint();
+    this.setTime(this.time);
+  }
+
+  /** Millimeters of a side of the grid's squares. */
+  get cell(): number {
+    return this.grid?.userData.cell ?? 0;
+  }
+
+  /** Moves the tool to where it is then, and lights what it is doing up. */
+  setTime(time: number): void {
+    this.time = time;
+    const place = this.path.at(time);
+    const tool = this.path.facts.tools[place.step < 0 ? 0 : this.path.stepTool[place.step]];
+    this.tool.dress(tool, this.theme, this.size);
+    this.pose(place.tip, place.b, place.c);
+    if (this.travel) this.travel.position.z = this.travel.userData.height - (tool.length ?? 0);
+    this.lines.set({ reached: place.point - 1, reachedPart: place.part, aheadOpacity: this.shown.ahead ? 0.28 : 0 });
+    this.light(this.selected ?? { begin: place.step, end: place.step + 1 });
+    this.invalidate();
+  }
+
+  /** Puts the tool and the head somewhere, on the path or not, until the time is another. */
+  pose(tip: Vector, b: number, c: number): void {
+    const at = new THREE.Vector3(...tip);
+    const turns = this.path.facts.turnsTool;
+    this.tool.object.visible = this.shown.tool;
+    this.head.object.visible = this.shown.head && turns && this.path.turned.length > 0;
+    this.tool.place(at, turns ? b : 0, turns ? c : 0);
+    this.head.place(at, turns ? b : 0, turns ? c : 0, this.tool.length, this.theme);
+    this.tip.position.copy(at);
+    this.invalidate();
+  }
+
+  look(from: Look): void {
+    this.camera.position.set(...looks[from]).normalize().multiplyScalar(2 * this.size);
+    this.controls.target.set(0, 0, 0);
+    this.fit();
+  }
+
+  /** Brings what is cut into view, or with `whole` all of the path, from where one looks. */
+  fit(whole = false): void {
+    const { least, most } = whole || !this.path.work ? this.path : this.path.work;
+    const middle = new THREE.Vector3(...least).add(new THREE.Vector3(...most)).multiplyScalar(0.5).sub(this.center);
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    this.controls.target.copy(middle);
+    this.camera.position.copy(middle).add(offset.setLength(2 * this.size + 1000));
+    this.camera.lookAt(middle);
+    this.camera.updateMatrixWorld();
+    const [right, up] = [new THREE.Vector3(), new THREE.Vector3()];
+    this.camera.matrixWorld.extractBasis(right, up, new THREE.Vector3());
+    const extent = (direction: THREE.Vector3) =>
+      [0, 1, 2].reduce((sum, i) => sum + Math.abs(direction.getComponent(i)) * (most[i] - least[i]), 0);
+    const { clientWidth, clientHeight } = this.container;
+    const free = Math.max(clientWidth - this.covered, clientWidth / 4) / Math.max(1, clientHeight);
+    const wanted = Math.max(extent(right) / free, extent(up), 5);
+    this.camera.zoom = this.size / (1.25 * wanted);
+    const aside = ((this.covered / 2) * this.size) / this.camera.zoom / Math.max(1, clientHeight);
+    for (const each of [this.controls.target, this.camera.position]) each.addScaledVector(right, aside);
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.invalidate();
+  }
+
+  /** From now on, what is fitted into view leaves so many pixels free at the right. */
+  leaveFree(pixels: number): void {
+    this.covered = pixels;
+  }
+
+  /** Turns around what one looks at; degrees. */
+  orbit(around: number, up: number): void {
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const polar = new THREE.Spherical().setFromVector3(new THREE.Vector3(offset.x, offset.z, -offset.y));
+    polar.theta -= THREE.MathUtils.degToRad(around);
+    polar.phi = Math.min(Math.max(polar.phi - THREE.MathUtils.degToRad(up), 1e-4), Math.PI - 1e-4);
+    const turned = new THREE.Vector3().setFromSpherical(polar);
+    this.camera.position.copy(this.controls.target).add(new THREE.Vector3(turned.x, -turned.z, turned.y));
+    this.controls.update();
+    this.invalidate();
+  }
+
+  zoom(factor: number): void {
+    this.camera.zoom *= factor;
+    this.camera.updateProjectionMatrix();
+    this.invalidate();
+  }
+
+  /** Where a place of the machine is on the canvas, in pixels of the page. */
+  project(tip: Vector): { x: number; y: number } {
+    const at = new THREE.Vector3(...tip).sub(this.center).project(this.camera);
+    return { x: ((at.x + 1) / 2) * this.container.clientWidth, y: ((1 - at.y) / 2) * this.container.clientHeight };
+  }
+
+  /** The line that a place on the canvas shows, pixels of the page; of those that are as near the foremost. */
+  pick(x: number, y: number): Hit | null {
+    const { path, center } = this;
+    const [width, height] = [this.container.clientWidth, this.container.clientHeight];
+    this.camera.updateMatrixWorld();
+    const m = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse).elements;
+    let best: (Hit & { distance: number; depth: number }) | null = null;
+    let [x0, y0, z0] = [0, 0, 0];
+    for (let point = 0; point < path.pointCount; ++point) {
+      const [px, py, pz] = [path.tips[3 * point] - center.x, path.tips[3 * point + 1] - center.y, path.tips[3 * point + 2] - center.z];
+      const x1 = ((m[0] * px + m[4] * py + m[8] * pz + m[12] + 1) / 2) * width - x;
+      const y1 = ((1 - (m[1] * px + m[5] * py + m[9] * pz + m[13])) / 2) * height - y;
+      const z1 = m[2] * px + m[6] * py + m[10] * pz + m[14];
+      if (point > 0 && this.isShown(path.stepKind[path.pointStep[point]])) {
+        const [dx, dy] = [x1 - x0, y1 - y0];
+        const square = dx * dx + dy * dy;
+        const part = square > 1e-9 ? Math.min(1, Math.max(0, -(x0 * dx + y0 * dy) / square)) : 1;
+        const distance = Math.hypot(x0 + part * dx, y0 + part * dy);
+        const depth = z0 + part * (z1 - z0);
+        const isBetter = !best || distance < best.distance - 2 || (distance < best.distance + 2 && depth < best.depth);
+        if (distance <= near && isBetter) best = { point, part, distance, depth };
+      }
+      [x0, y0, z0] = [x1, y1, z1];
+    }
+    return best && { point: best.point, part: best.part };
+  }
+
+  dispose(): void {
+    this.isGone = true;
+    this.resizing.disconnect();
+    this.controls.dispose();
+    this.lines.dispose();
+    this.lit?.dispose();
+    this.renderer.dispose();
+    this.canvas.remove();
+  }
+
+  private get aspect(): number {
+    return this.container.clientWidth / Math.max(1, this.container.clientHeight);
+  }
+
+  private isShown(kind: number): boolean {
+    return kind !== Kind.Wait && (kind !== Kind.Rapid || this.shown.rapids);
+  }
+
+  private paint(): void {
+    this.lines.paint(stepColors(this.path, this.mode, this.theme), (kind) => this.isShown(kind));
+  }
+
+  /** What the theme colors. */
+  private furnish(): void {
+    for (const old of [this.frames, this.travel, this.grid, this.stock]) if (old) this.world.remove(old);
+    this.frames = frames(this.path, this.theme);
+    this.travel = travel(this.path, this.theme);
+    if (this.travel) this.travel.userData.height = this.travel.position.z;
+    const { least, most } = this.path.work ?? this.path;
+    this.grid = grid(new THREE.Vector3(...least), new THREE.Vector3(...most), this.theme);
+    this.stock = stock(this.stockKnown ?? this.path.work, this.theme);
+    for (const each of [this.frames, this.travel, this.grid, this.stock]) if (each) this.world.add(each);
+    if (this.stock) this.stock.visible = this.shown.stock;
+    this.frames.visible = this.shown.frames;
+    if (this.travel) this.travel.visible = this.shown.travel;
+    this.grid.visible = this.shown.grid;
+  }
+
+  private light(steps: Steps): void {
+    if (steps.begin === this.litSteps.begin && steps.end === this.litSteps.end) return;
+    this.litSteps = steps;
+    if (this.lit) {
+      this.scene.remove(this.lit.mesh);
+      this.lit.dispose();
+      this.lit = null;
+    }
+    if (steps.begin < 0 || steps.begin >= steps.end) return;
+    const [begin, end] = [this.path.stepBegin[steps.begin], this.path.stepBegin[steps.end]];
+    if (begin === end) return;
+    this.lit = new PathLines(this.path, this.center, begin, end);
+    this.lit.alwaysInFront = true;
+    this.lit.paint(() => palettes[this.theme].highlight, (kind) => this.isShown(kind));
+    this.scene.add(this.lit.mesh);
+    this.resizeLines();
+  }
+
+  /** Whether the size is another one. */
+  private resize(): boolean {
+    const { clientWidth, clientHeight } = this.container;
+    const size = this.renderer.getSize(new THREE.Vector2());
+    if (clientWidth === 0 || clientHeight === 0 || (size.x === clientWidth && size.y === clientHeight)) return false;
+    this.renderer.setPixelRatio(window.devicePixelRatio);
+    this.renderer.setSize(clientWidth, clientHeight);
+    this.frameCamera();
+    this.resizeLines();
+    return true;
+  }
+
+  /** What of the world the camera sees. */
+  private frameCamera(): void {
+    const half = this.size / 2;
+    Object.assign(this.camera, { left: -half * this.aspect, right: half * this.aspect, top: half, bottom: -half });
+    this.camera.near = 0;
+    this.camera.far = 8 * this.size + 4000;
+    const offset = this.camera.position.clone().sub(this.controls.target).setLength(2 * this.size + 1000);
+    this.camera.position.copy(this.controls.target).add(offset);
+    this.camera.updateProjectionMatrix();
+  }
+
+  private resizeLines(): void {
+    const ratio = this.renderer.getPixelRatio();
+    const { clientWidth, clientHeight } = this.container;
+    for (const lines of [this.lines, this.lit]) lines?.resize(clientWidth * ratio, clientHeight * ratio);
+    this.lines.set({ width: 1.6 * ratio, dashedWidth: 1.2 * ratio, thickWidth: 2.6 * ratio, pixelRatio: ratio });
+    this.lit?.set({ width: 4.5 * ratio, dashedWidth: 3 * ratio, thickWidth: 5 * ratio, pixelRatio: ratio, opacity: 0.9, aheadOpacity: 0.9 });
+  }
+
+  private invalidate(): void {
+    if (this.isDue) return;
+    this.isDue = true;
+    requestAnimationFrame(() => {
+      if (this.isDue && !this.isGone) this.draw();
+    });
+  }
+
+  private draw(): void {
+    this.isDue = false;
+    const height = Math.max(1, this.container.clientHeight);
+    const millimeters = this.size / this.camera.zoom / height; // Of a pixel of the page.
+    for (const frame of this.frames.children) frame.scale.setScalar(frameSize * millimeters);
+    this.tip.scale.setScalar((12 / height) * (this.size / this.camera.zoom));
+    const scale = { pixelsPerMillimeter: this.renderer.getPixelRatio() / millimeters };
+    this.lines.set(scale);
+    this.lit?.set(scale);
+    this.renderer.render(this.scene, this.camera);
+  }
+}
+
+const sizeOf = (path: Toolpath) => Math.max(Math.hypot(...path.most.map((value, i) => value - path.least[i])), 20);
+
+/** Clicks, not the ends of drags. */
+function listenForClicks(canvas: HTMLCanvasElement, onClick: (x: number, y: number) => void): void {
+  let begin = { x: 0, y: 0 };
+  canvas.addEventListener('pointerdown', (event) => (begin = { x: event.clientX, y: event.clientY }));
+  canvas.addEventListener('pointerup', (event) => {
+    if (event.button !== 0 || Math.hypot(event.clientX - begin.x, event.clientY - begin.y) > 4) return;
+    const box = canvas.getBoundingClientRect();
+    onClick(event.clientX - box.left, event.clientY - box.top);
+  });
+}
+
+function dot(): THREE.Texture {
+  const canvas = document.createElement('canvas');
+  canvas.width = canvas.height = 64;
+  const context = canvas.getContext('2d')!;
+  context.beginPath();
+  context.arc(32, 32, 22, 0, 2 * Math.PI);
+  context.lineWidth = 10;
+  context.strokeStyle = 'white';
+  context.stroke();
+  return new THREE.CanvasTexture(canvas);
+}

@@ -1,0 +1,36 @@
+import * as vscode from 'vscode';
+import * as commands from './commands';
+import * as debug from './debug';
+import { Environment } from './environment';
+import * as largeFiles from './large_files';
+import { Server } from './server';
+import * as simulator from './simulator';
+import * as status from './status';
+import * as tasks from './tasks';
+import * as testDrive from './test_drive';
+import { ToolpathSource } from './toolpath/source';
+import * as toolpath from './toolpath/panel';
+import * as virtualDocuments from './virtual_documents';
+
+let server: Server | null = null;
+
+export async function activate(context: vscode.ExtensionContext): Promise<void> {
+  const environment = new Environment(context);
+  server = new Server(environment);
+  const source = new ToolpathSource(server);
+  context.subscriptions.push(server, source);
+  commands.activate(context, server);
+  debug.activate(context, environment);
+  largeFiles.activate(context, environment);
+  simulator.activate(context, environment);
+  status.activate(context, server, source);
+  tasks.activate(context, environment);
+  testDrive.activate(context);
+  toolpath.activate(context, source);
+  virtualDocuments.activate(context, server);
+  await server.start();
+}
+
+export async function deactivate(): Promise<void> {
+  await server?.stop();
+}

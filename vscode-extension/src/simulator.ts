@@ -1,0 +1,77 @@
+/** isorun: runs a program in the terminal, and writes its plot. */
+import { execFile } from 'node:child_process';
+import { promisify } from 'node:util';
+import * as vscode from 'vscode';
+import { language, type Environment } from './environment';
+import { programTask } from './tasks';
+
+/** What a code lens tells of its place. */
+export interface Place {
+  uri: string;
+  line: number;
+}
+
+/** The program that a command is about, saved; null where there is none that lies in a file. */
+export async function programOf(place?: Place | vscode.Uri): Promise<vscode.TextDocument | null> {
+  const uri = place instanceof vscode.Uri ? place : place ? vscode.Uri.parse(place.uri) : undefined;
+  const document = uri ? await vscode.workspace.openTextDocument(uri) : vscode.window.activeTextEditor?.document;
+  if (document?.languageId !== 'isocnc') {
+    void vscode.window.showInformationMessage(vscode.l10n.t('Open an ISOCNC program first.'));
+    return null;
+  }
+  if (document.isUntitled || document.uri.scheme !== 'file') {
+    void vscode.window.showInformationMessage(vscode.l10n.t('Save the program first: it is run from its file.'));
+    return null;
+  }
+  return !document.isDirty || (await document.save()) ? document : null;
+}
+
+export function activate(context: vscode.ExtensionContext, environment: Environment): void {
+  context.subscriptions.push(
+    vscode.commands.registerCommand('isocnc.run', (place?: Place | vscode.Uri) => run(environment, place)),
+    vscode.commands.registerCommand('isocnc.exportPlot', (place?: Place | vscode.Uri) => exportPlot(environment, place)),
+  );
+}
+
+async function run(environment: Environment, place?: Place | vscode.Uri): Promise<void> {
+  const program = await programOf(place);
+  const isorun = program && (await environment.need('isorun'));
+  if (!isorun) return;
+  await vscode.tasks.executeTask(
+    programTask({ type: 'isocnc', command: 'isorun', arguments: [program.fileName] }, isorun, 'isorun'),
+  );
+}
+
+async function exportPlot(environment: Environment, place?: Place | vscode.Uri): Promise<void> {
+  const program = await programOf(place);
+  const isorun = program && (await environment.need('isorun'));
+  if (!isorun) return;
+  const target = await vscode.window.showSaveDialog({
+    defaultUri: vscode.Uri.file(program.fileName.replace(/\.[^./\\]*$/, '') + '.html'),
+    filters: { HTML: ['html'], SVG: ['svg'] },
+    title: vscode.l10n.t('Export Plot'),
+  });
+  if (!target) return;
+  const written = await vscode.window.withProgress(
+    { location: vscode.ProgressLocation.Notification, title: vscode.l10n.t('Drawing {0}...', vscode.workspace.asRelativePath(target)) },
+    () => plot(isorun, program.fileName, target.fsPath),
+  );
+  if (written !== null) {
+    await vscode.window.showErrorMessage(written);
+    return;
+  }
+  const open = vscode.l10n.t('Open');
+  const done = vscode.l10n.t('Written: {0}', vscode.workspace.asRelativePath(target));
+  if ((await vscode.window.showInformationMessage(done, open)) === open) await vscode.env.openExternal(target);
+}
+
+/** What went wrong, or null. A program that an error stops has a plot as well. */
+async function plot(isorun: string, program: string, target: string): Promise<string | null> {
+  try {
+    await promisify(execFile)(isorun, ['--lang', language(), '--plot', target, program], { maxBuffer: 1 << 26 });
+    return null;
+  } catch (error) {
+    const { code, stderr } = error as { code: number | string; stderr?: string };
+    return code === 1 ? null : stderr || String(error);
+  }
+}

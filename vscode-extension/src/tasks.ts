@@ -1,0 +1,61 @@
+/** Tasks: isolint over the workspace or a program of any size, isorun. */
+import * as vscode from 'vscode';
+import { language, type Environment } from './environment';
+import type { ProgramName } from './programs';
+
+export interface Definition extends vscode.TaskDefinition {
+  type: 'isocnc';
+  command: Extract<ProgramName, 'isolint' | 'isorun' | 'isofmt'>;
+  arguments?: string[];
+}
+
+const matchers = ['$isolint', '$isolint-it-errors', '$isolint-it-warnings', '$isolint-it-notes'];
+
+/** A task that runs a program, and shows what isolint says among the problems. */
+export function programTask(definition: Definition, file: string, name: string): vscode.Task {
+  const isCheck = definition.command === 'isolint';
+  const options = ['--lang', language(), ...(isCheck ? ['--format', 'concise', '--color', 'never'] : [])];
+  const task = new vscode.Task(
+    definition,
+    vscode.workspace.workspaceFolders?.[0] ?? vscode.TaskScope.Global,
+    name,
+    'isocnc',
+    new vscode.ProcessExecution(file, [...options, ...(definition.arguments ?? [])]),
+    isCheck ? matchers : [],
+  );
+  task.group = isCheck ? vscode.TaskGroup.Test : undefined;
+  task.presentationOptions = { clear: true, showReuseMessage: false, reveal: vscode.TaskRevealKind.Always };
+  return task;
+}
+
+export function activate(context: vscode.ExtensionContext, environment: Environment): void {
+  context.subscriptions.push(
+    vscode.tasks.registerTaskProvider('isocnc', {
+      provideTasks: () => tasks(environment),
+      resolveTask: ({ definition, name }) => {
+        const wanted = definition as Definition;
+        const file = environment.find(wanted.command);
+        return file ? programTask(wanted, file, name) : undefined;
+      },
+    }),
+  );
+}
+
+function tasks(environment: Environment): vscode.Task[] {
+  const isolint = environment.find('isolint');
+  const isorun = environment.find('isorun');
+  const workspace: Definition = { type: 'isocnc', command: 'isolint' };
+  const check: Definition = { type: 'isocnc', command: 'isolint', arguments: ['${file}'] };
+  const run: Definition = { type: 'isocnc', command: 'isorun', arguments: ['${file}'] };
+  return [
+    ...(isolint ? [programTask(workspace, isolint, vscode.l10n.t('check all programs')), programTask(check, isolint, vscode.l10n.t('check this program'))] : []),
+    ...(isorun ? [programTask(run, isorun, vscode.l10n.t('run this program'))] : []),
+  ];
+}
+
+/** Checks a file that the editor keeps to itself. */
+export async function checkFile(environment: Environment, file: string): Promise<void> {
+  const isolint = await environment.need('isolint');
+  if (isolint)
+    await vscode.tasks.executeTask(programTask({ type: 'isocnc', command: 'isolint', arguments: [file] }, isolint, 'isolint'));
+}

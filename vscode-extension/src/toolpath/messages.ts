@@ -1,0 +1,29 @@
+/** What the toolpath's panel and its page say to each other. */
+import type { Facts, Vector } from '../../../toolpath-view/src/toolpath';
+import type { Patches } from './streams';
+
+export type ToPage =
+  | {
+      type: 'path';
+      /** Its URI: another program is looked at anew, an edited one from where one has looked at it. */
+      program: string;
+      resultId: string;
+      previousResultId: string | null;
+      facts: Facts;
+      patches: Patches;
+      language: 'en' | 'it';
+    }
+  | { type: 'problem'; message: string }
+  /** Lines that are selected in the editor, from 0; `last` belongs to them. */
+  | { type: 'lines'; first: number; last: number }
+  | { type: 'pose'; line: number; tip: Vector; b: number; c: number }
+  /** Length, width, height. */
+  | { type: 'stock'; size: Vector | null };
+
+export type ToPanel =
+  | { type: 'ready' }
+  /** The page has not got what `previousResultId` names. */
+  | { type: 'resend' }
+  | { type: 'picked'; line: number }
+  /** The tool has come to a line while the time runs. */
+  | { type: 'passing'; line: number };

@@ -1,0 +1,228 @@
+/** The toolpath beside the editor: one panel, which shows the program that was last looked at. */
+import { randomBytes } from 'node:crypto';
+import { readFileSync } from 'node:fs';
+import { basename } from 'node:path';
+import * as vscode from 'vscode';
+import type { Vector } from '../../../toolpath-view/src/toolpath';
+import { language, settings } from '../environment';
+import type { ToPage, ToPanel } from './messages';
+import { readPosition } from './position';
+import type { KnownToolpath, ToolpathSource } from './source';
+import { whole } from './streams';
+
+const viewType = 'isocnc.toolpath';
+
+export function activate(context: vscode.ExtensionContext, source: ToolpathSource): void {
+  let panel: ToolpathPanel | null = null;
+  const adopt = (webview: vscode.WebviewPanel, document: vscode.TextDocument | null) => {
+    panel?.dispose();
+    const made = (panel = new ToolpathPanel(webview, context.extensionUri, source));
+    webview.onDidDispose(() => {
+      if (panel === made) panel = null;
+    });
+    if (document) made.show(document);
+  };
+  const open = async (uri?: vscode.Uri) => {
+    const wanted = uri instanceof vscode.Uri ? await vscode.workspace.openTextDocument(uri) : undefined;
+    const document = wanted ?? vscode.window.activeTextEditor?.document;
+    if (document?.languageId !== 'isocnc') {
+      void vscode.window.showInformationMessage(vscode.l10n.t('Open an ISOCNC program first.'));
+    } else if (panel) {
+      panel.reveal();
+      panel.show(document);
+    } else {
+      const beside = { viewColumn: vscode.ViewColumn.Beside, preserveFocus: true };
+      const options = { ...ToolpathPanel.options(context.extensionUri), retainContextWhenHidden: true };
+      adopt(vscode.window.createWebviewPanel(viewType, vscode.l10n.t('Toolpath'), beside, options), document);
+    }
+  };
+  context.subscriptions.push(
+    vscode.commands.registerCommand('isocnc.showToolpath', open),
+    vscode.window.registerWebviewPanelSerializer(viewType, {
+      deserializeWebviewPanel: async (webview) => {
+        webview.webview.options = ToolpathPanel.options(context.extensionUri);
+        adopt(webview, vscode.window.visibleTextEditors.find(isProgram)?.document ?? null);
+      },
+    }),
+    vscode.window.onDidChangeActiveTextEditor((editor) => {
+      if (isProgram(editor)) panel?.show(editor.document);
+    }),
+    vscode.window.onDidChangeTextEditorSelection((change) => panel?.follow(change)),
+    vscode.workspace.onDidChangeConfiguration((change) => {
+      if (change.affectsConfiguration('isocnc')) panel?.configure();
+    }),
+    vscode.debug.onDidReceiveDebugSessionCustomEvent(({ session, event, body }) => {
+      if (event === 'isocnc/position') panel?.pose(session.configuration.program as string, body);
+    }),
+    { dispose: () => panel?.dispose() },
+  );
+}
+
+function isProgram(editor: vscode.TextEditor | undefined): editor is vscode.TextEditor {
+  return editor?.document.languageId === 'isocnc';
+}
+
+class ToolpathPanel implements vscode.Disposable {
+  private readonly subscriptions: vscode.Disposable[];
+  private readonly passing = vscode.window.createTextEditorDecorationType({
+    isWholeLine: true,
+    backgroundColor: new vscode.ThemeColor('editor.rangeHighlightBackground'),
+    overviewRulerColor: new vscode.ThemeColor('editorOverviewRuler.rangeHighlightForeground'),
+    overviewRulerLane: vscode.OverviewRulerLane.Full,
+  });
+  private document: vscode.TextDocument | null = null;
+  private isReady = false;
+  /** What the page has. */
+  private shown: string | null = null;
+  /** A line that the page has led to: its selection need not go back there. */
+  private picked = -1;
+
+  static options(extension: vscode.Uri): vscode.WebviewOptions {
+    return { enableScripts: true, localResourceRoots: [vscode.Uri.joinPath(extension, 'dist')] };
+  }
+
+  constructor(
+    private readonly panel: vscode.WebviewPanel,
+    extension: vscode.Uri,
+    private readonly source: ToolpathSource,
+  ) {
+    const icon = (theme: string) => vscode.Uri.joinPath(extension, 'media', `toolpath-${theme}.svg`);
+    panel.iconPath = { light: icon('light'), dark: icon('dark') };
+    this.subscriptions = [
+      panel.webview.onDidReceiveMessage((message: ToPanel) => this.receive(message)),
+      panel.onDidDispose(() => this.dispose()),
+      source.onUpdate((path) => this.take(path)),
+      source.onFailure(({ uri, message }) => {
+        if (uri.toString() === this.document?.uri.toString()) this.post({ type: 'problem', message });
+      }),
+      this.passing,
+    ];
+    panel.webview.html = html(panel.webview, extension);
+  }
+
+  show(document: vscode.TextDocument): void {
+    if (this.document === document) return;
+    this.document = document;
+    this.shown = null;
+    this.panel.title = vscode.l10n.t('Toolpath: {0}', basename(document.fileName));
+    this.source.watch(this, document);
+    this.refresh();
+  }
+
+  reveal(): void {
+    this.panel.reveal(undefined, true);
+  }
+
+  configure(): void {
+    this.shown = null;
+    this.refresh();
+  }
+
+  follow({ textEditor, selections }: vscode.TextEditorSelectionChangeEvent): void {
+    if (textEditor.document !== this.document) return;
+    const { start, end } = selections[0];
+    // A selection that ends before a line's first character does not hold that line.
+    const last = end.character === 0 && end.line > start.line ? end.line - 1 : end.line;
+    // While it is debugged, the debugger tells where the tool is.
+    if (vscode.debug.activeDebugSession?.configuration.program === this.document.fileName) return;
+    const isEcho = start.line === this.picked && last === this.picked;
+    this.picked = -1;
+    if (!isEcho && settings(textEditor.document).get('toolpath.followCursor', true))
+      this.post({ type: 'lines', first: start.line, last });
+  }
+
+  pose(program: string, body: unknown): void {
+    const position = readPosition(body);
+    if (position && this.document?.fileName === program) this.post({ type: 'pose', ...position });
+  }
+
+  dispose(): void {
+    this.source.watch(this, null);
+    for (const each of this.subscriptions.splice(0)) each.dispose();
+    this.panel.dispose();
+  }
+
+  private receive(message: ToPanel): void {
+    switch (message.type) {
+      case 'ready':
+        this.isReady = true;
+        return this.resend();
+      case 'resend':
+        return this.resend();
+      case 'picked':
+        return this.revealLine(message.line);
+      case 'passing':
+        return this.mark(message.line);
+    }
+  }
+
+  private resend(): void {
+    this.shown = null;
+    this.refresh();
+  }
+
+  private refresh(): void {
+    const path = this.document && this.source.latest(this.document.uri);
+    if (path) this.take(path);
+  }
+
+  private take(path: KnownToolpath): void {
+    if (!this.isReady || path.uri.toString() !== this.document?.uri.toString()) return;
+    const isNext = this.shown !== null && this.shown === path.previousResultId;
+    const { resultId, facts } = path;
+    const isFirst = this.shown === null;
+    this.shown = resultId;
+    this.post({
+      type: 'path',
+      program: path.uri.toString(),
+      resultId,
+      previousResultId: isNext ? path.previousResultId : null,
+      facts,
+      patches: isNext ? path.patches : whole(path),
+      language: language(),
+    });
+    if (!isFirst) return;
+    this.post({ type: 'stock', size: settings(this.document).get<Vector | null>('toolpath.stock', null) });
+    const editor = this.editor;
+    if (editor && settings(this.document).get('toolpath.followCursor', true))
+      this.post({ type: 'lines', first: editor.selection.active.line, last: editor.selection.active.line });
+  }
+
+  private post(message: ToPage): void {
+    if (this.isReady) void this.panel.webview.postMessage(message);
+  }
+
+  private get editor(): vscode.TextEditor | undefined {
+    return vscode.window.visibleTextEditors.find((editor) => editor.document === this.document);
+  }
+
+  private revealLine(line: number): void {
+    const editor = this.editor;
+    if (!editor || line >= editor.document.lineCount) return;
+    const place = editor.document.lineAt(line).range.start;
+    this.picked = editor.selection.active.line === line ? -1 : line;
+    editor.selection = new vscode.Selection(place, place);
+    this.mark(line);
+  }
+
+  private mark(line: number): void {
+    const editor = this.editor;
+    if (!editor || line >= editor.document.lineCount) return;
+    const range = line < 0 ? [] : [editor.document.lineAt(line).range];
+    editor.setDecorations(this.passing, range);
+    if (range[0]) editor.revealRange(range[0], vscode.TextEditorRevealType.InCenterIfOutsideViewport);
+  }
+}
+
+/** The page, with a policy that lets nothing run but its own script. */
+function html(webview: vscode.Webview, extension: vscode.Uri): string {
+  const nonce = randomBytes(16).toString('base64');
+  const at = (name: string) => webview.asWebviewUri(vscode.Uri.joinPath(extension, 'dist', name)).toString();
+  const parts: Record<string, string> = {
+    policy: `default-src 'none'; script-src 'nonce-${nonce}'; style-src ${webview.cspSource}; base-uri 'none'; form-action 'none'`,
+    style: `<link rel="stylesheet" href="${at('toolpath.css')}">`,
+    script: `<script nonce="${nonce}" src="${at('toolpath.js')}"></script>`,
+  };
+  const page = readFileSync(vscode.Uri.joinPath(extension, 'dist', 'toolpath.html').fsPath, 'utf8');
+  return page.replace(/\{\{(\w+)\}\}/g, (_, name: string) => parts[name]);
+}
