@@ -64,7 +64,9 @@ TEST_P(RandomMoves, KeepTheLimitsOfTheAxes) {
       });
     }
   });
-  EXPECT_GT(fullest, limits_jerk() ? 0.99 : 0.999999) << "the limits are not used";
+  if (support::kTriesAll) {
+    EXPECT_GT(fullest, limits_jerk() ? 0.99 : 0.999999) << "the limits are not used";
+  }
 }
 
 /// The jerk as the change of the acceleration, within phases and from each stretch to the next.
@@ -95,7 +97,9 @@ TEST_P(RandomMoves, KeepTheJerk) {
     }
     ASSERT_LT(before.joint_accelerations.norm(), 1e-3) << "in the end";
   });
-  EXPECT_GT(fullest, 0.9999) << "the limits are not used";
+  if (support::kTriesAll) {
+    EXPECT_GT(fullest, 0.9999) << "the limits are not used";
+  }
 }
 
 TEST_P(RandomMoves, KeepTheFeed) {
@@ -182,7 +186,9 @@ TEST_P(RandomMoves, StayWithinTheCornerTolerance) {
       }
     }
   });
-  EXPECT_GT(farthest, machine().corner_tolerance * 0.9) << "the tolerance is not used";
+  if (support::kTriesAll) {
+    EXPECT_GT(farthest, machine().corner_tolerance * 0.9) << "the tolerance is not used";
+  }
 }
 
 TEST_P(RandomMoves, HaveTheirStretchesInOrderAndEndWhereProgrammed) {

@@ -40,8 +40,11 @@ class Random {
   std::uint64_t state_;
 };
 
+/// Whether properties are tried in full: what is only seen over many programs (a limit that is reached) is asked then.
+inline constexpr bool kTriesAll = ISOCNC_RUNS_FAST;
+
 /// How often to try where code runs at full speed; a quarter of that under sanitizers and without optimization.
-inline constexpr std::uint64_t often(std::uint64_t count) { return ISOCNC_RUNS_FAST ? count : (count + 3) / 4; }
+inline constexpr std::uint64_t often(std::uint64_t count) { return kTriesAll ? count : (count + 3) / 4; }
 
 /// The seeds of a property, often(count) of them, from 1. Failure messages name them.
 inline std::vector<std::uint64_t> seeds(std::uint64_t count) {
