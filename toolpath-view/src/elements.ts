@@ -9,6 +9,8 @@ export function element<Name extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
+/** The element of the page; who asks knows its type. */
+// eslint-disable-next-line @typescript-eslint/no-unnecessary-type-parameters
 export function byId<Type extends HTMLElement = HTMLElement>(id: string): Type {
   return document.getElementById(id) as Type;
 }

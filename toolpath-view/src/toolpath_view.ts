@@ -105,7 +105,7 @@ export class ToolpathView {
     this.theme = theme;
     this.background = background;
     this.scene.background = new THREE.Color(number(background));
-    (this.tip.material as THREE.SpriteMaterial).color.setHex(number(palettes[theme].highlight));
+    this.tip.material.color.setHex(number(palettes[theme].highlight));
     this.furnish();
     this.paint();
     this.litSteps = nothing;
@@ -162,7 +162,7 @@ export class ToolpathView {
 
   /** Millimeters of a side of the grid's squares. */
   get cell(): number {
-    return this.grid?.userData.cell ?? 0;
+    return (this.grid?.userData.cell as number | undefined) ?? 0;
   }
 
   /** Moves the tool to where it is then, and lights what it is doing up. */

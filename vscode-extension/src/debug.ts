@@ -45,10 +45,10 @@ class ConfigurationProvider implements vscode.DebugConfigurationProvider {
     return [this.ofOpenProgram()];
   }
 
-  async resolveDebugConfiguration(
+  resolveDebugConfiguration(
     _folder: vscode.WorkspaceFolder | undefined,
     configuration: vscode.DebugConfiguration,
-  ): Promise<vscode.DebugConfiguration | null | undefined> {
+  ): vscode.DebugConfiguration | null | undefined {
     const document = vscode.window.activeTextEditor?.document;
     const program = document?.languageId === type && !document.isUntitled ? document.fileName : null;
     const complete = completed(configuration, program, configurationName());

@@ -15,7 +15,7 @@ export type ServerState = 'starting' | 'running' | 'stopped' | 'missing' | 'outd
 /** What we do for code lenses of the server: it offers them to editors that name these commands. */
 class CommandsFeature implements StaticFeature {
   fillClientCapabilities(capabilities: ClientCapabilities): void {
-    capabilities.experimental = { ...capabilities.experimental, commands: { commands: ['isocnc.run', 'isocnc.debug'] } };
+    capabilities.experimental = { ...(capabilities.experimental as object | undefined), commands: { commands: ['isocnc.run', 'isocnc.debug'] } };
   }
   initialize(): void {}
   getState(): FeatureState {
@@ -28,7 +28,9 @@ class CommandsFeature implements StaticFeature {
 const atStart = ['isocnc.path', 'isocnc.workspaceDiagnostics'];
 
 function serverSettings() {
-  const { inlayHints, workspaceDiagnostics } = settings();
+  const all = settings();
+  const inlayHints: unknown = all.inlayHints;
+  const workspaceDiagnostics: unknown = all.workspaceDiagnostics;
   return { language: language(), inlayHints, workspaceDiagnostics };
 }
 

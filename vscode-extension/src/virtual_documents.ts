@@ -54,8 +54,8 @@ export function activate(context: vscode.ExtensionContext, server: Server): void
   context.subscriptions.push(
     documents,
     vscode.workspace.registerTextDocumentContentProvider(scheme, documents),
-    vscode.commands.registerTextEditorCommand('isocnc.showState', ({ document }) => documents.open('state', document)),
-    vscode.commands.registerTextEditorCommand('isocnc.showSyntaxTree', ({ document }) => documents.open('syntax', document)),
+    vscode.commands.registerTextEditorCommand('isocnc.showState', ({ document }) => void documents.open('state', document)),
+    vscode.commands.registerTextEditorCommand('isocnc.showSyntaxTree', ({ document }) => void documents.open('syntax', document)),
   );
 }
 

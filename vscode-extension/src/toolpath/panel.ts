@@ -39,9 +39,10 @@ export function activate(context: vscode.ExtensionContext, source: ToolpathSourc
   context.subscriptions.push(
     vscode.commands.registerCommand('isocnc.showToolpath', open),
     vscode.window.registerWebviewPanelSerializer(viewType, {
-      deserializeWebviewPanel: async (webview) => {
+      deserializeWebviewPanel: (webview) => {
         webview.webview.options = ToolpathPanel.options(context.extensionUri);
         adopt(webview, vscode.window.visibleTextEditors.find(isProgram)?.document ?? null);
+        return Promise.resolve();
       },
     }),
     vscode.window.onDidChangeActiveTextEditor((editor) => {
