@@ -150,8 +150,11 @@ def table(title: str, measured: list[Growth]) -> str:
 
 
 def draw(file: Path, lines: list[Growth], files: list[Growth]) -> None:
-    import matplotlib
-
+    try:
+        import matplotlib
+    except ImportError:
+        print(f"scale.py: {file} is not drawn: that takes python3-matplotlib", file=sys.stderr)
+        return
     matplotlib.use("svg")
     import matplotlib.pyplot as plt
 
