@@ -320,7 +320,11 @@ const char* LineParser::lex_unknown(const char* p) {
     if (cls != CharClass::Other && (cls != CharClass::Compare || in_condition_)) break;
     behind = p + 1;
   }
-  if (p != end_ && is_number_char(*p)) behind = scan_number(p, end_).end;
+  if (p != end_ && is_number_char(*p)) {
+    behind = scan_number(p, end_).end;
+    const char* const close = skip_space(behind);
+    if (*start == '[' && close != end_ && *close == ']') behind = close + 1;  // [10]
+  }
   note_comments_inside(start, behind);
   has_prose_ = true;
   const bool in_place_of_number = !in_condition_ && garbles_number(upper(*start));

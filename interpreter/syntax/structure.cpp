@@ -61,6 +61,14 @@ bool LineParser::is_foreign_word(const Word& unknown) const {
          std::all_of(behind.begin(), behind.end(), [](char c) { return is_blank(c) || is_number_char(c); });
 }
 
+/// X10mm, X2in, or a letter without a number that is written twice.
+bool LineParser::is_unit(Span two_words) const {
+  if (two_words.end - two_words.begin != 2) return false;
+  const char first = upper(begin_[two_words.begin]);
+  const char second = upper(begin_[two_words.begin + 1]);
+  return first == second || (first == 'I' && second == 'N');
+}
+
 /// Text that should be a comment reads as letters without numbers, one after the other: one mistake, not one for each.
 /// `X Y Z` is no such text; it needs something that no line could want there.
 void LineParser::join_prose() {
@@ -78,7 +86,8 @@ void LineParser::join_prose() {
       is_odd |= letter == kError || !contains(dialect::kDimensionLetters, letter) || contains(seen, letter);
       if (letter != kError) seen |= dialect::letter_bit(letter);
     }
-    if (last - i < 3 || !is_odd) {
+    const bool is_only_unit = last - i == 2 && is_unit(hull(word(i).span(), word(i + 1u).span()));
+    if (!is_only_unit && (last - i < 3 || !is_odd)) {
       i = std::max(i, last);
       continue;
     }
@@ -86,7 +95,8 @@ void LineParser::join_prose() {
     const char next = last < word_count() ? word(last).letter : '\0';
     const char end = upper(begin_[word(last - 1u).begin]);
     const bool ends_in_letter = end >= 'A' && end <= 'Z';
-    if (next == kNumber || (ends_in_letter && contains(dialect::kDimensionLetters | dialect::letters("NT"), next)))
+    if (!is_only_unit &&
+        (next == kNumber || (ends_in_letter && contains(dialect::kDimensionLetters | dialect::letters("NT"), next))))
       ++last;
     const Span span = hull(word(i).span(), word(last - 1u).span());
     const dialect::DiagnosticId id = word(i).letter == kError ? "unknown-word"_diag : "word-without-number"_diag;
@@ -97,6 +107,8 @@ void LineParser::join_prose() {
                                   }),
                    findings.end());
     report(id, span);
+    if (is_only_unit && word(i).letter == word(i + 1u).letter && contains(dialect::kDimensionLetters, word(i).letter))
+      ++i;  // XX: that there is an X is plain.
     for (; i < last; ++i) {
       word(i).letter = kError;
       word(i).value = std::numeric_limits<double>::quiet_NaN();
@@ -241,7 +253,9 @@ void LineParser::add_dimension(std::uint16_t index) {
       behind_unknown_ && taker.kind == InstructionKind::Continuation && !contains(dialect::kCoordinateLetters, letter);
   if (is_of_unknown) word(index).flags |= Word::kReported;
   const dialect::LetterSet bit = dialect::letter_bit(letter);
-  if ((taken_ & bit) != 0) {
+  // XX10: said at the first, which nobody wanted.
+  const bool is_typed_twice = index > 0 && word(index - 1u).letter == letter && word(index - 1u).has(Word::kMissing);
+  if ((taken_ & bit) != 0 && !is_typed_twice) {
     // Which of the two was meant cannot be known: the axis counts as unknown, so that nothing follows from it.
     Span first;
     for (std::uint16_t i = taker.begin; i < index; ++i) {
