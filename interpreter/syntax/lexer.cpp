@@ -300,6 +300,7 @@ bool LineParser::garbles_number(char first) {
   Word& before = word(word_count() - 1u);
   const bool is_word = before.letter >= 'A' && before.letter <= 'Z';
   if (is_word && before.has(Word::kMissing)) return true;
+  if (first == ']' && word_count() > 2 && begin_[word(word_count() - 2u).begin] == '[') return true;  // X[V1]
   const bool is_code = dialect::contains(dialect::letters("GMN"), before.letter);  // No exponent: GOTO N10 ELSE.
   const bool reads_as_digit = first == 'O' || first == 'L';
   if ((is_word || before.letter == kAssign) && (reads_as_digit || (first == 'E' && !is_code))) {

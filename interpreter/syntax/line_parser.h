@@ -39,7 +39,7 @@ class LineParser {
   // Words into instructions (structure.cpp).
   void structure();
   bool is_foreign_word(const Word& unknown) const;
-  bool is_unit(Span two_words) const;
+  bool is_unit(const Word& first, const Word& second) const;
   void join_prose();
   bool stands_for_number(std::uint16_t index) const;
   bool is_taken_by_unknown_g(std::uint16_t index) const;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/line_parser.h"
@@ -61,12 +62,12 @@ bool LineParser::is_foreign_word(const Word& unknown) const {
          std::all_of(behind.begin(), behind.end(), [](char c) { return is_blank(c) || is_number_char(c); });
 }
 
-/// X10mm, X2in, or a letter without a number that is written twice.
-bool LineParser::is_unit(Span two_words) const {
-  if (two_words.end - two_words.begin != 2) return false;
-  const char first = upper(begin_[two_words.begin]);
-  const char second = upper(begin_[two_words.begin + 1]);
-  return first == second || (first == 'I' && second == 'N');
+/// X10mm, X2in, C90deg, or a letter without a number that is written twice.
+bool LineParser::is_unit(const Word& first, const Word& second) const {
+  std::string unit;
+  for (std::uint32_t i = first.begin; i < second.end && unit.size() < 4; ++i)
+    if (!is_blank(begin_[i])) unit += upper(begin_[i]);
+  return unit == "IN" || unit == "DEG" || (unit.size() == 2 && unit[0] == unit[1]);
 }
 
 /// Text that should be a comment reads as letters without numbers, one after the other: one mistake, not one for each.
@@ -86,7 +87,7 @@ void LineParser::join_prose() {
       is_odd |= letter == kError || !contains(dialect::kDimensionLetters, letter) || contains(seen, letter);
       if (letter != kError) seen |= dialect::letter_bit(letter);
     }
-    const bool is_only_unit = last - i == 2 && is_unit(hull(word(i).span(), word(i + 1u).span()));
+    const bool is_only_unit = last - i == 2 && is_unit(word(i), word(i + 1u));
     if (!is_only_unit && (last - i < 3 || !is_odd)) {
       i = std::max(i, last);
       continue;
