@@ -4,7 +4,6 @@
 #include <condition_variable>
 #include <mutex>
 #include <thread>
-#include <unordered_map>
 #include <vector>
 
 #include "analyzer/checker.h"
@@ -144,23 +143,6 @@ class Pass {
 
 }  // namespace
 
-/// The lines on which each label that a GOTO names is defined.
-static std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> label_lines(std::string_view text,
-                                                                                 const JumpMap& jumps) {
-  std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> lines;
-  TreeStore store;
-  const char* p = text.data();
-  const char* const end = text.data() + text.size();
-  for (std::uint64_t line = 0; p != end; ++line) {
-    store.clear();
-    const char* const line_end = store.append_line(p, end);
-    const syntax::LineTree tree = store.tree(0, p);
-    if (tree.has_label() && jumps.names(tree.label)) lines[tree.label].push_back(line);
-    p = syntax::skip_line_end(line_end, end);
-  }
-  return lines;
-}
-
 Report check_text(std::string_view text, const execution::Setup& setup, int jobs,
                   const std::function<void(std::size_t)>& on_progress) {
   jobs = std::clamp<int>(jobs, 1, static_cast<int>(text.size() / kSharedBatchBytes) + 1);
@@ -174,7 +156,7 @@ Report check_text(std::string_view text, const execution::Setup& setup, int jobs
                       [&](std::uint64_t line) { return LineFinder(text).line(line); });
     // Rare: a jump whose label is not below it (E004, E005), or not among the lines that had to be read. Once more, now
     // with all labels known.
-    jumps.resolve(label_lines(text, jumps));
+    jumps.resolve(text);
   }
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "analyzer/tally.h"
+#include "analyzer/check_text.h"
 #include "interpreter/syntax/tree_store.h"
 
 namespace isocnc::analyzer {
@@ -89,6 +89,16 @@ std::vector<std::string_view> lines_of(std::string_view text) {
 
 }  // namespace
 
+/// Whether the finding is gone, and nothing that is told by default has come in its place.
+static bool is_better(const Tally& left, const Tally& found, const LocatedFinding& located) {
+  for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
+    const dialect::DiagnosticId id{static_cast<std::uint8_t>(i)};
+    if (left.of(id) > found.of(id) && !dialect::definition(id).is_off) return false;
+  }
+  const dialect::DiagnosticId own = located.finding.id;
+  return found.of(own) == 0 || left.of(own) < found.of(own);
+}
+
 FixTrial::FixTrial(fixes::Program& program, const execution::Setup& setup, const JumpMap& jumps)
     : program_(program), setup_(setup), jumps_(jumps), work_left_(kMostWork) {}
 
@@ -99,11 +109,24 @@ bool FixTrial::is_concerned_by_jumps(std::string_view line) const {
   return tree.jump != nullptr || (tree.has_label() && jumps_.names(tree.label));
 }
 
+bool FixTrial::mends_in_whole(const Fix& fix, const LocatedFinding& located) {
+  const std::uint64_t lines = program_.line_count();
+  const auto tally_with = [&](std::vector<Edit> edits) {
+    Tally tally;
+    tally.add(check_text(edited_lines(program_, 0, lines - 1, std::move(edits)), setup_));
+    work_left_ -= std::min(work_left_, lines);
+    return tally;
+  };
+  if (work_left_ < (found_in_whole_ ? lines : 2 * lines)) return true;
+  if (!found_in_whole_) found_in_whole_ = tally_with({});
+  return is_better(tally_with(fix.edits), *found_in_whole_, located);
+}
+
 bool FixTrial::mends(const Fix& fix, const LocatedFinding& located, const Frontier& before) {
   const std::uint64_t first = located.line;
   std::uint64_t last = first;
   for (const Edit& edit : fix.edits) {
-    if (edit.begin.line < first) return true;
+    if (edit.begin.line < first) return mends_in_whole(fix, located);
     last = std::max(last, edit.end.line);
   }
   if (last - first > kMostEdited || work_left_ == 0) return true;
@@ -111,14 +134,14 @@ bool FixTrial::mends(const Fix& fix, const LocatedFinding& located, const Fronti
   const auto concerned = [&](std::string_view line) { return is_concerned_by_jumps(line); };
   const std::string text = edited_lines(program_, first, last, fix.edits);
   const std::vector<std::string_view> edited = lines_of(text);
-  if (std::any_of(edited.begin(), edited.end(), concerned)) return true;
+  if (std::any_of(edited.begin(), edited.end(), concerned)) return mends_in_whole(fix, located);
   Attempt without(setup_, jumps_, before);
   Attempt with(setup_, jumps_, before);
   const auto spend = [&](const Attempt& attempt) {
     work_left_ -= std::min<std::uint64_t>(work_left_, 1 + attempt.frontier().live.size());
   };
   for (std::uint64_t line = first; line <= last; ++line) {
-    if (concerned(program_.text(line))) return true;
+    if (concerned(program_.text(line))) return mends_in_whole(fix, located);
     without.check(program_.text(line));
     spend(without);
   }
@@ -137,14 +160,7 @@ bool FixTrial::mends(const Fix& fix, const LocatedFinding& located, const Fronti
     spend(with);
     ++next;
   }
-  const Tally found = std::move(without).tally(next == end);
-  const Tally left = std::move(with).tally(next == end);
-  for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
-    const dialect::DiagnosticId id{static_cast<std::uint8_t>(i)};
-    if (left.of(id) > found.of(id) && !dialect::definition(id).is_off) return false;
-  }
-  const dialect::DiagnosticId own = located.finding.id;
-  return found.of(own) == 0 || left.of(own) < found.of(own);
+  return is_better(std::move(with).tally(next == end), std::move(without).tally(next == end), located);
 }
 
 }  // namespace isocnc::analyzer

@@ -205,6 +205,21 @@ void JumpMap::resolve(const std::unordered_map<std::uint64_t, std::vector<std::u
   resolved_ = true;
 }
 
+void JumpMap::resolve(std::string_view text) {
+  std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> label_lines;
+  syntax::TreeStore store;
+  const char* p = text.data();
+  const char* const end = text.data() + text.size();
+  for (std::uint64_t line = 0; p != end; ++line) {
+    store.clear();
+    const char* const line_end = store.append_line(p, end);
+    const syntax::LineTree tree = store.tree(0, p);
+    if (tree.has_label() && names(tree.label)) label_lines[tree.label].push_back(line);
+    p = syntax::skip_line_end(line_end, end);
+  }
+  resolve(label_lines);
+}
+
 /// Whether two conditions and their targets are the same.
 static bool jump_alike(const syntax::Jump& a, const syntax::Jump& b) {
   return a.variable == b.variable && a.comparison == b.comparison &&

@@ -83,6 +83,8 @@ class JumpMap {
   /// Marks the jumps that have no label below them, once all definitions of labels are known (lines by label,
   /// ascending).
   void resolve(const std::unordered_map<std::uint64_t, std::vector<std::uint64_t>>& label_lines);
+  /// The same from the program's text.
+  void resolve(std::string_view text);
   bool is_resolved() const { return resolved_; }
   enum class Target : std::uint8_t { Below, NotFound, Above };
   Target target_of(std::uint32_t jump) const { return resolved_ ? targets_of_jumps_[jump] : Target::Below; }

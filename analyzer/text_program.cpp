@@ -62,7 +62,10 @@ LineTree TextProgram::line(std::uint64_t line) {
 }
 
 const JumpMap& TextProgram::jumps() {
-  if (!jumps_) jumps_.emplace(text_);
+  if (!jumps_) {
+    jumps_.emplace(text_);
+    if (!jumps_->empty()) jumps_->resolve(text_);
+  }
   return *jumps_;
 }
 
