@@ -18,13 +18,18 @@ static std::string_view first_line(std::string_view text) {
   return text.substr(0, static_cast<std::size_t>(behind - text.data()));
 }
 
-/// As diff and patch know lines: ended by LF. A CR alone, which ends a line for the control, ends it here as well, so
-/// that the diff can be read, though not applied.
 static void append(std::string& text, char mark, std::string_view line) {
   text += mark;
   text += line;
-  if (line.ends_with('\n')) return;
-  text += line.ends_with('\r') ? "\n" : "\n\\ No newline at end of file\n";
+  if (!line.ends_with('\n')) text += "\n\\ No newline at end of file\n";
+}
+
+/// Takes a line, as diff and patch know lines, off the front of `text`.
+static std::string_view take_line(std::string_view& text) {
+  const std::string_view line = text.substr(0, text.find('\n') + 1);  // npos + 1 is 0.
+  const std::string_view taken = line.empty() ? text : line;
+  text.remove_prefix(taken.size());
+  return taken;
 }
 
 void UnifiedDiff::add(std::string_view before, std::string_view after) {
@@ -33,28 +38,43 @@ void UnifiedDiff::add(std::string_view before, std::string_view after) {
     const std::string_view new_line = first_line(after);
     before.remove_prefix(old_line.size());
     after.remove_prefix(new_line.size());
-    add_line(old_line, new_line);
+    take(old_line, new_line);
   }
 }
 
-void UnifiedDiff::add_line(std::string_view before, std::string_view after) {
-  if (before == after) return keep(before);
-  remove(before);
-  insert(after);
+void UnifiedDiff::take(std::string_view before, std::string_view after) {
+  const auto is_whole = [](std::string_view text) { return text.empty() || text.ends_with('\n'); };
+  if (open_before_.empty() && open_after_.empty() && is_whole(before) && is_whole(after)) return compare(before, after);
+  open_before_ += before;
+  open_after_ += after;
+  if (!is_whole(open_before_) || !is_whole(open_after_)) return;
+  compare(open_before_, open_after_);
+  open_before_.clear();
+  open_after_.clear();
+}
+
+/// Lines that stand in the place of one another.
+void UnifiedDiff::compare(std::string_view before, std::string_view after) {
+  if (before == after) {
+    while (!before.empty()) keep(take_line(before));
+    return;
+  }
+  while (!before.empty()) take_away(take_line(before));
+  while (!after.empty()) put_in(take_line(after));
 }
 
 std::string UnifiedDiff::marked(std::string_view line, bool is_first) const {
   return is_first && has_byte_order_mark_ ? fmt::format("{}{}", running::kByteOrderMark, line) : std::string(line);
 }
 
-void UnifiedDiff::remove(std::string_view line) {
+void UnifiedDiff::take_away(std::string_view line) {
   begin_change();
   append(removed_, '-', marked(line, before_.line == 0));
   ++before_.line;
   ++before_.hunk_lines;
 }
 
-void UnifiedDiff::insert(std::string_view line) {
+void UnifiedDiff::put_in(std::string_view line) {
   begin_change();
   append(added_, '+', marked(line, after_.line == 0));
   ++after_.line;
@@ -115,6 +135,7 @@ void UnifiedDiff::write_hunk() {
 }
 
 void UnifiedDiff::finish() {
+  compare(open_before_, open_after_);
   hunk_ += removed_;
   hunk_ += added_;
   removed_.clear();

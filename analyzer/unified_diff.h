@@ -8,7 +8,8 @@
 
 namespace isocnc::analyzer {
 
-/// Writes a unified diff of two texts whose lines come along side by side: what is kept is a few lines.
+/// Writes a unified diff of two texts whose lines come along side by side: what is kept is a few lines. For diff and
+/// patch only LF ends a line: lines that end with CR alone are shown together with the next one that ends with LF.
 class UnifiedDiff {
  public:
   /// Parts of the diff go to `write`. Behind a byte-order mark the first line begins with it in both texts.
@@ -18,8 +19,8 @@ class UnifiedDiff {
   /// The next lines, whole ones with their ends, as many before as after.
   void add(std::string_view before, std::string_view after);
   /// A line with its end that only one of the texts has.
-  void remove(std::string_view line);
-  void insert(std::string_view line);
+  void remove(std::string_view line) { take(line, {}); }
+  void insert(std::string_view line) { take({}, line); }
   /// Behind the last line.
   void finish();
   bool has_changes() const { return has_changes_; }
@@ -27,9 +28,12 @@ class UnifiedDiff {
  private:
   std::string marked(std::string_view line, bool is_first) const;
   void write_names();
-  void add_line(std::string_view before, std::string_view after);
+  void take(std::string_view before, std::string_view after);
+  void compare(std::string_view before, std::string_view after);
   void begin_change();
   void keep(std::string_view line);
+  void take_away(std::string_view line);
+  void put_in(std::string_view line);
   void write_hunk();
 
   static constexpr std::size_t kContext = 3;
@@ -48,6 +52,10 @@ class UnifiedDiff {
   };
   Side before_;
   Side after_;
+
+  // What has come since both texts last stood behind an LF.
+  std::string open_before_;
+  std::string open_after_;
 
   // The hunk that is being gathered, and the unchanged lines before or behind it.
   std::vector<std::string> context_;

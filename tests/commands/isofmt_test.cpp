@@ -80,6 +80,32 @@ TEST(Isofmt, ShowsDifferencesThatCanBeApplied) {
   }
 }
 
+/// For patch only LF ends a line, whatever ends it for the control (D5).
+TEST(Isofmt, ShowsDifferencesThatCanBeAppliedWhateverEndsTheLines) {
+  const std::vector<std::vector<std::string>> commands = {{"isofmt"}, {"isolint", "--unsafe-fixes"}};
+  for (const std::string before :
+       {"m06 t101001\rg71\rg71\rg00 x1\r", "m06 t101001\rG71\rG71\rg00 x1",
+        "M06 T101001\rg71\nG71\r\nG71\rg0 x1\nM02\r", "M06 T101001\rG00 X1\n\n\n\n\n\n\nG71\nG71\ng00 x2\nM02\n",
+        "M06 T101001\r\n\rG71\r\rG71 g00 x1\r\r\nM02\n"}) {
+    for (const std::vector<std::string>& command : commands) {
+      const TemporaryFolder folder;
+      const std::string patched = folder.write("part.iso", before);
+      const std::string rewritten = folder.write("other.iso", before);
+      const auto run_with = [&](const std::string& option, const std::string& file) {
+        std::vector<std::string> whole = command;
+        whole.insert(whole.end(), {option, file});
+        return run_command(whole, {.folder = folder.path()}).out;
+      };
+      folder.write("difference", run_with("--diff", "part.iso"));
+      run_with(command[0] == "isofmt" ? "-i" : "--fix", "other.iso");
+      EXPECT_NE(text_of_file(rewritten), before);
+      EXPECT_EQ(std::system(("cd " + folder.path() + " && git apply -p0 --whitespace=nowarn difference").c_str()), 0)
+          << text_of_file(folder.path("difference"));
+      EXPECT_EQ(text_of_file(patched), text_of_file(rewritten));
+    }
+  }
+}
+
 TEST(Isofmt, ChecksPrograms) {
   const TemporaryFolder folder;
   folder.write("a.iso", kUntidy);
