@@ -130,7 +130,8 @@ static void add_options(running::ProgramApp& program, Options& options) {
       "--config", options.source.file, running::kFileValue,
       {"Read this, not the isocnc.json above each program", "Legge questo, non l'isocnc.json sopra ogni programma"});
   program.add_flag("--no-config", options.source.none, {"Read no isocnc.json", "Non legge nessun isocnc.json"})
-      .excludes(config);
+      .excludes(config)
+      .tells_no_exclusions();
   program.add_flag(
       "--show-config", options.show_config,
       {"Print the configuration of PATH, and where it is", "Stampa la configurazione di PATH, e dove si trova"});

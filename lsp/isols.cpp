@@ -55,6 +55,7 @@ int run_main(int argc, char** argv) {
                   {"Wait for one editor on this port of the loopback\ninterface; 0: any",
                    "Aspetta un editor su questa porta dell'interfaccia\nloopback; 0: una qualsiasi"})
       .excludes(stdio);
+  stdio.tells_no_exclusions();
   program.add_choice("--lang", options.language, {"en", "it"}, {"LANG", "LINGUA"},
                      {"en or it; else as the editor, the configuration\nor the locale says",
                       "en o it; altrimenti secondo l'editor, la\nconfigurazione o il locale"});

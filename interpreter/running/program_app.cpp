@@ -133,7 +133,10 @@ ProgramApp::Said ProgramApp::read(int argc, const char* const* argv) {
   } catch (const CLI::Success& success) {
     std::ostringstream said;
     app_->exit(success, said, said);
-    return {.answer = said.str(), .complaint = {}};
+    std::string answer = said.str();
+    // The library separates groups by two empty lines: screens are short.
+    for (std::size_t at = 0; (at = answer.find("\n\n\n", at)) != std::string::npos;) answer.erase(at, 1);
+    return {.answer = std::move(answer), .complaint = {}};
   } catch (const CLI::ParseError& error) {
     return {.answer = {}, .complaint = complaint_about(error)};
   }
