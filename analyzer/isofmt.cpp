@@ -1,7 +1,6 @@
 #include <unistd.h>
 
 #include <charconv>
-#include <csignal>
 #include <iostream>
 #include <optional>
 #include <variant>
@@ -323,7 +322,6 @@ void add_options(running::ProgramApp& program, Options& options) {
 }
 
 int run_main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // A file that may not grow is a write that fails, and is told as one.
   Options options;
   running::ProgramApp program(
       argc, argv,

@@ -30,7 +30,7 @@ std::vector<std::filesystem::path> ClosedPrograms::programs_in(const std::vector
 std::optional<std::string> ClosedPrograms::answer_of(const std::filesystem::path& program, const std::string& uri,
                                                      const documents::Client& client,
                                                      const std::atomic<bool>& cancelled, const Answer& answer) {
-  const auto opened = running::SourceFile::open(program, dialect::Language::English);
+  const auto opened = running::SourceFile::open_unmapped(program, dialect::Language::English);
   const auto* const source = std::get_if<running::SourceFile>(&opened);
   if (source == nullptr) return std::nullopt;
   documents::OpenDocument document(uri, settings_);

@@ -6,6 +6,7 @@
 
 #include <unistd.h>
 
+#include "interpreter/running/mapped_file.h"
 #include "interpreter/running/output_file.h"
 #include "interpreter/syntax/unicode.h"
 
@@ -13,6 +14,8 @@ namespace isocnc::running {
 
 int program_main(std::string_view program, int (*run)(int argc, char** argv), int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  tell_of_lost_bytes(program);
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {

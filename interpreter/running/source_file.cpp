@@ -1,7 +1,6 @@
 #include "interpreter/running/source_file.h"
 
 #include <fcntl.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
+#include <exception>
 #include <limits>
 #include <optional>
 
@@ -108,6 +108,15 @@ static std::optional<Text> obstacle(std::string_view text) {
   return std::nullopt;
 }
 
+static bool make_room(std::string& bytes, std::size_t size) {
+  try {
+    bytes.resize(size);
+  } catch (const std::exception&) {  // No memory, or more than any string has.
+    return false;
+  }
+  return true;
+}
+
 /// Appends what the stream gives until there are `limit` bytes or it ends, with room for as many as are `expected`;
 /// returns 0 or the errno.
 static int read_up_to(std::size_t limit, std::size_t expected, int descriptor, std::string& bytes) {
@@ -115,8 +124,8 @@ static int read_up_to(std::size_t limit, std::size_t expected, int descriptor, s
   std::size_t size = bytes.size();
   int error = 0;
   while (size < limit) {
-    if (size == bytes.size())
-      bytes.resize(std::min(limit, size < expected ? expected + 1 : std::max(kFirstBytes, 2 * size)));
+    const std::size_t wished = std::min(limit, size < expected ? expected + 1 : std::max(kFirstBytes, 2 * size));
+    if (size == bytes.size() && !make_room(bytes, wished)) return ENOMEM;
     const ssize_t count = ::read(descriptor, bytes.data() + size, bytes.size() - size);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) error = errno;
@@ -152,25 +161,36 @@ class Descriptor {
 }  // namespace
 
 std::variant<SourceFile, SourceFile::Problem> SourceFile::open(const std::filesystem::path& path, Language language) {
+  return open(path, kMostReadBytes, language);
+}
+
+std::variant<SourceFile, SourceFile::Problem> SourceFile::open_unmapped(const std::filesystem::path& path,
+                                                                        Language language) {
+  return open(path, std::numeric_limits<std::size_t>::max(), language);
+}
+
+std::variant<SourceFile, SourceFile::Problem> SourceFile::open(const std::filesystem::path& path, std::size_t most_read,
+                                                               Language language) {
   const Descriptor file(path);
   struct stat status;
   if (file.number() < 0 || ::fstat(file.number(), &status) != 0) return Problem{cannot_read(errno, language)};
   if (S_ISDIR(status.st_mode)) return Problem{std::string(kIsDirectory.in(language))};
   const auto size = static_cast<std::size_t>(status.st_size);
-  if (!S_ISREG(status.st_mode) || size <= kMostReadBytes) return read(file.number(), size, language);
-  return map(file.number(), size, language);
+  if (!S_ISREG(status.st_mode) || size <= most_read) return read(file.number(), size, language);
+  return map(path, file.number(), size, language);
 }
 
-std::variant<SourceFile, SourceFile::Problem> SourceFile::map(int descriptor, std::size_t size, Language language) {
-  void* const bytes = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
-  // Files that the kernel makes up as they are read (sysfs) have a size, but cannot be mapped.
-  if (bytes == MAP_FAILED && errno == ENODEV) return read_stream(descriptor, language);
-  if (bytes == MAP_FAILED) return Problem{cannot_read(errno, language)};
+std::variant<SourceFile, SourceFile::Problem> SourceFile::map(const std::filesystem::path& path, int descriptor,
+                                                              std::size_t size, Language language) {
   SourceFile file;
-  file.mapped_ = {static_cast<char*>(bytes), Unmap{size}};
+  file.mapped_ = std::make_unique<MappedFile>(path, descriptor, size, language);
+  const int error = file.mapped_->error();
+  // Files that the kernel makes up as they are read (sysfs) have a size, but cannot be mapped.
+  if (error == ENODEV) return read_stream(descriptor, language);
+  if (error != 0) return Problem{cannot_read(error, language)};
   std::variant<SourceFile, Problem> result = checked(std::move(file), language);
   // Not before the check, which may run backward through a long line.
-  if (std::holds_alternative<SourceFile>(result)) ::madvise(bytes, size, MADV_SEQUENTIAL);
+  if (const auto* const good = std::get_if<SourceFile>(&result)) good->mapped_->will_be_read_in_order();
   return result;
 }
 
@@ -195,15 +215,11 @@ std::variant<SourceFile, SourceFile::Problem> SourceFile::checked(SourceFile fil
   return file;
 }
 
-std::string_view SourceFile::bytes() const {
-  return mapped_ ? std::string_view(mapped_.get(), mapped_.get_deleter().size) : std::string_view(read_);
-}
+std::string_view SourceFile::bytes() const { return mapped_ ? mapped_->bytes() : std::string_view(read_); }
 
 std::string_view SourceFile::text() const {
   const std::string_view all = bytes();
   return all.starts_with(kByteOrderMark) ? all.substr(kByteOrderMark.size()) : all;
 }
-
-void SourceFile::Unmap::operator()(char* bytes) const { ::munmap(bytes, size); }
 
 }  // namespace isocnc::running

@@ -73,7 +73,7 @@ Json configuration_diagnostics(const fs::path& file, Encoding encoding, Language
   const auto problem = [](const std::string& message) { return Json::array({diagnostic({}, message)}); };
   if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
     return problem(std::string(configuration::mistakes::kNoFile.in(language)));
-  const auto opened = SourceFile::open(file, language);
+  const auto opened = SourceFile::open_unmapped(file, language);
   if (const auto* const why = std::get_if<SourceFile::Problem>(&opened)) return problem(why->message);
   const auto& source = std::get<SourceFile>(opened);
   std::string text(source.has_byte_order_mark() ? running::kByteOrderMark : std::string_view());

@@ -132,15 +132,16 @@ static void feed(Descriptor& target, std::string_view& text) {
 
 /// Talks to the command until it has closed its outputs; false when that takes too long.
 static bool converse(Descriptor& input, Descriptor& out, Descriptor& err, std::string_view text, CommandResult& result,
-                     std::chrono::seconds limit) {
+                     std::chrono::microseconds limit) {
   const auto deadline = std::chrono::steady_clock::now() + limit;
   if (text.empty()) input.close();
   while (out.is_open() || err.is_open()) {
     const auto left =
-        std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now()).count();
+        std::chrono::duration_cast<std::chrono::microseconds>(deadline - std::chrono::steady_clock::now()).count();
     if (left <= 0) return false;
+    const timespec time_left{left / 1'000'000, left % 1'000'000 * 1'000};
     std::array<pollfd, 3> waiting{{{input.number(), POLLOUT, 0}, {out.number(), POLLIN, 0}, {err.number(), POLLIN, 0}}};
-    if (::poll(waiting.data(), waiting.size(), static_cast<int>(left)) <= 0) continue;
+    if (::ppoll(waiting.data(), waiting.size(), &time_left, nullptr) <= 0) continue;
     if (waiting[0].revents != 0) feed(input, text);
     if (waiting[1].revents != 0) drain(out, result.out);
     if (waiting[2].revents != 0) drain(err, result.err);

@@ -20,7 +20,7 @@ struct Surroundings {
   std::map<std::string, std::string> environment;  ///< Beside what the tests run in, less its locale and NO_COLOR.
   std::string folder;                              ///< To run in; else that of the tests.
   StandardOutput standard_output = StandardOutput::Captured;
-  std::chrono::seconds limit{120};  ///< Killed when it takes longer.
+  std::chrono::microseconds limit = std::chrono::seconds(120);  ///< Killed when it takes longer.
 };
 
 /// What became of a command.

@@ -1,11 +1,11 @@
 #include "interpreter/running/replace_file.h"
+#include "tests/support/in_child.h"
 #include "tests/support/text_of_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <stdlib.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,6 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using dialect::Language;
+using support::in_child;
 using testing::HasSubstr;
 using testing::Optional;
 
@@ -126,26 +127,8 @@ TEST_F(FileReplacements, RefuseWhatIsNoPlainFile) {
   EXPECT_EQ(text_of_file(file), "old\n");
 }
 
-/// What a child process ends with; it may write as many bytes to a file as `limit` says, and is no superuser.
-template <class Act>
-int in_child(rlim_t limit, Act act) {
-  const pid_t child = ::fork();
-  if (child == 0) {
-    const rlimit small{limit, limit};
-    ::setrlimit(RLIMIT_FSIZE, &small);
-    ::signal(SIGXFSZ, SIG_IGN);
-    if (::geteuid() == 0 && ::setuid(65534) != 0) ::_exit(99);
-    ::_exit(act() ? 0 : 1);
-  }
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-constexpr rlim_t kNoLimit = RLIM_INFINITY;
-
 bool fails_for(const fs::path& file, std::string_view text, std::string_view reason) {
+  ::signal(SIGXFSZ, SIG_IGN);  // As program_main does.
   const auto why_not = replace(file, text);
   return why_not && why_not->find(reason) != std::string::npos;
 }
@@ -153,22 +136,22 @@ bool fails_for(const fs::path& file, std::string_view text, std::string_view rea
 TEST_F(FileReplacements, ThatDoNotFitLeaveTheOldText) {
   fs::permissions(folder, fs::perms::all);
   fs::permissions(file, fs::perms(0666));
-  EXPECT_EQ(in_child(100'000, [&] { return fails_for(file, std::string(300'000, 'x'), "File too large"); }), 0);
-  EXPECT_EQ(in_child(10, [&] { return fails_for(file, "more than ten bytes\n", "File too large"); }), 0);
+  EXPECT_EQ(in_child([&] { return fails_for(file, std::string(300'000, 'x'), "File too large"); }, 100'000), 0);
+  EXPECT_EQ(in_child([&] { return fails_for(file, "more than ten bytes\n", "File too large"); }, 10), 0);
   expect_untouched();
 }
 
 TEST_F(FileReplacements, InAReadOnlyFolderLeaveTheOldText) {
   fs::permissions(file, fs::perms(0666));
   fs::permissions(folder, fs::perms(0555));
-  EXPECT_EQ(in_child(kNoLimit, [&] { return fails_for(file, "new\n", "cannot write: Permission denied"); }), 0);
+  EXPECT_EQ(in_child([&] { return fails_for(file, "new\n", "cannot write: Permission denied"); }), 0);
   expect_untouched();
 }
 
 TEST_F(FileReplacements, OfAWriteProtectedFileAreRefused) {
   fs::permissions(folder, fs::perms::all);
   fs::permissions(file, fs::perms(0444));
-  EXPECT_EQ(in_child(kNoLimit, [&] { return fails_for(file, "new\n", "cannot write: Permission denied"); }), 0);
+  EXPECT_EQ(in_child([&] { return fails_for(file, "new\n", "cannot write: Permission denied"); }), 0);
   expect_untouched();
 }
 

@@ -1,4 +1,5 @@
 #include "interpreter/running/source_file.h"
+#include "tests/support/in_child.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -160,10 +161,13 @@ TEST_F(SourceFiles, FileThatDoesNotExistIsAProblem) {
 }
 
 TEST_F(SourceFiles, FileThatMayNotBeReadIsAProblem) {
-  if (::geteuid() == 0) GTEST_SKIP() << "root may read everything";
   fs::permissions(write("M02\n"), fs::perms::none);
-  EXPECT_EQ(shown(SourceFile::open(path(), Language::English)), "[cannot read: Permission denied]");
-  EXPECT_EQ(shown(SourceFile::open(path(), Language::Italian)), "[non si può leggere: permesso negato]");
+  fs::permissions(path().parent_path(), fs::perms(0755));
+  const int is_otherwise = support::in_child([&] {
+    return shown(SourceFile::open(path(), Language::English)) == "[cannot read: Permission denied]" &&
+           shown(SourceFile::open(path(), Language::Italian)) == "[non si può leggere: permesso negato]";
+  });
+  EXPECT_EQ(is_otherwise, 0);
 }
 
 TEST_F(SourceFiles, DirectoryIsAProblem) {
@@ -216,12 +220,24 @@ TEST_F(SourceFiles, FilesThatTheKernelMakesUpAreRead) {
   }
 }
 
-TEST_F(SourceFiles, FileTooLargeToBeMappedIsAProblem) {
+/// What isols must be able to live on from.
+TEST_F(SourceFiles, ThatAreNotMappedKeepTheirBytesWhenTheFileIsCutShort) {
+  const std::string text(9 * 1024 * 1024, 'X');
+  const fs::path file = write(text);
+  const Result result = SourceFile::open_unmapped(file, Language::English);
+  fs::resize_file(file, 10);
+  EXPECT_TRUE(shown(result) == text);
+}
+
+TEST_F(SourceFiles, FileTooLargeForTheMemoryIsAProblem) {
   const int descriptor = ::memfd_create("part.iso", MFD_CLOEXEC);
   if (descriptor < 0 || ::ftruncate(descriptor, off_t{1} << 50) != 0) GTEST_SKIP() << "no such file can be made here";
+  const std::string head(9000, 'X');
+  ASSERT_EQ(::pwrite(descriptor, head.data(), head.size(), 0), 9000);
   const fs::path file = "/proc/self/fd/" + std::to_string(descriptor);
   EXPECT_EQ(shown(SourceFile::open(file, Language::English)), "[cannot read: Cannot allocate memory]");
   EXPECT_EQ(shown(SourceFile::open(file, Language::Italian)), "[non si può leggere: memoria insufficiente]");
+  EXPECT_EQ(shown(SourceFile::open_unmapped(file, Language::English)), "[cannot read: Cannot allocate memory]");
   ::close(descriptor);
 }
 

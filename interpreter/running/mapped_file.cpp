@@ -1,0 +1,84 @@
+#include "interpreter/running/mapped_file.h"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <functional>
+#include <utility>
+
+#include "interpreter/running/program_main.h"
+#include "interpreter/syntax/unicode.h"
+
+namespace isocnc::running {
+
+using dialect::Language;
+using dialect::Text;
+
+static constexpr Text kWasCutShort{"has been cut short by another program while it was being read",
+                                   "è stato accorciato da un altro programma durante la lettura"};
+
+/// The files that are mapped now, for the handler of a signal, which may take no lock. One for each thread is enough;
+/// a file that finds no place ends the program without a word, as it would have without this.
+static std::array<std::atomic<const MappedFile*>, 256> mapped_files;
+
+MappedFile::MappedFile(const std::filesystem::path& path, int descriptor, std::size_t size, Language language)
+    : size_(size) {
+  void* const bytes = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
+  if (bytes == MAP_FAILED) {
+    error_ = errno;
+    return;
+  }
+  begin_ = static_cast<const char*>(bytes);
+  complaint_ = syntax::printable(path.string()) + ": " + std::string(kWasCutShort.in(language)) + "\n";
+  for (std::atomic<const MappedFile*>& place : mapped_files) {
+    const MappedFile* nobody = nullptr;
+    if (place.compare_exchange_strong(nobody, this)) break;
+  }
+}
+
+MappedFile::~MappedFile() {
+  if (begin_ == nullptr) return;
+  for (std::atomic<const MappedFile*>& place : mapped_files) {
+    const MappedFile* self = this;
+    if (place.compare_exchange_strong(self, nullptr)) break;
+  }
+  ::munmap(const_cast<char*>(begin_), size_);
+}
+
+void MappedFile::will_be_read_in_order() const { ::madvise(const_cast<char*>(begin_), size_, MADV_SEQUENTIAL); }
+
+const std::string* MappedFile::complaint_of(const void* address) const {
+  const auto* const place = static_cast<const char*>(address);
+  const std::less<const char*> is_below;
+  return !is_below(place, begin_) && is_below(place, begin_ + size_) ? &complaint_ : nullptr;
+}
+
+/// `isolint: `, for the handler.
+static std::string complaint_prefix;
+
+/// Calls nothing that a handler may not call.
+static void on_lost_bytes(int signal, siginfo_t* info, void*) {
+  for (const std::atomic<const MappedFile*>& place : mapped_files) {
+    const MappedFile* const file = place.load();
+    const std::string* const complaint = file != nullptr ? file->complaint_of(info->si_addr) : nullptr;
+    if (complaint == nullptr) continue;
+    for (const std::string* const part : {&std::as_const(complaint_prefix), complaint})
+      if (::write(STDERR_FILENO, part->data(), part->size()) < 0) break;
+    ::_exit(kTroubleStatus);
+  }
+  std::signal(signal, SIG_DFL);  // Not of our making: the access is tried again, and ends the program.
+}
+
+void tell_of_lost_bytes(std::string_view program) {
+  complaint_prefix = std::string(program) + ": ";
+  struct sigaction action {};
+  action.sa_sigaction = on_lost_bytes;
+  action.sa_flags = SA_SIGINFO;
+  ::sigaction(SIGBUS, &action, nullptr);
+}
+
+}  // namespace isocnc::running
