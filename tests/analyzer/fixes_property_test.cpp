@@ -118,9 +118,10 @@ TEST(FixesProperty, KeepLineEndsAndTheLastOnesState) {
   for (const std::uint64_t seed : support::seeds(4'000)) {
     Random random(seed);
     const auto [text, line_end] = random_sample(random);
+    if (text.find(line_end) == std::string::npos) continue;  // It has none to keep.
     const std::string once = fixed(text, true);
     const std::string without = std::regex_replace(once, std::regex(line_end), "");
-    ASSERT_EQ(without.find_first_of("\r\n"), std::string::npos) << "seed " << seed;
+    ASSERT_EQ(without.find_first_of("\r\n"), std::string::npos) << "seed " << seed << "\n" << text;
     // A program of nothing but a word that is removed has no line left to end.
     if (once.empty()) continue;
     ASSERT_EQ(once.ends_with(line_end), text.ends_with(line_end)) << "seed " << seed << "\n" << text;
