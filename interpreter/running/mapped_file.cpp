@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "interpreter/running/program_main.h"
+#include "interpreter/running/temporary_file.h"
 #include "interpreter/syntax/unicode.h"
 
 namespace isocnc::running {
@@ -68,6 +69,7 @@ static void on_lost_bytes(int signal, siginfo_t* info, void*) {
     if (complaint == nullptr) continue;
     for (const std::string* const part : {&std::as_const(complaint_prefix), complaint})
       if (::write(STDERR_FILENO, part->data(), part->size()) < 0) break;
+    remove_temporary_files();
     ::_exit(kTroubleStatus);
   }
   std::signal(signal, SIG_DFL);  // Not of our making: the access is tried again, and ends the program.

@@ -42,6 +42,11 @@ int OutputFile::flush() {
   return error_;
 }
 
+int OutputFile::sync() {
+  if (flush() == 0 && ::fsync(descriptor_) != 0) error_ = errno;
+  return error_;
+}
+
 std::optional<std::string> flush(OutputFile& output, std::string_view name, dialect::Language language) {
   const int error = output.flush();
   return error == 0 ? std::nullopt : std::optional(fmt::format("{}: {}", name, cannot_write(error, language)));

@@ -24,6 +24,8 @@ class OutputFile {
   void write(std::string_view text);
   /// Writes what has been gathered, and returns error(). What is not flushed is lost.
   int flush();
+  /// The same, and sees to it that what has been written is on the disk: of files.
+  int sync();
   /// 0, or the errno of what failed first.
   int error() const { return error_; }
 

@@ -8,6 +8,7 @@
 
 #include "interpreter/running/mapped_file.h"
 #include "interpreter/running/output_file.h"
+#include "interpreter/running/temporary_file.h"
 #include "interpreter/syntax/unicode.h"
 
 namespace isocnc::running {
@@ -16,6 +17,7 @@ int program_main(std::string_view program, int (*run)(int argc, char** argv), in
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   tell_of_lost_bytes(program);
+  leave_no_temporary_files();
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {

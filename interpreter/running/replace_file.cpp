@@ -45,19 +45,18 @@ void FileReplacement::discard() {
   output_.reset();
   if (descriptor_ >= 0) ::close(descriptor_);
   descriptor_ = -1;
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
-  temporary_.clear();
+  temporary_.reset();
 }
 
 /// Its name ends in no extension of programs, should it ever be left behind.
 void FileReplacement::make_temporary() {
-  temporary_ = target_.parent_path() / ("." + target_.filename().string().substr(0, 200) + ".isocnc-XXXXXX");
-  descriptor_ = ::mkostemp(temporary_.data(), O_CLOEXEC);
+  std::string name = target_.parent_path() / ("." + target_.filename().string().substr(0, 200) + ".isocnc-XXXXXX");
+  descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
   if (descriptor_ >= 0) {
+    temporary_.emplace(std::move(name));
     output_.emplace(descriptor_);
   } else {
     error_ = errno;
-    temporary_.clear();
   }
 }
 
@@ -104,14 +103,10 @@ std::optional<std::string> FileReplacement::commit(Language language) {
     error_ = output_->flush();
     if (error_ == 0 && (!take_over_attributes() || ::fsync(descriptor_) != 0)) error_ = errno;
     if (error_ == 0 && !is_unchanged()) refusal_ = &kHasChanged;
-    if (error_ == 0 && refusal_ == nullptr && std::rename(temporary_.c_str(), target_.c_str()) != 0) error_ = errno;
+    if (error_ == 0 && refusal_ == nullptr) error_ = temporary_->rename(target_);
   }
-  if (error_ != 0 || refusal_ != nullptr) {
-    discard();
-    return why_not(language);
-  }
-  temporary_.clear();  // It has the file's name now.
   discard();
+  if (error_ != 0 || refusal_ != nullptr) return why_not(language);
   sync_folder(target_.parent_path());
   return std::nullopt;
 }

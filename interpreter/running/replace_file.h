@@ -9,6 +9,7 @@
 
 #include "interpreter/dialect/diagnostic.h"
 #include "interpreter/running/output_file.h"
+#include "interpreter/running/temporary_file.h"
 
 namespace isocnc::running {
 
@@ -42,7 +43,7 @@ class FileReplacement {
   struct stat status_ {};
   int error_ = 0;
   const dialect::Text* refusal_ = nullptr;
-  std::string temporary_;
+  std::optional<TemporaryFile> temporary_;
   int descriptor_ = -1;
   std::optional<OutputFile> output_;
 };

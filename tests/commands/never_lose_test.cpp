@@ -131,6 +131,21 @@ TEST_P(NeverLose, WhenKilled) {
 INSTANTIATE_TEST_SUITE_P(Commands, NeverLose, testing::ValuesIn(rewriters()),
                          [](const auto& tested) { return tested.param.name; });
 
+/// Ctrl-C at some moment, most likely while the new text is being written: nothing is left beside the program.
+TEST(NeverLeave, WhenInterrupted) {
+  const TemporaryFolder folder;
+  const std::string before = untidy_program(500'000);
+  const std::string file = folder.write("part.iso", before);
+  const std::string command =
+      "cd " + folder.path() + " && exec " ISOCNC_BIN_DIR "/isofmt -i part.iso 2> /dev/null & pid=$!; " +
+      "while [ $(ls -A " + folder.path() + " | wc -l) = 1 ] && kill -0 $pid 2> /dev/null; do :; done; " +
+      "kill -TERM $pid 2> /dev/null; wait $pid; exit 0";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  const bool is_old = text_of_file(file) == before;
+  EXPECT_TRUE(is_old || text_of_file(file).ends_with("M02\n"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
+}
+
 /// A command that is read slowly, so that the program is cut short after it has been opened and before its last byte
 /// has been looked at.
 class CutShort : public testing::TestWithParam<std::string> {};

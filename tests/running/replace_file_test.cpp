@@ -1,4 +1,5 @@
 #include "interpreter/running/replace_file.h"
+#include "interpreter/running/temporary_file.h"
 #include "tests/support/in_child.h"
 #include "tests/support/text_of_file.h"
 
@@ -153,6 +154,33 @@ TEST_F(FileReplacements, OfAWriteProtectedFileAreRefused) {
   fs::permissions(file, fs::perms(0444));
   EXPECT_EQ(in_child([&] { return fails_for(file, "new\n", "cannot write: Permission denied"); }), 0);
   expect_untouched();
+}
+
+/// Ctrl-C while the new text is being written.
+TEST_F(FileReplacements, ThatAreInterruptedLeaveNothingBeside) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    fs::permissions(folder, fs::perms::all);
+    fs::permissions(file, fs::perms(0666));
+    const int ending = in_child([&] {
+      leave_no_temporary_files();
+      FileReplacement replacement(file);
+      replacement.write(std::string(200'000, 'x'));
+      if (files_in_folder() == 2) ::raise(signal);
+      return false;
+    });
+    EXPECT_EQ(ending, -1) << signal;
+    expect_untouched();
+  }
+}
+
+TEST_F(FileReplacements, GoOnWhereASignalIsToBeIgnored) {
+  const int ending = in_child([&] {
+    ::signal(SIGHUP, SIG_IGN);
+    leave_no_temporary_files();
+    ::raise(SIGHUP);
+    return true;
+  });
+  EXPECT_EQ(ending, 0);
 }
 
 /// A child replaces the text over and over, and is killed at one moment or another.
