@@ -136,10 +136,10 @@ TEST(NeverLeave, WhenInterrupted) {
   const TemporaryFolder folder;
   const std::string before = untidy_program(500'000);
   const std::string file = folder.write("part.iso", before);
-  const std::string command =
-      "cd " + folder.path() + " && exec " ISOCNC_BIN_DIR "/isofmt -i part.iso 2> /dev/null & pid=$!; " +
-      "while [ $(ls -A " + folder.path() + " | wc -l) = 1 ] && kill -0 $pid 2> /dev/null; do :; done; " +
-      "kill -TERM $pid 2> /dev/null; wait $pid; exit 0";
+  const std::string command = "exec 2> /dev/null; cd " + folder.path() +
+                              " && exec " ISOCNC_BIN_DIR "/isofmt -i part.iso & pid=$!; " + "while [ $(ls -A " +
+                              folder.path() + " | wc -l) = 1 ] && kill -0 $pid; do :; done; " +
+                              "kill -TERM $pid; wait $pid; exit 0";
   EXPECT_EQ(std::system(command.c_str()), 0);
   const bool is_old = text_of_file(file) == before;
   EXPECT_TRUE(is_old || text_of_file(file).ends_with("M02\n"));
