@@ -140,12 +140,21 @@ void LineParser::check_g(const Instruction& checked) {
   }
 }
 
+/// G92 G00 X5: what the instruction lacks has gone to the one that should not be there, which has been reported.
+bool LineParser::company_has_arguments_of(const Instruction& alone) const {
+  if ((line_.flags & LineTree::kAloneViolated) == 0) return false;
+  for (std::size_t i = alone.command + 1u; i < word_count(); ++i)
+    if (word(i).owner != alone.number && contains(alone.g()->arguments, word(i).letter)) return true;
+  return false;
+}
+
 /// Arguments that are missing, or that an N keeps from their G: the N breaks the series as an S would (D12, D17).
 void LineParser::check_arguments(const Instruction& checked, dialect::DiagnosticId when_missing) {
   const bool company_is_reported = (line_.flags & LineTree::kAloneViolated) != 0;
   if (owns_any(checked, checked.g()->arguments, !company_is_reported)) return check_unbroken(checked);
   // G92 C5: the C, which has been reported, stands where one of them should.
   if (company_is_reported && owns_any(checked, dialect::kDimensionLetters)) return;
+  if (company_has_arguments_of(checked)) return;
   report_missing(when_missing, checked);
 }
 
@@ -207,6 +216,7 @@ void LineParser::check_motion(const Instruction& motion) {
 /// G24 and G28 want at least one component of each axis (D4, D27).
 void LineParser::check_vectors(const Instruction& frame, std::string_view i_letters) {
   check_unbroken(frame);
+  if (company_has_arguments_of(frame)) return;
   if (!owns_any(frame, letters(i_letters))) report_missing("missing-i-vector"_diag, frame);
   if (!owns_any(frame, letters("IJK"))) report_missing("missing-j-vector"_diag, frame);
   if (!owns_any(frame, letters("PQR"))) report_missing("missing-k-vector"_diag, frame);

@@ -72,6 +72,7 @@ class LineParser {
   void check_alone();
   bool must_be_alone(const Instruction& checked, dialect::DiagnosticId& diagnostic) const;
   bool has_company(const Instruction& alone) const;
+  bool company_has_arguments_of(const Instruction& alone) const;
   void check_misplaced_modes();
   void check_motion(const Instruction& motion);
   void check_vectors(const Instruction& frame, std::string_view i_letters);

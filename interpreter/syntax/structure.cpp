@@ -645,7 +645,7 @@ std::uint16_t LineParser::read_target(Jump& jump, std::uint16_t index) {
   }
   const Word& label = word(at);
   if (label.letter != 'N' || !label.is_plain_integer()) {
-    report("if-malformed"_diag, label.span());
+    if (!label.has(Word::kReported)) report("if-malformed"_diag, label.span());  // N1O: said at the O.
     return at;
   }
   jump.has_target = true;
