@@ -1,6 +1,5 @@
 #include "interpreter/geometry/contour_offset.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -45,6 +44,7 @@ void ContourOffset::lead_in(const PlaneCurve& line, const ContourElement& like, 
   pieces_.push_back({.out = {.curve = line, .tag = like.tag, .is_inserted = is_inserted},
                      .number = count_,
                      .pass = pass_,
+                     .side = like.side,
                      .cuts = like.cuts,
                      .is_lead_in = true});
 }
@@ -52,7 +52,7 @@ void ContourOffset::lead_in(const PlaneCurve& line, const ContourElement& like, 
 void ContourOffset::add(const ContourElement& element) {
   const double to_side = element.side * radius_;
   PlaneCurve way = beside(element.curve, to_side);
-  Kept kept{.curve = element.curve, .number = ++count_};
+  Kept kept{.curve = element.curve, .box = box_around(element.curve), .number = ++count_, .side = element.side};
   if (vanishes_beside(element.curve, to_side) && element.curve.radius() < radius_ - kGouge) {
     kept.is_too_small = true;
     if (element.cuts) flaws_.push_back({.tag = element.tag, .small_arc = element.curve.radius()});
@@ -77,6 +77,7 @@ void ContourOffset::add(const ContourElement& element) {
   pieces_.push_back({.out = {.curve = way, .tag = element.tag},
                      .number = count_,
                      .pass = pass_,
+                     .side = element.side,
                      .cuts = element.cuts,
                      .is_smooth = kept.is_smooth});
   for (std::size_t fresh = pieces_.size() - before; element.reduces && fresh > 0; --fresh)
@@ -135,7 +136,20 @@ void ContourOffset::insert(const PlaneCurve& curve) {
 /// The piece has its end: looks for gouges.
 void ContourOffset::settle(Piece& piece) {
   piece.gouges = piece.tells = false;
+  piece.box = box_around(piece.out.curve);
   for (const Kept& element : contour_) look_at(piece, element);
+}
+
+/// Whether the contour's walls face each other at a point of the cutter's way along the one and a point of the other.
+/// `sides`: 1 if the cutter runs on the same side of both, else -1.
+static bool faces(const PlaneCurve& way, const PlaneCurve& element, const Approach& at, int sides) {
+  constexpr double kFacing = -0.7;  // Within some 45 degrees.
+  return sides * way.direction_at(at.on_first).dot(element.direction_at(at.on_second)) < kFacing;
+}
+
+/// Lines face each other everywhere or nowhere.
+static bool may_face(const PlaneCurve& way, const PlaneCurve& element, int sides) {
+  return way.is_arc() || element.is_arc() || faces(way, element, {}, sides);
 }
 
 void ContourOffset::look_at(Piece& piece, const Kept& element) const {
@@ -143,13 +157,19 @@ void ContourOffset::look_at(Piece& piece, const Kept& element) const {
   if (piece.number == element.number && !piece.out.is_inserted && !piece.is_lead_in) return;
   const auto [first, second] = std::minmax(piece.number, element.number);
   const bool is_smooth = second == element.number ? element.is_smooth : piece.is_smooth;
-  if (second - first > kNeighbors || (second - first == 1 && is_smooth)) return;
+  const bool are_neighbors = second - first <= kNeighbors;
+  if ((!are_neighbors && piece.is_lead_in) || (second - first == 1 && is_smooth)) return;
+  const PlaneCurve& way = piece.out.curve;
   // Ways on and off shift the cutter sideways, and so pass the contour's ends at less than the radius.
   const double wanted = piece.is_lead_in ? radius_ / 2 : radius_;
-  const double least = wanted - kGouge - imprecision(piece.out.curve) - imprecision(element.curve);
+  const double least = wanted - kGouge - imprecision(way) - imprecision(element.curve);
   if (!(least > 0)) return;
-  if (box_around(piece.out.curve).squaredExteriorDistance(box_around(element.curve)) >= least * least) return;
-  if (distance(piece.out.curve, element.curve) >= least) return;
+  if (piece.box.squaredExteriorDistance(element.box) >= least * least) return;
+  const int sides = piece.side * element.side;
+  if (!are_neighbors && !may_face(way, element.curve, sides)) return;
+  const Approach nearest = approach(way, element.curve);
+  if (nearest.distance() >= least) return;
+  if (!are_neighbors && !faces(way, element.curve, nearest, sides)) return;
   piece.gouges = true;
   piece.tells = !is_explained(piece.number, element.number);
 }

@@ -4,6 +4,8 @@
 #include <deque>
 #include <optional>
 
+#include <Eigen/Geometry>
+
 #include "interpreter/geometry/plane_curve.h"
 
 namespace isocnc::geometry {
@@ -36,14 +38,15 @@ struct ContourFlaw {
 /// Outside corners are rounded about their point, inside corners end where both sides meet. Where they do not meet, the
 /// cutter goes from beside the end of the one straight to beside the begin of the other, and gouges the contour; where
 /// the elements reduce the contour, the loop that gouges is cut off where its ends cross, if that is within kLookAhead
-/// pieces. The way is always continuous, and where it comes nearer to one of the kNeighbors elements before and behind
-/// it than the radius, by more than kGouge, that is told. Ways on and off lead over where the contour closes, so that
-/// more elements would tell of what is none; for the same reason elements that go on as they are spare each other, and
-/// ways on and off only have to keep half the radius.
+/// pieces. The way is always continuous, and where it comes nearer to an element than the radius, by more than kGouge,
+/// that is told: to one of the kNeighbors elements before and behind it, and to one of the kLookBack whose wall faces
+/// its own, as on both sides of a neck. Other elements are none of its business: a finishing pass goes where the wall
+/// of the roughing pass was, and ways on and off lead over where the contour closes. For the same reason elements that
+/// go on as they are spare each other, and ways on and off have neighbors alone, and only keep half the radius.
 class ContourOffset {
  public:
   static constexpr std::size_t kLookAhead = 32;
-  static constexpr std::size_t kLookBack = 64;
+  static constexpr std::size_t kLookBack = 256;
   static constexpr std::uint64_t kNeighbors = 3;
   static constexpr double kGouge = 0.01;  ///< mm
 
@@ -75,15 +78,19 @@ class ContourOffset {
  private:
   struct Kept {
     PlaneCurve curve;
+    Eigen::AlignedBox2d box;
     std::uint64_t number = 0;
     std::uint64_t pass = 0;
+    int side = 1;
     bool is_too_small = false;
     bool is_smooth = false;  // Goes on as the element before it.
   };
   struct Piece {
     OffsetPiece out;
+    Eigen::AlignedBox2d box;   // Around it, once it has its end.
     std::uint64_t number = 0;  // Of the element.
     std::uint64_t pass = 0;
+    int side = 1;
     bool cuts = true;
     bool is_lead_in = false;  // Or leads out.
     bool is_smooth = false;

@@ -23,9 +23,13 @@ static Vec2 direction_on_arc(const PlaneCurve& arc, const Vec2& point) {
 
 double PlaneCurve::length() const { return is_arc() ? radius() * std::abs(sweep) : (end - start).norm(); }
 
-Vec2 PlaneCurve::direction_at_start() const { return is_arc() ? direction_on_arc(*this, start) : unit(end - start); }
+Vec2 PlaneCurve::direction_at_start() const { return direction_at(start); }
 
-Vec2 PlaneCurve::direction_at_end() const { return is_arc() ? direction_on_arc(*this, end) : unit(end - start); }
+Vec2 PlaneCurve::direction_at_end() const { return direction_at(end); }
+
+Vec2 PlaneCurve::direction_at(const Vec2& point) const {
+  return is_arc() ? direction_on_arc(*this, point) : unit(end - start);
+}
 
 /// How far an arc has turned at a point beside it: radians in its own sense, from a hair before 0 to a full turn.
 static double turned_at(const PlaneCurve& arc, const Vec2& point) {
@@ -118,32 +122,40 @@ Crossings crossings(const PlaneCurve& first, const PlaneCurve& second) {
   return found;
 }
 
-static double distance_to(const Vec2& point, const PlaneCurve& curve) {
-  const double to_ends = std::min((point - curve.start).norm(), (point - curve.end).norm());
-  if (!length_before(curve, point)) return to_ends;
-  const double to_inside = curve.is_arc() ? (point - curve.center).norm() - curve.radius()
-                                          : cross(curve.direction_at_start(), point - curve.start);
-  return std::min(to_ends, std::abs(to_inside));
+static Vec2 nearest_on(const PlaneCurve& curve, const Vec2& point) {
+  Vec2 nearest = (point - curve.start).norm() <= (point - curve.end).norm() ? curve.start : curve.end;
+  const bool is_center = curve.is_arc() && point == curve.center;  // All of the arc is equally near.
+  if (is_center || !length_before(curve, point)) return nearest;
+  const Vec2 way = curve.direction_at_start();
+  const Vec2 foot = curve.is_arc() ? Vec2(curve.center + curve.radius() * unit(point - curve.center))
+                                   : Vec2(curve.start + way.dot(point - curve.start) * way);
+  return (point - foot).norm() < (point - nearest).norm() ? foot : nearest;
 }
 
 /// Where a common normal of both can stand on an arc: towards the other's center, or straight towards its line.
-static double distance_along_normals(const PlaneCurve& arc, const PlaneCurve& other) {
+static void add_feet_of_normals(const PlaneCurve& arc, const PlaneCurve& other, const auto& add) {
   const Vec2 towards = other.is_arc() ? unit(other.center - arc.center) : left_of(other.direction_at_start());
-  double least = std::numeric_limits<double>::infinity();
   for (const double way : {arc.radius(), -arc.radius()}) {
     const Vec2 point = arc.center + way * towards;
-    if (length_before(arc, point)) least = std::min(least, distance_to(point, other));
+    if (length_before(arc, point)) add(point);
   }
-  return least;
 }
 
-double distance(const PlaneCurve& first, const PlaneCurve& second) {
-  if (crossings(first, second).count > 0) return 0;
-  double least = std::min({distance_to(first.start, second), distance_to(first.end, second),
-                           distance_to(second.start, first), distance_to(second.end, first)});
-  if (first.is_arc()) least = std::min(least, distance_along_normals(first, second));
-  if (second.is_arc()) least = std::min(least, distance_along_normals(second, first));
-  return least;
+Approach approach(const PlaneCurve& first, const PlaneCurve& second) {
+  const Crossings crossed = crossings(first, second);
+  if (crossed.count > 0) return {crossed.at[0].point, crossed.at[0].point};
+  Approach nearest{first.start, nearest_on(second, first.start)};
+  const auto consider = [&](const Approach& other) {
+    if (other.distance() < nearest.distance()) nearest = other;
+  };
+  const auto consider_on_first = [&](const Vec2& point) { consider({point, nearest_on(second, point)}); };
+  const auto consider_on_second = [&](const Vec2& point) { consider({nearest_on(first, point), point}); };
+  consider_on_first(first.end);
+  consider_on_second(second.start);
+  consider_on_second(second.end);
+  if (first.is_arc()) add_feet_of_normals(first, second, consider_on_first);
+  if (second.is_arc()) add_feet_of_normals(second, first, consider_on_second);
+  return nearest;
 }
 
 }  // namespace isocnc::geometry

@@ -20,6 +20,8 @@ struct PlaneCurve {
   /// Unit vectors along the way; zero where a line goes nowhere.
   Vec2 direction_at_start() const;
   Vec2 direction_at_end() const;
+  /// At one of its points.
+  Vec2 direction_at(const Vec2& point) const;
   /// What of it lies behind or before a point on it, so many mm along its way.
   PlaneCurve from(const Vec2& point, double along) const;
   PlaneCurve to(const Vec2& point, double along) const;
@@ -55,7 +57,13 @@ struct Crossings {
 };
 Crossings crossings(const PlaneCurve& first, const PlaneCurve& second);
 
-/// The least distance between any of their points, mm; 0 where they cross.
-double distance(const PlaneCurve& first, const PlaneCurve& second);
+/// Two points that are as near to each other as any of two curves; one and the same where they cross.
+struct Approach {
+  Vec2 on_first = Vec2::Zero();
+  Vec2 on_second = Vec2::Zero();
+
+  double distance() const { return (on_first - on_second).norm(); }
+};
+Approach approach(const PlaneCurve& first, const PlaneCurve& second);
 
 }  // namespace isocnc::geometry

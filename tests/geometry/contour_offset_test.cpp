@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <set>
 #include <vector>
@@ -112,6 +113,43 @@ TEST(ContourOffset, FitsIntoAnArcOfItsOwnSize) {
   EXPECT_THAT(fits.gouges, IsEmpty());
 }
 
+/// Two chambers that a neck 6 mm wide connects; its walls are lines 5 and 11 of the contour.
+const std::vector<PlaneCurve> kNeck = lines({{40, 0},
+                                             {60, 0},
+                                             {60, 40},
+                                             {43, 40},
+                                             {43, 60},
+                                             {60, 60},
+                                             {60, 100},
+                                             {20, 100},
+                                             {20, 60},
+                                             {37, 60},
+                                             {37, 40},
+                                             {20, 40},
+                                             {20, 0},
+                                             {40, 0}});
+
+TEST(ContourOffset, GougesTheFarWallOfANeck) {
+  const std::set<std::uint64_t> walls = {4, 10};
+  const std::vector<std::uint64_t> told = offset(kNeck, {40, 20}, {.radius = 5}).gouges;
+  EXPECT_THAT(std::set<std::uint64_t>(told.begin(), told.end()), testing::IsSupersetOf(walls));
+  EXPECT_THAT(offset(kNeck, {40, 20}, {.radius = 2.9}).gouges, IsEmpty());
+  const Offset reduced = offset(kNeck, {40, 20}, {.radius = 5, .reduces = true});
+  EXPECT_THAT(reduced.gouges, IsEmpty());
+  EXPECT_THAT(tags(reduced), ElementsAre(0, 1, 2, 3, 11, 12, 13)) << "the far chamber is left out";
+}
+
+/// What goes along where another pass of the contour was takes away what that has left.
+TEST(ContourOffset, MayGoWhereAnEarlierPassWas) {
+  const auto square = [](double reach) {
+    return std::vector<Vec2>{{0, -reach}, {reach, -reach}, {reach, reach}, {-reach, reach}, {-reach, -reach}};
+  };
+  std::vector<Vec2> roughing_and_finishing = square(28);
+  for (const Vec2& point : square(30)) roughing_and_finishing.push_back(point);
+  roughing_and_finishing.emplace_back(0, -30);
+  EXPECT_THAT(offset(lines(roughing_and_finishing), {0, 0}, {.radius = 5}).gouges, IsEmpty());
+}
+
 /// A way off the contour leads across its begin; in the air that matters to nobody.
 TEST(ContourOffset, ForgetsWhatItHasCutWhenRaised) {
   for (const bool raised : {false, true}) {
@@ -192,15 +230,27 @@ std::vector<PlaneCurve> random_contour(support::Random& random) {
   return curves;
 }
 
+/// Whether both are lines that lead in opposite directions, within 45 degrees.
+bool are_facing_lines(const PlaneCurve& a, const PlaneCurve& b) {
+  return !a.is_arc() && !b.is_arc() && a.direction_at_start().dot(b.direction_at_start()) < -std::sqrt(0.5);
+}
+
+/// Which elements farther away in the contour than its neighbors count: those that a piece surely has to spare, or all
+/// that it may have to.
+enum class Others { Sure, All };
+
 /// From a point of a piece to the nearest element that it has to spare.
-double nearest_to(const Vec2& point, const OffsetPiece& piece, const std::vector<PlaneCurve>& contour) {
+double nearest_to(const Vec2& point, const OffsetPiece& piece, const std::vector<PlaneCurve>& contour, Others others) {
   double least = 1e9;
   const auto goes_on = [&](std::uint64_t first) {
     return first > 0 && (contour[first - 1].direction_at_end() - contour[first].direction_at_start()).norm() < 1e-3;
   };
   for (std::uint64_t tag = 1; tag <= contour.size(); ++tag) {
     const std::uint64_t apart = std::max(tag, piece.tag) - std::min(tag, piece.tag);
-    if (apart > ContourOffset::kNeighbors || (apart == 1 && goes_on(std::min(tag, piece.tag)))) continue;
+    if (apart == 1 && goes_on(std::min(tag, piece.tag))) continue;
+    if (apart > ContourOffset::kNeighbors && others == Others::Sure &&
+        (piece.tag == 0 || !are_facing_lines(piece.curve, contour[tag - 1])))
+      continue;
     least = std::min(least, support::distance_from(point, contour[tag - 1]));
   }
   return least;
@@ -230,7 +280,7 @@ TEST(ContourOffsetProperty, SparesTheContourOrTells) {
       at = piece.curve.end;
       EXPECT_NEAR((point_on(piece.curve, 1) - at).norm(), 0, 2e-4) << seed;
       for (int i = 0; i <= kPoints; ++i)
-        if (nearest_to(point_on(piece.curve, 1.0 * i / kPoints), piece, contour) +
+        if (nearest_to(point_on(piece.curve, 1.0 * i / kPoints), piece, contour, Others::Sure) +
                 (piece.tag == 0 ? wish.radius / 2 : 0) <
             wish.radius - ContourOffset::kGouge - 3e-4)
           gouging.insert(piece.tag);
@@ -246,7 +296,7 @@ TEST(ContourOffsetProperty, SparesTheContourOrTells) {
       double least = wish.radius;
       for (const OffsetPiece& piece : result.pieces)
         for (int i = 0; piece.tag == tag && i <= 6 * kPoints; ++i)
-          least = std::min(least, nearest_to(point_on(piece.curve, i / (6.0 * kPoints)), piece, contour));
+          least = std::min(least, nearest_to(point_on(piece.curve, i / (6.0 * kPoints)), piece, contour, Others::All));
       EXPECT_LT(least, wish.radius - ContourOffset::kGouge / 2) << seed << " element " << tag;
     }
   }
