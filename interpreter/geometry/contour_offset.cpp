@@ -162,9 +162,9 @@ void ContourOffset::look_at(Piece& piece, const Kept& element) const {
   const PlaneCurve& way = piece.out.curve;
   // Ways on and off shift the cutter sideways, and so pass the contour's ends at less than the radius.
   const double wanted = piece.is_lead_in ? radius_ / 2 : radius_;
+  if (piece.box.squaredExteriorDistance(element.box) >= wanted * wanted) return;
   const double least = wanted - kGouge - imprecision(way) - imprecision(element.curve);
   if (!(least > 0)) return;
-  if (piece.box.squaredExteriorDistance(element.box) >= least * least) return;
   const int sides = piece.side * element.side;
   if (!are_neighbors && !may_face(way, element.curve, sides)) return;
   const Approach nearest = approach(way, element.curve);

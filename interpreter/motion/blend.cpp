@@ -112,9 +112,10 @@ static double following_cap(const Machine& machine, const Blend& blend) {
 
 static Caps caps_of(const Machine& machine, Space space, const Blend& blend) {
   if (space == Space::Tip) return {.by_acceleration = following_cap(machine, blend)};
-  Coordinates slopes[3] = {blend.path.c[1], blend.path.c[1] + blend.length * blend.path.c[2],
-                           blend.path.at(blend.length).first};
-  Coordinates bends[2] = {blend.path.at(0).second, blend.path.at(blend.length).second};
+  const auto& c = blend.path.c;
+  const Coordinates cubic = 3 * blend.length * c[3];
+  Coordinates slopes[3] = {c[1], c[1] + blend.length * c[2], c[1] + blend.length * (2 * c[2] + cubic)};
+  Coordinates bends[2] = {2 * c[2], 2 * c[2] + 2 * cubic};
   if (space == Space::Either && machine.kinematics.kind == MachineKind::Table) {
     const Mat3 turn = turn_to_joints(machine.kinematics, blend.path.c[0][kB], blend.path.c[0][kC]);
     for (Coordinates& slope : slopes) slope.head<3>() = (turn * slope.head<3>()).eval();

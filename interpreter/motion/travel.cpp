@@ -6,6 +6,7 @@
 
 #include <Eigen/LU>
 
+#include "interpreter/geometry/helix.h"
 #include "interpreter/motion/element.h"
 
 namespace isocnc::motion {
@@ -42,10 +43,7 @@ class Way {
   }
 
   const Path& path() const { return path_.path; }
-  double length() const { return path_.length; }
   bool is_arc() const { return path().kind == PathKind::Circle; }
-  /// Whether B and C swing the tip.
-  bool swings() const { return path().is_of_joints; }
   bool has_straight_joints() const {
     const bool turns = turned_.squaredNorm() > 0 && machine_.kinematics.kind != MachineKind::ThreeAxis;
     return !is_arc() && (path().is_of_joints || !turns);
@@ -140,27 +138,27 @@ static double integrated_length(const Way& way) {
   return sum / (3 * panels);
 }
 
-static double way_length(const Way& way, const Move& move) {
-  if (way.swings()) return integrated_length(way);
-  const Vec3 rise = way.path().c[3].head<3>();
-  const bool leans = rise.cross(move.normal).norm() > 1e-9;
-  return leans ? integrated_length(way) : way.length();
-}
-
 static std::array<Range, 3> extents(const Vec3& from, const Vec3& to) {
   const Vec3 least = from.cwiseMin(to);
   const Vec3 most = from.cwiseMax(to);
   return {Range{least.x(), most.x()}, Range{least.y(), most.y()}, Range{least.z(), most.z()}};
 }
 
-static std::array<Range, 3> arc_extents(const Way& way, const geometry::Frame& frame) {
-  const Path& path = way.path();
+static geometry::Helix helix_of(const Move& arc) {
+  return geometry::helix(arc.from.tip, arc.to.tip, arc.center, arc.normal, arc.sweep_deg);
+}
+
+static std::array<Range, 3> arc_extents(const geometry::Helix& helix, const geometry::Frame& frame) {
   const geometry::Mat3 to_frame = frame.axes.inverse();
-  const auto seen = [&](const Coordinates& vector) -> Vec3 { return to_frame * vector.head<3>(); };
-  const double omega = std::abs(path.omega);
-  return geometry::wave_ranges(to_frame * (path.c[0].head<3>() - frame.origin), seen(path.c[1]),
-                               path.omega < 0 ? Vec3(-seen(path.c[2])) : seen(path.c[2]), seen(path.c[3]) / omega,
-                               omega * way.length());
+  return geometry::wave_ranges(to_frame * (helix.center - frame.origin), to_frame * helix.out, to_frame * helix.side,
+                               to_frame * helix.rise / helix.sweep, helix.sweep);
+}
+
+static TipTravel arc_travel(const Machine& machine, const Move& arc) {
+  const geometry::Helix helix = helix_of(arc);
+  const double length = std::hypot(helix.out.norm() * helix.sweep, helix.rise.norm());
+  const bool leans = helix.rise.cross(arc.normal).norm() > 1e-9 * length;
+  return {leans ? integrated_length(Way(machine, arc)) : length, helix.extents()};
 }
 
 static std::array<Range, 3> swing_extents(const Way& way, const geometry::Frame& frame) {
@@ -170,22 +168,19 @@ static std::array<Range, 3> swing_extents(const Way& way, const geometry::Frame&
   return {Range{end(0, -1), end(0, 1)}, Range{end(1, -1), end(1, 1)}, Range{end(2, -1), end(2, 1)}};
 }
 
-static std::array<Range, 3> extents(const Way& way, const geometry::Frame& frame) {
-  return way.is_arc() ? arc_extents(way, frame) : swing_extents(way, frame);
-}
-
 /// Most moves, and it takes no Way to tell.
 static bool goes_straight(const Machine& machine, const Move& move) { return !move.is_arc && !swings(machine, move); }
 
 TipTravel tip_travel(const Machine& machine, const Move& move) {
   if (goes_straight(machine, move)) return {(move.to.tip - move.from.tip).norm(), extents(move.from.tip, move.to.tip)};
+  if (move.is_arc) return arc_travel(machine, move);
   const Way way(machine, move);
-  return {way_length(way, move), extents(way, {})};
+  return {integrated_length(way), swing_extents(way, {})};
 }
 
 std::array<Range, 3> tip_extents(const Machine& machine, const Move& move, const geometry::Frame& frame) {
   if (goes_straight(machine, move)) return extents(frame.to_inner(move.from.tip), frame.to_inner(move.to.tip));
-  return extents(Way(machine, move), frame);
+  return move.is_arc ? arc_extents(helix_of(move), frame) : swing_extents(Way(machine, move), frame);
 }
 
 }  // namespace isocnc::motion

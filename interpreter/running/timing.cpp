@@ -85,19 +85,23 @@ void Timing::take(const Event& event) {
   }
   push_motion();
   if (std::holds_alternative<MoveEvent>(event.what)) {
-    enqueue({.timed = {.event = event}, .motion = motions_++, .is_motion = true});
+    enqueue(event).is_motion = true;
+    ++motions_;
     holds_motion_ = true;
     return;
   }
   if (const auto* const frame = std::get_if<FrameEvent>(&event.what)) frame_axes_ = frame->face.axes;
   const double seconds = seconds_of(event);
   if (seconds >= 0) return rest(event, seconds);
-  enqueue({.timed = {.event = event}, .motion = motions_});
+  enqueue(event);
 }
 
-void Timing::enqueue(Waiting waiting) {
+Timing::Waiting& Timing::enqueue(const Event& event) {
   if (waiting_.size() >= kMostWaiting) come_to_rest();
-  waiting_.push_back(std::move(waiting));
+  Waiting& waiting = waiting_.emplace_back();
+  waiting.timed.event = event;
+  waiting.motion = motions_;
+  return waiting;
 }
 
 /// The motion that waited for a G09.

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <limits>
 #include <map>
@@ -11,6 +10,7 @@
 
 #include "interpreter/motion/planner.h"
 #include "interpreter/running/event.h"
+#include "interpreter/running/fifo.h"
 
 namespace isocnc::running {
 
@@ -89,7 +89,10 @@ class Timing {
   void finish();
 
   /// Lets go of what has been told: a copy is then as small as it can be.
-  void forget_told() { planner_.forget_handed_out(); }
+  void forget_told() {
+    waiting_.forget_popped();
+    planner_.forget_handed_out();
+  }
 
   /// Bytes that it holds, beside itself.
   std::size_t memory() const { return waiting_.size() * sizeof(Waiting) + planner_.memory(); }
@@ -110,7 +113,7 @@ class Timing {
     bool has_begun = false;
   };
 
-  void enqueue(Waiting waiting);
+  Waiting& enqueue(const Event& event);
   void push_motion();
   void start_where_machine_is(motion::Move& planned, const MoveEvent& move);
   void mount(const execution::ToolCode& tool);
@@ -124,7 +127,7 @@ class Timing {
   const TimedMachine* machine_;  ///< Outlives it.
   Listeners listeners_;
   motion::Planner planner_;
-  std::deque<Waiting> waiting_;
+  Fifo<Waiting> waiting_;
   std::uint64_t motions_ = 0;
   bool holds_motion_ = false;  ///< The last of waiting_: a G09 may follow.
   bool stops_exactly_ = false;
