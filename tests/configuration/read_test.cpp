@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 
 #include <fmt/format.h>
@@ -118,6 +121,35 @@ TEST(ReadConfiguration, TellsAnEmptyListFromNone) {
   ASSERT_TRUE(setup.functions);
   EXPECT_THAT(*setup.tools, IsEmpty());
   EXPECT_THAT(*setup.functions, IsEmpty());
+}
+
+/// The files that users take are the machines that all is tested on.
+TEST(ReadConfiguration, ReadsTheProfilesThatShip) {
+  const std::pair<std::string, motion::Machine> profiles[] = {
+      {"three-axis", motion::three_axis_router()}, {"head", motion::head_router()}, {"table", motion::table_router()}};
+  for (const auto& [name, wanted] : profiles) {
+    const std::filesystem::path file =
+        std::filesystem::path(ISOCNC_SOURCE_DIR) / "examples/machines" / (name + ".json");
+    std::stringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    const running::TimedMachine machine = read(text.str()).machine.timed;
+    for (std::size_t axis = 0; axis < wanted.axes.size(); ++axis) {
+      const motion::AxisLimits& limits = machine.motion.axes[axis];
+      EXPECT_EQ(limits.least, wanted.axes[axis].least) << name << ' ' << axis;
+      EXPECT_EQ(limits.most, wanted.axes[axis].most) << name << ' ' << axis;
+      EXPECT_NEAR(limits.speed, wanted.axes[axis].speed, 1e-9) << name << ' ' << axis;
+      EXPECT_EQ(limits.acceleration, wanted.axes[axis].acceleration) << name << ' ' << axis;
+      EXPECT_FALSE(limits.jerk) << name << ' ' << axis;
+    }
+    EXPECT_EQ(machine.motion.kinematics.kind, wanted.kinematics.kind) << name;
+    const bool has_pivot = wanted.kinematics.kind == motion::MachineKind::Head;
+    EXPECT_EQ(has_pivot ? machine.motion.kinematics.pivot : 0, wanted.kinematics.pivot) << name;
+    EXPECT_EQ(machine.motion.kinematics.b_point, wanted.kinematics.b_point) << name;
+    EXPECT_EQ(machine.motion.kinematics.c_point, wanted.kinematics.c_point) << name;
+    EXPECT_EQ(machine.motion.chord_tolerance, wanted.chord_tolerance) << name;
+    EXPECT_EQ(machine.motion.corner_tolerance, wanted.corner_tolerance) << name;
+    EXPECT_EQ(machine.home.tip.z(), wanted.axes[motion::kZ].most) << name << " begins with the spindle up";
+  }
 }
 
 TEST(ReadConfiguration, StopsAtAHundredMistakes) {
