@@ -55,21 +55,21 @@ MachineMove in_machine(const Move& move, const State& state) {
   compensate(result, state);
   if (move.kind != MoveKind::Arc) return result;
   const auto axis = [&](int i) { return state.direction_to_machine(Vec3::Unit((move.normal_axis + i) % 3)); };
-  const Vec3 u = axis(1);
-  const Vec3 v = axis(2);
+  const Vec3 along = axis(0);
   result.center = state.to_machine(move.center);
-  result.normal = u.cross(v).normalized();
+  result.normal = state.face_mounted ? axis(1).cross(axis(2)).normalized() : along;
   result.radius = move.radius;
   result.sweep_deg = move.sweep_deg;
   const double sweep = std::abs(move.sweep_deg) * std::numbers::pi / 180;
-  const Vec3 rise = (move.to.tip[move.normal_axis] - move.from.tip[move.normal_axis]) * axis(0);
-  const bool leans = rise.norm() > 0 && rise.cross(result.normal).norm() > 1e-9 * rise.norm();
+  const Vec3 rise = (move.to.tip[move.normal_axis] - move.from.tip[move.normal_axis]) * along;
+  const double height = rise.norm();
+  const bool leans = state.face_mounted && height > 0 && rise.cross(result.normal).norm() > 1e-9 * height;
   if (leans) {
     const Vec3 start = (result.from.tip - result.center).normalized();
     const Vec3 side = result.normal.cross(start) * (move.sweep_deg < 0 ? -1 : 1);
     result.length = leaning_helix_length(move.radius, sweep, start, side, rise);
   } else {
-    result.length = std::hypot(move.radius * sweep, rise.norm());
+    result.length = height == 0 ? move.radius * sweep : std::hypot(move.radius * sweep, height);
   }
   return result;
 }

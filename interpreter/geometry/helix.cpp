@@ -12,10 +12,16 @@ Helix helix(const Vec3& from, const Vec3& to, const Vec3& center, const Vec3& no
   result.out = from_center - normal * normal.dot(from_center);
   result.side = normal.cross(result.out) * (sweep_deg < 0 ? -1 : 1);
   result.center = from - result.out;
-  result.rise = to - (result.center + std::cos(result.sweep) * result.out + std::sin(result.sweep) * result.side);
+  result.cosine = std::cos(result.sweep);
+  result.sine = std::sin(result.sweep);
+  result.rise = to - (result.center + result.cosine * result.out + result.sine * result.side);
   return result;
 }
 
-std::array<Range, 3> Helix::extents() const { return wave_ranges(center, out, side, rise / sweep, sweep); }
+double Helix::length() const { return std::sqrt(sweep * sweep * out.squaredNorm() + rise.squaredNorm()); }
+
+std::array<Range, 3> Helix::extents() const {
+  return wave_ranges(center, out, side, rise / sweep, {sweep, cosine, sine});
+}
 
 }  // namespace isocnc::geometry

@@ -9,12 +9,15 @@ namespace isocnc::geometry {
 
 /// An arc that may rise on its way, mm: center + cos(a) out + sin(a) side + rise a / sweep, for a from 0 to `sweep`.
 struct Helix {
-  Vec3 center;       ///< In the plane of the start.
-  Vec3 out;          ///< From the center to the start.
-  Vec3 side;         ///< As `out`, a quarter turn later.
-  Vec3 rise;         ///< In all. It may lean over the plane of the circle.
-  double sweep = 0;  ///< Radians, positive.
+  Vec3 center;        ///< In the plane of the start.
+  Vec3 out;           ///< From the center to the start.
+  Vec3 side;          ///< As `out`, a quarter turn later.
+  Vec3 rise;          ///< In all. It may lean over the plane of the circle.
+  double sweep = 0;   ///< Radians, positive.
+  double cosine = 1;  ///< Of the sweep.
+  double sine = 0;
 
+  double length() const;  ///< Where the rise does not lean.
   /// From where to where each coordinate goes.
   std::array<Range, 3> extents() const;
 };

@@ -11,24 +11,18 @@ void Range::include(const Range& other) {
   most = std::max(most, other.most);
 }
 
-/// How far a wave goes, and its value at the end.
-struct WaveEnd {
-  double angle = 0;
-  double cosine = 1;
-  double sine = 0;
-  double value = 0;
-};
+Turn turn_of(double angle) { return {angle, std::cos(angle), std::sin(angle)}; }
 
 /// Whether a vector's direction is met on the way from angle 0 to the end.
-static bool passes(double p, double q, const WaveEnd& end) {
+static bool passes(double p, double q, const Turn& end) {
   const double beyond = end.cosine * q - end.sine * p;
   if (end.angle >= 2 * std::numbers::pi) return true;
   return end.angle <= std::numbers::pi ? q >= 0 && beyond <= 0 : q >= 0 || beyond <= 0;
 }
 
 /// p cos t + q sin t is most where t is the direction of (p, q), and least where it is the opposite one.
-static Range level_wave_range(double p, double q, const WaveEnd& end) {
-  Range range{std::min(p, end.value), std::max(p, end.value)};
+static Range level_wave_range(double p, double q, const Turn& end, double last) {
+  Range range{std::min(p, last), std::max(p, last)};
   const double amplitude = std::sqrt(p * p + q * q);
   if (passes(p, q, end)) range.most = std::max(range.most, amplitude);
   if (passes(-p, -q, end)) range.least = std::min(range.least, -amplitude);
@@ -37,9 +31,10 @@ static Range level_wave_range(double p, double q, const WaveEnd& end) {
 
 /// Between the ends it can only turn where its slope is zero: amplitude sin(t - phase) = slope. There the wave is
 /// amplitude cos(t - phase).
-static Range wave_range(double p, double q, double slope, const WaveEnd& end) {
-  if (slope == 0) return level_wave_range(p, q, end);
-  Range range{std::min(p, end.value), std::max(p, end.value)};
+static Range wave_range(double p, double q, double slope, const Turn& end) {
+  const double last = end.cosine * p + end.sine * q + end.angle * slope;
+  if (slope == 0) return level_wave_range(p, q, end, last);
+  Range range{std::min(p, last), std::max(p, last)};
   const double square = p * p + q * q;
   const double height = square - slope * slope;
   if (square == 0 || height < 0) return range;
@@ -55,18 +50,12 @@ static Range wave_range(double p, double q, double slope, const WaveEnd& end) {
   return range;
 }
 
-Range wave_range(double p, double q, double slope, double end) {
-  const double cosine = std::cos(end);
-  const double sine = std::sin(end);
-  return wave_range(p, q, slope, {end, cosine, sine, p * cosine + q * sine + slope * end});
-}
+Range wave_range(double p, double q, double slope, double end) { return wave_range(p, q, slope, turn_of(end)); }
 
-std::array<Range, 3> wave_ranges(const Vec3& center, const Vec3& p, const Vec3& q, const Vec3& slope, double end) {
+std::array<Range, 3> wave_ranges(const Vec3& center, const Vec3& p, const Vec3& q, const Vec3& slope, const Turn& end) {
   std::array<Range, 3> ranges;
-  WaveEnd last{.angle = end, .cosine = std::cos(end), .sine = std::sin(end)};
   for (int axis = 0; axis < 3; ++axis) {
-    last.value = last.cosine * p[axis] + last.sine * q[axis] + end * slope[axis];
-    const Range wave = wave_range(p[axis], q[axis], slope[axis], last);
+    const Range wave = wave_range(p[axis], q[axis], slope[axis], end);
     ranges[static_cast<std::size_t>(axis)] = {center[axis] + wave.least, center[axis] + wave.most};
   }
   return ranges;

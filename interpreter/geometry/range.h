@@ -16,7 +16,15 @@ struct Range {
 /// Least and most of p cos t + q sin t + slope t for t from 0 to `end`, radians, not negative.
 Range wave_range(double p, double q, double slope, double end);
 
+/// An angle in radians, not negative, that may be met again: with its cosine and sine.
+struct Turn {
+  double angle = 0;
+  double cosine = 1;
+  double sine = 0;
+};
+Turn turn_of(double angle);
+
 /// The same of each coordinate of center + p cos t + q sin t + slope t.
-std::array<Range, 3> wave_ranges(const Vec3& center, const Vec3& p, const Vec3& q, const Vec3& slope, double end);
+std::array<Range, 3> wave_ranges(const Vec3& center, const Vec3& p, const Vec3& q, const Vec3& slope, const Turn& end);
 
 }  // namespace isocnc::geometry

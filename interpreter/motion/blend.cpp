@@ -66,10 +66,11 @@ static double cut(const Machine& machine, const Shape& shape, Space space, const
 
 /// The cubic of Hermite over [0, length], with unit parameter speed at both ends; between lines its cube vanishes.
 static Path hermite(const Jet& from, const Jet& to, double length) {
-  const Coordinates chord = (to.value - from.value) / length;
+  const double part = 1 / length;
+  const Coordinates chord = part * (to.value - from.value);
   Path path;
-  path.c = {from.value, from.first, (3 * chord - 2 * from.first - to.first) / length,
-            (from.first + to.first - 2 * chord) / square(length)};
+  path.c = {from.value, from.first, part * (3 * chord - 2 * from.first - to.first),
+            square(part) * (from.first + to.first - 2 * chord)};
   return path;
 }
 

@@ -25,7 +25,7 @@ static Coordinates lifted(const Vec3& linear, double b, double c) { return coord
 
 ProgrammedPath programmed_circle(const Move& move) {
   const geometry::Helix helix = geometry::helix(move.from.tip, move.to.tip, move.center, move.normal, move.sweep_deg);
-  const double length = std::hypot(helix.out.norm() * helix.sweep, helix.rise.norm());
+  const double length = helix.length();
   Path path;
   path.kind = PathKind::Circle;
   path.omega = length > 0 ? helix.sweep / length : 0;
@@ -157,7 +157,7 @@ Element Splitter::arc() const {
   element.length = element.end - element.begin;
   element.curvature = radius * whole_.path.omega * whole_.path.omega;
   element.joints_are_straight = false;
-  element.steepest = std::hypot(radius * std::abs(whole_.path.omega) + across, along);
+  element.steepest = std::sqrt(square(radius * std::abs(whole_.path.omega) + across) + square(along));
   return element;
 }
 

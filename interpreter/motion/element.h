@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "interpreter/motion/machine.h"
 #include "interpreter/motion/move.h"
@@ -28,6 +29,9 @@ struct Element {
   bool only_turns = false;                                ///< s counts degrees.
   double feed = std::numeric_limits<double>::infinity();  ///< Most speed of the tip, or of B and C; per second.
   double steepest = 1;                                    ///< Most length of the tip's way per unit of s.
+  /// The path's first derivative at an end that is rounded, as the corner knows it; of arcs.
+  std::optional<Coordinates> slope_at_begin;
+  std::optional<Coordinates> slope_at_end;
   std::uint64_t tag = 0;
   bool ends_move = false;
   bool stops = false;  ///< At its end.

@@ -91,6 +91,10 @@ void Planner::join(Element& next) {
   last_.end -= depth;
   next.begin += depth;
   if (corner.junction == Junction::Smooth) return append(last_);
+  const auto& c = corner.blend.path.c;
+  if (!last_.joints_are_straight) last_.slope_at_end = c[1];
+  if (!next.joints_are_straight)
+    next.slope_at_begin = c[1] + corner.blend.length * (2 * c[2] + 3 * corner.blend.length * c[3]);
   const bool ends_move = std::exchange(last_.ends_move, false);
   append(last_);
   last_.ends_move = ends_move;
@@ -206,11 +210,11 @@ static Path joint_circle(const Kinematics& kinematics, const Path& circle) {
   return result;
 }
 
-/// The limits of a circle from `s` on for as far as `ramp`, or as far back: no joint's slope changes by more there than
-/// the most of its second derivative allows.
-static LineLimits ramp_limits(const Machine& machine, const Path& circle, double s, double ramp) {
+/// The limits of a circle from where it has this slope for as far as `ramp`, on or back: no joint's slope changes by
+/// more there than the most of its second derivative allows.
+static LineLimits ramp_limits(const Machine& machine, const Path& circle, const Coordinates& slope, double ramp) {
   const Coordinates bend = square(circle.omega) * (circle.c[1].cwiseAbs2() + circle.c[2].cwiseAbs2()).cwiseSqrt();
-  return line_limits(machine, circle.at(s).first.cwiseAbs() + ramp * bend);
+  return line_limits(machine, slope.cwiseAbs() + ramp * bend);
 }
 
 /// The derivatives at a place of a circle, turned on by an angle of this cosine and sine.
@@ -251,17 +255,19 @@ void Planner::append_arc(const Element& element) {
     return;
   }
   const bool is_brief = ramp <= kBriefPart * length && ramp * turning(circle) <= kFineTurn;
-  const auto append_ramp = [&](double begin, double end, double s) {
+  const bool as_tip = machine_.kinematics.kind != MachineKind::Table;  // The slopes of tip and joints are the same.
+  const auto append_ramp = [&](double begin, double end, double s, const std::optional<Coordinates>& known) {
     if (!is_brief) return append_fine(circle, begin, end, cap);
-    const double acceleration = ramp_limits(machine_, circle, s, ramp).acceleration;
+    const Coordinates slope = known && as_tip ? *known : circle.at(s).first;
+    const double acceleration = ramp_limits(machine_, circle, slope, ramp).acceleration;
     profile_.append_line(begin, end - begin, {cap, acceleration, anywhere.fall});
     return 1;
   };
   const double first = element.begin + ramp;
   const double last = element.end - ramp;
-  int count = append_ramp(element.begin, first, element.begin);
+  int count = append_ramp(element.begin, first, element.begin, element.slope_at_begin);
   profile_.append_line(first, last - first, {cap, anywhere.acceleration, anywhere.fall});
-  count += 1 + append_ramp(last, element.end, element.end);
+  count += 1 + append_ramp(last, element.end, element.end, element.slope_at_end);
   tracks_.push_back({whole_piece(element), count});
 }
 

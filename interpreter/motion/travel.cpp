@@ -151,12 +151,12 @@ static geometry::Helix helix_of(const Move& arc) {
 static std::array<Range, 3> arc_extents(const geometry::Helix& helix, const geometry::Frame& frame) {
   const geometry::Mat3 to_frame = frame.axes.inverse();
   return geometry::wave_ranges(to_frame * (helix.center - frame.origin), to_frame * helix.out, to_frame * helix.side,
-                               to_frame * helix.rise / helix.sweep, helix.sweep);
+                               to_frame * helix.rise / helix.sweep, {helix.sweep, helix.cosine, helix.sine});
 }
 
 static TipTravel arc_travel(const Machine& machine, const Move& arc) {
   const geometry::Helix helix = helix_of(arc);
-  const double length = std::hypot(helix.out.norm() * helix.sweep, helix.rise.norm());
+  const double length = helix.length();
   const bool leans = helix.rise.cross(arc.normal).norm() > 1e-9 * length;
   return {leans ? integrated_length(Way(machine, arc)) : length, helix.extents()};
 }
