@@ -39,6 +39,8 @@ void ContourOffset::lead_in(const PlaneCurve& line, const ContourElement& like, 
   pieces_.clear();
   given_out_ = 0;
   contour_.clear();
+  before_ = count_;
+  closing_ = std::numeric_limits<std::uint64_t>::max();
   side_ = like.side;
   arriving_ = like.curve.direction_at_end();
   pieces_.push_back({.out = {.curve = line, .tag = like.tag, .is_inserted = is_inserted},
@@ -64,6 +66,7 @@ void ContourOffset::add(const ContourElement& element) {
   kept.is_smooth = !pieces_.back().is_lead_in && (arriving - element.curve.direction_at_start()).norm() < kStraightOn;
   const std::size_t before = pieces_.size();
   const std::size_t ended = before - (has_stopped() ? 0 : 1);
+  if (closes(element.curve)) closing_ = std::min(closing_, count_);
   if (element.cuts) {
     contour_.push_back(kept);
     if (contour_.size() > kLookBack) contour_.pop_front();
@@ -83,6 +86,15 @@ void ContourOffset::add(const ContourElement& element) {
   for (std::size_t fresh = pieces_.size() - before; element.reduces && fresh > 0; --fresh)
     reduce(pieces_.size() - fresh);
   release(element.reduces ? kLookAhead : 1);
+}
+
+/// Whether an element that comes now begins on one of the contour's first.
+bool ContourOffset::closes(const PlaneCurve& curve) const {
+  const PlaneCurve begin{.start = curve.start, .end = curve.start};
+  return std::any_of(contour_.begin(), contour_.end(), [&](const Kept& first) {
+    return first.number <= before_ + kNeighbors && first.number + kNeighbors < count_ &&
+           approach(begin, first.curve).distance() <= kGouge;
+  });
 }
 
 /// Brings the last piece and the next together; `next` may begin later than it would, and what comes between them is
@@ -158,7 +170,8 @@ void ContourOffset::look_at(Piece& piece, const Kept& element) const {
   const auto [first, second] = std::minmax(piece.number, element.number);
   const bool is_smooth = second == element.number ? element.is_smooth : piece.is_smooth;
   const bool are_neighbors = second - first <= kNeighbors;
-  if ((!are_neighbors && piece.is_lead_in) || (second - first == 1 && is_smooth)) return;
+  const bool lead_on_and_off = second >= closing_ && first <= before_ + kNeighbors;
+  if ((!are_neighbors && (piece.is_lead_in || lead_on_and_off)) || (second - first == 1 && is_smooth)) return;
   const PlaneCurve& way = piece.out.curve;
   // Ways on and off shift the cutter sideways, and so pass the contour's ends at less than the radius.
   const double wanted = piece.is_lead_in ? radius_ / 2 : radius_;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <optional>
 
 #include <Eigen/Geometry>
@@ -104,6 +105,7 @@ class ContourOffset {
   void insert(const PlaneCurve& curve);
   void settle(Piece& piece);
   void look_at(Piece& piece, const Kept& element) const;
+  bool closes(const PlaneCurve& curve) const;
   bool has_stopped() const { return given_out_ == pieces_.size(); }
   bool is_explained(std::uint64_t a, std::uint64_t b) const;
   void reduce(std::size_t last);
@@ -117,7 +119,9 @@ class ContourOffset {
   std::size_t given_out_ = 0;  // Of pieces_.
   std::deque<OffsetPiece> out_;
   std::deque<ContourFlaw> flaws_;
-  std::uint64_t count_ = 0;  // Elements.
+  std::uint64_t count_ = 0;                                            // Elements.
+  std::uint64_t before_ = 0;                                           // Of them, before this contour.
+  std::uint64_t closing_ = std::numeric_limits<std::uint64_t>::max();  // The first that begins where this one did.
   std::uint64_t pass_ = 0;
   int side_ = 0;  // Of the last element.
   Vec2 arriving_ = Vec2::Zero();

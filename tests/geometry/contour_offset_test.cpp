@@ -150,6 +150,13 @@ TEST(ContourOffset, MayGoWhereAnEarlierPassWas) {
   EXPECT_THAT(offset(lines(roughing_and_finishing), {0, 0}, {.radius = 5}).gouges, IsEmpty());
 }
 
+/// Lines that lead onto a closed contour, and off it where it began, come as near to each other as they like.
+TEST(ContourOffset, MayLeadOffBesideWhereItHasLedOn) {
+  const std::vector<Vec2> points = {{-60, 40}, {-40, 30}, {0, 50}, {0, 100}, {200, 100},
+                                    {200, 0},  {0, 0},    {0, 60}, {-40, 60}};
+  EXPECT_THAT(offset(lines(points), {-80, 60}, {.radius = 8}).gouges, IsEmpty());
+}
+
 /// A way off the contour leads across its begin; in the air that matters to nobody.
 TEST(ContourOffset, ForgetsWhatItHasCutWhenRaised) {
   for (const bool raised : {false, true}) {
