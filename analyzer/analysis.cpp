@@ -27,10 +27,13 @@ Frontier Analysis::before(std::size_t chunk) const {
 // --- Jumps
 
 /// What in a chunk concerns jumps; of labels those alone that some jump names.
-std::vector<JumpEvent> Analysis::read_jumps(std::size_t chunk) const {
+std::vector<JumpEvent> Analysis::read_jumps(std::size_t chunk, syntax::ChunkTrees& trees) const {
   std::vector<JumpEvent> events;
-  for (std::size_t i = 0; i < document_.chunk_lines(chunk); ++i) {
-    const syntax::LineTree line = document_.line_of_chunk(chunk, i);
+  const std::string_view text = document_.chunk_text(chunk);
+  if (!may_hold_jumps(text) && (jumps_.empty() || !may_hold_labels(text))) return events;
+  trees.read(document_, chunk);
+  for (std::size_t i = 0; i < trees.size(); ++i) {
+    const syntax::LineTree line = trees[i];
     if (line.plain_arguments != 0 && !(line.has_label() && jumps_.names(line.label))) continue;
     each_event(line, [&](JumpEvent event) {
       if (event.kind == JumpEvent::Kind::Label && !jumps_.names(event.label)) return;
@@ -44,12 +47,15 @@ std::vector<JumpEvent> Analysis::read_jumps(std::size_t chunk) const {
 
 /// Finds the labels that these jumps name, which are not those that were named before.
 void Analysis::read_labels(const JumpMap& jumps) {
+  syntax::ChunkTrees trees;
   for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk) {
     std::vector<JumpEvent>& events = rows_[chunk].jumps;
     std::erase_if(events, [](const JumpEvent& event) { return event.kind == JumpEvent::Kind::Label; });
     const auto others = static_cast<std::ptrdiff_t>(events.size());
-    for (std::size_t i = 0; i < document_.chunk_lines(chunk) && !jumps.empty(); ++i) {
-      const syntax::LineTree line = document_.line_of_chunk(chunk, i);
+    if (jumps.empty() || !may_hold_labels(document_.chunk_text(chunk))) continue;
+    trees.read(document_, chunk);
+    for (std::size_t i = 0; i < trees.size(); ++i) {
+      const syntax::LineTree line = trees[i];
       if (line.has_label() && jumps.names(line.label))
         events.push_back({.kind = JumpEvent::Kind::Label, .line = static_cast<std::uint32_t>(i), .label = line.label});
     }
@@ -125,9 +131,10 @@ bool Analysis::update(const std::function<bool()>& stop) {
     finding_count_ -= rows_[i].checked->outcome.findings.size();
   }
   const bool has_changed = change.removed + change.inserted > 0;
+  syntax::ChunkTrees trees;
   rows_.follow(document_, change, [&](std::size_t chunk) {
     Row fresh;
-    fresh.jumps = read_jumps(chunk);
+    fresh.jumps = read_jumps(chunk, trees);
     append(new_events, fresh.jumps);
     return fresh;
   });
@@ -147,6 +154,7 @@ bool Analysis::update(const std::function<bool()>& stop) {
 bool Analysis::check_from(std::size_t chunk, Frontier frontier, const std::function<bool()>& stop) {
   Checker checker(setup_, jumps_);
   checker.frontier = std::move(frontier);
+  syntax::ChunkTrees trees;
   for (std::size_t checked = 1; chunk < rows_.size(); ++chunk) {
     if (!rows_[chunk].is_stale) {
       auto shift = shift_between(before(chunk), checker.frontier);
@@ -164,7 +172,8 @@ bool Analysis::check_from(std::size_t chunk, Frontier frontier, const std::funct
       rows_[chunk].is_stale = true;
       return false;
     }
-    check_chunk(chunk, checker);
+    trees.read(document_, chunk);
+    check_chunk(chunk, trees, checker);
   }
   end_ = std::move(checker.frontier);
   return true;
@@ -184,13 +193,12 @@ std::size_t Analysis::pass_over(std::size_t chunk, PositionShift& shift) {
   return chunk;
 }
 
-void Analysis::check_chunk(std::size_t chunk, Checker& checker) {
+void Analysis::check_chunk(std::size_t chunk, const syntax::ChunkTrees& trees, Checker& checker) {
   Row& row = rows_[chunk];
   Outcome outcome;
   Frontier before = checker.frontier;
-  for (std::size_t line = 0; line < document_.chunk_lines(chunk); ++line)
-    checker.check(document_.line_of_chunk(chunk, line), line, outcome);
-  lines_checked_ += document_.chunk_lines(chunk);
+  for (std::size_t line = 0; line < trees.size(); ++line) checker.check(trees[line], line, outcome);
+  lines_checked_ += trees.size();
   finding_count_ += outcome.findings.size() - row.checked->outcome.findings.size();
   row.shift = {};
   row.positions = outcome.positions;
@@ -211,8 +219,8 @@ FirstFindings Analysis::excerpt(const FirstFindingsWishes& wishes) const {
     if (rows_[i].has_more || i + 1 == last_text)
       outcomes.push_back({&rows_[i].checked->outcome, document_.first_line_of_chunk(i)});
   return conclude(
-      outcomes, end_, jumps_, [&](std::uint64_t line) { return document_.line(static_cast<std::size_t>(line)).text; },
-      wishes);
+      outcomes, end_, jumps_,
+      [&](std::uint64_t line) { return document_.text_of_line(static_cast<std::size_t>(line)); }, wishes);
 }
 
 std::vector<LocatedFinding> Analysis::findings_on(std::size_t line) const {
@@ -233,8 +241,9 @@ Frontier Analysis::frontier_before(std::size_t line) const {
   Checker checker(setup_, jumps_);
   checker.frontier = before(chunk);
   Outcome ignored;
-  for (std::size_t i = 0; i < line - document_.first_line_of_chunk(chunk); ++i)
-    checker.check(document_.line_of_chunk(chunk, i), i, ignored);
+  syntax::ChunkTrees trees;
+  trees.read(document_, chunk, line - document_.first_line_of_chunk(chunk));
+  for (std::size_t i = 0; i < trees.size(); ++i) checker.check(trees[i], i, ignored);
   return checker.frontier;
 }
 

@@ -56,13 +56,13 @@ class Analysis {
   };
 
   Frontier before(std::size_t chunk) const;
-  std::vector<JumpEvent> read_jumps(std::size_t chunk) const;
+  std::vector<JumpEvent> read_jumps(std::size_t chunk, syntax::ChunkTrees& trees) const;
   bool follow_jumps(const std::vector<JumpEvent>& old_events, const std::vector<JumpEvent>& new_events);
   void move_jumps();
   JumpMap find_jumps();
   void read_labels(const JumpMap& jumps);
   bool check_from(std::size_t chunk, Frontier frontier, const std::function<bool()>& stop);
-  void check_chunk(std::size_t chunk, Checker& checker);
+  void check_chunk(std::size_t chunk, const syntax::ChunkTrees& trees, Checker& checker);
   std::size_t pass_over(std::size_t chunk, PositionShift& shift);
 
   const syntax::Document& document_;

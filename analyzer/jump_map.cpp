@@ -58,6 +58,14 @@ static constexpr auto kLetters = [] {
   return letters;
 }();
 
+static bool has_any(std::string_view text, std::string_view letters) {
+  return std::any_of(letters.begin(), letters.end(),
+                     [&](char letter) { return text.find(letter) != std::string_view::npos; });
+}
+
+bool may_hold_jumps(std::string_view text) { return has_any(text, "VvOo"); }
+bool may_hold_labels(std::string_view text) { return has_any(text, "Nn"); }
+
 /// The line number of a line that begins with one, as most that have one do. Nothing for any other line, and where it
 /// takes a closer look.
 static std::optional<std::uint64_t> plain_label(std::string_view line) {

@@ -30,6 +30,10 @@ struct JumpEvent {
   bool means_the_same(const JumpEvent& other) const;
 };
 
+/// Whether a text may hold assignments or jumps; labels. False only where it holds none.
+bool may_hold_jumps(std::string_view text);
+bool may_hold_labels(std::string_view text);
+
 /// Calls `take` with the events of a line in the order in which they count: label, assignments, jump.
 template <class Take>
 void each_event(const syntax::LineTree& line, Take take) {

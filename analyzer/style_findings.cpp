@@ -31,10 +31,12 @@ Report with_style(Report report, std::string_view text, const Selection& selecti
 Report with_style(Report report, const syntax::Document& document, const Selection& selection) {
   style::Reader reader(wanted_by(selection));
   if (reader.is_idle()) return report;
+  syntax::ChunkTrees trees;
   for (std::size_t chunk = 0; chunk < document.chunk_count(); ++chunk) {
     std::string_view rest = document.chunk_text(chunk);
-    for (std::size_t i = 0; i < document.chunk_lines(chunk) && !rest.empty(); ++i) {
-      const syntax::LineTree tree = document.line_of_chunk(chunk, i);
+    trees.read(document, chunk);
+    for (std::size_t i = 0; i < trees.size() && !rest.empty(); ++i) {
+      const syntax::LineTree tree = trees[i];
       const char* const line_end = rest.data() + tree.text.size();
       const char* const next = syntax::skip_line_end(line_end, rest.data() + rest.size());
       const std::string_view terminator(line_end, static_cast<std::size_t>(next - line_end));

@@ -6,7 +6,7 @@
 
 namespace isocnc::syntax {
 
-/// Lines per chunk, when chunks are made anew. An edit copies the trees of its chunk: few enough that this costs
+/// Lines per chunk, when chunks are made anew. An edit reads the lines of its chunk anew: few enough that this costs
 /// little, many enough that the chunks of a long program are soon counted.
 static constexpr std::size_t kChunkLines = 128;
 static constexpr std::size_t kMostChunkLines = 2 * kChunkLines;
@@ -14,7 +14,6 @@ static constexpr std::size_t kMostChunkLines = 2 * kChunkLines;
 struct Document::Chunk {
   std::string text;                   // With terminators.
   std::vector<std::uint32_t> begins;  // Of the lines in `text`.
-  TreeStore trees;
 
   std::size_t lines() const { return begins.size(); }
   std::string_view with_terminator(std::size_t line) const {
@@ -22,7 +21,6 @@ struct Document::Chunk {
     const std::size_t end = line + 1 < begins.size() ? begins[line + 1] : text.size();
     return std::string_view(text).substr(begin, end - begin);
   }
-  LineTree tree(std::size_t line) const { return trees.tree(line, text.data() + begins[line]); }
 };
 
 Document::Document(Document&&) noexcept = default;
@@ -36,9 +34,6 @@ std::size_t Document::chunk_lines(std::size_t chunk) const {
   return chunk + 1 < chunks_.size() ? chunks_[chunk + 1].first_line - chunks_[chunk].first_line
                                     : chunks_[chunk].chunk->lines();
 }
-LineTree Document::line_of_chunk(std::size_t chunk, std::size_t index) const {
-  return chunks_[chunk].chunk->tree(index);
-}
 std::string_view Document::chunk_text(std::size_t chunk) const { return chunks_[chunk].chunk->text; }
 
 Document::Place Document::locate(std::size_t line) const {
@@ -48,9 +43,15 @@ Document::Place Document::locate(std::size_t line) const {
   return {chunk, line - chunks_[chunk].first_line};
 }
 
-LineTree Document::line(std::size_t index) const {
+DocumentLine Document::line(std::size_t index) const {
   const Place place = locate(index);
-  return chunks_[place.chunk].chunk->tree(place.line);
+  const Chunk& chunk = *chunks_[place.chunk].chunk;
+  return {chunk.text.data() + chunk.begins[place.line], chunk.text.data() + chunk.text.size()};
+}
+
+std::string_view Document::text_of_line(std::size_t index) const {
+  const std::string_view whole = line_with_terminator(index);
+  return whole.substr(0, whole.find_last_not_of("\r\n") + 1);
 }
 
 std::string_view Document::line_with_terminator(std::size_t line) const {
@@ -105,13 +106,10 @@ class Document::ChunkMaker {
   ChunkMaker(std::size_t most_lines, std::uint64_t& next_version)
       : most_lines_(most_lines), next_version_(next_version) {}
 
-  void copy(const Chunk& source, std::size_t line) {
-    begin_line(source.with_terminator(line));
-    gathered_.trees.append_copy(source.trees, line);
-  }
-  void parse(std::string_view line) {
-    const std::size_t begin = begin_line(line);
-    gathered_.trees.append_line(gathered_.text.data() + begin, gathered_.text.data() + gathered_.text.size());
+  void add(std::string_view line) {
+    if (gathered_.lines() >= most_lines_) end_chunk();
+    gathered_.begins.push_back(static_cast<std::uint32_t>(gathered_.text.size()));
+    gathered_.text += line;
   }
   std::vector<Slot> finish() {
     if (gathered_.lines() > 0) end_chunk();
@@ -119,18 +117,10 @@ class Document::ChunkMaker {
   }
 
  private:
-  std::size_t begin_line(std::string_view line) {
-    if (gathered_.lines() >= most_lines_) end_chunk();
-    const std::size_t begin = gathered_.text.size();
-    gathered_.begins.push_back(static_cast<std::uint32_t>(begin));
-    gathered_.text += line;
-    return begin;
-  }
   void end_chunk() {
     chunks_.push_back({.version = next_version_++, .chunk = std::make_unique<Chunk>(gathered_)});
     gathered_.text.clear();
     gathered_.begins.clear();
-    gathered_.trees.clear();
   }
 
   const std::size_t most_lines_;
@@ -147,23 +137,19 @@ void Document::rebuild(std::size_t first_line, std::size_t removed, std::string_
   // The first line behind the removed ones; at the end of a chunk rather than the start of the next.
   const Place last = is_new ? Place{0, 0} : locate(first_line + removed - 1);
   ChunkMaker maker(is_new ? kChunkLines : kMostChunkLines, next_version_);
-  const auto parse_line = [&](std::string_view line) {
-    maker.parse(line);
-    ++lines_parsed_;
-  };
   if (!is_new)
-    for (std::size_t i = 0; i < from.line; ++i) maker.copy(*chunks_[from.chunk].chunk, i);
+    for (std::size_t i = 0; i < from.line; ++i) maker.add(chunks_[from.chunk].chunk->with_terminator(i));
   const char* p = text.data();
   const char* const end = text.data() + text.size();
   while (p != end) {
     const char* const next = skip_line_end(find_line_end(p, end), end);
-    parse_line({p, static_cast<std::size_t>(next - p)});
+    maker.add({p, static_cast<std::size_t>(next - p)});
     p = next;
   }
-  if (is_end && (text.empty() || is_line_end(text.back()))) parse_line({});
+  if (is_end && (text.empty() || is_line_end(text.back()))) maker.add({});
   if (!is_new) {
     const Chunk& source = *chunks_[last.chunk].chunk;
-    for (std::size_t i = last.line + 1; i < source.lines(); ++i) maker.copy(source, i);
+    for (std::size_t i = last.line + 1; i < source.lines(); ++i) maker.add(source.with_terminator(i));
   }
   std::vector<Slot> fresh = maker.finish();
   const std::size_t count = fresh.size();
@@ -195,6 +181,17 @@ void Document::renumber(std::size_t first, std::size_t count) {
   if (chunk == chunks_.size() || chunks_[chunk].first_line == line) return;
   const std::size_t shift = line - chunks_[chunk].first_line;  // Modulo 2^n: upward as well.
   for (; chunk < chunks_.size(); ++chunk) chunks_[chunk].first_line += shift;
+}
+
+void ChunkTrees::read(const Document& document, std::size_t chunk, std::size_t lines) {
+  const std::string_view text = document.chunk_text(chunk);
+  const char* const end = text.data() + text.size();
+  store_.clear();
+  texts_.clear();
+  for (const char* p = text.data(); texts_.size() < lines;) {
+    texts_.push_back(p);
+    p = skip_line_end(store_.append_line(p, end), end);
+  }
 }
 
 }  // namespace isocnc::syntax

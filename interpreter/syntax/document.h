@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -25,9 +26,36 @@ struct Change {
   std::size_t inserted = 0;  ///< Lines that stand in their place.
 };
 
-/// A program as it is being edited: its text with line ends as they are (CR, LF, CRLF), and the tree of each line. An
-/// edit parses the lines it touches and no others. A document always has at least one line; a terminator at the end of
-/// the text is followed by an empty line, as in an editor.
+/// The tree of one line of a document, with all that the tree refers to but the text, which stays the document's: valid
+/// until that is edited.
+class DocumentLine {
+ public:
+  /// Reads up to a terminator, or `end`.
+  DocumentLine(const char* begin, const char* end) {
+    store_.append_line(begin, end);
+    tree_ = store_.tree(0, begin);
+  }
+  DocumentLine(DocumentLine&&) noexcept = default;
+  DocumentLine& operator=(DocumentLine&&) noexcept = default;
+  DocumentLine(const DocumentLine&) = delete;
+  DocumentLine& operator=(const DocumentLine&) = delete;
+  ~DocumentLine() = default;
+
+  const LineTree* operator->() const { return &tree_; }
+  const LineTree& operator*() const& { return tree_; }
+  const LineTree& operator*() const&& = delete;  // Its words would be gone.
+
+ private:
+  TreeStore store_;
+  LineTree tree_;
+};
+
+/// A program as it is being edited: its text with line ends as they are (CR, LF, CRLF), and the tree of each line. A
+/// document always has at least one line; a terminator at the end of the text is followed by an empty line, as in an
+/// editor.
+///
+/// No trees are kept: they take four to ten times as much room as the text, and it takes longer to fetch them from
+/// memory than to parse the lines again.
 class Document {
  public:
   explicit Document(std::string_view text = {});
@@ -40,18 +68,17 @@ class Document {
   Change replace(Position begin, Position end, std::string_view text);
 
   std::size_t line_count() const;
-  LineTree line(std::size_t index) const;
+  DocumentLine line(std::size_t index) const;
+  /// Without its terminator.
+  std::string_view text_of_line(std::size_t index) const;
   std::string text() const;
   /// CR, LF or CRLF; nothing behind the last line.
   std::string_view terminator(std::size_t line) const;
-  /// How many lines have been parsed since the document was made: what an edit costs.
-  std::uint64_t lines_parsed() const { return lines_parsed_; }
 
   /// Lines are kept in chunks; an edit leaves the others as they are.
   std::size_t chunk_count() const { return chunks_.size(); }
   std::size_t chunk_lines(std::size_t chunk) const;
   std::size_t first_line_of_chunk(std::size_t chunk) const { return chunks_[chunk].first_line; }
-  LineTree line_of_chunk(std::size_t chunk, std::size_t index) const;
   /// The chunk's lines with their terminators.
   std::string_view chunk_text(std::size_t chunk) const;
   /// The chunk that holds a line of the document.
@@ -80,8 +107,23 @@ class Document {
   void renumber(std::size_t first, std::size_t count);
 
   std::vector<Slot> chunks_;
-  std::uint64_t lines_parsed_ = 0;
   std::uint64_t next_version_ = 1;
+};
+
+/// The trees of a chunk's lines, for who goes through many lines: the room for them is used again for the next chunk.
+/// Valid until then, or until the document is edited.
+class ChunkTrees {
+ public:
+  void read(const Document& document, std::size_t chunk) { read(document, chunk, document.chunk_lines(chunk)); }
+  /// The first lines only.
+  void read(const Document& document, std::size_t chunk, std::size_t lines);
+
+  std::size_t size() const { return texts_.size(); }
+  LineTree operator[](std::size_t index) const { return store_.tree(index, texts_[index]); }
+
+ private:
+  TreeStore store_;
+  std::vector<const char*> texts_;
 };
 
 }  // namespace isocnc::syntax

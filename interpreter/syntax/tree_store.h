@@ -19,8 +19,6 @@ class TreeStore {
     const char* const line_end = append_plain_line(begin, end);
     return line_end ? line_end : append_rarer_line(begin, end);
   }
-  /// Appends a copy of another store's tree, without parsing.
-  void append_copy(const TreeStore& other, std::size_t index);
   void clear();
 
   std::size_t size() const { return lines_.size(); }

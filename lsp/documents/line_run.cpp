@@ -28,7 +28,8 @@ std::optional<LineRun> run_line(const Snapshot& snapshot, std::size_t line) {
   if (!before) return std::nullopt;
   LineRun run{.before = *before, .after = *before, .move = {}, .moved_in = {}};
   MoveKeeper keeper(run);
-  execution::execute(snapshot.document().line(line), run.after, snapshot.setup(), keeper);
+  const syntax::DocumentLine read = snapshot.document().line(line);
+  execution::execute(*read, run.after, snapshot.setup(), keeper);
   return run;
 }
 

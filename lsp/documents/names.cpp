@@ -38,7 +38,8 @@ static std::vector<Occurrence> names_of(const LineTree& tree, std::size_t line) 
 }
 
 std::optional<Occurrence> name_at(const Snapshot& snapshot, const syntax::Position& place) {
-  const std::vector<Occurrence> names = names_of(snapshot.document().line(place.line), place.line);
+  const syntax::DocumentLine line = snapshot.document().line(place.line);
+  const std::vector<Occurrence> names = names_of(*line, place.line);
   const auto column = static_cast<std::uint32_t>(place.column);
   const auto holds = [&](const Occurrence& each) { return each.span.holds(column); };
   const auto ends = [&](const Occurrence& each) { return each.span.end == column; };
@@ -56,9 +57,10 @@ std::vector<Occurrence> occurrences(const Snapshot& snapshot, const Name& name) 
   for (const Landmark& landmark : index.landmarks(wanted, name.number))
     found.push_back({landmark.line, landmark.span, name, landmark.kind == LandmarkKind::Assignment});
   if (is_label)
-    for (const std::size_t line : index.lines_of_label(name.number))
-      if (const Word* const word = label_word(snapshot.document().line(line)))
-        found.push_back({line, word->span(), name, true});
+    for (const std::size_t line : index.lines_of_label(name.number)) {
+      const syntax::DocumentLine read = snapshot.document().line(line);
+      if (const Word* const word = label_word(*read)) found.push_back({line, word->span(), name, true});
+    }
   std::sort(found.begin(), found.end(), [](const Occurrence& a, const Occurrence& b) {
     return std::pair(a.line, a.span) < std::pair(b.line, b.span);
   });

@@ -45,7 +45,7 @@ void OpenDocument::replace(const ContentChange& change, Encoding encoding) {
   // For the client the mark is a character like any other.
   if (first.line == 0 && std::exchange(has_byte_order_mark_, false)) document_.replace({}, {}, running::kByteOrderMark);
   document_.replace(from_client(first, encoding), from_client(last, encoding), change.text);
-  if (first.line > 0 || !document_.line(0).text.starts_with(running::kByteOrderMark)) return;
+  if (first.line > 0 || !document_.text_of_line(0).starts_with(running::kByteOrderMark)) return;
   has_byte_order_mark_ = true;
   document_.replace({}, {0, running::kByteOrderMark.size()}, {});
 }
@@ -77,9 +77,11 @@ analyzer::Suppressions OpenDocument::read_suppressions() {
   speaks_.update(document_,
                  [&](std::size_t chunk) { return analyzer::Suppressions::may_speak(document_.chunk_text(chunk)); });
   analyzer::Suppressions suppressions;
-  for (std::size_t chunk = 0; chunk < speaks_.size(); ++chunk)
-    for (std::size_t i = 0; speaks_[chunk] && i < document_.chunk_lines(chunk); ++i)
-      suppressions.read_line(document_.first_line_of_chunk(chunk) + i, document_.line_of_chunk(chunk, i).text);
+  for (std::size_t chunk = 0; chunk < speaks_.size(); ++chunk) {
+    const std::size_t first = document_.first_line_of_chunk(chunk);
+    for (std::size_t line = first; speaks_[chunk] && line < first + document_.chunk_lines(chunk); ++line)
+      suppressions.read_line(line, document_.text_of_line(line));
+  }
   return suppressions;
 }
 
@@ -124,7 +126,7 @@ std::vector<analyzer::LocatedFinding> OpenDocument::findings_on(std::size_t line
 }
 
 ClientPosition OpenDocument::to_client(const syntax::Position& position, Encoding encoding) const {
-  const std::string_view line = document_.line(position.line).text;
+  const std::string_view line = document_.text_of_line(position.line);
   std::uint32_t column = units_before(line, position.column, encoding);
   if (has_byte_order_mark_ && position.line == 0) column += units_before(running::kByteOrderMark, 3, encoding);
   return {static_cast<std::uint32_t>(position.line), column};
@@ -133,12 +135,12 @@ ClientPosition OpenDocument::to_client(const syntax::Position& position, Encodin
 syntax::Position OpenDocument::from_client(const ClientPosition& position, Encoding encoding) const {
   if (position.line >= document_.line_count()) {
     const std::size_t last = document_.line_count() - 1;
-    return {last, document_.line(last).text.size()};
+    return {last, document_.text_of_line(last).size()};
   }
   std::uint32_t column = position.character;
   if (has_byte_order_mark_ && position.line == 0)
     column -= std::min(column, units_before(running::kByteOrderMark, 3, encoding));
-  return {position.line, byte_at(document_.line(position.line).text, column, encoding)};
+  return {position.line, byte_at(document_.text_of_line(position.line), column, encoding)};
 }
 
 }  // namespace isocnc::lsp::documents

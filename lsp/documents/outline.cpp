@@ -131,7 +131,8 @@ class Builder {
 
   void gather_label(std::uint64_t label) {
     for (const std::size_t line : snapshot_.index().lines_of_label(label)) {
-      const syntax::LineTree tree = snapshot_.document().line(line);
+      const syntax::DocumentLine read = snapshot_.document().line(line);
+      const syntax::LineTree& tree = *read;
       const syntax::Word* const word = label_word(tree);
       if (!word) continue;
       Section section = section_at(SectionKind::Label, {static_cast<std::uint32_t>(line), {}, word->span(), label});
@@ -166,7 +167,8 @@ class Builder {
   /// The first line of a block that says anything.
   std::string title_of(const CommentBlock& block) const {
     for (std::size_t line = block.first_line; line <= block.last_line; ++line) {
-      const syntax::LineTree tree = snapshot_.document().line(line);
+      const syntax::DocumentLine read = snapshot_.document().line(line);
+      const syntax::LineTree& tree = *read;
       for (const syntax::Span comment : tree.comments)
         if (std::string text = comment_text(tree.text_of(comment)); !text.empty()) return text;
     }
@@ -185,7 +187,8 @@ class Builder {
 
   /// A G with its arguments, as written.
   std::string instruction_text(const Landmark& landmark) const {
-    const syntax::LineTree tree = snapshot_.document().line(landmark.line);
+    const syntax::DocumentLine read = snapshot_.document().line(landmark.line);
+    const syntax::LineTree& tree = *read;
     syntax::Span all = landmark.span;
     for (const syntax::Instruction& instruction : tree.instructions)
       if (tree.command(instruction).span() == landmark.span)

@@ -77,10 +77,10 @@ class LineReader {
   std::vector<Landmark>& landmarks_;
 };
 
-ProgramIndex::Chunk ProgramIndex::read_chunk(const syntax::Document& document, std::size_t chunk) {
+ProgramIndex::Chunk ProgramIndex::read_chunk(const syntax::ChunkTrees& trees) {
   Chunk read;
-  for (std::size_t i = 0; i < document.chunk_lines(chunk); ++i) {
-    const LineTree tree = document.line_of_chunk(chunk, i);
+  for (std::size_t i = 0; i < trees.size(); ++i) {
+    const LineTree tree = trees[i];
     if (tree.has_label()) {
       read.least_label = std::min(read.least_label, tree.label);
       read.most_label = std::max(read.most_label, tree.label);
@@ -93,7 +93,11 @@ ProgramIndex::Chunk ProgramIndex::read_chunk(const syntax::Document& document, s
 
 void ProgramIndex::update(const syntax::Document& document) {
   document_ = &document;
-  chunks_.update(document, [&](std::size_t chunk) { return read_chunk(document, chunk); });
+  syntax::ChunkTrees trees;
+  chunks_.update(document, [&](std::size_t chunk) {
+    trees.read(document, chunk);
+    return read_chunk(trees);
+  });
 }
 
 template <class IsWanted>
@@ -119,10 +123,12 @@ std::vector<Landmark> ProgramIndex::landmarks(LandmarkKinds wanted, std::uint64_
 
 std::vector<std::size_t> ProgramIndex::lines_of_label(std::uint64_t label) const {
   std::vector<std::size_t> lines;
+  syntax::ChunkTrees trees;
   for (std::size_t i = 0; i < chunks_.size(); ++i) {
     if (label < chunks_[i].least_label || label > chunks_[i].most_label) continue;
-    for (std::size_t line = 0; line < document_->chunk_lines(i); ++line) {
-      const LineTree tree = document_->line_of_chunk(i, line);
+    trees.read(*document_, i);
+    for (std::size_t line = 0; line < trees.size(); ++line) {
+      const LineTree tree = trees[line];
       if (tree.has_label() && tree.label == label) lines.push_back(document_->first_line_of_chunk(i) + line);
     }
   }

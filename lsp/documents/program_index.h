@@ -64,7 +64,7 @@ class ProgramIndex {
     std::vector<Landmark> landmarks;  // Lines counted from the chunk's start.
   };
 
-  static Chunk read_chunk(const syntax::Document& document, std::size_t chunk);
+  static Chunk read_chunk(const syntax::ChunkTrees& trees);
 
   template <class IsWanted>
   std::vector<Landmark> select(IsWanted is_wanted) const;

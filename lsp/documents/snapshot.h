@@ -20,7 +20,7 @@ struct Interest {
 /// changes while a feature looks at it, and it ends with the call: what a feature wants to keep, it copies, or leaves
 /// in memory(). No feature parses text for itself.
 ///
-///     text, trees     document().line(n): a LineTree with its words, findings, text; none of it is parsed again
+///     text, trees     document().line(n): a LineTree with its words, findings, text
 ///     findings        report(): what isolint would tell, by line and column
 ///     states          state_before(n), frontier_before(n): checked from the chunk's start, a few microseconds
 ///     labels, ...     index()

@@ -10,7 +10,7 @@ static constexpr std::uint32_t kLinesWithoutPause = 1024;
 
 syntax::LineTree SnapshotProgram::line(std::uint64_t line) {
   if (++lines_seen_ % kLinesWithoutPause == 0) snapshot_.give_way();
-  return snapshot_.document().line(line);
+  return *line_.emplace(snapshot_.document().line(line));
 }
 
 bool SnapshotProgram::is_jumped_to(std::uint64_t label) {
@@ -27,9 +27,11 @@ std::optional<std::uint64_t> SnapshotProgram::free_line_number() {
 analyzer::EachLine each_line_of(const Snapshot& snapshot) {
   return [&snapshot](const std::function<void(const syntax::LineTree&)>& look) {
     const syntax::Document& document = snapshot.document();
+    syntax::ChunkTrees trees;
     for (std::size_t chunk = 0; chunk < document.chunk_count(); ++chunk) {
       snapshot.give_way();
-      for (std::size_t i = 0; i < document.chunk_lines(chunk); ++i) look(document.line_of_chunk(chunk, i));
+      trees.read(document, chunk);
+      for (std::size_t i = 0; i < trees.size(); ++i) look(trees[i]);
     }
   };
 }

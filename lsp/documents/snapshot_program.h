@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "analyzer/fixes/fix.h"
 #include "analyzer/renumbering.h"
 #include "lsp/documents/snapshot.h"
@@ -12,7 +14,7 @@ class SnapshotProgram final : public analyzer::fixes::Program {
   explicit SnapshotProgram(const Snapshot& snapshot) : snapshot_(snapshot) {}
 
   std::uint64_t line_count() const override { return snapshot_.document().line_count(); }
-  std::string_view text(std::uint64_t line) override { return snapshot_.document().line(line).text; }
+  std::string_view text(std::uint64_t line) override { return snapshot_.document().text_of_line(line); }
   syntax::LineTree line(std::uint64_t line) override;
   std::optional<execution::State> state_before(std::uint64_t line) override { return snapshot_.state_before(line); }
   bool is_jumped_to(std::uint64_t label) override;
@@ -20,6 +22,7 @@ class SnapshotProgram final : public analyzer::fixes::Program {
 
  private:
   const Snapshot& snapshot_;
+  std::optional<syntax::DocumentLine> line_;  // That has been asked for last.
   std::uint32_t lines_seen_ = 0;
   std::uint64_t last_line_number_ = 0;  // That has been handed out.
 };

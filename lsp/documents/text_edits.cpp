@@ -15,7 +15,7 @@ using analyzer::fixes::Edit;
 static bool is_inside_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) == 0x80; }
 
 std::optional<TextEdit> line_edit(const Snapshot& snapshot, std::size_t line, std::string_view text) {
-  const std::string_view before = snapshot.document().line(line).text;
+  const std::string_view before = snapshot.document().text_of_line(line);
   if (before == text) return std::nullopt;
   const std::size_t shorter = std::min(before.size(), text.size());
   std::size_t head = 0;
@@ -66,7 +66,7 @@ class Merge {
 
   std::vector<TextEdit> finish() {
     const std::size_t last = count_ - 1;
-    if (next_ < count_) replace_up_to({last, snapshot_.document().line(last).text.size()});
+    if (next_ < count_) replace_up_to({last, snapshot_.document().text_of_line(last).size()});
     return std::move(edits_);
   }
 

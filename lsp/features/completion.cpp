@@ -134,7 +134,8 @@ class Completer {
   Completer(const Snapshot& snapshot, const syntax::Position& place)
       : snapshot_(snapshot),
         place_(place),
-        line_(snapshot.document().line(place.line)),
+        read_(snapshot.document().line(place.line)),
+        line_(*read_),
         language_(snapshot.language()),
         start_(start_of_word()) {
     const auto before = snapshot.state_before(place.line);
@@ -399,7 +400,8 @@ class Completer {
     while (!digits.empty() && !syntax::is_digit(digits.front())) digits.remove_prefix(1);
     for (std::size_t number = place_.line + 1; number < end; ++number) {
       if (number % 1024 == 0) snapshot_.give_way();
-      const LineTree target = document.line(number);
+      const syntax::DocumentLine read = document.line(number);
+      const syntax::LineTree& target = *read;
       if (!target.has_label()) continue;
       const std::string label = fmt::format("N{}", target.label);
       if (label.compare(1, digits.size(), digits) != 0) continue;
@@ -415,7 +417,8 @@ class Completer {
 
   const Snapshot& snapshot_;
   const syntax::Position place_;
-  const LineTree line_;
+  const syntax::DocumentLine read_;
+  const LineTree& line_;
   const Language language_;
   const std::size_t start_;
   execution::State state_;

@@ -66,7 +66,8 @@ std::vector<Spot> motions_before(const Snapshot& snapshot, std::size_t line) {
   return Ways(snapshot).nearest_above(line, [&](std::size_t first, std::size_t behind) -> std::optional<Spot> {
     for (std::size_t at = behind; at-- > first;) {
       if (at % 1024 == 0) snapshot.give_way();
-      if (const auto span = motion_span(snapshot.document().line(at))) return Spot{at, *span};
+      const syntax::DocumentLine line = snapshot.document().line(at);
+      if (const auto span = motion_span(*line)) return Spot{at, *span};
     }
     return std::nullopt;
   });
@@ -77,7 +78,8 @@ std::vector<Spot> spots_for(const Snapshot& snapshot, const syntax::Position& pl
     if (name->is_definition) return {{name->line, name->span}};
     return name->name.kind == NameKind::Label ? labels_of(snapshot, *name) : assignments_of(snapshot, *name);
   }
-  const syntax::LineTree line = snapshot.document().line(place.line);
+  const syntax::DocumentLine read = snapshot.document().line(place.line);
+  const syntax::LineTree& line = *read;
   if (!is_continuation(line, static_cast<std::uint32_t>(place.column))) return {};
   return motions_before(snapshot, place.line);
 }

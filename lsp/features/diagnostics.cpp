@@ -65,7 +65,9 @@ class DiagnosticWriter {
   void append(const LocatedFinding& located, std::string& list) const {
     const syntax::Finding& finding = located.finding;
     const dialect::DiagnosticDef& def = dialect::definition(finding.id);
-    const std::string_view marked = snapshot_.document().line(located.line).text_of(finding.span);
+    const std::string_view marked = snapshot_.document()
+                                        .text_of_line(located.line)
+                                        .substr(finding.span.begin, finding.span.end - finding.span.begin);
     append_head(located, 1 + static_cast<int>(located.severity()),
                 dialect::message(finding.id, language_, marked, finding.values), list);
     fmt::format_to(std::back_inserter(list), R"(,"code":"{}","codeDescription":{{"href":"{}"}},"data":{{"name":"{}"}})",
@@ -98,7 +100,8 @@ class DiagnosticWriter {
   Json path_of(const LocatedFinding& located) const {
     Json steps = Json::array();
     for (const analyzer::PathStep& step : first_.report.paths[static_cast<std::size_t>(located.path)]) {
-      const syntax::LineTree line = snapshot_.document().line(step.line);
+      const syntax::DocumentLine read = snapshot_.document().line(step.line);
+      const syntax::LineTree& line = *read;
       const syntax::Span span =
           line.jump ? syntax::Span{line.jump->if_span.begin, line.jump->target_span.end} : syntax::Span{};
       steps.push_back({{"location", documents::Location{snapshot_.uri(), snapshot_.to_client(step.line, span)}},

@@ -38,7 +38,7 @@ class SymbolWriter {
 
  private:
   ClientRange range_of(const Section& section) const {
-    const std::size_t end = snapshot_.document().line(section.last_line).text.size();
+    const std::size_t end = snapshot_.document().text_of_line(section.last_line).size();
     return {snapshot_.to_client({section.first_line, 0}), snapshot_.to_client({section.last_line, end})};
   }
 

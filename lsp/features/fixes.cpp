@@ -95,7 +95,8 @@ void offer_silence(const Snapshot& snapshot, const ActionParams& params, std::ve
   };
   for (const LocatedFinding& located : findings_of(snapshot, params)) {
     const std::string_view code = dialect::definition(located.finding.id).code;
-    offer(kSilenceLine, located, silencing_line(snapshot.document().line(located.line), located.line, code));
+    const syntax::DocumentLine line = snapshot.document().line(located.line);
+    offer(kSilenceLine, located, silencing_line(*line, located.line, code));
     offer(kSilenceFile, located, {{0, 0}, {0, 0}, fmt::format(";isolint: ignore-file {}\n", code)});
   }
 }

@@ -40,7 +40,7 @@ std::size_t limit_of(const Client& client) {
 /// The last line that holds anything.
 std::size_t last_text_line(const Snapshot& snapshot) {
   std::size_t line = snapshot.document().line_count() - 1;
-  while (line > 0 && snapshot.document().line(line).text.empty()) --line;
+  while (line > 0 && snapshot.document().text_of_line(line).empty()) --line;
   return line;
 }
 

@@ -78,11 +78,13 @@ std::vector<TextEdit> format_on_type(const Snapshot& snapshot, const OnTypeParam
   const std::size_t line = snapshot.from_client(params.position).line;
   std::optional<TextEdit> edit;
   if (params.character != "\n") {
-    edit = line_edit(snapshot, line, in_capitals(snapshot.document().line(line)));
+    const syntax::DocumentLine typed = snapshot.document().line(line);
+    edit = line_edit(snapshot, line, in_capitals(*typed));
   } else if (line > 0) {
     ProgramStyle style = analyzer::style_by(snapshot.configuration().format);
     syntax::Formatter formatter(style.line);
-    edit = line_edit(snapshot, line - 1, formatter.format(snapshot.document().line(line - 1)));
+    const syntax::DocumentLine ended = snapshot.document().line(line - 1);
+    edit = line_edit(snapshot, line - 1, formatter.format(*ended));
   }
   return edit ? std::vector{*edit} : std::vector<TextEdit>{};
 }

@@ -42,12 +42,9 @@ void to_json(Json& json, const Hover& hover) { json = {{"contents", hover.conten
 /// Tells of one word, paragraph by paragraph.
 class Teller {
  public:
-  Teller(const Snapshot& snapshot, std::size_t line_number, const Word& word)
-      : snapshot_(snapshot),
-        line_number_(line_number),
-        line_(snapshot.document().line(line_number)),
-        word_(word),
-        language_(snapshot.language()) {}
+  /// A word of the line.
+  Teller(const Snapshot& snapshot, std::size_t line_number, const syntax::LineTree& line, const Word& word)
+      : snapshot_(snapshot), line_number_(line_number), line_(line), word_(word), language_(snapshot.language()) {}
 
   std::string tell() {
     tell_meaning();
@@ -221,7 +218,8 @@ class Teller {
     std::vector<std::string> values;
     for (const documents::Occurrence& each : documents::assignments_reaching(snapshot_, *read)) {
       if (values.size() == kMostPlaces) break;
-      const syntax::LineTree line = snapshot_.document().line(each.line);
+      const syntax::DocumentLine read = snapshot_.document().line(each.line);
+      const syntax::LineTree& line = *read;
       const Word* const value = value_behind(line, each.span);
       if (value && value->known()) values.push_back(text(kValue, shown(value->value), each.line + 1));
     }
@@ -245,7 +243,7 @@ class Teller {
 
   const Snapshot& snapshot_;
   const std::size_t line_number_;
-  const syntax::LineTree line_;
+  const syntax::LineTree& line_;
   const Word& word_;
   const dialect::Language language_;
   std::vector<std::string> paragraphs_;
@@ -253,10 +251,11 @@ class Teller {
 
 std::optional<Hover> answer_hover(const Snapshot& snapshot, const documents::PositionParams& params) {
   const syntax::Position place = snapshot.from_client(params.position);
-  const syntax::LineTree line = snapshot.document().line(place.line);
+  const syntax::DocumentLine read = snapshot.document().line(place.line);
+  const syntax::LineTree& line = *read;
   const Word* const word = line.word_at(static_cast<std::uint32_t>(place.column));
   if (!word) return std::nullopt;
-  std::string text = Teller(snapshot, place.line, *word).tell();
+  std::string text = Teller(snapshot, place.line, line, *word).tell();
   if (text.empty()) return std::nullopt;
   return Hover{.contents = {std::move(text)}, .range = snapshot.to_client(place.line, word->span())};
 }

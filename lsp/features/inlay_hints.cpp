@@ -88,7 +88,8 @@ class HintFinder {
   HintFinder(const Snapshot& snapshot, std::size_t first_line) : snapshot_(snapshot), walk_(snapshot, first_line) {}
 
   void look_at(std::size_t index) {
-    const LineTree line = snapshot_.document().line(index);
+    const syntax::DocumentLine read = snapshot_.document().line(index);
+    const syntax::LineTree& line = *read;
     const syntax::Instruction* const motion = motion_of(line);
     if (motion && motion->kind == syntax::InstructionKind::Continuation) tell_of_motion(index, line, *motion);
     walk_.step(index, line);
@@ -169,7 +170,8 @@ void add_section_times(const Snapshot& snapshot, std::size_t first, std::size_t 
   for (const documents::Landmark& change : changes) {
     const auto section = sections->find(change.line);
     if (section == sections->end()) continue;
-    const LineTree line = snapshot.document().line(change.line);
+    const syntax::DocumentLine read = snapshot.document().line(change.line);
+    const syntax::LineTree& line = *read;
     hints.push_back({.position = snapshot.to_client({change.line, line.words.back().end}),
                      .label = documents::clock_text(section->second.start),
                      .tooltip = kTooltip.in(snapshot.language()),

@@ -24,7 +24,8 @@ std::optional<LinkedRanges> answer_linked_editing(const Snapshot& snapshot, cons
   bool has_reference = false;
   std::string_view text;
   for (const documents::Occurrence& each : documents::occurrences(snapshot, name->name)) {
-    const syntax::LineTree line = snapshot.document().line(each.line);
+    const syntax::DocumentLine read = snapshot.document().line(each.line);
+    const syntax::LineTree& line = *read;
     const auto pieces = documents::outside_comments(line, {each.span.begin + 1, each.span.end});
     if (pieces.size() != 1) return std::nullopt;
     const std::string_view number = line.text_of(pieces[0]);

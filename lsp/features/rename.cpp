@@ -91,7 +91,8 @@ std::vector<Occurrence> meant_with(const Snapshot& snapshot, const Occurrence& c
 /// The digits alone are written anew: letter, blanks and comments stay.
 void write(const Snapshot& snapshot, const Occurrence& place, const std::string& digits,
            std::vector<documents::TextEdit>& edits) {
-  const syntax::LineTree line = snapshot.document().line(place.line);
+  const syntax::DocumentLine read = snapshot.document().line(place.line);
+  const syntax::LineTree& line = *read;
   bool is_first = true;
   for (const syntax::Span piece : documents::outside_comments(line, {place.span.begin + 1, place.span.end}))
     edits.push_back({snapshot.to_client(place.line, piece), std::exchange(is_first, false) ? digits : ""});

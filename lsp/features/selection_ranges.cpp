@@ -81,7 +81,7 @@ std::vector<Selection> answer_selection_ranges(const Snapshot& snapshot, const S
   const std::vector<documents::Section> sections = documents::outline(snapshot);
   const auto lines = [&](std::size_t first, std::size_t last) {
     return ClientRange{snapshot.to_client({first, 0}),
-                       snapshot.to_client({last, snapshot.document().line(last).text.size()})};
+                       snapshot.to_client({last, snapshot.document().text_of_line(last).size()})};
   };
   std::vector<Selection> selections;
   for (const ClientPosition& position : params.positions) {
@@ -91,7 +91,8 @@ std::vector<Selection> answer_selection_ranges(const Snapshot& snapshot, const S
     const auto add = [&](const ClientRange& range) {
       if (selection.ranges.empty() || selection.ranges.back() != range) selection.ranges.push_back(range);
     };
-    for (const Span span : spans_at(snapshot.document().line(place.line), static_cast<std::uint32_t>(place.column)))
+    const syntax::DocumentLine line = snapshot.document().line(place.line);
+    for (const Span span : spans_at(*line, static_cast<std::uint32_t>(place.column)))
       add(snapshot.to_client(place.line, span));
     for (auto section = sections.rbegin(); section != sections.rend(); ++section)
       if (section->first_line <= place.line && place.line <= section->last_line)

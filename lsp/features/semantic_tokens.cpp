@@ -159,8 +159,8 @@ class Encoder {
 
   void add_chunk(std::size_t chunk) {
     const std::size_t first = snapshot_.document().first_line_of_chunk(chunk);
-    for (std::size_t i = 0; i < snapshot_.document().chunk_lines(chunk); ++i)
-      add(first + i, snapshot_.document().line_of_chunk(chunk, i));
+    trees_.read(snapshot_.document(), chunk);
+    for (std::size_t i = 0; i < trees_.size(); ++i) add(first + i, trees_[i]);
   }
 
   std::size_t count() const { return count_; }
@@ -181,6 +181,7 @@ class Encoder {
 
   const Snapshot& snapshot_;
   LineTokens tokens_;
+  syntax::ChunkTrees trees_;
   std::size_t previous_line_;
   std::size_t count_ = 0;
   std::string numbers_;
@@ -230,7 +231,8 @@ documents::RawJson range(const Snapshot& snapshot, const documents::RangeParams&
   Encoder encoder(snapshot);
   for (std::size_t line = first; line <= last; ++line) {
     if (line % 1024 == 0) snapshot.give_way();
-    encoder.add(line, snapshot.document().line(line));
+    const syntax::DocumentLine read = snapshot.document().line(line);
+    encoder.add(line, *read);
   }
   return {fmt::format(R"({{"data":{}}})", encoder.data())};
 }
@@ -249,8 +251,10 @@ void from_json(const Json& json, DeltaParams& params) {
 /// The last line above a chunk that has tokens: from there the chunk's first token counts.
 std::size_t last_line_with_tokens_above(const Snapshot& snapshot, std::size_t chunk) {
   LineTokens tokens;
-  for (std::size_t line = snapshot.document().first_line_of_chunk(chunk); line-- > 0;)
-    if (!tokens.of(snapshot.document().line(line)).empty()) return line;
+  for (std::size_t line = snapshot.document().first_line_of_chunk(chunk); line-- > 0;) {
+    const syntax::DocumentLine read = snapshot.document().line(line);
+    if (!tokens.of(*read).empty()) return line;
+  }
   return 0;
 }
 
@@ -259,8 +263,9 @@ bool add_first_token(const Snapshot& snapshot, std::size_t chunk, Encoder& encod
   const std::size_t before = encoder.count();
   for (; chunk < snapshot.document().chunk_count(); ++chunk) {
     const std::size_t first = snapshot.document().first_line_of_chunk(chunk);
-    for (std::size_t i = 0; i < snapshot.document().chunk_lines(chunk); ++i) {
-      encoder.add(first + i, snapshot.document().line_of_chunk(chunk, i), 1);
+    for (std::size_t line = first; line < first + snapshot.document().chunk_lines(chunk); ++line) {
+      const syntax::DocumentLine read = snapshot.document().line(line);
+      encoder.add(line, *read, 1);
       if (encoder.count() > before) return true;
     }
   }

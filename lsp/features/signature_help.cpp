@@ -174,7 +174,8 @@ Signature of_assignment(const LineTree& line, std::size_t column, Language langu
 
 std::optional<Signature> answer_signature_help(const Snapshot& snapshot, const documents::PositionParams& params) {
   const syntax::Position place = snapshot.from_client(params.position);
-  const LineTree line = snapshot.document().line(place.line);
+  const syntax::DocumentLine read = snapshot.document().line(place.line);
+  const syntax::LineTree& line = *read;
   const auto holds = [&](syntax::Span comment) {
     return comment.begin < place.column && (place.column < comment.end || line.text[comment.begin] == ';');
   };

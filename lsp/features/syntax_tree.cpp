@@ -50,7 +50,8 @@ class TreeWriter {
   explicit TreeWriter(const Snapshot& snapshot) : snapshot_(snapshot) {}
 
   void write(std::size_t number) {
-    const syntax::LineTree line = snapshot_.document().line(number);
+    const syntax::DocumentLine read = snapshot_.document().line(number);
+    const syntax::LineTree& line = *read;
     text += fmt::format("Line {}\n", number + 1);
     for (const syntax::Instruction& instruction : line.instructions) {
       text += fmt::format("  {}\n", name_of(instruction.kind));

@@ -159,7 +159,7 @@ void edit_once(Random& random, RandomProgram& program, Document& document) {
   const std::size_t line = random.below(document.line_count());
   switch (random.between(0, 5)) {
     case 0:
-      document.replace({line, 0}, {line, document.line(line).text.size()}, program.line());
+      document.replace({line, 0}, {line, document.text_of_line(line).size()}, program.line());
       break;
     case 1:
       document.replace({line, 0}, {line, 0}, program.line() + "\n");

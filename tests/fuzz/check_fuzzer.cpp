@@ -15,7 +15,7 @@ static void check_places(std::string_view text, const analyzer::Report& report) 
   const syntax::Document document(text);
   for (const LocatedFinding& located : report.findings) {
     require(located.line < document.line_count(), "findings stand on lines of the text");
-    const std::size_t length = document.line(located.line).text.size();
+    const std::size_t length = document.text_of_line(located.line).size();
     const syntax::Span span = located.finding.span;
     require(span.begin <= span.end && span.end <= length, "findings lie within their line");
     require(located.finding.related.end <= length, "related places lie within their line");

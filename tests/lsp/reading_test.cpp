@@ -192,34 +192,6 @@ TEST(SemanticTokens, OfOneChangedLineAreFew) {
   EXPECT_LT(client.received, 30'000u);
 }
 
-TEST(Reading, ParsesNothingASecondTime) {
-  documents::SettingsStore settings;
-  documents::OpenDocument document(kUri, settings);
-  std::string text = "M06 T101001\nG91 G01 X1 F100\n";
-  for (int i = 0; i < 2000; ++i) text += "X1 Y2\n";
-  document.open(1, text + "M02\n");
-  const documents::Client client;
-  const documents::Snapshot snapshot(document, client, {});
-  Json params = document_params();
-  params["range"] = lines(0, 1000);
-  params["position"] = {{"line", 1500}, {"character", 1}};
-  params["positions"] = Json::array({params["position"]});
-  params = Json::parse(params.dump());  // Numbers as they come from a client.
-  const std::uint64_t parsed = document.document().lines_parsed();
-  std::size_t asked = 0;
-  for (const features::Feature* const feature : features::all_features())
-    for (const features::Method& method : feature->methods)
-      for (const std::string_view name :
-           {"documentSymbol", "definition", "references", "documentHighlight", "foldingRange", "selectionRange",
-            "semanticTokens/full", "semanticTokens/range", "inlayHint"}) {
-        if (method.name != fmt::format("textDocument/{}", name)) continue;
-        EXPECT_NE(method.answer(snapshot, params), "");
-        ++asked;
-      }
-  EXPECT_EQ(asked, 9u);
-  EXPECT_EQ(document.document().lines_parsed(), parsed);
-}
-
 TEST(InlayHints, TellWhereIncrementalMotionsEndAndWhatIsInForce) {
   const std::pair<const char*, const char*> kCases[] = {
       {"M06 T101001\nG90 G00 X10 Y20\nG91 G01 X5 F100\n(😀) X5.25 Y-1\nG90\nX1\nM02\n",

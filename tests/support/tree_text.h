@@ -43,7 +43,10 @@ inline std::string text_of(const syntax::LineTree& tree) {
 /// All trees of a document.
 inline std::string text_of(const syntax::Document& document) {
   std::string text;
-  for (std::size_t i = 0; i < document.line_count(); ++i) text += text_of(document.line(i));
+  for (std::size_t i = 0; i < document.line_count(); ++i) {
+    const syntax::DocumentLine line = document.line(i);
+    text += text_of(*line);
+  }
   return text;
 }
 

@@ -14,7 +14,8 @@ std::string lines_of(const Document& document) {
   std::string lines;
   for (std::size_t i = 0; i < document.line_count(); ++i) {
     if (i > 0) lines += '|';
-    lines += document.line(i).text;
+    lines += document.text_of_line(i);
+    EXPECT_EQ(document.line(i)->text, document.text_of_line(i));
   }
   return lines;
 }
@@ -87,15 +88,6 @@ std::string numbered_lines(int count) {
   return text;
 }
 
-TEST(Document, ParsesTheLinesThatAnEditTouchesAndNoOthers) {
-  Document document(numbered_lines(10'000));
-  const std::uint64_t before = document.lines_parsed();
-  document.replace({5'000, 4}, {5'000, 4}, "7");
-  EXPECT_EQ(document.lines_parsed() - before, 1u);
-  document.replace({7'000, 2}, {7'002, 2}, "\n\n\n");
-  EXPECT_LE(document.lines_parsed() - before, 1u + 4u);
-}
-
 TEST(Document, TellsWhatAnEditDidToTheLines) {
   Document document("a\nb\nc\nd\n");
   const Change change = document.replace({1, 0}, {2, 1}, "1\n2\n3");
@@ -137,20 +129,28 @@ TEST(Document, ChunksHoldAllLinesInOrder) {
   document.replace({100, 0}, {100, 0}, numbered_lines(2'000));
   document.replace({1'000, 0}, {3'500, 0}, "");
   std::size_t line = 0;
+  ChunkTrees trees;
   for (std::size_t chunk = 0; chunk < document.chunk_count(); ++chunk) {
     EXPECT_EQ(document.first_line_of_chunk(chunk), line);
     EXPECT_GT(document.chunk_lines(chunk), 0u);
-    for (std::size_t i = 0; i < document.chunk_lines(chunk); ++i, ++line)
-      EXPECT_EQ(document.line_of_chunk(chunk, i).text, document.line(line).text);
+    trees.read(document, chunk);
+    ASSERT_EQ(trees.size(), document.chunk_lines(chunk));
+    for (std::size_t i = 0; i < trees.size(); ++i, ++line) {
+      const DocumentLine alone = document.line(line);
+      EXPECT_EQ(support::text_of(trees[i]), support::text_of(*alone));
+    }
   }
   EXPECT_EQ(line, document.line_count());
 }
 
-TEST(Document, MovesWithItsTrees) {
-  Document document("G1 X1\nY2\n");
-  const std::string before = support::text_of(document);
-  const Document moved = std::move(document);
-  EXPECT_EQ(support::text_of(moved), before);
+TEST(Document, ALineMovesWithItsTree) {
+  const Document document("G1 X1 (a)\nIF V1=2 GOTO N3\nG99 X\n");
+  for (std::size_t i = 0; i < document.line_count(); ++i) {
+    DocumentLine line = document.line(i);
+    const std::string before = support::text_of(*line);
+    const DocumentLine moved = std::move(line);
+    EXPECT_EQ(support::text_of(*moved), before);
+  }
 }
 
 }  // namespace
