@@ -117,4 +117,18 @@ void Groups::reduce_to(std::size_t limit) {
   if (all_.size() > limit) all_.resize(limit);
 }
 
+Groups Frontier::running_through(const syntax::LineTree& next) const {
+  Groups groups = live;
+  const auto jumped = next.has_label() ? waiting.find(next.label) : waiting.end();
+  if (jumped != waiting.end())
+    for (const Group& group : jumped->second) groups.add(group);
+  return groups;
+}
+
+std::optional<execution::State> Frontier::state_at(const syntax::LineTree& next) const {
+  const Groups groups = running_through(next);
+  if (groups.size() != 1 || reduced) return std::nullopt;
+  return groups[0].state;
+}
+
 }  // namespace isocnc::analyzer

@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "analyzer/registers.h"
 #include "analyzer/report.h"
 #include "interpreter/execution/state.h"
+#include "interpreter/syntax/line_tree.h"
 
 namespace isocnc::analyzer {
 
@@ -61,6 +63,10 @@ struct Frontier {
 
   /// The whole program has been checked: no path goes on.
   bool finished() const { return live.empty() && waiting.empty(); }
+  /// What runs through the next line, where that is this one: besides what comes from above, all that has jumped to it.
+  Groups running_through(const syntax::LineTree& next) const;
+  /// The one state of all that does. Nothing where there are several, or not all are known.
+  std::optional<execution::State> state_at(const syntax::LineTree& next) const;
 
   friend bool operator==(const Frontier&, const Frontier&) = default;
 };

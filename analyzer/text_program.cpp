@@ -79,8 +79,9 @@ const Frontier& TextProgram::frontier_before(std::uint64_t line) {
 
 std::optional<execution::State> TextProgram::state_before(std::uint64_t line) {
   const Frontier& frontier = frontier_before(line);
-  if (frontier.live.size() != 1 || frontier.reduced) return std::nullopt;
-  return frontier.live[0].state;
+  const bool has_label = line < line_count() && !frontier.waiting.empty();
+  const syntax::ParsedLine next(has_label ? text(line) : std::string_view());
+  return frontier.state_at(next.tree());
 }
 
 std::uint64_t TextProgram::highest_line_number() const {

@@ -15,6 +15,7 @@ class MoveKeeper final : public execution::Sink {
     run_.move = move;
     run_.moved_in = state;
   }
+  void dwell(double seconds) override { run_.dwell = seconds; }
 
  private:
   LineRun& run_;
@@ -22,15 +23,30 @@ class MoveKeeper final : public execution::Sink {
 
 }  // namespace
 
+static LineRun run_from(const Snapshot& snapshot, const execution::State& before, const syntax::LineTree& line) {
+  LineRun run{.before = before, .after = before, .move = {}, .moved_in = {}};
+  MoveKeeper keeper(run);
+  execution::execute(line, run.after, snapshot.setup(), keeper);
+  return run;
+}
+
 std::optional<LineRun> run_line(const Snapshot& snapshot, std::size_t line) {
   if (line >= snapshot.document().line_count()) return std::nullopt;
   const auto before = snapshot.state_before(line);
   if (!before) return std::nullopt;
-  LineRun run{.before = *before, .after = *before, .move = {}, .moved_in = {}};
-  MoveKeeper keeper(run);
   const syntax::DocumentLine read = snapshot.document().line(line);
-  execution::execute(*read, run.after, snapshot.setup(), keeper);
-  return run;
+  return run_from(snapshot, *before, *read);
+}
+
+std::vector<LineRun> run_line_on_all_paths(const Snapshot& snapshot, std::size_t line) {
+  if (line >= snapshot.document().line_count()) return {};
+  const analyzer::Frontier frontier = snapshot.frontier_before(line);
+  if (frontier.reduced) return {};
+  const syntax::DocumentLine read = snapshot.document().line(line);
+  std::vector<LineRun> runs;
+  const analyzer::Groups groups = frontier.running_through(*read);
+  for (const analyzer::Group& group : groups) runs.push_back(run_from(snapshot, group.state, *read));
+  return runs;
 }
 
 }  // namespace isocnc::lsp::documents

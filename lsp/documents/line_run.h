@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "interpreter/execution/sink.h"
 #include "lsp/documents/snapshot.h"
@@ -14,9 +15,13 @@ struct LineRun {
   execution::State after;
   std::optional<execution::Move> move;  ///< The line's motion, in the frame in force in `moved_in`.
   execution::State moved_in;
+  double dwell = 0;  ///< Seconds.
 };
 
 /// Nothing where no path leads to the line, or where paths come to it in different states.
 std::optional<LineRun> run_line(const Snapshot& snapshot, std::size_t line);
+
+/// From each of the states in which paths come to the line; nothing where not all of them are known.
+std::vector<LineRun> run_line_on_all_paths(const Snapshot& snapshot, std::size_t line);
 
 }  // namespace isocnc::lsp::documents

@@ -17,8 +17,9 @@ bool Snapshot::is_wanted() const {
 
 std::optional<execution::State> Snapshot::state_before(std::size_t line) const {
   const analyzer::Frontier frontier = frontier_before(line);
-  if (frontier.live.size() != 1 || frontier.reduced) return std::nullopt;
-  return frontier.live[0].state;
+  if (line >= document().line_count()) return frontier.state_at({});
+  const syntax::DocumentLine next = document().line(line);
+  return frontier.state_at(*next);
 }
 
 void Snapshot::give_way() const {

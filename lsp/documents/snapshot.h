@@ -47,7 +47,8 @@ class Snapshot {
   analyzer::Frontier frontier_before(std::size_t line) const { return document_.analysis().frontier_before(line); }
   /// Where labels, jumps, registers, tools and frames stand.
   const ProgramIndex& index() const { return document_.index(); }
-  /// The state before a line where there is only one: none where no path leads there, or where paths differ.
+  /// The state before a line, of all that comes from above or has jumped to it, where there is only one: none where no
+  /// path leads there, or where paths differ.
   std::optional<execution::State> state_before(std::size_t line) const;
 
   const execution::Setup& setup() const { return document_.settings().program->setup; }

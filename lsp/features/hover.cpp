@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -83,11 +84,15 @@ class Teller {
       case 'V':
         return tell_register();
       case syntax::kIf:
-      case syntax::kVgpl:
       case syntax::kGoto:
+        return tell_jump();
+      case syntax::kVgpl:
+        return tell_vgpl();
       case syntax::kAssign:
+      case syntax::kNumber:
+        return tell_value();
       case syntax::kOperator:
-        return;
+        return tell_operator();
       default:
         return tell_letter();
     }
@@ -108,7 +113,30 @@ class Teller {
     if (!code) return;
     title(fmt::format("{} ({})", code->name.in(language_), code->section));
     if (code->is_motion()) tell_motion();
+    if (code->number == 4) tell_dwell();
   }
+
+  /// Of what paths do not agree on, `?` stands in its place.
+  class Agreement {
+   public:
+    explicit Agreement(const std::vector<LineRun>& runs) : runs_(runs) {}
+
+    template <class Value>
+    std::string of(Value value) {
+      std::string first = dialect::format_value(value(runs_.front()));
+      for (const LineRun& run : runs_)
+        if (dialect::format_value(value(run)) != first) {
+          is_partial = true;
+          return "?";
+        }
+      return first;
+    }
+
+    bool is_partial = false;
+
+   private:
+    const std::vector<LineRun>& runs_;
+  };
 
   void tell_motion() {
     static constexpr Text kFace = {"face frame", "s.d.r. di faccia"};
@@ -117,26 +145,49 @@ class Teller {
     static constexpr Text kArc = {"center X{} Y{} Z{}, radius {} mm, sweep {}°, length {} mm",
                                   "centro X{} Y{} Z{}, raggio {} mm, ampiezza {}°, lunghezza {} mm"};
     static constexpr Text kTime = {"at the programmed feed {} s", "alla velocità programmata {} s"};
+    static constexpr Text kRapid = {"at full rapid speed {} s", "alla massima velocità di rapido {} s"};
     static constexpr Text kWay = {"length {} mm", "lunghezza {} mm"};
-    const auto run = documents::run_line(snapshot_, line_number_);
-    if (!run || !run->move || run->after.unknown != 0) return;
-    const execution::State& state = run->moved_in;
-    const geometry::Pose& to = run->move->to;
+    static constexpr Text kPartial = {"`?`: that depends on the jumps before", "`?`: dipende dai salti precedenti"};
+    const std::vector<LineRun> runs = documents::run_line_on_all_paths(snapshot_, line_number_);
+    const auto is_unclear = [](const LineRun& run) { return !run.move || run.after.unknown != 0; };
+    if (runs.empty() || std::any_of(runs.begin(), runs.end(), is_unclear)) return;
+    const auto all = [&](auto holds) { return std::all_of(runs.begin(), runs.end(), holds); };
+    Agreement agreement(runs);
     std::vector<std::string> rows;
-    const auto row = [&](const Text& name, const geometry::Vec3& tip) {
-      rows.push_back(fmt::format("- {}: X{} Y{} Z{} B{} C{}", name.in(language_), shown(tip.x()), shown(tip.y()),
-                                 shown(tip.z()), shown(to.b), shown(to.c)));
+    const auto row = [&](const Text& name, auto tip) {
+      const auto coordinate = [&](int axis) {
+        return agreement.of([&](const LineRun& run) { return tip(run)[axis]; });
+      };
+      rows.push_back(fmt::format("- {}: X{} Y{} Z{} B{} C{}", name.in(language_), coordinate(0), coordinate(1),
+                                 coordinate(2), agreement.of([](const LineRun& run) { return run.move->to.b; }),
+                                 agreement.of([](const LineRun& run) { return run.move->to.c; })));
     };
-    if (state.face_mounted) row(kFace, to.tip);
-    row(kWorkpiece, state.face_mounted ? state.face.to_outer(to.tip) : to.tip);
-    row(kMachine, state.to_machine(to.tip));
+    if (all([](const LineRun& run) { return run.moved_in.face_mounted; }))
+      row(kFace, [](const LineRun& run) { return run.move->to.tip; });
+    row(kWorkpiece, [](const LineRun& run) -> geometry::Vec3 {
+      const geometry::Vec3& tip = run.move->to.tip;
+      return run.moved_in.face_mounted ? run.moved_in.face.to_outer(tip) : tip;
+    });
+    row(kMachine, [](const LineRun& run) -> geometry::Vec3 { return run.moved_in.to_machine(run.move->to.tip); });
     add(fmt::format("{}", fmt::join(rows, "\n")));
-    const execution::MachineMove move = execution::in_machine(*run->move, state);
-    const geometry::Vec3& center = run->move->center;
-    add(move.kind == execution::MoveKind::Arc ? text(kArc, shown(center.x()), shown(center.y()), shown(center.z()),
-                                                     shown(move.radius), shown(move.sweep_deg), shown(move.length))
-                                              : text(kWay, shown(move.length)));
-    if (move.feed > 0) add(text(kTime, shown(seconds_at_feed(move))));
+    const auto in_machine = [](const LineRun& run) { return execution::in_machine(*run.move, run.moved_in); };
+    const std::string length = agreement.of([&](const LineRun& run) { return in_machine(run).length; });
+    if (all([](const LineRun& run) { return run.move->kind == execution::MoveKind::Arc; })) {
+      const auto center = [&](int axis) {
+        return agreement.of([&](const LineRun& run) { return run.move->center[axis]; });
+      };
+      add(text(kArc, center(0), center(1), center(2),
+               agreement.of([&](const LineRun& run) { return in_machine(run).radius; }),
+               agreement.of([&](const LineRun& run) { return in_machine(run).sweep_deg; }), length));
+    } else {
+      add(text(kWay, length));
+    }
+    if (all([](const LineRun& run) { return run.move->feed > 0; })) {
+      add(text(kTime, agreement.of([&](const LineRun& run) { return seconds_at_feed(in_machine(run)); })));
+    } else if (all([](const LineRun& run) { return run.move->kind == execution::MoveKind::Rapid; })) {
+      add(text(kRapid, agreement.of([&](const LineRun& run) { return seconds_in_rapid(in_machine(run)); })));
+    }
+    if (agreement.is_partial) add(text(kPartial));
   }
 
   /// To the hundredth, without the machine's accelerations.
@@ -146,17 +197,74 @@ class Teller {
     return std::round(60 * way / move.feed * 100) / 100;
   }
 
+  /// Likewise, by the axis that takes longest.
+  double seconds_in_rapid(const execution::MachineMove& move) const {
+    const geometry::Vec3 way = move.to.tip - move.from.tip;
+    const std::array<double, execution::kAxisCount> ways = {way.x(), way.y(), way.z(), move.to.b - move.from.b,
+                                                            move.to.c - move.from.c};
+    double minutes = 0;
+    for (std::size_t axis = 0; axis < ways.size(); ++axis)
+      minutes = std::max(minutes, std::abs(ways[axis]) / snapshot_.configuration().machine.rapids[axis]);
+    return std::round(60 * minutes * 100) / 100;
+  }
+
   static std::string shown(double value) { return dialect::format_value(value); }
 
+  void tell_dwell() {
+    static constexpr Text kWaits = {"waits {} s", "attende {} s"};
+    const std::vector<LineRun> runs = documents::run_line_on_all_paths(snapshot_, line_number_);
+    if (!runs.empty() && runs.front().dwell > 0) add(text(kWaits, shown(runs.front().dwell)));
+  }
+
+  void tell_jump() {
+    static constexpr Text kJump = {"jumps down to the line of the label behind GOTO where the condition holds (I.5)",
+                                   "salta alla riga dell'etichetta dopo GOTO, più in basso, se la condizione è vera "
+                                   "(I.5)"};
+    title(kJump.in(language_));
+  }
+
+  void tell_vgpl() {
+    static constexpr Text kVgpl = {"variable that the machine's own program sets, Var_IF[1] (I.5)",
+                                   "variabile impostata dal programma GPL della macchina, Var_IF[1] (I.5)"};
+    title(kVgpl.in(language_));
+  }
+
+  /// Of values: what a register, or an M's parameter, is set to or compared with.
+  void tell_value() {
+    static constexpr Text kCompared = {"what it is compared with", "valore di confronto"};
+    static constexpr Text kSet = {"what it is set to", "valore assegnato"};
+    title((line_.jump ? kCompared : kSet).in(language_));
+  }
+
+  void tell_operator() {
+    static constexpr std::array<Text, 6> kComparisons = {{{"is equal to", "è uguale a"},
+                                                          {"is not equal to", "è diverso da"},
+                                                          {"is less than", "è minore di"},
+                                                          {"is at most", "è minore o uguale a"},
+                                                          {"is greater than", "è maggiore di"},
+                                                          {"is at least", "è maggiore o uguale a"}}};
+    if (word_.digits < kComparisons.size()) title(kComparisons[word_.digits].in(language_));
+  }
+
   void tell_m() {
-    for (const dialect::MCode& code : dialect::kMCodes)
-      if (word_.value == code.number) return title(fmt::format("{} ({})", code.name.in(language_), code.section));
+    static constexpr Text kTakes = {"takes {} s", "richiede {} s"};
+    for (const dialect::MCode& code : dialect::kMCodes) {
+      if (word_.value != code.number) continue;
+      title(fmt::format("{} ({})", code.name.in(language_), code.section));
+      const running::Durations& durations = snapshot_.configuration().machine.timed.durations;
+      if (code.number == dialect::kToolChange) add(text(kTakes, shown(durations.tool_change)));
+      if (code.number >= 3 && code.number <= 5) add(text(kTakes, shown(durations.spindle)));
+      return;
+    }
     static constexpr Text kUser = {"user function", "funzione dell'utente"};
     title(kUser.in(language_));
     const auto& functions = snapshot_.configuration().machine.functions;
     if (!functions) return;
-    for (const configuration::NamedFunction& function : *functions)
-      if (word_.value == function.number) add(syntax::printable(function.name));
+    for (const configuration::NamedFunction& function : *functions) {
+      if (word_.value != function.number) continue;
+      add(syntax::printable(function.name));
+      if (function.seconds > 0) add(text(kTakes, shown(function.seconds)));
+    }
   }
 
   void tell_tool() {
@@ -178,18 +286,24 @@ class Teller {
     }
   }
 
+  struct Texts {
+    Text one;
+    Text many;
+  };
+
   /// `name: 3, 7, 12 ...`: line numbers as users count.
-  void tell_places(const Text& name, const std::vector<documents::Landmark>& places) {
+  void tell_places(const Texts& names, const std::vector<documents::Landmark>& places) {
     if (places.empty()) return;
     std::vector<std::size_t> lines;
     for (std::size_t i = 0; i < std::min(places.size(), kMostPlaces); ++i) lines.push_back(places[i].line + 1u);
+    const Text& name = lines.size() == 1 ? names.one : names.many;
     add(fmt::format("{} {}{}", name.in(language_), fmt::join(lines, ", "), places.size() > kMostPlaces ? " ..." : ""));
   }
 
   void tell_label() {
     static constexpr Text kTarget = {"target of a jump", "destinazione di un salto"};
     static constexpr Text kNumber = {"line number", "numero di riga"};
-    static constexpr Text kJumps = {"jumps to it: lines", "salti da: righe"};
+    static constexpr Texts kJumps = {{"jump to it: line", "salto da: riga"}, {"jumps to it: lines", "salti da: righe"}};
     const bool is_target = line_.jump && line_.jump->target_span == word_.span();
     const std::uint64_t label = is_target ? line_.jump->target : line_.label;
     const auto jumps = snapshot_.index().landmarks(documents::kinds(LandmarkKind::Jump), label);
@@ -199,8 +313,9 @@ class Teller {
 
   void tell_register() {
     static constexpr Text kRegister = {"register", "registro"};
-    static constexpr Text kAssigned = {"assigned: lines", "assegnato: righe"};
-    static constexpr Text kCompared = {"compared: lines", "confrontato: righe"};
+    static constexpr Texts kAssigned = {{"assigned: line", "assegnato: riga"}, {"assigned: lines", "assegnato: righe"}};
+    static constexpr Texts kCompared = {{"compared: line", "confrontato: riga"},
+                                        {"compared: lines", "confrontato: righe"}};
     title(kRegister.in(language_));
     if (!word_.is_plain_integer() || !(word_.value >= 1 && word_.value <= dialect::kRegisterCount)) return;
     const auto number = static_cast<std::uint64_t>(word_.value);

@@ -45,14 +45,15 @@ class StateWalk {
   StateWalk(const Snapshot& snapshot, std::size_t line)
       : snapshot_(snapshot), ways_(snapshot), state_(snapshot.state_before(line)) {}
 
-  /// Of the way from the line above.
   const std::optional<State>& state() const { return state_; }
-  /// Whether other ways lead to the line, too.
-  bool is_joined_at(std::size_t line) const { return ways_.lands_on(line); }
 
-  /// Goes over the line to the next.
+  /// Comes to a line, where other ways may lead, too.
+  void arrive(std::size_t line) {
+    if (ways_.lands_on(line)) state_ = snapshot_.state_before(line);
+  }
+  /// Goes over the line to the next, but for the other ways there.
   void step(std::size_t line, const LineTree& tree) {
-    if (!state_ || tree.jump || ways_.lands_on(line)) {
+    if (!state_ || tree.jump) {
       state_ = snapshot_.state_before(line + 1);
       return;
     }
@@ -91,6 +92,7 @@ class HintFinder {
     const syntax::DocumentLine read = snapshot_.document().line(index);
     const syntax::LineTree& line = *read;
     const syntax::Instruction* const motion = motion_of(line);
+    walk_.arrive(index);
     if (motion && motion->kind == syntax::InstructionKind::Continuation) tell_of_motion(index, line, *motion);
     walk_.step(index, line);
     if (motion) tell_of_end(index, line, *motion);
@@ -101,7 +103,7 @@ class HintFinder {
  private:
   void tell_of_motion(std::size_t index, const LineTree& line, const syntax::Instruction& motion) {
     static constexpr dialect::Text kTooltip = {"the motion in force", "il movimento in presa"};
-    if (!snapshot_.client().settings.shows_motion_in_force || !walk_.state() || walk_.is_joined_at(index)) return;
+    if (!snapshot_.client().settings.shows_motion_in_force || !walk_.state()) return;
     const std::uint8_t g = walk_.state()->mode(ModalGroup::Motion);
     if (g == dialect::kNoMotion) return;
     hints.push_back({.position = snapshot_.to_client({index, line.command(motion).begin}),

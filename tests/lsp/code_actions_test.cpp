@@ -108,6 +108,11 @@ constexpr Case kRewrites[] = {
      "M06 T101001\nG00 X0 Y0\n(è 😀) G02 X10 Y10 I10 J0 F500 ; arco\nM02\n"},
     {"give the arc's center", "M06 T101001\nG91 G70 G18\nG03[!!] X1 Z1 R1 F50\nM02\n",
      "M06 T101001\nG91 G70 G18\nG03 X1 Z1 I1 K0 F50\nM02\n"},
+    // A jump leads here from another place; from the same.
+    {"give the arc's center", "M06 T101001\nG00 X0 Y0\nIF VGPL = 1 GOTO N5\nX5\nN5 G02[!!] X10 Y10 R10 F500\nM02\n",
+     nullptr},
+    {"give the arc's center", "M06 T101001\nG00 X0 Y0\nIF VGPL = 1 GOTO N5\nX0\nN5 G02[!!] X10 Y10 R10 F500\nM02\n",
+     "M06 T101001\nG00 X0 Y0\nIF VGPL = 1 GOTO N5\nX0\nN5 G02 X10 Y10 I10 J0 F500\nM02\n"},
     {"write the selection in incremental",
      "M06 T101001\nG00 X10 Y20\n[!G01 X15 Y20.5 F500\nG02 X25 Y20.5 I20 J20.5\n!]M02\n",
      "M06 T101001\nG00 X10 Y20\nG91\nG01 X5 Y0.5 F500\nG02 X10 Y0 I5 J0\nG90\nM02\n"},

@@ -44,14 +44,46 @@ TEST(Hover, TellsOfEachWordWhatItMeansWhereItStands) {
   EXPECT_THAT(hover(kProgram, 2, 8), HasSubstr("machine frame: X125.4 Y50.8 Z25.4 B0 C0"));
   EXPECT_THAT(hover(kProgram, 3, 9), HasSubstr("length 4.6 mm"));
   EXPECT_THAT(hover(kProgram, 4, 1), HasSubstr("center X40 Y50.8 Z25.4, radius 10 mm, sweep -180°, length 31.4159 mm"));
-  EXPECT_THAT(hover(kProgram, 5, 3), HasSubstr("compared: lines 7"));
+  EXPECT_THAT(hover(kProgram, 5, 3), HasSubstr("compared: line 7"));
   EXPECT_THAT(hover(kProgram, 3, 9), HasSubstr("at the programmed feed 0.28 s"));
   EXPECT_THAT(hover(kProgram, 6, 4), HasSubstr("here it may be 3 (line 6)"));
-  EXPECT_THAT(hover(kProgram, 6, 14), HasSubstr("jumps to it: lines 7"));
-  EXPECT_THAT(hover(kProgram, 7, 0), HasSubstr("jumps to it: lines 7"));
+  EXPECT_THAT(hover(kProgram, 6, 14), HasSubstr("jump to it: line 7"));
+  EXPECT_THAT(hover(kProgram, 7, 0), HasSubstr("jump to it: line 7"));
   EXPECT_THAT(hover(kProgram, 8, 5), HasSubstr("ISO035"));
   EXPECT_EQ(hover(kProgram, 2, 3), "");   // A blank.
   EXPECT_EQ(hover(kProgram, 99, 3), "");  // Behind the end.
+}
+
+TEST(Hover, TellsOfJumpsAndOfWhatTheyCompare) {
+  const char* const kJumps = "IF VGPL >= 2 GOTO N9\nIF V3 <> -1 GOTO N9\nV3=2.5\nN9 M02\n";
+  EXPECT_THAT(hover(kJumps, 0, 0), HasSubstr("**IF** jumps down"));
+  EXPECT_THAT(hover(kJumps, 0, 4), HasSubstr("**VGPL** variable that the machine's own program sets"));
+  EXPECT_THAT(hover(kJumps, 0, 8), HasSubstr("**>=** is at least"));
+  EXPECT_THAT(hover(kJumps, 0, 11), HasSubstr("**2** what it is compared with"));
+  EXPECT_THAT(hover(kJumps, 0, 14), HasSubstr("**GOTO** jumps down"));
+  EXPECT_THAT(hover(kJumps, 1, 6), HasSubstr("**<>** is not equal to"));
+  EXPECT_THAT(hover(kJumps, 2, 3), HasSubstr("**=2.5** what it is set to"));
+  EXPECT_THAT(hover(kJumps, 0, 19), HasSubstr("jumps to it: lines 1, 2"));
+}
+
+TEST(Hover, TellsHowLongALineTakes) {
+  const char* const kTimed = "M06 T101001\nM03 S1000\nG00 X3000 Y10\nG04 P1.5\nG93 G01 X0 F30\nG94 G01 F0 X5\nM02\n";
+  EXPECT_THAT(hover(kTimed, 0, 0), HasSubstr("takes 8 s"));
+  EXPECT_THAT(hover(kTimed, 1, 0), HasSubstr("takes 2 s"));
+  EXPECT_THAT(hover(kTimed, 2, 4), HasSubstr("at full rapid speed 3 s"));  // 60 m/min.
+  EXPECT_THAT(hover(kTimed, 3, 0), HasSubstr("waits 1.5 s"));
+  EXPECT_THAT(hover(kTimed, 4, 8), HasSubstr("at the programmed feed 2 s"));
+}
+
+TEST(Hover, TellsWhatAllWaysToALineAgreeOn) {
+  const std::string program =
+      "M06 T101001\nG00 X10 Y5 Z50\nIF VGPL = 1 GOTO N5\nX20\nN5 G00 Y8\nG00 X0 Z40\nG91 G00 X1\nM02\n";
+  EXPECT_THAT(hover(program, 1, 5), testing::Not(HasSubstr("?")));
+  EXPECT_THAT(hover(program, 4, 7), testing::AllOf(HasSubstr("workpiece frame: X? Y8 Z50 B0 C0"),
+                                                   HasSubstr("length 3 mm"), HasSubstr("depends on the jumps")));
+  EXPECT_THAT(hover(program, 5, 4), testing::AllOf(HasSubstr("workpiece frame: X0 Y8 Z40 B0 C0"),
+                                                   HasSubstr("length ? mm"), HasSubstr("depends on the jumps")));
+  EXPECT_THAT(hover(program, 6, 9), testing::AllOf(HasSubstr("X1 Y8 Z40"), testing::Not(HasSubstr("?"))));
 }
 
 TEST(Hover, SpeaksTheLanguageOfTheSettings) {
@@ -79,6 +111,19 @@ TEST(State, IsThatBeforeAndAfterALine) {
   EXPECT_EQ(result["after"]["tool"], "101001");
   const Json behind = session.request("isocnc/state", {{"textDocument", {{"uri", kUri}}}, {"line", 99}});
   EXPECT_EQ(behind["before"], nullptr);
+}
+
+TEST(State, AtALabelIsThatOfAllThatJumpsThere) {
+  const auto x_at_label = [](const std::string& above) {
+    Session session;
+    session.start();
+    session.open(kUri, "M06 T101001\nG00 X10\nIF VGPL = 1 GOTO N5\n" + above + "\nN5 G00 Y1\nM02\n");
+    const Json before = session.request("isocnc/state", {{"textDocument", {{"uri", kUri}}}, {"line", 4}})["before"];
+    return before.is_null() ? before : before["position"]["x"];
+  };
+  EXPECT_EQ(x_at_label("X20"), nullptr);
+  EXPECT_EQ(x_at_label("G00 X10 F100"), 10);  // Both ways come to the same.
+  EXPECT_EQ(x_at_label("M02"), 10);           // Only the jump leads there.
 }
 
 TEST(SyntaxTree, ShowsHowLinesAreRead) {
