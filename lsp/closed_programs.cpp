@@ -73,15 +73,29 @@ void ClosedPrograms::ask_one(const features::Method& method, rpc::Json params, c
   });
 }
 
+/// What is known of programs that are gone, or open now.
+void ClosedPrograms::forget_all_but(const std::set<std::string>& asked, std::string_view gathering) {
+  std::erase_if(known_, [&](const auto& known) {
+    const auto& [name, uri] = known.first;
+    return name == gathering && !asked.contains(uri);
+  });
+}
+
 void ClosedPrograms::ask(Wish wish, std::function<void(std::vector<std::string> results)> done) {
   strand_.post([this, wish = std::move(wish), done = std::move(done)] {
     std::vector<std::string> results;
+    std::set<std::string> asked;
     for (const std::filesystem::path& program : programs_in(wish.folders)) {
       if (wish.cancelled->load()) return;
       const std::string uri = documents::uri_of(program);
       if (wish.open.contains(uri)) continue;
-      if (auto answer = ask(program, uri, wish)) results.push_back(std::move(*answer));
+      asked.insert(uri);
+      auto answer = ask(program, uri, wish);
+      if (!answer) continue;
+      if (wish.take_one) wish.take_one(*answer);
+      results.push_back(std::move(*answer));
     }
+    forget_all_but(asked, wish.gathering.name);
     done(std::move(results));
   });
 }

@@ -9,6 +9,8 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "lsp/documents/settings_store.h"
@@ -26,6 +28,8 @@ class ClosedPrograms {
   using ClientPointer = std::shared_ptr<const documents::Client>;
   struct Wish {
     features::Gathering gathering;
+    /// Told of each answer as soon as it is there; may be empty.
+    std::function<void(const std::string& result)> take_one;
     std::vector<std::filesystem::path> folders;
     std::set<std::string> open;  ///< URIs that the editor holds open.
     ClientPointer client;
@@ -63,6 +67,7 @@ class ClosedPrograms {
                                        const Answer& answer);
   std::vector<std::filesystem::path> programs_in(const std::vector<std::filesystem::path>& folders);
   std::optional<std::string> ask(const std::filesystem::path& program, const std::string& uri, const Wish& wish);
+  void forget_all_but(const std::set<std::string>& asked, std::string_view gathering);
 
   documents::SettingsStore& settings_;
   std::map<std::pair<std::string, std::string>, Known> known_;  // By request and URI; of the strand.

@@ -379,8 +379,8 @@ void Server::ask_closed(const features::Method& method, const CallPointer& call,
                            });
 }
 
-/// The results of all documents, as they come in.
-struct Server::Gathered {
+/// The results of all programs, as they come in.
+struct Server::Harvest {
   std::vector<std::string> results;
   std::size_t awaited = 0;
 };
@@ -397,46 +397,70 @@ static std::string joined(const std::vector<std::string>& arrays) {
   return all + "]";
 }
 
+/// Where the client has given a token for partial results: sends a program's result as soon as it is there.
+std::function<void(const std::string& result)> Server::teller_of_parts(const features::Gathering& gathering,
+                                                                       const CallPointer& call,
+                                                                       const Ongoing& ongoing) {
+  const auto token = documents::member<Json>(call->params(), "partialResultToken");
+  if (!token) return {};
+  return [this, gathering, call, ongoing, token = *token](const std::string& result) {
+    if (result == "[]") return;
+    std::string part;
+    try {
+      part = gathering.conclude(result, call->params(), features::Gathered::Some);
+    } catch (const Json::exception&) {
+      return;  // What is wrong with the parameters is told at the end.
+    }
+    std::string params = fmt::format(R"({{"token":{},"value":{}}})", rpc::write(token), part);
+    loop_.post([this, ongoing, params = std::move(params)] {
+      if (!ongoing->load()) notify("$/progress", params);
+    });
+  };
+}
+
 void Server::gather(const features::Gathering& gathering, const CallPointer& call) {
   const Ongoing ongoing = begin(*call);
   if (!ongoing) return;
   const Json id = *call->id;
-  const auto gathered = std::make_shared<Gathered>();
+  const auto harvest = std::make_shared<Harvest>();
+  const auto tell_part = teller_of_parts(gathering, call, ongoing);
   std::set<std::string> open;
   for (const auto& [uri, opened] : tabs_)
     if (!opened.tab->is_configuration()) open.insert(uri);
-  gathered->awaited = open.size() + (gathering.conclude ? 1 : 0);
-  const auto conclude = [this, id, ongoing, gathered, gathering, call] {
+  harvest->awaited = open.size() + 1;
+  const auto conclude = [this, id, ongoing, harvest, gathering, call, is_told = static_cast<bool>(tell_part)] {
     // Away from the loop: the results may be long.
-    pool_.post([this, id, ongoing, gathered, gathering, call] {
+    pool_.post([this, id, ongoing, harvest, gathering, call, is_told] {
       std::string body;
       try {
-        std::string all = joined(gathered->results);
-        body = rpc::result_message(id, gathering.conclude ? gathering.conclude(std::move(all), call->params()) : all);
+        body =
+            rpc::result_message(id, gathering.conclude(joined(harvest->results), call->params(),
+                                                       is_told ? features::Gathered::Rest : features::Gathered::All));
       } catch (const Json::exception& error) {
         body = rpc::error_message(id, ErrorCode::InvalidParams, error.what());
       }
       loop_.post([this, id, ongoing, body = std::move(body)]() mutable { finish(id, ongoing, std::move(body)); });
     });
   };
-  if (gathered->awaited == 0) return conclude();
-  const auto take = [this, gathered, conclude](std::vector<std::string> results) {
-    loop_.post([gathered, conclude, results = std::move(results)]() mutable {
-      std::move(results.begin(), results.end(), std::back_inserter(gathered->results));
-      if (--gathered->awaited == 0) conclude();
+  const auto take = [this, harvest, conclude](std::vector<std::string> results) {
+    loop_.post([harvest, conclude, results = std::move(results)]() mutable {
+      std::move(results.begin(), results.end(), std::back_inserter(harvest->results));
+      if (--harvest->awaited == 0) conclude();
     });
+  };
+  const auto take_one = [take, tell_part](std::string result) {
+    if (tell_part) tell_part(result);
+    take({std::move(result)});
   };
   const features::Method method = {.name = gathering.name, .answer = gathering.answer, .begin = nullptr};
   for (const std::string& uri : open)
     // A document that is being edited has nothing to say just now.
-    tabs_[uri].tab->ask(
-        method, call->params(), client_, ongoing, [take](std::string result) { take({std::move(result)}); },
-        [take](const rpc::Error&) { take({}); });
-  if (!gathering.conclude) return;
+    tabs_[uri].tab->ask(method, call->params(), client_, ongoing, take_one, [take](const rpc::Error&) { take({}); });
   std::vector<std::filesystem::path> folders;
   for (const std::string& uri : folders_)
     if (const auto path = documents::path_of(uri)) folders.push_back(*path);
   closed_programs_.ask({.gathering = gathering,
+                        .take_one = tell_part,
                         .folders = std::move(folders),
                         .open = std::move(open),
                         .client = client_,

@@ -45,7 +45,7 @@ class Server final : public rpc::Party {
   using CallPointer = std::shared_ptr<const rpc::Call>;
   /// A request of the client's that has no answer yet; set when it is cancelled.
   using Ongoing = std::shared_ptr<std::atomic<bool>>;
-  struct Gathered;
+  struct Harvest;
 
   void dispatch(const CallPointer& call);
   bool is_allowed(const rpc::Call& call);
@@ -74,6 +74,8 @@ class Server final : public rpc::Party {
   bool is_in_workspace(const std::string& uri) const;
   void ask_closed(const features::Method& method, const CallPointer& call, const std::string& uri);
   void gather(const features::Gathering& gathering, const CallPointer& call);
+  std::function<void(const std::string& result)> teller_of_parts(const features::Gathering& gathering,
+                                                                 const CallPointer& call, const Ongoing& ongoing);
   Ongoing begin(const rpc::Call& call);
   void finish(const rpc::Json& id, const Ongoing& ongoing, std::string body);
   void reply(const rpc::Call& call, const rpc::Json& result);

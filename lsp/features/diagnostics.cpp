@@ -145,11 +145,11 @@ documents::RawJson pull_each(const Snapshot& snapshot, const Json& /*params*/) {
 }
 
 /// Leaves out what the client has, and takes away what it has of programs that are gone.
-std::string conclude_pull(std::string all, const Json& params) {
+std::string conclude_pull(std::string results, const Json& params, Gathered gathered) {
   std::map<std::string, std::string> before;
   for (const Json& each : params.value("previousResultIds", Json::array())) before[each.at("uri")] = each.at("value");
-  if (before.empty()) return fmt::format(R"({{"items":{}}})", all);
-  Json reports = Json::parse(all);
+  if (before.empty()) return fmt::format(R"({{"items":{}}})", gathered == Gathered::Rest ? "[]" : results);
+  Json reports = Json::parse(results);
   for (Json& report : reports) {
     const auto known = before.find(report["uri"].get_ref<const std::string&>());
     if (known == before.end()) continue;
@@ -159,6 +159,8 @@ std::string conclude_pull(std::string all, const Json& params) {
     }
     before.erase(known);
   }
+  if (gathered == Gathered::Some) return rpc::write({{"items", reports}});
+  if (gathered == Gathered::Rest) reports = Json::array();
   for (const auto& [uri, id] : before)
     if (id != id_of("[]"))
       reports.push_back(

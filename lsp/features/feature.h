@@ -40,14 +40,21 @@ struct Method {
   std::string_view of_configuration = {};
 };
 
-/// A request about the whole workspace (workspace/symbol): asked of every open document on its strand; the results,
-/// which are arrays, are put together.
+/// Which results a Gathering concludes from.
+enum class Gathered {
+  All,
+  Some,  ///< The client is told of some programs while others are still being asked.
+  Rest,  ///< Of all, but the client has been told of each of them: what is left to say.
+};
+
+/// A request about the whole workspace: asked of every open document on its strand, and of the programs in the
+/// workspace's folders that are not open.
 struct Gathering {
   std::string_view name;
+  /// An array. Programs that are not open are asked without params, for what they answer is kept.
   std::string (*answer)(const Snapshot& snapshot, const Json& params) = nullptr;
-  /// Where this is given, the programs in the workspace's folders that are not open are asked as well, without params,
-  /// and it makes of all the results what the client gets.
-  std::string (*conclude)(std::string all, const Json& params) = nullptr;
+  /// Makes of the results, put together to one array, what the client gets.
+  std::string (*conclude)(std::string results, const Json& params, Gathered gathered) = nullptr;
 };
 
 /// What an editor wants to know of code actions.
@@ -167,7 +174,8 @@ Method begun_by(std::string_view name) {
 
 /// A gathering by its handler, whose Result is a list.
 template <auto handle>
-Gathering on_each(std::string_view name, std::string (*conclude)(std::string all, const Json& params) = nullptr) {
+Gathering on_each(std::string_view name,
+                  std::string (*conclude)(std::string results, const Json& params, Gathered gathered)) {
   return {name, MethodOf<handle>::kAnswer, conclude};
 }
 

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,18 +10,19 @@
 #include "lsp/documents/outline.h"
 #include "lsp/features/feature.h"
 
-/// The sections of all open programs that a user may look for.
+/// The sections of all programs in the workspace that a user may look for.
 namespace isocnc::lsp::features {
 namespace {
 
 /// Symbols that are told of one program: who has more in mind goes on typing.
 constexpr std::size_t kMostSymbols = 1000;
 
+/// Without a text it asks for all there is.
 struct Query {
-  std::string text;
+  std::optional<std::string> text;
 };
 
-void from_json(const Json& json, Query& query) { query.text = json.at("query"); }
+void from_json(const Json& json, Query& query) { query.text = documents::member<std::string>(json, "query"); }
 
 struct Symbol {
   std::string name;
@@ -42,10 +45,10 @@ bool fits(std::string_view text, std::string_view query) {
 std::vector<Symbol> answer_workspace_symbols(const Snapshot& snapshot, const Query& query) {
   std::vector<Symbol> symbols;
   for (const documents::Section& section : documents::outline(snapshot)) {
-    if (symbols.size() == kMostSymbols) break;
+    if (query.text && symbols.size() == kMostSymbols) break;
     const std::string name =
         section.detail.empty() ? section.title : fmt::format("{} {}", section.title, section.detail);
-    if (fits(name, query.text))
+    if (fits(name, query.text.value_or("")))
       symbols.push_back({name,
                          documents::symbol_kind(section.kind),
                          {snapshot.uri(), snapshot.to_client(section.head_line, section.head)}});
@@ -53,11 +56,27 @@ std::vector<Symbol> answer_workspace_symbols(const Snapshot& snapshot, const Que
   return symbols;
 }
 
+/// What closed programs have answered is all that is in them: here the query is asked of it.
+std::string conclude_symbols(std::string results, const Json& params, Gathered gathered) {
+  if (gathered == Gathered::Rest) return "[]";
+  const std::string query = params.at("query");
+  std::map<std::string, std::size_t> counts;
+  std::string all = "[";
+  for (const Json& symbol : Json::parse(results)) {
+    if (!fits(symbol["name"].get_ref<const std::string&>(), query)) continue;
+    if (++counts[symbol["location"]["uri"]] > kMostSymbols) continue;
+    if (all.size() > 1) all += ',';
+    all += rpc::write(symbol);
+  }
+  return all + "]";
+}
+
 Json workspace_symbols_capabilities(const Client&) { return {{"workspaceSymbolProvider", true}}; }
 
 }  // namespace
 
-extern const Feature workspace_symbols = {.capabilities = workspace_symbols_capabilities,
-                                          .gatherings = {on_each<&answer_workspace_symbols>("workspace/symbol")}};
+extern const Feature workspace_symbols = {
+    .capabilities = workspace_symbols_capabilities,
+    .gatherings = {on_each<&answer_workspace_symbols>("workspace/symbol", conclude_symbols)}};
 
 }  // namespace isocnc::lsp::features

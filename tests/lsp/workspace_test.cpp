@@ -118,6 +118,58 @@ TEST_F(Workspace, ComesAndGoesByFolder) {
   EXPECT_EQ(pull(), (Told{{"sub/bad.iso", "full 0"}}));
 }
 
+TEST_F(Workspace, FindsSymbolsInAllPrograms) {
+  write("sub/panel.iso", "; Fianco sinistro\nM06 T101001\nG00 X1\nM06 T102002\nM02\n");
+  start();
+  const auto found = [&](const std::string& query) {
+    std::string names;
+    for (const Json& symbol : session_.request("workspace/symbol", {{"query", query}}))
+      names += fmt::format("{} in {}\n", symbol["name"].get<std::string>(),
+                           symbol["location"]["uri"].get<std::string>().substr(uri("").size()));
+    return names;
+  };
+  EXPECT_EQ(found("102002"), "T102002 in sub/panel.iso\n");
+  EXPECT_EQ(found("fsinistro"), "T101001 Fianco sinistro in sub/panel.iso\n");
+  EXPECT_EQ(found("T103003"), "");
+  write("sub/panel.iso", "M06 T103003\nM02\n");
+  EXPECT_EQ(found("T"), "T103003 in sub/panel.iso\n");
+  session_.open(uri("sub/panel.iso"), "M06 T104004\nM02\n");  // What is typed counts, not the file.
+  EXPECT_EQ(found("T"), "T104004 in sub/panel.iso\n");
+  EXPECT_TRUE(session_.respond("workspace/symbol", {{"query", 7}}).contains("error"));
+}
+
+TEST_F(Workspace, TellsInPartsWhereTheEditorWantsItSo) {
+  start();
+  pull();
+  write("new.iso", "M02\n");
+  fs::remove(folder_ / "good.iso");
+  const Json previous = Json::array({{{"uri", uri("good.iso")}, {"value", "other"}},
+                                     {{"uri", uri("sub/bad.iso")}, {"value", ids_.at(uri("sub/bad.iso"))}}});
+  session_.open("untitled:a", "G00 X10 Q\nM02\n");
+  const std::int64_t id =
+      session_.ask("workspace/diagnostic", {{"previousResultIds", previous}, {"partialResultToken", "part"}});
+  Told told;
+  for (int i = 0; i < 3; ++i) {
+    const Json progress = session_.wait_for("$/progress")["params"];
+    EXPECT_EQ(progress["token"], "part");
+    ASSERT_EQ(progress["value"]["items"].size(), 1u);
+    const Json& report = progress["value"]["items"][0];
+    told[report["uri"]] = report["kind"];
+  }
+  EXPECT_EQ(told, (Told{{"untitled:a", "full"}, {uri("new.iso"), "full"}, {uri("sub/bad.iso"), "unchanged"}}));
+  const Json rest = session_.response_to(id)["result"]["items"];
+  ASSERT_EQ(rest.size(), 1u) << rest;
+  EXPECT_EQ(rest[0]["uri"], uri("good.iso"));
+  EXPECT_EQ(rest[0]["items"], Json::array());
+
+  session_.open("untitled:b", "M06 T101001\nM02\n");
+  const std::int64_t symbols = session_.ask("workspace/symbol", {{"query", "T1"}, {"partialResultToken", 7}});
+  const Json progress = session_.wait_for("$/progress")["params"];
+  EXPECT_EQ(progress["token"], 7);
+  EXPECT_EQ(progress["value"][0]["location"]["uri"], "untitled:b");
+  EXPECT_EQ(session_.response_to(symbols)["result"], Json::array());
+}
+
 TEST_F(Workspace, IsLeftAloneWhereTheUserWantsItSo) {
   const Json initialized = start({{"initializationOptions", {{"workspaceDiagnostics", false}}}});
   EXPECT_EQ(initialized["capabilities"]["diagnosticProvider"]["workspaceDiagnostics"], false);
