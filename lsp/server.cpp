@@ -185,10 +185,10 @@ void Server::cancel(const CallPointer& call) {
 // --- Documents
 
 features::Notify Server::notifier_of(const std::string& uri, std::size_t generation) {
-  return [this, uri, generation](std::string_view method, std::string params) {
-    loop_.post([this, uri, generation, method, params = std::move(params)] {
+  return [this, uri, generation](std::string_view method, const std::string& params) {
+    loop_.post([this, uri, generation, body = rpc::notification_message(method, params)]() mutable {
       const auto found = tabs_.find(uri);
-      if (found != tabs_.end() && found->second.generation == generation) notify(method, params);
+      if (found != tabs_.end() && found->second.generation == generation) send_(std::move(body));
     });
   };
 }

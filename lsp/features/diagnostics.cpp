@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include "analyzer/rendering.h"
@@ -51,49 +52,73 @@ class DiagnosticWriter {
 
   /// The list, as JSON: written at once, for it may be long, and is wanted after each edit.
   std::string all() const {
+    std::string list;
+    append_all(list);
+    return list;
+  }
+
+  void append_all(std::string& list) const {
+    static constexpr std::size_t kUsualLength = 400;
     const std::vector<LocatedFinding>& findings = first_.report.findings;
-    std::string list = "[";
+    list.reserve(list.size() + kUsualLength * std::min(findings.size(), kMostFindings));
+    list += '[';
     for (std::size_t i = 0; i < std::min(findings.size(), kMostFindings); ++i) {
       if (i > 0) list += ',';
       append(findings[i], list);
     }
     if (findings.size() > kMostFindings) append_rest(findings[kMostFindings], list);
-    return list + "]";
+    list += ']';
   }
 
  private:
   void append(const LocatedFinding& located, std::string& list) const {
     const syntax::Finding& finding = located.finding;
-    const dialect::DiagnosticDef& def = dialect::definition(finding.id);
     const std::string_view marked = snapshot_.document()
                                         .text_of_line(located.line)
                                         .substr(finding.span.begin, finding.span.end - finding.span.begin);
     append_head(located, 1 + static_cast<int>(located.severity()),
                 dialect::message(finding.id, language_, marked, finding.values), list);
-    fmt::format_to(std::back_inserter(list), R"(,"code":"{}","codeDescription":{{"href":"{}"}},"data":{{"name":"{}"}})",
-                   def.code, page_of(finding.id), def.name);
-    if (finding.id == "never-runs"_diag) list += R"(,"tags":[1])";
+    list += told_of(finding.id);
     if (tells_related_ && located.path >= 0) list += R"(,"relatedInformation":)" + rpc::write(path_of(located));
     list += '}';
   }
 
   void append_head(const LocatedFinding& located, int severity, const std::string& message, std::string& list) const {
     const ClientRange range = snapshot_.to_client(located.line, located.finding.span);
-    fmt::format_to(std::back_inserter(list),
-                   R"({{"range":{{"start":{{"line":{},"character":{}}},"end":{{"line":{},"character":{}}}}},)"
-                   R"("severity":{},"source":"isolint","message":{})",
-                   range.start.line, range.start.character, range.end.line, range.end.character, severity,
-                   rpc::write(Json(message)));
+    fmt::format_to(
+        std::back_inserter(list),
+        FMT_COMPILE(R"({{"range":{{"start":{{"line":{},"character":{}}},"end":{{"line":{},"character":{}}}}},)"
+                    R"("severity":{},"source":"isolint","message":)"),
+        range.start.line, range.start.character, range.end.line, range.end.character, severity);
+    append_text(message, list);
   }
 
-  static const std::string& page_of(dialect::DiagnosticId id) {
-    static const auto kPages = [] {
-      std::vector<std::string> pages;
-      for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i)
-        pages.push_back(documents::rule_page(static_cast<dialect::DiagnosticId>(i)));
-      return pages;
+  /// Most messages stand in JSON as they are.
+  static void append_text(const std::string& text, std::string& list) {
+    const auto is_plain = [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; };
+    if (!std::all_of(text.begin(), text.end(), is_plain)) {
+      list += rpc::write(Json(text));
+      return;
+    }
+    list += '"';
+    list += text;
+    list += '"';
+  }
+
+  /// What all findings of one kind have behind their message.
+  static const std::string& told_of(dialect::DiagnosticId id) {
+    static const auto kTold = [] {
+      std::vector<std::string> told;
+      for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
+        const auto each = static_cast<dialect::DiagnosticId>(i);
+        const dialect::DiagnosticDef& def = dialect::definition(each);
+        told.push_back(fmt::format(R"(,"code":"{}","codeDescription":{{"href":"{}"}},"data":{{"name":"{}"}})", def.code,
+                                   documents::rule_page(each), def.name));
+        if (each == "never-runs"_diag) told.back() += R"(,"tags":[1])";
+      }
+      return told;
     }();
-    return kPages[static_cast<std::size_t>(id)];
+    return kTold[static_cast<std::size_t>(id)];
   }
 
   /// The jumps through which a finding is reached.
@@ -173,9 +198,11 @@ bool is_pushed(const Client& client) { return !client.can(kPull); }
 
 void push(const Snapshot& snapshot, const Notify& notify) {
   if (!is_pushed(snapshot.client())) return;
-  notify("textDocument/publishDiagnostics",
-         fmt::format(R"({{"uri":{},"version":{},"diagnostics":{}}})", rpc::write(Json(snapshot.uri())),
-                     snapshot.version(), DiagnosticWriter(snapshot).all()));
+  std::string params =
+      fmt::format(R"({{"uri":{},"version":{},"diagnostics":)", rpc::write(Json(snapshot.uri())), snapshot.version());
+  DiagnosticWriter(snapshot).append_all(params);
+  params += '}';
+  notify("textDocument/publishDiagnostics", std::move(params));
 }
 
 void clear(const std::string& uri, const Client& client, const Notify& notify) {

@@ -102,10 +102,10 @@ void Channel::write_all() {
       changed_.wait(lock, [&] { return is_ending_ || !unsent_.empty(); });
       if (unsent_.empty()) return;
       // Short messages go together.
-      do {
+      text = std::move(unsent_.front());
+      for (unsent_.pop_front(); !unsent_.empty() && text.size() + unsent_.front().size() <= kSurelyWritten;
+           unsent_.pop_front())
         text += unsent_.front();
-        unsent_.pop_front();
-      } while (!unsent_.empty() && text.size() + unsent_.front().size() <= kSurelyWritten);
     }
     std::string_view rest = text;
     while (!rest.empty() && wait_for(descriptors_.out, POLLOUT, true) && write_some(rest)) {

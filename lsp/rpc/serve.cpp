@@ -20,11 +20,14 @@ namespace isocnc::lsp::rpc {
 static constexpr std::chrono::seconds kPatience{3};
 
 /// All threads share one heap, which grows by so much: a heap for each would ask the system again for every page, which
-/// takes a long program a tenth of its opening.
+/// takes a long program a tenth of its opening. Messages, which may be some hundred kilobytes after each edit, are
+/// written in it, too, for the same reason; the text of a long program is not.
 static void prepare_heap() {
 #ifdef __GLIBC__
   mallopt(M_ARENA_MAX, 1);
   mallopt(M_TOP_PAD, 8 << 20);
+  mallopt(M_TRIM_THRESHOLD, 16 << 20);
+  mallopt(M_MMAP_THRESHOLD, 4 << 20);
 #endif
 }
 
