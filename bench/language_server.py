@@ -49,12 +49,18 @@ class Server(editor.Client):
             raise editor.CannotMeasure(f"{method}: {message['error']}")
         return arrived - start
 
+    @staticmethod
+    def are_diagnostics(message, uri, version):
+        params = message.get("params")
+        is_published = message.get("method") == "textDocument/publishDiagnostics"
+        return is_published and params["uri"] == uri and params.get("version") == version
+
     def wait_for_diagnostics(self, uri, version):
-        return self.wait(
-            lambda each: each.get("method") == "textDocument/publishDiagnostics"
-            and each["params"]["uri"] == uri
-            and each["params"].get("version") == version
-        )[0]
+        return self.wait(lambda each: self.are_diagnostics(each, uri, version))[0]
+
+    def has_diagnostics(self, uri, version):
+        with self.changed:
+            return any(self.are_diagnostics(message, uri, version) for _, message in self.messages)
 
     def open(self, uri, text):
         """Sends a document; the time at which that began."""
@@ -104,14 +110,31 @@ def edit_times(server, uri, lines, count):
     return times
 
 
-def hover_times(server, uri, lines, count):
+REQUESTS = {
+    "hover": "textDocument/hover",
+    "completion": "textDocument/completion",
+    "tokens": "textDocument/semanticTokens/range",
+}
+SCREEN = 60  # Lines.
+
+
+def request_times(server, uri, lines, goes_on):
+    """Seconds that requests take, by name, one after another anywhere in the program, as long as `goes_on(so many)`."""
     choices = random.Random(editor.SEED)
-    times = []
-    for _ in range(count):
-        number = choices.randrange(len(lines))
-        place = {"line": number, "character": choices.randrange(1 + len(lines[number]))}
-        times.append(server.request("textDocument/hover", {"textDocument": {"uri": uri}, "position": place}))
+    times = {name: [] for name in REQUESTS}
+    while goes_on(len(times["tokens"])):
+        for name, method in REQUESTS.items():
+            number = choices.randrange(len(lines))
+            start = {"line": number, "character": choices.randrange(1 + len(lines[number]))}
+            screen = {"start": start, "end": {"line": number + SCREEN, "character": 0}}
+            place = {"range": screen} if name == "tokens" else {"position": start}
+            times[name].append(server.request(method, {"textDocument": {"uri": uri}, **place}))
     return times
+
+
+def add_requests(table, program, times):
+    for name, each in times.items():
+        table.add(program, f"{name}, p99", percentile(each, 0.99), REQUEST_P99_MS, "ms")
 
 
 def measure_kind(arguments, kind, table):
@@ -124,12 +147,12 @@ def measure_kind(arguments, kind, table):
     opened = server.wait_for_diagnostics(uri, 1) - start
     size = (server.anonymous_bytes() - before - len(text)) / len(lines)
     edits = edit_times(server, uri, lines, arguments.edits)
-    hovers = hover_times(server, uri, lines, arguments.edits)
+    requests = request_times(server, uri, lines, lambda done: done < arguments.edits)
     name = f"{kind}, {arguments.lines} lines"
     table.add(name, "open to diagnostics", opened, OPEN_S, "s")
     table.add(name, "edit to diagnostics, p50", percentile(edits, 0.5), EDIT_P50_MS, "ms")
     table.add(name, "edit to diagnostics, p99", percentile(edits, 0.99), EDIT_P99_MS, "ms")
-    table.add(name, "hover, p99", percentile(hovers, 0.99), REQUEST_P99_MS, "ms")
+    add_requests(table, name, requests)
     table.add(name, "memory over the text, a line", size, BYTES_PER_LINE, "bytes")
     server.stop()
 
@@ -143,9 +166,11 @@ def measure_beside_big(arguments, table):
     server.open(uri, text)
     server.wait_for_diagnostics(uri, 1)
     server.open("file:///bench/big.iso", big)
-    times = hover_times(server, uri, text.split("\n"), 500)
-    table.add(f"short, beside {arguments.big} lines", "hover, p99", percentile(times, 0.99), REQUEST_P99_MS, "ms")
-    server.wait_for_diagnostics("file:///bench/big.iso", 1)
+    def is_opening(_):
+        return not server.has_diagnostics("file:///bench/big.iso", 1)
+
+    times = request_times(server, uri, text.split("\n"), is_opening)
+    add_requests(table, f"short, beside {arguments.big} lines", times)
     server.stop()
 
 
