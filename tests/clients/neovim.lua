@@ -1,4 +1,5 @@
--- Neovim's own client, as docs/editors.md configures it: it opens an example, and shows what isolint finds in it.
+-- Neovim's own client, as docs/editors.md configures it: it opens examples, shows what isolint finds in them, and explains, follows, renames,
+-- fixes and formats.
 local root = vim.env.ISOCNC_ROOT
 
 local function fail(message)
@@ -34,6 +35,44 @@ end
 vim.api.nvim_buf_set_lines(buffer, 0, -1, false, { 'M06 T101001', '(è é €) G80', 'M02' })
 wait(function() return #vim.diagnostic.get(buffer) == 1 end, 'an edit is not followed')
 expect(vim.diagnostic.get(buffer)[1].col == #'(è é €) ', 'columns are wrong behind letters that are not ASCII')
+
+-- A jump, its label, a fix.
+vim.cmd('edit! ' .. root .. '/examples/broken/option.iso')
+buffer = vim.api.nvim_get_current_buf()
+vim.bo.swapfile = false
+local function line(number) return vim.api.nvim_buf_get_lines(buffer, number - 1, number, false)[1] end
+local function finds(code)
+  return #vim.tbl_filter(function(each) return each.code == code end, vim.diagnostic.get(buffer)) > 0
+end
+wait(function() return finds('ISO043') end, 'findings of a second program do not come')
+
+local jump = vim.fn.search('GOTO N300$')
+vim.api.nvim_win_set_cursor(0, { jump, #line(jump) - 2 })
+local answers = vim.lsp.buf_request_sync(buffer, 'textDocument/hover', vim.lsp.util.make_position_params(), 20000)
+expect(answers[client.id].result.contents.value:find('target of a jump', 1, true), 'the hover does not tell of the label')
+vim.lsp.buf.definition()
+wait(function() return vim.api.nvim_win_get_cursor(0)[1] ~= jump end, 'the jump is not followed')
+local label = vim.api.nvim_win_get_cursor(0)[1]
+expect(line(label):find('^N300 '), 'the jump leads to ' .. line(label))
+vim.lsp.buf.rename('N305')
+wait(function() return line(label):find('^N305 ') and line(jump):find('GOTO N305$') end, 'label and jump are not renamed')
+
+vim.ui.select = function(items, options, choose)
+  for _, item in ipairs(items) do
+    if options.format_item(item):find('put M02 on a line of its own', 1, true) then return choose(item) end
+  end
+  fail('the fix is not offered')
+end
+wait(function() return finds('ISO043') end, 'the finding is gone by itself')
+local wrong = vim.fn.search('M05 M02$', 'w')
+vim.api.nvim_win_set_cursor(0, { wrong, #line(wrong) - 1 })
+vim.lsp.buf.code_action()
+wait(function() return line(wrong + 1) == 'M02' end, 'the fix is not made')
+wait(function() return not finds('ISO043') end, 'the finding stays')
+
+vim.api.nvim_buf_set_lines(buffer, jump - 1, jump, false, { 'n170   if vgpl>=1 goto n305' })
+vim.lsp.buf.formatting_sync(nil, 20000)
+expect(line(jump) == 'N170 IF VGPL >= 1 GOTO N305', 'formatted: ' .. line(jump))
 
 client.stop()
 local status = vim.env.HOME .. '/isols.status'
