@@ -202,8 +202,8 @@ void Server::open(const CallPointer& call) {
     loop_.post([this, file, params] { tell_of_configuration(file, params); });
   };
   Opened& opened = tabs_[uri];
-  const auto tell_progress = [this, generation](const std::optional<std::string>& title) {
-    loop_.post([this, generation, title] { tell_of_progress(fmt::format("opening {}", generation), title); });
+  const auto tell_progress = [this, generation](const std::string& work, const std::optional<std::string>& title) {
+    loop_.post([this, token = fmt::format("{} of {}", work, generation), title] { tell_of_progress(token, title); });
   };
   opened = {std::make_shared<Tab>(pool_, settings_, uri,
                                   Tab::Teller{notifier_of(uri, generation), tell_configuration, tell_progress}),
@@ -277,7 +277,7 @@ void Server::change_settings(const CallPointer& call) {
   const Json settings = params.is_object() && params.contains("settings") ? params["settings"] : Json();
   changed.settings = documents::read_settings(settings.is_object() ? settings.value("isocnc", settings) : settings);
   client_ = std::make_shared<const Client>(std::move(changed));
-  for (const auto& [uri, opened] : tabs_) opened.tab->reconfigure(client_);
+  reconfigure_tabs();
 }
 
 void Server::look_at_changed_files(const CallPointer& call) {
@@ -291,7 +291,14 @@ void Server::reconfigure_all() {
   for (const std::string& uri : std::exchange(told_configurations_, {}))
     if (!tabs_.contains(uri))
       notify("textDocument/publishDiagnostics", rpc::write({{"uri", uri}, {"diagnostics", Json::array()}}));
+  reconfigure_tabs();
+}
+
+/// What the editor has asked for before may be otherwise now.
+void Server::reconfigure_tabs() {
   for (const auto& [uri, opened] : tabs_) opened.tab->reconfigure(client_);
+  for (const features::Feature* const feature : features::all_features())
+    if (feature->refresh && client_->can(feature->refresh->capability)) request(feature->refresh->method, nullptr);
 }
 
 /// The first argument names the document. Where the result has an edit, the client is asked to make it.
@@ -483,7 +490,7 @@ void Server::notify(std::string_view method, const std::string& params) {
 }
 
 void Server::request(std::string_view method, const Json& params) {
-  send_(rpc::request_message(next_request_++, method, rpc::write(params)));
+  send_(rpc::request_message(next_request_++, method, params.is_null() ? std::string() : rpc::write(params)));
 }
 
 void Server::log(const std::string& message) {

@@ -69,6 +69,7 @@ class Server final : public rpc::Party {
   void execute_command(const CallPointer& call);
 
   void reconfigure_all();
+  void reconfigure_tabs();
   void ask(const features::Method& method, const CallPointer& call, rpc::Json params,
            const std::function<std::string(std::string)>& finish_result = {});
   bool is_in_workspace(const std::string& uri) const;

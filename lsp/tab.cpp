@@ -39,7 +39,8 @@ void Tab::open(std::shared_ptr<const rpc::Call> call, ClientPointer client) {
       [this, call = std::move(call), client] {
         const Json& params = call->params();
         const std::string text = call->message.text(params.at("textDocument").at("text"));
-        begin_progress(*client, text.size());
+        is_long_ = text.size() >= kLongText;
+        begin_progress(*client);
         document_.open(version_of(params), text);
       },
       client);
@@ -77,16 +78,20 @@ void Tab::post_edit(std::function<void()> edit, ClientPointer client) {
   });
 }
 
-void Tab::begin_progress(const Client& client, std::size_t bytes) {
-  if (bytes < kLongText || !client.can("/window/workDoneProgress")) return;
-  static constexpr dialect::Text kOpening = {"opening {}", "apertura di {}"};
+std::string Tab::titled(const Client& client, const dialect::Text& title) const {
   const auto path = documents::path_of(uri_);
-  tell_.progress(dialect::format(kOpening, client.language({}), path ? path->filename().string() : uri_));
+  return dialect::format(title, client.language({}), path ? path->filename().string() : uri_);
+}
+
+void Tab::begin_progress(const Client& client) {
+  if (!is_long_ || !client.can("/window/workDoneProgress")) return;
+  static constexpr dialect::Text kOpening = {"opening {}", "apertura di {}"};
+  tell_.progress("opening", titled(client, kOpening));
   shows_progress_ = true;
 }
 
 void Tab::end_progress() {
-  if (std::exchange(shows_progress_, false)) tell_.progress(std::nullopt);
+  if (std::exchange(shows_progress_, false)) tell_.progress("opening", std::nullopt);
 }
 
 void Tab::log(const std::exception& error) {
@@ -157,10 +162,28 @@ void Tab::ask(features::Method method, Json params, ClientPointer client,
     work_on(request, [&] {
       const Snapshot snapshot(self->document_, *client, Interest{request->cancelled.get(), &self->edits_waiting_});
       if (!method.begin) return request->done(method.answer(snapshot, params));
-      self->studies_.post([self, study = method.begin(snapshot, params), request] {
-        work_on(request, [&] { request->done(study([&] { return request->cancelled->load() || self->is_closed_; })); });
-      });
+      self->post_study(method.begin(snapshot, params), *client, request);
     });
+  });
+}
+
+/// Studies of a long program are shown, as one work as long as there are any.
+void Tab::post_study(features::Study study, const Client& client, std::shared_ptr<Request> request) {
+  static constexpr dialect::Text kRunning = {"running {}", "esecuzione di {}"};
+  const bool is_shown = is_long_ && client.can("/window/workDoneProgress");
+  const auto name = [this] { return fmt::format("running {}", times_shown_); };
+  if (is_shown) {
+    const std::lock_guard lock(studies_mutex_);
+    if (studies_waiting_++ == 0) {
+      ++times_shown_;
+      tell_.progress(name(), titled(client, kRunning));
+    }
+  }
+  studies_.post([self = shared_from_this(), study = std::move(study), request = std::move(request), is_shown, name] {
+    work_on(request, [&] { request->done(study([&] { return request->cancelled->load() || self->is_closed_; })); });
+    if (!is_shown) return;
+    const std::lock_guard lock(self->studies_mutex_);
+    if (--self->studies_waiting_ == 0) self->tell_.progress(name(), std::nullopt);
   });
 }
 

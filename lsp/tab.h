@@ -3,6 +3,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -29,8 +30,9 @@ class Tab : public std::enable_shared_from_this<Tab> {
   /// What is wrong with a configuration file, told as diagnostics of its own.
   using TellConfiguration = std::function<void(std::string uri, std::string params)>;
 
-  /// Work on the document goes on that the user may want to see, under a title; without one it is over.
-  using TellProgress = std::function<void(std::optional<std::string> title)>;
+  /// Work on the document goes on that the user may want to see, under a title; without one it is over. No two works of
+  /// a document have the same name.
+  using TellProgress = std::function<void(std::string work, std::optional<std::string> title)>;
 
   struct Teller {
     features::Notify notify;
@@ -63,8 +65,10 @@ class Tab : public std::enable_shared_from_this<Tab> {
 
   void post_edit(std::function<void()> edit, ClientPointer client);
   void tell_of_change(const documents::Client& client);
-  void begin_progress(const documents::Client& client, std::size_t bytes);
+  void begin_progress(const documents::Client& client);
   void end_progress();
+  std::string titled(const documents::Client& client, const dialect::Text& title) const;
+  void post_study(features::Study study, const documents::Client& client, std::shared_ptr<Request> request);
   void tell_of_configuration(const documents::Client& client);
   void tell_as_configuration(const documents::Client& client);
   void log(const std::exception& error);
@@ -75,10 +79,14 @@ class Tab : public std::enable_shared_from_this<Tab> {
   const Teller tell_;
   std::atomic<int> edits_waiting_ = 0;
   std::atomic<bool> is_closed_ = false;
+  bool is_long_ = false;              // Of the strand: the text, when it was opened.
   bool shows_progress_ = false;       // Of the strand.
   documents::OpenDocument document_;  // Of the strand.
   rpc::Strand strand_;
   rpc::Strand studies_;  // What takes long, one after another.
+  std::mutex studies_mutex_;
+  int studies_waiting_ = 0;  // Those that are shown, as all below: guarded by the mutex.
+  int times_shown_ = 0;
 };
 
 }  // namespace isocnc::lsp

@@ -84,6 +84,7 @@ Json code_lens_capabilities(const Client&) { return {{"codeLensProvider", {{"res
 
 extern const Feature code_lens = {
     .capabilities = code_lens_capabilities,
-    .methods = {on<&answer_code_lens>("textDocument/codeLens"), begun_by<&resolve_lens>("codeLens/resolve")}};
+    .methods = {on<&answer_code_lens>("textDocument/codeLens"), begun_by<&resolve_lens>("codeLens/resolve")},
+    .refresh = Refresh{"workspace/codeLens/refresh", "/workspace/codeLens/refreshSupport"}};
 
 }  // namespace isocnc::lsp::features

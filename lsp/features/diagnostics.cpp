@@ -219,10 +219,12 @@ Json diagnostics_capabilities(const Client& client) {
 
 }  // namespace
 
-extern const Feature diagnostics = {.capabilities = diagnostics_capabilities,
-                                    .methods = {on_any<&pull>("textDocument/diagnostic", kNothing)},
-                                    .gatherings = {on_each<&pull_each>("workspace/diagnostic", conclude_pull)},
-                                    .changed = push,
-                                    .closed = clear};
+extern const Feature diagnostics = {
+    .capabilities = diagnostics_capabilities,
+    .methods = {on_any<&pull>("textDocument/diagnostic", kNothing)},
+    .gatherings = {on_each<&pull_each>("workspace/diagnostic", conclude_pull)},
+    .changed = push,
+    .refresh = Refresh{"workspace/diagnostic/refresh", "/workspace/diagnostics/refreshSupport"},
+    .closed = clear};
 
 }  // namespace isocnc::lsp::features

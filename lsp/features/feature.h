@@ -94,6 +94,12 @@ struct ActionSource {
 /// Sends a notification: method and params, as JSON.
 using Notify = std::function<void(std::string_view method, std::string params)>;
 
+/// How the editor is asked to ask again, and the capability by which it tells that it can be.
+struct Refresh {
+  std::string_view method;
+  const char* capability = nullptr;
+};
+
 /// Something that the editor can do because of us. Each has a file of its name in this folder, which defines it under
 /// that name (`extern const Feature hover`); the build gathers them. A feature knows neither threads nor files nor
 /// other features.
@@ -108,6 +114,8 @@ struct Feature {
   std::vector<ActionSource> actions;
   /// Called when a document has been opened or edited and no further edit waits.
   void (*changed)(const Snapshot& snapshot, const Notify& notify) = nullptr;
+  /// For answers that depend on settings or the configuration: sent when these have changed.
+  std::optional<Refresh> refresh;
   /// Called when a document has been closed.
   void (*closed)(const std::string& uri, const Client& client, const Notify& notify) = nullptr;
 };

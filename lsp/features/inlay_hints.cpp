@@ -202,7 +202,9 @@ Json inlay_hints_capabilities(const Client&) { return {{"inlayHintProvider", tru
 
 }  // namespace
 
-extern const Feature inlay_hints = {.capabilities = inlay_hints_capabilities,
-                                    .methods = {on<&answer_inlay_hints>("textDocument/inlayHint")}};
+extern const Feature inlay_hints = {
+    .capabilities = inlay_hints_capabilities,
+    .methods = {on<&answer_inlay_hints>("textDocument/inlayHint")},
+    .refresh = Refresh{"workspace/inlayHint/refresh", "/workspace/inlayHint/refreshSupport"}};
 
 }  // namespace isocnc::lsp::features

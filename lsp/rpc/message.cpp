@@ -55,6 +55,7 @@ std::string notification_message(std::string_view method, std::string_view param
 }
 
 std::string request_message(std::int64_t id, std::string_view method, std::string_view params) {
+  if (params.empty()) return fmt::format(R"({{"jsonrpc":"2.0","id":{},"method":"{}"}})", id, method);
   return fmt::format(R"({{"jsonrpc":"2.0","id":{},"method":"{}","params":{}}})", id, method, params);
 }
 

@@ -63,7 +63,7 @@ using Message = std::variant<Call, Answer, BadMessage>;
 /// Reads the body of a frame.
 Message read_message(std::string body);
 
-/// The bodies of messages. A `result`, or `params`, is JSON already.
+/// The bodies of messages. A `result`, or `params`, is JSON already; empty params of a request are left out.
 std::string result_message(const Json& id, std::string_view result);
 std::string error_message(const Json& id, ErrorCode code, std::string_view message);
 std::string notification_message(std::string_view method, std::string_view params);

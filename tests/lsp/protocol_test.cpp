@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
 #include "session.h"
 
 /// The protocol as such: what comes when, and what is answered to what should not have come.
@@ -103,21 +106,35 @@ TEST(Lifecycle, TheClientsFirstKnownEncodingIsTaken) {
   }
 }
 
-TEST(Progress, IsToldWhileALongProgramIsOpened) {
+/// Takes what is told of one work from its begin to its end: its token.
+Json told_work(Session& session, const std::string& title) {
+  const Json token = session.wait_for("window/workDoneProgress/create")["params"]["token"];
+  const Json begin = session.wait_for("$/progress")["params"];
+  EXPECT_EQ(begin["token"], token);
+  EXPECT_EQ(begin["value"]["kind"], "begin");
+  EXPECT_EQ(begin["value"]["title"], title);
+  const Json end = session.wait_for("$/progress")["params"];
+  EXPECT_EQ(end["token"], token);
+  EXPECT_EQ(end["value"]["kind"], "end");
+  return token;
+}
+
+TEST(Progress, IsToldWhileALongProgramIsOpenedOrRun) {
   Session session;
   session.start({{"window", {{"workDoneProgress", true}}}});
   std::string text;
   while (text.size() < (16u << 20))
     text += "(a long comment, so that few lines make a long program: 0123456789012345678901234567890123456789)\n";
   session.open(kUri, text);
-  const Json token = session.wait_for("window/workDoneProgress/create")["params"]["token"];
-  const Json begin = session.wait_for("$/progress")["params"];
-  EXPECT_EQ(begin["token"], token);
-  EXPECT_EQ(begin["value"]["kind"], "begin");
-  EXPECT_EQ(begin["value"]["title"], "opening part.iso");
-  const Json end = session.wait_for("$/progress")["params"];
-  EXPECT_EQ(end["token"], token);
-  EXPECT_EQ(end["value"]["kind"], "end");
+  std::set<Json> tokens{told_work(session, "opening part.iso")};
+  for (int i = 0; i < 2; ++i) {
+    session.request("isocnc/toolpath", {{"textDocument", {{"uri", kUri}}}});
+    tokens.insert(told_work(session, "running part.iso"));
+  }
+  EXPECT_EQ(tokens.size(), 3u);
+  session.open("file:///nowhere/short.iso", "M02\n");
+  session.request("isocnc/toolpath", {{"textDocument", {{"uri", "file:///nowhere/short.iso"}}}});
+  EXPECT_FALSE(session.has([](const Json& message) { return message.value("method", "") == "$/progress"; }));
 }
 
 TEST(Diagnostics, ArePushedForEachVersionAndTakenBackAtTheEnd) {

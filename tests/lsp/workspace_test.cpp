@@ -118,6 +118,30 @@ TEST_F(Workspace, ComesAndGoesByFolder) {
   EXPECT_EQ(pull(), (Told{{"sub/bad.iso", "full 0"}}));
 }
 
+const Json kRefreshed = {{"textDocument", {{"diagnostic", Json::object()}}},
+                         {"workspace",
+                          {{"diagnostics", {{"refreshSupport", true}}},
+                           {"inlayHint", {{"refreshSupport", true}}},
+                           {"codeLens", {{"refreshSupport", false}}}}}};
+
+TEST_F(Workspace, AsksTheEditorToAskAgainWhenAnswersMayHaveChanged) {
+  session_.start(kRefreshed);
+  session_.open(uri("sub/bad.iso"), "G00 X10 Q\nM02\n");
+  const Json document = {{"textDocument", {{"uri", uri("sub/bad.iso")}}}};
+  EXPECT_EQ(session_.request("textDocument/diagnostic", document)["items"].size(), 2u);
+  write("isocnc.json", R"({"lint": {"ignore": ["ISO044"]}})");
+  session_.notify("workspace/didChangeWatchedFiles", {{"changes", {{{"uri", uri("isocnc.json")}, {"type", 1}}}}});
+  EXPECT_FALSE(session_.wait_for("workspace/diagnostic/refresh").contains("params"));
+  EXPECT_EQ(session_.request("textDocument/diagnostic", document)["items"].size(), 1u);
+  session_.wait_for("workspace/inlayHint/refresh");
+  session_.notify("workspace/didChangeConfiguration", {{"settings", {{"isocnc", {{"language", "it"}}}}}});
+  session_.wait_for("workspace/diagnostic/refresh");
+  session_.wait_for("workspace/inlayHint/refresh");
+  session_.request("textDocument/diagnostic", document);
+  EXPECT_FALSE(
+      session_.has([](const Json& message) { return message.value("method", "") == "workspace/codeLens/refresh"; }));
+}
+
 TEST_F(Workspace, FindsSymbolsInAllPrograms) {
   write("sub/panel.iso", "; Fianco sinistro\nM06 T101001\nG00 X1\nM06 T102002\nM02\n");
   start();
