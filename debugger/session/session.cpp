@@ -35,6 +35,8 @@ static constexpr auto kBetweenProgress = 200ms;
 static constexpr std::uint64_t kWindow = 8192;
 /// More than anybody reads in a second.
 static constexpr std::size_t kMostOutputs = 200;
+/// Of log points, in a slice; then a pause of kPace.
+static constexpr std::size_t kMostMessages = 16;
 
 static constexpr Text kNotLaunched{"no program has been launched", "nessun programma è stato avviato"};
 static constexpr Text kLaunchedAlready{"a program has been launched already", "un programma è già stato avviato"};
@@ -125,9 +127,10 @@ void Session::begin_run(std::uint64_t generation) {
 
 void Session::restart(std::optional<LaunchWishes> wishes) {
   if (!is_launched()) throw RequestError(std::string(in_language(kNotLaunched)));
+  begin(wishes ? std::move(*wishes) : wishes_);
   end_progress();
   activity_ = Activity::None;
-  begin(wishes ? std::move(*wishes) : wishes_);
+  ++generation_;
   if (is_configured_) configuration_done();
 }
 
@@ -209,9 +212,10 @@ double Session::next_moment() {
 void Session::run_on(Clock::time_point deadline) {
   constexpr int kBlocksBetweenLooks = 16;
   const double until = next_moment();
+  messages_ = 0;
   do {
     for (int i = 0; i < kBlocksBetweenLooks; ++i) {
-      if (debuggee_->present().time() >= until) {
+      if (debuggee_->present().time() >= until || messages_ >= kMostMessages) {
         tell_position(false);
         return schedule(kPace);
       }
@@ -271,7 +275,7 @@ std::optional<Session::Stop> Session::end_block(std::uint64_t block) {
   breakpoints.read_data(moment(), data_after_);
   Breakpoints::Outcome outcome;
   breakpoints.look_at_data(data_before_, data_after_, moment(), block, Breakpoints::Way::On, outcome);
-  for (const std::string& message : outcome.messages) tell_output("console", message, present.line());
+  tell_messages(outcome, present.line());
   if (outcome.stopped.empty()) return std::nullopt;
   return Stop{.reason = "data breakpoint",
               .more = {{"hitBreakpointIds", outcome.stopped},
@@ -313,8 +317,8 @@ std::optional<Session::Stop> Session::look_at_breakpoints(Debuggee& debuggee) {
   if (breakpoints.has_functions())
     if (const auto block = debuggee.next())
       breakpoints.look_at_functions(block->tree, moment(), number, Breakpoints::Way::On, at_code);
-  for (const Breakpoints::Outcome* const outcome : {&at_line, &at_code})
-    for (const std::string& message : outcome->messages) tell_output("console", message, line);
+  tell_messages(at_line, line);
+  tell_messages(at_code, line);
   if (at_line.stopped.empty() && at_code.stopped.empty()) return std::nullopt;
   const std::string_view reason = at_line.stopped.empty() ? "function breakpoint" : "breakpoint";
   at_line.stopped.insert(at_line.stopped.end(), at_code.stopped.begin(), at_code.stopped.end());
@@ -340,6 +344,7 @@ void Session::stop(const Stop& stop) {
   activity_ = Activity::None;
   step_out_of_.reset();
   tell_position(true);
+  tell_untold();
   tell_of_changed_file();
   tell_stop(stop.reason, stop.more);
 }
@@ -358,6 +363,7 @@ void Session::finish(int exit_code) {
   const bool has_run = std::exchange(activity_, Activity::None) != Activity::None;
   if (!is_launched()) return;
   const running::Simulation& present = debuggee_->present();
+  tell_untold();
   if (has_run && present.has_ended() && exit_code == 0)
     tell_output("console", in_language(kProgramEnd, present.blocks(), show_value(present.time(), {.decimals = 1})),
                 present.line());
@@ -725,17 +731,6 @@ void Session::tell_stop(std::string_view reason, Json more) {
 }
 
 void Session::tell_output(std::string_view category, const std::string& text, std::optional<std::uint64_t> line) {
-  const auto now = Clock::now();
-  if (now - output_second_ > 1s) {
-    output_second_ = now;
-    outputs_ = 0;
-    if (untold_ > 0) emit_("output", {{"category", "console"}, {"output", in_language(kUntold, untold_) + "\n"}});
-    untold_ = 0;
-  }
-  if (++outputs_ > kMostOutputs) {
-    ++untold_;
-    return;
-  }
   Json body = {{"category", category}, {"output", text + "\n"}};
   if (line && is_launched()) {
     body["source"] = source();
@@ -767,11 +762,34 @@ std::string Session::describe(const running::Event& event) const {
   return {};
 }
 
+/// What the machine does, as long as somebody can read it.
 void Session::tell_events(std::span<const running::Event> events) {
   for (const running::Event& event : events) {
     if (std::holds_alternative<running::MoveEvent>(event.what)) continue;
-    if (const std::string text = describe(event); !text.empty()) tell_output("stdout", text, event.line);
+    const std::string text = describe(event);
+    if (text.empty()) continue;
+    const auto now = Clock::now();
+    if (now - output_second_ > 1s) {
+      tell_untold();
+      output_second_ = now;
+      outputs_ = 0;
+    }
+    if (++outputs_ > kMostOutputs) {
+      ++untold_;
+    } else {
+      tell_output("stdout", text, event.line);
+    }
   }
+}
+
+/// None is left out: the run waits rather than tell more than a client can take.
+void Session::tell_messages(const Breakpoints::Outcome& outcome, std::uint64_t line) {
+  for (const std::string& message : outcome.messages) tell_output("console", message, line);
+  messages_ += outcome.messages.size();
+}
+
+void Session::tell_untold() {
+  if (untold_ > 0) tell_output("console", in_language(kUntold, std::exchange(untold_, 0)));
 }
 
 static Json pose_json(const geometry::Pose& pose) {

@@ -152,6 +152,8 @@ class Session {
   void require_no_hindrance() const;
   void tell_position(bool at_once);
   void tell_events(std::span<const running::Event> events);
+  void tell_untold();
+  void tell_messages(const Breakpoints::Outcome& outcome, std::uint64_t line);
   void tell_progress(double part);
   void end_progress();
   void tell_of_changed_file();
@@ -194,6 +196,7 @@ class Session {
   Clock::time_point output_second_;
   std::size_t outputs_ = 0;  ///< Told in that second.
   std::size_t untold_ = 0;
+  std::size_t messages_ = 0;  ///< Of log points, told in this slice.
 
   bool is_checking_ = false;
   bool is_checked_ = false;

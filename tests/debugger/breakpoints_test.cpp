@@ -98,6 +98,22 @@ TEST(Breakpoints, LogPointsTellAndDoNotStop) {
   EXPECT_FALSE(client.has_event("stopped"));
 }
 
+TEST(Breakpoints, NoMessageOfALogPointIsLeftOut) {
+  std::string many = "M06 T101001\n";
+  for (int i = 0; i < 500; ++i) many += "M100\n";
+  DebugClient client;
+  client.launch(many + "M02\n");
+  std::vector<Json> breakpoints;
+  for (int i = 0; i < 500; ++i) breakpoints.push_back({{"line", i + 2}, {"logMessage", "here {LINE}"}});
+  client.set_breakpoints(breakpoints);
+  client.request("configurationDone");
+  client.event("terminated");
+  int messages = 0;
+  while (client.has_event("output"))
+    messages += client.event("output").at("output").get<std::string>().starts_with("here ") ? 1 : 0;
+  EXPECT_EQ(messages, 500);
+}
+
 /// Lines at which a run stops, on and then back.
 struct Stops {
   std::vector<int> on;

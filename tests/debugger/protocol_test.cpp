@@ -140,6 +140,15 @@ TEST(Protocol, AProgramThatChangesOnDiskIsDebuggedAsItWas) {
   EXPECT_THAT(client.refusal("restart"), HasSubstr("cannot read"));
 }
 
+TEST(Protocol, ARestartThatFailsLeavesTheRunAsItIs) {
+  DebugClient client;
+  client.launch("M06 T101001\nG00 X0\nG01 X90000 F1\nM02\n", {{"speed", 1}});
+  client.request("configurationDone");
+  std::filesystem::remove(client.program());
+  EXPECT_THAT(client.refusal("restart"), HasSubstr("cannot read"));
+  EXPECT_EQ(client.run("pause").at("reason"), "pause");
+}
+
 TEST(Protocol, AClientThatGoesAwayEndsTheAdapter) {
   DebugClient client;
   client.launch("M06 T101001\nG00 X0\nG01 X90000 F1\nM02\n", {{"speed", 1}});

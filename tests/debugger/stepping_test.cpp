@@ -86,6 +86,19 @@ TEST(Stepping, WithoutTheFilterAnErrorEndsTheRun) {
   EXPECT_EQ(client.event("exited").at("exitCode"), 1);
 }
 
+TEST(Stepping, WhatEndsTheRunIsToldBehindAnyAmountOfOutput) {
+  std::string many = "M06 T101001\n";
+  for (int i = 0; i < 1000; ++i) many += "M100\n";
+  DebugClient client;
+  client.launch(many + "G02\nM02\n", {{"noDebug", true}});
+  client.request("configurationDone");
+  EXPECT_EQ(client.event("exited").at("exitCode"), 1);
+  std::string told;
+  while (client.has_event("output")) told += client.event("output").at("output");
+  EXPECT_THAT(told, HasSubstr("ISO026: "));
+  EXPECT_THAT(told, HasSubstr("801 more messages are left out"));
+}
+
 TEST(Stepping, StepsInByInstructions) {
   DebugClient client;
   client.stand_at_begin("M06 T101001\nG01 X10 F600 M05\nM02\n");
