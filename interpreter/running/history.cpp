@@ -2,12 +2,19 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numeric>
+#include <utility>
 
 namespace isocnc::running {
 
 History::History(const Simulation& begin, const Limits& limits)
-    : limits_(limits), present_(begin), checkpoints_{begin}, bytes_(begin.memory()), spacing_(limits.spacing) {}
+    : limits_(limits), present_(begin), spacing_(limits.spacing) {
+  add_checkpoint(begin);
+}
+
+void History::add_checkpoint(const Simulation& simulation) {
+  checkpoints_.push_back({std::make_unique<const Simulation>(simulation), simulation.memory()});
+  bytes_ += checkpoints_.back().bytes;
+}
 
 void History::advance_in_block(double seconds) {
   present_.advance_in_block(seconds, [this](const Simulation&) { keep(); });
@@ -46,8 +53,9 @@ void History::go_to_time(double seconds) {
 /// Goes to the last simulation at hand that qualifies, if any does, else to the begin. Those before it qualify, too.
 template <class Qualifies>
 void History::start_from(Qualifies&& qualifies) {
-  const auto behind = std::partition_point(checkpoints_.begin() + 1, checkpoints_.end(), qualifies);
-  const Simulation* best = &*std::prev(behind);
+  const auto behind = std::partition_point(checkpoints_.begin() + 1, checkpoints_.end(),
+                                           [&](const Checkpoint& each) { return qualifies(*each.simulation); });
+  const Simulation* best = std::prev(behind)->simulation.get();
   for (const auto& [work, simulation] : nearby_)
     if (work > best->work() && qualifies(simulation)) best = &simulation;
   if (present_.work() >= best->work() && qualifies(present_)) return;
@@ -55,15 +63,39 @@ void History::start_from(Qualifies&& qualifies) {
   apply_settings(present_, present_.blocks());
 }
 
+/// What comes next lies on that line, or before it. Jumps lead forward only (I.5): lines come in order.
+static bool comes_to(const Runner& runner, std::uint64_t line) {
+  return !runner.has_ended() && runner.place().line <= line;
+}
+
+void History::skip_to_line(std::uint64_t line) {
+  if (!comes_to(present_.runner(), line)) return;
+  start_from([line](const Simulation& simulation) { return comes_to(simulation.runner(), line); });
+}
+
+std::optional<std::uint64_t> History::find_line(std::uint64_t line) const {
+  const auto behind =
+      std::partition_point(checkpoints_.begin() + 1, checkpoints_.end(),
+                           [line](const Checkpoint& each) { return comes_to(each.simulation->runner(), line); });
+  Runner runner = std::prev(behind)->simulation->runner();
+  while (comes_to(runner, line) && runner.place().line < line) {
+    apply_settings(runner, runner.result().blocks);
+    runner.step();
+    runner.pass_empty_lines();
+  }
+  if (!comes_to(runner, line)) return std::nullopt;
+  return runner.result().blocks;
+}
+
 std::optional<std::uint64_t> History::find_before(std::uint64_t blocks, const std::function<bool(const Block&)>& is_it,
                                                   std::uint64_t from) const {
   std::optional<std::uint64_t> found;
   // The checkpoints behind are those of blocks that are not asked for.
   const auto behind = std::partition_point(checkpoints_.begin() + 1, checkpoints_.end(),
-                                           [&](const Simulation& each) { return each.blocks() < blocks; });
+                                           [&](const Checkpoint& each) { return each.simulation->blocks() < blocks; });
   for (auto checkpoint = std::make_reverse_iterator(behind);
        checkpoint != checkpoints_.rend() && !found && from < blocks; ++checkpoint) {
-    Runner runner = checkpoint->runner();
+    Runner runner = checkpoint->simulation->runner();
     const std::uint64_t begin = runner.result().blocks;
     for (std::uint64_t i = begin; i < blocks && !runner.has_ended(); i = runner.result().blocks) {
       apply_settings(runner, i);
@@ -81,9 +113,8 @@ std::optional<std::uint64_t> History::find_before(std::uint64_t blocks, const st
 void History::keep() {
   present_.forget_past();
   keep_nearby();
-  if (present_.work() < checkpoints_.back().work() + spacing_) return;
-  checkpoints_.push_back(present_);
-  bytes_ += checkpoints_.back().memory();
+  if (present_.work() < checkpoints_.back().simulation->work() + spacing_) return;
+  add_checkpoint(present_);
   thin_out();
 }
 
@@ -102,14 +133,15 @@ void History::keep_nearby() {
 void History::thin_out() {
   while (checkpoints_.size() > 2 && (checkpoints_.size() > limits_.checkpoints || bytes_ > limits_.bytes)) {
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < checkpoints_.size(); i += 2) {
-      if (kept != i) checkpoints_[kept] = std::move(checkpoints_[i]);
-      ++kept;
+    for (std::size_t i = 0; i < checkpoints_.size(); ++i) {
+      if (i % 2 == 0) {
+        std::swap(checkpoints_[kept++], checkpoints_[i]);
+      } else {
+        bytes_ -= checkpoints_[i].bytes;
+      }
     }
     checkpoints_.erase(checkpoints_.begin() + static_cast<std::ptrdiff_t>(kept), checkpoints_.end());
     spacing_ *= 2;
-    bytes_ = std::transform_reduce(checkpoints_.begin(), checkpoints_.end(), std::size_t{0}, std::plus<>(),
-                                   [](const Simulation& simulation) { return simulation.memory(); });
   }
 }
 
@@ -125,9 +157,10 @@ void History::set(const Setting& setting) {
   const auto is_later = [&](const Setting& other) { return other.blocks > setting.blocks; };
   settings_.erase(std::find_if(settings_.begin(), settings_.end(), is_later), settings_.end());
   settings_.push_back(setting);
-  const auto behind = std::find_if(checkpoints_.begin() + 1, checkpoints_.end(),
-                                   [this](const Simulation& checkpoint) { return is_behind_present(checkpoint); });
-  checkpoints_.erase(behind, checkpoints_.end());
+  while (checkpoints_.size() > 1 && is_behind_present(*checkpoints_.back().simulation)) {
+    bytes_ -= checkpoints_.back().bytes;
+    checkpoints_.pop_back();
+  }
   std::erase_if(nearby_, [this](const auto& each) { return is_behind_present(each.second); });
   apply_settings(present_, setting.blocks);
 }

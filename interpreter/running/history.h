@@ -2,10 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -20,8 +20,8 @@ class History {
  public:
   /// What is kept of the whole way.
   struct Limits {
-    std::size_t checkpoints = 8192;
-    std::size_t bytes = std::size_t{64} << 20;
+    std::size_t checkpoints = 65536;
+    std::size_t bytes = std::size_t{256} << 20;
     std::size_t nearby = 64;      ///< Checkpoints around the present, beside those.
     std::uint64_t spacing = 256;  ///< Least Simulation::work() between two.
   };
@@ -46,6 +46,15 @@ class History {
   /// To the first moment that is so many seconds from the program's begin, back or on; at most to the end.
   void go_to_time(double seconds);
 
+  /// On to the last copy at hand from which a line is still to come; nowhere when none is nearer than the present.
+  void skip_to_line(std::uint64_t line);
+  /// To where the present has been before; nothing has been set since.
+  void return_to(const Simulation& before) { present_ = before; }
+
+  /// How many blocks are executed before that of a line that lies behind the present; none where the run does not lead
+  /// to it.
+  std::optional<std::uint64_t> find_line(std::uint64_t line) const;
+
   /// The last block, of the first `blocks` and not before the block `from`, before which `is_it` holds: how many have
   /// been executed before it.
   std::optional<std::uint64_t> find_before(std::uint64_t blocks, const std::function<bool(const Block&)>& is_it,
@@ -67,7 +76,13 @@ class History {
     double value = 0;
   };
 
+  struct Checkpoint {
+    std::unique_ptr<const Simulation> simulation;  ///< On the heap: to thin them out moves none.
+    std::size_t bytes = 0;
+  };
+
   bool is_behind_present(const Simulation& checkpoint) const;
+  void add_checkpoint(const Simulation& simulation);
   void set(const Setting& setting);
   template <class Run>
   void apply_settings(Run& run, std::uint64_t blocks) const;
@@ -79,7 +94,7 @@ class History {
 
   Limits limits_;
   Simulation present_;
-  std::deque<Simulation> checkpoints_;          ///< The first is the begin.
+  std::vector<Checkpoint> checkpoints_;         ///< The first is the begin.
   std::size_t bytes_ = 0;                       ///< Of checkpoints_.
   std::uint64_t spacing_;                       ///< Work between two of them.
   std::map<std::uint64_t, Simulation> nearby_;  ///< By their work.

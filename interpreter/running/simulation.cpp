@@ -133,7 +133,9 @@ void Simulation::pass_piece() {
     tool_length_ = machine_->tool_length(change->tool);
   if (const auto& stretch = pieces_[passed_].stretch) {
     if (!last_stretch_ || last_stretch_->tag != stretch->tag) gone_ = 0;
-    gone_ += stretch->parameter_at(stretch->start + stretch->duration) - stretch->parameter_at(stretch->start);
+    // Behind the last of a move nobody asks.
+    if (!stretch->ends_move)
+      gone_ += stretch->parameter_at(stretch->start + stretch->duration) - stretch->parameter_at(stretch->start);
     last_stretch_ = stretch;
   }
   ++passed_;

@@ -108,6 +108,41 @@ TEST_F(HistoryTest, FindsTheLastBlockBefore) {
   EXPECT_EQ(history.find_before(0, [](const Block&) { return true; }), std::nullopt);
 }
 
+TEST_F(HistoryTest, FindsTheBlockOfALineThatLiesBehind) {
+  for (const std::uint64_t seed : seeds(25)) {
+    Random random(seed);
+    History history(begin(RandomRun(random).text(random.between(1, 4)), random.between(0, 2)), kFew);
+    const auto blocks = static_cast<std::uint64_t>(random.between(0, 200));
+    history.go_to_block(blocks);
+    const std::uint64_t end = history.present().runner().place().line;
+    std::vector<std::optional<std::uint64_t>> block_of(end);
+    for (Runner runner = fresh_before(0).runner(); !runner.has_ended(); runner.pass_empty_lines()) {
+      if (runner.place().line < end) block_of[runner.place().line] = runner.result().blocks;
+      runner.step();
+    }
+    history.go_to_block(static_cast<std::uint64_t>(random.between(0, 200)));
+    for (std::uint64_t line = 0; line < end; ++line) EXPECT_EQ(history.find_line(line), block_of[line]) << seed;
+  }
+}
+
+TEST_F(HistoryTest, SkipsToALineAndGoesOnAsAFreshRun) {
+  for (const std::uint64_t seed : seeds(25)) {
+    Random random(seed);
+    History history(begin(RandomRun(random).text(random.between(1, 4))), kFew);
+    history.go_to_block(static_cast<std::uint64_t>(random.between(0, 200)));
+    history.go_to_block(static_cast<std::uint64_t>(random.between(0, 100)));
+    const Simulation before = history.present();
+    history.skip_to_line(static_cast<std::uint64_t>(random.between(0, 300)));
+    EXPECT_GE(history.present().time(), before.time()) << seed;
+    history.step_block();
+    if (!history.present().has_ended()) {
+      ASSERT_EQ(shown(history.present()), shown(fresh_before(history.present().blocks()))) << seed;
+    }
+    history.return_to(before);
+    ASSERT_EQ(shown(history.present()), shown(before)) << seed;
+  }
+}
+
 /// What has been set is found again by whoever comes back, and what came of the old value is forgotten.
 TEST_F(HistoryTest, KeepsWhatHasBeenSet) {
   History history(
