@@ -35,6 +35,8 @@ std::uint64_t line_argument(const Session& session, const Json& arguments, const
 
 session::BreakpointRules rules_of(const Session& session, const Json& breakpoint) {
   session::BreakpointRules rules;
+  for (const char* const key : {"condition", "hitCondition", "logMessage"})
+    rules.text += find_text(breakpoint, key).value_or("") + "\n";
   const auto is_given = [](const std::optional<std::string>& wish) {
     return wish && wish->find_first_not_of(" \t") != std::string::npos;
   };

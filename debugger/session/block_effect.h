@@ -12,8 +12,12 @@ struct BlockEffect {
   execution::State state;        ///< Behind it.
   running::Registers registers;  ///< Behind it.
   std::vector<execution::MachineMove> moves;
-  bool has_error = false;  ///< Then it does nothing of that.
+  std::vector<geometry::Pose> on_arc;  ///< Points on the way along an arc, the extreme ones, too; frame in force.
+  bool has_error = false;              ///< Then it does nothing of that.
 };
+
+/// Whether the block drives an arc, unless it is wrong.
+bool may_be_arc(const running::Block& block);
 
 BlockEffect effect_of(const running::Block& block, const execution::Setup& setup);
 

@@ -155,7 +155,40 @@ bool Watched::tells(double before, double after) const {
   return (from < 0 && to >= 0) || (from > 0 && to <= 0) || (from != 0 && to == 0);
 }
 
+static bool are_same(const FunctionBreakpoint& a, const FunctionBreakpoint& b) { return a.code == b.code; }
+static bool are_same(const DataBreakpoint& a, const DataBreakpoint& b) { return a.watched.name == b.watched.name; }
+
+template <class Some>
+static void go_on_counting(std::vector<Some>& breakpoints, std::vector<Some>& before) {
+  for (Some& breakpoint : breakpoints) {
+    const auto old = std::find_if(before.begin(), before.end(), [&](const Some& each) {
+      return are_same(each, breakpoint) && each.rules.text == breakpoint.rules.text;
+    });
+    if (old != before.end()) std::swap(breakpoint.counter, old->counter);
+  }
+}
+
+void Breakpoints::set_functions(std::vector<FunctionBreakpoint> breakpoints) {
+  go_on_counting(breakpoints, functions_);
+  functions_ = std::move(breakpoints);
+}
+
+void Breakpoints::set_data(std::vector<DataBreakpoint> breakpoints) {
+  go_on_counting(breakpoints, data_);
+  data_ = std::move(breakpoints);
+}
+
+bool Breakpoints::has_thresholds() const {
+  return std::any_of(data_.begin(), data_.end(), [](const auto& each) { return each.watched.threshold.has_value(); });
+}
+
 void Breakpoints::set_lines(std::vector<LineBreakpoint> breakpoints, std::uint64_t line_count) {
+  for (LineBreakpoint& breakpoint : breakpoints) {
+    const auto [begin, end] = lines_.equal_range(breakpoint.line);
+    const auto old =
+        std::find_if(begin, end, [&](const auto& each) { return each.second.rules.text == breakpoint.rules.text; });
+    if (old != end) std::swap(breakpoint.counter, old->second.counter);
+  }
   lines_.clear();
   bits_.assign(line_count / 64 + 1, 0);
   for (LineBreakpoint& breakpoint : breakpoints) {
@@ -189,23 +222,50 @@ void Breakpoints::look_at_functions(const syntax::LineTree& tree, const Moment& 
     if (each.code.is_in(tree)) reach(each, moment, block, way, outcome);
 }
 
-void Breakpoints::read_data(const Moment& moment, std::vector<double>& values) const {
-  values.clear();
-  for (const DataBreakpoint& each : data_) values.push_back(each.watched.value.at(moment));
+void Breakpoints::begin_trail(const Moment& moment, Trail& trail) const {
+  trail.width = data_.size();
+  trail.values.clear();
+  read_data(moment, trail);
 }
 
-void Breakpoints::look_at_data(const std::vector<double>& before, const std::vector<double>& after,
-                               const Moment& moment, std::uint64_t block, Way way, Outcome& outcome) {
-  if (before.size() != data_.size() || after.size() != data_.size()) return;
+void Breakpoints::read_data(const Moment& moment, Trail& trail) const {
+  for (const DataBreakpoint& each : data_) trail.values.push_back(each.watched.value.at(moment));
+}
+
+/// From what to what a value has come when it told. On the way only what is known counts.
+std::optional<std::pair<double, double>> Breakpoints::find_change(const Watched& watched, std::size_t place,
+                                                                  const Trail& trail) {
+  if (!watched.threshold) {
+    const double before = trail.values[place];
+    const double after = trail.values[trail.values.size() - trail.width + place];
+    if (watched.tells(before, after)) return std::pair(before, after);
+    return std::nullopt;
+  }
+  double before = trail.values[place];
+  for (std::size_t i = place + trail.width; i < trail.values.size(); i += trail.width) {
+    const double after = trail.values[i];
+    const bool is_last = i + trail.width >= trail.values.size();
+    if (std::isnan(after) && !is_last) continue;
+    if (watched.tells(before, after)) return std::pair(trail.values[place], after);
+    before = after;
+  }
+  return std::nullopt;
+}
+
+void Breakpoints::look_at_data(const Trail& trail, const Moment& moment, std::uint64_t block, Way way,
+                               Outcome& outcome) {
+  // Others may have been set meanwhile.
+  if (data_.empty() || trail.width != data_.size() || trail.values.size() % trail.width != 0) return;
   for (std::size_t i = 0; i < data_.size(); ++i)
-    if (data_[i].watched.tells(before[i], after[i])) reach(data_[i], moment, block, way, outcome);
+    if (find_change(data_[i].watched, i, trail)) reach(data_[i], moment, block, way, outcome);
 }
 
-std::string Breakpoints::description(std::int64_t id, const std::vector<double>& before,
-                                     const std::vector<double>& after) const {
-  for (std::size_t i = 0; i < data_.size() && i < before.size() && i < after.size(); ++i)
-    if (data_[i].id == id)
-      return fmt::format("{}: {} -> {}", data_[i].watched.name, show_value(before[i]), show_value(after[i]));
+std::string Breakpoints::description(std::int64_t id, const Trail& trail) const {
+  for (std::size_t i = 0; i < data_.size() && i < trail.width; ++i) {
+    if (data_[i].id != id) continue;
+    if (const auto change = find_change(data_[i].watched, i, trail))
+      return fmt::format("{}: {} -> {}", data_[i].watched.name, show_value(change->first), show_value(change->second));
+  }
   return {};
 }
 

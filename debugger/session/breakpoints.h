@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -42,13 +43,15 @@ class LogMessage {
 
 /// When a breakpoint that has been reached counts, and what it does then.
 struct BreakpointRules {
+  std::string text;  ///< As the client has written them.
   std::optional<Expression> condition;
   std::optional<HitCondition> hits;
   std::optional<LogMessage> message;  ///< Is told, and the run goes on.
 };
 
 /// The blocks, by their number in the run, at which a breakpoint has been hit so far. They are counted where they are
-/// first met, so that a block that the run comes to again is the same hit as before.
+/// first met, so that a block that the run comes to again is the same hit as before. A breakpoint that the client sets
+/// anew as it is, since it has changed another one, goes on counting.
 class HitCounter {
  public:
   /// Which hit it is, from 1.
@@ -65,6 +68,8 @@ struct WantedCode {
   char letter = 'M';
   std::uint32_t number = 0;
 
+  friend bool operator==(const WantedCode&, const WantedCode&) = default;
+
   static std::optional<WantedCode> read(std::string_view name);
   bool is_in(const syntax::LineTree& tree) const;
 };
@@ -78,6 +83,12 @@ struct Watched {
   /// `V3`, `Z`, `Z = 0`.
   static std::variant<Watched, ExpressionProblem> compile(std::string_view text, dialect::Language language);
   bool tells(double before, double after) const;
+};
+
+/// Values that data breakpoints watch, at moments that follow one another.
+struct Trail {
+  std::size_t width = 0;  ///< Values of each moment.
+  std::vector<double> values;
 };
 
 /// A breakpoint of any kind.
@@ -101,14 +112,16 @@ struct DataBreakpoint : Breakpoint {
 class Breakpoints {
  public:
   void set_lines(std::vector<LineBreakpoint> breakpoints, std::uint64_t line_count);
-  void set_functions(std::vector<FunctionBreakpoint> breakpoints) { functions_ = std::move(breakpoints); }
-  void set_data(std::vector<DataBreakpoint> breakpoints) { data_ = std::move(breakpoints); }
+  void set_functions(std::vector<FunctionBreakpoint> breakpoints);
+  void set_data(std::vector<DataBreakpoint> breakpoints);
 
   bool has_line(std::uint64_t line) const {
     return line / 64 < bits_.size() && ((bits_[line / 64] >> (line % 64)) & 1) != 0;
   }
   bool has_functions() const { return !functions_.empty(); }
   bool has_data() const { return !data_.empty(); }
+  /// Whether it matters what a value has been between two blocks.
+  bool has_thresholds() const;
 
   /// What comes of the breakpoints that a block, or a change, has reached.
   struct Outcome {
@@ -122,16 +135,19 @@ class Breakpoints {
   void look_at_line(const Moment& moment, std::uint64_t block, Way way, Outcome& outcome);
   void look_at_functions(const syntax::LineTree& tree, const Moment& moment, std::uint64_t block, Way way,
                          Outcome& outcome);
-  /// The values that data breakpoints watch; to be compared with those a block later.
-  void read_data(const Moment& moment, std::vector<double>& values) const;
-  void look_at_data(const std::vector<double>& before, const std::vector<double>& after, const Moment& moment,
-                    std::uint64_t block, Way way, Outcome& outcome);
+  /// Appends the values of a moment; the first of a block begins the trail anew.
+  void begin_trail(const Moment& moment, Trail& trail) const;
+  void read_data(const Moment& moment, Trail& trail) const;
+  /// `moment` is the last of the trail.
+  void look_at_data(const Trail& trail, const Moment& moment, std::uint64_t block, Way way, Outcome& outcome);
   /// What is told of one that has stopped the run: `V3: 1 -> 2`; empty for others.
-  std::string description(std::int64_t id, const std::vector<double>& before, const std::vector<double>& after) const;
+  std::string description(std::int64_t id, const Trail& trail) const;
 
   void forget_hits_from(std::uint64_t block);
 
  private:
+  static std::optional<std::pair<double, double>> find_change(const Watched& watched, std::size_t place,
+                                                              const Trail& trail);
   static void reach(Breakpoint& breakpoint, const Moment& moment, std::uint64_t block, Way way, Outcome& outcome);
 
   std::multimap<std::uint64_t, LineBreakpoint> lines_;

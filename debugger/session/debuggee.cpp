@@ -18,7 +18,7 @@ Debuggee::Debuggee(ProgramText text, const RunOptions& options, const TimedMachi
       options_(std::make_unique<const RunOptions>(options)) {
   auto own_machine = std::make_unique<const TimedMachine>(machine);
   const Simulation begin(*program_, *options_, *own_machine);
-  stretches_.push_back({.machine = std::move(own_machine), .history = History(begin), .first_block = 0});
+  stretches_.push_back({.machine = std::move(own_machine), .history = History(begin)});
 }
 
 bool Debuggee::is_at_begin_of_stretch() const {
@@ -69,6 +69,13 @@ void Debuggee::go_to_block(std::uint64_t blocks) {
   history().go_to_block(blocks);
 }
 
+/// In the stretch that the line lies in: what an earlier one has done behind its change is undone.
+std::optional<std::uint64_t> Debuggee::find_line(std::uint64_t line) const {
+  for (auto stretch = stretches_.rbegin(); stretch != stretches_.rend(); ++stretch)
+    if (line >= stretch->first_line) return stretch->history.find_line(line);
+  return std::nullopt;
+}
+
 std::optional<std::uint64_t> Debuggee::find_back(std::uint64_t from, std::uint64_t blocks,
                                                  const std::function<bool(const running::Block&)>& is_it) const {
   for (auto stretch = stretches_.rbegin(); stretch != stretches_.rend() && from < blocks; ++stretch) {
@@ -90,7 +97,10 @@ std::optional<Hindrance> Debuggee::hindrance() const {
 void Debuggee::begin_stretch(const Simulation& from, const Runner& runner, const TimedMachine& machine) {
   auto own_machine = std::make_unique<const TimedMachine>(machine);
   const Simulation begin(from, runner, *own_machine);
-  stretches_.push_back({.machine = std::move(own_machine), .history = History(begin), .first_block = begin.blocks()});
+  stretches_.push_back({.machine = std::move(own_machine),
+                        .history = History(begin),
+                        .first_block = begin.blocks(),
+                        .first_line = begin.line()});
 }
 
 void Debuggee::set_state(const execution::State& state) {

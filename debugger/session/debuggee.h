@@ -56,6 +56,10 @@ class Debuggee {
   /// Undoes step_instruction().
   void step_instruction_back();
   void go_to_block(std::uint64_t blocks);
+  void skip_to_line(std::uint64_t line) { history().skip_to_line(line); }
+  void return_to(const running::Simulation& before) { history().return_to(before); }
+  /// As in History.
+  std::optional<std::uint64_t> find_line(std::uint64_t line) const;
   /// The last of the blocks [from, blocks) that is it.
   std::optional<std::uint64_t> find_back(std::uint64_t from, std::uint64_t blocks,
                                          const std::function<bool(const running::Block&)>& is_it) const;
@@ -79,6 +83,7 @@ class Debuggee {
     std::unique_ptr<const running::TimedMachine> machine;
     running::History history;
     std::uint64_t first_block = 0;
+    std::uint64_t first_line = 0;
   };
 
   running::History& history() { return stretches_.back().history; }

@@ -6,11 +6,15 @@ namespace isocnc::debugger::session {
 
 /// So many of each are kept.
 static constexpr std::size_t kMost = 16384;
+static constexpr auto kWorkpiece = static_cast<std::size_t>(dialect::ModalGroup::Workpiece);
 
+/// Whether one had to go for it.
 template <class Entry>
-static void note(std::deque<Entry>& entries, Entry entry) {
-  if (entries.size() == kMost) entries.pop_front();
+static bool note(std::deque<Entry>& entries, Entry entry) {
+  const bool is_full = entries.size() == kMost;
+  if (is_full) entries.pop_front();
   entries.push_back(std::move(entry));
+  return is_full;
 }
 
 /// Those of blocks before this one end here.
@@ -24,12 +28,17 @@ void Journal::take(std::uint64_t block, std::uint64_t line, const Modes& before,
                    std::span<const running::Event> events) {
   if (block < known_) return;
   known_ = block + 1;
-  if (before != after)
+  const unsigned first_written = after.written & ~static_cast<unsigned>(before.written);
+  if (!(before == after))
     for (std::size_t i = 0; i < settings_.size(); ++i)
-      if (before[i] != after[i]) note(settings_[i], {block, line});
+      if (before.in_force[i] != after.in_force[i] || ((first_written >> i) & 1u) != 0)
+        has_forgotten_[i] |= note(settings_[i], {block, line, after.in_force[i]});
   for (const running::Event& event : events) {
     if (const auto* const jump = std::get_if<running::JumpEvent>(&event.what)) {
       if (jump->taken) note(jumps_, {block, event.line, jump->target_line});
+    } else if (std::holds_alternative<running::FrameEvent>(event.what)) {
+      // A G92 behind another one.
+      if (before == after) note(settings_[kWorkpiece], {block, line, after.in_force[kWorkpiece]});
     } else if (const auto* const call = std::get_if<running::FunctionEvent>(&event.what)) {
       if (!call->parameters.empty()) note(functions_, {block, *call});
     }
@@ -43,11 +52,11 @@ void Journal::forget_from(std::uint64_t block) {
   functions_.erase(end_before(functions_, block), functions_.end());
 }
 
-std::optional<std::uint64_t> Journal::setter(dialect::ModalGroup group, std::uint64_t block) const {
+std::optional<Journal::Setting> Journal::setting(dialect::ModalGroup group, std::uint64_t block) const {
   const auto& settings = settings_[static_cast<std::size_t>(group)];
   const auto end = end_before(settings, block);
   if (end == settings.begin()) return std::nullopt;
-  return std::prev(end)->line;
+  return *std::prev(end);
 }
 
 std::vector<Journal::Jump> Journal::jumps(std::uint64_t block) const {

@@ -16,8 +16,20 @@ namespace isocnc::debugger::session {
 /// block; who goes back reads the same again.
 class Journal {
  public:
-  using Modes = std::array<std::uint8_t, dialect::kModalGroupCount>;  ///< As in execution::State::in_force.
+  /// What a state says of the modal groups.
+  struct Modes {
+    explicit Modes(const execution::State& state) : in_force(state.in_force), written(state.written) {}
+    friend bool operator==(const Modes&, const Modes&) = default;
 
+    std::array<std::uint8_t, dialect::kModalGroupCount> in_force;
+    std::uint16_t written = 0;
+  };
+  /// Where a member of a modal group has come into force, or has been written for the first time.
+  struct Setting {
+    std::uint64_t block = 0;
+    std::uint64_t line = 0;
+    std::uint8_t number = 0;  ///< Of the G.
+  };
   struct Jump {
     std::uint64_t block = 0;  ///< Of the IF: blocks executed before it.
     std::uint64_t from = 0;   ///< Lines, from 0.
@@ -35,21 +47,19 @@ class Journal {
   void forget_from(std::uint64_t block);
 
   // Each as it was before a block.
-  /// The line that has set what is in force; none where the program has not, or it is forgotten.
-  std::optional<std::uint64_t> setter(dialect::ModalGroup group, std::uint64_t block) const;
+  /// The last one; none where the program has set nothing, or it is forgotten.
+  std::optional<Setting> setting(dialect::ModalGroup group, std::uint64_t block) const;
+  /// Whether settings of the group have been forgotten: there are too many.
+  bool has_forgotten(dialect::ModalGroup group) const { return has_forgotten_[static_cast<std::size_t>(group)]; }
   /// The latest first.
   std::vector<Jump> jumps(std::uint64_t block) const;
   /// The last call with parameters of each M, the latest first.
   std::vector<Function> functions(std::uint64_t block) const;
 
  private:
-  struct Setting {
-    std::uint64_t block = 0;
-    std::uint64_t line = 0;
-  };
-
   std::uint64_t known_ = 0;  ///< Blocks before this one have been noted.
   std::array<std::deque<Setting>, dialect::kModalGroupCount> settings_;
+  std::array<bool, dialect::kModalGroupCount> has_forgotten_{};
   std::deque<Jump> jumps_;
   std::deque<Function> functions_;
 };

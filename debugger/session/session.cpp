@@ -87,6 +87,7 @@ void Session::begin(LaunchWishes wishes) {
   configuration_ = std::move(launched.configuration);
   debuggee_ = std::make_shared<Debuggee>(std::move(launched.debuggee));
   journal_ = {};
+  origin_.reset();
   exception_.reset();
   has_begun_ = false;
   has_arrived_ = false;
@@ -113,12 +114,7 @@ void Session::configuration_done() {
 void Session::begin_run(std::uint64_t generation) {
   if (generation != generation_ || !is_launched()) return;
   if (is_checking_) return loop_.post_at(Clock::now() + kPace, [this, generation] { begin_run(generation); });
-  if (wishes_.start_line) {
-    arrival_reason_ = "entry";
-    target_line_ = *wishes_.start_line;
-    search_begin_ = 0;
-    return start(Activity::GoingOn);
-  }
+  if (wishes_.start_line) return go_on_to_line(*wishes_.start_line, "entry");
   const auto reached = arrive();
   if (wishes_.stop_on_entry && !wishes_.no_debug) return stop({.reason = "entry"});
   if (reached) return stop(*reached);
@@ -196,8 +192,6 @@ void Session::run_slice() {
       return run_back(deadline);
     case Activity::GoingOn:
       return run_to_line(deadline);
-    case Activity::GoingBack:
-      return search_line(deadline);
   }
 }
 
@@ -241,18 +235,42 @@ std::optional<Session::Stop> Session::go_on_one_block(double until) {
     }
   const std::uint64_t block = debuggee.present().blocks();
   const std::uint64_t line = debuggee.present().line();
-  const bool has_data = breakpoints.has_data();
   const bool begins = !debuggee.present().is_in_block();
-  if (has_data && begins) breakpoints.read_data(moment(), data_before_);
-  const Journal::Modes modes = debuggee.present().run().state.in_force;
+  if (begins) begin_trail();
+  const Journal::Modes modes(debuggee.present().run().state);
   debuggee.advance_in_block(until);
   if (begins) {
     const running::Simulation& present = debuggee.present();
-    journal_.take(block, line, modes, present.run().state.in_force, present.runner().events());
+    journal_.take(block, line, modes, Journal::Modes(present.run().state), present.runner().events());
     tell_events(present.runner().events());
   }
   if (debuggee.present().is_in_block()) return std::nullopt;
   return end_block(begins ? block : block - 1);
+}
+
+/// Values along an arc: what only goes beyond a threshold and comes back shows there alone.
+static void follow_arc(const Breakpoints& breakpoints, const BlockEffect& effect, const Moment& behind, Trail& trail) {
+  if (effect.has_error) return;
+  execution::State state = effect.state;
+  for (const geometry::Pose& point : effect.on_arc) {
+    state.position = point;
+    breakpoints.read_data({.state = state,
+                           .registers = effect.registers,
+                           .vgpl = behind.vgpl,
+                           .line = behind.line,
+                           .override_percent = behind.override_percent,
+                           .playback = behind.playback},
+                          trail);
+  }
+}
+
+void Session::begin_trail() {
+  if (!breakpoints.has_data()) return;
+  const Moment before = moment();
+  breakpoints.begin_trail(before, trail_);
+  if (!breakpoints.has_thresholds()) return;
+  const auto block = debuggee_->next();
+  if (block && may_be_arc(*block)) follow_arc(breakpoints, effect_of(*block, debuggee_->setup()), before, trail_);
 }
 
 /// The block is over: has the program ended, or has something become what somebody waits for?
@@ -272,14 +290,14 @@ std::optional<Session::Stop> Session::end_block(std::uint64_t block) {
     return std::nullopt;
   }
   if (!breakpoints.has_data() || wishes_.no_debug) return std::nullopt;
-  breakpoints.read_data(moment(), data_after_);
+  breakpoints.read_data(moment(), trail_);
   Breakpoints::Outcome outcome;
-  breakpoints.look_at_data(data_before_, data_after_, moment(), block, Breakpoints::Way::On, outcome);
+  breakpoints.look_at_data(trail_, moment(), block, Breakpoints::Way::On, outcome);
   tell_messages(outcome, present.line());
   if (outcome.stopped.empty()) return std::nullopt;
   return Stop{.reason = "data breakpoint",
               .more = {{"hitBreakpointIds", outcome.stopped},
-                       {"description", breakpoints.description(outcome.stopped.front(), data_before_, data_after_)}}};
+                       {"description", breakpoints.description(outcome.stopped.front(), trail_)}}};
 }
 
 /// What stands before the next block.
@@ -343,6 +361,7 @@ void Session::stop(const Stop& stop) {
   end_progress();
   activity_ = Activity::None;
   step_out_of_.reset();
+  origin_.reset();
   tell_position(true);
   tell_untold();
   tell_of_changed_file();
@@ -410,10 +429,11 @@ bool Session::is_hit_on_the_way_back(const running::Block& block, std::uint64_t 
   if (breakpoints.has_data() && block.number + 1 < start) {
     const BlockEffect effect = effect_of(block, debuggee_->setup());
     const Moment after{.state = effect.state, .registers = effect.registers, .vgpl = block.vgpl, .line = block.line};
-    breakpoints.read_data(before, data_before_);
-    breakpoints.read_data(after, data_after_);
+    breakpoints.begin_trail(before, trail_);
+    follow_arc(breakpoints, effect, after, trail_);
+    breakpoints.read_data(after, trail_);
     Breakpoints::Outcome changes;
-    breakpoints.look_at_data(data_before_, data_after_, after, block.number, Breakpoints::Way::Back, changes);
+    breakpoints.look_at_data(trail_, after, block.number, Breakpoints::Way::Back, changes);
     is_behind = !effect.has_error && !changes.stopped.empty();
   }
   if (is_behind || !outcome.stopped.empty()) return true;
@@ -475,8 +495,8 @@ void Session::step(Step step) {
     const std::uint64_t block = debuggee_->present().blocks();
     const bool begins = !debuggee_->present().is_in_block();
     const std::uint64_t line = debuggee_->present().line();
-    if (begins) breakpoints.read_data(moment(), data_before_);
-    const Journal::Modes modes = debuggee_->present().run().state.in_force;
+    if (begins) begin_trail();
+    const Journal::Modes modes(debuggee_->present().run().state);
     if (step == Step::Block) {
       debuggee_->step_block();
     } else {
@@ -484,7 +504,7 @@ void Session::step(Step step) {
     }
     if (begins) {
       const running::Simulation& present = debuggee_->present();
-      journal_.take(block, line, modes, present.run().state.in_force, present.runner().events());
+      journal_.take(block, line, modes, Journal::Modes(present.run().state), present.runner().events());
       tell_events(present.runner().events());
     }
     has_arrived_ = false;
@@ -527,14 +547,29 @@ void Session::step_out() {
 
 void Session::go_to_line(std::uint64_t line) {
   const running::Simulation& present = standing().present();
-  exception_.reset();
-  arrival_reason_ = "goto";
-  target_line_ = line;
-  search_begin_ = present.blocks();
-  searched_ = end_of_past();
   const bool is_within = present.is_in_block() || present.has_ended();
   const bool is_behind = line < present.line() || (line == present.line() && is_within);
-  start(is_behind ? Activity::GoingBack : Activity::GoingOn);
+  if (!is_behind) return go_on_to_line(line, "goto");
+  activity_ = Activity::Running;
+  loop_.post([this, line, generation = ++generation_] {
+    if (generation != generation_ || !is_launched()) return;
+    if (const auto found = debuggee_->find_line(line)) {
+      exception_.reset();
+      lead_back([&](Debuggee& debuggee) { debuggee.go_to_block(*found); });
+    } else {
+      tell_output("important", in_language(kNotLedThere, client.to_client_line(line)));
+    }
+    settle("goto");
+  });
+}
+
+void Session::go_on_to_line(std::uint64_t line, std::string_view reason) {
+  exception_.reset();
+  arrival_reason_ = reason;
+  target_line_ = line;
+  origin_ = debuggee_->present();
+  debuggee_->skip_to_line(line);
+  start(Activity::GoingOn);
 }
 
 /// On, and nothing on the way is stopped at.
@@ -547,43 +582,19 @@ void Session::run_to_line(Clock::time_point deadline) {
       if (!is_there)
         tell_output("important", in_language(kNotLedThere, client.to_client_line(target_line_)), present.line());
       if (present.has_ended() && present.run().ending == running::Ending::Error) return stop(failure());
-      if (!is_there) lead_back([this](Debuggee& debuggee) { debuggee.go_to_block(search_begin_); });
+      if (!is_there) debuggee_->return_to(*origin_);
       return settle(arrival_reason_);
     }
     const std::uint64_t block = present.blocks();
     const std::uint64_t line = present.line();
     const bool begins = !present.is_in_block();
-    const Journal::Modes modes = present.run().state.in_force;
+    const Journal::Modes modes(present.run().state);
     debuggee_->step_block();
-    if (begins) journal_.take(block, line, modes, present.run().state.in_force, present.runner().events());
+    if (begins) journal_.take(block, line, modes, Journal::Modes(present.run().state), present.runner().events());
   } while (Clock::now() < deadline);
   const double lines = static_cast<double>(std::max<std::uint64_t>(target_line_, 1));
   tell_progress(static_cast<double>(debuggee_->present().line()) / lines);
   tell_position(false);
-  schedule();
-}
-
-/// Back: jumps lead forward only, so that lines come in order.
-void Session::search_line(Clock::time_point deadline) {
-  do {
-    const std::uint64_t from = searched_ > kWindow ? searched_ - kWindow : 0;
-    bool is_there = false;
-    const auto found = debuggee_->find_back(from, searched_, [&](const running::Block& block) {
-      if (block.line > target_line_) return false;
-      is_there = block.line == target_line_;
-      return true;
-    });
-    if (found || from == 0) {
-      if (is_there) {
-        lead_back([&](Debuggee& debuggee) { debuggee.go_to_block(*found); });
-      } else {
-        tell_output("important", in_language(kNotLedThere, client.to_client_line(target_line_)));
-      }
-      return settle(arrival_reason_);
-    }
-    searched_ = from;
-  } while (Clock::now() < deadline);
-  tell_progress(1 - static_cast<double>(searched_) / static_cast<double>(std::max<std::uint64_t>(search_begin_, 1)));
   schedule();
 }
 
@@ -828,7 +839,7 @@ void Session::tell_progress(double part) {
   const int percentage = std::clamp(static_cast<int>(100 * part), 0, 99);
   if (!progress_) {
     progress_ = ++progresses_;
-    const bool seeks_line = activity_ == Activity::GoingOn || activity_ == Activity::GoingBack;
+    const bool seeks_line = activity_ == Activity::GoingOn;
     emit_("progressStart", {{"progressId", std::to_string(*progress_)},
                             {"title", seeks_line ? in_language(kGoingTo, client.to_client_line(target_line_))
                                                  : std::string(in_language(kSearching))},

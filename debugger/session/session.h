@@ -115,7 +115,7 @@ class Session {
  private:
   using Clock = std::chrono::steady_clock;
 
-  enum class Activity : std::uint8_t { None, Running, RunningBack, GoingOn, GoingBack };
+  enum class Activity : std::uint8_t { None, Running, RunningBack, GoingOn };
   /// A stop that is due.
   struct Stop {
     std::string_view reason;
@@ -131,14 +131,15 @@ class Session {
   void run_slice();
   void run_on(Clock::time_point deadline);
   void run_back(Clock::time_point deadline);
+  void go_on_to_line(std::uint64_t line, std::string_view reason);
   void run_to_line(Clock::time_point deadline);
-  void search_line(Clock::time_point deadline);
   std::uint64_t end_of_past() const;
   double next_moment();
   std::optional<Stop> go_on_one_block(double until);
   std::optional<Stop> arrive();
   std::optional<Stop> look_at_breakpoints(Debuggee& debuggee);
   std::optional<Stop> look_at_block(Debuggee& debuggee);
+  void begin_trail();
   std::optional<Stop> end_block(std::uint64_t block);
   bool is_hit_on_the_way_back(const running::Block& block, std::uint64_t start, bool& is_behind);
   void stop(const Stop& stop);
@@ -180,11 +181,11 @@ class Session {
   std::optional<Exception> exception_;
   std::optional<execution::State> step_out_of_;  ///< The run stops where frame or tool become others.
   std::uint64_t target_line_ = 0;
-  std::uint64_t search_begin_ = 0;  ///< Blocks, when a search began.
-  std::uint64_t searched_ = 0;      ///< From this block on there is nothing.
+  std::optional<running::Simulation> origin_;  ///< Where the way to target_line_ began.
+  std::uint64_t search_begin_ = 0;             ///< Blocks, when a search began.
+  std::uint64_t searched_ = 0;                 ///< From this block on there is nothing.
   std::string_view arrival_reason_ = "goto";
-  std::vector<double> data_before_;
-  std::vector<double> data_after_;
+  Trail trail_;  ///< Of the block in progress.
 
   Clock::time_point pace_begin_;  ///< When the machine was at pace_time_.
   double pace_time_ = 0;

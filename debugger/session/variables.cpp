@@ -1,5 +1,6 @@
 #include "debugger/session/variables.h"
 
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
@@ -65,6 +66,8 @@ constexpr Text kWorkpieceFrameName{"Workpiece (machine frame)", "Pezzo (s.d.r. d
 constexpr Text kFaceFrameName{"Face (workpiece frame)", "Faccia (s.d.r. di pezzo)"};
 constexpr Text kLine{"line {}", "riga {}"};
 constexpr Text kDefault{"default", "di default"};
+constexpr Text kByHand{"by hand", "a mano"};
+constexpr Text kLongAgo{"long ago", "da molto"};
 constexpr Text kNoMotion{"none yet", "ancora nessuno"};
 constexpr Text kBlocks{"Blocks executed", "Blocchi eseguiti"};
 constexpr Text kFeedInForce{"Feed mode", "Modo del feed"};
@@ -229,18 +232,36 @@ class Listing {
     for (int axis = 0; axis < 3; ++axis) add(std::string(1, "XYZ"[axis]), show(vector[axis]), "mm");
   }
 
+  /// Who has set what is in force.
+  std::string origin_of(ModalGroup group, std::uint8_t number) const {
+    const auto at_line = [&](std::uint64_t line) {
+      return session_.in_language(kLine, session_.client.to_client_line(line));
+    };
+    const Journal& journal = session_.journal();
+    if (const auto setting = journal.setting(group, present().blocks()))
+      return setting->number == number ? at_line(setting->line) : in_language(kByHand);
+    const bool is_written = (moment_.state.written & (1u << static_cast<unsigned>(group))) != 0;
+    if (dialect::kGCodes[dialect::kGCodeRows[number]].is_default && !is_written) return in_language(kDefault);
+    if (!journal.has_forgotten(group)) return in_language(kByHand);
+    // Where so much has been set that it is forgotten it is not far.
+    constexpr std::uint64_t kFar = 65536;
+    const std::uint64_t blocks = present().blocks();
+    std::uint64_t line = 0;
+    const auto found =
+        session_.debuggee().find_back(blocks - std::min(blocks, kFar), blocks, [&](const running::Block& block) {
+          if (block.state.mode(group) == number) return false;
+          line = block.line;
+          return true;
+        });
+    return found ? at_line(line) : in_language(kLongAgo);
+  }
+
   void add_mode(ModalGroup group) {
     const std::uint8_t number = moment_.state.mode(group);
-    const auto setter = session_.journal().setter(group, present().blocks());
     std::string value = in_language(kNoMotion);
     if (number != dialect::kNoMotion) {
       const dialect::GCode& code = dialect::kGCodes[dialect::kGCodeRows[number]];
-      const std::string origin = setter ? session_.in_language(kLine, session_.client.to_client_line(*setter))
-                                 : (moment_.state.written & (1u << static_cast<unsigned>(group))) == 0
-                                     ? in_language(kDefault)
-                                     : std::string();
-      value = fmt::format("G{:02} {}", number, in_language(code.name));
-      if (!origin.empty()) value += fmt::format(" ({})", origin);
+      value = fmt::format("G{:02} {} ({})", number, in_language(code.name), origin_of(group, number));
     }
     variables.push_back(
         {.name = in_language(group_meaning(group)), .value = value, .evaluate_name = std::string(group_name(group))});

@@ -151,6 +151,25 @@ TEST(Breakpoints, FunctionBreakpointsWaitForCodes) {
   EXPECT_THAT(stops.back, ElementsAre(15, 4));
 }
 
+/// As a client does it that sets all breakpoints of a file when one of them changes.
+TEST(Breakpoints, ThatAreSetAnewAsTheyAreGoOnCounting) {
+  DebugClient client;
+  client.launch("M06 T101001\nG00 X1\nM100\nX2\nM100\nX3\nM100\nX4\nM100\nM02\n");
+  const auto wish = [&](const char* hits, const char* data_hits) {
+    client.request("setFunctionBreakpoints", {{"breakpoints", {{{"name", "M100"}, {"hitCondition", hits}}}}});
+    client.request("setDataBreakpoints", {{"breakpoints", {{{"dataId", "X"}, {"hitCondition", data_hits}}}}});
+  };
+  wish("2", "3");
+  client.run("configurationDone");
+  EXPECT_EQ(client.line(), 5);
+  wish("2", "3");
+  client.run("continue");
+  EXPECT_EQ(client.line(), 7) << "the third X";
+  wish("=2", "99");
+  client.run("continue");
+  EXPECT_EQ(client.line(), 9) << "another condition counts from line 7";
+}
+
 TEST(Breakpoints, FunctionBreakpointsCountTheirHits) {
   DebugClient client;
   client.launch(kPart);
@@ -168,6 +187,33 @@ TEST(Breakpoints, DataBreakpointsWatchValuesAndThresholds) {
   client.request("setDataBreakpoints", {{"breakpoints", {{{"dataId", "V3"}}, {{"dataId", "Z = 0"}}}}});
   const Stops stops = stops_of(client);
   EXPECT_THAT(stops.on, ElementsAre(9, 11, 15));
+}
+
+/// Arcs that come back to the height that they begin at: over it, less far over it, and under it.
+TEST(Breakpoints, ThresholdsCountOnTheWayAlongAnArc) {
+  for (const char* const mode : {"G48", "G49"}) {
+    DebugClient client;
+    client.launch(std::string("M06 T101001\nG00 X0 Y0 Z5\n") + mode +
+                  "\nG18\n"
+                  "G03 X20 Z5 I10 K5 F2000\n"  // 5
+                  "G01 Z4\n"                   // 6
+                  "G02 X0 Z4 I10 K4\n"         // 7
+                  "G02 X20 Z4 I10 K4\n"        // 8
+                  "G01 Z5\n"                   // 9
+                  "M02\n");
+    client.request("setDataBreakpoints", {{"breakpoints", {{{"dataId", "Z = 0"}}, {{"dataId", "ZM = 14.5"}}}}});
+    client.set_lines({10});
+    std::vector<int> stops;
+    Json stopped;
+    for (stopped = client.run("configurationDone"); stopped.at("reason") != "breakpoint";
+         stopped = client.run("continue"))
+      stops.push_back(client.line());
+    EXPECT_THAT(stops, ElementsAre(6, 9)) << mode;
+    client.set_lines({});
+    std::vector<int> back;
+    while (client.run("reverseContinue").at("reason") != "entry") back.push_back(client.line());
+    EXPECT_THAT(back, ElementsAre(9, 6)) << mode;
+  }
 }
 
 TEST(Breakpoints, DataBreakpointsWorkBackwards) {

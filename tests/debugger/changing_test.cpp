@@ -171,6 +171,40 @@ TEST(Console, CompletesNamesAndCodes) {
   EXPECT_THAT(labels, Contains("V17"));
 }
 
+TEST(Reading, ModesShowWhatHasSetThem) {
+  DebugClient client;
+  client.launch("M06 T101001\nG92 X1\nG00 X0\nG92 X2\nG91 X1\nX1\nM02\n");
+  client.set_lines({4, 6});
+  client.run("configurationDone");
+  EXPECT_THAT(client.variable("Modal groups", "workpiece frame"), HasSubstr("(line 2)"));
+  EXPECT_THAT(client.variable("Modal groups", "absolute or incremental"), HasSubstr("(default)"));
+  client.run("continue");
+  EXPECT_THAT(client.variable("Modal groups", "workpiece frame"), HasSubstr("(line 4)"));
+  EXPECT_THAT(client.variable("Modal groups", "absolute or incremental"), HasSubstr("(line 5)"));
+  client.evaluate("G90 G909", "repl");
+  EXPECT_THAT(client.variable("Modal groups", "absolute or incremental"), HasSubstr("(by hand)"));
+  client.run("stepBack");
+  EXPECT_THAT(client.variable("Modal groups", "absolute or incremental"), HasSubstr("(line 5)"));
+}
+
+/// Of so many only the latest are kept; the others are found again.
+TEST(Reading, ModesShowWhatHasSetThemInLongProgramsToo) {
+  std::string program = "M06 T101001\nG01 X0 F6000\n";
+  for (int i = 0; i < 20'000; ++i) program += "G00 X0\nX0\nG01 X0\n";
+  DebugClient client;
+  client.launch(program + "M02\n", {{"stopOnEntry", true}});
+  client.run("configurationDone");
+  const auto motion_at = [&](int line) {
+    const Json targets = client.request("gotoTargets", {{"source", {}}, {"line", line}}).at("targets");
+    client.run("goto", {{"threadId", 1}, {"targetId", targets.at(0).at("id")}});
+    return client.variable("Modal groups", "motion");
+  };
+  EXPECT_THAT(motion_at(60'003), HasSubstr("G01 linear interpolation (line 60002)"));
+  EXPECT_THAT(motion_at(33), HasSubstr("G01 linear interpolation (line 32)"));
+  EXPECT_THAT(motion_at(32), HasSubstr("G00 rapid positioning (line 30)"));
+  EXPECT_THAT(motion_at(4), HasSubstr("G00 rapid positioning (line 3)"));
+}
+
 TEST(Reading, ScopesShowTheMachine) {
   DebugClient client;
   client.launch(kPart);
@@ -179,7 +213,7 @@ TEST(Reading, ScopesShowTheMachine) {
   EXPECT_EQ(client.variable("Position", "Machine"), "X 100 Y 50 Z 50 B 0 C 0");
   EXPECT_EQ(client.variable("Position", "Workpiece"), "X 0 Y 0 Z 50 B 0 C 0");
   EXPECT_EQ(client.variable("Modal groups", "motion"), "G01 linear interpolation (line 16)");
-  EXPECT_EQ(client.variable("Modal groups", "arc plane"), "G17 arc plane XY");
+  EXPECT_EQ(client.variable("Modal groups", "arc plane"), "G17 arc plane XY (line 2)");
   EXPECT_EQ(client.variable("Modal groups", "interpolation"), "G48 three-axis interpolation (default)");
   EXPECT_EQ(client.variable("Feed and spindle", "Spindle"), "M03, clockwise");
   EXPECT_EQ(client.variable("Tool", "T"), "101002");

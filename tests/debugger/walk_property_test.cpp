@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <map>
+
+#include "debug_client.h"
 #include "debugger/session/debuggee.h"
 #include "tests/running/random_run.h"
 
@@ -58,14 +61,73 @@ TEST_P(Walks, EndWhereAFreshRunDoes) {
       default:
         walker.go_to_block(static_cast<std::uint64_t>(random.between(0, 40)));
     }
-    if (step % 10 != 9) continue;
     ASSERT_TRUE(are_equal(walker.present(), fresh_run_to(walker.present(), program, options, machine)))
         << "step " << step << " of\n"
         << text;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, Walks, testing::Range(0, 8));
+INSTANTIATE_TEST_SUITE_P(Seeds, Walks, testing::Range(0, 25));
+
+class ClientWalks : public testing::TestWithParam<int> {};
+
+/// All that a client is shown between two blocks, however it has come there, is what it was on the first way on.
+TEST_P(ClientWalks, ShowWhatTheFirstWayShowed) {
+  support::Random random(static_cast<std::uint64_t>(GetParam()));
+  std::string text = running::RandomRun(random).text(2);
+  if (!text.ends_with("M02\n")) text += "M02\n";
+  DebugClient client;
+  client.stand_at_begin(text);
+  std::map<std::string, std::string> states;
+  std::vector<int> lines;
+  const auto any_line = [&] {
+    return lines[static_cast<std::size_t>(random.between(0, static_cast<int>(lines.size()) - 1))];
+  };
+  const auto is_at_end = [&] {
+    return client.request("stackTrace", {{"threadId", 1}}).at("stackFrames").at(0).at("name") == "M02";
+  };
+  const auto note = [&] {
+    const std::string blocks = client.variable("Times", "Blocks executed");
+    const auto [state, is_new] = states.emplace(blocks, client.state());
+    if (is_new) lines.push_back(client.line());
+    EXPECT_EQ(client.state(), state->second) << blocks << " blocks of\n" << text;
+  };
+  const auto go_on = [&] {
+    if (is_at_end()) return false;
+    if (client.run("next").at("reason") != "exception") return true;
+    client.run("stepBack");
+    return false;
+  };
+  do note();
+  while (go_on());
+  for (int step = 0; step < 25; ++step) {
+    switch (random.between(0, 4)) {
+      case 0:
+        client.run("stepBack");
+        break;
+      case 1:
+        go_on();
+        break;
+      case 2:
+        client.run("stepBack");
+        client.run("stepIn");
+        client.run("stepBack", {{"granularity", "instruction"}});
+        break;
+      case 3: {
+        client.set_lines({any_line()});
+        client.run("reverseContinue");
+        client.set_lines({});
+        break;
+      }
+      default:
+        client.run("goto", {{"threadId", 1}, {"targetId", any_line() - 1}});
+    }
+    note();
+    if (HasFailure()) return;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, ClientWalks, testing::Range(0, 8));
 
 TEST(ByHand, WhatIsUndoneLeavesNoTrace) {
   int undone = 0;
