@@ -5,10 +5,13 @@ import { fileURLToPath } from 'node:url';
 import testsupport from '@vscode/debugadapter-testsupport';
 
 export const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '../../..');
-const programs = process.env.ISOCNC_BIN_DIR ?? path.join(root, 'build/release/bin');
+export const programs = process.env.ISOCNC_BIN_DIR ?? path.join(root, 'build/release/bin');
 const longestMs = 60_000;
 
 export const example = (name) => path.join(root, 'examples', name);
+
+/** Requests that have been made, of all clients. */
+export const asked = new Set();
 
 /** A DebugClient whose requests and waits fail when the adapter ends, or nothing comes. */
 export class Client {
@@ -21,7 +24,13 @@ export class Client {
     client.exit = new Promise((resolve) => client.process.on('exit', (code, signal) => resolve(code ?? signal)));
     client.debug = new testsupport.DebugClient('isodap', '', 'isocnc');
     client.debug.connect(client.process.stdout, client.process.stdin);
-    for (const name of ['initialized', 'stopped', 'terminated', 'exited', 'output', 'breakpoint', 'invalidated', 'isocnc/position'])
+    const send = client.debug.send.bind(client.debug);
+    client.debug.send = (command, ...rest) => {
+      asked.add(command);
+      return send(command, ...rest);
+    };
+    for (const name of ['initialized', 'stopped', 'terminated', 'exited', 'output', 'breakpoint', 'invalidated', 'loadedSource', 'progressStart',
+      'progressEnd', 'isocnc/position'])
       client.debug.on(name, (event) => client.#take(name, event.body));
     client.capabilities = (await client.request('initializeRequest', {
       adapterID: 'isocnc',
