@@ -206,4 +206,14 @@ fs::path place_of_program(const fs::path& path, const std::string& stdin_name) {
   return path == "-" ? fs::path(stdin_name) : path;
 }
 
+std::uint64_t bytes_of(const std::vector<fs::path>& files) {
+  std::uint64_t bytes = 0;
+  for (const fs::path& file : files) {
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(file, error);
+    if (!error) bytes += size;
+  }
+  return bytes;
+}
+
 }  // namespace isocnc::analyzer

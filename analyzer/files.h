@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <span>
@@ -47,5 +48,8 @@ FileSelection select_programs(std::span<const std::string> paths, configuration:
 
 /// Where the configuration of a program is looked for: standard input has the name that it was given.
 std::filesystem::path place_of_program(const std::filesystem::path& path, const std::string& stdin_name);
+
+/// How long they are together. Those that cannot be told, as of standard input, count as nothing.
+std::uint64_t bytes_of(const std::vector<std::filesystem::path>& files);
 
 }  // namespace isocnc::analyzer

@@ -16,6 +16,7 @@
 #include "interpreter/running/output_file.h"
 #include "interpreter/running/program_app.h"
 #include "interpreter/running/program_main.h"
+#include "interpreter/running/progress.h"
 #include "interpreter/running/replace_file.h"
 #include "interpreter/running/source_file.h"
 #include "interpreter/running/system_texts.h"
@@ -133,16 +134,21 @@ std::vector<std::string> decimals_choices() {
 /// Formats programs one after another.
 class Run {
  public:
-  explicit Run(const Options& options)
-      : options_(options), mode_(options.mode()), language_(options.reader_language()) {}
+  Run(const Options& options, const FileSelection& selection)
+      : options_(options),
+        selection_(selection),
+        mode_(options.mode()),
+        language_(options.reader_language()),
+        progress_(shares_terminal() ? nullptr : running::terminal_writer(), bytes_of(selection.files)) {}
 
   /// `styles` has one for each file.
-  int run(const FileSelection& selection, const std::vector<ProgramStyle>& styles) {
-    trouble_ = !selection.problems.empty();
-    for (std::size_t i = 0; i < selection.files.size(); ++i) {
-      format_file(selection.files[i], styles[i]);
+  int run(const std::vector<ProgramStyle>& styles) {
+    trouble_ = !selection_.problems.empty();
+    for (std::size_t i = 0; i < selection_.files.size(); ++i) {
+      format_file(selection_.files[i], styles[i]);
       if (output_.error() != 0) break;
     }
+    progress_.clear();
     if (output_.flush() != 0) {
       complain(fmt::format("<stdout>: {}", running::cannot_write(output_.error(), language_)));
       return kTrouble;
@@ -156,7 +162,11 @@ class Run {
   }
 
  private:
+  /// Whether what is printed would run into the bar.
+  bool shares_terminal() const { return mode_ != Mode::InPlace && ::isatty(STDOUT_FILENO) != 0; }
+
   void fail(std::string_view name, std::string_view why) {
+    progress_.clear();
     complain(fmt::format("{}: {}", name, why));
     trouble_ = true;
   }
@@ -174,20 +184,35 @@ class Run {
     ProgramFormatter formatter(source.text(), style);
     if (const auto& obstacle = formatter.obstacle())
       return fail(name, dialect::format(kNotRenumbered, language_, obstacle->message(language_)));
+    told_ = 0;
     switch (mode_) {
       case Mode::Check:
-        return check(formatter, name);
+        check(formatter, name);
+        break;
       case Mode::Diff:
-        return show_difference(formatter, name, source.has_byte_order_mark());
+        show_difference(formatter, name, source.has_byte_order_mark());
+        break;
       case Mode::Stdout:
-        return print(formatter, source);
+        print(formatter, source);
+        break;
       case Mode::InPlace:
-        return replace(formatter, source, *replacement, name);
+        replace(formatter, source, *replacement, name);
+        break;
     }
+    progress_.add(source.text().size() - told_);
+  }
+
+  std::optional<FormattedPiece> next_piece(ProgramFormatter& formatter) {
+    const std::optional<FormattedPiece> piece = formatter.next();
+    if (piece) {
+      told_ += piece->before.size();
+      progress_.add(piece->before.size());
+    }
+    return piece;
   }
 
   void check(ProgramFormatter& formatter, const std::string& name) {
-    while (const auto piece = formatter.next()) {
+    while (const auto piece = next_piece(formatter)) {
       if (!piece->is_changed()) continue;
       ++changed_;
       return output_.write(syntax::printable(name) + '\n');
@@ -196,21 +221,21 @@ class Run {
 
   void show_difference(ProgramFormatter& formatter, const std::string& name, bool has_byte_order_mark) {
     UnifiedDiff diff(name, has_byte_order_mark, [&](std::string_view text) { output_.write(text); });
-    while (const auto piece = formatter.next()) diff.add(piece->before, piece->after);
+    while (const auto piece = next_piece(formatter)) diff.add(piece->before, piece->after);
     diff.finish();
     changed_ += diff.has_changes() ? 1 : 0;
   }
 
   void print(ProgramFormatter& formatter, const SourceFile& source) {
     if (source.has_byte_order_mark()) output_.write(running::kByteOrderMark);
-    while (const auto piece = formatter.next()) output_.write(piece->after);
+    while (const auto piece = next_piece(formatter)) output_.write(piece->after);
   }
 
   /// A file that is as it should be is not touched at all.
   void replace(ProgramFormatter& formatter, const SourceFile& source, running::FileReplacement& replacement,
                const std::string& name) {
     bool is_changed = false;
-    while (const auto piece = formatter.next()) {
+    while (const auto piece = next_piece(formatter)) {
       if (!is_changed && !piece->is_changed()) continue;
       if (!is_changed) {
         if (source.has_byte_order_mark()) replacement.write(running::kByteOrderMark);
@@ -226,8 +251,11 @@ class Run {
   }
 
   const Options& options_;
+  const FileSelection& selection_;
   const Mode mode_;
   const Language language_;
+  running::Progress progress_;
+  std::size_t told_ = 0;  // Bytes of the file that the bar knows of.
   running::OutputFile output_{STDOUT_FILENO};
   std::size_t read_ = 0;
   std::size_t changed_ = 0;
@@ -259,7 +287,7 @@ int format(Options options) {
     complain(kStandardInputInPlace.in(language));
     return kTrouble;
   }
-  return Run(options).run(selection, styles);
+  return Run(options, selection).run(styles);
 }
 
 void add_options(running::ProgramApp& program, Options& options) {

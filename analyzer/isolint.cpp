@@ -92,17 +92,6 @@ struct Programs {
   std::vector<std::reference_wrapper<const ProgramSettings>> settings;
 };
 
-/// Those that cannot be told, as of standard input, count as nothing.
-std::uint64_t bytes_of(const std::vector<std::filesystem::path>& files) {
-  std::uint64_t bytes = 0;
-  for (const std::filesystem::path& file : files) {
-    std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(file, error);
-    if (!error) bytes += size;
-  }
-  return bytes;
-}
-
 /// Checks files side by side and shows what was found in their order.
 class Run {
  public:
