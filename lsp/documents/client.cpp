@@ -1,5 +1,6 @@
 #include "lsp/documents/client.h"
 
+#include <algorithm>
 #include <string>
 
 #include "interpreter/configuration/configuration.h"
@@ -36,6 +37,24 @@ bool Client::can(const char* capability) const {
   if (!capabilities.contains(pointer)) return false;
   const Json& found = capabilities.at(pointer);
   return !found.is_null() && found != Json(false);
+}
+
+/// What we write: bold words and code.
+static std::string without_marks(const std::string& markdown) {
+  std::string text;
+  for (std::size_t i = 0; i < markdown.size(); ++i) {
+    const bool is_bold = markdown.compare(i, 2, "**") == 0;
+    if (!is_bold && markdown[i] != '`') text += markdown[i];
+    if (is_bold) ++i;
+  }
+  return text;
+}
+
+Json Client::in_format(const Markdown& text, const char* formats) const {
+  const Json known = capabilities.value(Json::json_pointer(formats), Json());
+  const bool is_markdown = !known.is_array() || std::find(known.begin(), known.end(), Json("markdown")) != known.end();
+  if (is_markdown) return text;
+  return {{"kind", "plaintext"}, {"value", without_marks(text.text)}};
 }
 
 Language Client::language(std::optional<Language> configured) const {

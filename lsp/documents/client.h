@@ -30,6 +30,9 @@ struct Client {
 
   /// Whether a capability, `/textDocument/hover/dynamicRegistration`, is there and not false.
   bool can(const char* capability) const;
+  /// A text in a format that the client takes, by those that it tells at `/textDocument/hover/contentFormat`: without
+  /// the marks of Markdown where it takes plain text alone.
+  Json in_format(const Markdown& text, const char* formats) const;
   /// The language that a program's texts are told in: the editor's setting, else the command's, else what the program's
   /// configuration says, else the editor's own, else the environment's.
   dialect::Language language(std::optional<dialect::Language> configured) const;

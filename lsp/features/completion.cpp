@@ -469,7 +469,9 @@ std::string documentation_of(const std::string& code, Language language) {
 Json resolve_item(const Snapshot& snapshot, const ItemResolveParams& params) {
   Json item = params.item;
   const std::string text = documentation_of(item.at("data").at("code"), snapshot.language());
-  if (!text.empty()) item["documentation"] = documents::Markdown{text};
+  if (!text.empty())
+    item["documentation"] =
+        snapshot.client().in_format({text}, "/textDocument/completion/completionItem/documentationFormat");
   return item;
 }
 

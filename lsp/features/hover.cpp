@@ -34,7 +34,7 @@ using syntax::Word;
 constexpr std::size_t kMostPlaces = 10;
 
 struct Hover {
-  documents::Markdown contents;
+  Json contents;
   ClientRange range;
 };
 
@@ -372,7 +372,8 @@ std::optional<Hover> answer_hover(const Snapshot& snapshot, const documents::Pos
   if (!word) return std::nullopt;
   std::string text = Teller(snapshot, place.line, line, *word).tell();
   if (text.empty()) return std::nullopt;
-  return Hover{.contents = {std::move(text)}, .range = snapshot.to_client(place.line, word->span())};
+  return Hover{.contents = snapshot.client().in_format({std::move(text)}, "/textDocument/hover/contentFormat"),
+               .range = snapshot.to_client(place.line, word->span())};
 }
 
 Json hover_capabilities(const Client&) { return {{"hoverProvider", true}}; }

@@ -86,6 +86,18 @@ TEST(Hover, TellsWhatAllWaysToALineAgreeOn) {
   EXPECT_THAT(hover(program, 6, 9), testing::AllOf(HasSubstr("X1 Y8 Z40"), testing::Not(HasSubstr("?"))));
 }
 
+TEST(Hover, IsPlainForEditorsThatShowPlainTextAlone) {
+  const auto contents = [](const Json& formats) {
+    Session session;
+    session.start({{"textDocument", {{"hover", {{"contentFormat", formats}}}}}}, {{"locale", "en"}});
+    session.open(kUri, "IF VGPL = 1 GOTO N5\nN5 M02\n");
+    return session.request("textDocument/hover", at(0, 17))["contents"];
+  };
+  const std::string told = " target of a jump\n\njump to it: line 1";
+  EXPECT_EQ(contents({"plaintext"}), Json({{"kind", "plaintext"}, {"value", "N5" + told}}));
+  EXPECT_EQ(contents({"plaintext", "markdown"}), Json({{"kind", "markdown"}, {"value", "**N5**" + told}}));
+}
+
 TEST(Hover, SpeaksTheLanguageOfTheSettings) {
   Session session;
   session.start(Json::object(), {{"locale", "it-IT"}});
