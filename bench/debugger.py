@@ -19,6 +19,7 @@ BLOCKS_PER_SECOND = 500_000
 STEP_MS = 5.0
 PAUSE_MS = 20.0
 STEPS = 200
+PLACES = 20
 PAUSES = 20
 # A run goes on for as long as it takes.
 LONGEST_RUN_S = 3600
@@ -88,11 +89,16 @@ def many_breakpoints(lines):
 
 
 def step_times(program, file, lines):
-    """Of steps on, and then back, near the end of the program; ms."""
+    """Of steps on and back, near the end of the program and then anywhere; ms."""
     adapter = launched(program, file, startAtLine=lines - 2 * STEPS)
     adapter.run("configurationDone")
     on = [1000 * adapter.run("next") for _ in range(STEPS)]
     back = [1000 * adapter.run("stepBack") for _ in range(STEPS)]
+    for line in random.Random(editor.SEED).sample(range(10, lines - 10), PLACES):
+        target = adapter.request("gotoTargets", source={}, line=line)["targets"][0]["id"]
+        adapter.run("goto", targetId=target)
+        back += [1000 * adapter.run("stepBack") for _ in range(STEPS // PLACES)]
+        on += [1000 * adapter.run("next") for _ in range(STEPS // PLACES)]
     adapter.end()
     return on, back
 

@@ -60,6 +60,8 @@ void Adapter::answer(const Json& request) {
     succeed(request, known->second(session_, arguments));
     // The breakpoints can be told now: it is known which lines there are.
     if (command == "launch") emit("initialized", Json::object());
+  } catch (const session::ArgumentError& error) {
+    fail(request, error.in(session_.language()));
   } catch (const RequestError& error) {
     fail(request, error.what());
   } catch (const Json::exception& error) {

@@ -3,13 +3,12 @@
 #include <utility>
 
 #include "debugger/session/request_error.h"
-#include "interpreter/dialect/diagnostic.h"
-#include "interpreter/dialect/format.h"
 
 namespace isocnc::debugger::session {
 
 static constexpr dialect::Text kMissing{"{} is missing", "manca {}"};
 static constexpr dialect::Text kWrongType{"{} is not what it should be", "{} non è del tipo giusto"};
+
 /// A member that is there and not null.
 static const Json* find(const Json& arguments, const char* key) {
   if (!arguments.is_object()) return nullptr;
@@ -17,9 +16,7 @@ static const Json* find(const Json& arguments, const char* key) {
   return found == arguments.end() || found->is_null() ? nullptr : &*found;
 }
 
-[[noreturn]] static void refuse(const dialect::Text& why, const char* key) {
-  throw RequestError(dialect::format(why, dialect::Language::English, key));
-}
+[[noreturn]] static void refuse(const dialect::Text& why, const char* key) { throw ArgumentError(why, key); }
 
 std::optional<std::int64_t> find_integer(const Json& arguments, const char* key) {
   const Json* const found = find(arguments, key);

@@ -30,7 +30,7 @@ struct LaunchWishes {
 
 /// Reads the arguments of a launch. What it does not know is left alone: clients add members of their own. Throws
 /// RequestError.
-LaunchWishes read_wishes(const Json& arguments, const Client& client);
+LaunchWishes read_wishes(const Json& arguments, dialect::Language language);
 
 /// A program that is ready to run, and what its configuration says.
 struct Launched {
@@ -38,8 +38,8 @@ struct Launched {
   configuration::Configuration configuration;
 };
 
-/// Reads program and configuration. Throws RequestError, in the configuration's language where there is one and
-/// `language` does not say another.
-Launched launch(const LaunchWishes& wishes, std::optional<dialect::Language> language);
+/// Reads program and configuration. Throws RequestError, in the language that is commanded, or else that of the
+/// configuration, or else of the client.
+Launched launch(const LaunchWishes& wishes, std::optional<dialect::Language> commanded, dialect::Language clients);
 
 }  // namespace isocnc::debugger::session

@@ -81,8 +81,7 @@ void Session::launch(LaunchWishes wishes) {
 }
 
 void Session::begin(LaunchWishes wishes) {
-  const auto preferred = commanded_ ? commanded_ : std::optional<Language>();
-  Launched launched = session::launch(wishes, preferred);
+  Launched launched = session::launch(wishes, commanded_, client.locale.value_or(dialect::language_of_environment()));
   wishes_ = std::move(wishes);
   configuration_ = std::move(launched.configuration);
   debuggee_ = std::make_shared<Debuggee>(std::move(launched.debuggee));
@@ -210,7 +209,7 @@ void Session::run_on(Clock::time_point deadline) {
   do {
     for (int i = 0; i < kBlocksBetweenLooks; ++i) {
       if (debuggee_->present().time() >= until || messages_ >= kMostMessages) {
-        tell_position(false);
+        tell_where_it_is();
         return schedule(kPace);
       }
       if (const auto due = go_on_one_block(until)) return stop(*due);
@@ -221,7 +220,7 @@ void Session::run_on(Clock::time_point deadline) {
     pace_begin_ = Clock::now();
     pace_time_ = debuggee_->present().time();
   }
-  tell_position(false);
+  tell_where_it_is();
   schedule();
 }
 
@@ -805,6 +804,14 @@ void Session::tell_untold() {
 
 static Json pose_json(const geometry::Pose& pose) {
   return {{"x", pose.tip.x()}, {"y", pose.tip.y()}, {"z", pose.tip.z()}, {"b", pose.b}, {"c", pose.c}};
+}
+
+/// While the program runs.
+void Session::tell_where_it_is() {
+  tell_position(false);
+  if (has_told_of_file_ || Clock::now() - last_look_at_file_ < 1s) return;
+  last_look_at_file_ = Clock::now();
+  tell_of_changed_file();
 }
 
 void Session::tell_position(bool at_once) {

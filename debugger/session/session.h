@@ -151,6 +151,7 @@ class Session {
   void changed_by_hand();
   void require_running() const;
   void require_no_hindrance() const;
+  void tell_where_it_is();
   void tell_position(bool at_once);
   void tell_events(std::span<const running::Event> events);
   void tell_untold();
@@ -174,6 +175,7 @@ class Session {
   bool has_begun_ = false;
   std::optional<std::filesystem::file_time_type> file_time_;
   bool has_told_of_file_ = false;
+  Clock::time_point last_look_at_file_;
 
   Activity activity_ = Activity::None;
   std::uint64_t generation_ = 0;  ///< Slices of an earlier one are void.

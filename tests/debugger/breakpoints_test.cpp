@@ -216,6 +216,29 @@ TEST(Breakpoints, ThresholdsCountOnTheWayAlongAnArc) {
   }
 }
 
+TEST(Breakpoints, DataBreakpointsWatchWhatTheClientShows) {
+  DebugClient client;
+  client.stand_at_begin(kPart);
+  const auto id_of = [&](const char* scope, const char* name) {
+    for (const Json& each : Json(client.request("scopes", {{"frameId", 1}}).at("scopes")))
+      if (each.at("name") == scope)
+        return client.request("dataBreakpointInfo",
+                              {{"variablesReference", each.at("variablesReference")}, {"name", name}});
+    return Json();
+  };
+  EXPECT_EQ(id_of("Modal groups", "motion").at("dataId"), "MOTION");
+  EXPECT_EQ(id_of("Position", "Z").at("dataId"), "Z");
+  EXPECT_EQ(id_of("GPL variables", "Var_IF[1]").at("dataId"), "VGPL");
+  EXPECT_TRUE(id_of("Position", "Joints").at("dataId").is_null());
+  client.request("setDataBreakpoints", {{"breakpoints", {{{"dataId", "MOTION"}}}}});
+  std::vector<int> lines;
+  for (int i = 0; i < 3; ++i) {
+    client.run("continue");
+    lines.push_back(client.line());
+  }
+  EXPECT_THAT(lines, ElementsAre(8, 9, 12));
+}
+
 TEST(Breakpoints, DataBreakpointsWorkBackwards) {
   DebugClient client;
   client.launch(kPart);

@@ -8,9 +8,9 @@
 
 namespace isocnc::debugger {
 
-DebugClient::DebugClient()
-    : MessageClient([](lsp::rpc::Loop& loop, lsp::rpc::Send send) {
-        return std::make_unique<Adapter>(loop, std::move(send), dialect::Language::English);
+DebugClient::DebugClient(std::optional<dialect::Language> commanded)
+    : MessageClient([commanded](lsp::rpc::Loop& loop, lsp::rpc::Send send) {
+        return std::make_unique<Adapter>(loop, std::move(send), commanded);
       }) {}
 
 DebugClient::~DebugClient() {

@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "interpreter/dialect/diagnostic.h"
 #include "lsp/rpc/json.h"
 #include "tests/commands/temporary_folder.h"
 #include "tests/support/message_client.h"
@@ -16,7 +18,7 @@ using lsp::rpc::Json;
 /// A client of an Adapter. The programs that it debugs are files in a folder that goes when it does.
 class DebugClient : public support::MessageClient {
  public:
-  DebugClient();
+  explicit DebugClient(std::optional<dialect::Language> commanded = dialect::Language::English);
   ~DebugClient();
 
   std::filesystem::path write(const std::string& name, const std::string& text) const;

@@ -117,6 +117,21 @@ INSTANTIATE_TEST_SUITE_P(
                     BadLaunch{{{"registers", 3}}, "registers"}, BadLaunch{{{"startAtLine", 0}}, "startAtLine"},
                     BadLaunch{{{"decimals", 40}}, "decimals"}));
 
+TEST(Protocol, SpeaksTheLanguageOfTheClient) {
+  DebugClient client(std::nullopt);
+  client.request("initialize", {{"locale", "it-IT"}});
+  const auto refusal = [&](const Json& more) {
+    Json arguments = {{"program", client.write("a.iso", kPart).string()}};
+    arguments.update(more);
+    return client.refusal("launch", arguments);
+  };
+  EXPECT_EQ(refusal({{"stopOnEntry", "yes"}}), "stopOnEntry non è del tipo giusto");
+  EXPECT_THAT(refusal({{"speed", -1}}), HasSubstr("speed non può essere"));
+  EXPECT_THAT(refusal({{"program", "/nowhere/x.iso"}}), HasSubstr("non si può leggere"));
+  client.write("isocnc.json", R"({"language": "en", "machine": {"axes": 7}})");
+  EXPECT_THAT(refusal(Json::object()), HasSubstr("is wanted")) << "the configuration decides";
+}
+
 TEST(Protocol, ARequestThatTakesAStandingMachineIsRefusedWhileItRuns) {
   DebugClient client;
   client.launch("M06 T101001\nG00 X0\nG01 X90000 F1\nM02\n", {{"speed", 1}});
@@ -138,6 +153,17 @@ TEST(Protocol, AProgramThatChangesOnDiskIsDebuggedAsItWas) {
   client.run("continue");
   EXPECT_EQ(client.line(), 9);
   EXPECT_THAT(client.refusal("restart"), HasSubstr("cannot read"));
+}
+
+TEST(Protocol, ARunThatGoesOnTellsOfAProgramThatChanges) {
+  DebugClient client;
+  client.launch("M06 T101001\nG00 X0\nG01 X90000 F1\nM02\n", {{"speed", 1}});
+  client.request("configurationDone");
+  client.write("program.iso", "M02\n; another one");
+  std::filesystem::last_write_time(client.program(),
+                                   std::filesystem::last_write_time(client.program()) + std::chrono::seconds(5));
+  EXPECT_EQ(client.event("loadedSource").at("reason"), "changed");
+  EXPECT_FALSE(client.has_event("stopped"));
 }
 
 TEST(Protocol, ARestartThatFailsLeavesTheRunAsItIs) {

@@ -40,7 +40,12 @@ static constexpr const char* kCommands[] = {"next",
                                             "setFunctionBreakpoints",
                                             "setDataBreakpoints",
                                             "setExceptionBreakpoints",
-                                            "breakpointLocations"};
+                                            "breakpointLocations",
+                                            "dataBreakpointInfo",
+                                            "loadedSources",
+                                            "cancel",
+                                            "launch",
+                                            "configurationDone"};
 
 static constexpr const char* kTexts[] = {
     "X",         "V3",  "Z < 0 && S > 0", "G00 X5", "G91 G909", "M06 T101001", "V3=2",      "(",   "X,x",
@@ -62,9 +67,15 @@ static Json arguments_of(std::uint8_t byte, const std::string& path) {
           {"context", byte % 2 == 0 ? "repl" : "watch"},
           {"granularity", byte % 2 == 0 ? "instruction" : "line"},
           {"source", {{"path", path}}},
+          {"progressId", "1"},
           {"filters", {"errors", byte % 2 == 0 ? "warnings" : "limits", byte % 3 == 0 ? "toolChange" : "firstCut"}},
           {"breakpoints",
-           {{{"line", number}, {"name", text}, {"dataId", text}, {"condition", byte % 3 == 0 ? text : ""}}}}};
+           {{{"line", number},
+             {"name", text},
+             {"dataId", text},
+             {"condition", byte % 3 == 0 ? text : ""},
+             {"hitCondition", byte % 5 == 0 ? "%2" : ""},
+             {"logMessage", byte % 7 == 0 ? "{" + text + "}" : ""}}}}};
 }
 
 /// Feeds one message, and then itself again, so that the slices of a run come in between.
