@@ -333,8 +333,8 @@ class Teller {
     std::vector<std::string> values;
     for (const documents::Occurrence& each : documents::assignments_reaching(snapshot_, *read)) {
       if (values.size() == kMostPlaces) break;
-      const syntax::DocumentLine read = snapshot_.document().line(each.line);
-      const syntax::LineTree& line = *read;
+      const syntax::DocumentLine assigning = snapshot_.document().line(each.line);
+      const syntax::LineTree& line = *assigning;
       const Word* const value = value_behind(line, each.span);
       if (value && value->known()) values.push_back(text(kValue, shown(value->value), each.line + 1));
     }
