@@ -1,4 +1,4 @@
-;;; dap_mode.el --- Emacs' debugger, as docs/editors.md configures it: it steps an example  -*- lexical-binding: t -*-
+;;; dap_mode.el --- Emacs' debugger, as docs/editors.md configures it: it steps an example, to a breakpoint and into a block  -*- lexical-binding: t -*-
 
 ;;; Code:
 
@@ -26,6 +26,18 @@
     (isocnc-wait (lambda () isocnc-lines) "a step does not end")
     (unless (> (car isocnc-lines) first)
       (isocnc-fail "a step leads from line %d to line %d" first (car isocnc-lines))))
+  (goto-char (point-min))
+  (search-forward "G03")
+  (let ((line (line-number-at-pos)))
+    (dap-breakpoint-add)
+    (dolist (walk '((dap-continue 0) (dap-step-in 0) (dap-step-in 1)))
+      (setq isocnc-lines nil)
+      (if (eq (car walk) 'dap-continue)
+          (dap-continue (dap--cur-session) 1)
+        (funcall (car walk) (dap--cur-session)))
+      (isocnc-wait (lambda () isocnc-lines) (format "%s does not end" (car walk)))
+      (unless (= (car isocnc-lines) (+ line (cadr walk)))
+        (isocnc-fail "%s leads to line %d, not %d" (car walk) (car isocnc-lines) (+ line (cadr walk))))))
   (dap-disconnect (dap--cur-session))
   (isocnc-wait (lambda () (file-exists-p status)) "the adapter does not end"))
 (set-buffer-modified-p nil)
