@@ -111,6 +111,8 @@ std::optional<std::uint64_t> History::find_before(std::uint64_t blocks, const st
 
 /// Called before the control reads on: the present is as small then as it can be.
 void History::keep() {
+  constexpr int kFreedAtOnce = 8;
+  for (int i = 0; i < kFreedAtOnce && !thinned_out_.empty(); ++i) thinned_out_.pop_back();
   present_.forget_past();
   keep_nearby();
   if (present_.work() < checkpoints_.back().simulation->work() + spacing_) return;
@@ -138,6 +140,7 @@ void History::thin_out() {
         std::swap(checkpoints_[kept++], checkpoints_[i]);
       } else {
         bytes_ -= checkpoints_[i].bytes;
+        thinned_out_.push_back(std::move(checkpoints_[i]));
       }
     }
     checkpoints_.erase(checkpoints_.begin() + static_cast<std::ptrdiff_t>(kept), checkpoints_.end());

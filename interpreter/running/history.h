@@ -95,6 +95,7 @@ class History {
   Limits limits_;
   Simulation present_;
   std::vector<Checkpoint> checkpoints_;         ///< The first is the begin.
+  std::vector<Checkpoint> thinned_out_;         ///< Freed by and by: all at once they would hold up the run.
   std::size_t bytes_ = 0;                       ///< Of checkpoints_.
   std::uint64_t spacing_;                       ///< Work between two of them.
   std::map<std::uint64_t, Simulation> nearby_;  ///< By their work.
