@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <condition_variable>
 #include <mutex>
-#include <thread>
 #include <vector>
 
 #include "analyzer/checker.h"
 #include "analyzer/rendering.h"
+#include "analyzer/side_by_side.h"
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
 
@@ -69,10 +69,7 @@ class Pass {
         checker_(setup, jumps) {}
 
   void run() {
-    std::vector<std::thread> helpers;
-    for (int i = 1; i < jobs_; ++i) helpers.emplace_back([this] { work(); });
-    work();
-    for (std::thread& helper : helpers) helper.join();
+    side_by_side(jobs_, [this] { work(); });
   }
 
   const Checker& checker() const { return checker_; }

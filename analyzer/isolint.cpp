@@ -20,6 +20,7 @@
 #include "analyzer/program_fixing.h"
 #include "analyzer/program_settings.h"
 #include "analyzer/renderers.h"
+#include "analyzer/side_by_side.h"
 #include "analyzer/style_findings.h"
 #include "analyzer/suppressions.h"
 #include "analyzer/tally.h"
@@ -115,10 +116,7 @@ class Run {
     }
     renderer_->begin(output_.buffer());
     const auto workers = std::min<std::size_t>(static_cast<std::size_t>(jobs_), files_.size());
-    std::vector<std::thread> helpers;
-    for (std::size_t i = 1; i < workers; ++i) helpers.emplace_back([this] { work(); });
-    work();
-    for (std::thread& helper : helpers) helper.join();
+    side_by_side(static_cast<int>(workers), [this] { work(); });
     progress_.clear();
     renderer_->end(output_.buffer());
     if (!output_.finish()) return kTrouble;

@@ -3,6 +3,7 @@
 #include <csignal>
 #include <exception>
 #include <iostream>
+#include <new>
 
 #include <unistd.h>
 
@@ -13,15 +14,38 @@
 
 namespace isocnc::running {
 
+static std::string_view running_program;
+
+/// Tells of the exception that is being handled, or of the one that nobody handles; asks for no memory.
+static void tell_of_failure() {
+  try {
+    if (const std::exception_ptr failure = std::current_exception()) std::rethrow_exception(failure);
+    std::cerr << running_program << ": internal error\n";
+  } catch (const std::bad_alloc&) {
+    std::cerr << running_program << ": out of memory; memoria esaurita\n";
+  } catch (const std::exception& error) {
+    std::cerr << running_program << ": internal error: " << error.what() << '\n';
+  }
+}
+
+/// Of a thread among several, whose exception cannot come to the others.
+[[noreturn]] static void end_in_trouble() {
+  tell_of_failure();
+  remove_temporary_files();
+  ::_exit(kTroubleStatus);
+}
+
 int program_main(std::string_view program, int (*run)(int argc, char** argv), int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   tell_of_lost_bytes(program);
   leave_no_temporary_files();
+  running_program = program;
+  std::set_terminate(end_in_trouble);
   try {
     return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << program << ": internal error: " << error.what() << '\n';
+  } catch (const std::exception&) {
+    tell_of_failure();
     return kTroubleStatus;
   }
 }

@@ -10,9 +10,10 @@ namespace isocnc::running {
 /// The exit status of a program that cannot do what it has been asked for.
 inline constexpr int kTroubleStatus = 2;
 
-/// What main() does. `run` returns the exit status; an exception that it throws is told. While it runs, a pipe that
-/// nobody reads any more and a file that may not grow are writes that fail, and no signals; a mapped file that is cut
-/// short is told, and a signal that ends the program leaves no temporary files.
+/// What main() does. `run` returns the exit status; an exception that it throws, or that nobody catches in another
+/// thread, is told, and is trouble. While it runs, a pipe that nobody reads any more and a file that may not grow are
+/// writes that fail, and no signals; a mapped file that is cut short is told, and a signal that ends the program leaves
+/// no temporary files.
 int program_main(std::string_view program, int (*run)(int argc, char** argv), int argc, char** argv);
 
 /// `isofmt: part.iso: cannot read: Permission denied`, on standard error, with nothing in it that a terminal would
