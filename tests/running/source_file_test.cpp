@@ -1,5 +1,6 @@
 #include "interpreter/running/source_file.h"
 #include "tests/support/in_child.h"
+#include "tests/support/random.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -237,7 +238,9 @@ TEST_F(SourceFiles, FileTooLargeForTheMemoryIsAProblem) {
   const fs::path file = "/proc/self/fd/" + std::to_string(descriptor);
   EXPECT_EQ(shown(SourceFile::open(file, Language::English)), "[cannot read: Cannot allocate memory]");
   EXPECT_EQ(shown(SourceFile::open(file, Language::Italian)), "[non si può leggere: memoria insufficiente]");
-  EXPECT_EQ(shown(SourceFile::open_unmapped(file, Language::English)), "[cannot read: Cannot allocate memory]");
+  if (support::kTriesAll) {  // The address sanitizer ends a program that asks for so much.
+    EXPECT_EQ(shown(SourceFile::open_unmapped(file, Language::English)), "[cannot read: Cannot allocate memory]");
+  }
   ::close(descriptor);
 }
 
