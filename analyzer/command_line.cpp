@@ -135,9 +135,10 @@ static void add_options(running::ProgramApp& program, Options& options) {
   program.add_flag(
       "--show-config", options.show_config,
       {"Print the configuration of PATH, and where it is", "Stampa la configurazione di PATH, e dove si trova"});
-  // What writes docs/isocnc.schema.json, a table of docs/configuration.md, and docs/rules.md.
+  // What writes docs/isocnc.schema.json, a table of docs/configuration.md, docs/machine.md, and docs/rules.md.
   program.add_flag("--config-schema", options.config_schema, {}).hidden();
   program.add_flag("--config-keys", options.config_keys, {}).hidden();
+  program.add_flag("--machine-page", options.machine_page, {}).hidden();
   program.add_flag("--rules-page", options.rules_page, {}).hidden();
 
   std::vector<std::string> codes;

@@ -33,6 +33,7 @@ struct Options {
   bool show_config = false;
   bool config_schema = false;
   bool config_keys = false;
+  bool machine_page = false;
   configuration::Source source;
 
   dialect::Language reader_language() const;

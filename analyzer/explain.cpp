@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "analyzer/finding_fixes.h"
 #include "analyzer/fixes/fix_table.h"
 #include "analyzer/suppressions.h"
+#include "interpreter/configuration/show.h"
 
 namespace isocnc::analyzer {
 
@@ -122,6 +124,17 @@ static std::vector<std::string> fixes_of(DiagnosticId id, Language language) {
   return lines;
 }
 
+/// `lint.options.longestDwell, else 120 s`: the keys of isocnc.json that a code goes by.
+static std::vector<std::string> keys_of(std::string_view code, Language language,
+                                        const std::function<std::string(std::string_view path)>& named) {
+  static constexpr Text kElse = {", else ", ", altrimenti "};
+  std::vector<std::string> lines;
+  for (const configuration::CodeOption& option : configuration::options_of(code))
+    lines.push_back(named(option.path) +
+                    (option.fallback.empty() ? "" : std::string(kElse.in(language)) + option.fallback));
+  return lines;
+}
+
 std::string explain(dialect::DiagnosticId id, Language language) {
   const DiagnosticDef& def = dialect::definition(id);
   std::string result = fmt::format("{} {} ({}, {} {})\n{}\n\n", def.code, def.name, severity_text(def, language),
@@ -131,6 +144,9 @@ std::string explain(dialect::DiagnosticId id, Language language) {
   if (!def.right.empty()) result += fmt::format("\n{}\n{}", kRight.in(language), shown(def.right));
   result += '\n';
   for (const std::string& fix : fixes_of(id, language)) result += fix + '\n';
+  static constexpr Text kOption = {"Option in isocnc.json: ", "Opzione in isocnc.json: "};
+  const auto named = [&](std::string_view path) { return fmt::format("{}{}", kOption.in(language), path); };
+  for (const std::string& key : keys_of(def.code, language, named)) result += key + '\n';
   return result;
 }
 
@@ -160,6 +176,11 @@ std::string rules_page() {
     page += '\n';
     const auto row = static_cast<std::uint8_t>(&def - dialect::kDiagnostics);
     for (const std::string& fix : fixes_of(DiagnosticId{row}, Language::English)) page += fmt::format("- {}\n", fix);
+    const auto linked = [](std::string_view path) {
+      return fmt::format("[`{}`]({})", path, path.starts_with("machine.") ? "machine.md" : "configuration.md#keys");
+    };
+    for (const std::string& key : keys_of(def.code, Language::English, linked))
+      page += fmt::format("- Option: {}\n", key);
   }
   return page;
 }

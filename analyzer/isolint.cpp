@@ -444,6 +444,7 @@ int run_main(int argc, char** argv) {
   if (options.rules_page) return say(rules_page(), options);
   if (options.config_schema) return say(configuration::json_schema(), options);
   if (options.config_keys) return say(configuration::key_page(), options);
+  if (options.machine_page) return say(configuration::machine_page(), options);
   if (options.show_config) return show_config(options);
   if (options.list_rules) return say(list_rules(options.reader_language()), options);
   if (!options.explain.empty()) return explain_code(options);

@@ -79,7 +79,8 @@ static std::optional<Objection> min_above_max(const execution::Travel& travel) {
 }
 
 static void add_axes(std::vector<Key>& keys) {
-  keys.push_back({.path = "machine.axes", .documentation = "From where to where the axes go, in machine coordinates."});
+  keys.push_back({.path = "machine.axes",
+                  .documentation = "From where to where the axes go, in machine coordinates (W130), and how fast."});
   for (const Axis& axis : kAxes) {
     const std::string path = "machine.axes." + std::string(axis.letter);
     const auto travel = [axis](Configuration& c) -> execution::Travel& {
@@ -106,7 +107,7 @@ static void add_axes(std::vector<Key>& keys) {
                     .kind = Kind::Number,
                     .range = kSpeed,
                     .unit = axis.is_rotary ? "degrees/min" : "mm/min",
-                    .documentation = "How fast the axis goes at most, in rapids and else.",
+                    .documentation = "How fast the axis goes at most, in rapid and in feed.",
                     .slot = [axis](Configuration& c, std::size_t) -> Slot { return &c.machine.rapids[axis.index]; }});
     keys.push_back({.path = path + ".acceleration",
                     .kind = Kind::Number,
@@ -132,19 +133,19 @@ static void add_limits(std::vector<Key>& keys) {
                   .kind = Kind::Number,
                   .range = kSpeed,
                   .unit = "mm/min",
-                  .documentation = "The greatest feed rate.",
+                  .documentation = "The greatest feed rate (W131).",
                   .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.setup.limits.feed; }});
   keys.push_back({.path = "machine.maxRotarySpeed",
                   .kind = Kind::Number,
                   .range = kSpeed,
                   .unit = "degrees/min",
-                  .documentation = "How fast B and C turn at most.",
+                  .documentation = "How fast B and C turn at most (W132).",
                   .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.setup.limits.rotary_speed; }});
   keys.push_back({.path = "machine.maxSpindleSpeed",
                   .kind = Kind::Number,
                   .range = kSpeed,
                   .unit = "rev/min",
-                  .documentation = "The greatest S.",
+                  .documentation = "The greatest S (W133).",
                   .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.setup.limits.spindle_speed; }});
   keys.push_back({.path = "machine.tolerances", .documentation = "How exact the control wants programs to be."});
   keys.push_back({.path = "machine.tolerances.arc",
@@ -171,7 +172,7 @@ static void add_limits(std::vector<Key>& keys) {
                   .kind = Kind::Number,
                   .range = kLength,
                   .unit = "mm",
-                  .documentation = "The Z of the face frame below which no rapid should go.",
+                  .documentation = "The Z of the face frame below which no rapid should go (W134).",
                   .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.setup.clearance; }});
 }
 
@@ -194,7 +195,7 @@ static void add_point(std::vector<Key>& keys, const std::string& path, std::stri
          .kind = Kind::Number,
          .range = kLength,
          .unit = "mm",
-         .documentation = "The coordinate.",
+         .documentation = documentation,
          .slot = [point, which, axis](Configuration& c, std::size_t) -> Slot { return &point(c, which)[axis]; }});
 }
 
@@ -294,7 +295,7 @@ static void add_functions(std::vector<Key>& keys) {
   keys.push_back({.path = "machine.functions",
                   .kind = Kind::Named,
                   .text = TextKind::Function,
-                  .documentation = "The M functions of the shop, each by its M: \"M100\".",
+                  .documentation = "The M functions of the shop, each by its M: \"M100\" (W129).",
                   .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.functions; },
                   .objection = function_twice});
   keys.push_back({.path = "machine.functions.*.name",

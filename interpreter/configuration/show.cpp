@@ -233,14 +233,115 @@ static std::string kind_of(const Key& key) {
   return kind;
 }
 
+static constexpr std::string_view kTableHead = "| Key | Value | Default | |\n|---|---|---|---|\n";
+
+static std::string row_of(std::string_view names, const Key& key, std::string_view defaults) {
+  return fmt::format("| {} | {} | {} | {} |\n", names, kind_of(key), defaults, key.documentation);
+}
+
 std::string key_page() {
-  std::string page = "| Key | Value | Default | |\n|---|---|---|---|\n";
+  std::string page(kTableHead);
   for (const Key& key : all_keys()) {
-    if (key.kind == KeyKind::Object && !key.slot) continue;  // Only its keys mean anything.
-    fmt::format_to(std::back_inserter(page), "| `{}` | {} | {} | {} |\n", key.path, kind_of(key), default_of(key),
-                   key.documentation);
+    if (key.path.starts_with("machine.")) continue;
+    if (key.path == "machine")
+      page += "| `machine` | object |  | The machine that programs are written for: [all its keys](machine.md). |\n";
+    else if (key.kind != KeyKind::Object || key.slot)  // Only the keys of other objects mean anything.
+      page += row_of(fmt::format("`{}`", key.path), key, default_of(key));
   }
   return page;
+}
+
+/// What stands between the begin of a path and its last part: `machine.axes.X.` of `machine.axes.X.min`.
+static std::string_view parent_of(const Key& key) { return std::string_view(key.path).substr(0, key.path.rfind('.')); }
+
+/// Keys that differ by their axis alone share a row, each with its default if those differ.
+static std::string rows_of(const std::vector<const Key*>& keys, std::size_t prefix) {
+  const auto alike = [](const Key& a, const Key& b) {
+    return kind_of(a) == kind_of(b) && a.documentation == b.documentation && a.is_required == b.is_required;
+  };
+  std::string rows;
+  for (auto key = keys.begin(); key != keys.end(); ++key) {
+    const auto is_alike = [&](const Key* other) { return alike(**key, *other); };
+    if (std::any_of(keys.begin(), key, is_alike)) continue;
+    std::vector<std::string> names;
+    std::vector<std::string> defaults;
+    for (auto other = key; other != keys.end(); ++other) {
+      if (!is_alike(*other)) continue;
+      names.push_back(fmt::format("`{}`", (*other)->path.substr(prefix)));
+      defaults.push_back(default_of(**other));
+    }
+    if (std::equal(defaults.begin() + 1, defaults.end(), defaults.begin())) defaults.resize(1);
+    rows += row_of(fmt::format("{}", fmt::join(names, ", ")), **key,
+                   (*key)->is_required ? "required" : fmt::format("{}", fmt::join(defaults, ", ")));
+  }
+  return rows;
+}
+
+/// The key's own section: what it is, and the table of the keys below it that have no section.
+static std::string section_of(const Key& section) {
+  const std::string prefix = section.path + (section.kind == KeyKind::Object    ? "."
+                                             : section.kind == KeyKind::Objects ? "[]."
+                                                                                : ".*.");
+  std::vector<const Key*> keys;
+  for (const Key& key : all_keys()) {
+    const bool has_section = section.path == "machine" && parent_of(key) != "machine";
+    if (key.path.starts_with(prefix) && key.kind < KeyKind::Number) continue;
+    if (key.path.starts_with(prefix) && !has_section) keys.push_back(&key);
+  }
+  return fmt::format("\n## {}\n\n{}\n\n{}{}", section.path, section.documentation, kTableHead,
+                     rows_of(keys, prefix.size()));
+}
+
+std::string machine_page() {
+  std::string page = R"(# The machine
+
+What `isolint`, `isorun`, `isols` and `isodap` may know of your machine: the object `machine` of [`isocnc.json`](configuration.md), which stands beside
+the programs or above them. This page is made from the table that also reads the file (`isolint --machine-page`); the
+[schema](isocnc.schema.json) that editors complete by is made from it, too.
+
+```jsonc
+{
+  "machine": {
+    "axes": {
+      "X": {"min": 0, "max": 3200},
+      "Y": {"min": 0, "max": 1600},
+      "Z": {"min": -250, "max": 0}
+    },
+    "tools": [
+      {"head": 1, "holder": 1, "tool": 1, "name": "cutter 20", "length": 120.5, "radius": 10}
+    ]
+  }
+}
+```
+
+is enough to begin with. All else may be left out: what the machine does not tell is not checked (without `tools` any tool may be mounted, but
+an empty list is a machine without any), and times come from the [default machine](motion.md#the-machine). A larger file stands beside its program in [`examples/machine`](../examples/machine/isocnc.json);
+[`examples/machines`](../examples/machines/head.json) has ready ones with a [head](../examples/machines/head.json), a
+[table](../examples/machines/table.json) and [three axes](../examples/machines/three-axis.json), which `isorun --machine FILE` takes as they are. `isolint --show-config`
+prints all that is in force, and every command names a key that is misspelt.
+
+The travel of `axes` is judged twice: `isolint` holds the tool tip against it (W130), which needs no more than the program; `isorun` holds the joints
+against it, that is the spindle nose, with the tool's length and what the head swings. Speeds, accelerations, kinematics and times serve
+`isorun` and what the editors show of it.
+
+Codes in parentheses are the [findings](rules.md) that a key brings about. Machine coordinates are those of the control without any G92; how B and C
+are counted and where their axes stand is in [motion.md](motion.md#kinematics).
+)";
+  for (const Key& key : all_keys())
+    if (key.path == "machine" || (key.kind < KeyKind::Number && parent_of(key) == "machine")) page += section_of(key);
+  return page;
+}
+
+std::vector<CodeOption> options_of(std::string_view code) {
+  std::vector<CodeOption> options;
+  for (const Key& key : all_keys()) {
+    if (key.documentation.find(code) == std::string_view::npos) continue;
+    std::string fallback = default_of(key);
+    std::erase(fallback, '`');
+    if (!fallback.empty() && !key.unit.empty()) fallback += fmt::format(" {}", key.unit);
+    options.push_back({.path = key.path, .fallback = std::move(fallback)});
+  }
+  return options;
 }
 
 }  // namespace isocnc::configuration

@@ -2,10 +2,13 @@
 """Reads the configurations of docs/editors.md whose editors are not at hand, in what they are written in."""
 
 import json
+import re
 import subprocess
 import tomllib
 import xml.etree.ElementTree
 from pathlib import Path
+
+import yaml
 
 
 def configuration(language: str, heading: str) -> str:
@@ -20,4 +23,8 @@ assert kate["command"] == ["isols"]
 mode = xml.etree.ElementTree.fromstring(configuration("xml", "## Kate")).get("name")
 assert kate["highlightingModeRegex"] == f"^{mode}$"
 sublime = json.loads(configuration("json", "## Sublime Text"))["clients"]["isols"]
-assert f"scope: {sublime['selector']}\n" in configuration("yaml", "## Sublime Text")
+syntax = yaml.safe_load(configuration("yaml", "## Sublime Text"))
+assert syntax["scope"] == sublime["selector"]
+for rule in syntax["contexts"]["main"]:
+    re.compile(rule["match"])
+assert re.match(syntax["contexts"]["main"][1]["match"], "(a comment) G00")[0] == "(a comment)"

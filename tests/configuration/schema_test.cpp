@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <regex>
 #include <sstream>
 #include <string>
 
@@ -84,6 +86,47 @@ TEST(Schema, IsShipped) {
 TEST(Documentation, ListsAllKeys) {
   const bool listed = read_file(kRoot / "docs/configuration.md").find("\n" + key_page()) != std::string::npos;
   EXPECT_TRUE(listed) << "the table of docs/configuration.md is what isolint --config-keys prints";
+}
+
+TEST(Documentation, ListsTheKeysOfTheMachine) {
+  const std::string page = machine_page();
+  EXPECT_TRUE(read_file(kRoot / "docs/machine.md") == page) << "isolint --machine-page > docs/machine.md";
+  // Without the section that a key stands in: `X.min` of machine.axes.X.min, `head` of machine.tools[].head.
+  static const std::regex kMember(R"(machine\.(?:\w+(?:\[\])?\.(?:\*\.)?)?(.+))");
+  for (const Key& key : all_keys()) {
+    std::smatch match;
+    if (key.kind < KeyKind::Number || !std::regex_match(key.path, match, kMember)) continue;
+    EXPECT_NE(page.find("`" + match[1].str() + "`"), std::string::npos) << key.path;
+  }
+}
+
+TEST(Documentation, NamesNoKeyThatThereIsNot) {
+  static const std::regex kNamed(R"(`((?:machine\.(?!h`)|lint\.|format\.)[A-Za-z0-9_.*\[\]]+)`)");
+  std::size_t named = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(kRoot / "docs")) {
+    if (entry.path().extension() != ".md") continue;
+    const std::string page = read_file(entry.path());
+    for (std::sregex_iterator it(page.begin(), page.end(), kNamed); it != std::sregex_iterator(); ++it) {
+      const std::string path = (*it)[1];
+      const std::vector<Key>& keys = all_keys();
+      EXPECT_TRUE(std::any_of(keys.begin(), keys.end(), [&](const Key& key) { return key.path == path; }))
+          << entry.path() << ": " << path;
+      ++named;
+    }
+  }
+  EXPECT_GT(named, 30U);
+}
+
+TEST(Documentation, OfCodesNamesTheirKeys) {
+  const auto paths = [](std::string_view code) {
+    std::string all;
+    for (const CodeOption& option : options_of(code)) all += option.path + "=" + option.fallback + " ";
+    return all;
+  };
+  EXPECT_EQ(paths("W115"), "lint.options.longestDwell=120 s ");
+  EXPECT_EQ(paths("W128"), "lint.options.vectorError=0.001 ");
+  EXPECT_EQ(paths("W130"), "machine.axes= ");
+  EXPECT_EQ(paths("W001"), "");
 }
 
 /// Expects every key that the table knows.
