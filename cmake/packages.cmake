@@ -44,6 +44,7 @@ configure_file(cmake/changelog.Debian.in ${packaged}/changelog.Debian @ONLY)
 install(FILES ${packaged}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
 install_compressed(${packaged}/changelog.Debian changelog.Debian ${CMAKE_INSTALL_DOCDIR})
 install_compressed(${PROJECT_SOURCE_DIR}/CHANGELOG.md changelog ${CMAKE_INSTALL_DOCDIR})
+install(FILES cmake/lintian-overrides DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides RENAME isocnc COMPONENT programs)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs
         FILES_MATCHING PATTERN "*.md" PATTERN "*.json" PATTERN "*.svg" PATTERN "*.png" PATTERN man EXCLUDE)
