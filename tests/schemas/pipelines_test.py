@@ -37,6 +37,16 @@ class Pipelines(unittest.TestCase):
             with self.subTest(name=name):
                 jsonschema.validate(read(name), json.loads((SCHEMAS / schema).read_text()))
 
+    def test_the_page_of_hooks_names_those_that_there_are(self) -> None:
+        page = (ROOT / "docs/git.md").read_text()
+        hooks = {hook["id"] for hook in read(".pre-commit-hooks.yaml")}
+        (shown,) = re.findall(r"^```yaml\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+        used = {hook["id"] for repository in yaml.safe_load(shown)["repos"] for hook in repository["hooks"]}
+        self.assertTrue(used)
+        self.assertLessEqual(used, hooks)
+        for hook in hooks:
+            self.assertIn(f"`{hook}`", page)
+
     def test_the_workflow_uses_inputs_that_the_action_has(self) -> None:
         inputs = set(read("action.yml")["inputs"])
         steps = read("examples/ci/github-workflow.yml")["jobs"]["isolint"]["steps"]
