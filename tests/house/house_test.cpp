@@ -179,6 +179,19 @@ TEST(Documentation, VersionIsThatOfTheBuild) {
             version.substr(0, version.rfind('.')));
 }
 
+TEST(Documentation, TellsOfMessagesBeyondTheProtocols) {
+  static const std::regex kOwn(R"re("(isocnc[/.][A-Za-z]+)")re");
+  const std::string pages = read(kRoot / "docs/isols.md") + read(kRoot / "docs/isodap.md");
+  std::set<std::string> own;
+  for (const std::string& file : sources()) {
+    const std::string text = read(kRoot / file);
+    for (std::sregex_iterator it(text.begin(), text.end(), kOwn); it != std::sregex_iterator(); ++it)
+      if (file.starts_with("lsp/") || file.starts_with("debugger/")) own.insert((*it)[1]);
+  }
+  EXPECT_GT(own.size(), 6U);
+  for (const std::string& name : own) EXPECT_NE(pages.find("`" + name + "`"), std::string::npos) << name;
+}
+
 std::vector<fs::path> documents() {
   std::vector<fs::path> files;
   for (const std::string folder : {".", "docs", "docs/it", "bench", "examples/ci"})
