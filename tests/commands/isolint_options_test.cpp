@@ -88,6 +88,14 @@ TEST(IsolintExplain, SpeaksItalian) {
   EXPECT_THAT(result.out, HasSubstr("\nGiusto:\n"));
 }
 
+TEST(IsolintExplain, NamesTheKeyOfTheConfiguration) {
+  EXPECT_THAT(run_command({"isolint", "--explain", "W115"}).out,
+              testing::EndsWith("\nOption in isocnc.json: lint.options.longestDwell, else 120 s\n"));
+  EXPECT_THAT(run_command({"isolint", "--lang", "it", "--explain", "W115"}).out,
+              testing::EndsWith("\nOpzione in isocnc.json: lint.options.longestDwell, altrimenti 120 s\n"));
+  EXPECT_THAT(run_command({"isolint", "--explain", "W001"}).out, testing::Not(testing::HasSubstr("isocnc.json")));
+}
+
 TEST(IsolintExplain, SaysSoWhenThereIsNoSuchCode) {
   for (const std::string code : {"ISO069", "W", "x"}) {
     const CommandResult result = run_command({"isolint", "--explain", code});
