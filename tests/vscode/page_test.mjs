@@ -148,4 +148,12 @@ test('all can be done by keys', shown, async () => {
   assert.ok((await now()).line < atEnd);
 });
 
+test('a program that does not move yet shows its tool', shown, async () => {
+  await tell({ ...wholePath('still', recordingOf('M06 T101001\nM02\n')), program: 'still' });
+  const [tip, above] = await page.evaluate(() => [[0, 0, 0], [0, 0, 120]].map((place) => globalThis.isocnc.view.project(place)));
+  const { width, height } = await page.evaluate(() => globalThis.isocnc.view.canvas.getBoundingClientRect().toJSON());
+  for (const { x, y } of [tip, above]) assert.ok(x > 0 && x < width && y > 0 && y < height, `${x} ${y} in ${width} ${height}`);
+  assert.ok(tip.y - above.y > 20, `${tip.y - above.y} pixels`);
+});
+
 test('nothing has gone wrong', shown, () => assert.deepEqual(problems, []));

@@ -211,7 +211,8 @@ export class ToolpathView {
       [0, 1, 2].reduce((sum, i) => sum + Math.abs(direction.getComponent(i)) * (most[i] - least[i]), 0);
     const { clientWidth, clientHeight } = this.container;
     const free = Math.max(clientWidth - this.covered, clientWidth / 4) / Math.max(1, clientHeight);
-    const wanted = Math.max(extent(right) / free, extent(up), 5);
+    // Where nothing is cut yet, there is the tool to see, and not its inside.
+    const wanted = Math.max(extent(right) / free, extent(up), this.path.work ? 5 : 500);
     this.camera.zoom = this.size / (1.25 * wanted);
     const aside = ((this.covered / 2) * this.size) / this.camera.zoom / Math.max(1, clientHeight);
     for (const each of [this.controls.target, this.camera.position]) each.addScaledVector(right, aside);
