@@ -1,5 +1,5 @@
 // Modules of the extension, made to run here.
-import { mkdtempSync, rmSync } from 'node:fs';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -12,9 +12,14 @@ export const requireFromExtension = createRequire(join(extension, 'package.json'
 const folder = mkdtempSync(join(tmpdir(), 'isocnc-modules-'));
 process.on('exit', () => rmSync(folder, { recursive: true, force: true }));
 
-/** A file of vscode-extension/src. */
-export async function module(name) {
+/** A file of vscode-extension/src; `stubs` are sources of modules that it imports, by their names. */
+export async function module(name, stubs = {}) {
   const outfile = join(folder, `${name.replaceAll('/', '-')}.mjs`);
-  requireFromExtension('esbuild').buildSync({ entryPoints: [join(extension, 'src', `${name}.ts`)], bundle: true, format: 'esm', platform: 'node', outfile });
+  const alias = {};
+  for (const [stubbed, source] of Object.entries(stubs)) {
+    alias[stubbed] = join(folder, `${stubbed.replaceAll('/', '-')}.stub.mjs`);
+    writeFileSync(alias[stubbed], source);
+  }
+  requireFromExtension('esbuild').buildSync({ entryPoints: [join(extension, 'src', `${name}.ts`)], bundle: true, format: 'esm', platform: 'node', outfile, alias });
   return import(pathToFileURL(outfile));
 }

@@ -14,7 +14,7 @@ import * as virtualDocuments from './virtual_documents';
 
 let server: Server | null = null;
 
-export async function activate(context: vscode.ExtensionContext): Promise<void> {
+export function activate(context: vscode.ExtensionContext): void {
   const environment = new Environment(context);
   server = new Server(environment);
   const source = new ToolpathSource(server);
@@ -28,7 +28,8 @@ export async function activate(context: vscode.ExtensionContext): Promise<void> 
   testDrive.activate(context);
   toolpath.activate(context, source);
   virtualDocuments.activate(context, server);
-  await server.start();
+  // F5 and all commands wait until this has returned; a server may never answer, and its advice wait for the user.
+  void server.start();
 }
 
 export async function deactivate(): Promise<void> {

@@ -40,6 +40,8 @@ export class Server implements vscode.Disposable {
   private readonly changed = new vscode.EventEmitter<ServerState>();
   private client: LanguageClient | null = null;
   private current: ServerState = 'stopped';
+  /** How often it has been asked to start anew. */
+  private restarts = 0;
   private readonly subscriptions: vscode.Disposable[] = [];
 
   readonly onState = this.changed.event;
@@ -88,19 +90,24 @@ export class Server implements vscode.Disposable {
     this.client = client;
     try {
       await client.start();
+      // Given up while it was starting, when it could not be ended.
+      if (this.client !== client) await client.dispose();
     } catch (error) {
       this.output.error(String(error));
+      if (this.client !== client) return;
       this.tell('stopped');
       await this.adviseStopped();
     }
   }
 
+  /** Of several in a row, as when a path is typed into the settings, the last one starts the server. */
   async restart(): Promise<void> {
+    const restart = ++this.restarts;
     const client = this.client;
     this.client = null;
     this.tell('stopped');
     await client?.dispose().catch((error: unknown) => this.output.warn(String(error)));
-    await this.start();
+    if (restart === this.restarts) await this.start();
   }
 
   /** Asks the server; waits for it where it is just starting. Throws what it answers. */
