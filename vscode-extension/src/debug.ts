@@ -1,8 +1,9 @@
 /** Debugging by isodap: started by F5, by buttons, from a line; MDI blocks. */
 import { existsSync } from 'node:fs';
 import * as vscode from 'vscode';
-import { completed } from './debug_configuration';
-import type { Environment } from './environment';
+import { currentProgram, isInFile } from './current_program';
+import { absolute, completed } from './debug_configuration';
+import { language, type Environment } from './environment';
 import { expressionAt } from './program_text';
 import { programOf, type Place } from './simulator';
 
@@ -16,7 +17,7 @@ export function activate(context: vscode.ExtensionContext, environment: Environm
         const isodap = environment.find('isodap');
         // The provider has told the user already.
         if (!isodap) throw new Error(vscode.l10n.t('There is no isodap.'));
-        return new vscode.DebugAdapterExecutable(isodap, []);
+        return new vscode.DebugAdapterExecutable(isodap, ['--lang', language()]);
       },
     }),
     vscode.debug.registerDebugConfigurationProvider(type, provider),
@@ -49,24 +50,24 @@ class ConfigurationProvider implements vscode.DebugConfigurationProvider {
     _folder: vscode.WorkspaceFolder | undefined,
     configuration: vscode.DebugConfiguration,
   ): vscode.DebugConfiguration | null | undefined {
-    const document = vscode.window.activeTextEditor?.document;
-    const program = document?.languageId === type && !document.isUntitled ? document.fileName : null;
+    const document = currentProgram();
+    const program = document?.uri.scheme === 'file' ? document.fileName : null;
     const complete = completed(configuration, program, configurationName());
-    if (complete) return complete;
-    void vscode.window.showInformationMessage(vscode.l10n.t('Open an ISOCNC program first.'));
-    return undefined;
+    if (!complete) isInFile(document);
+    return complete ?? undefined;
   }
 
   async resolveDebugConfigurationWithSubstitutedVariables(
-    _folder: vscode.WorkspaceFolder | undefined,
+    folder: vscode.WorkspaceFolder | undefined,
     configuration: vscode.DebugConfiguration,
   ): Promise<vscode.DebugConfiguration | null | undefined> {
-    const program = configuration.program as string;
+    const complete = absolute(configuration, (folder ?? vscode.workspace.workspaceFolders?.[0])?.uri.fsPath);
+    const program = complete.program!;
     if (!existsSync(program)) {
       void vscode.window.showErrorMessage(vscode.l10n.t('There is no program {0}.', program));
       return undefined;
     }
-    return (await this.environment.need('isodap')) ? configuration : undefined;
+    return (await this.environment.need('isodap')) ? complete : undefined;
   }
 }
 

@@ -1,4 +1,5 @@
 /** Launch configurations that are filled in where the user has left something out. */
+import { resolve } from 'node:path';
 
 export interface LaunchConfiguration {
   type: string;
@@ -12,7 +13,8 @@ export interface LaunchConfiguration {
 /** Of an empty configuration, F5 without a launch.json, one that runs this program; null where there is none to run. */
 export function completed(configuration: Partial<LaunchConfiguration>, program: string | null, name: string): LaunchConfiguration | null {
   const isEmpty = !configuration.type && !configuration.request && !configuration.name;
-  const given = configuration.program ?? program;
+  // VS Code has no ${file} where something else than a text has the focus, such as the toolpath.
+  const given = configuration.program === '${file}' ? (program ?? configuration.program) : (configuration.program ?? program);
   if (!given) return null;
   return {
     ...configuration,
@@ -22,4 +24,11 @@ export function completed(configuration: Partial<LaunchConfiguration>, program: 
     program: given,
     stopOnEntry: configuration.stopOnEntry ?? isEmpty,
   };
+}
+
+/** With files named from the workspace's folder, where they are named from anywhere. */
+export function absolute(configuration: LaunchConfiguration, folder: string | undefined): LaunchConfiguration {
+  const from = (file: unknown) => (folder && typeof file === 'string' && file ? resolve(folder, file) : file);
+  const named = (['program', 'machine'] as const).filter((key) => key in configuration);
+  return { ...configuration, ...Object.fromEntries(named.map((key) => [key, from(configuration[key])])) };
 }

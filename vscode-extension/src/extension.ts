@@ -1,5 +1,6 @@
 import * as vscode from 'vscode';
 import * as commands from './commands';
+import * as currentProgram from './current_program';
 import * as debug from './debug';
 import { Environment } from './environment';
 import * as largeFiles from './large_files';
@@ -19,6 +20,7 @@ export function activate(context: vscode.ExtensionContext): void {
   server = new Server(environment);
   const source = new ToolpathSource(server);
   context.subscriptions.push(server, source);
+  currentProgram.activate(context);
   commands.activate(context, server);
   debug.activate(context, environment);
   largeFiles.activate(context, environment);

@@ -2,6 +2,7 @@
 import { execFile } from 'node:child_process';
 import { promisify } from 'node:util';
 import * as vscode from 'vscode';
+import { currentProgram, isInFile } from './current_program';
 import { language, type Environment } from './environment';
 import { programTask } from './tasks';
 
@@ -14,15 +15,8 @@ export interface Place {
 /** The program that a command is about, saved; null where there is none that lies in a file. */
 export async function programOf(place?: Place | vscode.Uri): Promise<vscode.TextDocument | null> {
   const uri = place instanceof vscode.Uri ? place : place ? vscode.Uri.parse(place.uri) : undefined;
-  const document = uri ? await vscode.workspace.openTextDocument(uri) : vscode.window.activeTextEditor?.document;
-  if (document?.languageId !== 'isocnc') {
-    void vscode.window.showInformationMessage(vscode.l10n.t('Open an ISOCNC program first.'));
-    return null;
-  }
-  if (document.isUntitled || document.uri.scheme !== 'file') {
-    void vscode.window.showInformationMessage(vscode.l10n.t('Save the program first: it is run from its file.'));
-    return null;
-  }
+  const document = uri ? await vscode.workspace.openTextDocument(uri) : currentProgram();
+  if (!isInFile(document)) return null;
   return !document.isDirty || (await document.save()) ? document : null;
 }
 

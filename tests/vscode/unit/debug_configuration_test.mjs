@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { module } from '../modules.mjs';
 
-const { completed } = await module('debug_configuration');
+const { absolute, completed } = await module('debug_configuration');
 const { readPosition } = await module('toolpath/position');
 
 test('F5 without a configuration runs the open program, and stops at its first block', () => {
@@ -14,6 +14,21 @@ test('F5 without a configuration runs the open program, and stops at its first b
 test('what is given stays', () => {
   const given = { type: 'isocnc', request: 'launch', name: 'Mine', program: '/b.iso', speed: 2 };
   assert.deepEqual(completed(given, '/parts/a.iso', 'Debug'), { ...given, stopOnEntry: false });
+});
+
+test('the file in the editor is the open program, whatever has the focus', () => {
+  const given = { type: 'isocnc', request: 'launch', name: 'Mine', program: '${file}' };
+  assert.equal(completed(given, '/parts/a.iso', 'Debug').program, '/parts/a.iso');
+  assert.equal(completed(given, null, 'Debug').program, '${file}');
+  assert.equal(completed({ ...given, program: '${file}.iso' }, '/parts/a.iso', 'Debug').program, '${file}.iso');
+});
+
+test('files are named from the folder of the workspace', () => {
+  const given = { type: 'isocnc', request: 'launch', name: 'Mine', program: 'a/b.iso', machine: '../isocnc.json' };
+  assert.deepEqual(absolute(given, '/parts'), { ...given, program: '/parts/a/b.iso', machine: '/isocnc.json' });
+  assert.deepEqual(absolute({ ...given, program: '/b.iso', machine: '' }, '/parts'), { ...given, program: '/b.iso', machine: '' });
+  assert.deepEqual(absolute(given, undefined), given);
+  assert.ok(!('machine' in absolute({ type: 'isocnc', request: 'launch', name: 'Mine', program: 'b.iso' }, '/parts')));
 });
 
 test('there may be nothing to run', () => assert.equal(completed({}, null, 'Debug'), null));

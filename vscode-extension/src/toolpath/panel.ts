@@ -4,6 +4,7 @@ import { readFileSync } from 'node:fs';
 import { basename } from 'node:path';
 import * as vscode from 'vscode';
 import type { Vector } from '../../../toolpath-view/src/toolpath';
+import { adviseOpen, currentProgram } from '../current_program';
 import { language, settings } from '../environment';
 import type { ToPage, ToPanel } from './messages';
 import { readPosition } from './position';
@@ -24,9 +25,9 @@ export function activate(context: vscode.ExtensionContext, source: ToolpathSourc
   };
   const open = async (uri?: vscode.Uri) => {
     const wanted = uri instanceof vscode.Uri ? await vscode.workspace.openTextDocument(uri) : undefined;
-    const document = wanted ?? vscode.window.activeTextEditor?.document;
+    const document = wanted ?? currentProgram();
     if (document?.languageId !== 'isocnc') {
-      void vscode.window.showInformationMessage(vscode.l10n.t('Open an ISOCNC program first.'));
+      void adviseOpen();
     } else if (panel) {
       panel.reveal();
       panel.show(document);
