@@ -1,13 +1,23 @@
 /** A folder of programs to play with. */
 import * as vscode from 'vscode';
 
+/** In the global state: the folder that is just being opened. */
+const opened = 'testDrive';
+
 export function activate(context: vscode.ExtensionContext): void {
-  context.subscriptions.push(
-    vscode.commands.registerCommand('isocnc.openTestDrive', () => open(vscode.Uri.joinPath(context.extensionUri, 'test-drive'))),
-  );
+  context.subscriptions.push(vscode.commands.registerCommand('isocnc.openTestDrive', () => open(context)));
+  void begin(context);
 }
 
-async function open(source: vscode.Uri): Promise<void> {
+/** The window has been opened for the test drive: its first program is what to begin with. */
+async function begin({ globalState }: vscode.ExtensionContext): Promise<void> {
+  const folder = vscode.workspace.workspaceFolders?.[0].uri;
+  if (!folder || globalState.get(opened) !== folder.toString()) return;
+  await globalState.update(opened, undefined);
+  await vscode.window.showTextDocument(vscode.Uri.joinPath(folder, 'start-here.iso'));
+}
+
+async function open({ extensionUri, globalState }: vscode.ExtensionContext): Promise<void> {
   const chosen = await vscode.window.showOpenDialog({
     canSelectFolders: true,
     canSelectFiles: false,
@@ -17,10 +27,11 @@ async function open(source: vscode.Uri): Promise<void> {
   if (!chosen) return;
   const target = vscode.Uri.joinPath(chosen[0], 'isocnc-test-drive');
   try {
-    await vscode.workspace.fs.copy(source, target, { overwrite: false });
+    await vscode.workspace.fs.copy(vscode.Uri.joinPath(extensionUri, 'test-drive'), target, { overwrite: false });
   } catch (error) {
     // It has been opened before, and is the user's by now.
     if (!(error instanceof vscode.FileSystemError) || error.code !== 'FileExists') throw error;
   }
+  await globalState.update(opened, target.toString());
   await vscode.commands.executeCommand('vscode.openFolder', target, { forceNewWindow: !!vscode.workspace.workspaceFolders });
 }
