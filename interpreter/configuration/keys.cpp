@@ -448,7 +448,7 @@ const std::vector<Key>& all_keys() {
   return kKeys;
 }
 
-static std::string prefix_of(const Key* key) {
+std::string prefix_of(const Key* key) {
   if (key == nullptr) return "";
   if (key->kind == Kind::Objects) return key->path + "[].";
   return key->path + (key->kind == Kind::Named ? ".*." : ".");

@@ -79,6 +79,9 @@ const std::vector<Key>& all_keys();
 /// The keys of an object, of the elements of a list or of named objects; empty is the whole file.
 std::vector<const Key*> keys_below(const Key* key);
 
+/// What the paths of these keys begin with: `machine.tools[].`
+std::string prefix_of(const Key* key);
+
 /// What severities may be given.
 std::span<const std::string_view> severity_choices();
 

@@ -251,7 +251,7 @@ std::string key_page() {
   return page;
 }
 
-/// What stands between the begin of a path and its last part: `machine.axes.X.` of `machine.axes.X.min`.
+/// The path without its last part: `machine.axes.X` of `machine.axes.X.min`.
 static std::string_view parent_of(const Key& key) { return std::string_view(key.path).substr(0, key.path.rfind('.')); }
 
 /// Keys that differ by their axis alone share a row, each with its default if those differ.
@@ -279,14 +279,11 @@ static std::string rows_of(const std::vector<const Key*>& keys, std::size_t pref
 
 /// The key's own section: what it is, and the table of the keys below it that have no section.
 static std::string section_of(const Key& section) {
-  const std::string prefix = section.path + (section.kind == KeyKind::Object    ? "."
-                                             : section.kind == KeyKind::Objects ? "[]."
-                                                                                : ".*.");
+  const std::string prefix = prefix_of(&section);
   std::vector<const Key*> keys;
   for (const Key& key : all_keys()) {
     const bool has_section = section.path == "machine" && parent_of(key) != "machine";
-    if (key.path.starts_with(prefix) && key.kind < KeyKind::Number) continue;
-    if (key.path.starts_with(prefix) && !has_section) keys.push_back(&key);
+    if (key.path.starts_with(prefix) && key.kind >= KeyKind::Number && !has_section) keys.push_back(&key);
   }
   return fmt::format("\n## {}\n\n{}\n\n{}{}", section.path, section.documentation, kTableHead,
                      rows_of(keys, prefix.size()));

@@ -35,13 +35,15 @@ std::string read_file(const std::filesystem::path& file) {
 
 json parsed(std::string_view text) { return json::parse(text, nullptr, true, true); }
 
-/// The first example of docs/configuration.md.
-std::string complete_example() {
-  const std::string page = read_file(kRoot / "docs/configuration.md");
+/// The first example of a page.
+std::string example_of(const std::filesystem::path& name) {
+  const std::string page = read_file(kRoot / name);
   static constexpr std::string_view kFence = "```jsonc\n";
   const std::size_t begin = page.find(kFence) + kFence.size();
   return page.substr(begin, page.find("```", begin) - begin);
 }
+
+std::string complete_example() { return example_of("docs/configuration.md"); }
 
 /// What a command prints.
 std::string output_of(const std::string& command) {
@@ -98,6 +100,12 @@ TEST(Documentation, ListsTheKeysOfTheMachine) {
     if (key.kind < KeyKind::Number || !std::regex_match(key.path, match, kMember)) continue;
     EXPECT_NE(page.find("`" + match[1].str() + "`"), std::string::npos) << key.path;
   }
+}
+
+TEST(Documentation, HasAMachineToBeginWith) {
+  const ReadConfiguration read = read_configuration(example_of("docs/machine.md"), "/");
+  EXPECT_TRUE(read.mistakes.empty());
+  EXPECT_EQ(read.configuration.machine.tools->size(), 1U);
 }
 
 TEST(Documentation, NamesNoKeyThatThereIsNot) {
