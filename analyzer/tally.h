@@ -27,7 +27,7 @@ class Tally {
   /// The most that a code weighed where it was found.
   dialect::Severity heaviest(dialect::DiagnosticId id) const {
     const Counts& counts = counts_[static_cast<std::size_t>(id)];
-    const auto first = std::find_if(counts.begin(), counts.end(), [](std::size_t count) { return count > 0; });
+    const auto* const first = std::find_if(counts.begin(), counts.end(), [](std::size_t count) { return count > 0; });
     return first == counts.end() ? dialect::definition(id).severity : dialect::Severity(first - counts.begin());
   }
 
