@@ -1,7 +1,7 @@
 // The packaged extension in a real VS Code in a real browser, as its users have it: what is on the page is what counts.
 // With ISOCNC_SCREENSHOTS=FOLDER it leaves pictures there, which docs/images/ has.
 import assert from 'node:assert/strict';
-import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, readFileSync, symlinkSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, afterEach, test } from 'node:test';
 import { Editor, eventually, root } from './editor.mjs';
@@ -52,6 +52,36 @@ assert.ok(extension && codeServer, 'ISOCNC_VSIX and ISOCNC_CODE_SERVER name the 
 const editor = await Editor.start({ codeServer, extension });
 const { page } = editor;
 
+/** The folder of a script that stands for a program. */
+function program(folder, name, script) {
+  const path = join(editor.folder, folder);
+  mkdirSync(path);
+  writeFileSync(join(path, name), `#!${process.execPath}\n${script}\n`, { mode: 0o755 });
+  return path;
+}
+
+/** It answers to initialize, and knows nothing else. */
+const oldServer = `
+let bytes = Buffer.alloc(0);
+const answer = ({ id, method }) =>
+  method === 'initialize' ? { result: { capabilities: {}, serverInfo: { name: 'isols', version: '0.0.9' } } }
+  : method === 'shutdown' ? { result: null }
+  : { error: { code: -32601, message: 'unknown' } };
+process.stdin.on('end', () => process.exit());
+process.stdin.on('data', (data) => {
+  bytes = Buffer.concat([bytes, data]);
+  for (let end; (end = bytes.indexOf('\\r\\n\\r\\n')) >= 0; ) {
+    const length = Number(/Content-Length: (\\d+)/.exec(bytes.subarray(0, end))[1]);
+    if (bytes.length < end + 4 + length) return;
+    const message = JSON.parse(bytes.subarray(end + 4, end + 4 + length));
+    bytes = bytes.subarray(end + 4 + length);
+    if (message.method === 'exit') process.exit();
+    if (message.id === undefined) continue;
+    const text = JSON.stringify({ jsonrpc: '2.0', id: message.id, ...answer(message) });
+    process.stdout.write('Content-Length: ' + Buffer.byteLength(text) + '\\r\\n\\r\\n' + text);
+  }
+});`;
+
 /** A picture of what is there, once it is drawn. */
 async function keep(name) {
   if (!pictures) return;
@@ -64,6 +94,8 @@ for (const name of ['start-here.iso', 'isocnc.json']) editor.add(name, join(root
 for (const name of ['pocket.iso', 'five-axis.iso']) editor.add(name, join(root, 'examples', name));
 editor.add('plate.iso', plate);
 editor.add('registers.iso', registers);
+// Never opened: what is told of it comes from tasks.
+editor.add('closed.iso', 'G71 G90\nG05 X1\nM02\n');
 editor.add('program.tap', 'G71 G90\nM06 T101001\nM02\n');
 editor.add('notes.tap', 'feeds to try\nM06 T101001\n');
 await editor.openWorkbench();
@@ -86,6 +118,15 @@ async function hidePanel() {
   await close.waitFor({ state: 'hidden' });
 }
 
+/** A file of the workspace's settings. */
+function writeInFolder(name, content) {
+  const folder = join(editor.workspace, '.vscode');
+  mkdirSync(folder, { recursive: true });
+  writeFileSync(join(folder, name), JSON.stringify(content));
+}
+const writeSettings = (settings) => writeInFolder('settings.json', settings);
+
+const notices = () => editor.texts('.notification-toast');
 const squiggles = () => page.locator('.squiggly-error').count();
 const problems = () => editor.texts('.markers-panel .monaco-list-row');
 
@@ -351,6 +392,26 @@ test('text of another ending is known by its first line', async () => {
   await page.locator('#status\\.editor\\.mode', { hasText: 'ISOCNC' }).waitFor();
 });
 
+test('a task lists the problems of programs that are not open', async () => {
+  // Without a problemMatcher it has those of the extension's own tasks.
+  writeInFolder('tasks.json', { version: '2.0.0', tasks: [{ label: 'check parts', type: 'isocnc', command: 'isolint' }] });
+  await eventually(
+    async () => {
+      await editor.press('Escape', 'Control+p');
+      await page.locator('.quick-input-widget input').first().fill('task check parts');
+      await page.locator('.quick-input-list .monaco-list-row.focused', { hasText: 'check parts' }).waitFor({ timeout: 5000 });
+      await editor.press('Enter');
+      return true;
+    },
+    'there is no task',
+  );
+  // The terminal comes to the front with the task.
+  await eventually(() => editor.texts('.terminal-wrapper.active .xterm-rows'), 'the task tells nothing', (texts) => /closed\.iso:2:1/.test(texts.join()));
+  await editor.command('Problems: Focus on Problems View');
+  await eventually(problems, 'the task finds nothing', (rows) => rows.some((row) => /^closed\.iso/.test(row)));
+  await hidePanel();
+});
+
 test('the server is started anew', async () => {
   await editor.open('start-here.iso');
   await editor.command('ISOCNC: Restart Language Server');
@@ -375,19 +436,31 @@ const step = async (key, line) => {
   await eventually(stoppedAt, `${key} does not lead to line ${line}`, (now) => now === line);
 };
 
+/** F5 until the debugger is there: a busy page may lose a key. */
+const startDebugging = () =>
+  eventually(
+    async () => {
+      await editor.focus();
+      await editor.press('F5');
+      await page.locator('.debug-toolbar').waitFor({ timeout: 15_000 });
+      return true;
+    },
+    'F5 starts no debugger',
+  );
+
 test('F5 runs the open program; steps go forward and back', withDebugger, async () => {
   await editor.open('registers.iso');
   await editor.focus();
   await editor.goTo(8);
   await editor.press('F9');
   await page.locator('.codicon-debug-breakpoint').first().waitFor();
-  await editor.press('F5');
-  await page.locator('.debug-toolbar').waitFor();
+  await startDebugging();
   await eventually(stoppedAt, 'it does not stop at the first block', (line) => line === 2);
   await unfold('Registers');
   await editor.focus();
   await editor.press('F5');
   await eventually(stoppedAt, 'it does not stop at the breakpoint', (line) => line === 8);
+  await eventually(() => editor.lineText(4), 'the value of V1 is not at the end of the line', (text) => /V1 = 2\.5\s+V1 = 7/.test(text ?? ''));
   await eventually(variables, 'V1 is not 7', (rows) => rows.some((row) => /V1\D.*7/.test(row)));
   await step('F10', 9);
   await page.locator('.debug-toolbar .codicon-debug-step-back').click();
@@ -419,6 +492,7 @@ test('the console carries out MDI blocks, and changes registers', withDebugger, 
   }
   const told = () => editor.texts('.repl .monaco-list-row');
   await eventually(told, 'X is not 70, where the MDI block leads', (rows) => rows.some((row) => /^70(\.0*)?$/.test(row.trim())));
+  await unfold('Registers');
   await eventually(variables, 'V1 is not 3', (rows) => rows.some((row) => /V1\D.*3/.test(row)));
   await editor.press('Shift+F5');
   await page.locator('.debug-toolbar').waitFor({ state: 'hidden' });
@@ -433,9 +507,46 @@ test('F5 says what is missing where there is no debugger', { skip: hasDebugger }
   await editor.command('Notifications: Clear All Notifications');
 });
 
+test('the walkthrough is about the program that was looked at before', async () => {
+  await editor.open('plate.iso');
+  await editor.command('Welcome: Open Walkthrough');
+  await page.locator('.quick-input-widget input').first().fill('Programs of ISOCNC');
+  await page.locator('.quick-input-list .monaco-list-row.focused', { hasText: 'ISOCNC' }).waitFor();
+  await editor.press('Enter');
+  await page.locator('.getting-started-step', { hasText: 'See where the tool goes' }).first().click();
+  await page.locator('.getting-started-step .monaco-button', { hasText: 'Show the toolpath' }).first().click();
+  const frame = await editor.toolpath();
+  await eventually(() => frame.evaluate(() => globalThis.isocnc.path.facts.name), 'another program shows', (name) => name.includes('plate'));
+  assert.deepEqual(await notices(), []);
+});
+
+// They need a server of their own, and come after all that needs the real one.
+test('a server that is missing or too old is told of', async () => {
+  await editor.open('plate.iso');
+  writeSettings({ 'isocnc.path': '/nowhere' });
+  await eventually(notices, 'nothing is told', (texts) => texts.some((text) => text.includes('There is no isols in /nowhere, the folder that isocnc.path names.')));
+  await editor.command('Notifications: Clear All Notifications');
+  writeSettings({ 'isocnc.path': program('old', 'isols', oldServer) });
+  await eventually(notices, 'nothing is told', (texts) => texts.some((text) => /isols 0\.0\.9 is older than this extension/.test(text)));
+  await editor.command('Notifications: Clear All Notifications');
+});
+
+test('F5 does not wait for a server that never answers', withDebugger, async () => {
+  const folder = program('deaf', 'isols', 'process.stdin.resume(); process.stdin.on("end", () => process.exit());');
+  symlinkSync(join(root, 'build/vscode-extension/stage/bin/isodap'), join(folder, 'isodap'));
+  writeSettings({ 'isocnc.path': folder });
+  await editor.openWorkbench();
+  await editor.open('plate.iso');
+  // The extension's buttons are there: VS Code knows of its debugger.
+  await page.locator('.editor-actions .codicon-play').first().waitFor();
+  await startDebugging();
+  await eventually(stoppedAt, 'it does not stop at the first block', (line) => line === 2);
+  await editor.press('Shift+F5');
+  await page.locator('.debug-toolbar').waitFor({ state: 'hidden' });
+});
+
 test('nothing has gone wrong in the extension host', async () => {
-  const notices = await editor.texts('.notification-toast, .notifications-toasts .monaco-list-row');
-  assert.deepEqual(notices.filter((text) => /failed|error/i.test(text)), []);
+  assert.deepEqual((await notices()).filter((text) => /failed|error/i.test(text)), []);
   const lines = editor.log.split('\n').filter((line) => /isocnc/i.test(line) && /\b(TypeError|ReferenceError|Activating extension .* failed)\b/.test(line));
   assert.deepEqual(lines, []);
 });
