@@ -224,9 +224,12 @@ void Server::tell_of_configuration(const std::string& uri, const std::string& pa
   notify("textDocument/publishDiagnostics", params);
 }
 
+/// In what clients give back to us: code lenses, completion items.
+static const Json::json_pointer kPlaceInData("/data/uri");
+
 Tab* Server::find_tab(const Json& params) const {
   if (!params.is_object()) return nullptr;
-  static const Json::json_pointer kPlaces[] = {Json::json_pointer("/textDocument/uri"), Json::json_pointer("/data/uri"),
+  static const Json::json_pointer kPlaces[] = {Json::json_pointer("/textDocument/uri"), kPlaceInData,
                                                Json::json_pointer("/item/data/uri"), Json::json_pointer("/uri")};
   for (const Json::json_pointer& place : kPlaces) {
     if (!params.contains(place) || !params.at(place).is_string()) continue;
@@ -340,7 +343,12 @@ void Server::ask(const features::Method& method, const CallPointer& call, Json p
   if (!tab && method.serves_closed) return ask_closed(method, call, params.at("textDocument").at("uri"));
   if (tab && tab->is_configuration() && !method.of_configuration.empty())
     return send_(rpc::result_message(*call->id, method.of_configuration));
-  if (!tab || tab->is_configuration()) return refuse(*call, ErrorCode::InvalidParams, "this document is not open");
+  if (!tab || tab->is_configuration()) {
+    // What we have given out may be asked about when the document has just been closed: that is nobody's mistake.
+    const bool is_of_ours = params.is_object() && params.contains(kPlaceInData);
+    return refuse(*call, is_of_ours ? ErrorCode::ContentModified : ErrorCode::InvalidParams,
+                  "this document is not open");
+  }
   const Ongoing ongoing = begin(*call);
   if (!ongoing) return;
   const Json id = *call->id;

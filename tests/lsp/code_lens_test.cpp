@@ -27,6 +27,16 @@ TEST(CodeLens, TellsTheTimeAndPathOfEachToolSection) {
   EXPECT_EQ(title(after[1]), "not run");
 }
 
+TEST(CodeLens, OfADocumentThatHasBeenClosedIsNoMistakeOfTheClient) {
+  Session session;
+  session.start();
+  session.open(kUri, "M06 T101001\nM02\n");
+  const Json lenses = session.request("textDocument/codeLens", kParams);
+  session.notify("textDocument/didClose", kParams);
+  EXPECT_EQ(session.respond("codeLens/resolve", lenses[0])["error"]["code"], -32801);
+  EXPECT_EQ(session.respond("textDocument/codeLens", kParams)["error"]["code"], -32602);
+}
+
 TEST(CodeLens, OffersWhatTheEditorCanDo) {
   Session session;
   session.start({{"experimental", {{"commands", {{"commands", {"isocnc.run", "isocnc.debug"}}}}}}});
