@@ -373,6 +373,20 @@ test('a program runs on the simulator, in the terminal', async () => {
   await eventually(() => page.locator('.terminal-wrapper .xterm').count(), 'nothing has been run');
 });
 
+test('the plot of a program is written where the user says', async () => {
+  await editor.open('plate.iso');
+  await editor.focus();
+  await editor.press('Control+Alt+p');
+  const input = page.locator('.quick-input-widget:not([style*="display: none"]) input').first();
+  await eventually(() => input.inputValue(), 'it does not ask for the file', (path) => /plate\.html$/.test(path ?? ''));
+  await editor.press('Enter');
+  const written = join(editor.workspace, 'plate.html');
+  await eventually(() => existsSync(written), 'nothing is written');
+  await eventually(() => editor.texts('.notification-toast'), 'it is not told', (texts) => texts.some((text) => /Written: plate\.html/.test(text)));
+  assert.match(readFileSync(written, 'utf8'), /<!doctype html>/i);
+  await editor.command('Notifications: Clear All Notifications');
+});
+
 test('isocnc.json is validated and completed by its schema', async () => {
   await editor.open('isocnc.json');
   await editor.goTo(3);
