@@ -170,6 +170,7 @@ void LineParser::check_unbroken(const Instruction& checked) {
 bool LineParser::breaker_is_reported(const Instruction& motion, std::uint16_t broken) const {
   for (std::uint16_t i = broken; i-- > 0 && word(i).owner != motion.number;) {
     if (word(i).letter != 'G') continue;
+    if (word(i).owner == Word::kNobody) return true;  // G without a number, which has been reported.
     const dialect::GCode* const code = instruction(word(i).owner).g();
     if (!code || code->number == 9 || code->group == dialect::ModalGroup::CutterCompensation ||
         code->misplaced != dialect::kNoDiagnostic)

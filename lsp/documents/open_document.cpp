@@ -1,6 +1,8 @@
 #include "lsp/documents/open_document.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "analyzer/style_findings.h"
@@ -42,6 +44,8 @@ void OpenDocument::replace(const ContentChange& change, Encoding encoding) {
   ClientPosition first = change.range->start;
   ClientPosition last = change.range->end;
   if (last < first) std::swap(first, last);
+  const auto last_line = static_cast<std::uint32_t>(document_.line_count() - 1);
+  if (first.line > last_line) first = {last_line, std::numeric_limits<std::uint32_t>::max()};
   // For the client the mark is a character like any other.
   if (first.line == 0 && std::exchange(has_byte_order_mark_, false)) document_.replace({}, {}, running::kByteOrderMark);
   document_.replace(from_client(first, encoding), from_client(last, encoding), change.text);

@@ -38,11 +38,14 @@ static std::string events_of(std::string_view text) {
   return events + std::to_string(result.line);
 }
 
+/// The codes on each line. Of a line that is wrong on several paths, the order of its words decides which of them is
+/// told, and whether the paths tell the same one.
 static std::vector<std::uint64_t> findings_of(std::string_view text) {
   std::vector<std::uint64_t> all;
   for (const analyzer::LocatedFinding& located : analyzer::check_text(text, {}).findings)
     all.push_back(located.line * 1'000 + static_cast<std::uint64_t>(located.finding.id));
   std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
 

@@ -170,5 +170,15 @@ TEST(Diagnostics, FollowCommentsThatSilenceThem) {
   EXPECT_EQ(session.diagnostics(kUri, 2), Json::array());
 }
 
+/// Behind the last line is its end, which may be that of the first line.
+TEST(Diagnostics, TakeNoOffenceAtAByteOrderMarkThatComesBehindTheLastLine) {
+  Session session;
+  session.start();
+  session.open(kUri, "");
+  session.diagnostics(kUri, 1);
+  session.edit(kUri, 2, {change(29, 5, 31, 0, "\xEF\xBB\xBFM06 T101001\nM02\n")});
+  EXPECT_EQ(session.diagnostics(kUri, 2), Json::array());
+}
+
 }  // namespace
 }  // namespace isocnc::lsp
