@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "analyzer/renderers.h"
+#include "interpreter/configuration/source_options.h"
 #include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/dialect/locale.h"
 #include "interpreter/running/program_app.h"
@@ -126,12 +127,9 @@ static void add_options(running::ProgramApp& program, Options& options) {
       .add_option("--jobs,-j", options.jobs, {"N", "N"},
                   {"Threads; else one per core", "Thread; altrimenti uno per core"})
       .in_range(1, 1024);
-  const running::ProgramOption config = program.add_option(
-      "--config", options.source.file, running::kFileValue,
+  configuration::add_source_options(
+      program, options.source,
       {"Read this, not the isocnc.json above each program", "Legge questo, non l'isocnc.json sopra ogni programma"});
-  program.add_flag("--no-config", options.source.none, {"Read no isocnc.json", "Non legge nessun isocnc.json"})
-      .excludes(config)
-      .tells_no_exclusions();
   program.add_flag(
       "--show-config", options.show_config,
       {"Print the configuration of PATH, and where it is", "Stampa la configurazione di PATH, e dove si trova"});

@@ -11,6 +11,7 @@
 #include "analyzer/program_formatter.h"
 #include "analyzer/unified_diff.h"
 #include "interpreter/configuration/configurations.h"
+#include "interpreter/configuration/source_options.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/locale.h"
 #include "interpreter/running/output_file.h"
@@ -341,12 +342,9 @@ void add_options(running::ProgramApp& program, Options& options) {
                      {"What to call standard input", "Come chiamare lo standard input"});
   program.add_choice("--lang", options.language, {"en", "it"}, {"LANG", "LINGUA"},
                      {"en or it; else as the locale says", "en o it; altrimenti secondo il locale"});
-  const running::ProgramOption config = program.add_option(
-      "--config", options.source.file, running::kFileValue,
+  configuration::add_source_options(
+      program, options.source,
       {"Read this, not the isocnc.json above each program", "Legge questo, non l'isocnc.json sopra ogni programma"});
-  program.add_flag("--no-config", options.source.none, {"Read no isocnc.json", "Non legge nessun isocnc.json"})
-      .excludes(config)
-      .tells_no_exclusions();
 }
 
 int run_main(int argc, char** argv) {

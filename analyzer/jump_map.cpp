@@ -11,6 +11,7 @@
 #endif
 
 #include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/each_tree.h"
 #include "interpreter/syntax/tree_store.h"
 
 namespace isocnc::analyzer {
@@ -215,16 +216,11 @@ void JumpMap::resolve(const std::unordered_map<std::uint64_t, std::vector<std::u
 
 void JumpMap::resolve(std::string_view text) {
   std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> label_lines;
-  syntax::TreeStore store;
-  const char* p = text.data();
-  const char* const end = text.data() + text.size();
-  for (std::uint64_t line = 0; p != end; ++line) {
-    store.clear();
-    const char* const line_end = store.append_line(p, end);
-    const syntax::LineTree tree = store.tree(0, p);
+  std::uint64_t line = 0;
+  syntax::each_tree(text, [&](const syntax::LineTree& tree, std::string_view) {
     if (tree.has_label() && names(tree.label)) label_lines[tree.label].push_back(line);
-    p = syntax::skip_line_end(line_end, end);
-  }
+    ++line;
+  });
   resolve(label_lines);
 }
 

@@ -4,7 +4,7 @@
 
 #include "interpreter/dialect/format.h"
 #include "interpreter/syntax/characters.h"
-#include "interpreter/syntax/tree_store.h"
+#include "interpreter/syntax/each_tree.h"
 
 namespace isocnc::analyzer {
 
@@ -27,15 +27,7 @@ std::string Renumbering::Obstacle::message(dialect::Language language) const {
 
 EachLine each_line_of(std::string_view text) {
   return [text](const std::function<void(const LineTree&)>& look) {
-    syntax::TreeStore store;
-    const char* p = text.data();
-    const char* const end = text.data() + text.size();
-    while (p != end) {
-      store.clear();
-      const char* const line_end = store.append_line(p, end);
-      look(store.tree(0, p));
-      p = syntax::skip_line_end(line_end, end);
-    }
+    syntax::each_tree(text, [&](const LineTree& tree, std::string_view) { look(tree); });
   };
 }
 

@@ -11,6 +11,7 @@
 
 #include "interpreter/configuration/configurations.h"
 #include "interpreter/configuration/plot_tools.h"
+#include "interpreter/configuration/source_options.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/locale.h"
 #include "interpreter/running/error_message.h"
@@ -423,12 +424,9 @@ int run_main(int argc, char** argv) {
   program.add_option(
       "--machine", options.machine, kFileValue,
       {"The machine of this file, not of the isocnc.json", "La macchina di questo file, non dell'isocnc.json"});
-  const ProgramOption config = program.add_option(
-      "--config", options.source.file, kFileValue,
+  configuration::add_source_options(
+      program, options.source,
       {"Read this, not the isocnc.json above the program", "Legge questo, non l'isocnc.json sopra il programma"});
-  program.add_flag("--no-config", options.source.none, {"Read no isocnc.json", "Non legge nessun isocnc.json"})
-      .excludes(config)
-      .tells_no_exclusions();
   const ProgramOption until = program.add_option("--until", options.until, {"LINE", "RIGA"},
                                                  {"Stop before this line", "Si ferma prima di questa riga"});
   program.add_choice("--lang", options.language, {"en", "it"}, {"LANG", "LINGUA"},

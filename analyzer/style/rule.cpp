@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <unordered_set>
 
-#include "interpreter/syntax/characters.h"
-#include "interpreter/syntax/tree_store.h"
+#include "interpreter/syntax/each_tree.h"
 
 namespace isocnc::analyzer::style {
 
@@ -64,16 +63,10 @@ std::vector<Remark> Reader::finish() {
 std::vector<Remark> read_program(std::string_view text, const IsWanted& is_wanted) {
   Reader reader(is_wanted);
   if (reader.is_idle()) return {};
-  syntax::TreeStore store;
-  const char* p = text.data();
-  const char* const end = text.data() + text.size();
-  for (std::uint64_t number = 0; p != end; ++number) {
-    store.clear();
-    const char* const line_end = store.append_line(p, end);
-    const char* const next = syntax::skip_line_end(line_end, end);
-    reader.read({number, store.tree(0, p), {line_end, static_cast<std::size_t>(next - line_end)}});
-    p = next;
-  }
+  std::uint64_t number = 0;
+  syntax::each_tree(text, [&](const syntax::LineTree& tree, std::string_view terminator) {
+    reader.read({number++, tree, terminator});
+  });
   return reader.finish();
 }
 

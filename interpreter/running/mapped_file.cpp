@@ -3,13 +3,12 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <array>
-#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <functional>
 #include <utility>
 
+#include "interpreter/running/handler_table.h"
 #include "interpreter/running/program_main.h"
 #include "interpreter/running/temporary_file.h"
 #include "interpreter/syntax/unicode.h"
@@ -22,9 +21,9 @@ using dialect::Text;
 static constexpr Text kWasCutShort{"has been cut short by another program while it was being read",
                                    "è stato accorciato da un altro programma durante la lettura"};
 
-/// The files that are mapped now, for the handler of a signal, which may take no lock. One for each thread is enough;
-/// a file that finds no place ends the program without a word, as it would have without this.
-static std::array<std::atomic<const MappedFile*>, 256> mapped_files;
+/// The files that are mapped now. One that finds no place ends the program without a word, as it would have without
+/// this.
+static HandlerTable<MappedFile> mapped_files;
 
 MappedFile::MappedFile(const std::filesystem::path& path, int descriptor, std::size_t size, Language language)
     : size_(size) {
@@ -35,18 +34,12 @@ MappedFile::MappedFile(const std::filesystem::path& path, int descriptor, std::s
   }
   begin_ = static_cast<const char*>(bytes);
   complaint_ = syntax::printable(path.string()) + ": " + std::string(kWasCutShort.in(language)) + "\n";
-  for (std::atomic<const MappedFile*>& place : mapped_files) {
-    const MappedFile* nobody = nullptr;
-    if (place.compare_exchange_strong(nobody, this)) break;
-  }
+  mapped_files.add(this);
 }
 
 MappedFile::~MappedFile() {
   if (begin_ == nullptr) return;
-  for (std::atomic<const MappedFile*>& place : mapped_files) {
-    const MappedFile* self = this;
-    if (place.compare_exchange_strong(self, nullptr)) break;
-  }
+  mapped_files.remove(this);
   ::munmap(const_cast<char*>(begin_), size_);
 }
 
@@ -63,15 +56,14 @@ static std::string complaint_prefix;
 
 /// Calls nothing that a handler may not call.
 static void on_lost_bytes(int signal, siginfo_t* info, void*) {
-  for (const std::atomic<const MappedFile*>& place : mapped_files) {
-    const MappedFile* const file = place.load();
-    const std::string* const complaint = file != nullptr ? file->complaint_of(info->si_addr) : nullptr;
-    if (complaint == nullptr) continue;
+  mapped_files.for_each([info](const MappedFile& file) {
+    const std::string* const complaint = file.complaint_of(info->si_addr);
+    if (complaint == nullptr) return;
     for (const std::string* const part : {&std::as_const(complaint_prefix), complaint})
       if (::write(STDERR_FILENO, part->data(), part->size()) < 0) break;
     remove_temporary_files();
     ::_exit(kTroubleStatus);
-  }
+  });
   std::signal(signal, SIG_DFL);  // Not of our making: the access is tried again, and ends the program.
 }
 

@@ -2,32 +2,23 @@
 
 #include <unistd.h>
 
-#include <array>
-#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <utility>
 
+#include "interpreter/running/handler_table.h"
+
 namespace isocnc::running {
 
-/// The names in use, for the handler of a signal, which may take no lock. A file that finds no place may be left
-/// behind.
-static std::array<std::atomic<const char*>, 256> temporary_names;
+/// The names in use. A file that finds no place may be left behind.
+static HandlerTable<char> temporary_names;
 
-TemporaryFile::TemporaryFile(std::string path) : path_(std::move(path)) {
-  for (std::atomic<const char*>& place : temporary_names) {
-    const char* nobody = nullptr;
-    if (place.compare_exchange_strong(nobody, path_.c_str())) break;
-  }
-}
+TemporaryFile::TemporaryFile(std::string path) : path_(std::move(path)) { temporary_names.add(path_.c_str()); }
 
 TemporaryFile::~TemporaryFile() {
   if (!is_renamed_) ::unlink(path_.c_str());
-  for (std::atomic<const char*>& place : temporary_names) {
-    const char* own = path_.c_str();
-    if (place.compare_exchange_strong(own, nullptr)) break;
-  }
+  temporary_names.remove(path_.c_str());
 }
 
 int TemporaryFile::rename(const std::filesystem::path& path) {
@@ -37,8 +28,7 @@ int TemporaryFile::rename(const std::filesystem::path& path) {
 }
 
 void remove_temporary_files() {
-  for (const std::atomic<const char*>& place : temporary_names)
-    if (const char* const name = place.load()) ::unlink(name);
+  temporary_names.for_each([](const char& name) { ::unlink(&name); });
 }
 
 /// Then the signal does what it would have done.
