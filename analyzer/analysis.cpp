@@ -197,7 +197,7 @@ void Analysis::check_chunk(std::size_t chunk, const syntax::ChunkTrees& trees, C
   Row& row = rows_[chunk];
   Outcome outcome;
   Frontier before = checker.frontier;
-  for (std::size_t line = 0; line < trees.size(); ++line) checker.check(trees[line], line, outcome);
+  checker.check_all(trees, outcome);
   lines_checked_ += trees.size();
   finding_count_ += outcome.findings.size() - row.checked->outcome.findings.size();
   row.shift = {};
@@ -243,7 +243,7 @@ Frontier Analysis::frontier_before(std::size_t line) const {
   Outcome ignored;
   syntax::ChunkTrees trees;
   trees.read(document_, chunk, line - document_.first_line_of_chunk(chunk));
-  for (std::size_t i = 0; i < trees.size(); ++i) checker.check(trees[i], i, ignored);
+  checker.check_all(trees, ignored);
   return checker.frontier;
 }
 

@@ -26,7 +26,8 @@ namespace {
 bool is_over(const Frontier& frontier) { return frontier.finished() && frontier.dead_told; }
 
 /// Lines that have been parsed, not yet executed.
-struct Batch {
+class Batch {
+ public:
   const char* text = nullptr;
   std::size_t size = 0;
   TreeStore trees;
@@ -36,19 +37,28 @@ struct Batch {
     text = begin;
     size = static_cast<std::size_t>(batch_end - begin);
     trees.clear();
-    for (const char* p = begin; p < batch_end;) p = syntax::skip_line_end(trees.append_line(p, end), end);
+    trees.append_lines(begin, batch_end, end);
   }
 
   /// Executes them as lines `line` and following; returns the line after them.
   std::uint64_t check(Checker& checker, std::uint64_t line, Outcome& outcome) const {
     const char* p = text;
-    for (std::size_t i = 0; i < trees.size(); ++i) {
-      checker.check(trees.tree(i, p), line++, outcome);
+    for (std::size_t i = 0; i < trees.size();) {
+      const std::size_t plain = checker.check_plain_lines(trees, i, line, outcome);
+      line += plain;
+      for (const std::size_t behind = i + plain; i < behind; ++i) p = behind_line(i, p);
+      if (i == trees.size()) break;
+      checker.check_any(trees.tree(i, p), line++, outcome);
       if (is_over(checker.frontier)) return line;
-      p += trees.length(i);
-      if (i + 1 < trees.size()) p = syntax::skip_line_end(p, text + size);
+      p = behind_line(i++, p);
     }
     return line;
+  }
+
+ private:
+  /// Behind a line that begins at `p`, and its terminator.
+  const char* behind_line(std::size_t index, const char* p) const {
+    return syntax::skip_line_end(p + trees.length(index), text + size);
   }
 };
 

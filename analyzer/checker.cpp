@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "analyzer/rules/rule.h"
+#include "interpreter/execution/plain_run.h"
 #include "interpreter/geometry/increment.h"
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
@@ -17,6 +18,7 @@ namespace isocnc::analyzer {
 using namespace dialect::literals;
 using syntax::Finding;
 using syntax::LineTree;
+using syntax::PlainLine;
 
 /// Longer paths are told by their latest decisions.
 static constexpr std::size_t kLongestPath = 64;
@@ -25,9 +27,10 @@ static constexpr std::size_t kMostValuations = 256;
 /// More than a few live groups are paid from a bucket that fills by some extra executions a line and holds this many:
 /// long stretches may follow all paths, endless ones only those few.
 static constexpr std::uint32_t kSpreadLimit = 20'000'000;
-static constexpr std::uint32_t kSpreadRelief = 32;
 /// Groups that are followed once some have been given up: the rest of a program must not take long, whatever it does.
 static constexpr std::size_t kMostStatesReduced = 16;
+/// How much of it a line makes up for.
+static constexpr std::uint32_t kSpreadRelief = 32;
 /// Labels that may be waited for at once.
 static constexpr std::size_t kMostWaiting = 16'384;
 
@@ -97,12 +100,76 @@ static bool is_told_above(const Finding& finding, const execution::State& before
   return finding.id == "tool-change-without-tool"_diag && before.tool_prepared;
 }
 
+/// The axes among some letters.
+static constexpr execution::AxisSet axes_of(dialect::LetterSet letters) {
+  static_assert(dialect::kLinearLetters == 7u << 23 && dialect::kRotaryLetters == 3u << 1);
+  return static_cast<execution::AxisSet>((letters >> 23 & 7u) | (letters >> 1 & 3u) << 3);
+}
+
+/// Half of where increments add up exactly: positions may be shifted by as much again.
+static bool is_far(const geometry::Pose& pose) {
+  constexpr double kFar = geometry::kFarthestStep / 2;
+  return !(std::abs(pose.tip[0]) <= kFar && std::abs(pose.tip[1]) <= kFar && std::abs(pose.tip[2]) <= kFar &&
+           std::abs(pose.b) <= kFar && std::abs(pose.c) <= kFar);
+}
+
+/// A line that a run of plain ones has done. Under G91 an arc is judged by what is written; under G90 by its start as
+/// well.
+static void note_plain_move(const PlainLine& line, const execution::PlainRun& run, const execution::State& state,
+                            PositionUse& use) {
+  if (run.is_incremental()) {
+    use.far |= is_far(state.position);
+    return;
+  }
+  if (run.was_arc()) use.read |= static_cast<execution::AxisSet>(execution::kLinearAxes & ~use.set);
+  use.set |= axes_of(line.arguments);
+}
+
+template <class PlainLineAt>
+std::size_t Checker::check_plain(std::size_t count, std::uint64_t line_number, Outcome& outcome,
+                                 PlainLineAt plain_line_at) {
+  if (frontier.live.size() != 1 || watches_moves_) return 0;
+  const execution::State& state = frontier.live[0].state;
+  execution::PlainRun run(frontier.live[0].state, setup_);
+  PositionUse use = outcome.positions;
+  std::size_t done = 0;
+  for (; done < count; ++done) {
+    const PlainLine line = plain_line_at(done);
+    if ((line.has_label && jumps_.names(line.label)) || !run.run(line)) break;
+    note_plain_move(line, run, state, use);
+  }
+  if (done == 0) return 0;
+  outcome.has_text = true;
+  outcome.last_text_line = line_number + done - 1;
+  use.by_several |= !frontier.waiting.empty();
+  outcome.positions = use;
+  relieve(done);
+  return done;
+}
+
+std::size_t Checker::check_plain_lines(const syntax::TreeStore& trees, std::size_t first, std::uint64_t line_number,
+                                       Outcome& outcome) {
+  return check_plain(trees.size() - first, line_number, outcome,
+                     [&](std::size_t index) { return trees.plain(first + index); });
+}
+
+void Checker::check_all(const syntax::ChunkTrees& trees, Outcome& outcome) {
+  for (std::size_t line = 0; line < trees.size(); ++line) {
+    line += check_plain_lines(trees.store(), line, line, outcome);
+    if (line < trees.size()) check_any(trees[line], line, outcome);
+  }
+}
+
+void Checker::check(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+  if (check_plain(1, line_number, outcome, [&](std::size_t) { return line.plain(); }) == 0)
+    check_any(line, line_number, outcome);
+}
+
 /// A program without jumps has one path and one state.
 void Checker::check_straight(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   if (frontier.live.empty()) return tell_of_dead_code(line, line_number, outcome);
   execution::State& state = frontier.live[0].state;
   Listener listener(line_number, *this, outcome);
-  if (execution::execute_plain(line, state, setup_, listener)) return note_plain_move(line, state, outcome.positions);
   const std::size_t first = outcome.findings.size();
   for (const Finding& finding : line.findings)
     if (!is_told_above(finding, state)) outcome.findings.push_back({line_number, finding});
@@ -122,7 +189,7 @@ void Checker::check_straight(const LineTree& line, std::uint64_t line_number, Ou
   frontier.dead_told = has_error(outcome.findings, first);
 }
 
-void Checker::check(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+void Checker::check_any(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   if (!line.words.empty() || !line.comments.empty() || !line.findings.empty()) {
     outcome.has_text = true;
     outcome.last_text_line = line_number;
@@ -147,6 +214,10 @@ void Checker::check(const LineTree& line, std::uint64_t line_number, Outcome& ou
   if (live.empty() || !live[0].state.ended) return;
   live.clear();  // M02 ends every path through it. On a line with another mistake it may not be meant as the end.
   frontier.dead_told = has_error(outcome.findings, first);
+}
+
+void Checker::relieve(std::size_t lines) {
+  frontier.spread -= static_cast<std::uint32_t>(std::min<std::size_t>(frontier.spread, kSpreadRelief * lines));
 }
 
 /// Lines on no feasible path are never read, and nothing is said of them but that, at the first (D51).
@@ -177,7 +248,13 @@ void Checker::arrive(const LineTree& line, std::uint64_t line_number, Outcome& o
 
 void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   Groups& live = frontier.live;
-  if (!line.is_empty()) {
+  if (const auto assignment = execution::lone_assignment(line)) {
+    outcome.assigned |= register_bit(assignment->reg);
+    for (Group& group : live) {
+      execution::execute_lone_assignment(group.state);
+      group.registers.assign(assignment->reg, assignment->value, jumps_);
+    }
+  } else if (!line.is_empty()) {
     class GroupListener final : public execution::Sink {
      public:
       GroupListener(Checker& checker, std::size_t group, Outcome& outcome)
@@ -203,9 +280,12 @@ void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_num
     for (std::size_t i = 0; i < live.size(); ++i) {
       GroupListener listener(*this, i, outcome);
       execution::State& state = live[i].state;
-      if (execution::execute_plain(line, state, setup_, listener)) {
-        note_plain_move(line, state, outcome.positions);
-        continue;
+      if (!watches_moves_) {
+        execution::PlainRun run(state, setup_);
+        if (run.run(line.plain())) {
+          note_plain_move(line.plain(), run, state, outcome.positions);
+          continue;
+        }
       }
       const auto first = static_cast<std::ptrdiff_t>(group_findings_.size());
       const execution::State before = state;
@@ -220,42 +300,14 @@ void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_num
     }
     if (!group_findings_.empty()) report_common_findings(line_number, outcome);
   }
-  if (live.size() == 1) {
-    frontier.spread -= std::min(frontier.spread, kSpreadRelief);
-    return;
-  }
+  if (live.size() == 1) return relieve(1);
   live.converge();
   bound_states(line, line_number, outcome);
 }
 
 static constexpr execution::AxisSet kAllAxes = (1u << execution::kAxisCount) - 1;
 
-/// The axes among some letters.
-static constexpr execution::AxisSet axes_of(dialect::LetterSet letters) {
-  static_assert(dialect::kLinearLetters == 7u << 23 && dialect::kRotaryLetters == 3u << 1);
-  return static_cast<execution::AxisSet>((letters >> 23 & 7u) | (letters >> 1 & 3u) << 3);
-}
-
-/// Half of where increments add up exactly: positions may be shifted by as much again.
-static bool is_far(const geometry::Pose& pose) {
-  constexpr double kFar = geometry::kFarthestStep / 2;
-  return !(std::abs(pose.tip[0]) <= kFar && std::abs(pose.tip[1]) <= kFar && std::abs(pose.tip[2]) <= kFar &&
-           std::abs(pose.b) <= kFar && std::abs(pose.c) <= kFar);
-}
-
-/// A line that execute_plain() has done, after it. Under G91 an arc is judged by what is written; under G90 by its
-/// start as well.
-void Checker::note_plain_move(const LineTree& line, const execution::State& state, PositionUse& use) const {
-  if (state.incremental()) {
-    use.far |= is_far(state.position);
-    return;
-  }
-  if (state.mode(dialect::ModalGroup::Motion) > 1)
-    use.read |= static_cast<execution::AxisSet>(execution::kLinearAxes & ~use.set);
-  use.set |= axes_of(line.plain_arguments);
-}
-
-/// Any other line: where it takes thought what its judgment depends on, it counts as depending on all.
+/// A line that is not plain: where it takes thought what its judgment depends on, it counts as depending on all.
 void Checker::note_line(const LineTree& line, const execution::State& before, const execution::State& after,
                         bool has_findings, PositionUse& use) const {
   bool moves = false;

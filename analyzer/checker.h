@@ -10,6 +10,7 @@
 
 #include "analyzer/frontier.h"
 #include "interpreter/execution/execute.h"
+#include "interpreter/syntax/document.h"
 
 namespace isocnc::analyzer {
 
@@ -56,7 +57,16 @@ class Checker {
   /// The frontier before the first line.
   static Frontier start(const execution::Setup& setup, const JumpMap& jumps);
 
+  /// Checks one line.
   void check(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
+  /// Checks the lines of a chunk, counted from its first.
+  void check_all(const syntax::ChunkTrees& trees, Outcome& outcome);
+  /// check() for most lines of most programs, in one go: plain ones with which nothing is wrong, and that no jump leads
+  /// to. Stops before the first other line; returns how many there were from `first` on.
+  std::size_t check_plain_lines(const syntax::TreeStore& trees, std::size_t first, std::uint64_t line_number,
+                                Outcome& outcome);
+  /// check() for the line where check_plain_lines() has stopped.
+  void check_any(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
 
   Frontier frontier;
 
@@ -64,6 +74,10 @@ class Checker {
   class Listener;
 
   void check_straight(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
+  template <class PlainLineAt>
+  std::size_t check_plain(std::size_t count, std::uint64_t line_number, Outcome& outcome, PlainLineAt plain_line_at);
+  /// Lines that one state alone runs through make up for some of those that more have.
+  void relieve(std::size_t lines);
   void tell_of_dead_code(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void arrive(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void execute_in_all_groups(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
@@ -78,7 +92,6 @@ class Checker {
     std::size_t group = 0;
   };
 
-  void note_plain_move(const syntax::LineTree& line, const execution::State& state, PositionUse& use) const;
   void note_line(const syntax::LineTree& line, const execution::State& before, const execution::State& after,
                  bool has_findings, PositionUse& use) const;
   void judge_move(const syntax::LineTree& line, const execution::State& before, const execution::State& after,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <iterator>
+#include <utility>
 
 namespace isocnc::analyzer {
 
@@ -25,8 +26,8 @@ static Path common_decisions(const Path& a, const Path& b) {
   return common;
 }
 
-static void join(Group& into, const Group& other) {
-  into.registers.unite(other.registers);
+static void join(Group& into, Group&& other) {
+  into.registers.unite(std::move(other.registers));
   into.state.knowledge &= other.state.knowledge;
   if (into.state.tool != other.state.tool) into.state.forget(execution::State::kToolKnown);
   into.path = common_decisions(into.path, other.path);
@@ -34,7 +35,7 @@ static void join(Group& into, const Group& other) {
 
 void Groups::add(Group group) {
   for (Group& present : all_)
-    if (execution::judged_alike(present.state, group.state)) return join(present, group);
+    if (execution::judged_alike(present.state, group.state)) return join(present, std::move(group));
   all_.push_back(std::move(group));
 }
 
@@ -58,11 +59,21 @@ static std::uint64_t hash_of(const execution::State& state) {
   return hash;
 }
 
+/// Groups that are compared each with each.
+static constexpr std::size_t kFew = 8;
+
 void Groups::converge() {
-  if (all_.size() == 2) {
-    if (!execution::judged_alike(all_[0].state, all_[1].state)) return;
-    join(all_[0], all_[1]);
-    return all_.pop_back();
+  if (all_.size() <= kFew) {
+    for (std::size_t i = 0; i < all_.size(); ++i)
+      for (std::size_t j = i + 1; j < all_.size();) {
+        if (execution::judged_alike(all_[i].state, all_[j].state)) {
+          join(all_[i], std::move(all_[j]));
+          all_.erase(all_.begin() + static_cast<std::ptrdiff_t>(j));
+        } else {
+          ++j;
+        }
+      }
+    return;
   }
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
   order.reserve(all_.size());
@@ -75,7 +86,7 @@ void Groups::converge() {
       const std::size_t other = order[j].second;
       if (!is_gone.empty() && (is_gone[into] || is_gone[other])) continue;
       if (!execution::judged_alike(all_[into].state, all_[other].state)) continue;
-      join(all_[into], all_[other]);
+      join(all_[into], std::move(all_[other]));
       is_gone.resize(all_.size());
       is_gone[other] = true;
     }
@@ -111,7 +122,7 @@ void Groups::reduce_to(std::size_t limit) {
   for (std::size_t i = 0; i < all_.size(); ++i)
     for (std::size_t j = all_.size() - 1; j > i && all_.size() > limit; --j) {
       if (!blur_positions(all_[i].state, all_[j].state)) continue;
-      join(all_[i], all_[j]);
+      join(all_[i], std::move(all_[j]));
       all_.erase(all_.begin() + static_cast<std::ptrdiff_t>(j));
     }
   if (all_.size() > limit) all_.resize(limit);

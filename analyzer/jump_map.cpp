@@ -16,6 +16,22 @@
 
 namespace isocnc::analyzer {
 
+/// How many line feeds there are. In blocks whose count fits a byte, so that the compiler counts sixteen bytes at once.
+static std::uint64_t count_line_feeds(std::string_view text) {
+  constexpr std::size_t kRow = 16;
+  constexpr std::size_t kMostRows = 255;
+  std::uint64_t count = 0;
+  while (text.size() >= kRow) {
+    const std::size_t rows = std::min(kMostRows, text.size() / kRow);
+    std::array<std::uint8_t, kRow> counts{};
+    for (std::size_t row = 0; row < rows; ++row)
+      for (std::size_t i = 0; i < kRow; ++i) counts[i] += text[kRow * row + i] == '\n';
+    for (const std::uint8_t each : counts) count += each;
+    text.remove_prefix(kRow * rows);
+  }
+  return count + static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
 /// Counts the lines of a text up to ever later places.
 class LineCounter {
  public:
@@ -24,7 +40,7 @@ class LineCounter {
   std::uint64_t line_of(std::size_t offset) {
     if (offset_ == 0) has_carriage_returns_ = text_.find('\r') != std::string_view::npos;
     const std::string_view passed = text_.substr(offset_, offset - offset_);
-    line_ += static_cast<std::uint64_t>(std::count(passed.begin(), passed.end(), '\n'));
+    line_ += count_line_feeds(passed);
     if (has_carriage_returns_)
       for (std::size_t i = 0; i < passed.size(); ++i)
         line_ += passed[i] == '\r' && offset_ + i + 1 < text_.size() && text_[offset_ + i + 1] != '\n' ? 1 : 0;
@@ -47,18 +63,6 @@ static bool may_belong_to_goto(std::string_view text, std::size_t offset) {
   return before == 'G' || before == ')';
 }
 
-/// Letters without which a line holds no assignment and no jump, and without which it holds no label.
-static constexpr std::uint8_t kKeywordLetter = 1;
-static constexpr std::uint8_t kLabelLetter = 2;
-static constexpr std::uint8_t kLineEnd = 4;
-static constexpr auto kLetters = [] {
-  std::array<std::uint8_t, 256> letters{};
-  for (const char letter : {'V', 'v', 'O', 'o', 'n'}) letters[static_cast<unsigned char>(letter)] = kKeywordLetter;
-  letters['N'] = kLabelLetter;
-  letters['\r'] = letters['\n'] = kLineEnd;
-  return letters;
-}();
-
 static bool has_any(std::string_view text, std::string_view letters) {
   return std::any_of(letters.begin(), letters.end(),
                      [&](char letter) { return text.find(letter) != std::string_view::npos; });
@@ -67,18 +71,19 @@ static bool has_any(std::string_view text, std::string_view letters) {
 bool may_hold_jumps(std::string_view text) { return has_any(text, "VvOo"); }
 bool may_hold_labels(std::string_view text) { return has_any(text, "Nn"); }
 
-/// The line number of a line that begins with one, as most that have one do. Nothing for any other line, and where it
-/// takes a closer look.
-static std::optional<std::uint64_t> plain_label(std::string_view line) {
-  if (line.size() < 3 || line[0] != 'N' || !syntax::is_digit(line[1])) return std::nullopt;
+/// A line number at the start of a line, as most of those that have one write it.
+struct PlainLabel {
+  std::uint64_t number = 0;
+  const char* end = nullptr;  ///< Behind it; null where there is none, or where it takes a closer look.
+};
+
+static PlainLabel plain_label(const char* p, const char* end) {
+  if (end - p < 20 || *p != 'N' || !syntax::is_digit(p[1])) return {};
   std::uint64_t label = 0;
-  std::size_t at = 1;
-  while (at < line.size() && syntax::is_digit(line[at]))
-    label = label * 10 + static_cast<std::uint64_t>(line[at++] - '0');
-  const bool is_plain = at <= 15 && at + 1 < line.size() && line[at] == ' ' &&
-                        syntax::char_class(line[at + 1]) == syntax::CharClass::Letter;
-  if (!is_plain || line.find('N', at) != std::string_view::npos) return std::nullopt;
-  return label;
+  const char* at = p + 1;
+  for (; at - p <= 15 && syntax::is_digit(*at); ++at) label = label * 10 + static_cast<std::uint64_t>(*at - '0');
+  const bool is_plain = *at == ' ' && syntax::char_class(at[1]) == syntax::CharClass::Letter;
+  return {label, is_plain ? at + 1 : nullptr};
 }
 
 /// The first letter at or behind `p` that may make its line an event for registers, or `end`.
@@ -92,7 +97,7 @@ static const char* next_telling_letter(const char* p, const char* end) {
     if (found != 0) return p + std::countr_zero(found);
   }
 #endif
-  while (p != end && (kLetters[static_cast<unsigned char>(*p)] & ~kLineEnd) == 0) ++p;
+  while (p != end && std::string_view("NnOoVv").find(*p) == std::string_view::npos) ++p;
   return p;
 }
 
@@ -125,29 +130,26 @@ JumpMap::JumpMap(std::string_view text) {
   complete();
 }
 
-/// Gathers the assignments, labels and jumps of the program.
+/// Gathers the assignments, labels and jumps of the program. Most lines with a telling letter have a plain line number
+/// and nothing else that tells, which shows where the next such letter stands on another line.
 void JumpMap::note_all_registers(std::string_view text) {
   syntax::TreeStore store;
   const char* const end = text.data() + text.size();
-  for (const char* p = text.data(); (p = next_telling_letter(p, end)) != end;) {
+  const char* labelled = nullptr;  // The beginning of a line with a plain label, not yet noted.
+  PlainLabel label;
+  for (const char* p = next_telling_letter(text.data(), end);;) {
     const char* begin = p;
     while (begin != text.data() && !syntax::is_line_end(begin[-1])) --begin;
-    const char* line_end = p;
-    std::uint8_t letters = 0;
-    for (; line_end != end; ++line_end) {
-      const std::uint8_t letter = kLetters[static_cast<unsigned char>(*line_end)];
-      if (letter == kLineEnd) break;
-      letters |= letter;
-    }
-    const std::string_view line(begin, static_cast<std::size_t>(line_end - begin));
-    if (const auto label = letters == kLabelLetter ? plain_label(line) : std::nullopt) {
-      if (names(*label)) events_.push_back({JumpEvent::Kind::Label, 0, *label});
-    } else {
+    if (labelled && (p == end || begin != labelled)) note_registers(JumpEvent::Kind::Label, 0, label.number);
+    if (p == end) return;
+    label = p == begin && p != labelled ? plain_label(p, end) : PlainLabel{};
+    labelled = label.end ? begin : nullptr;
+    if (!labelled) {
       store.clear();
-      store.append_line(begin, end);
+      label.end = store.append_line(begin, end);
       note_registers(store.tree(0, begin));
     }
-    p = syntax::skip_line_end(line_end, end);
+    p = next_telling_letter(label.end, end);
   }
 }
 

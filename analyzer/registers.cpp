@@ -43,7 +43,7 @@ ValueSet ValueSet::satisfying(syntax::Comparison comparison, double constant, co
 }
 
 void ValueSet::append(Range range) {
-  Range& last = tail_.empty() ? head_ : tail_.back();
+  Range& last = tail_.size() == 0 ? head_ : tail_.back();
   if (empty()) {
     head_ = range;
   } else if (range.first <= last.last + 1) {
@@ -150,9 +150,9 @@ Valuations Valuations::where(const syntax::Jump& jump, bool holds, const JumpMap
   return result;
 }
 
-void Valuations::unite(const Valuations& other) {
+void Valuations::unite(Valuations other) {
   known_ |= other.known_;
-  for (const Valuation& valuation : other.all_) add(valuation);
+  for (Valuation& valuation : other.all_) add(std::move(valuation));
 }
 
 void Valuations::keep_only(RegisterSet read, const JumpMap& jumps) {

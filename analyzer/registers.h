@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "analyzer/jump_map.h"
@@ -39,9 +41,38 @@ class ValueSet {
   /// Adds a range behind all others, joined to the last when they touch.
   void append(Range range);
 
-  // Ascending, apart by at least one cell. Nearly always there is one, which needs no memory of its own.
+  /// Further ranges. Nearly always there are none, and then copying them costs nothing.
+  class Tail {
+   public:
+    Tail() = default;
+    Tail(const Tail& other) : ranges_(other.ranges_ ? std::make_unique<std::vector<Range>>(*other.ranges_) : nullptr) {}
+    Tail(Tail&&) noexcept = default;
+    Tail& operator=(Tail other) noexcept {
+      ranges_ = std::move(other.ranges_);
+      return *this;
+    }
+    ~Tail() = default;
+
+    std::size_t size() const { return ranges_ ? ranges_->size() : 0; }
+    const Range& operator[](std::size_t index) const { return (*ranges_)[index]; }
+    Range& back() { return ranges_->back(); }
+    void push_back(Range range) {
+      if (!ranges_) ranges_ = std::make_unique<std::vector<Range>>();
+      ranges_->push_back(range);
+    }
+
+    friend bool operator==(const Tail& a, const Tail& b) {
+      if (!a.ranges_ || !b.ranges_) return !a.ranges_ && !b.ranges_;
+      return *a.ranges_ == *b.ranges_;
+    }
+
+   private:
+    std::unique_ptr<std::vector<Range>> ranges_;  // Null when there are none.
+  };
+
+  // Ascending, apart by at least one cell.
   Range head_{1, 0};
-  std::vector<Range> tail_;
+  Tail tail_;
 };
 
 /// What is known together of all registers that some IF compares, in the order of JumpMap::compared_registers().
@@ -57,7 +88,7 @@ class Valuations {
   void assign(int reg, double value, const JumpMap& jumps);
   /// What remains of it where the condition of a jump on a register holds, or does not.
   Valuations where(const syntax::Jump& jump, bool holds, const JumpMap& jumps) const;
-  void unite(const Valuations& other);
+  void unite(Valuations other);
   /// Forgets the registers that are not in `read`: no IF will see their values, so they tell no two states apart.
   void keep_only(RegisterSet read, const JumpMap& jumps);
   bool possible() const { return !all_.empty(); }

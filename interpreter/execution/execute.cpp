@@ -12,17 +12,23 @@ using syntax::Instruction;
 using syntax::InstructionKind;
 using syntax::Word;
 
-bool execute_plain(const syntax::LineTree& line, State& state, const Setup& setup, Sink& sink) {
-  if (line.plain_arguments == 0) return false;
-  constexpr State::Knowledge kAlways = State::kStopped | State::kCompensationWaits | State::kNotStarted;
-  const auto concerns_rules =
-      static_cast<State::Knowledge>(state.inverse_time() ? kAlways : kAlways | State::kFeedOfInverseTime);
-  return !state.knows(concerns_rules) && Executor(line, state, setup, sink).run_plain();
-}
-
 void execute(const syntax::LineTree& line, State& state, const Setup& setup, Sink& sink) {
   if (line.is_empty()) return;
   Executor(line, state, setup, sink).run();
+}
+
+std::optional<LoneAssignment> lone_assignment(const syntax::LineTree& line) {
+  const bool is_lone = line.instructions.size() == 1 && line.instructions[0].kind == InstructionKind::Assignment &&
+                       line.instructions[0].end == line.instructions[0].command + 2 && line.feed < 0 &&
+                       line.spindle < 0 && line.findings.empty();
+  if (!is_lone) return std::nullopt;
+  const Word& name = line.command(line.instructions[0]);
+  return LoneAssignment{static_cast<int>(name.value), line.words[line.instructions[0].command + 1u].value};
+}
+
+void execute_lone_assignment(State& state) {
+  state.exact_stop_fits = false;
+  state.tool_awaited = false;
 }
 
 void Executor::run() {

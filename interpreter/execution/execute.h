@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "interpreter/execution/sink.h"
 
 namespace isocnc::execution {
@@ -12,8 +14,14 @@ namespace isocnc::execution {
 /// knows no line number. It does not decide jumps: an IF belongs to who knows the registers (`line.jump`).
 void execute(const syntax::LineTree& line, State& state, const Setup& setup, Sink& sink);
 
-/// execute() for most lines of most programs: a plain motion with which nothing is wrong, of which nobody wants to know
-/// more, and which concerns nothing in State::knowledge. False, with nothing done, for any other line.
-bool execute_plain(const syntax::LineTree& line, State& state, const Setup& setup, Sink& sink);
+/// The register and the value that a line of nothing but one sound assignment gives it.
+struct LoneAssignment {
+  int reg = 0;
+  double value = 0;
+};
+std::optional<LoneAssignment> lone_assignment(const syntax::LineTree& line);
+
+/// execute() for such a line, for who sees to the register.
+void execute_lone_assignment(State& state);
 
 }  // namespace isocnc::execution

@@ -22,6 +22,9 @@ struct Plane {
 
 const Plane& plane_in_force(const State& state);
 
+/// Puts an F in force (D43).
+void take_feed(double number, State& state);
+
 /// Executes the instructions of one line on a state. Lives for one call of execute().
 class Executor {
  public:
@@ -29,9 +32,6 @@ class Executor {
       : line_(line), state_(state), setup_(setup), sink_(sink) {}
 
   void run();
-  /// Executes a line of nothing but one motion that changes positions and nothing else, if it is one; false, with
-  /// nothing changed, when there may be more to it.
-  bool run_plain();
 
  private:
   bool moves_in_plane() const;
@@ -49,8 +49,6 @@ class Executor {
   void apply_feed_without_motion();
 
   // motions.cpp
-  void move_plainly(dialect::LetterSet given);
-  bool run_plain_arc(dialect::LetterSet given);
   void motion(const syntax::Instruction& instruction);
   bool motion_is_in_force(const Arguments& arguments);
   void report_strays(const Arguments& arguments, const dialect::GCode& code);

@@ -62,81 +62,6 @@ const Plane& plane_in_force(const State& state) {
   }
 }
 
-/// Most blocks of most programs, when nobody asks for effects: a rapid or a line, or a sound arc, with tool and feed
-/// known to be there. All that run() would do for them is to set the mode and move the axes.
-bool Executor::run_plain() {
-  const dialect::LetterSet given = line_.plain_arguments;
-  if ((given & dialect::kCoordinateLetters) == 0 || sink_.wants_effects()) return false;
-  if (!state_.tool_selected || state_.unknown != 0) return false;
-  const Instruction& instruction = line_.instructions.front();
-  const bool is_g = instruction.kind == InstructionKind::G;
-  const std::uint8_t mode =
-      is_g ? static_cast<std::uint8_t>(instruction.g()->number) : state_.mode(dialect::ModalGroup::Motion);
-  if (mode == dialect::kNoMotion) return false;
-  const bool is_feed = mode != 0;
-  const bool has_feed = line_.feed >= 0;
-  if (has_feed ? !is_feed : is_feed && (!state_.feed_given || state_.inverse_time())) return false;
-  if (mode > 1) {
-    if (!run_plain_arc(given)) return false;
-  } else {
-    static constexpr dialect::LetterSet kLinear = dialect::kLinearLetters;
-    if ((given & ~(state_.five_axis() ? kLinear | dialect::kRotaryLetters : kLinear)) != 0) return false;
-    move_plainly(given);
-  }
-  if (has_feed) take_feed();
-  state_.set_mode(dialect::ModalGroup::Motion, mode);
-  state_.exact_stop_fits = is_feed;
-  state_.tool_awaited = false;
-  state_.tool_prepared = false;
-  if (is_feed) state_.forget(State::kUncut);
-  return true;
-}
-
-/// Moves the axes of a plain line's coordinates.
-void Executor::move_plainly(dialect::LetterSet given) {
-  const double scale = state_.mm_per_unit();
-  const bool incremental = state_.incremental();
-  const bool turns = (given & dialect::kRotaryLetters) != 0;
-  for (const syntax::Word& word : line_.words) {
-    if (const auto axis = static_cast<unsigned>(word.letter - 'X'); axis <= 2) {
-      double& position = state_.position.tip[axis];
-      position = incremental ? geometry::advanced(position, word.value * scale) : word.value * scale;
-    } else if (turns && (word.letter == 'B' || word.letter == 'C')) {
-      double& angle = word.letter == 'B' ? state_.position.b : state_.position.c;
-      angle = incremental ? geometry::advanced(angle, word.value) : word.value;
-    }
-  }
-}
-
-/// Moves along a plain line's arc when a first look shows that it is sound; arc() has the last word on the others.
-bool Executor::run_plain_arc(dialect::LetterSet given) {
-  const Plane& plane = plane_in_force(state_);
-  const auto has = [given](char letter) { return dialect::contains(given, letter); };
-  if ((given & dialect::kRotaryLetters) != 0 || state_.face_mounted || has(plane.stray_center)) return false;
-  if (!has(plane.u_letter) && !has(plane.v_letter)) return false;
-  const double scale = state_.mm_per_unit();
-  const bool incremental = state_.incremental();
-  geometry::ArcGiven arc;
-  for (const syntax::Word& word : line_.words) {
-    const double value = word.value * scale;
-    const auto from_start = [&](int axis) { return incremental ? value : value - state_.position.tip[axis]; };
-    if (word.letter == plane.u_letter) {
-      arc.end.u = from_start(plane.u);
-    } else if (word.letter == plane.v_letter) {
-      arc.end.v = from_start(plane.v);
-    } else if (word.letter == plane.u_center) {
-      arc.center_u = from_start(plane.u);
-    } else if (word.letter == plane.v_center) {
-      arc.center_v = from_start(plane.v);
-    } else if (word.letter == 'R') {
-      arc.radius = value;
-    }
-  }
-  if (!geometry::surely_fits(arc, setup_.arc_tolerance)) return false;
-  move_plainly(given);
-  return true;
-}
-
 void Executor::motion(const Instruction& instruction) {
   const bool is_continuation = instruction.kind == InstructionKind::Continuation;
   const Arguments arguments(line_, instruction);
@@ -245,15 +170,7 @@ void Executor::check_feed(Span place) {
   }
 }
 
-void Executor::take_feed() {
-  const double number = line_.words[static_cast<std::size_t>(line_.feed)].value;
-  state_.feed_given = true;
-  if (!(number > 0)) return;  // Reported; the feed before it stays.
-  state_.last_feed = {number, state_.mm_per_unit()};
-  if (state_.inverse_time()) return state_.learn(State::kFeedOfInverseTime);
-  state_.forget(State::kFeedOfInverseTime);
-  state_.feed_per_minute = state_.last_feed;
-}
+void Executor::take_feed() { execution::take_feed(line_.words[static_cast<std::size_t>(line_.feed)].value, state_); }
 
 Feed Executor::feed_in_force() const {
   if (state_.inverse_time()) return line_.feed >= 0 ? state_.last_feed : Feed{};

@@ -5,6 +5,10 @@
 #include <cstdint>
 #include <cstring>
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 #include "interpreter/dialect/letters.h"
 
 namespace isocnc::syntax {
@@ -53,6 +57,20 @@ inline bool is_number_char(char c) {
   return cls == CharClass::Digit || cls == CharClass::NumberSign;
 }
 inline char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - ('a' - 'A')) : c; }
+
+/// Which of the sixteen bytes from `p` on are no digits, a bit each.
+inline std::uint32_t non_digits(const char* p) {
+#ifdef __SSE2__
+  const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
+  // From -128 on in the order of the bytes, digits first.
+  const __m128i from_zero = _mm_add_epi8(bytes, _mm_set1_epi8(static_cast<char>(-128 - 0x30)));
+  return static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_cmpgt_epi8(from_zero, _mm_set1_epi8(-128 + 9))));
+#else
+  std::uint32_t found = 0;
+  for (int i = 0; i < 16; ++i) found |= std::uint32_t{!is_digit(p[i])} << i;
+  return found;
+#endif
+}
 
 /// The first CR or LF at or behind `p`, or `end`. Eight bytes at a time: comments are long.
 inline const char* find_line_end(const char* p, const char* end) {

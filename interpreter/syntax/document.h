@@ -119,6 +119,7 @@ class ChunkTrees {
   void read(const Document& document, std::size_t chunk, std::size_t lines);
 
   std::size_t size() const { return texts_.size(); }
+  const TreeStore& store() const { return store_; }
   LineTree operator[](std::size_t index) const { return store_.tree(index, texts_[index]); }
 
  private:

@@ -97,6 +97,18 @@ struct Jump {
   }
 };
 
+/// What executing a plain line takes (LineTree::plain_arguments).
+struct PlainLine {
+  std::span<const Word> words;
+  dialect::LetterSet arguments = 0;           ///< Without any coordinate the line is none, or moves nothing.
+  std::int32_t feed = -1;                     ///< Index of the line's F, or -1.
+  std::uint8_t row = dialect::kUnknownGCode;  ///< Of dialect::kGCodes; kUnknownGCode where the motion in force goes on.
+  bool has_label = false;
+  std::uint64_t label = 0;
+
+  bool has_coordinates() const { return (arguments & dialect::kCoordinateLetters) != 0; }
+};
+
 /// The tree of one line. It holds columns but no line number, and no meaning: `X10` is a word here, never a position.
 /// Hence a line inserted above changes nothing, and equal text gives equal trees. Parsing cannot fail; what is wrong
 /// with the line by itself is in `findings`, in the order of its columns, and the rest of the line is still there.
@@ -128,6 +140,14 @@ struct LineTree {
   /// Nothing but blanks, comments and N: a block that does nothing (D13).
   bool is_empty() const { return instructions.empty() && feed < 0 && spindle < 0; }
   const Word& command(const Instruction& instruction) const { return words[instruction.command]; }
+  PlainLine plain() const {
+    return {.words = words,
+            .arguments = plain_arguments,
+            .feed = feed,
+            .row = plain_arguments == 0 ? dialect::kUnknownGCode : instructions.front().row,
+            .has_label = has_label(),
+            .label = label};
+  }
   /// The word that holds this column, or null.
   const Word* word_at(std::uint32_t column) const {
     for (const Word& word : words)

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <string>
 
-namespace isocnc::syntax::detail {
+namespace isocnc::syntax {
 
 /// Behind the comment at `p`, or null when it is not closed on this line.
-static const char* behind_comment(const char* p, const char* end) {
+static const char* behind_closed_comment(const char* p, const char* end) {
   for (; p != end && !is_line_end(*p); ++p)
     if (*p == ')') return p + 1;
   return nullptr;
@@ -18,7 +18,7 @@ static const char* skip_space(const char* p, const char* end) {
   while (p != end) {
     if (is_blank(*p)) {
       ++p;
-    } else if (const char* behind = *p == '(' ? behind_comment(p, end) : nullptr) {
+    } else if (const char* behind = *p == '(' ? behind_closed_comment(p, end) : nullptr) {
       p = behind;
     } else {
       break;
@@ -27,7 +27,8 @@ static const char* skip_space(const char* p, const char* end) {
   return p;
 }
 
-bool goes_on_behind_comment(const char* p, const char* end) {
+/// Whether a number before `p` goes on there, behind blanks and comments (D7).
+static bool goes_on(const char* p, const char* end) {
   p = skip_space(p, end);
   return p != end && is_number_char(*p);
 }
@@ -46,7 +47,8 @@ static bool is_well_formed(const std::string& text, const Number& number) {
   return number.digits > 0;
 }
 
-Number scan_any_number(const char* p, const char* end) {
+/// Any number: blanks and comments inside, any length, malformed ones.
+static Number scan_any_number(const char* p, const char* end) {
   std::string text;
   Number number;
   while (p != end && is_number_char(*p)) {
@@ -71,4 +73,37 @@ Number scan_any_number(const char* p, const char* end) {
   return number;
 }
 
-}  // namespace isocnc::syntax::detail
+Number scan_number(const char* p, const char* end) {
+  Number number;
+  if (end - p >= kShortNumberBytes && scan_short_number(p, number) && !goes_on(number.end, end)) return number;
+  const char* const begin = p;
+  number = {};
+  bool negative = false;
+  if (*p == '-' || *p == '+') {
+    negative = *p == '-';
+    number.is_signed = true;
+    ++p;
+  }
+  // The digits are gathered in an integer and scaled once: below 2^53 and 10^22 both are exact, so that the quotient is
+  // the correctly rounded decimal.
+  std::uint64_t mantissa = 0;
+  const char* const digits_begin = p;
+  while (p != end && is_digit(*p)) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*p++ - '0');
+  number.digits = static_cast<std::uint32_t>(p - digits_begin);
+  std::uint32_t decimals = 0;
+  if (p != end && *p == '.') {
+    const char* const decimals_begin = ++p;
+    while (p != end && is_digit(*p)) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*p++ - '0');
+    decimals = static_cast<std::uint32_t>(p - decimals_begin);
+    number.digits += decimals;
+    number.has_point = true;
+  }
+  number.end = p;
+  if (number.digits == 0 || number.digits > 18 || mantissa >= (std::uint64_t{1} << 53) || goes_on(p, end))
+    return scan_any_number(begin, end);
+  const double magnitude = static_cast<double>(mantissa) / detail::kPowersOfTen[decimals];
+  number.value = negative ? 0.0 - magnitude : magnitude;  // -0 is 0.
+  return number;
+}
+
+}  // namespace isocnc::syntax

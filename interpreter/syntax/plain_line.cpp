@@ -1,6 +1,11 @@
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <string_view>
+#include <vector>
 
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/number.h"
@@ -10,32 +15,45 @@ namespace isocnc::syntax {
 
 namespace {
 
-/// What a letter may do on a plain line.
-enum class Role : std::uint8_t { None, Blank, Argument, Feed, Command, LineNumber };
-
-struct LetterRole {
-  dialect::LetterSet bit = 0;
+/// What follows the digits of a Word, as one number: it is written at once.
+struct WordTail {
+  std::uint16_t owner = Word::kNobody;
   char letter = 0;  ///< Upper case.
-  Role role = Role::None;
+  std::uint8_t flags = 0;
 };
+static_assert(sizeof(WordTail) == 4 && offsetof(Word, owner) + 4 == sizeof(Word) &&
+              offsetof(Word, letter) - offsetof(Word, owner) == offsetof(WordTail, letter) &&
+              offsetof(Word, flags) - offsetof(Word, owner) == offsetof(WordTail, flags));
+constexpr int kFlagsShift = 8 * offsetof(WordTail, flags);
+
+/// What a byte may be on a plain line; neither has the set of its letter where it is none of its letters.
+struct LetterRole {
+  std::uint32_t tail = 0;
+  dialect::LetterSet letter = 0;
+};
+
+constexpr dialect::LetterSet kArguments = dialect::letters("XYZBCIJKR");
+constexpr dialect::LetterSet kFeed = dialect::letters("F");
+constexpr dialect::LetterSet kCommand = dialect::letters("G");
+constexpr dialect::LetterSet kLineNumber = dialect::letters("N");
 
 constexpr auto kRoles = [] {
   std::array<LetterRole, 256> roles{};
-  const auto give = [&](std::string_view letters, Role role) {
-    for (const char letter : letters)
-      for (const char written : {letter, static_cast<char>(letter + ('a' - 'A'))})
-        roles[static_cast<unsigned char>(written)] = {dialect::letter_bit(letter), letter, role};
-  };
-  for (const char blank : {' ', '\t'}) roles[static_cast<unsigned char>(blank)].role = Role::Blank;
-  give("XYZBCIJKR", Role::Argument);
-  give("F", Role::Feed);
-  give("G", Role::Command);
-  give("N", Role::LineNumber);
+  for (char letter = 'A'; letter <= 'Z'; ++letter) {
+    if (!dialect::contains(kArguments | kFeed | kCommand | kLineNumber, letter)) continue;
+    const bool is_motion = dialect::contains(kArguments | kCommand, letter);
+    const WordTail tail{.owner = is_motion ? std::uint16_t{0} : Word::kNobody, .letter = letter};
+    for (const char written : {letter, static_cast<char>(letter + ('a' - 'A'))})
+      roles[static_cast<unsigned char>(written)] = {std::bit_cast<std::uint32_t>(tail), dialect::letter_bit(letter)};
+  }
   return roles;
 }();
 
 /// N, G, F and each argument once; more never fit.
-constexpr std::uint16_t kMostPlainWords = 12;
+constexpr std::size_t kMostPlainWords = 12;
+
+/// So many lines are parsed before room is made for more.
+constexpr std::size_t kLinesAtOnce = 64;
 
 /// With so many bytes left, a letter, a blank and a short number can be read without looking for the end.
 constexpr std::ptrdiff_t kMargin = 2 + kShortNumberBytes;
@@ -58,7 +76,8 @@ bool scan_long_number(const char* p, const char* end, Number& number) {
 
 }  // namespace
 
-/// The same for a line of nothing but `V7 = 12.215`: programs that use registers at all use them a lot.
+/// A line of nothing but `V7 = 12.215`, in one go as well: programs that use registers at all use them a lot. Null,
+/// with nothing changed, for any other line.
 const char* TreeStore::append_plain_assignment(const char* begin, const char* end) {
   const auto skip_blanks = [end](const char* p) {
     while (p != end && is_blank(*p)) ++p;
@@ -105,109 +124,109 @@ const char* TreeStore::append_plain_assignment(const char* begin, const char* en
   return line_end;
 }
 
-/// Most lines of most programs hold at most an N, a motion G, coordinates and F, each once and well written. They are
-/// parsed in one go, into the very tree that the general way gives them. Null, with nothing changed, for any other
-/// line.
-const char* TreeStore::append_plain_line(const char* begin, const char* end) {
-  const std::size_t first_comment = comments_.size();
-  Word* const words = words_.room_for(kMostPlainWords);  // Written where they stay.
-  std::uint16_t count = 0;
-  std::uint16_t behind = 0;  // Behind the last argument.
-  int command = -1;          // The G, or the first argument.
-  int feed = -1;
-  bool has_label = false;
-  std::uint8_t row = dialect::kUnknownGCode;
+/// Reads the line at `begin` into `line` and `words`, if it is plain; `last` is the last place where a word may begin.
+/// Returns its end, or null.
+[[gnu::always_inline]] inline const char* TreeStore::read_plain_line(const char* const begin, const char* const last,
+                                                                     const char* const end, Line& line, Word* words) {
+  static constexpr PlainPart kPlain{.is_plain = true, .motion = {.kind = InstructionKind::Continuation}};
+  static_cast<PlainPart&>(line) = kPlain;
+  Word* word = words;
+  const Word* command = nullptr;  // The G, or the first argument.
+  const Word* behind = words;     // Behind the last argument.
   dialect::LetterSet taken = 0;
-  const char* p = begin;
-  if (end - begin < kMargin) return nullptr;
-  for (const char* const last = end - kMargin; p <= last;) {
+  for (const char* p = begin; p <= last;) {
     const LetterRole& role = kRoles[static_cast<unsigned char>(*p)];
-    if (role.role <= Role::Blank) {
-      if (role.role == Role::Blank) {
+    if (role.letter == 0) {
+      if (is_line_end(*p)) {
+        line.length = static_cast<std::uint32_t>(p - begin);
+        line.words = static_cast<std::uint16_t>(word - words);
+        line.plain_arguments = taken & kArguments;
+        if (!command) return p;
+        line.motion.begin = line.motion.command = static_cast<std::uint16_t>(command - words);
+        line.motion.end = static_cast<std::uint16_t>(behind - words);
+        if (line.motion.command == line.flags / LineTree::kHasLabel) line.motion.flags = Instruction::kFirst;
+        // A motion G needs a coordinate; that it has none is for the general way to tell.
+        return (taken & kCommand) != 0 && (taken & dialect::kCoordinateLetters) == 0 ? nullptr : p;
+      }
+      if (is_blank(*p)) {
         ++p;
         continue;
       }
-      if (is_line_end(*p)) goto complete;
       const char* const behind_it = *p == ';' || *p == '(' ? behind_comment(p, end) : nullptr;
-      if (!behind_it) break;
+      if (!behind_it) return nullptr;
       comments_.push_back({static_cast<std::uint32_t>(p - begin), static_cast<std::uint32_t>(behind_it - begin)});
+      ++line.comments;
       p = behind_it;
       continue;
     }
     const char* digits = p + 1;
     if (*digits <= ' ' && is_blank(*digits)) ++digits;
     Number number;
-    if (!scan_short_number(digits, number) && !scan_long_number(digits, end, number)) break;
-    Word& word = words[count];
-    word.value = number.value;
-    word.begin = static_cast<std::uint32_t>(p - begin);
-    word.end = static_cast<std::uint32_t>(number.end - begin);
-    word.digits = number.digits;
-    word.letter = role.letter;
-    word.flags =
-        static_cast<std::uint8_t>((number.is_signed ? Word::kSigned : 0) | (number.has_point ? Word::kPoint : 0));
-    if (role.role == Role::Argument) {
-      if ((taken & role.bit) != 0) break;
-      taken |= role.bit;
-      word.owner = 0;
-      command = command < 0 ? count : command;
-      behind = static_cast<std::uint16_t>(count + 1);
-    } else if (role.role == Role::Feed) {
-      if (feed >= 0 || !(word.value > 0)) break;
-      word.owner = Word::kNobody;
-      feed = count;
-    } else if (role.role == Role::Command) {
-      if (command >= 0 || !word.is_plain_integer() || !(word.value <= 3)) break;
-      row = dialect::kGCodeRows[static_cast<std::size_t>(word.value)];
-      word.owner = 0;
-      command = count;
-      behind = static_cast<std::uint16_t>(count + 1);
+    if (!scan_short_number(digits, number) && (!scan_long_number(digits, end, number) || number.end == end))
+      return nullptr;
+    if ((taken & role.letter) != 0) return nullptr;
+    taken |= role.letter;
+    word->value = number.value;
+    word->begin = static_cast<std::uint32_t>(p - begin);
+    word->end = static_cast<std::uint32_t>(number.end - begin);
+    word->digits = number.digits;
+    const std::uint32_t flags =
+        std::uint32_t{number.is_signed} * Word::kSigned + std::uint32_t{number.has_point} * Word::kPoint;
+    const std::uint32_t tail = role.tail + (flags << kFlagsShift);
+    std::memcpy(&word->owner, &tail, sizeof tail);
+    if ((role.letter & kArguments) != 0) {
+      if (!command) command = word;
+      behind = word + 1;
+    } else if (role.letter == kFeed) {
+      if (!(number.value > 0)) return nullptr;
+      line.feed = static_cast<std::int32_t>(word - words);
+    } else if (role.letter == kCommand) {
+      if (command || flags != 0 || !(number.value <= 3)) return nullptr;
+      line.motion.kind = InstructionKind::G;
+      line.motion.row = dialect::kGCodeRows[static_cast<std::size_t>(number.value)];
+      command = word;
     } else {
-      if (count > 0 || !word.is_plain_integer() || word.digits > 15) break;
-      word.owner = Word::kNobody;
-      has_label = true;
+      if (word != words || flags != 0 || number.digits > 15) return nullptr;
+      line.flags = LineTree::kHasLabel;
+      line.label = static_cast<std::uint64_t>(number.value);
     }
-    ++count;
+    ++word;
     p = number.end;
-    if (p != end && *p == ' ') ++p;  // Nearly always.
+    if (*p == ' ') [[likely]]
+      ++p;
   }
-  comments_.resize(first_comment);
   return nullptr;
+}
 
-complete:
-  // A motion G needs a coordinate; that it has none is for the general way to tell.
-  if (row != dialect::kUnknownGCode && (taken & dialect::kCoordinateLetters) == 0) {
+/// Most lines of most programs hold at most an N, a motion G, coordinates and F, each once and well written. They are
+/// parsed in one go, into the very trees that the general way gives them. Returns where the first other line begins.
+const char* TreeStore::append_plain_lines(const char* begin, const char* stop, const char* end) {
+  if (end - begin < kMargin) return begin;
+  const char* const last = end - kMargin;
+  while (begin < stop) {
+    const std::size_t most = std::min(kLinesAtOnce, static_cast<std::size_t>(stop - begin));
+    Line* const lines = lines_.room_for(most);
+    Word* words = words_.room_for(most * kMostPlainWords);
+    auto first_word = static_cast<std::uint32_t>(words_.size());
+    auto first_comment = static_cast<std::uint32_t>(comments_.size());
+    std::size_t read = 0;
+    const char* line_end = begin;
+    while (read < most && begin < stop && (line_end = read_plain_line(begin, last, end, lines[read], words))) {
+      Line& line = lines[read++];
+      line.first_word = first_word;
+      line.first_comment = first_comment;
+      first_comment += line.comments;
+      first_word += line.words;
+      words += line.words;
+      begin = skip_line_end(line_end, end);
+    }
+    lines_.add(read);
+    words_.add(first_word - words_.size());
+    if (line_end) continue;
     comments_.resize(first_comment);
-    return nullptr;
+    break;
   }
-  Line& added = lines_.push_back(Line{});
-  added.length = static_cast<std::uint32_t>(p - begin);
-  added.first_word = static_cast<std::uint32_t>(words_.size());
-  added.first_instruction = static_cast<std::uint32_t>(instructions_.size());
-  added.first_comment = static_cast<std::uint32_t>(first_comment);
-  added.first_finding = static_cast<std::uint32_t>(findings_.size());
-  added.words = count;
-  added.feed = feed;
-  added.comments = static_cast<std::uint32_t>(comments_.size() - first_comment);
-  added.plain_arguments = taken;
-  if (has_label) {
-    added.flags = LineTree::kHasLabel;
-    added.label = static_cast<std::uint64_t>(words[0].value);
-  }
-  words_.add(count);
-  if (command >= 0) {
-    added.instructions = 1;
-    Instruction& instruction = *instructions_.room_for(1);
-    instruction = {.kind = row == dialect::kUnknownGCode ? InstructionKind::Continuation : InstructionKind::G,
-                   .row = row,
-                   .flags = command == (has_label ? 1 : 0) ? Instruction::kFirst : std::uint8_t{0},
-                   .number = 0,
-                   .command = static_cast<std::uint16_t>(command),
-                   .begin = static_cast<std::uint16_t>(command),
-                   .end = behind};
-    instructions_.add(1);
-  }
-  return p;
+  return begin;
 }
 
 }  // namespace isocnc::syntax

@@ -5,6 +5,14 @@
 
 namespace isocnc::syntax {
 
+const char* TreeStore::append_lines(const char* begin, const char* stop, const char* end) {
+  while (begin < stop) {
+    begin = append_plain_lines(begin, stop, end);
+    if (begin < stop) begin = skip_line_end(append_rarer_line(begin, end), end);
+  }
+  return begin;
+}
+
 const char* TreeStore::append_rarer_line(const char* begin, const char* end) {
   if (begin != end && upper(*begin) == 'V')
     if (const char* const line_end = append_plain_assignment(begin, end)) return line_end;

@@ -16,15 +16,27 @@ class TreeStore {
   /// Parses the line that starts at `begin` and appends its tree. Returns where the line's text ends: at its CR or LF,
   /// or at `end`. Reads nothing beyond.
   const char* append_line(const char* begin, const char* end) {
-    const char* const line_end = append_plain_line(begin, end);
-    return line_end ? line_end : append_rarer_line(begin, end);
+    if (append_plain_lines(begin, begin == end ? end : begin + 1, end) == begin) return append_rarer_line(begin, end);
+    return begin + lines_.back().length;
   }
+  /// The same for all lines that start before `stop`. Returns where the one after them does, or `end`.
+  const char* append_lines(const char* begin, const char* stop, const char* end);
   void clear();
 
   std::size_t size() const { return lines_.size(); }
   /// `text` is the text that was parsed, at its present address.
   LineTree tree(std::size_t index, const char* text) const {
     const Line& line = lines_[index];
+    if (line.is_plain)
+      return {.text = {text, line.length},
+              .words = {words_.data() + line.first_word, line.words},
+              .instructions = {&line.motion, line.plain_arguments == 0 ? 0u : 1u},
+              .comments = {comments_.data() + line.first_comment, line.comments},
+              .findings = {},
+              .label = line.label,
+              .feed = line.feed,
+              .flags = line.flags,
+              .plain_arguments = line.plain_arguments};
     return {.text = {text, line.length},
             .words = {words_.data() + line.first_word, line.words},
             .instructions = {instructions_.data() + line.first_instruction, line.instructions},
@@ -34,8 +46,18 @@ class TreeStore {
             .label = line.label,
             .feed = line.feed,
             .spindle = line.spindle,
-            .flags = line.flags,
-            .plain_arguments = line.plain_arguments};
+            .flags = line.flags};
+  }
+  /// tree(index, text).plain(), for who executes millions of them.
+  PlainLine plain(std::size_t index) const {
+    const Line& line = lines_[index];
+    if (!line.is_plain) return {};
+    return {.words = {words_.data() + line.first_word, line.words},
+            .arguments = line.plain_arguments,
+            .feed = line.feed,
+            .row = line.motion.row,
+            .has_label = (line.flags & LineTree::kHasLabel) != 0,
+            .label = line.label};
   }
   /// Bytes of the line's text.
   std::uint32_t length(std::size_t index) const { return lines_[index].length; }
@@ -46,27 +68,34 @@ class TreeStore {
  private:
   friend class LineParser;
 
-  const char* append_plain_line(const char* begin, const char* end);
+  const char* append_plain_lines(const char* begin, const char* stop, const char* end);
   const char* append_rarer_line(const char* begin, const char* end);
   const char* append_plain_assignment(const char* begin, const char* end);
 
-  struct Line {
+  struct PlainPart {
+    std::uint64_t label = 0;
     std::uint32_t length = 0;
     std::uint32_t first_word = 0;
-    std::uint32_t first_instruction = 0;
     std::uint32_t first_comment = 0;
-    std::uint32_t first_finding = 0;
     std::uint32_t comments = 0;
-    std::uint32_t findings = 0;
+    std::int32_t feed = -1;
     std::uint16_t words = 0;
+    std::uint8_t flags = 0;
+    bool is_plain = false;
+    dialect::LetterSet plain_arguments = 0;
+    Instruction motion;  ///< Where there are plain arguments.
+  };
+  /// Of a plain line (LineTree::plain_arguments) nothing but its PlainPart is written.
+  struct Line : PlainPart {
+    std::uint32_t first_instruction = 0;
+    std::uint32_t first_finding = 0;
+    std::uint32_t findings = 0;
     std::uint16_t instructions = 0;
     std::int32_t jump = -1;
-    std::int32_t feed = -1;
     std::int32_t spindle = -1;
-    std::uint64_t label = 0;
-    std::uint8_t flags = 0;
-    dialect::LetterSet plain_arguments = 0;
   };
+
+  const char* read_plain_line(const char* begin, const char* last, const char* end, Line& line, Word* words);
 
   Buffer<Line> lines_;
   Buffer<Word> words_;

@@ -1,0 +1,57 @@
+#include "interpreter/execution/plain_run.h"
+#include "interpreter/execution/executor.h"
+
+namespace isocnc::execution {
+
+using dialect::ModalGroup;
+using syntax::PlainLine;
+using syntax::Word;
+
+void take_feed(double number, State& state) {
+  state.feed_given = true;
+  if (!(number > 0)) return;  // Reported; the feed before it stays.
+  state.last_feed = {number, state.mm_per_unit()};
+  if (state.inverse_time()) return state.learn(State::kFeedOfInverseTime);
+  state.forget(State::kFeedOfInverseTime);
+  state.feed_per_minute = state.last_feed;
+}
+
+/// Whether a first look shows that an arc is sound; arc() has the last word on the others.
+bool PlainRun::is_sound_arc(const PlainLine& line) const {
+  const Plane& plane = plane_in_force(state_);
+  const auto has = [&](char letter) { return dialect::contains(line.arguments, letter); };
+  if ((line.arguments & dialect::kRotaryLetters) != 0 || state_.face_mounted || has(plane.stray_center)) return false;
+  if (!has(plane.u_letter) && !has(plane.v_letter)) return false;
+  geometry::ArcGiven arc;
+  for (const Word& word : line.words) {
+    const double value = word.value * scale_;
+    const auto from_start = [&](int axis) { return incremental_ ? value : value - state_.position.tip[axis]; };
+    if (word.letter == plane.u_letter) {
+      arc.end.u = from_start(plane.u);
+    } else if (word.letter == plane.v_letter) {
+      arc.end.v = from_start(plane.v);
+    } else if (word.letter == plane.u_center) {
+      arc.center_u = from_start(plane.u);
+    } else if (word.letter == plane.v_center) {
+      arc.center_v = from_start(plane.v);
+    } else if (word.letter == 'R') {
+      arc.radius = value;
+    }
+  }
+  return geometry::surely_fits(arc, setup_.arc_tolerance);
+}
+
+void PlainRun::take_feed(const PlainLine& line) {
+  execution::take_feed(line.words[static_cast<std::size_t>(line.feed)].value, state_);
+  feed_holds_ = !state_.inverse_time();
+}
+
+void PlainRun::finish() {
+  state_.set_mode(ModalGroup::Motion, mode_);
+  state_.exact_stop_fits = mode_ != 0;
+  state_.tool_awaited = false;
+  state_.tool_prepared = false;
+  if (feeds_) state_.forget(State::kUncut);
+}
+
+}  // namespace isocnc::execution

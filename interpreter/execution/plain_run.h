@@ -1,0 +1,89 @@
+#pragma once
+
+#include "interpreter/execution/state.h"
+#include "interpreter/geometry/increment.h"
+#include "interpreter/syntax/line_tree.h"
+
+namespace isocnc::execution {
+
+/// Executes plain lines in a row (LineTree::plain_arguments), as execute() would where nobody asks for effects: motions
+/// with which nothing is wrong, and which concern nothing in State::knowledge. Holds what no such line changes, so that
+/// each costs next to nothing. In between the state has the position right; all of it is when the run is gone.
+class PlainRun {
+ public:
+  PlainRun(State& state, const Setup& setup)
+      : state_(state),
+        setup_(setup),
+        scale_(state.mm_per_unit()),
+        straight_(state.five_axis() ? dialect::kCoordinateLetters : dialect::kLinearLetters),
+        incremental_(state.incremental()),
+        may_run_(state.tool_selected && state.unknown == 0 && !concerns_rules(state)),
+        feed_holds_(state.feed_given && !state.inverse_time()),
+        mode_(state.mode(dialect::ModalGroup::Motion)) {}
+  PlainRun(const PlainRun&) = delete;
+  PlainRun& operator=(const PlainRun&) = delete;
+  ~PlainRun() {
+    if (has_run_) finish();
+  }
+
+  /// A rapid or a line, or a sound arc, with tool and feed known to be there. False, with nothing done, for any other
+  /// line.
+  bool run(const syntax::PlainLine& line) {
+    if (!may_run_ || !line.has_coordinates()) return false;
+    const std::uint8_t mode =
+        line.row == dialect::kUnknownGCode ? mode_ : static_cast<std::uint8_t>(dialect::kGCodes[line.row].number);
+    const bool has_feed = line.feed >= 0;
+    if (mode == 0 ? has_feed : !has_feed && !feed_holds_) return false;
+    if (mode > 1) {
+      if (mode == dialect::kNoMotion || !is_sound_arc(line)) return false;
+    } else if ((line.arguments & ~straight_) != 0) {
+      return false;
+    }
+    move_axes(line);
+    if (has_feed) take_feed(line);
+    mode_ = mode;
+    has_run_ = true;
+    feeds_ |= mode != 0;
+    return true;
+  }
+
+  bool is_incremental() const { return incremental_; }
+  /// Whether the last line was an arc.
+  bool was_arc() const { return mode_ > 1; }
+
+ private:
+  static bool concerns_rules(const State& state) {
+    constexpr State::Knowledge kAlways = State::kStopped | State::kCompensationWaits | State::kNotStarted;
+    return state.knows(state.inverse_time() ? kAlways : kAlways | State::kFeedOfInverseTime);
+  }
+
+  void move_axes(const syntax::PlainLine& line) {
+    for (const syntax::Word& word : line.words) {
+      const auto axis = static_cast<unsigned>(word.letter - 'X');
+      if (axis <= 2) [[likely]] {
+        move(state_.position.tip[axis], word.value * scale_);
+      } else if (word.letter == 'B' || word.letter == 'C') {
+        move(word.letter == 'B' ? state_.position.b : state_.position.c, word.value);
+      }
+    }
+  }
+  void move(double& position, double value) const {
+    position = incremental_ ? geometry::advanced(position, value) : value;
+  }
+  bool is_sound_arc(const syntax::PlainLine& line) const;
+  void take_feed(const syntax::PlainLine& line);
+  void finish();
+
+  State& state_;
+  const Setup& setup_;
+  const double scale_;
+  const dialect::LetterSet straight_;  ///< What a straight motion may move.
+  const bool incremental_;
+  const bool may_run_;
+  bool feed_holds_;  ///< A feed move may do without F.
+  std::uint8_t mode_;
+  bool has_run_ = false;
+  bool feeds_ = false;  ///< A feed move has run.
+};
+
+}  // namespace isocnc::execution
