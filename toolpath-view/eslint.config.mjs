@@ -1,4 +1,5 @@
 import eslint from "@eslint/js";
+import globals from "globals";
 import typescript from "typescript-eslint";
 
 /// What may surprise in TypeScript: every rule of the two recommended sets that judges by types, and none by looks.
@@ -19,5 +20,11 @@ export default typescript.config(
       // A vscode.Disposable is whatever has a dispose().
       "@typescript-eslint/no-unsafe-class-instance-assignment": "off",
     },
+  },
+  // What builds and tests; some of it runs in pages that are opened for that.
+  {
+    files: ["**/*.mjs"],
+    extends: [eslint.configs.recommended],
+    languageOptions: { globals: { ...globals.node, ...globals.browser } },
   },
 );

@@ -33,8 +33,11 @@ static constexpr auto kPatience = 500ms;
 static constexpr auto kBetweenProgress = 200ms;
 /// Blocks that are searched at once on the way back.
 static constexpr std::uint64_t kWindow = 8192;
+/// How often it is looked whether the file has changed.
+static constexpr auto kBetweenLooks = 1000ms;
 /// More than anybody reads in a second.
 static constexpr std::size_t kMostOutputs = 200;
+static constexpr auto kOutputSecond = 1000ms;
 /// Of log points, in a slice; then a pause of kPace.
 static constexpr std::size_t kMostMessages = 16;
 
@@ -174,7 +177,7 @@ void Session::schedule(std::chrono::milliseconds delay) {
   const auto task = [this, generation = generation_] {
     if (generation == generation_) run_slice();
   };
-  if (delay == 0ms) return loop_.post(task);
+  if (delay == std::chrono::milliseconds::zero()) return loop_.post(task);
   loop_.post_at(Clock::now() + delay, task);
 }
 
@@ -670,7 +673,7 @@ void Session::set_speed(double speed) {
   if (is_launched()) pace_time_ = debuggee_->present().time();
 }
 
-bool Session::can_set(const Quantity& quantity) const {
+bool Session::can_set(const Quantity& quantity) {
   const auto& name = quantity.name;
   return quantity.is_register || name == "VGPL" || name == "S" || name == "F" || name == "OVERRIDE" ||
          name == "PLAYBACK";
@@ -779,7 +782,7 @@ void Session::tell_events(std::span<const running::Event> events) {
     const std::string text = describe(event);
     if (text.empty()) continue;
     const auto now = Clock::now();
-    if (now - output_second_ > 1s) {
+    if (now - output_second_ > kOutputSecond) {
       tell_untold();
       output_second_ = now;
       outputs_ = 0;
@@ -809,7 +812,7 @@ static Json pose_json(const geometry::Pose& pose) {
 /// While the program runs.
 void Session::tell_where_it_is() {
   tell_position(false);
-  if (has_told_of_file_ || Clock::now() - last_look_at_file_ < 1s) return;
+  if (has_told_of_file_ || Clock::now() - last_look_at_file_ < kBetweenLooks) return;
   last_look_at_file_ = Clock::now();
   tell_of_changed_file();
 }

@@ -95,7 +95,7 @@ class Session {
   double speed() const { return wishes_.speed; }
   /// Throws where it is none that can be set.
   void set_quantity(const Quantity& quantity, double value);
-  bool can_set(const Quantity& quantity) const;
+  static bool can_set(const Quantity& quantity);
   /// Runs blocks by hand: what they did, for the console.
   std::string run_by_hand(std::string_view text);
 

@@ -99,9 +99,9 @@ double distance(const Machine& machine, const Move& move, const Vec3& point) {
   }
   constexpr int kGrid = 48;
   std::array<double, kGrid + 1> grid;
-  for (std::size_t i = 0; i <= kGrid; ++i) grid[i] = off(static_cast<double>(i) / kGrid);
+  for (std::size_t i = 0; i < grid.size(); ++i) grid[i] = off(static_cast<double>(i) / kGrid);
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i <= kGrid; ++i) {
+  for (std::size_t i = 0; i < grid.size(); ++i) {
     const bool is_valley = (i == 0 || grid[i] <= grid[i - 1]) && (i == kGrid || grid[i] <= grid[i + 1]);
     if (!is_valley) continue;
     double low = std::max(0.0, (static_cast<double>(i) - 1) / kGrid);

@@ -5,7 +5,6 @@ usage: security_test.py BIN_FOLDER. Skipped (77) where there is no strace. docs/
 """
 
 import json
-import os
 import re
 import shutil
 import subprocess
