@@ -27,6 +27,7 @@ void Options::follow(const configuration::Configuration& configuration) {
 bool Options::wants_color() const {
   if (color != "auto") return color == "always";
   const int descriptor = prints_program() ? STDERR_FILENO : STDOUT_FILENO;
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody sets a variable.
   return output.empty() && isatty(descriptor) != 0 && std::getenv("NO_COLOR") == nullptr;
 }
 

@@ -341,7 +341,7 @@ std::optional<Programs> find_programs(const Options& options, configuration::Con
               [](const auto& a, const auto& b) { return a.native() < b.native(); });
   Programs programs{.files = std::move(found.files), .settings = {}};
   for (const std::filesystem::path& file : programs.files)
-    programs.settings.push_back(settings.of(place_of_program(file, options.stdin_name)));
+    programs.settings.emplace_back(settings.of(place_of_program(file, options.stdin_name)));
   if (complain_of(configurations, language)) return std::nullopt;
   for (const std::string& problem : found.problems) complain(problem);
   trouble = !found.problems.empty();

@@ -36,10 +36,10 @@ const ProgramSettings& SettingsFinder::of(const std::filesystem::path& program) 
   }
   std::unique_ptr<const ProgramSettings>& settings = settings_[{&configuration, holds}];
   if (!settings) {
-    Selection selection = selection_of(configuration, holds, command_line_);
+    const Selection selection = selection_of(configuration, holds, command_line_);
     execution::Setup setup = configuration.machine.setup;
     setup.every_motion = selection.shows("motion-goes-nowhere"_diag);
-    settings = std::make_unique<const ProgramSettings>(ProgramSettings{std::move(setup), std::move(selection)});
+    settings = std::make_unique<const ProgramSettings>(ProgramSettings{std::move(setup), selection});
   }
   return *settings;
 }

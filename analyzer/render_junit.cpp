@@ -51,7 +51,7 @@ class JunitRenderer final : public Renderer {
     fmt::format_to(to, "    <testcase name=\"{} {} {}:{}\" classname=\"{}\" file=\"{}\" line=\"{}\">\n", shown.def.code,
                    shown.def.name, shown.line, shown.column, file, file, shown.line);
     if (shown.severity == dialect::Severity::Error) {
-      fmt::format_to(to, "      <failure type=\"{}\" message=\"{}\">{}", shown.def.code, message, body);
+      fmt::format_to(to, R"(      <failure type="{}" message="{}">{})", shown.def.code, message, body);
       lines_of(path, out);
       out += "</failure>\n";
     } else {

@@ -285,7 +285,7 @@ class Dimensions {
   }
 
  private:
-  std::string mode_text(std::uint8_t number) const { return "G" + std::to_string(number); }
+  static std::string mode_text(std::uint8_t number) { return "G" + std::to_string(number); }
 
   bool enter() {
     if (old_.mode(mode_.group) == mode_.number) return true;
@@ -419,8 +419,8 @@ class Dimensions {
   }
 
   /// Of a frame: G28 has components in X, Y and Z.
-  void set_origin(LineRewrite& rewrite, const LineTree& line, const Instruction& instruction, double old_scale,
-                  double scale, double rounding) const {
+  static void set_origin(LineRewrite& rewrite, const LineTree& line, const Instruction& instruction, double old_scale,
+                         double scale, double rounding) {
     const int number = instruction.g()->number;
     if (number != 24 && number != 29 && number != 92) return;
     for (const Word* const word : words_of(line, instruction, dialect::kLinearLetters))
@@ -428,7 +428,7 @@ class Dimensions {
   }
 
   /// Per minute and along a way: inverse time and degrees know no units.
-  void set_feed(LineRewrite& rewrite, const LineTree& line, const Deed& deed, double factor) const {
+  static void set_feed(LineRewrite& rewrite, const LineTree& line, const Deed& deed, double factor) {
     if (deed.modes().inverse_time()) return;
     const Instruction* const motion = motion_in(line);
     if (motion && words_of(line, *motion, dialect::kLinearLetters).empty()) return;

@@ -72,6 +72,7 @@ const JumpMap& TextProgram::jumps() {
 bool TextProgram::is_jumped_to(std::uint64_t label) { return jumps().names(label); }
 
 const Frontier& TextProgram::frontier_before(std::uint64_t line) {
+  // NOLINTNEXTLINE(modernize-make-unique): made where it stays, since a Checker in it is large.
   if (!walk_ || walk_->line > line) walk_.reset(new Walk{.checker = Checker(setup_, jumps())});
   while (walk_->line < std::min(line, line_count())) walk_->step(text(walk_->line));
   return walk_->checker.frontier;

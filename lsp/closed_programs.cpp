@@ -21,6 +21,7 @@ std::vector<std::filesystem::path> ClosedPrograms::programs_in(const std::vector
     return {lint.extensions, &lint.excluded};
   };
   std::vector<std::string> paths;
+  paths.reserve(folders.size());
   for (const std::filesystem::path& folder : folders) paths.push_back(folder.string());
   // What stands in the way of reading a folder is the user's to see where the folders are shown.
   return analyzer::select_files(paths, rules, dialect::Language::English).files;

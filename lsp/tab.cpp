@@ -34,7 +34,7 @@ static std::int64_t version_of(const Json& params) {
   return documents::member<std::int64_t>(params.at("textDocument"), "version").value_or(0);
 }
 
-void Tab::open(std::shared_ptr<const rpc::Call> call, ClientPointer client) {
+void Tab::open(std::shared_ptr<const rpc::Call> call, const ClientPointer& client) {
   post_edit(
       [this, call = std::move(call), client] {
         const Json& params = call->params();
@@ -54,7 +54,7 @@ static std::vector<ContentChange> changes_in(const rpc::Call& call) {
   return changes;
 }
 
-void Tab::edit(std::shared_ptr<const rpc::Call> call, ClientPointer client) {
+void Tab::edit(std::shared_ptr<const rpc::Call> call, const ClientPointer& client) {
   post_edit([this, call = std::move(call),
              encoding = client->encoding] { document_.edit(version_of(call->params()), changes_in(*call), encoding); },
             client);

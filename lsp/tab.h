@@ -45,8 +45,8 @@ class Tab : public std::enable_shared_from_this<Tab> {
   const std::string& uri() const { return uri_; }
   bool is_configuration() const { return is_configuration_; }
 
-  void open(std::shared_ptr<const rpc::Call> call, ClientPointer client);
-  void edit(std::shared_ptr<const rpc::Call> call, ClientPointer client);
+  void open(std::shared_ptr<const rpc::Call> call, const ClientPointer& client);
+  void edit(std::shared_ptr<const rpc::Call> call, const ClientPointer& client);
   /// Nobody looks at the document any more. What it still has to say is for the caller to drop.
   void close() {
     is_closed_ = true;

@@ -96,9 +96,9 @@ static std::optional<std::uint64_t> block_beside(const Request& request, int ste
 }
 
 static bool waits_for_tool(const LineTree& line) {
-  for (const Instruction& each : line.instructions)
-    if (each.kind == InstructionKind::ToolChange && each.end == each.command + 1) return true;
-  return false;
+  return std::any_of(line.instructions.begin(), line.instructions.end(), [](const Instruction& each) {
+    return each.kind == InstructionKind::ToolChange && each.end == each.command + 1;
+  });
 }
 
 /// A T alone; an M06 on the line above or below is to have it.

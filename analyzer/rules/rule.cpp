@@ -10,7 +10,7 @@ namespace isocnc::analyzer::rules {
 #undef ISOCNC_RULE
 
 static const Rule* const kRules[] = {
-#define ISOCNC_RULE(name) &name,
+#define ISOCNC_RULE(name) &(name),
 #include <rules.inc>
 #undef ISOCNC_RULE
 };

@@ -12,7 +12,7 @@ namespace isocnc::analyzer::style {
 #undef ISOCNC_RULE
 
 static const RuleRow* const kRules[] = {
-#define ISOCNC_RULE(name) &name,
+#define ISOCNC_RULE(name) &(name),
 #include <style_rules.inc>
 #undef ISOCNC_RULE
 };

@@ -7,7 +7,7 @@ namespace isocnc::debugger::requests {
 #undef ISOCNC_REQUEST
 
 static const Request* const kRequests[] = {
-#define ISOCNC_REQUEST(name) &name,
+#define ISOCNC_REQUEST(name) &(name),
 #include <requests.inc>
 #undef ISOCNC_REQUEST
 };

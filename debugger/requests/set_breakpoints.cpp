@@ -8,7 +8,7 @@ static constexpr dialect::Text kBehindEnd{"no block follows", "non segue nessun 
 
 /// Older clients send lines alone.
 static Json wanted_breakpoints(const Json& arguments) {
-  const Json breakpoints = list(arguments, "breakpoints");
+  Json breakpoints = list(arguments, "breakpoints");
   if (!breakpoints.empty() || arguments.contains("breakpoints")) return breakpoints;
   Json made = Json::array();
   for (const Json& line : list(arguments, "lines")) made.push_back({{"line", line}});

@@ -5,7 +5,7 @@ namespace isocnc::debugger::requests {
 /// Values that change (`V3`, `MOTION`, `F`), or that cross a threshold (`Z = 0`).
 static Json answer_set_data_breakpoints(Session& session, const Json& arguments) {
   std::vector<session::DataBreakpoint> wanted;
-  const Json told = read_breakpoints(session, arguments, [&](const Json& each, std::int64_t id) {
+  Json told = read_breakpoints(session, arguments, [&](const Json& each, std::int64_t id) {
     auto watched = session::Watched::compile(text(each, "dataId"), session.language());
     if (const auto* const problem = std::get_if<session::ExpressionProblem>(&watched))
       throw RequestError(problem->message);

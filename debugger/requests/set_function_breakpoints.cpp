@@ -8,7 +8,7 @@ static constexpr dialect::Text kNoCode{"a code is M, G or T with its number, suc
 /// Blocks that hold a code: `M06`, `T101001`, `G29`.
 static Json answer_set_function_breakpoints(Session& session, const Json& arguments) {
   std::vector<session::FunctionBreakpoint> wanted;
-  const Json told = read_breakpoints(session, arguments, [&](const Json& each, std::int64_t id) {
+  Json told = read_breakpoints(session, arguments, [&](const Json& each, std::int64_t id) {
     const auto code = session::WantedCode::read(text(each, "name"));
     if (!code) throw RequestError(std::string(session.in_language(kNoCode)));
     wanted.push_back({{.id = id, .rules = rules_of(session, each), .counter = {}}, *code});

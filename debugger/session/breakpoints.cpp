@@ -131,8 +131,8 @@ bool WantedCode::is_in(const syntax::LineTree& tree) const {
 
 std::variant<Watched, ExpressionProblem> Watched::compile(std::string_view text, Language language) {
   const std::size_t equals = text.find('=');
-  const bool has_threshold =
-      equals != std::string_view::npos && equals > 0 && std::string_view("<>!").find(text[equals - 1]) == text.npos;
+  const bool has_threshold = equals != std::string_view::npos && equals > 0 &&
+                             std::string_view("<>!").find(text[equals - 1]) == std::string_view::npos;
   const std::string_view left = has_threshold ? text.substr(0, equals) : text;
   auto value = Expression::compile(left, language);
   if (const auto* const problem = std::get_if<ExpressionProblem>(&value)) return *problem;

@@ -15,7 +15,9 @@ struct Named {
   std::string en;
   std::string it;
 
+  // NOLINTNEXTLINE(google-explicit-constructor): whatever can be named stands as it is in a list of names.
   Named(std::string name) : en(name), it(std::move(name)) {}
+  // NOLINTNEXTLINE(google-explicit-constructor): likewise.
   Named(const dialect::Text& text) : en(text.en), it(text.it) {}
 };
 

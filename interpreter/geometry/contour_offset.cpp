@@ -16,7 +16,7 @@ static Box box_around(const PlaneCurve& curve) {
   box.extend(curve.end);
   if (!curve.is_arc()) return box;
   const Vec2 reach = Vec2::Constant(std::max(curve.radius(), (curve.end - curve.center).norm()));
-  return Box(Vec2(curve.center - reach), Vec2(curve.center + reach));
+  return {Vec2(curve.center - reach), Vec2(curve.center + reach)};
 }
 
 /// How unequally far the ends of an arc are from its center.

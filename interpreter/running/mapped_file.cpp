@@ -23,6 +23,7 @@ static constexpr Text kWasCutShort{"has been cut short by another program while 
 
 /// The files that are mapped now. One that finds no place ends the program without a word, as it would have without
 /// this.
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): a handler sees nothing else.
 static HandlerTable<MappedFile> mapped_files;
 
 MappedFile::MappedFile(const std::filesystem::path& path, int descriptor, std::size_t size, Language language)
@@ -40,18 +41,22 @@ MappedFile::MappedFile(const std::filesystem::path& path, int descriptor, std::s
 MappedFile::~MappedFile() {
   if (begin_ == nullptr) return;
   mapped_files.remove(this);
-  ::munmap(const_cast<char*>(begin_), size_);
+  ::munmap(const_cast<char*>(begin_), size_);  // NOLINT(cppcoreguidelines-pro-type-const-cast): changes no byte.
 }
 
-void MappedFile::will_be_read_in_order() const { ::madvise(const_cast<char*>(begin_), size_, MADV_SEQUENTIAL); }
+void MappedFile::will_be_read_in_order() const {
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): changes no byte.
+  ::madvise(const_cast<char*>(begin_), size_, MADV_SEQUENTIAL);
+}
 
 const std::string* MappedFile::complaint_of(const void* address) const {
   const auto* const place = static_cast<const char*>(address);
-  const std::less<const char*> is_below;
+  const std::less<> is_below;
   return !is_below(place, begin_) && is_below(place, begin_ + size_) ? &complaint_ : nullptr;
 }
 
 /// `isolint: `, for the handler.
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): likewise.
 static std::string complaint_prefix;
 
 /// Calls nothing that a handler may not call.

@@ -43,7 +43,7 @@ void PathRecording::add(const ToolpathStep& step) {
                                              {kOtherFeed, feed != last_feed_},
                                              {kPause, pause > 0},
                                              {kPointCount, count != 1}};
-  std::uint64_t head = static_cast<std::uint64_t>(step.kind);
+  auto head = static_cast<std::uint64_t>(step.kind);
   for (const auto& [bit, is_set] : flags)
     if (is_set) head |= bit;
   steps_.put(head);

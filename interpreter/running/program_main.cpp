@@ -14,6 +14,7 @@
 
 namespace isocnc::running {
 
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): an exception that nobody handles brings none.
 static std::string_view running_program;
 
 /// Tells of the exception that is being handled, or of the one that nobody handles; asks for no memory.

@@ -42,7 +42,7 @@ void Progress::clear() {
 }
 
 std::function<void(std::string_view)> terminal_writer() {
-  const char* const terminal = std::getenv("TERM");
+  const char* const terminal = std::getenv("TERM");  // NOLINT(concurrency-mt-unsafe): nobody sets it.
   if (isatty(STDERR_FILENO) == 0 || !terminal || std::string_view(terminal) == "dumb") return {};
   return [](std::string_view text) {
     // A bar that cannot be drawn is no reason to stop.

@@ -39,9 +39,9 @@ static constexpr Text kDot{"feed move along the view", "lavoro lungo la vista"};
 static constexpr Text kFrame{"frame (X, Y, Z)", "sistema di riferimento (X, Y, Z)"};
 static constexpr Text kToolless{"no tool", "nessun utensile"};
 static constexpr Text kNoMotion{"The program moves nothing.", "Il programma non muove nulla."};
-static constexpr std::string_view kStyles[] = {"stroke-width=\"1\" stroke-dasharray=\"6 3\" stroke-opacity=\"0.7\"",
-                                               "stroke-width=\"1.2\"", "stroke-width=\"2.4\""};
-static constexpr std::string_view kDotStyle = "stroke-width=\"6\" stroke-linecap=\"round\" stroke-opacity=\"0.8\"";
+static constexpr std::string_view kStyles[] = {R"(stroke-width="1" stroke-dasharray="6 3" stroke-opacity="0.7")",
+                                               R"(stroke-width="1.2")", R"(stroke-width="2.4")"};
+static constexpr std::string_view kDotStyle = R"(stroke-width="6" stroke-linecap="round" stroke-opacity="0.8")";
 
 static std::string_view color_of(std::size_t tool) {
   return tool == 0 ? kColors[0] : kColors[1 + (tool - 1) % (std::size(kColors) - 1)];
@@ -102,7 +102,7 @@ void SvgPlot::add(const ToolpathStep& step) {
   }
 }
 
-std::string SvgPlot::frames_drawn(const View& view, const Toolpath& path) const {
+std::string SvgPlot::frames_drawn(const View& view, const Toolpath& path) {
   static constexpr std::string_view kNames = "XYZ";
   const double scale = view.scale();
   std::string svg;
@@ -122,7 +122,7 @@ std::string SvgPlot::frames_drawn(const View& view, const Toolpath& path) const 
 }
 
 /// In the middle of its square.
-std::string SvgPlot::drawn(const View& view, const Toolpath& path, double left) const {
+std::string SvgPlot::drawn(const View& view, const Toolpath& path, double left) {
   const double scale = view.scale();
   std::string svg = fmt::format("<g transform=\"translate({:.2f} {:.2f}) scale({:.6g}) translate({:.3f} {:.3f})\">\n",
                                 left + kViewSize / 2, kTitleHeight + kViewSize / 2, scale,

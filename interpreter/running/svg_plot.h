@@ -44,8 +44,8 @@ class SvgPlot final : public Picture {
     double scale() const;
   };
 
-  std::string drawn(const View& view, const Toolpath& path, double left) const;
-  std::string frames_drawn(const View& view, const Toolpath& path) const;
+  static std::string drawn(const View& view, const Toolpath& path, double left);
+  static std::string frames_drawn(const View& view, const Toolpath& path);
   std::string legend(const Toolpath& path) const;
 
   const PlotSubject& subject_;

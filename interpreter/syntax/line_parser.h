@@ -40,6 +40,7 @@ class LineParser {
   void structure();
   bool is_foreign_word(const Word& unknown) const;
   bool is_unit(const Word& first, const Word& second) const;
+  bool is_number_of_prose(std::uint16_t index) const;
   void join_prose();
   bool stands_for_number(std::uint16_t index) const;
   bool is_taken_by_unknown_g(std::uint16_t index) const;
@@ -55,6 +56,7 @@ class LineParser {
   void add_spindle_speed(std::uint16_t index);
   std::uint16_t add_assignment(std::uint16_t index);
   void own_in_place_of_value(Instruction& owner, std::uint16_t index);
+  bool is_equals_said_before(std::uint16_t index) const;
   std::uint16_t add_equals(std::uint16_t index);
   std::uint16_t add_jump(std::uint16_t index);
   std::uint16_t end_jump(std::uint16_t last);
@@ -90,6 +92,7 @@ class LineParser {
 
   void report(dialect::DiagnosticId id, Span span, std::initializer_list<double> values = {}, Span related = {});
   void take_back(dialect::DiagnosticId id, Span span);
+  void take_back_within(Span span);
   void report_missing(dialect::DiagnosticId id, const Instruction& lacking);
   std::uint32_t column(const char* p) const { return static_cast<std::uint32_t>(p - begin_); }
   Word& word(std::size_t index) { return store_.words_[line_.first_word + index]; }

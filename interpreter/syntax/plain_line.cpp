@@ -126,6 +126,7 @@ const char* TreeStore::append_plain_assignment(const char* begin, const char* en
 
 /// Reads the line at `begin` into `line` and `words`, if it is plain; `last` is the last place where a word may begin.
 /// Returns its end, or null.
+// NOLINTNEXTLINE(readability-function-cognitive-complexity): its parts would be calls, on every line of every program.
 [[gnu::always_inline]] inline const char* TreeStore::read_plain_line(const char* const begin, const char* const last,
                                                                      const char* const end, Line& line, Word* words) {
   static constexpr PlainPart kPlain{.is_plain = true, .motion = {.kind = InstructionKind::Continuation}};

@@ -47,6 +47,12 @@ void LineParser::take_back(dialect::DiagnosticId id, Span span) {
                  findings.end());
 }
 
+void LineParser::take_back_within(Span span) {
+  auto& findings = store_.findings_;
+  const auto is_within = [&](const Finding& it) { return it.span.begin >= span.begin && it.span.end <= span.end; };
+  findings.erase(std::remove_if(findings.begin() + line_.first_finding, findings.end(), is_within), findings.end());
+}
+
 static bool is_no_word(const Word& word) { return word.letter == kError || word.has(Word::kMissing); }
 
 /// What is missing may stand in a comment that is not closed, which has been reported.
@@ -68,6 +74,15 @@ bool LineParser::is_unit(const Word& first, const Word& second) const {
   for (std::uint32_t i = first.begin; i < second.end && unit.size() < 4; ++i)
     if (!is_blank(begin_[i])) unit += upper(begin_[i]);
   return unit == "IN" || unit == "DEG" || (unit.size() == 2 && unit[0] == unit[1]);
+}
+
+/// A number behind text belongs to it: PROGRAM 12, CALL SUB1.
+bool LineParser::is_number_of_prose(std::uint16_t index) const {
+  const char letter = index < word_count() ? word(index).letter : '\0';
+  const char before = upper(begin_[word(index - 1u).begin]);
+  const bool is_behind_letter = before >= 'A' && before <= 'Z';
+  return letter == kNumber ||
+         (is_behind_letter && contains(dialect::kDimensionLetters | dialect::letters("NT"), letter));
 }
 
 /// Text that should be a comment reads as letters without numbers, one after the other: one mistake, not one for each.
@@ -92,21 +107,10 @@ void LineParser::join_prose() {
       i = std::max(i, last);
       continue;
     }
-    // A number behind it belongs to it: PROGRAM 12, CALL SUB1.
-    const char next = last < word_count() ? word(last).letter : '\0';
-    const char end = upper(begin_[word(last - 1u).begin]);
-    const bool ends_in_letter = end >= 'A' && end <= 'Z';
-    if (!is_only_unit &&
-        (next == kNumber || (ends_in_letter && contains(dialect::kDimensionLetters | dialect::letters("NT"), next))))
-      ++last;
+    if (!is_only_unit && is_number_of_prose(last)) ++last;
     const Span span = hull(word(i).span(), word(last - 1u).span());
     const dialect::DiagnosticId id = word(i).letter == kError ? "unknown-word"_diag : "word-without-number"_diag;
-    auto& findings = store_.findings_;
-    findings.erase(std::remove_if(findings.begin() + line_.first_finding, findings.end(),
-                                  [&](const Finding& finding) {
-                                    return finding.span.begin >= span.begin && finding.span.end <= span.end;
-                                  }),
-                   findings.end());
+    take_back_within(span);
     report(id, span);
     if (is_only_unit && word(i).letter == word(i + 1u).letter && contains(dialect::kDimensionLetters, word(i).letter))
       ++i;  // XX: that there is an X is plain.
@@ -483,14 +487,20 @@ bool LineParser::lacks_value(std::uint16_t assign) const {
   return letter == kAssign || contains(kInPlace, letter);
 }
 
+/// What is wrong with a `=` that has a word before it has been said there.
+bool LineParser::is_equals_said_before(std::uint16_t index) const {
+  const Word& before = word(index - 1u);
+  if (before.letter == kError || before.letter == kVgpl) return true;  // #1=5
+  if (before.letter == 'P' && line_.jump >= 0) return true;            // IF ... GOTO N9 P1=2: company of the IF.
+  return index > 1 && word(index - 2u).has(Word::kMissing);            // CR=5, VI=5: at the C or V.
+}
+
 /// A `=` that no V, and no M's P, stands before (ISO058). Returns the last word that belongs to it.
 std::uint16_t LineParser::add_equals(std::uint16_t index) {
   auto last = static_cast<std::uint16_t>(index + (lacks_value(index) ? 1 : 0));
   if (index > 0) {
     Word& before = word(index - 1u);
-    if (before.letter == kError || before.letter == kVgpl) return last;  // #1=5: reported with what stands before.
-    if (before.letter == 'P' && line_.jump >= 0) return last;            // IF ... GOTO N9 P1=2: company of the IF.
-    if (index > 1 && word(index - 2u).has(Word::kMissing)) return last;  // CR=5, VI=5: said at the C or V.
+    if (is_equals_said_before(index)) return last;
     if (before.owner != Word::kNobody) {
       Instruction& owner = instruction(before.owner);
       if (owner.kind == InstructionKind::Function && before.letter == 'P') {

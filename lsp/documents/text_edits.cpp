@@ -40,6 +40,7 @@ static std::string_view line_end_of(const Snapshot& snapshot) {
 
 std::vector<TextEdit> to_client(const Snapshot& snapshot, const std::vector<Edit>& edits) {
   std::vector<TextEdit> all;
+  all.reserve(edits.size());
   for (const Edit& edit : edits)
     all.push_back(
         {{snapshot.to_client(edit.begin), snapshot.to_client(edit.end)}, edit.text_with(line_end_of(snapshot))});

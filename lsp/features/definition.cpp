@@ -53,12 +53,11 @@ std::optional<Span> motion_span(const syntax::LineTree& line) {
 }
 
 bool is_continuation(const syntax::LineTree& line, std::uint32_t column) {
-  for (const syntax::Instruction& instruction : line.instructions) {
-    if (instruction.kind != syntax::InstructionKind::Continuation) continue;
-    const Span span = syntax::hull(line.words[instruction.begin].span(), line.words[instruction.end - 1u].span());
-    if (span.begin <= column && column <= span.end) return true;
-  }
-  return false;
+  return std::any_of(line.instructions.begin(), line.instructions.end(), [&](const syntax::Instruction& it) {
+    if (it.kind != syntax::InstructionKind::Continuation) return false;
+    const Span span = syntax::hull(line.words[it.begin].span(), line.words[it.end - 1u].span());
+    return span.begin <= column && column <= span.end;
+  });
 }
 
 /// The motion Gs that may be in force before a line.

@@ -170,7 +170,7 @@ documents::RawJson pull_each(const Snapshot& snapshot, const Json& /*params*/) {
 }
 
 /// Leaves out what the client has, and takes away what it has of programs that are gone.
-std::string conclude_pull(std::string results, const Json& params, Gathered gathered) {
+std::string conclude_pull(const std::string& results, const Json& params, Gathered gathered) {
   std::map<std::string, std::string> before;
   for (const Json& each : params.value("previousResultIds", Json::array())) before[each.at("uri")] = each.at("value");
   if (before.empty()) return fmt::format(R"({{"items":{}}})", gathered == Gathered::Rest ? "[]" : results);

@@ -7,7 +7,7 @@ namespace isocnc::lsp::features {
 #undef ISOCNC_FEATURE
 
 static const Feature* const kFeatures[] = {
-#define ISOCNC_FEATURE(name) &name,
+#define ISOCNC_FEATURE(name) &(name),
 #include <features.inc>
 #undef ISOCNC_FEATURE
 };

@@ -54,7 +54,7 @@ struct Gathering {
   /// An array. Programs that are not open are asked without params, for what they answer is kept.
   std::string (*answer)(const Snapshot& snapshot, const Json& params) = nullptr;
   /// Makes of the results, put together to one array, what the client gets.
-  std::string (*conclude)(std::string results, const Json& params, Gathered gathered) = nullptr;
+  std::string (*conclude)(const std::string& results, const Json& params, Gathered gathered) = nullptr;
 };
 
 /// What an editor wants to know of code actions.
@@ -183,7 +183,7 @@ Method begun_by(std::string_view name) {
 /// A gathering by its handler, whose Result is a list.
 template <auto handle>
 Gathering on_each(std::string_view name,
-                  std::string (*conclude)(std::string results, const Json& params, Gathered gathered)) {
+                  std::string (*conclude)(const std::string& results, const Json& params, Gathered gathered)) {
   return {name, MethodOf<handle>::kAnswer, conclude};
 }
 

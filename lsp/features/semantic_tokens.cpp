@@ -101,7 +101,7 @@ class LineTokens {
     }
   }
 
-  bool is_motion(const Word& word) const {
+  static bool is_motion(const Word& word) {
     return !word.has(Word::kSigned | Word::kPoint | Word::kMalformed | Word::kMissing) && word.value <= 3;
   }
   bool is_target(const Word& word) const { return line_->jump && line_->jump->target_span == word.span(); }
@@ -217,7 +217,7 @@ documents::RawJson all_tokens(const Snapshot& snapshot) {
     encoder.add_chunk(chunk);
     chunks.push_back({snapshot.document().chunk_version(chunk), encoder.count() - before});
   }
-  ToldTokens& told = snapshot.memory<ToldTokens>();
+  auto& told = snapshot.memory<ToldTokens>();
   told.rename(snapshot.version());
   told.chunks = std::move(chunks);
   return {fmt::format(R"({{"resultId":"{}","data":{}}})", told.id, encoder.data())};
@@ -301,7 +301,7 @@ std::string edits_since(const Snapshot& snapshot, ToldTokens& told) {
 }
 
 documents::RawJson delta(const Snapshot& snapshot, const DeltaParams& params) {
-  ToldTokens& told = snapshot.memory<ToldTokens>();
+  auto& told = snapshot.memory<ToldTokens>();
   if (told.id.empty() || told.id != params.previous_result_id) return all_tokens(snapshot);
   const std::string edits = edits_since(snapshot, told);
   told.rename(snapshot.version());

@@ -57,7 +57,7 @@ std::vector<Symbol> answer_workspace_symbols(const Snapshot& snapshot, const Que
 }
 
 /// What closed programs have answered is all that is in them: here the query is asked of it.
-std::string conclude_symbols(std::string results, const Json& params, Gathered gathered) {
+std::string conclude_symbols(const std::string& results, const Json& params, Gathered gathered) {
   if (gathered == Gathered::Rest) return "[]";
   const std::string query = params.at("query");
   std::map<std::string, std::size_t> counts;

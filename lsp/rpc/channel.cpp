@@ -124,7 +124,7 @@ void Channel::write_all() {
 }
 
 /// Writes what can be written without waiting; false when nobody reads any more.
-bool Channel::write_some(std::string_view& bytes) {
+bool Channel::write_some(std::string_view& bytes) const {
   ssize_t count = ::send(descriptors_.out, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
   if (count < 0 && errno == ENOTSOCK)
     count = ::write(descriptors_.out, bytes.data(), std::min(bytes.size(), kSurelyWritten));

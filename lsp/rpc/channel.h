@@ -39,7 +39,7 @@ class Channel {
  private:
   void read_all();
   void write_all();
-  bool write_some(std::string_view& bytes);
+  bool write_some(std::string_view& bytes) const;
   bool wait_for(int descriptor, short events, bool until_deadline) const;
   bool may_read();
 

@@ -24,10 +24,12 @@ static constexpr std::chrono::seconds kPatience{3};
 /// written in it, too, for the same reason; the text of a long program is not.
 static void prepare_heap() {
 #ifdef __GLIBC__
+  // NOLINTBEGIN(concurrency-mt-unsafe): there is one thread yet.
   mallopt(M_ARENA_MAX, 1);
   mallopt(M_TOP_PAD, 8 << 20);
   mallopt(M_TRIM_THRESHOLD, 16 << 20);
   mallopt(M_MMAP_THRESHOLD, 4 << 20);
+  // NOLINTEND(concurrency-mt-unsafe)
 #endif
 }
 
