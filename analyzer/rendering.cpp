@@ -50,8 +50,10 @@ ShownFinding show(const LocatedFinding& located, LineFinder& lines, const Style&
 }
 
 StepTexts::StepTexts(std::string_view text, const Report& report, dialect::Language language) : language_(language) {
-  for (const std::vector<PathStep>& path : report.paths)
-    for (const PathStep& step : path) texts_[{step.line, step.taken}];
+  for (const LocatedFinding& located : report.findings)  // Not all paths belong to findings that are told of.
+    if (located.path >= 0)
+      for (const PathStep& step : report.paths[static_cast<std::size_t>(located.path)]) texts_[{step.line, step.taken}];
+  if (texts_.empty()) return;
   LineFinder lines(text);
   for (auto& [step, words] : texts_) words = describe_step({step.first, step.second}, lines.line(step.first), language);
 }
