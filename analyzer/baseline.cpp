@@ -54,13 +54,6 @@ Report Baseline::without_known(Report report, std::string_view program, std::str
   return report;
 }
 
-std::size_t Baseline::size() const {
-  std::size_t size = 0;
-  for (const auto& [program, counts] : programs_)
-    for (const auto& [key, count] : counts) size += count;
-  return size;
-}
-
 /// One finding on a line, so that versions of the file can be compared.
 std::string Baseline::to_json() const {
   std::string text = fmt::format("{{\n  \"version\": {},\n  \"findings\": [", kVersion);

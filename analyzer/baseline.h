@@ -26,7 +26,6 @@ class Baseline {
   void add(std::string_view program, std::string_view text, const Report& report);
   /// The report less the findings that the baseline knows.
   Report without_known(Report report, std::string_view program, std::string_view text) const;
-  std::size_t size() const;
   std::string to_json() const;
 
  private:

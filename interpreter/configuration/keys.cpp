@@ -23,8 +23,6 @@ static constexpr Range kAcceleration = {1, 1e6};
 /// From a tenth of a micron.
 static constexpr Range kRounding = {1e-4, 10};
 
-std::span<const std::string_view> severity_choices() { return kSeverities; }
-
 std::optional<Language> language_named(std::string_view name) {
   if (name == kLanguages[0]) return Language::English;
   if (name == kLanguages[1]) return Language::Italian;

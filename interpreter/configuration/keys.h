@@ -82,9 +82,6 @@ std::vector<const Key*> keys_below(const Key* key);
 /// What the paths of these keys begin with: `machine.tools[].`
 std::string prefix_of(const Key* key);
 
-/// What severities may be given.
-std::span<const std::string_view> severity_choices();
-
 /// The number of M100; none when it is no M of the user's (D48).
 std::optional<int> function_number(std::string_view name);
 
