@@ -185,9 +185,16 @@ std::string ProgramApp::italian_complaint(const CLI::ParseError& error) const {
 
 std::string ProgramApp::complaint_about(const CLI::ParseError& error) const {
   static constexpr Text kNoSuchOption = {"no such option", "opzione sconosciuta"};
+  static constexpr Text kGivenTwice = {"{}: given more than once", "{}: dato più di una volta"};
   const std::vector<std::string> unexpected = app_->remaining();
-  if (unexpected.empty() || !unexpected.front().starts_with('-'))
+  if (unexpected.empty() || !unexpected.front().starts_with('-')) {
+    const std::string name = first_name(error.what());
+    const CLI::Option* const option = name.empty() ? nullptr : app_->get_option_no_throw(name);
+    if (option != nullptr && takes_value(*option) && dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr &&
+        option->results().size() > 1)
+      return dialect::format(kGivenTwice, language_, name);
     return language_ == Language::Italian ? italian_complaint(error) : error.what();
+  }
   std::vector<std::string> names;
   for (const CLI::Option* const option : app_->get_options()) {
     if (is_hidden(*option)) continue;

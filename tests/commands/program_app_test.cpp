@@ -72,6 +72,27 @@ TEST(IsolintCommand, ComplainsOfValuesInItalian) {
   EXPECT_THAT(run_command({"isolint", "--lang", "it", "--output", "", "a.iso"}).err, HasSubstr("--output: "));
 }
 
+TEST(IsolintCommand, ComplainsOfWhatDoesNotGoTogetherInItalian) {
+  const auto said = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin() + 1, {"--lang", "it"});
+    const CommandResult result = run_command(std::move(arguments));
+    EXPECT_EQ(result.status, 2);
+    return result.err.substr(0, result.err.find('\n'));
+  };
+  EXPECT_EQ(said({"isolint", "--config", "a", "--no-config", "b"}), "isolint: --config e --no-config si escludono");
+  EXPECT_EQ(said({"isorun", "--dt", "1", "a.iso"}), "isorun: --dt richiede --samples");
+  EXPECT_EQ(said({"isorun"}), "isorun: manca un argomento obbligatorio: FILE");
+  EXPECT_EQ(said({"isorun", "a.iso", "b.iso"}), "isorun: argomento di troppo: b.iso");
+  EXPECT_EQ(said({"isorun", "--vgpl", "1", "--vgpl=2", "a.iso"}), "isorun: --vgpl: dato più di una volta");
+  EXPECT_EQ(said({"isolint", "--max-warnings", "few"}), "isolint: --max-warnings: valore non ammesso: few");
+}
+
+TEST(IsolintCommand, TakesAnOptionOnce) {
+  const CommandResult result = run_command({"isorun", "--vgpl", "1", "--vgpl", "2", "a.iso"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, StartsWith("isorun: --vgpl: given more than once\n"));
+}
+
 TEST(IsolintCommand, WantsANameForItsOutput) {
   const CommandResult result = run_command({"isolint", "--output", "", "-"}, {.input = "M02\n"});
   EXPECT_EQ(result.status, 2);
