@@ -71,7 +71,47 @@ INSTANTIATE_TEST_SUITE_P(
                     ConditionCase{{{"line", 9}, {"condition", "MOTION == 1 && !(FEEDMODE == 93)"}}, 9},
                     ConditionCase{{{"line", 16}, {"condition", "T == 101002"}}, 16},
                     ConditionCase{{{"line", 9}, {"hitCondition", "1"}}, 9},
-                    ConditionCase{{{"line", 9}, {"hitCondition", ">1"}}, 0}, ConditionCase{{{"line", 13}}, 0}));
+                    ConditionCase{{{"line", 9}, {"hitCondition", ">1"}}, 0}, ConditionCase{{{"line", 13}}, 0},
+                    ConditionCase{{{"line", 9}, {"condition", "Z <= -2 && XJ <= 110.5"}}, 9},
+                    ConditionCase{{{"line", 9}, {"condition", "Z <= -2.001"}}, 0}));
+
+struct HitCase {
+  std::string condition;
+  std::vector<int> hits;  ///< Of M06 in lines 1, 2, 3 and 4, which the run stops at.
+};
+
+class HitConditions : public testing::TestWithParam<HitCase> {};
+
+TEST_P(HitConditions, CountFromTheFirst) {
+  DebugClient client;
+  client.launch("M06 T101001\nM06 T101002\nM06 T101003\nM06 T101004\nM02\n");
+  client.request("setFunctionBreakpoints",
+                 {{"breakpoints", {{{"name", "M6"}, {"hitCondition", GetParam().condition}}}}});
+  client.set_lines({5});
+  std::vector<int> hits;
+  client.run("configurationDone");
+  for (; client.line() != 5; client.run("continue")) hits.push_back(client.line());
+  EXPECT_EQ(hits, GetParam().hits);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, HitConditions,
+                         testing::Values(HitCase{"2", {2}}, HitCase{"= 3", {3}}, HitCase{"== 3", {3}},
+                                         HitCase{"< 3", {1, 2}}, HitCase{"<= 3", {1, 2, 3}}, HitCase{"> 3", {4}},
+                                         HitCase{">= 3", {3, 4}}, HitCase{"% 2", {2, 4}}));
+
+/// What older clients send.
+TEST(Breakpoints, CanBeLinesAlone) {
+  DebugClient client;
+  client.launch(kPart);
+  const Json breakpoints =
+      client.request("setBreakpoints", {{"source", {{"path", client.program().string()}}}, {"lines", {6, 8}}})
+          .at("breakpoints");
+  ASSERT_EQ(breakpoints.size(), 2u);
+  EXPECT_EQ(breakpoints.at(0).at("line"), 7);
+  EXPECT_EQ(breakpoints.at(1).at("line"), 8);
+  client.run("configurationDone");
+  EXPECT_EQ(client.line(), 7);
+}
 
 TEST(Breakpoints, TellTheColumnOfAConditionsMistake) {
   DebugClient client;
@@ -251,6 +291,17 @@ TEST(Breakpoints, DataBreakpointsWorkBackwards) {
   EXPECT_THAT(lines, ElementsAre(15, 11, 9));
 }
 
+/// The block in error, too, is looked at on the way back: it changes nothing.
+TEST(Breakpoints, DataBreakpointsWorkBackwardsFromAnError) {
+  DebugClient client;
+  client.launch(kWrong);
+  EXPECT_EQ(client.run("configurationDone").at("reason"), "exception");
+  client.request("setDataBreakpoints", {{"breakpoints", {{{"dataId", "Z = 0"}}}}});
+  EXPECT_EQ(client.run("reverseContinue").at("reason"), "data breakpoint");
+  EXPECT_EQ(client.line(), 4);
+  EXPECT_EQ(client.evaluate("Z"), "-1");
+}
+
 TEST(Breakpoints, ExceptionsAreWhatTheFiltersSay) {
   DebugClient client;
   client.launch(kPart);
@@ -266,6 +317,14 @@ TEST(Breakpoints, WarningsStopTheRunWhereTheyAreAskedFor) {
   const Json stopped = client.run("configurationDone");
   EXPECT_EQ(stopped.at("text"), "W001");
   EXPECT_EQ(client.line(), 4);
+}
+
+/// The wish of the launch outlives what the client says of its own filters.
+TEST(Breakpoints, WarningsStopTheRunBesideTheFiltersOfTheClient) {
+  DebugClient client;
+  client.launch("M06 T101001\nG00 X1\nG17\nG17\nM02\n", {{"breakOnWarnings", true}});
+  client.request("setExceptionBreakpoints", {{"filters", {"errors"}}});
+  EXPECT_EQ(client.run("configurationDone").at("text"), "W001");
 }
 
 TEST(Breakpoints, TravelStopsTheRunBeforeTheMoveThatExceedsIt) {

@@ -8,6 +8,7 @@ namespace isocnc::debugger {
 namespace {
 
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 Json reference_of(DebugClient& client, const std::string& scope) {
@@ -36,6 +37,30 @@ TEST(Changing, ExpressionsThatNameSomethingCanBeSet) {
     EXPECT_EQ(client.request("setExpression", {{"expression", name}, {"value", "12.5"}}).at("value"), "12.5") << name;
     EXPECT_EQ(client.evaluate(name), "12.5") << name;
   }
+}
+
+TEST(Changing, VariablesThatAreShownCanBeSetWhereTheyMayBe) {
+  DebugClient client;
+  client.stand_at_begin(kPart);
+  const Json in_registers = {
+      {"variablesReference", reference_of(client, "Registers")}, {"name", "V3"}, {"value", "2 * 4"}};
+  EXPECT_EQ(client.request("setVariable", in_registers).at("value"), "8");
+  EXPECT_EQ(client.evaluate("V3"), "8");
+  for (const char* const name : {"X", "Machine", "oops"})
+    EXPECT_EQ(
+        client.refusal("setVariable",
+                       {{"variablesReference", reference_of(client, "Position")}, {"name", name}, {"value", "1"}}),
+        std::string(name) + " cannot be set");
+}
+
+/// The machine takes no hand on it where it is on its way, or has ended.
+TEST(Changing, WaitsForAMachineThatStandsBetweenTwoBlocks) {
+  DebugClient client;
+  client.stand_at_begin("M06 T101001\nG01 X10 F600 M05\nM02\n");
+  client.run("next");
+  client.run("stepIn");
+  client.run("stepIn");
+  EXPECT_THAT(client.refusal("setExpression", {{"expression", "OVERRIDE"}, {"value", "50"}}), HasSubstr("block"));
 }
 
 struct Refused {
@@ -220,15 +245,40 @@ TEST(Reading, ScopesShowTheMachine) {
   EXPECT_EQ(client.variable("Registers", "V3"), "7");
   EXPECT_EQ(client.variable("GPL variables", "TValues"), "1, 1, 2");
   EXPECT_EQ(client.variable("GPL variables", "SValue"), "18000");
-  const Json functions = [&] {
-    for (const Json& each : client.variables("GPL variables"))
-      if (each.at("name") == "MxMFunParams")
-        return client.request("variables", {{"variablesReference", each.at("variablesReference")}}).at("variables");
-    return Json();
-  }();
-  ASSERT_EQ(functions.size(), 1u);
-  EXPECT_EQ(functions.at(0).at("name"), "[100]");
-  EXPECT_EQ(functions.at(0).at("value"), "P1=2.5 P2=8");
+  EXPECT_THAT(client.below("GPL variables", "MxMFunParams"), ElementsAre("[100]=P1=2.5 P2=8"));
+}
+
+/// Whatever is shown as a sum opens into what it is made of.
+TEST(Reading, GroupsOpen) {
+  DebugClient client;
+  client.write("isocnc.json", R"({"machine": {"tools": [{"head": 1, "holder": 1, "tool": 1, "name": "\u00d8 8"}]}})");
+  client.launch(
+      "M06 T101001\n"
+      "M100 P1=2 P3=4\n"
+      "M100 P1=2.5\n"
+      "G92 X100 Y50 Z10\n"
+      "G29 X10 Y20 Z30 C90\n"
+      "G00 X1 Y2 Z3 B0 C90\n"
+      "M05\n"
+      "M02\n");
+  client.set_lines({7});
+  client.run("configurationDone");
+  EXPECT_THAT(client.below("Position", "Machine"), ElementsAre("XM=108", "YM=71", "ZM=43", "BM=0", "CM=90"));
+  EXPECT_THAT(client.below("Position", "Workpiece"), ElementsAre("XW=8", "YW=21", "ZW=33"));
+  EXPECT_THAT(client.below("Position", "Face"), ElementsAre("X=1", "Y=2", "Z=3"));
+  EXPECT_THAT(client.below("Position", "Joints"), ElementsAre("XJ=108", "YJ=71", "ZJ=43", "BJ=0", "CJ=90"));
+  EXPECT_THAT(client.below("Position", "Distance to go"), ElementsAre("X=0", "Y=0", "Z=0", "B=0", "C=0", "Path=0"));
+  EXPECT_THAT(client.below("Frames", "Workpiece (machine frame)"), ElementsAre("X=100", "Y=50", "Z=10"));
+  EXPECT_THAT(client.below("Frames", "Face (workpiece frame)"),
+              ElementsAre("Origin=X 10 Y 20 Z 30", "i=X 0 Y 1 Z 0", "j=X -1 Y 0 Z 0", "k=X 0 Y 0 Z 1"));
+  EXPECT_THAT(client.below("GPL variables", "TValues"), ElementsAre("[1]=1", "[2]=1", "[3]=1"));
+  EXPECT_THAT(client.below("GPL variables", "MxMFunParams"), ElementsAre("[100]=P1=2.5"));
+  EXPECT_EQ(client.variable("Tool", "Name"), "Ø 8");
+  EXPECT_EQ(client.evaluate("SPINDLE"), "5");
+  const Json parameters = client.request("variables", {{"variablesReference", 1100}}).at("variables");
+  ASSERT_EQ(parameters.size(), 1u);
+  EXPECT_EQ(parameters.at(0).at("name"), "P1");
+  EXPECT_EQ(parameters.at(0).at("value"), "2.5");
 }
 
 }  // namespace

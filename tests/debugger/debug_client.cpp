@@ -110,6 +110,17 @@ std::string DebugClient::variable(const std::string& scope, const std::string& n
   return "(none)";
 }
 
+std::vector<std::string> DebugClient::below(const std::string& scope, const std::string& name) {
+  std::vector<std::string> held;
+  for (const Json& each : variables(scope)) {
+    if (each.at("name") != name) continue;
+    const Json reference = {{"variablesReference", each.at("variablesReference")}};
+    for (const Json& variable : Json(request("variables", reference).at("variables")))
+      held.push_back(variable.at("name").get<std::string>() + "=" + variable.at("value").get<std::string>());
+  }
+  return held;
+}
+
 std::string DebugClient::state() {
   std::string all = std::to_string(line());
   for (const Json& scope : Json(request("scopes", {{"frameId", 1}}).at("scopes"))) {

@@ -51,6 +51,8 @@ class DebugClient : public support::MessageClient {
   /// What a scope, or a variable, calls by this name.
   std::string variable(const std::string& scope, const std::string& name);
   Json variables(const std::string& scope);
+  /// What a variable of a scope holds, as `NAME=VALUE`.
+  std::vector<std::string> below(const std::string& scope, const std::string& name);
   /// All that is shown of the machine: position, modes, registers, time.
   std::string state();
 

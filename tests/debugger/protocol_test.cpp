@@ -175,6 +175,51 @@ TEST(Protocol, ARestartThatFailsLeavesTheRunAsItIs) {
   EXPECT_EQ(client.run("pause").at("reason"), "pause");
 }
 
+TEST(Protocol, ARestartCanBringArgumentsOfItsOwn) {
+  DebugClient client;
+  client.stand_at_begin(kPart);
+  const std::string other = client.write("other.iso", "M06 T101001\nG00 X7\nM02\n").string();
+  const Json arguments = {{"program", other}, {"startAtLine", 3}};
+  EXPECT_EQ(client.run("restart", {{"arguments", arguments}}).at("reason"), "entry");
+  EXPECT_EQ(client.line(), 3);
+  EXPECT_EQ(client.evaluate("X"), "7");
+}
+
+TEST(Protocol, TheProgramIsTheOneSource) {
+  DebugClient client;
+  {
+    DebugClient early;
+    early.request("initialize");
+    EXPECT_EQ(early.request("loadedSources").at("sources"), Json::array());
+  }
+  client.stand_at_begin(kPart);
+  const Json sources = client.request("loadedSources").at("sources");
+  ASSERT_EQ(sources.size(), 1u);
+  EXPECT_EQ(sources.at(0).at("path"), client.program().string());
+  client.write("program.iso", "; another one");
+  EXPECT_EQ(client.request("source", {{"source", sources.at(0)}, {"sourceReference", 0}}).at("content"), kPart)
+      << "as it is being run";
+  EXPECT_EQ(client.refusal("source", {{"source", {{"path", "/nowhere/x.iso"}}}}), "there is no such source");
+}
+
+TEST(Protocol, ASearchThatIsCancelledIsAPause) {
+  DebugClient client;
+  client.launch("M06 T101001\nG00 X0\nG01 X90000 F1\nM02\n", {{"speed", 1}});
+  client.request("configurationDone");
+  client.request("cancel", {{"requestId", 1}});  // Answered at once, as all are: there is nothing to be cancelled.
+  EXPECT_FALSE(client.has_event("stopped"));
+  EXPECT_EQ(client.run("cancel", {{"progressId", "1"}}).at("reason"), "pause");
+}
+
+TEST(Protocol, TerminateEndsTheRun) {
+  DebugClient client;
+  client.launch("M06 T101001\nG00 X0\nG01 X90000 F1\nM02\n", {{"speed", 1}});
+  client.request("configurationDone");
+  client.request("terminate");
+  EXPECT_EQ(client.event("exited").at("exitCode"), 0);
+  client.event("terminated");
+}
+
 TEST(Protocol, AClientThatGoesAwayEndsTheAdapter) {
   DebugClient client;
   client.launch("M06 T101001\nG00 X0\nG01 X90000 F1\nM02\n", {{"speed", 1}});

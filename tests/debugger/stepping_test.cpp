@@ -175,6 +175,54 @@ TEST(Stepping, TheStackShowsTheJumpsThatHaveLedThere) {
   EXPECT_EQ(client.request("stackTrace", {{"threadId", 1}}).at("totalFrames"), 1);
 }
 
+TEST(Stepping, TheStackShortensLongLinesBetweenCharacters) {
+  DebugClient client;
+  std::string line = "G00 X1 ;";
+  line += std::string(79 - line.size(), 'x') + "àà";  // The first one lies across the end.
+  client.stand_at_begin("M06 T101001\n" + line + "\nM02\n");
+  client.run("next");
+  EXPECT_EQ(client.request("stackTrace", {{"threadId", 1}}).at("stackFrames").at(0).at("name"),
+            line.substr(0, 79) + "…");
+}
+
+/// Behind an error nothing can be executed: a step lets the run end.
+TEST(Stepping, AnyStepFromAnErrorEndsTheRun) {
+  for (const char* const step : {"next", "stepIn", "stepOut", "continue"}) {
+    DebugClient client;
+    client.launch(kWrong);
+    client.run("configurationDone");
+    client.request(step);
+    EXPECT_EQ(client.event("exited").at("exitCode"), 1) << step;
+  }
+}
+
+/// A line that the run has not come through is not led to, neither ahead nor back.
+TEST(Stepping, DoesNotGoBackToALineThatWasJumpedOver) {
+  DebugClient client;
+  client.launch(kPart);
+  client.set_lines({16});
+  client.run("configurationDone");
+  const Json targets = client.request("gotoTargets", {{"source", {}}, {"line", 13}}).at("targets");
+  EXPECT_EQ(client.run("goto", {{"threadId", 1}, {"targetId", targets.at(0).at("id")}}).at("reason"), "goto");
+  EXPECT_EQ(client.line(), 16);
+  std::string told;
+  while (client.has_event("output")) told += client.event("output").at("output");
+  EXPECT_THAT(told, HasSubstr("13"));
+}
+
+TEST(Stepping, TellsWhatTheMachineFileCallsThem) {
+  DebugClient client;
+  client.write("isocnc.json", R"({"machine": {"tools": [{"head": 1, "holder": 1, "tool": 1, "name": "ball nose"}],
+                                               "functions": {"M100": {"name": "vacuum"}}}})");
+  client.launch("M06 T101001\nM100 P1=2\nM02\n");
+  client.request("configurationDone");
+  client.event("terminated");
+  std::string told;
+  while (client.has_event("output")) told += client.event("output").at("output");
+  EXPECT_THAT(told, HasSubstr("(ball nose)"));
+  EXPECT_THAT(told, HasSubstr("M100 P1=2 (vacuum)"));
+}
+
 TEST(Stepping, PausesWithinAMoveAtTheVeryPlace) {
   DebugClient client;
   client.launch("M06 T101001\nG00 X0 Y0 Z0\nG01 X3000 F60\nM02\n", {{"speed", 10}});
