@@ -56,6 +56,9 @@ constexpr Case kFixes[] = {
      "M06 T101001\nG01 X10 ; più isolint: ignore ISO066\nM02\n"},
     {"silence ISO066 in the whole program", "M06 T101001\r\nG01[!!] X10\r\nM02\r\n",
      ";isolint: ignore-file ISO066\r\nM06 T101001\r\nG01 X10\r\nM02\r\n"},
+    // The number is free in the whole program, wherever labels stand.
+    {"number the line N80", "M06 T101001\nIF VGPL = 1 GOTO N5\nN5 G00 X1\n[!!]N5 G00 X2\nN73 X4\nM02\n",
+     "M06 T101001\nIF VGPL = 1 GOTO N5\nN5 G00 X1\nN80 G00 X2\nN73 X4\nM02\n"},
     {"silence", "M06 T101001\n[!!]G00 X10\nM02\n", nullptr},
 };
 
@@ -116,6 +119,11 @@ constexpr Case kRewrites[] = {
     {"write the selection in incremental",
      "M06 T101001\nG00 X10 Y20\n[!G01 X15 Y20.5 F500\nG02 X25 Y20.5 I20 J20.5\n!]M02\n",
      "M06 T101001\nG00 X10 Y20\nG91\nG01 X5 Y0.5 F500\nG02 X10 Y0 I5 J0\nG90\nM02\n"},
+    // At the end of a text without a last line end; a G09 that must follow its motion.
+    {"write the selection in incremental", "M06 T101001\nG00 X10\n[!G01 X15 F500\nX20!]",
+     "M06 T101001\nG00 X10\nG91\nG01 X5 F500\nX5\nG90"},
+    {"write the selection in incremental", "M06 T101001\nG00 X10\n[!G01 X15 F500\nX20\n!]\n(stop)\nG09\nM02\n",
+     nullptr},
     {"write the selection in absolute", "M06 T101001\nG91\n[!N10 G00 X10\nN20 X0.1\nN30 X0.2\nM02!]\n",
      "M06 T101001\nG91\nG90\nN10 G00 X10\nN20 X10.1\nN30 X10.3\nM02\n"},
     {"write the selection in absolute", "M06 T101001\n[!G91 G00 X10\nX5\nM02\n!]", "M06 T101001\nG00 X10\nX15\nM02\n"},
@@ -167,6 +175,55 @@ TEST(CodeActionsResolved, AreMadeWhenTheyAreChosen) {
   EXPECT_TRUE(session.respond("codeAction/resolve", wrong).contains("error"));
 }
 
+/// What would take long to try is tried when it is chosen, and may turn out not to be possible.
+TEST(CodeActionsResolved, OfManyLinesAreTriedWhenTheyAreChosen) {
+  Session session;
+  session.start(kResolves, {{"locale", "en"}});
+  std::string many;
+  for (int i = 1; i <= 600; ++i) many += "G01 X" + std::to_string(i) + " F500\n";
+  const auto incremental = [&](const std::string& marked) {
+    const SelectedProgram program(marked);
+    session.close(kUri);
+    session.open(kUri, program.text);
+    for (const Json& action : session.request("textDocument/codeAction", params_of(program)))
+      if (action["title"].get<std::string>().find("in incremental") != std::string::npos) {
+        EXPECT_FALSE(action.contains("edit"));
+        const Json resolved = session.respond("codeAction/resolve", action);
+        if (resolved.contains("error")) return resolved["error"]["message"].get<std::string>();
+        return ClientText(program.text).with(resolved["result"]["edit"]["documentChanges"][0]["edits"]);
+      }
+    return std::string("not offered");
+  };
+  const std::string changed = incremental("M06 T101001\n[!" + many + "!]M02\n");
+  EXPECT_THAT(changed, testing::StartsWith("M06 T101001\nG91\nG01 X1 F500\nG01 X1 F500\n"));
+  EXPECT_THAT(changed, testing::EndsWith("G01 X1 F500\nG90\nM02\n"));
+  EXPECT_THAT(incremental("M06 T101001\n[!" + many + "IF VGPL = 1 GOTO N9\n" + many + "!]N9 X5\nM02\n"),
+              testing::Not(testing::HasSubstr("G91")));
+}
+
+TEST_F(CodeActions, AllThatIsSafeMayTakeMoreLines) {
+  const std::string program = "M06 T101001\nG49 G01 X10 C45 F1000\nG27\nG00 X1\nM02\n";
+  session_.open(kUri, program);
+  session_.ask("workspace/executeCommand", {{"command", "isocnc.fixAll"}, {"arguments", {{{"uri", kUri}}}}});
+  const Json edits = session_.wait_for("workspace/applyEdit")["params"]["edit"]["changes"][kUri];
+  EXPECT_EQ(ClientText(program).with(edits), "M06 T101001\nG49\nG01 X10 C45 F1000\nG00 X1\nM02\n");
+}
+
+TEST_F(CodeActions, RenumberingIsACommandToo) {
+  const std::string program = "M06 T101001\nIF VGPL = 1 GOTO N7\nN3 G00 X1\nN7 X2\nM02\n";
+  session_.open(kUri, program);
+  session_.ask("workspace/executeCommand", {{"command", "isocnc.renumber"}, {"arguments", {{{"uri", kUri}}}}});
+  const Json edits = session_.wait_for("workspace/applyEdit")["params"]["edit"]["changes"][kUri];
+  EXPECT_EQ(ClientText(program).with(edits), "M06 T101001\nIF VGPL = 1 GOTO N20\nN10 G00 X1\nN20 X2\nM02\n");
+}
+
+/// So many that no report of all of them is made: the line's own are found all the same.
+TEST_F(CodeActions, AreThereAmongThousandsOfFindings) {
+  std::string text = "M06 T101001\nG71\n";
+  for (int i = 0; i < 5'000; ++i) text += "G71 G00 X1\n";
+  EXPECT_EQ(after((text + "[!!]G71 G00 X2\nM02\n").c_str(), "remove G71", "quickfix"), text + "G00 X2\nM02\n");
+}
+
 TEST(Restart, IsANewDocumentBesideTheProgram) {
   Session session;
   session.start(kResolves);
@@ -185,6 +242,17 @@ TEST(Restart, IsANewDocumentBesideTheProgram) {
   EXPECT_EQ(changes[1]["edits"][0]["newText"], std::get<std::string>(made));
 }
 
+TEST(Restart, IsMadeByTheEditorWhereItMakesDocuments) {
+  Session session;
+  session.start(kResolves);
+  session.open(kUri, "M06 T101001\nG00 X1 Z50\nX20\nM02\n");
+  session.ask("workspace/executeCommand",
+              {{"command", "isocnc.restart"}, {"arguments", {{{"uri", kUri}, {"line", 2}}}}});
+  const Json changes = session.wait_for("workspace/applyEdit")["params"]["edit"]["documentChanges"];
+  EXPECT_EQ(changes[0]["uri"], "file:///nowhere/part-from-3.iso");
+  EXPECT_THAT(changes[1]["edits"][0]["newText"].get<std::string>(), testing::EndsWith("X20\nM02\n"));
+}
+
 TEST(Restart, IsTheCommandsResultForEditorsThatMakeNoDocuments) {
   Session session;
   session.start();
@@ -195,6 +263,9 @@ TEST(Restart, IsTheCommandsResultForEditorsThatMakeNoDocuments) {
   };
   EXPECT_THAT(restart(2)["result"]["text"].get<std::string>(), testing::EndsWith("X20\nM02\n"));
   EXPECT_EQ(restart(99)["error"]["code"], -32803);
+  session.edit(kUri, 2, {lsp::change(1, 0, 1, 0, "G02 ")});
+  EXPECT_THAT(restart(2)["error"]["message"].get<std::string>(), testing::HasSubstr("2"));
+  session.edit(kUri, 3, {lsp::change(1, 0, 1, 4, "")});
   EXPECT_EQ(restart(-1)["error"]["code"], -32602);
   EXPECT_EQ(restart("2")["error"]["code"], -32602);
 }

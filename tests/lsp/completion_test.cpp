@@ -162,6 +162,25 @@ TEST(Completion, KnowsTheMachinesToolsAndFunctions) {
   std::filesystem::remove_all(folder);
 }
 
+/// The assignment that is the nearest above tells more than any other.
+TEST(Completion, TellsWhereARegisterIsAssigned) {
+  Session session;
+  session.start(Json::object(), {{"locale", "en"}});
+  const Json registers = list(session, SelectedProgram("V1=1\nV1=2\nIF V[!!]\nV1=3\nV2=4\nV2=5\nM02\n"));
+  EXPECT_EQ(item_of(registers, "V1")["detail"], "assigned in line 2");
+  EXPECT_EQ(item_of(registers, "V2")["detail"], "assigned in line 5");
+}
+
+TEST(Completion, OffersAThousandLabelsAndSaysThatThereAreMore) {
+  Session session;
+  session.start();
+  std::string program = "IF VGPL = 1 GOTO N[!!]\n";
+  for (int i = 1; i <= 1'500; ++i) program += "N" + std::to_string(i) + "\n";
+  const Json offered = list(session, SelectedProgram(program + "M02\n"));
+  EXPECT_EQ(offered["isIncomplete"], true);
+  EXPECT_LT(offered["items"].size(), 1'500u);
+}
+
 TEST(Completion, ResolvesADocumentation) {
   Session session;
   session.start(Json::object(), {{"locale", "it"}});
@@ -169,6 +188,9 @@ TEST(Completion, ResolvesADocumentation) {
   const std::string text = session.request("completionItem/resolve", item)["documentation"]["value"];
   EXPECT_NE(text.find("interpolazione circolare"), std::string::npos) << text;
   EXPECT_NE(text.find("`R`"), std::string::npos) << text;
+  const Json spindle = item_of(list(session, SelectedProgram("M0[!!]\n")), "M03");
+  EXPECT_NE(session.request("completionItem/resolve", spindle)["documentation"]["value"].get<std::string>().find("M03"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include "session.h"
 
 /// What features answer about one document.
@@ -146,6 +148,67 @@ TEST(SyntaxTree, ShowsHowLinesAreRead) {
   EXPECT_THAT(tree,
               HasSubstr("Line 1\n  G\n    Word 0-3 G01\n    Word 4-7 X10\n  Word 8-10 F5\n  Comment 11-17 (note)\n"));
   EXPECT_THAT(tree, HasSubstr("Finding ISO006 "));
+}
+
+TEST(SyntaxTree, NamesEachKindOfInstruction) {
+  Session session;
+  session.start();
+  session.open(kUri, "M06 T101001\nG00 X1\nX2\nM100 P1=2\nT101001\nV1=2\nIF V1=2 GOTO N9\nN9 M02\n");
+  const auto line = [&](int number) {
+    const Json range = {{"start", {{"line", number}, {"character", 0}}}, {"end", {{"line", number}, {"character", 1}}}};
+    return session.request("isocnc/syntaxTree", {{"textDocument", {{"uri", kUri}}}, {"range", range}})
+        .get<std::string>();
+  };
+  const char* const kKinds[] = {"ToolChange", "G", "Continuation", "Function", "StrayTool", "Assignment", "Jump"};
+  for (int i = 0; i < 7; ++i) EXPECT_THAT(line(i), HasSubstr(std::string("\n  ") + kKinds[i] + "\n")) << i;
+}
+
+TEST(InlineValues, AreRegistersAndVgplUpToWhereTheProgramStands) {
+  Session session;
+  session.start();
+  session.open(kUri, "V1=2\nM06 T101001\n(V9) IF V1 = 2 GOTO N9\nIF VGPL > 3 GOTO N9\nV2=1 V2=2 V3=4\nV4=1\nN9 M02\n");
+  const auto range = [](int first, int last) {
+    return Json{{"start", {{"line", first}, {"character", 0}}}, {"end", {{"line", last}, {"character", 0}}}};
+  };
+  const Json context = {{"frameId", 1}, {"stoppedLocation", range(4, 4)}};
+  const Json values = session.request(
+      "textDocument/inlineValue", {{"textDocument", {{"uri", kUri}}}, {"range", range(1, 6)}, {"context", context}});
+  std::string shown;
+  for (const Json& each : values)
+    shown += fmt::format("{}:{}-{} {}\n", each["range"]["start"]["line"].get<int>(),
+                         each["range"]["start"]["character"].get<int>(), each["range"]["end"]["character"].get<int>(),
+                         each["variableName"].get<std::string>());
+  EXPECT_EQ(shown, "2:8-10 V1\n3:3-7 VGPL\n4:0-2 V2\n4:10-12 V3\n");
+}
+
+/// The jumps that lead to what is wrong.
+TEST(Diagnostics, TellThePathToWhatIsWrong) {
+  Session session;
+  session.start({{"textDocument", {{"publishDiagnostics", {{"relatedInformation", true}}}}}}, {{"locale", "en"}});
+  session.open(kUri, "M06 T101001\nG00 X0\nIF VGPL > 1 GOTO N5\nG01 X2 F500\nN5 G01 X1\nM02\n");
+  const Json found = session.diagnostics(kUri, 1);
+  ASSERT_EQ(found.size(), 1u) << found;
+  EXPECT_EQ(found[0]["code"], "ISO066");
+  const Json& steps = found[0]["relatedInformation"];
+  ASSERT_EQ(steps.size(), 1u) << found;
+  EXPECT_EQ(steps[0]["location"]["uri"], kUri);
+  EXPECT_EQ(steps[0]["location"]["range"], Json::parse(R"({"start": {"line": 2, "character": 0},
+                                                           "end": {"line": 2, "character": 19}})"));
+}
+
+/// An editor may leave the mark in the text.
+TEST(ByteOrderMark, CountsAsACharacterOfTheFirstLine) {
+  Session session;
+  session.start(Json::object(), {{"locale", "en"}});
+  session.open(kUri,
+               "\xEF\xBB\xBF"
+               "G80 X1\nM02\n");
+  const Json found = session.diagnostics(kUri, 1);
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found[0]["range"]["start"]["character"], 1);
+  EXPECT_THAT(session.request("textDocument/hover", at(0, 1))["contents"]["value"].get<std::string>(),
+              HasSubstr("E001"));
+  EXPECT_EQ(session.request("textDocument/hover", at(0, 1))["range"]["start"]["character"], 1);
 }
 
 TEST(Diagnostics, AHundredThousandFindingsAreCutShortAndCounted) {

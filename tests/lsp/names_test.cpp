@@ -76,6 +76,7 @@ TEST(Definition, OfCoordinatesAloneIsTheMotionThatTheyGoOnWith) {
                                                "[G01] X2 F100\nM03 S100\n\nX1 Y3|\nM02\n",
                                                "[G00] X1\nIF VGPL = 1 GOTO N5\n[G01] X2 F100\nN5 X|3\nM02\n",
                                                "[G00] X1\nIF VGPL = 1 GOTO N5\nG01 X2 F100\nM02\nN5 |X3\nM02\n",
+                                               "[G00] X1\nIF VGPL = 1 GOTO N5\nX2\nM02\n[G01] X5\nN5 X|3\nM02\n",
                                                "X|3\nM02\n",
                                            });
 }
@@ -170,6 +171,15 @@ TEST(Rename, IsPreparedWhereThereIsAName) {
   }
   const MarkedProgram elsewhere("G00 X|1\n", Encoding::Utf16);
   EXPECT_EQ(ask(elsewhere, "textDocument/prepareRename", Encoding::Utf16)["result"], nullptr);
+}
+
+TEST(Rename, IsPreparedForClientsThatAskForIt) {
+  Session session;
+  EXPECT_EQ(
+      session.start({{"textDocument", {{"rename", {{"prepareSupport", true}}}}}})["capabilities"]["renameProvider"],
+      Json({{"prepareProvider", true}}));
+  Session simple;
+  EXPECT_EQ(simple.start()["capabilities"]["renameProvider"], true);
 }
 
 TEST(LinkedEditing, LinksNumbersThatAreWrittenAlike) {

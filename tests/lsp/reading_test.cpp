@@ -200,6 +200,9 @@ TEST(InlayHints, TellWhereIncrementalMotionsEndAndWhatIsInForce) {
       // Inches stay inches; a center is no place to go to.
       {"M06 T101001\nG70 G91 G00 X1\nG02 I1 J0 X2 F10\nM02\n",
        "M06 T101001{0:00:00}\nG70 G91 G00 X1{→ X1}\nG02 I1 J0 X2{→ X3} F10\nM02\n"},
+      // The rotary axes.
+      {"M06 T101001\nG91 G49\nG01 B10 C-5 F100\nB2.5\nM02\n",
+       "M06 T101001\nG91 G49\nG01 B10 C-5{→ B10 C-5} F100\n{G01}B2.5{→ B12.5}\nM02\n"},
       // Two ways lead to N5, with different Gs and ends: nothing is said there.
       {"M06 T101001\nG91 G00 X1\nIF VGPL = 1 GOTO N5\nG01 X1 F100\nN5 X1\nY1\nM02\n",
        "M06 T101001{0:00:00}\nG91 G00 X1{→ X1}\nIF VGPL = 1 GOTO N5\nG01 X1{→ X2} F100\nN5 X1\nY1\nM02\n"},

@@ -40,6 +40,7 @@ constexpr Case kCases[] = {
     {"G01 X1 (X[!!])\n", nullptr, ""},
     {"[!!]\n", nullptr, ""},
     {"G17 [!!]\n", nullptr, ""},
+    {"T101001[!!]\n", nullptr, ""},
 };
 
 TEST(SignatureHelp, TellsTheArgumentsAndTheOneAtTheCursor) {

@@ -118,6 +118,19 @@ TEST_F(Workspace, ComesAndGoesByFolder) {
   EXPECT_EQ(pull(), (Told{{"sub/bad.iso", "full 0"}}));
 }
 
+TEST_F(Workspace, OfOlderEditorsIsOneFolder) {
+  session_.start(kPulls, {{"rootUri", documents::uri_of(folder_ / "sub")}});
+  EXPECT_EQ(pull(), (Told{{"sub/bad.iso", "full 2"}}));
+}
+
+TEST_F(Workspace, AsksTheEditorToWatchTheConfigurationFiles) {
+  session_.start({{"workspace", {{"didChangeWatchedFiles", {{"dynamicRegistration", true}}}}}});
+  const Json registrations = session_.wait_for("client/registerCapability")["params"]["registrations"];
+  ASSERT_EQ(registrations.size(), 1u);
+  EXPECT_EQ(registrations[0]["method"], "workspace/didChangeWatchedFiles");
+  EXPECT_EQ(registrations[0]["registerOptions"]["watchers"], Json::parse(R"([{"globPattern": "**/isocnc.json"}])"));
+}
+
 const Json kRefreshed = {{"textDocument", {{"diagnostic", Json::object()}}},
                          {"workspace",
                           {{"diagnostics", {{"refreshSupport", true}}},

@@ -1,0 +1,158 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "client_text.h"
+#include "lsp/documents/uri.h"
+#include "session.h"
+#include "tests/commands/temporary_folder.h"
+
+/// What is told of isocnc.json, open or not, and what it changes.
+namespace isocnc::lsp {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class ConfigurationFile : public testing::Test {
+ protected:
+  std::string uri(const std::string& name) const { return documents::uri_of(folder_ / name); }
+  void write(const std::string& name, std::string_view text) const { temporary_.write(name, text); }
+  void start() { session_.start(Json::object(), {{"locale", "en"}}); }
+
+  /// The next diagnostics of this document: `LINE:COLUMN-COLUMN MESSAGE`, all from 0.
+  std::vector<std::string> told_of(const std::string& name) {
+    const Json published = session_.wait_for([&](const Json& message) {
+      return message.value("method", "") == "textDocument/publishDiagnostics" && message["params"]["uri"] == uri(name);
+    });
+    std::vector<std::string> told;
+    for (const Json& each : published["params"]["diagnostics"]) {
+      const Json& range = each["range"];
+      EXPECT_EQ(range["start"]["line"], range["end"]["line"]);
+      told.push_back(fmt::format("{}:{}-{} {}", range["start"]["line"].get<int>(),
+                                 range["start"]["character"].get<int>(), range["end"]["character"].get<int>(),
+                                 each["message"].get<std::string>()));
+    }
+    return told;
+  }
+
+  const commands::TemporaryFolder temporary_;
+  const fs::path folder_ = fs::canonical(temporary_.path());
+  Session session_;
+};
+
+/// Marked is the value, key or sign that is wrong, and no more.
+TEST_F(ConfigurationFile, MistakesAreMarkedWhileItIsTyped) {
+  struct Case {
+    std::string_view text;
+    std::string_view told;
+  };
+  constexpr Case kCases[] = {
+      {R"({"language": "de"})", "0:13-17 language: de is none of en, it"},
+      {"{\r\n  \"language\": \"d\\\"e\" }", "1:14-20 language: d\"e is none of en, it"},
+      {"{\"machine\":\n{\"maxFeed\": 0}}", "1:12-13 machine.maxFeed: 0 is too small: at least 1 mm/min"},
+      {R"({"machine": {"maxFeed": -12.5, "clearance": 1}})",
+       "0:24-29 machine.maxFeed: -12.5 is too small: at least 1 mm/min"},
+      {R"({"machine": [1]})", "0:12-13 machine: this is a list [ ]; an object { } is wanted"},
+      {R"({"è😀": 1})", "0:1-6 è😀: unknown key"},
+      {"{\"language\": \"it", "0:13-16 a text without its closing quote"},
+      {"{\"language\": ", "0:13-13 the file ends here, but a bracket is still open or a value missing"},
+  };
+  start();
+  int version = 1;
+  for (const Case& each : kCases) {
+    session_.open(uri("isocnc.json"), std::string(each.text), version++);
+    EXPECT_THAT(told_of("isocnc.json"), ElementsAre(each.told)) << each.text;
+    session_.close(uri("isocnc.json"));
+    told_of("isocnc.json");
+  }
+}
+
+TEST_F(ConfigurationFile, MistakesAreToldOfOnceForAllProgramsThatHaveIt) {
+  write("isocnc.json", "{\n\"language\": 7}");
+  start();
+  session_.open(uri("a.iso"), "M02\n");
+  EXPECT_THAT(told_of("isocnc.json"), ElementsAre("1:12-13 language: this is a number; text is wanted"));
+  session_.open(uri("b.iso"), "M02\n");
+  session_.diagnostics(uri("b.iso"), 1);
+  EXPECT_FALSE(session_.has([&](const Json& message) {
+    return message.value("method", "") == "textDocument/publishDiagnostics" &&
+           message["params"]["uri"] == uri("isocnc.json");
+  }));
+
+  write("isocnc.json", R"({"language": "it"})");
+  session_.notify("textDocument/didSave", {{"textDocument", {{"uri", uri("isocnc.json")}}}});
+  EXPECT_THAT(told_of("isocnc.json"), testing::IsEmpty());
+}
+
+TEST_F(ConfigurationFile, ThatIsNoTextIsTold) {
+  write("isocnc.json", std::string_view("\xEF\xBB\xBF{}"));
+  start();
+  session_.open(uri("a.iso"), "M02\n");
+  EXPECT_THAT(told_of("isocnc.json"), ElementsAre(HasSubstr("byte-order mark")));
+  write("isocnc.json", std::string(2000, '\0'));
+  session_.notify("textDocument/didSave", {{"textDocument", {{"uri", uri("isocnc.json")}}}});
+  told_of("isocnc.json");  // Taken back.
+  EXPECT_THAT(told_of("isocnc.json"), ElementsAre(HasSubstr("binary")));
+}
+
+constexpr const char* kMachine = R"({"machine": {
+  "tools": [{"head": 1, "holder": 1, "tool": 1, "name": "ball nose", "length": 80, "radius": 6},
+            {"head": 1, "holder": 1, "tool": 2}],
+  "functions": {"M100": {"name": "vacuum", "time": 1.5}, "M101": {"name": "blower"}}}})";
+
+TEST_F(ConfigurationFile, NamesToolsAndFunctions) {
+  write("isocnc.json", kMachine);
+  session_.start({{"textDocument", {{"documentSymbol", {{"hierarchicalDocumentSymbolSupport", true}}}}}},
+                 {{"locale", "en"}});
+  session_.open(uri("part.iso"), "M06 T101001\nM100\nM06 T101002\nM101\nM102\nG00 X1\nM02\n");
+  const Json document = {{"textDocument", {{"uri", uri("part.iso")}}}};
+  const auto hover = [&](int line, int column) {
+    Json params = document;
+    params["position"] = {{"line", line}, {"character", column}};
+    return session_.request("textDocument/hover", params)["contents"]["value"].get<std::string>();
+  };
+  EXPECT_THAT(hover(0, 4), HasSubstr("ball nose, length 80 mm, radius 6 mm"));
+  EXPECT_THAT(hover(1, 1), HasSubstr("vacuum"));
+  EXPECT_THAT(hover(1, 1), HasSubstr("takes 1.5 s"));
+  EXPECT_THAT(hover(3, 1), HasSubstr("blower"));
+  EXPECT_THAT(hover(4, 1), HasSubstr("user function"));
+  const Json symbols = session_.request("textDocument/documentSymbol", document);
+  EXPECT_EQ(symbols[0]["detail"], "ball nose");
+}
+
+/// Where the numbers cannot be made anew, all else is written as it should be.
+TEST_F(ConfigurationFile, TellsHowProgramsAreFormatted) {
+  write("isocnc.json", R"({"format": {"renumber": {"start": 100, "step": 10}}})");
+  start();
+  const auto formatted = [&](const std::string& name, const std::string& text) {
+    session_.open(uri(name), text);
+    const Json edits = session_.request(
+        "textDocument/formatting",
+        {{"textDocument", {{"uri", uri(name)}}}, {"options", {{"tabSize", 2}, {"insertSpaces", true}}}});
+    return ClientText(text).with(edits);
+  };
+  EXPECT_EQ(formatted("a.iso", "IF VGPL=1 GOTO N7\nN3 g00X1\nN7 M02\n"),
+            "IF VGPL = 1 GOTO N110\nN100 G00 X1\nN110 M02\n");
+  EXPECT_EQ(formatted("b.iso", "IF VGPL=1 GOTO N9\nN3 g00X1\nN7 M02\n"), "IF VGPL = 1 GOTO N9\nN3 G00 X1\nN7 M02\n");
+}
+
+/// What is off by default, in the places where the program has it.
+TEST_F(ConfigurationFile, SelectsOpinionsOnStyle) {
+  write("isocnc.json", R"({"lint": {"select": ["W1"]}})");
+  start();
+  session_.open(uri("part.iso"), "M06\tT101001\r\nG00 X1\nm05\r\nM02\n");
+  std::vector<std::string> codes;
+  for (const Json& each : session_.diagnostics(uri("part.iso"), 1))
+    codes.push_back(fmt::format("{} {}", each["code"].get<std::string>(), each["range"]["start"]["line"].get<int>()));
+  EXPECT_THAT(codes, testing::IsSupersetOf({"W126 0", "W125 2"})) << testing::PrintToString(codes);
+}
+
+}  // namespace
+}  // namespace isocnc::lsp
