@@ -66,6 +66,22 @@ TEST(ManyPaths, ThousandsOfCrossingJumpsEnd) {
   EXPECT_LE(found.size(), 1u);
 }
 
+/// The last label is behind the end, where the jumps alone lead: if that one is given up, nothing is said of what is
+/// there, and not that it never runs either.
+TEST(ManyPaths, LabelsThatAreWaitedForHaveABound) {
+  const auto found_with = [](int labels) {
+    std::string text = kHead;
+    for (int i = 1; i <= labels; ++i) text += fmt::format("IF VGPL={0} GOTO N{0}\n", i);
+    for (int i = 1; i < labels; ++i) text += fmt::format("N{} G1 X1\n", i);
+    std::vector<std::string> found;
+    for (const LocatedFinding& located : check(text + fmt::format("M02\nN{} G80\nM02\n", labels)).findings)
+      found.emplace_back(dialect::definition(located.finding.id).code);
+    return found;
+  };
+  EXPECT_THAT(found_with(16'000), ElementsAre("E001"));
+  EXPECT_THAT(found_with(17'000), ElementsAre("W191"));
+}
+
 TEST(ManyPaths, CrossingJumpsOnRegistersEnd) {
   std::string text = kHead;
   for (int i = 1; i <= 2'000; ++i)

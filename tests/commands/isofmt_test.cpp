@@ -60,6 +60,17 @@ TEST(Isofmt, CountsTheProgramsThatItCouldRead) {
   EXPECT_THAT(result.err, HasSubstr("0 of 1 programs would be changed\n"));
 }
 
+TEST(Isofmt, LeavesWhatIsNoTextAndGoesOn) {
+  const TemporaryFolder folder;
+  folder.write("a.iso", std::string(100, '\0'));
+  folder.write("b.iso", kTidy);
+  const CommandResult result = run_command({"isofmt", "-i", "a.iso", "b.iso"}, {.folder = folder.path()});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("isofmt: a.iso: looks like a binary file\n"));
+  EXPECT_THAT(result.err, HasSubstr(" of 1 program"));
+  EXPECT_EQ(text_of_file(folder.path("a.iso")), std::string(100, '\0'));
+}
+
 /// Blanks in the name, and a byte-order mark: what is shown can be applied.
 TEST(Isofmt, ShowsDifferencesThatCanBeApplied) {
   for (const std::string mark : {"", "\xEF\xBB\xBF"}) {

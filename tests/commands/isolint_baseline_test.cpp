@@ -133,6 +133,10 @@ TEST_F(IsolintBaseline, TellsTheLineOfAMistake) {
       {"{\"version\": 1,\n\"findings\": [{\"line\":\n\"0x12\"}]}", "3: not a value of line\n"},
       {"{\"version\": 1,\n\"findings\": [{\"count\": 0}]}", "2: not a value of count\n"},
       {"{\"version\": 1,\n\"findings\": [{\"count\": {}}]}", "2: not a value of count\n"},
+      {"{\"version\": 1,\n\"findings\": [{\"count\": -1}]}", "2: not a value of count\n"},
+      {"{\"version\": 1,\n\"findings\": [{\"count\": 1.5}]}", "2: not a value of count\n"},
+      {"{\"version\": 1,\n\"findings\": [{\"file\":\nnull}]}", "3: not a value of file\n"},
+      {"{\"version\": 1,\n\"findings\": true}", "2: not a value of findings\n"},
   };
   for (const auto& [text, mistake] : mistakes) {
     folder_.write("known.json", text);

@@ -123,6 +123,13 @@ TEST(IsolintFix, PrintsTheProgramOfStandardInput) {
   EXPECT_EQ(apart.err, "1 fixed\n");
 }
 
+TEST(IsolintFix, MayLeaveNothing) {
+  const Surroundings only_line{.input = "G27\n"};
+  EXPECT_EQ(run_command({"isolint", "--select", "W002", "--fix", "-"}, only_line).out, "");
+  EXPECT_EQ(run_command({"isolint", "--select", "W002", "--diff", "-"}, only_line).out,
+            "--- <stdin>\n+++ <stdin>\n@@ -1 +0,0 @@\n-G27\n");
+}
+
 TEST(IsolintFix, KeepsByteOrderMarksLineEndsAndForeignBytes) {
   const std::string before = "\xEF\xBB\xBFM06 T101001\r\nG70 G00 X1 (caf\xE9)\rG70\nG70 X2\r\nG00 X1 M02";
   const std::string after = "\xEF\xBB\xBFM06 T101001\r\nG70 G00 X1 (caf\xE9)\rX2\r\nG00 X1\r\nM02";

@@ -118,6 +118,24 @@ TEST(IsolintText, LetsNoControlCharacterThrough) {
   }
 }
 
+/// What looks like a blank, or like nothing, is called by its number.
+TEST(IsolintText, NamesWhatCannotBeSeen) {
+  const json found = findings_in("M06 T101001\nG00 X10 \u00a0\nG00 X20 a\u200bb\nM02\n", {"--no-config"});
+  ASSERT_GE(found.size(), 1u);
+  EXPECT_THAT(found[0]["message"].get<std::string>(), StartsWith("U+00A0 "));
+  EXPECT_THAT(found.dump(), HasSubstr("U+200B"));
+}
+
+TEST(IsolintText, NamesTheAxisThatGoesTooFar) {
+  const TemporaryFolder folder;
+  const std::string machine =
+      folder.write("m.json", R"({"machine": {"axes": {"Y": {"max": 100}, "C": {"min": -90}}}})");
+  const json found = findings_in("M06 T101001\nG00 Y150\nG00 Y0 C-91\nM02\n", {"--config", machine});
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0]["message"], "the machine's Y goes to 150, and its travel ends at 100");
+  EXPECT_THAT(found[1]["message"].get<std::string>(), StartsWith("the machine's C goes to -91"));
+}
+
 TEST(IsolintConcise, PrintsOneLineForEachFinding) {
   const CommandResult result = run_command({"isolint", "--format", "concise", "--select", "ISO", "-"},
                                            {.input = "M06 T101001\nG01 X10\n(é) M03 M02\nM02\n"});

@@ -152,6 +152,14 @@ TEST(IsolintOutputFile, IsNoneOfThePrograms) {
 
 TEST(IsolintStatistics, CountsTheFindingsOfEachCode) {
   const Surroundings mixed{.input = std::string(kMixedProgram)};
+  for (const auto& [language, said] : {std::pair("en", "--statistics: only with --format text, concise, json\n"),
+                                       std::pair("it", "--statistics: solo con --format text, concise, json\n")}) {
+    const CommandResult refused =
+        run_command({"isolint", "--lang", language, "--statistics", "--format", "sarif", "-"}, mixed);
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_EQ(refused.out, "");
+    EXPECT_EQ(refused.err, std::string("isolint: ") + said);
+  }
   const CommandResult table = run_command({"isolint", "--statistics", "-"}, mixed);
   EXPECT_EQ(table.out,
             "     2  ISO003  error    Unknown word\n"

@@ -318,6 +318,16 @@ TEST(IsorunMachine, TellsWhatIsAskedBeyondItsLimits) {
                               "alla riga 4\n"));
 }
 
+TEST(IsorunMachine, TellsHowFarItsTravelIsLeftAndWhereFirst) {
+  const TemporaryFolder folder;
+  const std::string machine = folder.write("machine.json", R"({"machine": {"axes": {"X": {"min": 0, "max": 100}}}})");
+  const std::string program = "M06 T101001\nG00 X150\nX200\nX-5\nX120\nM02\n";
+  const std::string text = run_command({"isorun", "--machine", machine, "-"}, {.input = program}).out;
+  EXPECT_THAT(text, HasSubstr("outside its travel: X goes to -5.000 (limit 0.000), first on line 4\n"
+                              "outside its travel: X goes to 200.000 (limit 100.000), first on line 2\n"
+                              "final position"));
+}
+
 /// A cutter of 10 mm radius.
 constexpr std::string_view kCutter = R"({"machine": {"tools": [{"head": 1, "holder": 1, "tool": 1, "radius": 10}]}})";
 

@@ -69,6 +69,8 @@ inline constexpr WrongText kWrongTexts[] = {
      "1:25: lint.select[1]: there is no code ISO003,W001 (isolint --list-rules)"},
     {R"({"lint": {"severity": {"W001": "fatal"}}})",
      "1:32: lint.severity.W001: fatal is none of error, warning, info, off"},
+    {R"({"lint": {"severity": {"W001": 2, "W002": "off"}}})",
+     "1:32: lint.severity.W001: this is a number; text is wanted"},
     {R"({"lint": {"files": [{"ignore": []}]}})", "1:21: lint.files[0]: the key paths is missing"},
     {R"({"lint": {"exclude": ["!a", ""]}})",
      "1:23: lint.exclude[0]: !a: a ! means nothing here; write \\! for a name that begins so\n"

@@ -202,6 +202,15 @@ INSTANTIATE_TEST_SUITE_P(
                           "6 feed X45 Y-40 Z0"}}),
     [](const auto& each) { return std::string(each.param.name); });
 
+/// An arc without compensation begins where the program says: the cutter, which stood beside the contour, goes there
+/// straight, over the contour's end.
+TEST(Compensation, ComesBackToWhereAnArcBegins) {
+  const Done done = compensated("G00 Y30\nG41 G01 X0 Y0 F1000\nX40\nG40\nG02 X60 Y0 R10\n");
+  EXPECT_THAT(events_of(done), ElementsAre("2 rapid X0 Y30 Z0", "3 feed X0 Y5 Z0", "4 feed X40 Y5 Z0",
+                                           "6 feed X40 Y0 Z0", "6 arc X60 Y0 Z0 about 50 0 0 by -180"));
+  EXPECT_THAT(warnings_of(done), ElementsAre("W138 6"));
+}
+
 TEST(Compensation, WithoutARadiusChangesNothing) {
   const auto lengths = [](const Done& done) {
     std::vector<double> all;
