@@ -56,6 +56,14 @@ TEST(Hover, TellsOfEachWordWhatItMeansWhereItStands) {
   EXPECT_EQ(hover(kProgram, 99, 3), "");  // Behind the end.
 }
 
+/// So many that no report of all of them is made.
+TEST(Hover, TellsOfTheFindingsOfALineAmongThousands) {
+  std::string text = "M06 T101001\nG00 X1\n";
+  for (int i = 0; i < 6'000; ++i) text += "X1 X2\n";
+  EXPECT_THAT(hover(text, 4'000, 4), HasSubstr("ISO016"));
+  EXPECT_THAT(hover(text, 1, 5), testing::Not(HasSubstr("ISO016")));
+}
+
 TEST(Hover, TellsOfJumpsAndOfWhatTheyCompare) {
   const char* const kJumps = "IF VGPL >= 2 GOTO N9\nIF V3 <> -1 GOTO N9\nV3=2.5\nN9 M02\n";
   EXPECT_THAT(hover(kJumps, 0, 0), HasSubstr("**IF** jumps down"));
