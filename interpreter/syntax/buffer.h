@@ -27,7 +27,6 @@ class Buffer {
   ~Buffer() = default;
 
   std::size_t size() const { return size_; }
-  std::size_t capacity() const { return capacity_; }
   const T* data() const { return data_.get(); }
   T* data() { return data_.get(); }
   T& operator[](std::size_t index) { return data_[index]; }

@@ -32,10 +32,4 @@ void TreeStore::clear() {
   jumps_.clear();
 }
 
-std::size_t TreeStore::memory() const {
-  return lines_.capacity() * sizeof(Line) + words_.capacity() * sizeof(Word) +
-         instructions_.capacity() * sizeof(Instruction) + comments_.capacity() * sizeof(Span) +
-         findings_.capacity() * sizeof(Finding) + jumps_.capacity() * sizeof(Jump);
-}
-
 }  // namespace isocnc::syntax

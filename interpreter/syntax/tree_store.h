@@ -61,7 +61,6 @@ class TreeStore {
   }
   /// Bytes of the line's text.
   std::uint32_t length(std::size_t index) const { return lines_[index].length; }
-  std::size_t memory() const;
   /// append_line() without its short cut for plain lines: the same trees, only slower.
   const char* append_any_line(const char* begin, const char* end);
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
 #include "require.h"
 #include "tests/support/tree_text.h"
@@ -67,7 +68,25 @@ static std::string in_case(std::string_view text, char from, int shift) {
   return other;
 }
 
+/// Lines with others behind them may be read by a shorter way, which gives the same trees.
+static void check_ways(std::string_view text) {
+  const std::string padded = std::string(text) + "\nX1 Y2.5 Z-3.25 F100\nX2\n";
+  const char* const end = padded.data() + padded.size();
+  syntax::TreeStore rows;
+  rows.append_lines(padded.data(), end, end);
+  std::size_t line = 0;
+  for (const char* p = padded.data(); p < end; ++line) {
+    syntax::TreeStore alone;
+    const char* const line_end = alone.append_any_line(p, end);
+    require(line < rows.size() && support::text_of(rows.tree(line, p)) == support::text_of(alone.tree(0, p)),
+            "all ways of reading a line give the same tree");
+    p = syntax::skip_line_end(line_end, end);
+  }
+  require(line == rows.size(), "all ways of reading see the same lines");
+}
+
 static void check_line(std::string_view text) {
+  check_ways(text);
   const ParsedLine line(text);
   const LineTree tree = line.tree();
   check_spans(tree);

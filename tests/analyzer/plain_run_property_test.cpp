@@ -1,0 +1,99 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "interpreter/execution/execute.h"
+#include "interpreter/execution/plain_run.h"
+#include "interpreter/syntax/tree_store.h"
+#include "tests/support/random_program.h"
+#include "tests/support/report_text.h"
+
+namespace isocnc::execution {
+namespace {
+
+using support::Random;
+using support::RandomProgram;
+
+/// Counts what is wrong.
+class CountingSink final : public Sink {
+ public:
+  CountingSink() : Sink(false) {}
+  void report(const syntax::Finding&) override { ++findings; }
+
+  int findings = 0;
+};
+
+/// Rows of plain lines are executed by a way of their own, which must leave the very state that execute() leaves, and
+/// pass over nothing that is wrong.
+TEST(PlainRunProperty, LeavesTheStateOfExecute) {
+  std::size_t rows = 0;
+  std::size_t longest = 0;
+  for (const std::uint64_t seed : support::seeds(4'000)) {
+    Random random(seed);
+    const execution::Setup setup;
+    std::string text = support::joined(RandomProgram(random).lines(random.between(1, 120)));
+    text += "M06 T101001 M3 S12000\nG1 G90 G71 G94 X1 Y1 F500\n";
+    for (int i = random.between(0, 20); i > 0; --i)
+      text += "X1 Y" + std::to_string(random.between(-9, 9)) + "\nG0 Z5\n";
+    syntax::TreeStore trees;
+    trees.append_lines(text.data(), text.data() + text.size(), text.data() + text.size());
+    State state = initial_state(setup);
+    State expected = state;
+    for (std::size_t line = 0; line < trees.size() && !state.ended;) {
+      std::size_t done = 0;
+      {
+        PlainRun run(state, setup);
+        while (line + done < trees.size() && run.run(trees.plain(line + done))) ++done;
+      }
+      rows += done > 0 ? 1 : 0;
+      longest = std::max(longest, done);
+      CountingSink unheard;
+      for (; done > 0; --done) execute(trees.tree(line++, nullptr), expected, setup, unheard);
+      ASSERT_EQ(unheard.findings, 0) << "seed " << seed << ", line " << line;
+      ASSERT_EQ(state, expected) << "seed " << seed << ", line " << line;
+      if (line == trees.size()) break;
+      execute(trees.tree(line++, nullptr), state, setup, unheard);
+      expected = state;
+    }
+  }
+  EXPECT_GT(rows, support::seeds(4'000).size());
+  EXPECT_GT(longest, 10u);
+}
+
+/// The same for lines of one assignment.
+TEST(LoneAssignment, LeavesTheStateOfExecute) {
+  std::size_t count = 0;
+  for (const std::uint64_t seed : support::seeds(1'000)) {
+    Random random(seed);
+    const execution::Setup setup;
+    const std::string text = support::joined(RandomProgram(random).lines(60));
+    syntax::TreeStore trees;
+    trees.append_lines(text.data(), text.data() + text.size(), text.data() + text.size());
+    State state = initial_state(setup);
+    CountingSink unheard;
+    for (std::size_t line = 0; line < trees.size() && !state.ended; ++line) {
+      const syntax::LineTree tree = trees.tree(line, nullptr);
+      State shortened = state;
+      const bool is_lone = lone_assignment(tree).has_value();
+      if (is_lone) execute_lone_assignment(shortened);
+      execute(tree, state, setup, unheard);
+      if (!is_lone) continue;
+      ++count;
+      EXPECT_EQ(shortened, state) << "seed " << seed << ", line " << line;
+    }
+  }
+  EXPECT_GT(count, 100u);
+}
+
+TEST(LoneAssignment, IsNothingElse) {
+  const auto read = [](const char* line) { return lone_assignment(syntax::ParsedLine(line).tree()); };
+  ASSERT_TRUE(read("N5 V7 = -2.5 (depth)").has_value());
+  EXPECT_EQ(read("N5 V7 = -2.5 (depth)")->reg, 7);
+  EXPECT_EQ(read("N5 V7 = -2.5 (depth)")->value, -2.5);
+  for (const char* const line : {"", "N5", "V31=1", "V7", "V7=", "V7=1 V8=2", "V7=1 F100", "V7=1 S100", "V7=1.2.3",
+                                 "V7=1 X5", "G0 X5", "IF V7=1 GOTO N5"})
+    EXPECT_FALSE(read(line).has_value()) << line;
+}
+
+}  // namespace
+}  // namespace isocnc::execution
