@@ -29,9 +29,9 @@
 #include "interpreter/running/output_file.h"
 #include "interpreter/running/program_main.h"
 #include "interpreter/running/progress.h"
+#include "interpreter/running/same_file.h"
 #include "interpreter/running/source_file.h"
 #include "interpreter/running/system_texts.h"
-#include "interpreter/running/write_atomically.h"
 
 namespace isocnc::analyzer {
 namespace {
@@ -60,13 +60,13 @@ class Answer final : public Output {
         descriptor_(options.prints_program() ? STDERR_FILENO : STDOUT_FILENO),
         file_(path_.empty() ? running::OutputFile(descriptor_) : running::OutputFile(std::filesystem::path(path_))) {}
 
-  /// Flushes; false, after a complaint, when anything written has been lost.
+  /// Writes all of it; false, after a complaint, when anything has been lost.
   bool finish() {
     flush();
-    if (file_.flush() == 0) return true;
     const std::string standard = descriptor_ == STDOUT_FILENO ? "<stdout>" : "<stderr>";
-    complain(fmt::format("{}: {}", path_.empty() ? standard : path_, running::cannot_write(file_.error(), language_)));
-    return false;
+    const std::optional<std::string> problem = running::commit(file_, path_.empty() ? standard : path_, language_);
+    if (problem) complain(*problem);
+    return !problem;
   }
   bool has_failed() const { return file_.error() != 0; }
 
@@ -323,11 +323,11 @@ int record(Options options, const Style& style, Programs programs, bool trouble)
     complain(fmt::format("{}: {}", file, italian ? "non scritto" : "not written"));
     return kTrouble;
   }
-  if (const int error = running::write_atomically(file, baseline.to_json())) {
-    complain(fmt::format("{}: {}", file, running::cannot_write(error, style.language)));
-    return kTrouble;
-  }
-  return kClean;
+  running::OutputFile output{std::filesystem::path(file)};
+  output.write(baseline.to_json());
+  const std::optional<std::string> problem = running::commit(output, file, style.language);
+  if (problem) complain(*problem);
+  return problem ? kTrouble : kClean;
 }
 
 /// The programs to be checked; none, after a complaint, when the check cannot begin.
@@ -349,12 +349,25 @@ std::optional<Programs> find_programs(const Options& options, configuration::Con
   return programs;
 }
 
-/// To write over a program while it is checked would take its lines away, and the author's work.
-bool writes_over(const std::string& output, const std::vector<std::filesystem::path>& files) {
-  std::error_code ignored;
-  return !output.empty() && std::any_of(files.begin(), files.end(), [&](const std::filesystem::path& file) {
-    return std::filesystem::equivalent(output, file, ignored);
-  });
+/// What must not be written over: the programs, whose lines would be gone while they are checked, and their authors'
+/// work; and what else is read. None when `written` is nothing of that.
+const dialect::Text* what_it_overwrites(const std::string& written, const Programs& programs, const Options& options,
+                                        configuration::Configurations& configurations) {
+  static constexpr dialect::Text kProgram = {"is one of the programs to be checked",
+                                             "è uno dei programmi da verificare"};
+  static constexpr dialect::Text kConfiguration = {"is the configuration", "è la configurazione"};
+  static constexpr dialect::Text kBaseline = {"is the baseline", "è la baseline"};
+  static constexpr dialect::Text kTwice = {"is written by --write-baseline", "viene scritto da --write-baseline"};
+  const bool is_output = &written == &options.output;
+  if (written.empty()) return nullptr;
+  if (is_output && running::is_same_file(written, options.baseline)) return &kBaseline;
+  if (is_output && running::is_same_file(written, options.write_baseline)) return &kTwice;
+  for (const std::filesystem::path& file : programs.files) {
+    if (running::is_same_file(written, file)) return &kProgram;
+    const std::filesystem::path place = place_of_program(file, options.stdin_name);
+    if (running::is_same_file(written, configurations.of(place).file)) return &kConfiguration;
+  }
+  return nullptr;
 }
 
 /// Takes the first path's configuration for the language, too: one command speaks one.
@@ -364,24 +377,24 @@ int check(Options options) {
   options.follow(configurations.of(place_of_program(options.paths.front(), options.stdin_name)));
   const Style style{
       .language = options.reader_language(), .color = options.wants_color(), .unsafe_fixes = options.unsafe_fixes};
-  const bool italian = style.language == Language::Italian;
   const std::vector<std::string> problems = Selection().follow(options.wishes, style.language);
   for (const std::string& problem : problems) complain(problem);
   if (!problems.empty()) return kTrouble;
   std::unique_ptr<Renderer> renderer =
       options.statistics ? make_statistics_renderer(options.format, style) : make_renderer(options.format, style);
   if (!renderer) {
-    complain(fmt::format("--statistics: {} text, concise, json", italian ? "solo con --format" : "only with --format"));
+    complain(fmt::format("--statistics: {} text, concise, json",
+                         style.language == Language::Italian ? "solo con --format" : "only with --format"));
     return kTrouble;
   }
   bool trouble = false;
   SettingsFinder settings(configurations, options.wishes);
   auto programs = find_programs(options, configurations, settings, trouble);
   if (!programs) return kTrouble;
-  for (const std::string& written : {options.output, options.write_baseline}) {
-    if (!writes_over(written, programs->files)) continue;
-    complain(fmt::format("{}: {}", written,
-                         italian ? "è uno dei programmi da verificare" : "is one of the programs to be checked"));
+  for (const std::string* written : {&options.output, &options.write_baseline}) {
+    const dialect::Text* const what = what_it_overwrites(*written, *programs, options, configurations);
+    if (!what) continue;
+    complain(fmt::format("{}: {}", *written, what->in(style.language)));
     return kTrouble;
   }
   if (!options.write_baseline.empty()) return record(options, style, *std::move(programs), trouble);

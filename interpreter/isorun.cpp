@@ -26,7 +26,6 @@
 #include "interpreter/running/same_file.h"
 #include "interpreter/running/source_file.h"
 #include "interpreter/running/system_texts.h"
-#include "interpreter/running/write_atomically.h"
 #include "interpreter/syntax/number.h"
 #include "interpreter/syntax/unicode.h"
 
@@ -203,13 +202,6 @@ void print_warning(const Options& options, const RunWarning& warning) {
             << '\n';
 }
 
-/// Flushes an output; false, after a complaint, when anything written to it has been lost.
-bool finish(OutputFile& output, std::string_view name, Language language) {
-  const std::optional<std::string> problem = flush(output, name, language);
-  if (problem) complain(*problem);
-  return !problem;
-}
-
 /// A file that the run reads or writes, and what it is to people.
 struct NamedFile {
   std::string path;
@@ -281,17 +273,19 @@ int run_program(std::string_view program, const Options& options, const RunOptio
   return result->ending == Ending::Error ? kStopped : kRan;
 }
 
-/// To a file all at once, so that nobody ever loads half of a program.
 bool write_restart(std::string_view program, const Options& options) {
-  const Language language = options.reader_language();
-  if (options.output.empty() || options.output == "-") {
-    OutputFile standard_output(STDOUT_FILENO);
-    standard_output.write(program);
-    return finish(standard_output, "<stdout>", language);
+  const bool is_file = !options.output.empty() && options.output != "-";
+  std::optional<OutputFile> output;
+  if (is_file) {
+    output.emplace(std::filesystem::path(options.output));
+  } else {
+    output.emplace(STDOUT_FILENO);
   }
-  const int error = write_atomically(options.output, program);
-  if (error != 0) complain(fmt::format("{}: {}", options.output, cannot_write(error, language)));
-  return error == 0;
+  output->write(program);
+  const std::optional<std::string> problem =
+      commit(*output, is_file ? options.output : "<stdout>", options.reader_language());
+  if (problem) complain(*problem);
+  return !problem;
 }
 
 int restart(const SourceFile& source, const Options& options, const RestartOptions& restart_options) {

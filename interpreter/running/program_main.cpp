@@ -64,7 +64,7 @@ int complain_of_command(std::string_view program, std::string_view what) {
 int say(std::string_view program, std::string_view text, dialect::Language language) {
   OutputFile output(STDOUT_FILENO);
   output.write(text);
-  const auto problem = flush(output, "<stdout>", language);
+  const auto problem = commit(output, "<stdout>", language);
   if (!problem) return 0;
   complain(program, *problem);
   return kTroubleStatus;

@@ -9,13 +9,11 @@
 
 #include "interpreter/dialect/diagnostic.h"
 #include "interpreter/running/output_file.h"
-#include "interpreter/running/temporary_file.h"
 
 namespace isocnc::running {
 
-/// A new text in the place of a file's old one: all of it or nothing. It is written beside the file, made safe on the
-/// disk and then given the file's name, so that whoever opens the file at any moment, also after a power cut, finds the
-/// old text or the new one, whole. What has been written is thrown away unless it is committed.
+/// A new text in the place of a program's old one: all of it or nothing, as any OutputFile that has a name, and with
+/// more care. What has been written is thrown away unless it is committed.
 ///
 /// Begin before the file is read: a file that somebody else changes from then on is left to them.
 class FileReplacement {
@@ -24,7 +22,6 @@ class FileReplacement {
   explicit FileReplacement(const std::filesystem::path& path);
   FileReplacement(const FileReplacement&) = delete;
   FileReplacement& operator=(const FileReplacement&) = delete;
-  ~FileReplacement();
 
   /// Appends to the new text. What goes wrong is told by commit().
   void write(std::string_view text);
@@ -34,18 +31,13 @@ class FileReplacement {
 
  private:
   std::string why_not(dialect::Language language) const;
-  void make_temporary();
-  bool take_over_attributes() const;
   bool is_unchanged() const;
-  void discard();
 
   std::filesystem::path target_;  // Without symlinks.
   struct stat status_ {};
   int error_ = 0;
   const dialect::Text* refusal_ = nullptr;
-  std::optional<TemporaryFile> temporary_;
-  int descriptor_ = -1;
-  std::optional<OutputFile> output_;
+  std::optional<OutputFile> output_;  // Once there is something to write.
 };
 
 }  // namespace isocnc::running

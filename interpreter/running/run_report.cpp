@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/running/system_texts.h"
+
 namespace isocnc::running {
 
 RunReport::RunReport(const RunOutputs& outputs, const TimedMachine& machine)
@@ -32,12 +34,13 @@ OutputFile* RunReport::open(const std::string& name, std::optional<OutputFile>& 
   if (name.empty()) return nullptr;
   if (name == "-") return &standard_output_;
   file.emplace(std::filesystem::path(name));
-  close(*file, name);
+  if (const int error = file->error())
+    problems_.push_back(fmt::format("{}: {}", name, cannot_write(error, outputs_.language)));
   return &*file;
 }
 
 void RunReport::close(OutputFile& output, const std::string& name) {
-  if (const std::optional<std::string> problem = flush(output, name, outputs_.language)) problems_.push_back(*problem);
+  if (const std::optional<std::string> problem = commit(output, name, outputs_.language)) problems_.push_back(*problem);
 }
 
 void RunReport::take(const TimedEvent& timed) {

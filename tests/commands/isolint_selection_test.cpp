@@ -150,6 +150,29 @@ TEST(IsolintOutputFile, IsNoneOfThePrograms) {
   EXPECT_EQ(text_of_file(program), kMixedProgram);
 }
 
+TEST(IsolintOutputFile, IsNothingThatIsRead) {
+  const TemporaryFolder folder;
+  folder.write("part.iso", kMixedProgram);
+  const std::string configuration = folder.write("isocnc.json", "{}\n");
+  const std::string baseline = folder.write("known.json", "{\"version\": 1, \"findings\": []}\n");
+  const auto refusal_of = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), "isolint");
+    options.emplace_back("part.iso");
+    const CommandResult result = run_command(options, {.folder = folder.path()});
+    EXPECT_EQ(result.status, 2);
+    return result.err;
+  };
+  EXPECT_EQ(refusal_of({"--output", "isocnc.json"}), "isolint: isocnc.json: is the configuration\n");
+  EXPECT_EQ(refusal_of({"--write-baseline", "./isocnc.json"}), "isolint: ./isocnc.json: is the configuration\n");
+  EXPECT_EQ(refusal_of({"--baseline", "known.json", "--output", "known.json"}),
+            "isolint: known.json: is the baseline\n");
+  EXPECT_EQ(refusal_of({"--write-baseline", "new.json", "--output", "./new.json"}),
+            "isolint: ./new.json: is written by --write-baseline\n");
+  EXPECT_EQ(text_of_file(configuration), "{}\n");
+  EXPECT_EQ(text_of_file(baseline), "{\"version\": 1, \"findings\": []}\n");
+  EXPECT_FALSE(std::filesystem::exists(folder.path("new.json")));
+}
+
 TEST(IsolintStatistics, CountsTheFindingsOfEachCode) {
   const Surroundings mixed{.input = std::string(kMixedProgram)};
   for (const auto& [language, said] : {std::pair("en", "--statistics: only with --format text, concise, json\n"),
