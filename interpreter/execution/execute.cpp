@@ -199,7 +199,8 @@ void Executor::tool_change(const Instruction& instruction) {
 void Executor::stray_tool(const Instruction& instruction) {
   const Word& word = line_.command(instruction);
   const bool follows_change = state_.tool_awaited && instruction.has(Instruction::kFirst);
-  if (!follows_change && !word.has(Word::kMissing)) report("tool-without-m06"_diag, word.span());
+  const bool is_legible = word.is_plain_integer() && word.digits == 6;  // Else reported, and one mistake is enough.
+  if (!follows_change && is_legible) report("tool-without-m06"_diag, word.span());
   state_.tool_prepared = !follows_change && instruction.has(Instruction::kFirst);
   select_tool(word);
 }

@@ -67,6 +67,7 @@ class Executor {
   void workpiece_frame(const syntax::Instruction& instruction);
   void dismount_face(const syntax::Instruction& instruction);
   void mount_face(const syntax::Instruction& instruction, const dialect::GCode& code);
+  void go_home(const Arguments& arguments);
   void leave_face();
   bool read_axes(const Arguments& arguments, std::string_view letters, geometry::Mat3& axes);
   bool read_point(const Arguments& arguments, geometry::Vec3& point) const;

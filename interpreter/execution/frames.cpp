@@ -78,12 +78,22 @@ bool Executor::read_axes(const Arguments& arguments, std::string_view letters, M
   return complete;
 }
 
+/// G28 Z0, and G91 G28 Z0, as other controls go home: no face was meant, so none is mounted, and where the tool is now is
+/// unknown. Said of the axes that it lacks, or of the company that it has.
+void Executor::go_home(const Arguments& arguments) {
+  Mat3 ignored;
+  if (!line_.has(syntax::LineTree::kAloneViolated)) read_axes(arguments, "XYZIJKPQR", ignored);
+  if (!state_.face_mounted) state_.dismount_forgiven = true;
+  blur_linear_axes();
+}
+
 void Executor::mount_face(const Instruction& instruction, const dialect::GCode& code) {
   const syntax::Span place = line_.command(instruction).span();
+  const Arguments arguments(line_, instruction);
+  if (code.number == 28 && (arguments.present() & dialect::letters("IJKPQR")) == 0) return go_home(arguments);
   if (state_.face_mounted) report("face-already-mounted"_diag, place);
   leave_face();
   state_.dismount_forgiven = false;
-  const Arguments arguments(line_, instruction);
   Frame face;
   face.origin = state_.position.tip;
   bool defined = true;

@@ -218,6 +218,9 @@ void LineParser::check_motion(const Instruction& motion) {
 void LineParser::check_vectors(const Instruction& frame, std::string_view i_letters) {
   check_unbroken(frame);
   if (company_has_arguments_of(frame)) return;
+  // G91 G28 Z0: as other controls go home. The line has been reported; what it lacks for a face says nothing more.
+  const bool has_company = (line_.flags & LineTree::kAloneViolated) != 0;
+  if (has_company && frame.g()->number == 28 && !owns_any(frame, letters("IJKPQR"))) return;
   if (!owns_any(frame, letters(i_letters))) report_missing("missing-i-vector"_diag, frame);
   if (!owns_any(frame, letters("IJK"))) report_missing("missing-j-vector"_diag, frame);
   if (!owns_any(frame, letters("PQR"))) report_missing("missing-k-vector"_diag, frame);
