@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "analyzer/check_text.h"
-#include "interpreter/syntax/tree_store.h"
 
 namespace isocnc::analyzer {
 
@@ -22,6 +21,11 @@ static constexpr std::uint64_t kMostBlank = 8;
 
 namespace {
 
+bool finds(const std::vector<LocatedFinding>& findings, dialect::DiagnosticId id) {
+  return std::any_of(findings.begin(), findings.end(),
+                     [&](const LocatedFinding& located) { return located.finding.id == id; });
+}
+
 /// A check that goes on from somewhere, and what it finds.
 class Attempt {
  public:
@@ -30,35 +34,32 @@ class Attempt {
     checker_.frontier = from;
   }
 
-  void check(std::string_view text) {
-    store_.clear();
-    store_.append_line(text.data(), text.data() + text.size());
-    checker_.check(store_.tree(0, text.data()), line_, outcome_);
-    if (outcome_.has_text && outcome_.last_text_line == line_) last_text_ = text;
+  void check(const syntax::LineTree& tree) {
+    checker_.check(tree, line_, outcome_);
+    if (outcome_.has_text && outcome_.last_text_line == line_) last_text_ = tree.text;
     ++line_;
   }
 
   const Frontier& frontier() const { return checker_.frontier; }
 
-  /// What has been found; with what the end of the program shows where it has come there.
-  Tally tally(bool at_end) && {
-    Report report;
-    if (at_end) {
-      report = conclude(std::move(outcome_), checker_.frontier, jumps_, [&](std::uint64_t) { return last_text_; });
-    } else {
-      report.findings = std::move(outcome_.findings);
-    }
-    Tally tally;
-    tally.add(report);
-    return tally;
+  /// Adds what has been found since this was last asked for.
+  void count(Balance& balance, int times) {
+    balance.count(outcome_.findings, counted_, times);
+    counted_ = outcome_.findings.size();
+  }
+  const std::vector<LocatedFinding>& findings() const { return outcome_.findings; }
+
+  /// What has been found, with what the end of the program shows, where it has come there.
+  Report conclusion() {
+    return conclude(std::move(outcome_), checker_.frontier, jumps_, [&](std::uint64_t) { return last_text_; });
   }
 
  private:
   const JumpMap& jumps_;
   Checker checker_;
   Outcome outcome_;
-  syntax::TreeStore store_;
   std::uint64_t line_ = 0;
+  std::size_t counted_ = 0;
   std::string_view last_text_;
 };
 
@@ -79,47 +80,72 @@ std::string edited_lines(fixes::Program& program, std::uint64_t first, std::uint
   return text;
 }
 
-std::vector<std::string_view> lines_of(std::string_view text) {
-  std::vector<std::string_view> lines;
-  for (std::size_t end = 0; (end = text.find('\n')) != std::string_view::npos; text.remove_prefix(end + 1))
-    lines.push_back(text.substr(0, end));
-  lines.push_back(text);
-  return lines;
-}
+/// The lines of a text and their trees.
+class TextLines {
+ public:
+  explicit TextLines(std::string_view text) {
+    for (std::size_t end = 0; (end = text.find('\n')) != std::string_view::npos; text.remove_prefix(end + 1))
+      append(text.substr(0, end));
+    append(text);
+  }
+  std::size_t size() const { return starts_.size(); }
+  syntax::LineTree operator[](std::size_t index) const { return store_.tree(index, starts_[index]); }
+
+ private:
+  void append(std::string_view line) {
+    starts_.push_back(line.data());
+    store_.append_line(line.data(), line.data() + line.size());
+  }
+
+  std::vector<const char*> starts_;
+  syntax::TreeStore store_;
+};
 
 }  // namespace
 
-/// Whether the finding is gone, and nothing that is told by default has come in its place.
-static bool is_better(const Tally& left, const Tally& found, const LocatedFinding& located) {
+/// The program as it is, and with a fix.
+struct FixTrial::Comparison {
+  Attempt without;
+  Attempt with;
+  Balance balance = {};
+
+  const Balance& so_far() {
+    with.count(balance, 1);
+    without.count(balance, -1);
+    return balance;
+  }
+  bool has_met() const { return without.frontier() == with.frontier(); }
+};
+
+/// Whether nothing that is told by default is found more often, and the finding's own code, where it was found, less.
+static bool is_better(const Balance& balance, bool found_own, const LocatedFinding& located) {
   for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
     const dialect::DiagnosticId id{static_cast<std::uint8_t>(i)};
-    if (left.of(id) > found.of(id) && !dialect::definition(id).is_off) return false;
+    if (balance.of(id) > 0 && !dialect::definition(id).is_off) return false;
   }
-  const dialect::DiagnosticId own = located.finding.id;
-  return found.of(own) == 0 || left.of(own) < found.of(own);
+  return !found_own || balance.of(located.finding.id) < 0;
 }
 
 FixTrial::FixTrial(fixes::Program& program, const execution::Setup& setup, const JumpMap& jumps)
-    : program_(program), setup_(setup), jumps_(jumps), work_left_(kMostWork) {}
+    : program_(program), setup_(setup), jumps_(jumps), lines_(program), work_left_(kMostWork) {}
 
 /// Jumps are known by their number in the program, and labels by where they stand.
-bool FixTrial::is_concerned_by_jumps(std::string_view line) const {
-  const syntax::ParsedLine parsed(line);
-  const syntax::LineTree tree = parsed.tree();
-  return tree.jump != nullptr || (tree.has_label() && jumps_.names(tree.label));
+bool FixTrial::is_concerned_by_jumps(const syntax::LineTree& line) const {
+  return line.jump != nullptr || (line.has_label() && jumps_.names(line.label));
 }
 
 bool FixTrial::mends_in_whole(const Fix& fix, const LocatedFinding& located) {
   const std::uint64_t lines = program_.line_count();
-  const auto tally_with = [&](std::vector<Edit> edits) {
-    Tally tally;
-    tally.add(check_text(edited_lines(program_, 0, lines - 1, std::move(edits)), setup_));
+  const auto check_with = [&](std::vector<Edit> edits) {
     work_left_ -= std::min(work_left_, lines);
-    return tally;
+    return check_text(edited_lines(program_, 0, lines - 1, std::move(edits)), setup_);
   };
   if (work_left_ < (found_in_whole_ ? lines : 2 * lines)) return true;
-  if (!found_in_whole_) found_in_whole_ = tally_with({});
-  return is_better(tally_with(fix.edits), *found_in_whole_, located);
+  if (!found_in_whole_) found_in_whole_ = check_with({});
+  Balance balance;
+  balance.count(check_with(fix.edits), 1);
+  balance.count(*found_in_whole_, -1);
+  return is_better(balance, finds(found_in_whole_->findings, located.finding.id), located);
 }
 
 bool FixTrial::mends(const Fix& fix, const LocatedFinding& located, const Frontier& before) {
@@ -131,36 +157,62 @@ bool FixTrial::mends(const Fix& fix, const LocatedFinding& located, const Fronti
   }
   if (last - first > kMostEdited || work_left_ == 0) return true;
 
-  const auto concerned = [&](std::string_view line) { return is_concerned_by_jumps(line); };
   const std::string text = edited_lines(program_, first, last, fix.edits);
-  const std::vector<std::string_view> edited = lines_of(text);
-  if (std::any_of(edited.begin(), edited.end(), concerned)) return mends_in_whole(fix, located);
-  Attempt without(setup_, jumps_, before);
-  Attempt with(setup_, jumps_, before);
-  const auto spend = [&](const Attempt& attempt) {
-    work_left_ -= std::min<std::uint64_t>(work_left_, 1 + attempt.frontier().live.size());
-  };
+  const TextLines edited(text);
+  for (std::size_t i = 0; i < edited.size(); ++i)
+    if (is_concerned_by_jumps(edited[i])) return mends_in_whole(fix, located);
+  Comparison compared{.without = {setup_, jumps_, before}, .with = {setup_, jumps_, before}};
   for (std::uint64_t line = first; line <= last; ++line) {
-    if (concerned(program_.text(line))) return mends_in_whole(fix, located);
-    without.check(program_.text(line));
-    spend(without);
+    const syntax::LineTree tree = lines_[line];
+    if (is_concerned_by_jumps(tree)) return mends_in_whole(fix, located);
+    compared.without.check(tree);
+    spend(compared.without.frontier());
   }
-  for (const std::string_view line : edited) {
-    with.check(line);
-    spend(with);
+  for (std::size_t i = 0; i < edited.size(); ++i) {
+    compared.with.check(edited[i]);
+    spend(compared.with.frontier());
   }
+  return follow(compared, last + 1, located);
+}
 
-  std::uint64_t next = last + 1;
+void FixTrial::spend(const Frontier& frontier) {
+  work_left_ -= std::min<std::uint64_t>(work_left_, 1 + frontier.live.size());
+}
+
+bool FixTrial::follow(Comparison& compared, std::uint64_t next, const LocatedFinding& located) {
   const std::uint64_t end = program_.line_count();
+  const std::uint64_t farthest = std::min(end, next + kFarthest);
   const auto is_near_end = [&] { return end - next <= kMostBlank; };
-  while (next < end && next - last < kFarthest && work_left_ > 0 &&
-         (without.frontier() != with.frontier() || is_near_end())) {
-    without.check(program_.text(next));
-    with.check(program_.text(next));
-    spend(with);
-    ++next;
+  Trail trail;
+  std::optional<Trail::Rest> rest;
+  while (next < farthest && work_left_ > 0 && (!compared.has_met() || is_near_end())) {
+    rest = trails_.rest_from(next, compared.with.frontier());
+    if (rest) break;
+    trail.pass(next, compared.with.frontier(), compared.so_far());
+    const syntax::LineTree tree = lines_[next++];
+    compared.without.check(tree);
+    compared.with.check(tree);
+    spend(compared.with.frontier());
   }
-  return is_better(std::move(with).tally(next == end), std::move(without).tally(next == end), located);
+  const Balance so_far = compared.so_far();
+  bool found_own = finds(compared.without.findings(), located.finding.id);
+  if (!rest) {
+    rest = Trail::Rest{.next_line = next, .has_more = next < end && !compared.has_met()};
+    if (next == end) {
+      rest->balance.count(compared.with.conclusion(), 1);
+      const Report found = compared.without.conclusion();
+      rest->balance.count(found, -1);
+      rest->balance -= so_far;
+      found_own |= finds(found.findings, located.finding.id);
+    }
+  }
+  Balance in_all = so_far;
+  in_all += rest->balance;
+  if (trail.is_long()) {
+    trail.end(so_far, *rest);
+    trails_.keep(std::move(trail));
+  }
+  return is_better(in_all, found_own, located);
 }
 
 }  // namespace isocnc::analyzer

@@ -5,14 +5,16 @@
 
 #include "analyzer/checker.h"
 #include "analyzer/fixes/fix.h"
-#include "analyzer/tally.h"
+#include "analyzer/recent_trees.h"
+#include "analyzer/trails.h"
 
 namespace isocnc::analyzer {
 
 /// Tries fixes out, one at a time, on the part of a program that they concern: from the finding's line on, until the
-/// check stands where it would stand without them. Those that edit jumps, labels or lines above the finding are tried
-/// on the whole program. A fix that leaves its finding, or brings another one that is told by default, is none. What
-/// cannot be seen there counts as fine: effects more than a few thousand lines below, and all once the trials of a
+/// check stands where it would stand without them, or where an earlier fix has led it (of twenty that put the same
+/// mode in force, only the first is followed to its end). Those that edit jumps, labels or lines above the finding are
+/// tried on the whole program. A fix that leaves its finding, or brings another one that is told by default, is none.
+/// What cannot be seen there counts as fine: effects more than a few thousand lines below, and all once the trials of a
 /// program have cost too much.
 class FixTrial {
  public:
@@ -23,14 +25,21 @@ class FixTrial {
   bool mends(const fixes::Fix& fix, const LocatedFinding& located, const Frontier& before);
 
  private:
-  bool is_concerned_by_jumps(std::string_view line) const;
+  struct Comparison;
+
+  bool is_concerned_by_jumps(const syntax::LineTree& line) const;
   bool mends_in_whole(const fixes::Fix& fix, const LocatedFinding& located);
+  /// Goes on from this line, below the edits.
+  bool follow(Comparison& compared, std::uint64_t next, const LocatedFinding& located);
+  void spend(const Frontier& frontier);
 
   fixes::Program& program_;
   const execution::Setup& setup_;
   const JumpMap& jumps_;
+  RecentTrees lines_;
+  Trails trails_;
   std::uint64_t work_left_;
-  std::optional<Tally> found_in_whole_;  // Once it is asked for.
+  std::optional<Report> found_in_whole_;  // Once it is asked for.
 };
 
 }  // namespace isocnc::analyzer

@@ -112,6 +112,23 @@ TEST_P(FixCase, IsOfferedWhatIsMade) {
   EXPECT_EQ(is_offered, tested.safety != fixes::Safety::None) << tested.name;
 }
 
+/// A fix that lasts is followed down the program, however many like it stand above: the G71 at the end would be
+/// written again. Without it all may be offered.
+TEST(OfferedFixes, AreTriedHoweverManyThereAre) {
+  const auto offered = [](std::string_view end) {
+    std::string text = "M06 T101001\nF500\n";
+    for (int i = 0; i < 9'000; ++i) text += "G21 G01 X" + std::to_string(i % 977) + "\n";
+    text += end;
+    const execution::Setup setup;
+    const Report report = support::found_in(text);
+    FindingFixes fixes(text, report, setup);
+    return std::count_if(report.findings.begin(), report.findings.end(),
+                         [&](const LocatedFinding& located) { return fixes.offered(located).has_value(); });
+  };
+  EXPECT_EQ(offered("G71\nM02\n"), 0);
+  EXPECT_EQ(offered("M02\n"), 9'000);
+}
+
 /// CR, LF or CRLF: what is inserted ends like what is there.
 TEST_P(FixCase, KeepsLineEnds) {
   const Case& tested = GetParam();
