@@ -95,11 +95,11 @@ void Executor::execute_g(const Instruction& instruction) {
   if (!code) {
     // What an unknown G does with its arguments is unknown, and so are the axes it names.
     const Arguments arguments(line_, instruction);
-    const bool has_coordinates = (arguments.present() & dialect::kCoordinateLetters) != 0;
-    state_.motion_illegible |= has_coordinates && state_.mode(dialect::ModalGroup::Motion) == dialect::kNoMotion;
-    for (int axis = 0; axis < kAxisCount; ++axis)
-      if (arguments.has("XYZBC"[axis])) state_.unknown |= axis_bit(static_cast<Axis>(axis));
-    return;
+    if (may_be_motion(line_.command(instruction), arguments)) {
+      state_.set_mode(dialect::ModalGroup::Motion, dialect::kNoMotion);
+      state_.motion_illegible = true;
+    }
+    return move_illegibly(arguments);
   }
   if (code->is_motion()) return motion(instruction);
   switch (code->number) {
@@ -120,6 +120,14 @@ void Executor::execute_g(const Instruction& instruction) {
     default:
       return set_mode(*code, line_.command(instruction));
   }
+}
+
+/// Whether a G that is none of this control, or has no number, was meant as a motion that stays in force: GO3 X5 I2
+/// J0, G011 X5 F900, a drilling cycle.
+bool Executor::may_be_motion(const Word& g, const Arguments& arguments) const {
+  if ((arguments.present() & dialect::kCoordinateLetters) == 0) return false;
+  const bool has_circle = (arguments.present() & (dialect::kCenterLetters | dialect::letter_bit('R'))) != 0;
+  return g.has(Word::kMissing) || has_circle || line_.feed >= 0 || !motion_is_legible();
 }
 
 void Executor::set_mode(const dialect::GCode& code, const Word& word) {
@@ -144,6 +152,7 @@ void Executor::exact_stop(const Instruction& instruction) {
                         ? feed_move_
                         : instruction.has(Instruction::kFirst) && state_.exact_stop_fits;
   if (fits) return sink_.exact_stop();
+  if (state_.motion_illegible) return;
   report("g09-misplaced"_diag, line_.command(instruction).span());
 }
 
@@ -153,7 +162,9 @@ void Executor::dwell(const Instruction& instruction) {
 }
 
 void Executor::function(const Instruction& instruction) {
-  if (!line_.command(instruction).known()) return;  // No M of any number; reported.
+  if (!line_.command(instruction).known())  // No M of any number; reported. It may have been any.
+    return state_.forget(State::kClockwise | State::kCounterclockwise | State::kStopped | State::kUncut |
+                         State::kNotStarted | State::kCutNotStarted);
   const auto m = static_cast<int>(line_.command(instruction).value);
   if (m == dialect::kProgramEnd) {
     state_.ended = true;
@@ -239,7 +250,7 @@ void Executor::assign(const Instruction& instruction) {
 void Executor::apply_feed_without_motion() {
   const Word& word = line_.words[static_cast<std::size_t>(line_.feed)];
   if (state_.inverse_time()) {
-    if (!(word.value <= 0)) report("feed-ignored"_diag, word.span());
+    if (!(word.value <= 0) && !state_.motion_illegible) report("feed-ignored"_diag, word.span());
   } else if (!rapid_move_) {
     take_feed();
   }

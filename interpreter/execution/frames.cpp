@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "interpreter/execution/executor.h"
@@ -49,7 +50,9 @@ void Executor::workpiece_frame(const Instruction& instruction) {
 }
 
 void Executor::dismount_face(const Instruction& instruction) {
-  if (!state_.face_mounted && !state_.dismount_forgiven)
+  const auto is_same = [](const Instruction& each) { return each.g() && each.g()->number == 27; };
+  const bool is_repeated = std::count_if(line_.instructions.begin(), line_.instructions.end(), is_same) > 1;  // ISO018.
+  if (!state_.face_mounted && !state_.dismount_forgiven && !is_repeated)
     report("g27-without-face"_diag, line_.command(instruction).span());
   state_.dismount_forgiven = false;
   leave_face();
@@ -78,8 +81,8 @@ bool Executor::read_axes(const Arguments& arguments, std::string_view letters, M
   return complete;
 }
 
-/// G28 Z0, and G91 G28 Z0, as other controls go home: no face was meant, so none is mounted, and where the tool is now is
-/// unknown. Said of the axes that it lacks, or of the company that it has.
+/// G28 Z0, and G91 G28 Z0, as other controls go home: no face was meant, so none is mounted, and where the tool is now
+/// is unknown. Said of the axes that it lacks, or of the company that it has.
 void Executor::go_home(const Arguments& arguments) {
   Mat3 ignored;
   if (!line_.has(syntax::LineTree::kAloneViolated)) read_axes(arguments, "XYZIJKPQR", ignored);

@@ -67,6 +67,7 @@ void Executor::motion(const Instruction& instruction) {
   const Arguments arguments(line_, instruction);
   if (!is_continuation) {
     state_.set_mode(dialect::ModalGroup::Motion, static_cast<std::uint8_t>(instruction.g()->number));
+    state_.motion_illegible = false;
   } else if (!motion_is_in_force(arguments)) {
     return;
   }
@@ -119,12 +120,18 @@ void Executor::move_with_effects(const Arguments& arguments, const GCode& code, 
   sink_.move(move, state_);
 }
 
-/// Coordinates before any motion G belong to nothing: one finding a line (D21).
-bool Executor::motion_is_in_force(const Arguments& arguments) {
-  if (state_.mode(dialect::ModalGroup::Motion) != dialect::kNoMotion) return true;
-  // Some motion was meant: where the axes are now is not known.
+/// Some motion was meant: where the axes are now is not known, nor whether the tool has cut.
+void Executor::move_illegibly(const Arguments& arguments) {
   for (int axis = 0; axis < kAxisCount; ++axis)
     if (arguments.has("XYZBC"[axis])) state_.unknown |= axis_bit(static_cast<Axis>(axis));
+  if (state_.motion_illegible)
+    state_.forget(State::kStopped | State::kUncut | State::kNotStarted | State::kCutNotStarted);
+}
+
+/// Coordinates before any motion G belong to nothing: one finding a line (D21).
+bool Executor::motion_is_in_force(const Arguments& arguments) {
+  if (motion_is_legible()) return true;
+  move_illegibly(arguments);
   if (state_.motion_illegible) return false;
   bool reported = line_.has(syntax::LineTree::kAloneViolated) ||
                   arguments.first().has(syntax::Word::kReported | syntax::Word::kMissing);
@@ -225,7 +232,8 @@ bool Executor::arc_is_described(const Arguments& arguments, const Plane& plane, 
     return false;
   }
   if (arguments.has(plane.stray_center)) {
-    report(plane.stray, arguments.word(plane.stray_center).span());
+    if (!arguments.word(plane.stray_center).has(syntax::Word::kMissing))
+      report(plane.stray, arguments.word(plane.stray_center).span());
     return false;
   }
   if (!arguments.has(plane.u_center) && !arguments.has(plane.v_center) && !arguments.has('R')) {

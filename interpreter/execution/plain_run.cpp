@@ -48,6 +48,7 @@ void PlainRun::take_feed(const PlainLine& line) {
 
 void PlainRun::finish() {
   state_.set_mode(ModalGroup::Motion, mode_);
+  state_.motion_illegible = false;
   state_.exact_stop_fits = mode_ != 0;
   state_.tool_awaited = false;
   state_.tool_prepared = false;

@@ -64,12 +64,13 @@ struct State {
   bool tool_selected = false;
   bool tool_reported = false;  ///< ISO044 has been said.
   bool feed_given = false;
-  bool feed_reported = false;     ///< ISO066 has been said.
-  bool exact_stop_fits = false;   ///< A G09 at the start of the next line would follow a feed move (D23).
-  bool tool_awaited = false;      ///< The line before ended in an M06 without T (reported): a T that follows is its.
-  bool tool_prepared = false;     ///< A T without M06 (reported), and no motion since: an M06 without T changes to it.
-  bool motion_illegible = false;  ///< Before any motion G an unknown G had coordinates: it was meant to be one.
-  bool ended = false;             ///< M02 has been read.
+  bool feed_reported = false;    ///< ISO066 has been said.
+  bool exact_stop_fits = false;  ///< A G09 at the start of the next line would follow a feed move (D23).
+  bool tool_awaited = false;     ///< The line before ended in an M06 without T (reported): a T that follows is its.
+  bool tool_prepared = false;    ///< A T without M06 (reported), and no motion since: an M06 without T changes to it.
+  bool motion_illegible =
+      false;           ///< No motion G is in force, but one that cannot be read, or a cycle of others (E001).
+  bool ended = false;  ///< M02 has been read.
 
   Knowledge knowledge = kNoSpeed | kNotStarted;
 

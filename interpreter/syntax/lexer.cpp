@@ -213,6 +213,9 @@ const char* LineParser::lex_comment(const char* p) {
   }
   const char* const line_end = find_line_end(p, end_);
   store_.comments_.push_back({column(p), column(line_end)});
+  // X(10: its number may stand in there.
+  if (word_count() > 0 && word(word_count() - 1u).has(Word::kMissing))
+    take_back("word-without-number"_diag, word(word_count() - 1u).span());
   report("unclosed-comment"_diag, {column(p), column(line_end)});
   line_.flags |= LineTree::kUnclosed;
   return line_end;
@@ -303,6 +306,7 @@ bool LineParser::garbles_number(char first) {
   if (first == ']' && word_count() > 2 && begin_[word(word_count() - 2u).begin] == '[') return true;  // X[V1]
   const bool is_code = dialect::contains(dialect::letters("GMN"), before.letter);  // No exponent: GOTO N10 ELSE.
   const bool reads_as_digit = first == 'O' || first == 'L';
+  if (is_word && reads_as_digit && before.digits == 0 && before.has(Word::kMalformed)) return true;  // X-O.5
   if ((is_word || before.letter == kAssign) && (reads_as_digit || (first == 'E' && !is_code))) {
     before.value = std::numeric_limits<double>::quiet_NaN();
     before.flags |= Word::kMalformed | Word::kReported;

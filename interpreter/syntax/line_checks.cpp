@@ -211,6 +211,10 @@ void LineParser::check_motion(const Instruction& motion) {
     const Instruction& other = instruction(i);
     if (other.kind == InstructionKind::G && (!other.g() || other.g()->is_motion())) return;
   }
+  // G00 U5: another control's axis, said at the U.
+  std::size_t next = motion.command + 1u;
+  while (next < word_count() && word(next).letter == 'F') ++next;
+  if (next < word_count() && word(next).letter == kError && is_foreign_word(word(next))) return;
   report_missing("missing-coordinate"_diag, motion);
 }
 

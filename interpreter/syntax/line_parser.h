@@ -129,6 +129,7 @@ class LineParser {
   int misplaced_count_ = 0;
   bool needs_check_ = false;
   bool half_jump_ = false;              ///< A part of the IF is missing.
+  bool stray_parameter_ = false;        ///< A parameter without its M has been reported.
   bool behind_unknown_ = false;         ///< The continuation follows a word of no instruction of this control.
   bool behind_motion_ = false;          ///< The word before belongs to a motion (G09).
   bool compensation_reported_ = false;  ///< G40 to G42 out of place: once per line.

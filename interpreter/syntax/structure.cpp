@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/line_parser.h"
@@ -144,6 +145,7 @@ void LineParser::structure() {
         behind_motion_ = false;
         break;
       case 'G':
+        if (word(i).has(Word::kMissing) && i + 1 < count && word(i + 1u).letter == 'G') continue;  // GG01
         add_g(i);
         continue;
       case 'M':
@@ -236,6 +238,10 @@ void LineParser::add_dimension(std::uint16_t index) {
     needs_check_ = true;
     return;
   }
+  // P1=1 P2=4.5 without an M: nobody's arguments, and one mistake.
+  if (letter == 'P' && taker_ == kNone && line_.jump < 0 && index + 1 < word_count() &&
+      word(index + 1u).letter == kAssign)
+    return;
   function_open_ = false;
   if (taker_ != kNone && !contiguous_ && instruction(static_cast<std::size_t>(taker_)).row == dialect::kUnknownGCode &&
       instruction(static_cast<std::size_t>(taker_)).kind == InstructionKind::G)
@@ -268,7 +274,8 @@ void LineParser::add_dimension(std::uint16_t index) {
       if (first.empty()) first = word(i).span();
       word(i).value = std::numeric_limits<double>::quiet_NaN();
     }
-    const bool is_said = word(index).has(Word::kMissing | Word::kMalformed);  // What is wrong with its number.
+    const bool is_assigned = index + 1 < word_count() && word(index + 1u).letter == kAssign;  // R1=1 R2=2
+    const bool is_said = is_assigned || word(index).has(Word::kMissing | Word::kMalformed);   // Of its number.
     word(index).value = std::numeric_limits<double>::quiet_NaN();
     word(index).flags |= Word::kReported;
     if (!is_said) report("repeated-argument"_diag, word(index).span(), {}, first);
@@ -432,6 +439,8 @@ void LineParser::add_feed(std::uint16_t index) {
   if (written.value <= 0) report("feed-not-positive"_diag, written.span(), {written.value});
   if (line_.feed < 0) {
     line_.feed = index;
+  } else if (word(static_cast<std::size_t>(line_.feed)).has(Word::kMissing)) {
+    line_.feed = index;  // FF900: said at the first.
   } else if (!written.has(Word::kMissing | Word::kMalformed)) {
     report("repeated-feed"_diag, written.span(), {}, word(static_cast<std::size_t>(line_.feed)).span());
   }
@@ -441,6 +450,8 @@ void LineParser::add_spindle_speed(std::uint16_t index) {
   const Word& written = word(index);
   if (written.value <= 0) report("spindle-speed-not-positive"_diag, written.span(), {written.value});
   if (line_.spindle < 0) {
+    line_.spindle = index;
+  } else if (word(static_cast<std::size_t>(line_.spindle)).has(Word::kMissing)) {
     line_.spindle = index;
   } else if (!written.has(Word::kMissing | Word::kMalformed)) {
     report("repeated-spindle-speed"_diag, written.span(), {}, word(static_cast<std::size_t>(line_.spindle)).span());
@@ -512,6 +523,8 @@ std::uint16_t LineParser::add_equals(std::uint16_t index) {
       const bool is_said = index - 1 != owner.command || !before.has(Word::kMissing);  // G=5 has not been.
       if (owner.kind == InstructionKind::G && owner.row == dialect::kUnknownGCode && is_said) return last;
     }
+    const bool is_parameter = before.letter == 'P' && before.owner == Word::kNobody;
+    if (is_parameter && std::exchange(stray_parameter_, true)) return last;
     if (before.has(Word::kMissing)) {
       before.value = word(index).value;
       before.flags = word(index).flags;
@@ -666,7 +679,12 @@ std::uint16_t LineParser::read_target(Jump& jump, std::uint16_t index) {
 
 /// GOTO without IF, or a second one: then the first has company, which is said there.
 std::uint16_t LineParser::add_lone_goto(std::uint16_t index) {
-  if (line_.jump < 0) report("if-malformed"_diag, word(index).span());
+  if (line_.jump < 0) {
+    for (std::uint16_t i = 0; i < index; ++i)  // V5 > 30 GOTO N340: the IF is missing.
+      if (word(i).letter == kError && char_class(begin_[word(i).begin]) == CharClass::Compare)
+        take_back("unknown-word"_diag, word(i).span());
+    report("if-malformed"_diag, word(index).span());
+  }
   const auto at = static_cast<std::uint16_t>(index + 1);
   if (at >= word_count()) return index;
   const char letter = word(at).letter;
