@@ -130,11 +130,19 @@ bool Executor::may_be_motion(const Word& g, const Arguments& arguments) const {
   return g.has(Word::kMissing) || has_circle || line_.feed >= 0 || !motion_is_legible();
 }
 
+/// G27 G27, G49 G49: what is wrong has been said of the first, which should stand alone.
+bool Executor::is_its_own_company(const dialect::GCode& code) const {
+  const auto is_same = [&](const Instruction& each) { return each.g() && each.g()->number == code.number; };
+  return line_.has(syntax::LineTree::kAloneViolated) &&
+         std::count_if(line_.instructions.begin(), line_.instructions.end(), is_same) > 1;
+}
+
 void Executor::set_mode(const dialect::GCode& code, const Word& word) {
   if (code.group == dialect::ModalGroup::None) return;
   const auto bit = static_cast<std::uint16_t>(1u << static_cast<unsigned>(code.group));
   const bool repeats = state_.mode(code.group) == code.number && (state_.written & bit) != 0;
-  if (repeats && code.repeated != dialect::kNoDiagnostic) report(code.repeated, word.span());
+  if (repeats && code.repeated != dialect::kNoDiagnostic && !is_its_own_company(code))
+    report(code.repeated, word.span());
   if (code.group == dialect::ModalGroup::CutterCompensation) {
     if (code.number == 40) {
       state_.forget(State::kCompensationWaits);

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include "interpreter/execution/executor.h"
@@ -50,9 +49,7 @@ void Executor::workpiece_frame(const Instruction& instruction) {
 }
 
 void Executor::dismount_face(const Instruction& instruction) {
-  const auto is_same = [](const Instruction& each) { return each.g() && each.g()->number == 27; };
-  const bool is_repeated = std::count_if(line_.instructions.begin(), line_.instructions.end(), is_same) > 1;  // ISO018.
-  if (!state_.face_mounted && !state_.dismount_forgiven && !is_repeated)
+  if (!state_.face_mounted && !state_.dismount_forgiven && !is_its_own_company(*instruction.g()))
     report("g27-without-face"_diag, line_.command(instruction).span());
   state_.dismount_forgiven = false;
   leave_face();

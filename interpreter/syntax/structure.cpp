@@ -128,6 +128,7 @@ void LineParser::structure() {
   const std::uint16_t count = word_count();
   for (std::uint16_t i = 0; i < count; ++i) {
     const char letter = word(i).letter;
+    const bool is_letter_alone = word(i).has(Word::kMissing);
     if (contains(dialect::kDimensionLetters, letter)) {
       add_dimension(i);
       behind_motion_ = true;
@@ -142,7 +143,7 @@ void LineParser::structure() {
         break;
       case 'S':
         add_spindle_speed(i);
-        behind_motion_ = false;
+        behind_motion_ &= is_letter_alone;
         break;
       case 'G':
         if (word(i).has(Word::kMissing) && i + 1 < count && word(i + 1u).letter == 'G') continue;  // GG01
@@ -150,16 +151,16 @@ void LineParser::structure() {
         continue;
       case 'M':
         add_m(i);
-        behind_motion_ = false;
+        behind_motion_ &= is_letter_alone;
         break;
       case 'T':
         add_tool(i);
-        behind_motion_ = false;
+        behind_motion_ &= is_letter_alone;
         break;
       case 'V':
         if (stands_for_number(i)) continue;
         i = add_assignment(i);
-        behind_motion_ = false;
+        behind_motion_ &= is_letter_alone;
         break;
       case kAssign:
         i = add_equals(i);
@@ -180,6 +181,7 @@ void LineParser::structure() {
       default:
         continue;  // An error that has been reported breaks nothing.
     }
+    if (is_letter_alone) continue;  // X25S Y5: has been reported, and breaks nothing.
     contiguous_ = false;
     if (letter != 'M') function_open_ = false;
   }
