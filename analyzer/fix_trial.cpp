@@ -14,8 +14,12 @@ using fixes::Fix;
 /// Lines of the finding and its edits, and lines below them.
 static constexpr std::uint64_t kMostEdited = 6'000;
 static constexpr std::uint64_t kFarthest = 10'000;
-/// Lines, times the states in which each is executed, for all fixes of a program.
-static constexpr std::uint64_t kMostWork = 400'000;
+/// Lines, times the states in which each is executed, for all fixes of a program; and so many more for each of its
+/// lines.
+static constexpr std::uint64_t kLeastWork = 400'000;
+static constexpr std::uint64_t kWorkPerLine = 20;
+/// Lines that are tried when all that has been spent: what most fixes could do wrong shows where they are made.
+static constexpr std::uint64_t kNearest = 8;
 /// Lines below the edits that are looked over for whether the program ends there.
 static constexpr std::uint64_t kMostBlank = 8;
 
@@ -127,7 +131,11 @@ static bool is_better(const Balance& balance, bool found_own, const LocatedFindi
 }
 
 FixTrial::FixTrial(fixes::Program& program, const execution::Setup& setup, const JumpMap& jumps)
-    : program_(program), setup_(setup), jumps_(jumps), lines_(program), work_left_(kMostWork) {}
+    : program_(program),
+      setup_(setup),
+      jumps_(jumps),
+      lines_(program),
+      work_left_(kLeastWork + kWorkPerLine * program.line_count()) {}
 
 /// Jumps are known by their number in the program, and labels by where they stand.
 bool FixTrial::is_concerned_by_jumps(const syntax::LineTree& line) const {
@@ -155,7 +163,7 @@ bool FixTrial::mends(const Fix& fix, const LocatedFinding& located, const Fronti
     if (edit.begin.line < first) return mends_in_whole(fix, located);
     last = std::max(last, edit.end.line);
   }
-  if (last - first > kMostEdited || work_left_ == 0) return true;
+  if (last - first > (work_left_ > 0 ? kMostEdited : kNearest)) return true;
 
   const std::string text = edited_lines(program_, first, last, fix.edits);
   const TextLines edited(text);
@@ -181,11 +189,12 @@ void FixTrial::spend(const Frontier& frontier) {
 
 bool FixTrial::follow(Comparison& compared, std::uint64_t next, const LocatedFinding& located) {
   const std::uint64_t end = program_.line_count();
+  const std::uint64_t nearest = next + kNearest;
   const std::uint64_t farthest = std::min(end, next + kFarthest);
   const auto is_near_end = [&] { return end - next <= kMostBlank; };
   Trail trail;
   std::optional<Trail::Rest> rest;
-  while (next < farthest && work_left_ > 0 && (!compared.has_met() || is_near_end())) {
+  while (next < farthest && (work_left_ > 0 || next < nearest) && (!compared.has_met() || is_near_end())) {
     rest = trails_.rest_from(next, compared.with.frontier());
     if (rest) break;
     trail.pass(next, compared.with.frontier(), compared.so_far());

@@ -14,8 +14,8 @@ namespace isocnc::analyzer {
 /// check stands where it would stand without them, or where an earlier fix has led it (of twenty that put the same
 /// mode in force, only the first is followed to its end). Those that edit jumps, labels or lines above the finding are
 /// tried on the whole program. A fix that leaves its finding, or brings another one that is told by default, is none.
-/// What cannot be seen there counts as fine: effects more than a few thousand lines below, and all once the trials of a
-/// program have cost too much.
+/// What cannot be seen there counts as fine: effects more than a few thousand lines below, or, once the trials of
+/// a program have cost too much, more than a few.
 class FixTrial {
  public:
   /// All must outlive this.

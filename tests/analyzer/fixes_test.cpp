@@ -129,6 +129,23 @@ TEST(OfferedFixes, AreTriedHoweverManyThereAre) {
   EXPECT_EQ(offered("M02\n"), 9'000);
 }
 
+/// Where many states make each trial dear, what shows on the spot is still seen: the tool change that a fix would make
+/// of each T finds the spindle running (W105).
+TEST(OfferedFixes, AreTriedWhereTheyAreMadeWhateverItCosts) {
+  std::string text = "M06 T101001\nS9000 M03\nG91 G00 Z5\n";
+  for (int i = 0; i < 7; ++i) {
+    const std::string label = std::to_string(i + 1);
+    text += "IF VGPL = " + label + " GOTO N" + label + "\nX" + std::to_string(1 << i) + "\nN" + label + " Y1\n";
+  }
+  for (int i = 0; i < 3'000; ++i) text += "T101002\nM03\n";
+  text += "M05\nM02\n";
+  const execution::Setup setup;
+  const Report report = support::found_in(text);
+  FindingFixes fixes(text, report, setup);
+  EXPECT_GT(report.findings.size(), 2'999u);
+  for (const LocatedFinding& located : report.findings) ASSERT_FALSE(fixes.offered(located)) << located.line;
+}
+
 /// CR, LF or CRLF: what is inserted ends like what is there.
 TEST_P(FixCase, KeepsLineEnds) {
   const Case& tested = GetParam();
