@@ -28,7 +28,7 @@ class CountingSink final : public Sink {
 TEST(PlainRunProperty, LeavesTheStateOfExecute) {
   std::size_t rows = 0;
   std::size_t longest = 0;
-  for (const std::uint64_t seed : support::seeds(4'000)) {
+  for (const std::uint64_t seed : support::seeds(1'500)) {
     Random random(seed);
     const execution::Setup setup;
     std::string text = support::joined(RandomProgram(random).lines(random.between(1, 120)));
@@ -56,7 +56,7 @@ TEST(PlainRunProperty, LeavesTheStateOfExecute) {
       expected = state;
     }
   }
-  EXPECT_GT(rows, support::seeds(4'000).size());
+  EXPECT_GT(rows, support::seeds(1'500).size());
   EXPECT_GT(longest, 10u);
 }
 

