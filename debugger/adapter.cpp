@@ -16,7 +16,8 @@ using session::RequestError;
 static constexpr Text kNoLength{"a header tells no Content-Length", "un'intestazione non riporta Content-Length"};
 static constexpr Text kTooLong{"the message is longer than any that is taken",
                                "il messaggio è più lungo di quanto è ammesso"};
-static constexpr Text kNoJson{"a message is no JSON object", "un messaggio non è un oggetto JSON"};
+static constexpr Text kNoJson{"a message is no JSON object, or nested too deeply",
+                              "un messaggio non è un oggetto JSON, o ha troppi livelli"};
 static constexpr Text kNoRequest{"a message is no request", "un messaggio non è una richiesta"};
 static constexpr Text kNotInitialized{"initialize comes first", "prima serve initialize"};
 static constexpr Text kInitialized{"the adapter is initialized already", "l'adattatore è già inizializzato"};
@@ -36,7 +37,7 @@ void Adapter::receive(lsp::rpc::Frame frame) {
   using Problem = lsp::rpc::Frame::Problem;
   if (has_ended_) return;
   if (frame.problem != Problem::None) return complain(frame.problem == Problem::NoLength ? kNoLength : kTooLong);
-  const Json message = Json::parse(frame.body, nullptr, false);
+  const Json message = lsp::rpc::parse(frame.body);
   if (!message.is_object()) return complain(kNoJson);
   const auto type = message.find("type");
   if (type != message.end() && *type == "response") return;  // We ask for nothing.

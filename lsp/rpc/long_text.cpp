@@ -50,12 +50,12 @@ static std::string without_long_strings(std::string_view message, std::vector<st
 Parsed Parsed::parse(std::string text) {
   Parsed parsed;
   if (text.size() < kLong) {
-    parsed.json = Json::parse(text, nullptr, false);
+    parsed.json = rpc::parse(text);
     return parsed;
   }
   const auto message = std::make_shared<const std::string>(std::move(text));
   std::vector<std::string_view> long_strings;
-  parsed.json = Json::parse(without_long_strings(*message, long_strings), nullptr, false);
+  parsed.json = rpc::parse(without_long_strings(*message, long_strings));
   for (const std::string_view written : long_strings) parsed.long_texts_.emplace_back(message, written);
   return parsed;
 }

@@ -32,7 +32,7 @@ class Parsed {
   /// Strings from this length on are long.
   static constexpr std::size_t kLong = 16 * 1024;
 
-  /// `json` is discarded (nlohmann's word) where the text is no JSON.
+  /// `json` is discarded where rpc::parse would discard it.
   static Parsed parse(std::string text);
 
   Json json;

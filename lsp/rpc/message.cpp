@@ -17,7 +17,7 @@ static Message bad(const Json& id, ErrorCode code, const char* what) { return Ba
 Message read_message(std::string body) {
   Parsed message = Parsed::parse(std::move(body));
   const Json& json = message.json;
-  if (json.is_discarded()) return bad(nullptr, ErrorCode::ParseError, "the message is no JSON");
+  if (json.is_discarded()) return bad(nullptr, ErrorCode::ParseError, "the message is no JSON, or nested too deeply");
   if (!json.is_object()) return bad(nullptr, ErrorCode::InvalidRequest, "the message is no object");
   const auto id = json.find("id");
   const bool has_id = id != json.end();

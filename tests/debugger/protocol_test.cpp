@@ -80,6 +80,16 @@ INSTANTIATE_TEST_SUITE_P(
         R"({"seq":1,"type":"request","command":"configurationDone"})",
         R"({"seq":1,"type":"request","command":"exceptionInfo"})"));
 
+TEST(Protocol, AMessageThatNestsTooDeeplyDoesNoHarm) {
+  constexpr int kDepth = 500'000;
+  DebugClient client;
+  client.stand_at_begin(kPart);
+  client.send_raw(R"({"seq":1,"type":"request","command":"restart","arguments":{"arguments":)" +
+                  std::string(kDepth, '[') + std::string(kDepth, ']') + "}}");
+  EXPECT_EQ(client.run("next").at("reason"), "step");
+  EXPECT_EQ(client.end(), 0);
+}
+
 TEST(Protocol, RefusesWhatIsOutOfOrder) {
   DebugClient client;
   EXPECT_THAT(client.refusal("launch", {{"program", "x"}}), HasSubstr("initialize"));

@@ -93,6 +93,20 @@ TEST(Messages, WhatIsWrongIsAnsweredAsTheProtocolAsks) {
   EXPECT_EQ(session.request("textDocument/diagnostic", {{"textDocument", {{"uri", kUri}}}})["kind"], "full");
 }
 
+TEST(Messages, WhatNestsTooDeeplyIsRefused) {
+  constexpr int kDepth = 500'000;
+  const std::string nested = std::string(kDepth, '[') + std::string(kDepth, ']');
+  Session session;
+  session.start();
+  session.open(kUri, "G01 X10\n");
+  for (const std::string method : {"codeAction/resolve", "completionItem/resolve", "textDocument/hover"}) {
+    session.send_raw(R"({"id":7,"method":")" + method + R"(","params":{"data":{"uri":"file:///part.iso","x":)" +
+                     nested + "}}}");
+    EXPECT_EQ(error_code(session.response_to(nullptr)), -32700) << method;
+  }
+  EXPECT_EQ(session.request("textDocument/diagnostic", {{"textDocument", {{"uri", kUri}}}})["kind"], "full");
+}
+
 TEST(Lifecycle, TheClientsFirstKnownEncodingIsTaken) {
   const std::pair<Json, const char*> kCases[] = {
       {Json::object(), "utf-16"},
