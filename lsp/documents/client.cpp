@@ -39,10 +39,14 @@ bool Client::can(const char* capability) const {
   return !found.is_null() && found != Json(false);
 }
 
-/// What we write: bold words and code.
+/// What we write: bold words and code, and what in_markdown() has made of others' words.
 static std::string without_marks(const std::string& markdown) {
   std::string text;
   for (std::size_t i = 0; i < markdown.size(); ++i) {
+    if (markdown[i] == '\\' && i + 1 < markdown.size()) {
+      text += markdown[++i];
+      continue;
+    }
     const bool is_bold = markdown.compare(i, 2, "**") == 0;
     if (!is_bold && markdown[i] != '`') text += markdown[i];
     if (is_bold) ++i;

@@ -5,6 +5,16 @@
 
 namespace isocnc::lsp::documents {
 
+std::string in_markdown(std::string_view text) {
+  static constexpr std::string_view kMarks = R"(\`*_[]<&~#)";
+  std::string escaped;
+  for (const char c : text) {
+    if (kMarks.find(c) != std::string_view::npos) escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
+}
+
 /// A line or column: too large counts as the largest, which is behind every end.
 static std::uint32_t place_number(const Json& json) {
   if (!json.is_number_integer()) throw Json::type_error::create(302, "a whole number is wanted", &json);

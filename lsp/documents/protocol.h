@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lsp/rpc/json.h"
@@ -44,6 +45,10 @@ struct TextEdit {
 struct Markdown {
   std::string text;
 };
+
+/// Words of a program or a configuration within it, which are to show as they stand. Else an image that a comment names
+/// would be fetched by the editor that shows it.
+std::string in_markdown(std::string_view text);
 
 /// `{"textDocument": {"uri": ...}}`, and whatever else: most requests name a document so.
 struct DocumentParams {

@@ -60,8 +60,10 @@ class Teller {
   }
   void add(std::string paragraph) { paragraphs_.push_back(std::move(paragraph)); }
   void title(std::string_view meaning) {
-    add(fmt::format("**{}** {}", syntax::printable(line_.text_of(word_.span())), meaning));
+    add(fmt::format("**{}** {}", as_it_stands(line_.text_of(word_.span())), meaning));
   }
+  /// Of the program or its configuration.
+  static std::string as_it_stands(std::string_view words) { return documents::in_markdown(syntax::printable(words)); }
 
   const Instruction* instruction() const {
     const auto mine = [&](const Instruction& each) {
@@ -262,7 +264,7 @@ class Teller {
     if (!functions) return;
     for (const configuration::NamedFunction& function : *functions) {
       if (word_.value != function.number) continue;
-      add(syntax::printable(function.name));
+      add(as_it_stands(function.name));
       if (function.seconds > 0) add(text(kTakes, shown(function.seconds)));
     }
   }
@@ -279,7 +281,7 @@ class Teller {
     for (const configuration::Tool& tool : *tools) {
       if (tool.code != code) continue;
       std::vector<std::string> data;
-      if (!tool.name.empty()) data.push_back(syntax::printable(tool.name));
+      if (!tool.name.empty()) data.push_back(as_it_stands(tool.name));
       if (tool.length) data.push_back(text(kLength, shown(*tool.length)));
       if (tool.radius) data.push_back(text(kRadius, shown(*tool.radius)));
       if (!data.empty()) add(fmt::format("{}", fmt::join(data, ", ")));

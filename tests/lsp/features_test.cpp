@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "lsp/documents/uri.h"
 #include "session.h"
+#include "tests/commands/temporary_folder.h"
 
 /// What features answer about one document.
 namespace isocnc::lsp {
@@ -71,7 +73,7 @@ TEST(Hover, TellsOfJumpsAndOfWhatTheyCompare) {
   EXPECT_THAT(hover(kJumps, 0, 8), HasSubstr("**>=** is at least"));
   EXPECT_THAT(hover(kJumps, 0, 11), HasSubstr("**2** what it is compared with"));
   EXPECT_THAT(hover(kJumps, 0, 14), HasSubstr("**GOTO** jumps down"));
-  EXPECT_THAT(hover(kJumps, 1, 6), HasSubstr("**<>** is not equal to"));
+  EXPECT_THAT(hover(kJumps, 1, 6), HasSubstr("**\\<>** is not equal to"));
   EXPECT_THAT(hover(kJumps, 2, 3), HasSubstr("**=2.5** what it is set to"));
   EXPECT_THAT(hover(kJumps, 0, 19), HasSubstr("jumps to it: lines 1, 2"));
 }
@@ -106,6 +108,27 @@ TEST(Hover, IsPlainForEditorsThatShowPlainTextAlone) {
   const std::string told = " target of a jump\n\njump to it: line 1";
   EXPECT_EQ(contents({"plaintext"}), Json({{"kind", "plaintext"}, {"value", "N5" + told}}));
   EXPECT_EQ(contents({"plaintext", "markdown"}), Json({{"kind", "markdown"}, {"value", "**N5**" + told}}));
+}
+
+/// An editor fetches the images that a text names.
+TEST(Hover, ShowsTheWordsOfOthersAsTheyStand) {
+  const commands::TemporaryFolder folder;
+  folder.write("isocnc.json", R"json({"machine": {
+    "tools": [{"head": 1, "holder": 1, "tool": 1, "name": "![t](http://a.b/t.png)"}],
+    "functions": {"M100": {"name": "<img src='http://a.b/f.png'> \\ *x*"}}}})json");
+  const std::string uri = documents::uri_of(std::filesystem::path(folder.path()) / "part.iso");
+  const auto contents = [&](const char* format, int line, int column) {
+    Session session;
+    session.start({{"textDocument", {{"hover", {{"contentFormat", {format}}}}}}}, {{"locale", "en"}});
+    session.open(uri, "G0(![x](http://a.b/c.png)0 X1\nM100\nM06 T101001\n");
+    const Json params = {{"textDocument", {{"uri", uri}}}, {"position", {{"line", line}, {"character", column}}}};
+    return session.request("textDocument/hover", params)["contents"]["value"].get<std::string>();
+  };
+  EXPECT_THAT(contents("markdown", 0, 0), HasSubstr("**G0(!\\[x\\](http://a.b/c.png)0** rapid"));
+  EXPECT_THAT(contents("markdown", 1, 0), HasSubstr("\\<img src='http://a.b/f.png'> \\\\ \\*x\\*"));
+  EXPECT_THAT(contents("markdown", 2, 5), HasSubstr("!\\[t\\](http://a.b/t.png)"));
+  EXPECT_THAT(contents("plaintext", 0, 0), HasSubstr("G0(![x](http://a.b/c.png)0 rapid"));
+  EXPECT_THAT(contents("plaintext", 1, 0), HasSubstr("<img src='http://a.b/f.png'> \\ *x*"));
 }
 
 TEST(Hover, SpeaksTheLanguageOfTheSettings) {
