@@ -57,19 +57,21 @@ class Search {
  public:
   Search(const RulesOfFolder& rules, dialect::Language language) : rules_(rules), language_(language) {}
 
+  /// A symlink is passed over: in a tree that comes from elsewhere it may lead to any file, which would then be shown,
+  /// or written over, without anybody having named it.
   void search(const Place& directory, const GitIgnore& ignored) {
     const SearchRules rules = rules_(directory.real);
     // The directory is closed before those in it are opened, however deep they go.
     for (const fs::directory_entry& entry : entries(directory)) {
       const fs::path name = entry.path().filename();
       std::error_code error;
-      const bool is_link = entry.is_symlink(error);
-      const bool is_folder = !is_link && entry.is_directory(error);
+      if (entry.is_symlink(error)) continue;
+      const bool is_folder = entry.is_directory(error);
       if (rules.excluded != nullptr && rules.excluded->name(directory.real / name, is_folder)) continue;
       if (is_folder) {
         enter(directory / name, ignored);
       } else if (is_program(entry, rules.extensions) && !ignored.ignores(directory.real / name, false)) {
-        add(directory / name, is_link);
+        programs_.push_back(directory / name);
       }
     }
   }
@@ -101,7 +103,7 @@ class Search {
     search(directory, ignored.entering(directory.real));
   }
 
-  /// Not a pipe, which would be waited for, nor a symlink to nothing, which some editors leave as a lock.
+  /// Not a pipe, which would be waited for.
   static bool is_program(const fs::directory_entry& entry, std::span<const std::string> extensions) {
     const std::string name = entry.path().filename();
     if (std::none_of(extensions.begin(), extensions.end(),
@@ -110,11 +112,6 @@ class Search {
     }
     std::error_code error;
     return entry.is_regular_file(error);
-  }
-
-  void add(Place file, bool is_link) {
-    if (is_link) file.real = place_of(file.real).real;
-    programs_.push_back(std::move(file));
   }
 
   const RulesOfFolder& rules_;

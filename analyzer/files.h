@@ -34,8 +34,7 @@ struct FileSelection {
 /// first of its names.
 ///
 /// In git's work trees a search passes over what git would ignore; a directory that is named is searched all the same.
-/// Nowhere does it enter `.git` and other directories whose names begin like that, or symlinks to directories. Symlinks
-/// to files are files.
+/// Nowhere does it enter `.git` and other directories whose names begin like that, or follow a symlink.
 FileSelection select_files(std::span<const std::string> paths, const RulesOfFolder& rules, dialect::Language language);
 /// With the same extensions everywhere.
 FileSelection select_files(std::span<const std::string> paths, std::span<const std::string> extensions,
