@@ -1,10 +1,12 @@
 #include "lsp/closed_programs.h"
 
+#include <algorithm>
 #include <system_error>
 #include <utility>
 #include <variant>
 
 #include "analyzer/files.h"
+#include "interpreter/configuration/configurations.h"
 #include "interpreter/running/source_file.h"
 #include "lsp/documents/open_document.h"
 #include "lsp/documents/snapshot.h"
@@ -31,6 +33,8 @@ std::vector<std::filesystem::path> ClosedPrograms::programs_in(const std::vector
 std::optional<std::string> ClosedPrograms::answer_of(const std::filesystem::path& program, const std::string& uri,
                                                      const documents::Client& client,
                                                      const std::atomic<bool>& cancelled, const Answer& answer) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(program, error)) return std::nullopt;  // A pipe would be waited for.
   const auto opened = running::SourceFile::open_unmapped(program, dialect::Language::English);
   const auto* const source = std::get_if<running::SourceFile>(&opened);
   if (source == nullptr) return std::nullopt;
@@ -62,13 +66,26 @@ std::optional<std::string> ClosedPrograms::ask(const std::filesystem::path& prog
   return answer;
 }
 
+static bool is_below(const std::filesystem::path& folder, const std::filesystem::path& program) {
+  const std::filesystem::path inside = program.lexically_relative(folder);
+  return !inside.empty() && *inside.begin() != "..";
+}
+
+/// By its name, and where symlinks on the way really lead.
+static bool is_in_one_of(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& program) {
+  return std::any_of(folders.begin(), folders.end(), [&](const std::filesystem::path& folder) {
+    return is_below(folder, program) && is_below(configuration::real_path(folder), configuration::real_path(program));
+  });
+}
+
 void ClosedPrograms::ask_one(const features::Method& method, rpc::Json params, const std::string& uri,
-                             ClientPointer client, std::shared_ptr<const std::atomic<bool>> cancelled,
+                             std::vector<std::filesystem::path> folders, ClientPointer client,
+                             std::shared_ptr<const std::atomic<bool>> cancelled,
                              std::function<void(std::optional<std::string> result)> done) {
-  strand_.post([this, method, params = std::move(params), uri, client = std::move(client),
+  strand_.post([this, method, params = std::move(params), uri, folders = std::move(folders), client = std::move(client),
                 cancelled = std::move(cancelled), done = std::move(done)] {
     const auto program = documents::path_of(uri);
-    if (!program || cancelled->load()) return done(std::nullopt);
+    if (!program || cancelled->load() || !is_in_one_of(folders, *program)) return done(std::nullopt);
     done(answer_of(*program, uri, *client, *cancelled,
                    [&](const documents::Snapshot& snapshot) { return method.answer(snapshot, params); }));
   });

@@ -38,8 +38,9 @@ class ClosedPrograms {
 
   ClosedPrograms(rpc::Pool& pool, documents::SettingsStore& settings) : settings_(settings), strand_(pool) {}
 
-  /// Asks one program, wherever it lies; nothing where its file cannot be read.
-  void ask_one(const features::Method& method, rpc::Json params, const std::string& uri, ClientPointer client,
+  /// Asks one program; nothing where it lies in none of the folders, or its file cannot be read.
+  void ask_one(const features::Method& method, rpc::Json params, const std::string& uri,
+               std::vector<std::filesystem::path> folders, ClientPointer client,
                std::shared_ptr<const std::atomic<bool>> cancelled,
                std::function<void(std::optional<std::string> result)> done);
   /// Asks each program; `done` gets all answers, in the order of the paths. Files that cannot be read have none.

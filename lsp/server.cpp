@@ -366,32 +366,29 @@ void Server::ask(const features::Method& method, const CallPointer& call, Json p
   tab->ask(method, std::move(params), client_, ongoing, done, failed);
 }
 
-bool Server::is_in_workspace(const std::string& uri) const {
-  const auto path = documents::path_of(uri);
-  return path && std::any_of(folders_.begin(), folders_.end(), [&](const std::string& folder) {
-           const auto root = documents::path_of(folder);
-           const auto inside = root ? path->lexically_relative(*root) : std::filesystem::path();
-           return !inside.empty() && *inside.begin() != "..";
-         });
+std::vector<std::filesystem::path> Server::folders_of_workspace() const {
+  std::vector<std::filesystem::path> folders;
+  for (const std::string& uri : folders_)
+    if (const auto path = documents::path_of(uri)) folders.push_back(*path);
+  return folders;
 }
 
 /// No other files than those in the folders that the user has opened are read because a message names them.
 void Server::ask_closed(const features::Method& method, const CallPointer& call, const std::string& uri) {
   if (documents::names_configuration(uri)) return send_(rpc::result_message(*call->id, method.of_configuration));
-  if (!is_in_workspace(uri)) return refuse(*call, ErrorCode::ContentModified, "this document is not open");
   const Ongoing ongoing = begin(*call);
   if (!ongoing) return;
-  closed_programs_.ask_one(method, call->params(), uri, client_, ongoing,
-                           [this, id = *call->id, ongoing](const std::optional<std::string>& result) {
-                             // The editor may have closed, or lost, what it asks about: nothing that its user would
-                             // want to hear of.
-                             loop_.post([this, id, ongoing,
-                                         body = result ? rpc::result_message(id, *result)
-                                                       : rpc::error_message(id, ErrorCode::ContentModified,
-                                                                            "there is no such program any more")] {
-                               finish(id, ongoing, body);
-                             });
-                           });
+  closed_programs_.ask_one(
+      method, call->params(), uri, folders_of_workspace(), client_, ongoing,
+      [this, id = *call->id, ongoing](const std::optional<std::string>& result) {
+        // The editor may have closed, or lost, what it asks about: nothing that its user would want to hear of.
+        loop_.post([this, id, ongoing,
+                    body = result ? rpc::result_message(id, *result)
+                                  : rpc::error_message(id, ErrorCode::ContentModified,
+                                                       "there is no such program in the workspace")] {
+          finish(id, ongoing, body);
+        });
+      });
 }
 
 /// The results of all programs, as they come in.
@@ -471,12 +468,9 @@ void Server::gather(const features::Gathering& gathering, const CallPointer& cal
   for (const std::string& uri : open)
     // A document that is being edited has nothing to say just now.
     tabs_[uri].tab->ask(method, call->params(), client_, ongoing, take_one, [take](const rpc::Error&) { take({}); });
-  std::vector<std::filesystem::path> folders;
-  for (const std::string& uri : folders_)
-    if (const auto path = documents::path_of(uri)) folders.push_back(*path);
   closed_programs_.ask({.gathering = gathering,
                         .take_one = tell_part,
-                        .folders = std::move(folders),
+                        .folders = folders_of_workspace(),
                         .open = std::move(open),
                         .client = client_,
                         .cancelled = ongoing},

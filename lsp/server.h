@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 #include "lsp/closed_programs.h"
 #include "lsp/documents/client.h"
@@ -72,7 +74,7 @@ class Server final : public rpc::Party {
   void reconfigure_tabs();
   void ask(const features::Method& method, const CallPointer& call, rpc::Json params,
            const std::function<std::string(std::string)>& finish_result = {});
-  bool is_in_workspace(const std::string& uri) const;
+  std::vector<std::filesystem::path> folders_of_workspace() const;
   void ask_closed(const features::Method& method, const CallPointer& call, const std::string& uri);
   void gather(const features::Gathering& gathering, const CallPointer& call);
   std::function<void(const std::string& result)> teller_of_parts(const features::Gathering& gathering,

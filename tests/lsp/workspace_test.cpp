@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <chrono>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -81,6 +83,47 @@ TEST_F(Workspace, AnswersOfATabWhoseFileIsNotOpen) {
   EXPECT_EQ(pull_of("file:///etc/hostname")["error"]["code"], -32801);
   EXPECT_EQ(pull_of(uri("../other/part.iso"))["error"]["code"], -32801);
   EXPECT_EQ(pull_of("untitled:a")["error"]["code"], -32801);
+}
+
+TEST_F(Workspace, DoesNotWaitForAPipe) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.iso").c_str(), 0600), 0);
+  start();
+  const Json document = {{"textDocument", {{"uri", uri("pipe.iso")}}}};
+  EXPECT_EQ(session_.respond("textDocument/diagnostic", document)["error"]["code"], -32801);
+}
+
+/// As after a clock that was set back.
+TEST_F(Workspace, SeesAChangeThatIsOlderThanWhatItKnows) {
+  start();
+  pull();
+  const auto before = fs::last_write_time(folder_ / "sub/bad.iso");
+  write("sub/bad.iso", "G00 X10  \nM02\n");  // As long as it was.
+  fs::last_write_time(folder_ / "sub/bad.iso", before - std::chrono::hours(24));
+  EXPECT_EQ(pull(), (Told{{"good.iso", "unchanged"}, {"sub/bad.iso", "full 1"}}));
+}
+
+/// Whoever made the folder may have put symlinks there.
+TEST_F(Workspace, IsNotLeftThroughSymlinks) {
+  const commands::TemporaryFolder outside;
+  outside.write("part.iso", "G00 X10mm\nM02\n");
+  fs::create_directory_symlink(outside.path(), folder_ / "away");
+  fs::create_symlink(fs::path(outside.path()) / "part.iso", folder_ / "link.iso");
+  start();
+  EXPECT_EQ(pull(), (Told{{"good.iso", "full 0"}, {"sub/bad.iso", "full 2"}}));
+  for (const std::string name : {"away/part.iso", "link.iso", "away/../good.iso", "sub/bad.iso"}) {
+    const Json document = {{"textDocument", {{"uri", uri(name)}}}};
+    const Json response = session_.respond("textDocument/diagnostic", document);
+    EXPECT_EQ(response.contains("error"),
+              name.find("bad") == std::string::npos && name.find("good") == std::string::npos)
+        << name << response;
+  }
+  // The folder itself may be one: it is named.
+  fs::create_directory_symlink(folder_, fs::path(outside.path()) / "here");
+  const std::string here = documents::uri_of(fs::path(outside.path()) / "here");
+  const Json added = Json::array({{{"uri", here}, {"name", "here"}}});
+  session_.notify("workspace/didChangeWorkspaceFolders", {{"event", {{"added", added}, {"removed", Json::array()}}}});
+  const Json document = {{"textDocument", {{"uri", here + "/sub/bad.iso"}}}};
+  EXPECT_EQ(session_.request("textDocument/diagnostic", document)["items"].size(), 2u);
 }
 
 TEST_F(Workspace, SeesWhatTheEditorAndOthersChange) {
