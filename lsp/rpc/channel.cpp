@@ -24,19 +24,26 @@ static constexpr int kPatienceMs = 1000;
 
 Channel::Channel(Descriptors descriptors, Events events) : descriptors_(descriptors), events_(std::move(events)) {
   if (::pipe(stop_pipe_) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
-  reader_ = std::thread([this] { read_all(); });
-  writer_ = std::thread([this] { write_all(); });
+  try {
+    reader_ = std::thread([this] { read_all(); });
+    writer_ = std::thread([this] { write_all(); });
+  } catch (const std::system_error&) {
+    end();
+    throw;
+  }
 }
 
-Channel::~Channel() {
+Channel::~Channel() { end(); }
+
+void Channel::end() {
   {
     const std::lock_guard lock(mutex_);
     is_ending_ = true;
   }
   changed_.notify_all();
   ::close(stop_pipe_[1]);
-  reader_.join();
-  writer_.join();
+  for (std::thread* const thread : {&reader_, &writer_})
+    if (thread->joinable()) thread->join();
   ::close(stop_pipe_[0]);
 }
 

@@ -37,6 +37,7 @@ class Channel {
   void send(std::string body);
 
  private:
+  void end();
   void read_all();
   void write_all();
   bool write_some(std::string_view& bytes) const;
