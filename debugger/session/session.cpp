@@ -84,6 +84,8 @@ void Session::launch(LaunchWishes wishes) {
 }
 
 void Session::begin(LaunchWishes wishes) {
+  std::error_code error;
+  const auto file_time = std::filesystem::last_write_time(wishes.program, error);  // Before it is read.
   Launched launched = session::launch(wishes, commanded_, client.locale.value_or(dialect::language_of_environment()));
   wishes_ = std::move(wishes);
   configuration_ = std::move(launched.configuration);
@@ -96,9 +98,7 @@ void Session::begin(LaunchWishes wishes) {
   is_checked_ = false;
   watchmen.warnings.clear();
   breakpoints.forget_hits_from(0);
-  std::error_code error;
-  file_time_ = std::filesystem::last_write_time(wishes_.program, error);
-  if (error) file_time_.reset();
+  file_time_ = error ? std::nullopt : std::optional(file_time);
   has_told_of_file_ = false;
   tell_of_moved_breakpoints();
 }

@@ -135,6 +135,15 @@ TEST(House, QuietFoldersKnowNoFileScreenThreadOrProtocol) {
   }
 }
 
+/// So a clock that jumps cannot matter: durations are taken by the steady clock, and of files' times only whether they
+/// are the same.
+TEST(House, NobodyAsksWhatTimeItIs) {
+  static const std::regex kTimeOfDay(
+      R"(system_clock|CLOCK_REALTIME|gettimeofday|localtime|gmtime|\btime\((NULL|nullptr|0|&)|std::time\b|file_clock|high_resolution_clock)");
+  ASSERT_TRUE(std::regex_search(std::string("const auto t = ::time(nullptr);"), kTimeOfDay));
+  for (const std::string& file : sources()) EXPECT_FALSE(std::regex_search(read(kRoot / file), kTimeOfDay)) << file;
+}
+
 TEST(House, OneFileKnowsTheLibraryOfCommandLines) {
   for (const std::string& file : sources())
     for (const Include& include : includes_of(file))

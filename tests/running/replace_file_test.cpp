@@ -101,6 +101,17 @@ TEST_F(FileReplacements, LeaveAFileThatHasChangedMeanwhile) {
   EXPECT_EQ(files_in_folder(), 1u);
 }
 
+/// As after a clock that was set back.
+TEST_F(FileReplacements, LeaveAFileThatHasBecomeOlderMeanwhile) {
+  FileReplacement replacement(file);
+  replacement.write("new\n");
+  const auto before = fs::last_write_time(file);
+  std::ofstream(file) << "OLD\n";
+  fs::last_write_time(file, before - std::chrono::hours(24));
+  EXPECT_THAT(replacement.commit(Language::English), Optional(HasSubstr("changed meanwhile")));
+  EXPECT_EQ(text_of_file(file), "OLD\n");
+}
+
 TEST_F(FileReplacements, LeaveAFileThatHasBeenReplacedMeanwhile) {
   FileReplacement replacement(file);
   replacement.write("new\n");
