@@ -36,11 +36,31 @@ void Pool::work() {
   }
 }
 
+/// The pool's task that does a queue's. Where the pool ends before it has come to it, the queue is emptied: its tasks
+/// may hold whoever holds the strand, so that none of them would ever go.
+struct Strand::Turn {
+  std::shared_ptr<Queue> queue;
+  bool has_come = false;
+
+  explicit Turn(std::shared_ptr<Queue> of) : queue(std::move(of)) {}
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+  ~Turn() {
+    if (has_come) return;
+    std::deque<Pool::Task> dropped;  // Goes when the lock is no longer held.
+    const std::lock_guard lock(queue->mutex);
+    dropped.swap(queue->tasks);
+  }
+};
+
 void Strand::post(Pool::Task task) {
   const std::lock_guard lock(queue_->mutex);
   queue_->tasks.push_back(std::move(task));
   if (std::exchange(queue_->is_running, true)) return;
-  pool_.post([queue = queue_] { run(*queue); });
+  pool_.post([turn = std::make_shared<Turn>(queue_)] {
+    turn->has_come = true;
+    run(*turn->queue);
+  });
 }
 
 void Strand::run(Queue& queue) {

@@ -50,6 +50,7 @@ class Strand {
     std::deque<Pool::Task> tasks;
     bool is_running = false;
   };
+  struct Turn;
 
   static void run(Queue& queue);
 

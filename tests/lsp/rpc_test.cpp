@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -123,6 +125,23 @@ TEST(Parsed, WhatIsNoJsonIsNoneHoweverLong) {
     EXPECT_TRUE(Parsed::parse(text).json.is_discarded());
 }
 
+std::string nested(std::size_t depth, const std::string& innermost = "1") {
+  return std::string(depth, '[') + innermost + std::string(depth, ']');
+}
+
+TEST(Parsed, WhatNestsTooDeeplyIsNoneHoweverLong) {
+  const std::string padding(Parsed::kLong, ' ');
+  for (const std::string& space : {std::string(), padding}) {
+    EXPECT_FALSE(Parsed::parse(space + nested(kDeepestMessage)).json.is_discarded());
+    EXPECT_TRUE(Parsed::parse(space + nested(kDeepestMessage + 1)).json.is_discarded());
+    EXPECT_TRUE(Parsed::parse(space + nested(1'000'000)).json.is_discarded());
+    // Beside one another, or within strings, there may be any number.
+    std::string many = "[";
+    for (std::size_t i = 0; i < kDeepestMessage; ++i) many += nested(2, R"("[{\"[{\\")") + ",";
+    EXPECT_FALSE(Parsed::parse(space + many + "1]").json.is_discarded());
+  }
+}
+
 TEST(Strand, DoesItsTasksInTheirOrderBesideOthers) {
   Pool pool(4);
   constexpr int kStrands = 8;
@@ -148,6 +167,22 @@ TEST(Strand, DoesItsTasksInTheirOrderBesideOthers) {
     EXPECT_EQ(each.size(), static_cast<std::size_t>(kTasks));
     EXPECT_TRUE(std::is_sorted(each.begin(), each.end()));
   }
+}
+
+/// What a task that never comes holds may hold the strand itself.
+TEST(Strand, IsGoneWithAPoolThatHasNotComeToIt) {
+  struct Owner {
+    explicit Owner(Pool& pool) : strand(pool) {}
+    Strand strand;
+  };
+  std::optional<Pool> pool(std::in_place, 0);  // Without a thread it comes to nothing.
+  auto owner = std::make_shared<Owner>(*pool);
+  const std::weak_ptr<Owner> watched = owner;
+  for (int i = 0; i < 2; ++i) owner->strand.post([owner] {});
+  owner.reset();
+  EXPECT_FALSE(watched.expired());
+  pool.reset();
+  EXPECT_TRUE(watched.expired());
 }
 
 TEST(Pool, EndsWhileTasksWait) {
