@@ -131,11 +131,37 @@ class Security(unittest.TestCase):
 
     def test_a_configuration_names_no_file_to_be_read_or_written(self):
         (self.folder / "isocnc.json").write_text(json.dumps(CONFIGURATION))
+        below = self.folder / "sub" / "part.iso"
+        below.parent.mkdir()
+        below.write_text(HOSTILE)
         for name in ("isolint", "isorun"):
-            self.holds(self.watch(name, self.program), reads=[self.program])
+            for program in (self.program, below):
+                self.holds(self.watch(name, program), reads=[program])
+
+    def test_a_tree_leads_nowhere_else(self):
+        tree, outside = self.folder / "tree", self.folder / "outside"
+        for folder in (tree, outside):
+            folder.mkdir()
+            (folder / "part.iso").write_text("g71 g71\n")
+        (outside / "notes.txt").write_text("g71 g71\n")
+        (tree / "link.iso").symlink_to("../outside/part.iso")
+        (tree / "notes.iso").symlink_to("../outside/notes.txt")
+        (tree / "away").symlink_to("../outside")
+        for argv in (["isolint"], ["isolint", "--fix", "--unsafe-fixes"], ["isofmt", "-i"]):
+            run = self.watch(*argv, tree)
+            self.assertEqual([], [path for path in run.opened(to_write=False) if "outside" in path])
+            self.assertEqual([], [path for path in run.opened(to_write=True) if not Path(path).is_relative_to(tree)])
+        self.assertNotEqual("g71 g71\n", (tree / "part.iso").read_text())
+        for name in ("part.iso", "notes.txt"):
+            self.assertEqual("g71 g71\n", (outside / name).read_text())
 
     def test_an_editor_s_messages_open_no_file_outside_its_folders(self):
-        uris = ["file:///etc/passwd", "file:///etc/../etc/hostname", "file://localhost/etc/passwd", "http://example.com/a.iso"]
+        (self.folder / "away").symlink_to("/etc")
+        (self.folder / "link.iso").symlink_to("/etc/passwd")
+        uris = ["file:///etc/passwd", "file:///etc/../etc/hostname", "file://localhost/etc/passwd", "http://example.com/a.iso",
+                "file://example.com/etc/passwd", "FILE:///etc/passwd", "vscode-remote://ssh-remote/etc/passwd", "/etc/passwd",
+                "file:///etc/passwd%00.iso", *(f"{self.folder.as_uri()}/{path}" for path in (
+                    "..%2f..%2fetc/passwd", "%2e%2e/%2E%2E/etc/passwd", "away/passwd", "link.iso", "link.iso%00"))]
         text = {"languageId": "isocnc", "version": 1, "text": HOSTILE}
         messages = [{"id": 1, "method": "initialize", "params": {"processId": None, "capabilities": {},
                      "workspaceFolders": [{"uri": self.folder.as_uri(), "name": "parts"}]}}]

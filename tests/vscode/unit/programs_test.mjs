@@ -1,6 +1,8 @@
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { test } from 'node:test';
-import { module } from '../modules.mjs';
+import { extension, module } from '../modules.mjs';
 
 const { findProgram, isOlder } = await module('programs');
 const places = { configured: '', bundled: '/ext/bin', path: ['/usr/local/bin', '', '/usr/bin'] };
@@ -16,6 +18,14 @@ test('what the user names is the only place', () => {
   const named = { ...places, configured: '/opt/cnc' };
   assert.equal(findProgram('isodap', named, having('/opt/cnc/isodap', '/ext/bin/isodap')), '/opt/cnc/isodap');
   assert.equal(findProgram('isodap', named, having('/ext/bin/isodap')), null);
+});
+
+test('a folder that is not trusted names no programs', () => {
+  const { capabilities, contributes } = JSON.parse(readFileSync(join(extension, 'package.json'), 'utf8'));
+  const { supported, restrictedConfigurations } = capabilities.untrustedWorkspaces;
+  assert.equal(supported, 'limited');
+  assert.ok('isocnc.path' in contributes.configuration.properties);
+  assert.ok(restrictedConfigurations.includes('isocnc.path'));
 });
 
 test('programs have an ending on Windows', () => {
