@@ -5,17 +5,20 @@
 namespace isocnc::lsp::rpc {
 
 Pool::~Pool() {
+  std::deque<Task> dropped;
   {
     const std::lock_guard lock(mutex_);
     is_ending_ = true;
-    tasks_.clear();
+    dropped.swap(tasks_);
   }
+  dropped.clear();
   came_.notify_all();
   for (std::thread& thread : threads_) thread.join();
 }
 
 void Pool::post(Task task) {
   const std::lock_guard lock(mutex_);
+  if (is_ending_) return;  // Nobody would wait for the thread that it might take.
   tasks_.push_back(std::move(task));
   if (tasks_.size() > waiting_ && threads_.size() < most_threads_) threads_.emplace_back([this] { work(); });
   came_.notify_one();
@@ -50,13 +53,17 @@ struct Strand::Turn {
     std::deque<Pool::Task> dropped;  // Goes when the lock is no longer held.
     const std::lock_guard lock(queue->mutex);
     dropped.swap(queue->tasks);
+    queue->is_running = false;
   }
 };
 
 void Strand::post(Pool::Task task) {
-  const std::lock_guard lock(queue_->mutex);
-  queue_->tasks.push_back(std::move(task));
-  if (std::exchange(queue_->is_running, true)) return;
+  {
+    const std::lock_guard lock(queue_->mutex);
+    queue_->tasks.push_back(std::move(task));
+    if (std::exchange(queue_->is_running, true)) return;
+  }
+  // Without the lock, which a turn takes that the pool does not take.
   pool_.post([turn = std::make_shared<Turn>(queue_)] {
     turn->has_come = true;
     run(*turn->queue);

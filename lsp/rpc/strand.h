@@ -22,6 +22,7 @@ class Pool {
   /// Waits for the tasks that have begun; the others are dropped.
   ~Pool();
 
+  /// Dropped when the pool is ending.
   void post(Task task);
 
  private:

@@ -194,5 +194,30 @@ TEST(Pool, EndsWhileTasksWait) {
   EXPECT_LE(done, 100);
 }
 
+/// What a task posts while the pool is ending does not begin any more.
+TEST(Pool, EndsWhileTasksPostOthers) {
+  for (int round = 0; round < 200; ++round) {
+    Pool pool(32);
+    for (int i = 0; i < 8; ++i)
+      pool.post([&] {
+        for (int j = 0; j < 16; ++j) pool.post([] {});
+      });
+  }
+}
+
+TEST(Strand, MayBePostedToWhileItsPoolEnds) {
+  for (int round = 0; round < 200; ++round) {
+    std::optional<Pool> pool(std::in_place, 4);
+    const auto strand = std::make_shared<Strand>(*pool);
+    const std::weak_ptr<Strand> watched = strand;
+    for (int i = 0; i < 4; ++i)
+      pool->post([strand] {
+        for (int j = 0; j < 16; ++j) strand->post([strand] {});
+      });
+    pool.reset();
+    EXPECT_EQ(watched.use_count(), 1) << "round " << round;
+  }
+}
+
 }  // namespace
 }  // namespace isocnc::lsp::rpc
