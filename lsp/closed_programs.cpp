@@ -18,8 +18,12 @@ namespace isocnc::lsp {
 static constexpr std::int64_t kNoVersion = -1;
 
 std::vector<std::filesystem::path> ClosedPrograms::programs_in(const std::vector<std::filesystem::path>& folders) {
-  const auto rules = [this](const std::filesystem::path& folder) -> analyzer::SearchRules {
-    const configuration::Lint& lint = settings_.of(folder / "program").configuration->lint;
+  // A configuration may be forgotten while the search still asks it.
+  std::vector<std::shared_ptr<const void>> owners;
+  const auto rules = [&](const std::filesystem::path& folder) -> analyzer::SearchRules {
+    const documents::DocumentSettings settings = settings_.of(folder / "program");
+    if (owners.empty() || owners.back() != settings.owner) owners.push_back(settings.owner);
+    const configuration::Lint& lint = settings.configuration->lint;
     return {lint.extensions, &lint.excluded};
   };
   std::vector<std::string> paths;

@@ -85,6 +85,22 @@ TEST_F(Workspace, AnswersOfATabWhoseFileIsNotOpen) {
   EXPECT_EQ(pull_of("untitled:a")["error"]["code"], -32801);
 }
 
+/// The configurations that a search asks stay as long as it goes on.
+TEST_F(Workspace, IsSearchedWhileItsConfigurationsChange) {
+  constexpr int kFolders = 60;
+  for (int i = 0; i < kFolders; ++i) {
+    write(fmt::format("part{}/isocnc.json", i), R"({"lint": {"exclude": ["old/", "*.bak.iso", "draft-*"]}})");
+    write(fmt::format("part{}/a.iso", i), "M02\n");
+  }
+  start();
+  const Json changed = {{"changes", {{{"uri", uri("isocnc.json")}, {"type", 2}}}}};
+  for (int round = 0; round < 20; ++round) {
+    const auto id = session_.ask("workspace/diagnostic", {{"previousResultIds", Json::array()}});
+    for (int i = 0; i < 50; ++i) session_.notify("workspace/didChangeWatchedFiles", changed);
+    EXPECT_EQ(session_.response_to(id)["result"]["items"].size(), kFolders + 2u);
+  }
+}
+
 TEST_F(Workspace, DoesNotWaitForAPipe) {
   ASSERT_EQ(::mkfifo((folder_ / "pipe.iso").c_str(), 0600), 0);
   start();
