@@ -45,7 +45,9 @@ static constexpr const char* kCommands[] = {"next",
                                             "loadedSources",
                                             "cancel",
                                             "launch",
-                                            "configurationDone"};
+                                            "configurationDone",
+                                            "disconnect",
+                                            ""};  // Asks for nothing: what runs goes on for a while.
 
 static constexpr const char* kTexts[] = {
     "X",         "V3",  "Z < 0 && S > 0", "G00 X5", "G91 G909", "M06 T101001", "V3=2",      "(",   "X,x",
@@ -78,6 +80,18 @@ static Json arguments_of(std::uint8_t byte, const std::string& path) {
              {"logMessage", byte % 7 == 0 ? "{" + text + "}" : ""}}}}};
 }
 
+static Json launch_arguments(std::uint8_t wishes, const std::string& path) {
+  Json arguments = {{"program", path},
+                    {"stopOnEntry", (wishes & 1u) == 0},
+                    {"breakOnWarnings", (wishes & 2u) != 0},
+                    {"noDebug", (wishes & 4u) != 0},
+                    {"vgpl", wishes % 3},
+                    {"registers", {{"V3", wishes % 5}}},
+                    {"decimals", wishes % 13}};
+  if ((wishes & 8u) != 0) arguments["startAtLine"] = 1 + wishes / 16;
+  return arguments;
+}
+
 /// Feeds one message, and then itself again, so that the slices of a run come in between.
 class Feeder {
  public:
@@ -85,8 +99,13 @@ class Feeder {
       : bytes_(bytes), path_(std::move(path)), adapter_(loop_, [this](const std::string& body) { check(body); }) {}
 
   void run() {
-    tell("initialize", Json::object());
-    tell("launch", {{"program", path_}, {"stopOnEntry", true}});
+    const std::uint8_t wishes = number();
+    tell("initialize", {{"linesStartAt1", (wishes & 16u) == 0},
+                        {"columnsStartAt1", (wishes & 32u) == 0},
+                        {"supportsInvalidatedEvent", (wishes & 64u) != 0},
+                        {"supportsProgressReporting", true},
+                        {"locale", (wishes & 128u) != 0 ? "it" : "en"}});
+    tell("launch", launch_arguments(number(), path_));
     tell("configurationDone", Json::object());
     loop_.post([this] { feed(); });
     loop_.run(std::chrono::milliseconds(1000), [this] { adapter_.end(); });
@@ -94,12 +113,27 @@ class Feeder {
   }
 
  private:
+  std::uint8_t number() {
+    if (bytes_.empty()) return 0;
+    const auto value = static_cast<std::uint8_t>(bytes_.front());
+    bytes_.remove_prefix(1);
+    return value;
+  }
+
   void feed() {
     if (bytes_.size() < 2) return adapter_.end();
-    const auto byte = static_cast<std::uint8_t>(bytes_[0]);
-    tell(kCommands[byte % std::size(kCommands)], arguments_of(static_cast<std::uint8_t>(bytes_[1]), path_));
-    bytes_.remove_prefix(2);
+    const std::string command = kCommands[number() % std::size(kCommands)];
+    const std::uint8_t argument = number();
+    if (command.empty()) return wait(argument % 32);
+    Json arguments = arguments_of(argument, path_);
+    if (command == "restart" && argument % 2 == 0) arguments["arguments"] = launch_arguments(argument, path_);
+    tell(command, arguments);
     loop_.post([this] { feed(); });
+  }
+
+  /// For so many slices of a run.
+  void wait(int turns) {
+    loop_.post([this, turns] { turns > 0 ? wait(turns - 1) : feed(); });
   }
 
   void tell(const std::string& command, const Json& arguments) {
@@ -122,7 +156,7 @@ class Feeder {
   Adapter adapter_;
 };
 
-/// Up to the first 0 a program, and behind it what is asked.
+/// Up to the first 0 a program, and behind it how it is launched and what is asked.
 static void debug(std::string_view bytes) {
   const std::size_t end = std::min(bytes.find('\0'), bytes.size());
   const std::string path =
