@@ -1,6 +1,7 @@
 #include "analyzer/gitignore.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -88,10 +89,13 @@ static std::vector<Rule> parse_rules(std::string_view text) {
   return rules;
 }
 
+/// Git reads no larger files of rules either.
+static constexpr std::uintmax_t kLargestFile = 100 << 20;
+
 /// Empty when it cannot be read, as for git.
 static std::string contents(const fs::path& file) {
   std::error_code error;
-  if (!fs::is_regular_file(file, error)) return {};
+  if (!fs::is_regular_file(file, error) || fs::file_size(file, error) > kLargestFile) return {};
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }

@@ -258,6 +258,17 @@ TEST_F(Files, WhatIsNamedIsTakenThoughGitIgnoresIt) {
   EXPECT_THAT(files({"build"}), ElementsAre("build/b.iso"));
 }
 
+TEST_F(Files, GitignoreWithoutEndIsNotRead) {
+  fs::create_directory(".git");
+  write(".gitignore", "*.iso\n");
+  write("a.iso");
+  EXPECT_THAT(files({"."}), IsEmpty());
+  std::error_code error;
+  fs::resize_file(".gitignore", std::uintmax_t{5} << 30, error);
+  if (error) GTEST_SKIP() << "no such file can be made here";
+  EXPECT_THAT(files({"."}), ElementsAre("a.iso"));
+}
+
 TEST_F(Files, GitignoreThatIsASymlinkIsNotRead) {
   fs::create_directory(".git");
   write("rules", "*.iso\n");
