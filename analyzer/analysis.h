@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analyzer/checker.h"
+#include "analyzer/conclusion.h"
 #include "analyzer/position_shift.h"
 #include "interpreter/syntax/per_chunk.h"
 

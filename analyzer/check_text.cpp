@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analyzer/checker.h"
+#include "analyzer/conclusion.h"
 #include "analyzer/rendering.h"
 #include "analyzer/side_by_side.h"
 #include "interpreter/syntax/characters.h"

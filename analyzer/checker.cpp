@@ -1,16 +1,13 @@
 #include "analyzer/checker.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
-#include <unordered_set>
 #include <utility>
 
 #include "analyzer/rules/rule.h"
 #include "interpreter/execution/plain_run.h"
 #include "interpreter/geometry/increment.h"
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
 
 namespace isocnc::analyzer {
@@ -33,21 +30,6 @@ static constexpr std::size_t kMostStatesReduced = 16;
 static constexpr std::uint32_t kSpreadRelief = 32;
 /// Labels that may be waited for at once.
 static constexpr std::size_t kMostWaiting = 16'384;
-
-void Outcome::clear() { *this = Outcome{}; }
-
-void Outcome::count() {
-  tally.clear();
-  for (const LocatedFinding& located : findings) {
-    const auto same = [&](const auto& counted) { return counted.first == located.finding.id; };
-    const auto known = std::find_if(tally.begin(), tally.end(), same);
-    if (known == tally.end()) {
-      tally.emplace_back(located.finding.id, 1);
-    } else {
-      ++known->second;
-    }
-  }
-}
 
 /// Listens to one execution: findings to a place, assignments to the group's registers.
 class Checker::Listener final : public execution::Sink {
@@ -472,218 +454,6 @@ void Checker::admit_reduction(const LineTree& line, std::uint64_t line_number, O
   if (!line.words.empty()) span = line.words.front().span();
   outcome.findings.push_back(
       {line_number, {.id = "too-many-paths"_diag, .span = span, .values = {static_cast<double>(kMostStates)}}});
-}
-
-bool all_jumps_land(const Outcome& outcome, const JumpMap& jumps) {
-  std::unordered_map<std::uint64_t, std::uint64_t> last_lines;
-  for (const Outcome::Label& label : outcome.labels) last_lines[label.label] = label.line;
-  return std::all_of(outcome.live_jumps.begin(), outcome.live_jumps.end(), [&](std::uint32_t ordinal) {
-    const JumpMap::Site& site = jumps.sites()[ordinal];
-    const auto last = last_lines.find(site.jump.target);
-    return last != last_lines.end() && last->second > site.line;
-  });
-}
-
-/// A label that a GOTO names may be defined once: the second and each later one that the control reads (D50, D51).
-static void add_duplicate_labels(const std::vector<PlacedOutcome>& outcomes, const JumpMap& jumps,
-                                 std::vector<LocatedFinding>& findings) {
-  std::unordered_set<std::uint64_t> named;
-  for (const auto& [outcome, first_line] : outcomes)
-    for (const std::uint32_t jump : outcome->live_jumps)
-      if (jumps.target_of(jump) == JumpMap::Target::Below) named.insert(jumps.sites()[jump].jump.target);
-  std::unordered_set<std::uint64_t> seen;
-  for (const auto& [outcome, first_line] : outcomes)
-    for (const Outcome::Label& label : outcome->labels)
-      if (label.live && named.contains(label.label) && !seen.insert(label.label).second)
-        findings.push_back({first_line + label.line, {.id = "duplicate-label"_diag, .span = label.span}});
-}
-
-/// Registers that an IF compares and nothing assigns: said at the first such IF.
-static void add_unassigned_registers(const std::vector<PlacedOutcome>& outcomes, const JumpMap& jumps,
-                                     std::vector<LocatedFinding>& findings) {
-  RegisterSet known = 0;
-  for (const auto& [outcome, first_line] : outcomes) known |= outcome->assigned;
-  for (const auto& [outcome, first_line] : outcomes)
-    for (const std::uint32_t ordinal : outcome->live_jumps) {
-      const JumpMap::Site& site = jumps.sites()[ordinal];
-      const int reg = site.jump.variable;
-      if (reg < 1 || !site.jump.condition_is_known() || (known & register_bit(reg)) != 0) continue;
-      known |= register_bit(reg);
-      findings.push_back({site.line, {.id = "register-never-assigned"_diag, .span = site.jump.variable_span}});
-    }
-}
-
-static syntax::Span without_blanks(std::string_view text) {
-  std::size_t begin = 0;
-  std::size_t end = text.size();
-  while (begin < end && syntax::is_blank(text[begin])) ++begin;
-  while (end > begin && syntax::is_blank(text[end - 1])) --end;
-  return {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
-}
-
-/// Whether an M02 may be meant on a line that has a finding for it: (M02 and M, MO2, or M0.
-static bool may_hide_end(std::string_view text) {
-  const syntax::ParsedLine parsed(text);
-  const LineTree tree = parsed.tree();
-  if (tree.has(LineTree::kUnclosed)) return true;
-  return std::any_of(tree.words.begin(), tree.words.end(), [](const syntax::Word& word) {
-    return word.letter == 'M' && (!word.known() || word.has(syntax::Word::kMalformed));
-  });
-}
-
-/// A path that reaches the end of the file without an M02: said on the last line with any text (D47).
-static void add_missing_end(const std::vector<PlacedOutcome>& outcomes, const Frontier& end,
-                            const std::function<std::string_view(std::uint64_t)>& text_of_line,
-                            std::vector<Path>& paths, std::vector<LocatedFinding>& findings) {
-  if (end.live.empty()) return;
-  LocatedFinding located{0, {.id = "m02-missing"_diag}};
-  bool has_text = false;
-  for (const auto& [outcome, first_line] : outcomes) {
-    if (!outcome->has_text) continue;
-    has_text = true;
-    located.line = first_line + outcome->last_text_line;
-  }
-  if (has_text) {
-    const std::string_view text = text_of_line(located.line);
-    if (may_hide_end(text)) return;
-    located.finding.span = without_blanks(text);
-  }
-  Path path = end.live[0].path;
-  for (const Group& group : end.live)
-    std::erase_if(path, [&](const Decision& decision) {
-      return !decision.taken || std::find(group.path.begin(), group.path.end(), decision) == group.path.end();
-    });
-  if (!path.empty()) {
-    located.path = static_cast<std::int32_t>(paths.size());
-    paths.push_back(std::move(path));
-  }
-  findings.push_back(located);
-}
-
-/// Said once per program: one mistake, however many paths show it (D44).
-static constexpr dialect::DiagnosticId kSaidOnce[] = {"initial-tool-missing"_diag, "feed-missing"_diag,
-                                                      "too-many-paths"_diag};
-
-static void keep_first_of_each(std::vector<LocatedFinding>& findings) {
-  for (const dialect::DiagnosticId id : kSaidOnce) {
-    bool seen = false;
-    std::erase_if(findings, [&](const LocatedFinding& located) {
-      if (located.finding.id != id) return false;
-      return std::exchange(seen, true);
-    });
-  }
-}
-
-static bool by_place(const LocatedFinding& a, const LocatedFinding& b) {
-  return a.line != b.line ? a.line < b.line : a.finding.span.begin < b.finding.span.begin;
-}
-
-/// What only the whole program shows.
-static void add_findings_of_whole(const std::vector<PlacedOutcome>& outcomes, const Frontier& end, const JumpMap& jumps,
-                                  const std::function<std::string_view(std::uint64_t)>& text_of_line,
-                                  std::vector<Path>& paths, std::vector<LocatedFinding>& findings) {
-  add_duplicate_labels(outcomes, jumps, findings);
-  if (!end.reduced) add_unassigned_registers(outcomes, jumps, findings);
-  add_missing_end(outcomes, end, text_of_line, paths, findings);
-}
-
-/// Brings findings into their order, and tells their paths as users read them.
-static Report ordered(std::vector<LocatedFinding> findings, const std::vector<Path>& paths, const JumpMap& jumps) {
-  Report report{.findings = std::move(findings), .paths = {}};
-  if (!std::is_sorted(report.findings.begin(), report.findings.end(), by_place))
-    std::stable_sort(report.findings.begin(), report.findings.end(), by_place);
-  keep_first_of_each(report.findings);
-  for (const Path& path : paths) {
-    std::vector<PathStep>& steps = report.paths.emplace_back();
-    for (auto decision = path.rbegin(); decision != path.rend(); ++decision)
-      steps.push_back({jumps.sites()[decision->jump].line, decision->taken});
-  }
-  return report;
-}
-
-Report conclude(Outcome outcome, const Frontier& end, const JumpMap& jumps,
-                const std::function<std::string_view(std::uint64_t)>& text_of_line) {
-  std::vector<LocatedFinding> findings = std::move(outcome.findings);
-  std::vector<Path> paths = std::move(outcome.paths);
-  add_findings_of_whole({{&outcome, 0}}, end, jumps, text_of_line, paths, findings);
-  return ordered(std::move(findings), paths, jumps);
-}
-
-namespace {
-
-/// Takes findings until there are enough, and counts the others.
-class Gatherer {
- public:
-  Gatherer(const FirstFindingsWishes& wishes, FirstFindings& excerpt) : wishes_(wishes), excerpt_(excerpt) {}
-
-  bool has_enough() const { return taken_ >= wishes_.most; }
-  /// The line behind all that have been taken.
-  std::uint64_t end() const { return end_; }
-
-  void take(const PlacedOutcome& placed) {
-    const auto first_path = static_cast<std::int32_t>(paths.size());
-    for (LocatedFinding located : placed.outcome->findings) {
-      located.line += placed.first_line;
-      if (located.path >= 0) located.path += first_path;
-      take(located);
-    }
-    const std::vector<Path>& theirs = placed.outcome->paths;
-    paths.insert(paths.end(), theirs.begin(), theirs.end());
-  }
-  void take(const LocatedFinding& located) {
-    findings.push_back(located);
-    end_ = located.line + 1;
-    if (counts(located.finding.id)) ++taken_;
-  }
-  void count(dialect::DiagnosticId id, std::size_t number = 1) {
-    if (is_said_once(id)) number = 1;
-    if (counts(id)) excerpt_.left_out += number;
-  }
-
-  std::vector<LocatedFinding> findings;
-  std::vector<Path> paths;
-
- private:
-  static bool is_said_once(dialect::DiagnosticId id) {
-    return std::find(std::begin(kSaidOnce), std::end(kSaidOnce), id) != std::end(kSaidOnce);
-  }
-  bool counts(dialect::DiagnosticId id) {
-    for (std::size_t i = 0; i < std::size(kSaidOnce); ++i)
-      if (kSaidOnce[i] == id && std::exchange(said_[i], true)) return false;
-    return !wishes_.counts || wishes_.counts(id);
-  }
-
-  const FirstFindingsWishes& wishes_;
-  FirstFindings& excerpt_;
-  std::size_t taken_ = 0;
-  std::uint64_t end_ = 0;
-  std::array<bool, std::size(kSaidOnce)> said_{};
-};
-
-}  // namespace
-
-FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const Frontier& end, const JumpMap& jumps,
-                       const std::function<std::string_view(std::uint64_t)>& text_of_line,
-                       const FirstFindingsWishes& wishes) {
-  FirstFindings excerpt;
-  Gatherer gatherer(wishes, excerpt);
-  auto next = outcomes.begin();
-  for (; next != outcomes.end() && !gatherer.has_enough(); ++next) gatherer.take(*next);
-  const bool has_all = next == outcomes.end();
-  for (; next != outcomes.end(); ++next)
-    for (const auto& [id, number] : next->outcome->tally) gatherer.count(id, number);
-  std::vector<LocatedFinding> of_whole;
-  add_findings_of_whole(outcomes, end, jumps, text_of_line, gatherer.paths, of_whole);
-  const std::uint64_t behind = gatherer.end();
-  for (const LocatedFinding& located : of_whole) {
-    if (has_all || located.line < behind) {
-      gatherer.take(located);
-    } else {
-      gatherer.count(located.finding.id);
-    }
-  }
-  excerpt.report = ordered(std::move(gatherer.findings), gatherer.paths, jumps);
-  return excerpt;
 }
 
 }  // namespace isocnc::analyzer

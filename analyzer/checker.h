@@ -1,49 +1,16 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
-#include <string_view>
-#include <unordered_map>
-#include <utility>
 #include <vector>
 
 #include "analyzer/frontier.h"
+#include "analyzer/outcome.h"
 #include "interpreter/execution/execute.h"
 #include "interpreter/syntax/document.h"
 
 namespace isocnc::analyzer {
-
-/// How what has been found in a stretch of lines, and the positions behind it, depend on the positions before it.
-struct PositionUse {
-  execution::AxisSet read = 0;  ///< Findings, or frames, depend on where these axes stood before.
-  execution::AxisSet set = 0;   ///< Where these stand behind it does not depend on that. The others have moved on.
-  bool by_several = false;      ///< There was more than one state, now or waiting: `set` holds for some of them.
-  bool far = false;             ///< An axis has been so far away that moves may not add up exactly.
-};
-
-/// What the check of a stretch of lines has found.
-struct Outcome {
-  struct Label {
-    std::uint64_t label = 0;
-    std::uint64_t line = 0;
-    syntax::Span span;
-    bool live = false;  ///< On a feasible path.
-  };
-
-  std::vector<LocatedFinding> findings;  ///< In the order of the lines.
-  std::vector<Path> paths;
-  std::vector<Label> labels;              ///< Definitions of labels that some GOTO names.
-  std::vector<std::uint32_t> live_jumps;  ///< Jumps on a feasible path, counted from the top of the file.
-  std::uint64_t last_text_line = 0;       ///< The last that holds any text (D47), if one does.
-  bool has_text = false;
-  RegisterSet assigned = 0;  ///< Registers that have been given a value; followed only where an IF compares one.
-  PositionUse positions;
-  std::vector<std::pair<dialect::DiagnosticId, std::size_t>> tally;  ///< Findings of each kind, after count().
-
-  void clear();
-  void count();
-};
 
 /// Most machine states that are followed at once (W191).
 inline constexpr std::size_t kMostStates = 512;
@@ -103,36 +70,5 @@ class Checker {
   std::optional<execution::Move> move_;       // Of the line, where moves are watched.
   std::vector<GroupFinding> group_findings_;  // Of one line; kept for its memory.
 };
-
-/// The outcome of some lines, which stand from this one on.
-struct PlacedOutcome {
-  const Outcome* outcome = nullptr;
-  std::uint64_t first_line = 0;
-};
-
-/// The first findings of a program, and how many there are behind them.
-struct FirstFindings {
-  Report report;
-  std::size_t left_out = 0;  ///< Those that count.
-};
-
-/// What an excerpt is to hold.
-struct FirstFindingsWishes {
-  std::size_t most = static_cast<std::size_t>(-1);         ///< So many findings that count, or a few more.
-  std::function<bool(dialect::DiagnosticId)> counts = {};  ///< Without it all do.
-};
-
-/// Puts together what was found: sorts, adds what only the whole program shows (E006, ISO045), and leaves of the
-/// findings that are said once per program the first (D44). `text_of_line` gives a line's text.
-Report conclude(Outcome outcome, const Frontier& end, const JumpMap& jumps,
-                const std::function<std::string_view(std::uint64_t)>& text_of_line);
-/// The same of several outcomes that have been counted, in the order of the program. Those that have nothing but
-/// `has_text` may be left out, but the last that has.
-FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const Frontier& end, const JumpMap& jumps,
-                       const std::function<std::string_view(std::uint64_t)>& text_of_line,
-                       const FirstFindingsWishes& wishes = {});
-
-/// Whether the labels seen tell where each jump on a feasible path goes.
-bool all_jumps_land(const Outcome& outcome, const JumpMap& jumps);
 
 }  // namespace isocnc::analyzer

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analyzer/check_text.h"
+#include "analyzer/conclusion.h"
 
 namespace isocnc::analyzer {
 

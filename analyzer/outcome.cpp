@@ -1,0 +1,22 @@
+#include "analyzer/outcome.h"
+
+#include <algorithm>
+
+namespace isocnc::analyzer {
+
+void Outcome::clear() { *this = Outcome{}; }
+
+void Outcome::count() {
+  tally.clear();
+  for (const LocatedFinding& located : findings) {
+    const auto same = [&](const auto& counted) { return counted.first == located.finding.id; };
+    const auto known = std::find_if(tally.begin(), tally.end(), same);
+    if (known == tally.end()) {
+      tally.emplace_back(located.finding.id, 1);
+    } else {
+      ++known->second;
+    }
+  }
+}
+
+}  // namespace isocnc::analyzer

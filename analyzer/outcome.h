@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "analyzer/frontier.h"
+
+namespace isocnc::analyzer {
+
+/// How what has been found in a stretch of lines, and the positions behind it, depend on the positions before it.
+struct PositionUse {
+  execution::AxisSet read = 0;  ///< Findings, or frames, depend on where these axes stood before.
+  execution::AxisSet set = 0;   ///< Where these stand behind it does not depend on that. The others have moved on.
+  bool by_several = false;      ///< There was more than one state, now or waiting: `set` holds for some of them.
+  bool far = false;             ///< An axis has been so far away that moves may not add up exactly.
+};
+
+/// What the check of a stretch of lines has found.
+struct Outcome {
+  struct Label {
+    std::uint64_t label = 0;
+    std::uint64_t line = 0;
+    syntax::Span span;
+    bool live = false;  ///< On a feasible path.
+  };
+
+  std::vector<LocatedFinding> findings;  ///< In the order of the lines.
+  std::vector<Path> paths;
+  std::vector<Label> labels;              ///< Definitions of labels that some GOTO names.
+  std::vector<std::uint32_t> live_jumps;  ///< Jumps on a feasible path, counted from the top of the file.
+  std::uint64_t last_text_line = 0;       ///< The last that holds any text (D47), if one does.
+  bool has_text = false;
+  RegisterSet assigned = 0;  ///< Registers that have been given a value; followed only where an IF compares one.
+  PositionUse positions;
+  std::vector<std::pair<dialect::DiagnosticId, std::size_t>> tally;  ///< Findings of each kind, after count().
+
+  void clear();
+  void count();
+};
+
+}  // namespace isocnc::analyzer
