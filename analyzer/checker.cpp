@@ -54,7 +54,7 @@ Checker::Checker(const execution::Setup& setup, const JumpMap& jumps)
 
 Frontier Checker::start(const execution::Setup& setup, const JumpMap& jumps) {
   Frontier frontier;
-  frontier.live.add({.state = execution::initial_state(setup), .registers = Valuations::unknown(jumps)});
+  frontier.live.add({.state = execution::initial_state(setup), .registers = Valuations::unknown()});
   return frontier;
 }
 
@@ -228,14 +228,25 @@ void Checker::arrive(const LineTree& line, std::uint64_t line_number, Outcome& o
   }
 }
 
+/// Most values are never compared: where no IF will see this one, that of before is forgotten, and no more is done.
+void Checker::assign(Group& group, int reg, double value, Outcome& outcome) const {
+  outcome.assigned |= register_bit(reg);
+  if ((jumps_.read_before(frontier.next_jump) & register_bit(reg)) != 0) {
+    group.registers.assign(reg, value, jumps_);
+  } else {
+    group.registers.keep_only(~register_bit(reg));
+  }
+}
+
 void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   Groups& live = frontier.live;
   if (const auto assignment = execution::lone_assignment(line)) {
-    outcome.assigned |= register_bit(assignment->reg);
     for (Group& group : live) {
-      execution::execute_lone_assignment(group.state);
-      group.registers.assign(assignment->reg, assignment->value, jumps_);
+      execution::pass_by(group.state);
+      assign(group, assignment->reg, assignment->value, outcome);
     }
+  } else if (execution::is_lone_jump(line)) {
+    for (Group& group : live) execution::pass_by(group.state);
   } else if (!line.is_empty()) {
     class GroupListener final : public execution::Sink {
      public:
@@ -247,8 +258,7 @@ void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_num
       }
       void move(const execution::Move& move, const execution::State&) override { checker_.move_ = move; }
       void assign(int reg, double value) override {
-        outcome_.assigned |= register_bit(reg);
-        checker_.frontier.live[group_].registers.assign(reg, value, checker_.jumps_);
+        checker_.assign(checker_.frontier.live[group_], reg, value, outcome_);
       }
 
      private:
@@ -376,7 +386,6 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
       outcome.findings.push_back({line_number, {.id = "backward-jump"_diag, .span = jump.target_span}});
       return;
   }
-  Groups staying;
   Groups jumping;
   bool may_jump = false;
   bool may_stay = false;
@@ -385,25 +394,26 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
     if (path.size() > kLongestPath) path.pop_back();
     return path;
   };
+  std::size_t staying = 0;
   for (Group& group : frontier.live) {
     const bool on_register = jump.variable > 0 && jump.condition_is_known();
     Valuations where_true = on_register ? group.registers.where(jump, true, jumps_) : group.registers;
-    Valuations where_false = on_register ? group.registers.where(jump, false, jumps_) : std::move(group.registers);
+    if (on_register) group.registers = group.registers.where(jump, false, jumps_);
     if (jumps_.compares_registers()) {
-      where_true.keep_only(jumps_.read_at_target(ordinal), jumps_);
-      where_false.keep_only(jumps_.read_behind(ordinal), jumps_);
+      where_true.keep_only(jumps_.read_at_target(ordinal));
+      group.registers.keep_only(jumps_.read_behind(ordinal));
     }
-    const bool both = where_true.possible() && where_false.possible();
-    may_jump |= where_true.possible();
-    may_stay |= where_false.possible();
-    if (where_true.possible()) {
-      jumping.append({group.state, std::move(where_true), both ? decide(group.path, true) : group.path});
-    }
-    if (!where_false.possible()) continue;
-    staying.append({std::move(group.state), std::move(where_false),
-                    both ? decide(std::move(group.path), false) : std::move(group.path)});
+    const bool jumps_on = where_true.possible();
+    const bool stays = group.registers.possible();
+    may_jump |= jumps_on;
+    may_stay |= stays;
+    if (jumps_on) jumping.append({group.state, std::move(where_true), stays ? decide(group.path, true) : group.path});
+    if (!stays) continue;
+    if (jumps_on) group.path = decide(std::move(group.path), false);
+    Group& place = frontier.live[staying++];
+    if (&place != &group) place = std::move(group);
   }
-  frontier.live = std::move(staying);
+  frontier.live.keep_first(staying);
   if (!jumping.empty()) {
     Groups& waiting = frontier.waiting[jump.target];
     waiting.add_all(std::move(jumping));

@@ -48,6 +48,7 @@ class Checker {
   void tell_of_dead_code(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void arrive(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void execute_in_all_groups(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
+  void assign(Group& group, int reg, double value, Outcome& outcome) const;
   void report_common_findings(std::uint64_t line_number, Outcome& outcome);
   void branch(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   bool reduce(Groups& groups) const;

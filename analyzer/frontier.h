@@ -34,6 +34,7 @@ class Groups {
   auto begin() const { return all_.begin(); }
   auto end() const { return all_.end(); }
   void clear() { all_.clear(); }
+  void keep_first(std::size_t count) { all_.erase(all_.begin() + static_cast<std::ptrdiff_t>(count), all_.end()); }
 
   void add(Group group);
   /// Adds one whose state is none of the others'.

@@ -169,8 +169,7 @@ void JumpMap::add(std::uint64_t line, const syntax::Jump& jump) {
   filter_[bit / 64] |= std::uint64_t{1} << (bit % 64);
   if (jump.variable <= 0 || !jump.condition_is_known()) return;
   constants_[static_cast<std::size_t>(jump.variable)].push_back(jump.value);
-  const auto at = std::lower_bound(compared_.begin(), compared_.end(), jump.variable);
-  if (at == compared_.end() || *at != jump.variable) compared_.insert(at, jump.variable);
+  compared_ |= register_bit(jump.variable);
 }
 
 void JumpMap::note_registers(JumpEvent::Kind kind, std::uint8_t reg, std::uint64_t label) {
@@ -202,9 +201,11 @@ void JumpMap::complete() {
       case JumpEvent::Kind::Jump: {
         const syntax::Jump& condition = sites_[--jump].jump;
         const auto target = read_at_label.find(condition.target);
-        reads_[jump] = {read, target == read_at_label.end() ? 0 : target->second};
+        reads_[jump].behind = read;
+        reads_[jump].at_target = target == read_at_label.end() ? 0 : target->second;
         read |= reads_[jump].at_target;
         if (condition.variable > 0) read |= register_bit(condition.variable);
+        reads_[jump].before = read;
         break;
       }
     }

@@ -64,7 +64,7 @@ class JumpMap {
   /// Adds the jump of the next line that has one with a label.
   void add(std::uint64_t line, const syntax::Jump& jump);
   /// Whether an IF compares a register: then every line must be noted, in order, for what complete() works out.
-  bool compares_registers() const { return !compared_.empty(); }
+  bool compares_registers() const { return compared_ != 0; }
   /// Notes the next event.
   void note_registers(JumpEvent::Kind kind, std::uint8_t reg, std::uint64_t label);
   /// Notes a line's label, assignments and jump.
@@ -77,12 +77,12 @@ class JumpMap {
   bool names(std::uint64_t label) const { return may_name(label) && targets_.contains(label); }
   /// The values that register 1 to 30 is compared with, ascending.
   const std::vector<double>& constants(int reg) const { return constants_[static_cast<std::size_t>(reg)]; }
-  /// Registers that an IF compares, in ascending order.
-  const std::vector<int>& compared_registers() const { return compared_; }
   /// Registers whose value some IF may still see, one bit each: where this jump (counted from the top) is not taken,
   /// and where it is.
   RegisterSet read_behind(std::uint32_t jump) const { return reads_[jump].behind; }
   RegisterSet read_at_target(std::uint32_t jump) const { return reads_[jump].at_target; }
+  /// The same before it; none behind the last jump.
+  RegisterSet read_before(std::uint32_t jump) const { return jump < reads_.size() ? reads_[jump].before : 0; }
 
   /// Marks the jumps that have no label below them, once all definitions of labels are known (lines by label,
   /// ascending).
@@ -114,7 +114,7 @@ class JumpMap {
   std::unordered_set<std::uint64_t> targets_;
   std::vector<std::uint64_t> filter_;  // 1,048,576 bits, once there is a jump.
   std::array<std::vector<double>, dialect::kRegisterCount + 1> constants_;
-  std::vector<int> compared_;
+  RegisterSet compared_ = 0;  // Registers that an IF compares.
   struct Event {
     JumpEvent::Kind kind;
     std::uint8_t reg;     // Assigned.
@@ -124,6 +124,7 @@ class JumpMap {
   struct Reads {
     RegisterSet behind = 0;
     RegisterSet at_target = 0;
+    RegisterSet before = 0;
 
     friend bool operator==(const Reads&, const Reads&) = default;
   };

@@ -1,6 +1,7 @@
 #include "analyzer/registers.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace isocnc::analyzer {
@@ -12,20 +13,19 @@ static std::uint32_t cell_of(double value, const std::vector<double>& constants)
 }
 
 ValueSet ValueSet::of(double value, const std::vector<double>& constants) {
-  if (std::isnan(value)) return everything(constants.size());
+  if (std::isnan(value)) return everything();
   const std::uint32_t cell = cell_of(value, constants);
-  return {cell, cell};
+  return {cell, cell == 2 * constants.size() ? kLast : cell};
 }
 
 ValueSet ValueSet::satisfying(syntax::Comparison comparison, double constant, const std::vector<double>& constants) {
   const std::uint32_t cell = cell_of(constant, constants);
-  const auto last = static_cast<std::uint32_t>(2 * constants.size());
   switch (comparison) {
     case syntax::Comparison::Equal:
       return {cell, cell};
     case syntax::Comparison::NotEqual: {
       ValueSet apart(0, cell - 1);
-      apart.append({cell + 1, last});
+      apart.append({cell + 1, kLast});
       return apart;
     }
     case syntax::Comparison::Less:
@@ -33,13 +33,13 @@ ValueSet ValueSet::satisfying(syntax::Comparison comparison, double constant, co
     case syntax::Comparison::LessEqual:
       return {0, cell};
     case syntax::Comparison::Greater:
-      return {cell + 1, last};
+      return {cell + 1, kLast};
     case syntax::Comparison::GreaterEqual:
-      return {cell, last};
+      return {cell, kLast};
     case syntax::Comparison::Invalid:
       break;
   }
-  return everything(constants.size());
+  return everything();
 }
 
 void ValueSet::append(Range range) {
@@ -74,20 +74,50 @@ ValueSet ValueSet::united(const ValueSet& other) const {
   return result;
 }
 
-Valuations Valuations::unknown(const JumpMap& jumps) {
-  Valuation valuation;
-  for (const int reg : jumps.compared_registers())
-    valuation.push_back(ValueSet::everything(jumps.constants(reg).size()));
+Valuations Valuations::unknown() {
   Valuations result;
-  result.all_.push_back(std::move(valuation));
+  result.all_.emplace_back();
   return result;
 }
 
-static std::optional<std::size_t> index_of(int reg, const JumpMap& jumps) {
-  const std::vector<int>& compared = jumps.compared_registers();
-  const auto at = std::lower_bound(compared.begin(), compared.end(), reg);
-  if (at == compared.end() || *at != reg) return std::nullopt;
-  return static_cast<std::size_t>(at - compared.begin());
+/// Where the register stands, or would stand, among others.
+static std::ptrdiff_t place_of(int reg, RegisterSet among) { return std::popcount(among & (register_bit(reg) - 1)); }
+
+bool operator==(const Valuations& a, const Valuations& b) {
+  if (a.known_ == b.known_) return a.all_ == b.all_;
+  Valuations less_of_a = a;
+  Valuations less_of_b = b;
+  less_of_a.forget(a.known_ & ~a.telling());
+  less_of_b.forget(b.known_ & ~b.telling());
+  return less_of_a.known_ == less_of_b.known_ && less_of_a.all_ == less_of_b.all_;
+}
+
+RegisterSet Valuations::telling() const {
+  RegisterSet telling = 0;
+  for (RegisterSet left = known_; left != 0; left &= left - 1) {
+    const int reg = std::countr_zero(left);
+    const auto place = static_cast<std::size_t>(place_of(reg, known_));
+    const auto tells = [&](const Valuation& valuation) { return !valuation[place].is_everything(); };
+    if (std::any_of(all_.begin(), all_.end(), tells)) telling |= register_bit(reg);
+  }
+  return telling;
+}
+
+void Valuations::know(RegisterSet registers) {
+  for (RegisterSet left = registers & ~known_; left != 0; left &= left - 1) {
+    const int reg = std::countr_zero(left);
+    for (Valuation& valuation : all_)
+      valuation.insert(valuation.begin() + place_of(reg, known_), ValueSet::everything());
+    known_ |= register_bit(reg);
+  }
+}
+
+void Valuations::forget(RegisterSet registers) {
+  for (RegisterSet left = registers & known_; left != 0; left &= left - 1) {
+    const int reg = std::countr_zero(left);
+    known_ &= ~register_bit(reg);
+    for (Valuation& valuation : all_) valuation.erase(valuation.begin() + place_of(reg, known_));
+  }
 }
 
 /// Two valuations that differ in one register only are one, with the union there; exactly so.
@@ -112,21 +142,20 @@ void Valuations::add(Valuation valuation) {
   all_.push_back(std::move(valuation));
 }
 
-void Valuations::assign(int reg, double value, const JumpMap& jumps) {
-  const std::optional<std::size_t> index = index_of(reg, jumps);
-  if (!index) return;
-  const ValueSet assigned = ValueSet::of(value, jumps.constants(reg));
-  known_ |= register_bit(reg);
-  if (all_.size() == 1) {
-    all_.front()[*index] = assigned;
-    return;
-  }
+void Valuations::add_all_again() {
+  if (all_.size() < 2) return;
   std::vector<Valuation> before;
   before.swap(all_);
-  for (Valuation& valuation : before) {
-    valuation[*index] = assigned;
-    add(std::move(valuation));
-  }
+  for (Valuation& valuation : before) add(std::move(valuation));
+}
+
+void Valuations::assign(int reg, double value, const JumpMap& jumps) {
+  const std::vector<double>& constants = jumps.constants(reg);
+  if (constants.empty()) return;
+  know(register_bit(reg));
+  const ValueSet assigned = ValueSet::of(value, constants);
+  for (Valuation& valuation : all_) *(valuation.begin() + place_of(reg, known_)) = assigned;
+  add_all_again();
 }
 
 Valuations Valuations::where(const syntax::Jump& jump, bool holds, const JumpMap& jumps) const {
@@ -134,45 +163,39 @@ Valuations Valuations::where(const syntax::Jump& jump, bool holds, const JumpMap
   static constexpr Comparison kOpposites[] = {Comparison::NotEqual, Comparison::Equal,     Comparison::GreaterEqual,
                                               Comparison::Greater,  Comparison::LessEqual, Comparison::Less,
                                               Comparison::Invalid};
-  const std::optional<std::size_t> index = index_of(jump.variable, jumps);
-  if (!index || !jump.condition_is_known()) return *this;
+  if (jump.variable <= 0 || !jump.condition_is_known()) return *this;
+  const std::vector<double>& constants = jumps.constants(jump.variable);
+  if (constants.empty()) return *this;
   const Comparison comparison = holds ? jump.comparison : kOpposites[static_cast<std::size_t>(jump.comparison)];
-  const ValueSet wanted = ValueSet::satisfying(comparison, jump.value, jumps.constants(jump.variable));
+  const ValueSet wanted = ValueSet::satisfying(comparison, jump.value, constants);
+  const std::ptrdiff_t place = place_of(jump.variable, known_);
   Valuations result;
   result.known_ = known_ | register_bit(jump.variable);
+  if (result.known_ != known_) {
+    result.all_ = all_;
+    for (Valuation& valuation : result.all_) valuation.insert(valuation.begin() + place, wanted);
+    return result;
+  }
   for (const Valuation& valuation : all_) {
-    ValueSet remaining = valuation[*index].intersected(wanted);
+    ValueSet remaining = (valuation.begin() + place)->intersected(wanted);
     if (remaining.empty()) continue;
     Valuation narrowed = valuation;
-    narrowed[*index] = std::move(remaining);
+    *(narrowed.begin() + place) = std::move(remaining);
     result.add(std::move(narrowed));
   }
   return result;
 }
 
 void Valuations::unite(Valuations other) {
-  known_ |= other.known_;
+  know(other.known_);
+  other.know(known_);
   for (Valuation& valuation : other.all_) add(std::move(valuation));
 }
 
-void Valuations::keep_only(RegisterSet read, const JumpMap& jumps) {
+void Valuations::keep_only(RegisterSet read) {
   if ((known_ & ~read) == 0) return;
-  const std::vector<int>& compared = jumps.compared_registers();
-  bool changed = false;
-  for (std::size_t k = 0; k < compared.size(); ++k) {
-    if ((known_ & ~read & register_bit(compared[k])) == 0) continue;
-    const std::size_t constants = jumps.constants(compared[k]).size();
-    for (Valuation& valuation : all_) {
-      if (valuation[k].is_everything(constants)) continue;
-      valuation[k] = ValueSet::everything(constants);
-      changed = true;
-    }
-  }
-  known_ &= read;
-  if (!changed || all_.size() < 2) return;
-  std::vector<Valuation> before;
-  before.swap(all_);
-  for (Valuation& valuation : before) add(std::move(valuation));
+  forget(~read);
+  add_all_again();
 }
 
 void Valuations::reduce_to(std::size_t limit) {

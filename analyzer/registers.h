@@ -12,15 +12,16 @@ namespace isocnc::analyzer {
 
 /// A set of values of one register, as far as the program's conditions can tell values apart. The constants that it is
 /// compared with cut the real line into cells: below the first, the first itself, between first and second, ... Cell
-/// 2i+1 is the i-th constant, cell 2i what lies before it.
+/// 2i+1 is the i-th constant, cell 2i what lies before it; what lies behind the last is all cells up to kLast, so that
+/// sets can be put together without knowing how many constants there are.
 class ValueSet {
  public:
-  static ValueSet everything(std::size_t constants) { return {0, static_cast<std::uint32_t>(2 * constants)}; }
+  static ValueSet everything() { return {0, kLast}; }
   static ValueSet of(double value, const std::vector<double>& constants);
   /// The values for which `value comparison constant` holds.
   static ValueSet satisfying(syntax::Comparison comparison, double constant, const std::vector<double>& constants);
 
-  bool is_everything(std::size_t constants) const { return head_.first == 0 && head_.last == 2 * constants; }
+  bool is_everything() const { return head_.first == 0 && head_.last == kLast; }
   bool empty() const { return head_.first > head_.last; }
   ValueSet intersected(const ValueSet& other) const;
   ValueSet united(const ValueSet& other) const;
@@ -32,6 +33,8 @@ class ValueSet {
     std::uint32_t first, last;
     friend bool operator==(const Range&, const Range&) = default;
   };
+
+  static constexpr std::uint32_t kLast = 0x7FFF'FFFF;
 
   ValueSet() = default;
   ValueSet(std::uint32_t first, std::uint32_t last) : head_{first, last} {}
@@ -75,7 +78,7 @@ class ValueSet {
   Tail tail_;
 };
 
-/// What is known together of all registers that some IF compares, in the order of JumpMap::compared_registers().
+/// What is known together of some registers, in ascending order; of all others nothing is.
 using Valuation = std::vector<ValueSet>;
 
 /// The valuations that are possible at some point. Between registers nothing is lost (if V1 is 1 then V2 is 3), so that
@@ -83,26 +86,32 @@ using Valuation = std::vector<ValueSet>;
 class Valuations {
  public:
   /// Nothing is known of any register.
-  static Valuations unknown(const JumpMap& jumps);
+  static Valuations unknown();
 
   void assign(int reg, double value, const JumpMap& jumps);
   /// What remains of it where the condition of a jump on a register holds, or does not.
   Valuations where(const syntax::Jump& jump, bool holds, const JumpMap& jumps) const;
   void unite(Valuations other);
   /// Forgets the registers that are not in `read`: no IF will see their values, so they tell no two states apart.
-  void keep_only(RegisterSet read, const JumpMap& jumps);
+  void keep_only(RegisterSet read);
   bool possible() const { return !all_.empty(); }
   std::size_t size() const { return all_.size(); }
   /// Drops all but the first `limit`: what the others would lead to is not followed.
   void reduce_to(std::size_t limit);
 
-  friend bool operator==(const Valuations& a, const Valuations& b) { return a.all_ == b.all_; }
+  friend bool operator==(const Valuations& a, const Valuations& b);
 
  private:
   void add(Valuation valuation);
+  /// Joins valuations again that one register less may have made alike.
+  void add_all_again();
+  void know(RegisterSet registers);
+  void forget(RegisterSet registers);
+  /// Of what is known, the registers of which some valuation tells something.
+  RegisterSet telling() const;
 
   std::vector<Valuation> all_;
-  RegisterSet known_ = 0;  ///< Registers of which something may be known in some valuation; of the others nothing is.
+  RegisterSet known_ = 0;  ///< The registers of each valuation.
 };
 
 }  // namespace isocnc::analyzer

@@ -17,16 +17,22 @@ void execute(const syntax::LineTree& line, State& state, const Setup& setup, Sin
   Executor(line, state, setup, sink).run();
 }
 
+/// Whether one sound instruction of this kind is all that the line has.
+static bool is_lone(InstructionKind kind, const syntax::LineTree& line) {
+  return line.instructions.size() == 1 && line.instructions[0].kind == kind && line.feed < 0 && line.spindle < 0 &&
+         line.findings.empty();
+}
+
+bool is_lone_jump(const syntax::LineTree& line) { return is_lone(InstructionKind::Jump, line); }
+
 std::optional<LoneAssignment> lone_assignment(const syntax::LineTree& line) {
-  const bool is_lone = line.instructions.size() == 1 && line.instructions[0].kind == InstructionKind::Assignment &&
-                       line.instructions[0].end == line.instructions[0].command + 2 && line.feed < 0 &&
-                       line.spindle < 0 && line.findings.empty();
-  if (!is_lone) return std::nullopt;
+  if (!is_lone(InstructionKind::Assignment, line) || line.instructions[0].end != line.instructions[0].command + 2)
+    return std::nullopt;
   const Word& name = line.command(line.instructions[0]);
   return LoneAssignment{static_cast<int>(name.value), line.words[line.instructions[0].command + 1u].value};
 }
 
-void execute_lone_assignment(State& state) {
+void pass_by(State& state) {
   state.exact_stop_fits = false;
   state.tool_awaited = false;
 }

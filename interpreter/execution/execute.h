@@ -20,8 +20,10 @@ struct LoneAssignment {
   double value = 0;
 };
 std::optional<LoneAssignment> lone_assignment(const syntax::LineTree& line);
+/// Whether the line is nothing but one sound IF.
+bool is_lone_jump(const syntax::LineTree& line);
 
-/// execute() for such a line, for who sees to the register.
-void execute_lone_assignment(State& state);
+/// execute() for such lines, which leave the machine alone, for who sees to the register or the jump.
+void pass_by(State& state);
 
 }  // namespace isocnc::execution

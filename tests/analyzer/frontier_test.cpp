@@ -8,7 +8,7 @@ namespace {
 const JumpMap kJumps("IF V1=1 GOTO N9\nN9\n");
 
 Group group_at(double x, Path path = {}) {
-  Group group{.state = execution::initial_state({}), .registers = Valuations::unknown(kJumps), .path = std::move(path)};
+  Group group{.state = execution::initial_state({}), .registers = Valuations::unknown(), .path = std::move(path)};
   group.state.position.tip.x() = x;
   return group;
 }

@@ -60,8 +60,8 @@ TEST(PlainRunProperty, LeavesTheStateOfExecute) {
   EXPECT_GT(longest, 10u);
 }
 
-/// The same for lines of one assignment.
-TEST(LoneAssignment, LeavesTheStateOfExecute) {
+/// The same for lines of one assignment, or one IF.
+TEST(LoneAssignment, AndLoneJumpLeaveTheStateOfExecute) {
   std::size_t count = 0;
   for (const std::uint64_t seed : support::seeds(1'000)) {
     Random random(seed);
@@ -74,8 +74,8 @@ TEST(LoneAssignment, LeavesTheStateOfExecute) {
     for (std::size_t line = 0; line < trees.size() && !state.ended; ++line) {
       const syntax::LineTree tree = trees.tree(line, nullptr);
       State shortened = state;
-      const bool is_lone = lone_assignment(tree).has_value();
-      if (is_lone) execute_lone_assignment(shortened);
+      const bool is_lone = lone_assignment(tree).has_value() || is_lone_jump(tree);
+      if (is_lone) pass_by(shortened);
       execute(tree, state, setup, unheard);
       if (!is_lone) continue;
       ++count;
@@ -93,6 +93,14 @@ TEST(LoneAssignment, IsNothingElse) {
   for (const char* const line : {"", "N5", "V31=1", "V7", "V7=", "V7=1 V8=2", "V7=1 F100", "V7=1 S100", "V7=1.2.3",
                                  "V7=1 X5", "G0 X5", "IF V7=1 GOTO N5"})
     EXPECT_FALSE(read(line).has_value()) << line;
+}
+
+TEST(LoneJump, IsNothingElse) {
+  const auto is_lone = [](const char* line) { return is_lone_jump(syntax::ParsedLine(line).tree()); };
+  EXPECT_TRUE(is_lone("IF VGPL=1 GOTO N5"));
+  EXPECT_TRUE(is_lone("N1 IF V7 <= -2.5 GOTO N5 (as far as it goes)"));
+  for (const char* const line : {"", "N5", "V7=1", "IF V7=1 GOTO N5 G0 X5", "IF V7=1 GOTO N5 F100", "IF V7=1", "G0 X5"})
+    EXPECT_FALSE(is_lone(line)) << line;
 }
 
 }  // namespace

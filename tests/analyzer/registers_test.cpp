@@ -70,11 +70,11 @@ TEST(ValueSet, OppositesShareNothingAndMakeEverything) {
                                                          {Comparison::Greater, Comparison::LessEqual}};
   for (const auto& [a, b] : opposites) {
     EXPECT_TRUE(set(a).intersected(set(b)).empty());
-    EXPECT_EQ(set(a).united(set(b)), ValueSet::everything(constants.size()));
+    EXPECT_EQ(set(a).united(set(b)), ValueSet::everything());
   }
 }
 
-TEST(ValueSet, AnUnknownValueIsAnything) { EXPECT_EQ(ValueSet::of(std::nan(""), {1, 2}), ValueSet::everything(2)); }
+TEST(ValueSet, AnUnknownValueIsAnything) { EXPECT_EQ(ValueSet::of(std::nan(""), {1, 2}), ValueSet::everything()); }
 
 constexpr std::array<int, 3> kRegisters{1, 4, 30};
 
@@ -150,7 +150,7 @@ class RegisterWalk {
       for (int i = random_.between(0, 3); i > 0; --i)
         jumps_.add(0, jump_on(reg, Comparison::Equal, random_.between(-2, 2)));
     jumps_.complete();
-    for (int i = 0; i < 3; ++i) all_.push_back({Valuations::unknown(jumps_), everything(jumps_)});
+    for (int i = 0; i < 3; ++i) all_.push_back({Valuations::unknown(), everything(jumps_)});
   }
 
   void step() {
@@ -221,10 +221,10 @@ TEST(ValuationsProperty, LoseNothingAndAddNothing) {
 
 TEST(Valuations, KnowWhatRegistersHaveToDoWithEachOther) {
   const JumpMap jumps("IF V1=1 GOTO N9\nIF V2=3 GOTO N9\nN9\n");
-  Valuations one = Valuations::unknown(jumps);
+  Valuations one = Valuations::unknown();
   one.assign(1, 1, jumps);
   one.assign(2, 3, jumps);
-  Valuations other = Valuations::unknown(jumps);
+  Valuations other = Valuations::unknown();
   other.assign(1, 2, jumps);
   other.assign(2, 4, jumps);
   one.unite(other);
@@ -235,10 +235,10 @@ TEST(Valuations, KnowWhatRegistersHaveToDoWithEachOther) {
 
 TEST(Valuations, ReducingAddsNothing) {
   const JumpMap jumps("IF V1=1 GOTO N9\nIF V2=3 GOTO N9\nN9\n");
-  Valuations one = Valuations::unknown(jumps);
+  Valuations one = Valuations::unknown();
   one.assign(1, 1, jumps);
   one.assign(2, 3, jumps);
-  Valuations other = Valuations::unknown(jumps);
+  Valuations other = Valuations::unknown();
   other.assign(1, 2, jumps);
   other.assign(2, 4, jumps);
   one.unite(other);
@@ -250,17 +250,17 @@ TEST(Valuations, ReducingAddsNothing) {
 
 TEST(Valuations, ForgetRegistersThatNoJumpWillRead) {
   const JumpMap jumps("IF V1=1 GOTO N9\nIF V2=3 GOTO N9\nN9\n");
-  Valuations known = Valuations::unknown(jumps);
+  Valuations known = Valuations::unknown();
   known.assign(1, 1, jumps);
   known.assign(2, 3, jumps);
-  known.keep_only(RegisterSet{1} << 2, jumps);
+  known.keep_only(RegisterSet{1} << 2);
   EXPECT_TRUE(known.where(jumps.sites()[0].jump, false, jumps).possible());
   EXPECT_FALSE(known.where(jumps.sites()[1].jump, false, jumps).possible());
 }
 
 TEST(Valuations, JumpsOnTheGplVariableTellNothing) {
   const JumpMap jumps("IF VGPL=1 GOTO N9\nIF V2=3 GOTO N9\nN9\n");
-  const Valuations unknown = Valuations::unknown(jumps);
+  const Valuations unknown = Valuations::unknown();
   EXPECT_EQ(unknown.where(jumps.sites()[0].jump, true, jumps), unknown);
   EXPECT_EQ(unknown.where(jumps.sites()[0].jump, false, jumps), unknown);
 }
