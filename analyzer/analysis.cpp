@@ -142,7 +142,7 @@ bool Analysis::update(const std::function<bool()>& stop) {
   if (is_first || !jumps_stand) {
     // Frontiers name jumps by number and compare registers by cells: with other jumps all of them mean something else.
     for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].is_stale = true;
-    return check_from(0, Checker::start(setup_, jumps_), stop);
+    return check_from(0, Checker::start(setup_), stop);
   }
   if (has_changed && !check_from(change.first, std::move(at_change), stop)) return false;
   for (std::size_t i = 0; i < rows_.size(); ++i)

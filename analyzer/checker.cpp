@@ -50,9 +50,9 @@ class Checker::Listener final : public execution::Sink {
 };
 
 Checker::Checker(const execution::Setup& setup, const JumpMap& jumps)
-    : frontier(start(setup, jumps)), setup_(setup), jumps_(jumps), watches_moves_(rules::watches_moves(setup)) {}
+    : frontier(start(setup)), setup_(setup), jumps_(jumps), watches_moves_(rules::watches_moves(setup)) {}
 
-Frontier Checker::start(const execution::Setup& setup, const JumpMap& jumps) {
+Frontier Checker::start(const execution::Setup& setup) {
   Frontier frontier;
   frontier.live.add({.state = execution::initial_state(setup), .registers = Valuations::unknown()});
   return frontier;

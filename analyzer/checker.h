@@ -22,7 +22,7 @@ class Checker {
   Checker(const execution::Setup& setup, const JumpMap& jumps);
 
   /// The frontier before the first line.
-  static Frontier start(const execution::Setup& setup, const JumpMap& jumps);
+  static Frontier start(const execution::Setup& setup);
 
   /// Checks one line.
   void check(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
