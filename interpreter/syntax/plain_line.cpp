@@ -26,7 +26,7 @@ static_assert(sizeof(WordTail) == 4 && offsetof(Word, owner) + 4 == sizeof(Word)
               offsetof(Word, flags) - offsetof(Word, owner) == offsetof(WordTail, flags));
 constexpr int kFlagsShift = 8 * offsetof(WordTail, flags);
 
-/// What a byte may be on a plain line; neither has the set of its letter where it is none of its letters.
+/// What a byte is on a plain line: one of its letters, or anything else, with an empty set.
 struct LetterRole {
   std::uint32_t tail = 0;
   dialect::LetterSet letter = 0;
