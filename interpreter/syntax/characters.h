@@ -87,6 +87,27 @@ inline const char* find_line_end(const char* p, const char* end) {
   return p;
 }
 
+/// Behind the comment that opens with the parenthesis at `p`, or null when it is not closed on this line.
+inline const char* behind_closed_comment(const char* p, const char* end) {
+  for (; p != end && !is_line_end(*p); ++p)
+    if (*p == ')') return p + 1;
+  return nullptr;
+}
+
+/// Behind all blanks and closed comments at `p`.
+inline const char* skip_space(const char* p, const char* end) {
+  while (p != end) {
+    if (is_blank(*p)) {
+      ++p;
+    } else if (const char* behind = *p == '(' ? behind_closed_comment(p, end) : nullptr) {
+      p = behind;
+    } else {
+      break;
+    }
+  }
+  return p;
+}
+
 /// Behind the terminator at `p` (CR, LF or CRLF, D5), or `p` itself at the end of the text.
 inline const char* skip_line_end(const char* p, const char* end) {
   if (p == end) return p;

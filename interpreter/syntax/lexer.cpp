@@ -179,21 +179,7 @@ bool LineParser::goto_follows(const char* p) {
   return last_goto_ > p;
 }
 
-/// Behind all blanks and closed comments at `p`.
-const char* LineParser::skip_space(const char* p) const {
-  while (p != end_) {
-    if (is_blank(*p)) {
-      ++p;
-      continue;
-    }
-    if (*p != '(') break;
-    const char* close = p;
-    while (close != end_ && !is_line_end(*close) && *close != ')') ++close;
-    if (close == end_ || *close != ')') break;
-    p = close + 1;
-  }
-  return p;
-}
+const char* LineParser::skip_space(const char* p) const { return syntax::skip_space(p, end_); }
 
 /// Comments between the characters of one word are comments all the same.
 void LineParser::note_comments_inside(const char* p, const char* end) {
@@ -206,10 +192,9 @@ void LineParser::note_comments_inside(const char* p, const char* end) {
 }
 
 const char* LineParser::lex_comment(const char* p) {
-  for (const char* close = p; close != end_ && !is_line_end(*close); ++close) {
-    if (*close != ')') continue;
-    store_.comments_.push_back({column(p), column(close) + 1});
-    return close + 1;
+  if (const char* const behind = behind_closed_comment(p, end_)) {
+    store_.comments_.push_back({column(p), column(behind)});
+    return behind;
   }
   const char* const line_end = find_line_end(p, end_);
   store_.comments_.push_back({column(p), column(line_end)});

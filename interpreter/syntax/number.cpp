@@ -6,27 +6,6 @@
 
 namespace isocnc::syntax {
 
-/// Behind the comment at `p`, or null when it is not closed on this line.
-static const char* behind_closed_comment(const char* p, const char* end) {
-  for (; p != end && !is_line_end(*p); ++p)
-    if (*p == ')') return p + 1;
-  return nullptr;
-}
-
-/// Behind all blanks and closed comments at `p`.
-static const char* skip_space(const char* p, const char* end) {
-  while (p != end) {
-    if (is_blank(*p)) {
-      ++p;
-    } else if (const char* behind = *p == '(' ? behind_closed_comment(p, end) : nullptr) {
-      p = behind;
-    } else {
-      break;
-    }
-  }
-  return p;
-}
-
 /// Whether a number before `p` goes on there, behind blanks and comments (D7).
 static bool goes_on(const char* p, const char* end) {
   p = skip_space(p, end);

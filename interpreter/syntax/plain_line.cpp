@@ -61,8 +61,7 @@ constexpr std::ptrdiff_t kMargin = 2 + kShortNumberBytes;
 /// Behind the comment at `p`, or null when it does not end on this line.
 const char* behind_comment(const char* p, const char* end) {
   if (*p == ';') return find_line_end(p, end);
-  while (p != end && !is_line_end(*p) && *p != ')') ++p;
-  return p != end && *p == ')' ? p + 1 : nullptr;
+  return behind_closed_comment(p, end);
 }
 
 /// A number that scan_short_number() leaves alone: a longer one, but with nothing inside and not malformed.
