@@ -397,8 +397,8 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
   std::size_t staying = 0;
   for (Group& group : frontier.live) {
     const bool on_register = jump.variable > 0 && jump.condition_is_known();
-    Valuations where_true = on_register ? group.registers.where(jump, true, jumps_) : group.registers;
-    if (on_register) group.registers = group.registers.where(jump, false, jumps_);
+    Valuations where_true = on_register ? group.registers.where(jump, true) : group.registers;
+    if (on_register) group.registers = group.registers.where(jump, false);
     if (jumps_.compares_registers()) {
       where_true.keep_only(jumps_.read_at_target(ordinal));
       group.registers.keep_only(jumps_.read_behind(ordinal));

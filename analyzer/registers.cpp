@@ -6,36 +6,33 @@
 
 namespace isocnc::analyzer {
 
-static std::uint32_t cell_of(double value, const std::vector<double>& constants) {
-  const auto at = std::lower_bound(constants.begin(), constants.end(), value);
-  const auto index = static_cast<std::uint32_t>(at - constants.begin());
-  return at != constants.end() && *at == value ? 2 * index + 1 : 2 * index;
-}
+static double above(double value) { return std::nextafter(value, std::numeric_limits<double>::infinity()); }
+static double below(double value) { return std::nextafter(value, -std::numeric_limits<double>::infinity()); }
 
 ValueSet ValueSet::of(double value, const std::vector<double>& constants) {
   if (std::isnan(value)) return everything();
-  const std::uint32_t cell = cell_of(value, constants);
-  return {cell, cell == 2 * constants.size() ? kLast : cell};
+  const auto next = std::lower_bound(constants.begin(), constants.end(), value);
+  if (next != constants.end() && *next == value) return {value, value};
+  return {next == constants.begin() ? -kInfinity : above(next[-1]), next == constants.end() ? kInfinity : below(*next)};
 }
 
-ValueSet ValueSet::satisfying(syntax::Comparison comparison, double constant, const std::vector<double>& constants) {
-  const std::uint32_t cell = cell_of(constant, constants);
+ValueSet ValueSet::satisfying(syntax::Comparison comparison, double constant) {
   switch (comparison) {
     case syntax::Comparison::Equal:
-      return {cell, cell};
+      return {constant, constant};
     case syntax::Comparison::NotEqual: {
-      ValueSet apart(0, cell - 1);
-      apart.append({cell + 1, kLast});
+      ValueSet apart = satisfying(syntax::Comparison::Less, constant);
+      apart.append({above(constant), kInfinity});
       return apart;
     }
     case syntax::Comparison::Less:
-      return {0, cell - 1};
+      return {-kInfinity, below(constant)};
     case syntax::Comparison::LessEqual:
-      return {0, cell};
+      return {-kInfinity, constant};
     case syntax::Comparison::Greater:
-      return {cell + 1, kLast};
+      return {above(constant), kInfinity};
     case syntax::Comparison::GreaterEqual:
-      return {cell, kLast};
+      return {constant, kInfinity};
     case syntax::Comparison::Invalid:
       break;
   }
@@ -46,7 +43,7 @@ void ValueSet::append(Range range) {
   Range& last = tail_.size() == 0 ? head_ : tail_.back();
   if (empty()) {
     head_ = range;
-  } else if (range.first <= last.last + 1) {
+  } else if (range.first <= above(last.last)) {
     last.last = std::max(last.last, range.last);
   } else {
     tail_.push_back(range);
@@ -158,16 +155,14 @@ void Valuations::assign(int reg, double value, const JumpMap& jumps) {
   add_all_again();
 }
 
-Valuations Valuations::where(const syntax::Jump& jump, bool holds, const JumpMap& jumps) const {
+Valuations Valuations::where(const syntax::Jump& jump, bool holds) const {
   using syntax::Comparison;
   static constexpr Comparison kOpposites[] = {Comparison::NotEqual, Comparison::Equal,     Comparison::GreaterEqual,
                                               Comparison::Greater,  Comparison::LessEqual, Comparison::Less,
                                               Comparison::Invalid};
   if (jump.variable <= 0 || !jump.condition_is_known()) return *this;
-  const std::vector<double>& constants = jumps.constants(jump.variable);
-  if (constants.empty()) return *this;
   const Comparison comparison = holds ? jump.comparison : kOpposites[static_cast<std::size_t>(jump.comparison)];
-  const ValueSet wanted = ValueSet::satisfying(comparison, jump.value, constants);
+  const ValueSet wanted = ValueSet::satisfying(comparison, jump.value);
   const std::ptrdiff_t place = place_of(jump.variable, known_);
   Valuations result;
   result.known_ = known_ | register_bit(jump.variable);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -10,18 +10,19 @@
 
 namespace isocnc::analyzer {
 
-/// A set of values of one register, as far as the program's conditions can tell values apart. The constants that it is
-/// compared with cut the real line into cells: below the first, the first itself, between first and second, ... Cell
-/// 2i+1 is the i-th constant, cell 2i what lies before it; what lies behind the last is all cells up to kLast, so that
-/// sets can be put together without knowing how many constants there are.
+/// A set of values of one register. A value that is assigned stands for all that the program's conditions cannot tell
+/// from it: the constants that the register is compared with cut the real line into cells, below the first, the first
+/// itself, between first and second, and so on. Sets themselves know no constants, so they mean the same when some
+/// other condition is edited.
 class ValueSet {
  public:
-  static ValueSet everything() { return {0, kLast}; }
+  static ValueSet everything() { return {-kInfinity, kInfinity}; }
+  /// The cell of a value among ascending constants.
   static ValueSet of(double value, const std::vector<double>& constants);
   /// The values for which `value comparison constant` holds.
-  static ValueSet satisfying(syntax::Comparison comparison, double constant, const std::vector<double>& constants);
+  static ValueSet satisfying(syntax::Comparison comparison, double constant);
 
-  bool is_everything() const { return head_.first == 0 && head_.last == kLast; }
+  bool is_everything() const { return head_.first == -kInfinity && head_.last == kInfinity; }
   bool empty() const { return head_.first > head_.last; }
   ValueSet intersected(const ValueSet& other) const;
   ValueSet united(const ValueSet& other) const;
@@ -29,19 +30,20 @@ class ValueSet {
   friend bool operator==(const ValueSet&, const ValueSet&) = default;
 
  private:
+  /// From the first number to the last, both in it: of numbers, open ranges are closed ones, too.
   struct Range {
-    std::uint32_t first, last;
+    double first, last;
     friend bool operator==(const Range&, const Range&) = default;
   };
 
-  static constexpr std::uint32_t kLast = 0x7FFF'FFFF;
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
   ValueSet() = default;
-  ValueSet(std::uint32_t first, std::uint32_t last) : head_{first, last} {}
+  ValueSet(double first, double last) : head_{first, last} {}
 
   std::size_t count() const { return empty() ? 0 : 1 + tail_.size(); }
   const Range& range(std::size_t index) const { return index == 0 ? head_ : tail_[index - 1]; }
-  /// Adds a range behind all others, joined to the last when they touch.
+  /// Adds a range behind all others, joined to the last when nothing lies between them.
   void append(Range range);
 
   /// Further ranges. Nearly always there are none, and then copying them costs nothing.
@@ -73,7 +75,7 @@ class ValueSet {
     std::unique_ptr<std::vector<Range>> ranges_;  // Null when there are none.
   };
 
-  // Ascending, apart by at least one cell.
+  // Ascending, apart by at least one number.
   Range head_{1, 0};
   Tail tail_;
 };
@@ -90,7 +92,7 @@ class Valuations {
 
   void assign(int reg, double value, const JumpMap& jumps);
   /// What remains of it where the condition of a jump on a register holds, or does not.
-  Valuations where(const syntax::Jump& jump, bool holds, const JumpMap& jumps) const;
+  Valuations where(const syntax::Jump& jump, bool holds) const;
   void unite(Valuations other);
   /// Forgets the registers that are not in `read`: no IF will see their values, so they tell no two states apart.
   void keep_only(RegisterSet read);

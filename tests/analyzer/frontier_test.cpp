@@ -30,8 +30,8 @@ TEST(Groups, JoiningUnitesWhatTheRegistersMayBe) {
   groups.add(one);
   groups.add(other);
   ASSERT_EQ(groups.size(), 1u);
-  EXPECT_TRUE(groups[0].registers.where(kJumps.sites()[0].jump, true, kJumps).possible());
-  EXPECT_TRUE(groups[0].registers.where(kJumps.sites()[0].jump, false, kJumps).possible());
+  EXPECT_TRUE(groups[0].registers.where(kJumps.sites()[0].jump, true).possible());
+  EXPECT_TRUE(groups[0].registers.where(kJumps.sites()[0].jump, false).possible());
 }
 
 TEST(Groups, OtherStatesStayApart) {

@@ -55,7 +55,7 @@ TEST(ValueSet, SatisfyingHoldsThoseValuesThatDo) {
   const std::vector<double> constants{-2.5, 0, 3};
   for (const Comparison comparison : kComparisons)
     for (const double constant : constants) {
-      const ValueSet set = ValueSet::satisfying(comparison, constant, constants);
+      const ValueSet set = ValueSet::satisfying(comparison, constant);
       for (const double value : samples_of(constants))
         EXPECT_EQ(!set.intersected(ValueSet::of(value, constants)).empty(), holds(value, comparison, constant))
             << value << " " << static_cast<int>(comparison) << " " << constant;
@@ -63,8 +63,7 @@ TEST(ValueSet, SatisfyingHoldsThoseValuesThatDo) {
 }
 
 TEST(ValueSet, OppositesShareNothingAndMakeEverything) {
-  const std::vector<double> constants{1, 2, 3};
-  const auto set = [&](Comparison comparison) { return ValueSet::satisfying(comparison, 2, constants); };
+  const auto set = [](Comparison comparison) { return ValueSet::satisfying(comparison, 2); };
   const std::pair<Comparison, Comparison> opposites[] = {{Comparison::Equal, Comparison::NotEqual},
                                                          {Comparison::Less, Comparison::GreaterEqual},
                                                          {Comparison::Greater, Comparison::LessEqual}};
@@ -105,8 +104,8 @@ bool contains(Valuations valuations, const Sample& sample, const JumpMap& jumps)
   for (std::size_t i = 0; i < kRegisters.size(); ++i)
     for (const double constant : jumps.constants(kRegisters[i]))
       for (const Comparison comparison : {Comparison::Less, Comparison::Equal})
-        valuations = valuations.where(jump_on(kRegisters[i], comparison, constant),
-                                      holds(sample[i], comparison, constant), jumps);
+        valuations =
+            valuations.where(jump_on(kRegisters[i], comparison, constant), holds(sample[i], comparison, constant));
   return valuations.possible();
 }
 
@@ -193,7 +192,7 @@ class RegisterWalk {
     const double constant = constants[random_.below(constants.size())];
     const Comparison comparison = kComparisons[random_.below(std::size(kComparisons))];
     const bool wanted = random_.one_in(2);
-    one.valuations = one.valuations.where(jump_on(kRegisters[index], comparison, constant), wanted, jumps_);
+    one.valuations = one.valuations.where(jump_on(kRegisters[index], comparison, constant), wanted);
     std::erase_if(one.model,
                   [&](const Sample& sample) { return holds(sample[index], comparison, constant) != wanted; });
   }
@@ -228,9 +227,9 @@ TEST(Valuations, KnowWhatRegistersHaveToDoWithEachOther) {
   other.assign(1, 2, jumps);
   other.assign(2, 4, jumps);
   one.unite(other);
-  const Valuations first = one.where(jumps.sites()[0].jump, true, jumps);
-  EXPECT_TRUE(first.where(jumps.sites()[1].jump, true, jumps).possible());
-  EXPECT_FALSE(first.where(jumps.sites()[1].jump, false, jumps).possible());
+  const Valuations first = one.where(jumps.sites()[0].jump, true);
+  EXPECT_TRUE(first.where(jumps.sites()[1].jump, true).possible());
+  EXPECT_FALSE(first.where(jumps.sites()[1].jump, false).possible());
 }
 
 TEST(Valuations, ReducingAddsNothing) {
@@ -245,7 +244,7 @@ TEST(Valuations, ReducingAddsNothing) {
   one.reduce_to(1);
   EXPECT_EQ(one.size(), 1u);
   for (const bool holds : {false, true})
-    EXPECT_FALSE(one.where(jumps.sites()[0].jump, holds, jumps).where(jumps.sites()[1].jump, !holds, jumps).possible());
+    EXPECT_FALSE(one.where(jumps.sites()[0].jump, holds).where(jumps.sites()[1].jump, !holds).possible());
 }
 
 TEST(Valuations, ForgetRegistersThatNoJumpWillRead) {
@@ -254,15 +253,15 @@ TEST(Valuations, ForgetRegistersThatNoJumpWillRead) {
   known.assign(1, 1, jumps);
   known.assign(2, 3, jumps);
   known.keep_only(RegisterSet{1} << 2);
-  EXPECT_TRUE(known.where(jumps.sites()[0].jump, false, jumps).possible());
-  EXPECT_FALSE(known.where(jumps.sites()[1].jump, false, jumps).possible());
+  EXPECT_TRUE(known.where(jumps.sites()[0].jump, false).possible());
+  EXPECT_FALSE(known.where(jumps.sites()[1].jump, false).possible());
 }
 
 TEST(Valuations, JumpsOnTheGplVariableTellNothing) {
   const JumpMap jumps("IF VGPL=1 GOTO N9\nIF V2=3 GOTO N9\nN9\n");
   const Valuations unknown = Valuations::unknown();
-  EXPECT_EQ(unknown.where(jumps.sites()[0].jump, true, jumps), unknown);
-  EXPECT_EQ(unknown.where(jumps.sites()[0].jump, false, jumps), unknown);
+  EXPECT_EQ(unknown.where(jumps.sites()[0].jump, true), unknown);
+  EXPECT_EQ(unknown.where(jumps.sites()[0].jump, false), unknown);
 }
 
 }  // namespace
