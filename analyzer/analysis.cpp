@@ -26,98 +26,145 @@ Frontier Analysis::before(std::size_t chunk) const {
 
 // --- Jumps
 
-/// What in a chunk concerns jumps; of labels those alone that some jump names.
-std::vector<JumpEvent> Analysis::read_jumps(std::size_t chunk, syntax::ChunkTrees& trees) const {
-  std::vector<JumpEvent> events;
+static void append(std::vector<JumpEvent>& all, const std::vector<JumpEvent>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+/// Reads what in a chunk concerns jumps, as far as the program has any.
+void Analysis::read_jumps(std::size_t chunk, syntax::ChunkTrees& trees, Row& row) const {
   const std::string_view text = document_.chunk_text(chunk);
-  if (!may_hold_jumps(text) && (jumps_.empty() || !may_hold_labels(text))) return events;
+  if (!may_hold_jumps(text) && (jumps_.empty() || !may_hold_labels(text))) return;
   trees.read(document_, chunk);
+  Labels labels;
   for (std::size_t i = 0; i < trees.size(); ++i) {
     const syntax::LineTree line = trees[i];
+    if (line.has_label()) labels.add(line.label);
     if (line.plain_arguments != 0 && !(line.has_label() && jumps_.names(line.label))) continue;
     each_event(line, [&](JumpEvent event) {
       if (event.kind == JumpEvent::Kind::Label && !jumps_.names(event.label)) return;
       event.line = static_cast<std::uint32_t>(i);
-      events.push_back(event);
+      row.jumps.push_back(event);
     });
   }
-  events.shrink_to_fit();
-  return events;
+  row.labels = labels;
+  row.jumps.shrink_to_fit();
 }
 
-/// Finds the labels that these jumps name, which are not those that were named before.
-void Analysis::read_labels(const JumpMap& jumps) {
+/// Finds labels, in ascending order, in a chunk that may define some of them. Whether it does.
+bool Analysis::read_labels(std::size_t chunk, const std::vector<std::uint64_t>& wanted, syntax::ChunkTrees& trees) {
+  Row& row = rows_[chunk];
+  const auto first = std::lower_bound(wanted.begin(), wanted.end(), row.labels.least);
+  if (first == wanted.end() || *first > row.labels.most) return false;
+  row.labels = {};
+  if (!may_hold_labels(document_.chunk_text(chunk))) return false;
+  trees.read(document_, chunk);
+  const auto others = static_cast<std::ptrdiff_t>(row.jumps.size());
+  for (std::size_t i = 0; i < trees.size(); ++i) {
+    const syntax::LineTree line = trees[i];
+    if (!line.has_label()) continue;
+    row.labels.add(line.label);
+    if (std::binary_search(first, wanted.end(), line.label))
+      row.jumps.push_back({.kind = JumpEvent::Kind::Label, .line = static_cast<std::uint32_t>(i), .label = line.label});
+  }
+  // A line's label counts before what else is on the line.
+  std::inplace_merge(row.jumps.begin(), row.jumps.begin() + others, row.jumps.end(),
+                     [](const JumpEvent& a, const JumpEvent& b) {
+                       const auto rank = [](const JumpEvent& event) { return event.kind != JumpEvent::Kind::Label; };
+                       return a.line != b.line ? a.line < b.line : rank(a) < rank(b);
+                     });
+  return static_cast<std::ptrdiff_t>(row.jumps.size()) > others;
+}
+
+/// Finds the labels that these jumps name, where they are not those that were named before.
+void Analysis::follow_labels(const JumpMap& jumps) {
+  const std::vector<std::uint64_t> added = jumps.named_beyond(jumps_);
+  const std::vector<std::uint64_t> removed = jumps_.named_beyond(jumps);
+  if (added.empty() && removed.empty()) return;
+  const auto is_removed = [&](const JumpEvent& event) {
+    return event.kind == JumpEvent::Kind::Label && std::binary_search(removed.begin(), removed.end(), event.label);
+  };
   syntax::ChunkTrees trees;
   for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk) {
-    std::vector<JumpEvent>& events = rows_[chunk].jumps;
-    std::erase_if(events, [](const JumpEvent& event) { return event.kind == JumpEvent::Kind::Label; });
-    const auto others = static_cast<std::ptrdiff_t>(events.size());
-    if (jumps.empty() || !may_hold_labels(document_.chunk_text(chunk))) continue;
-    trees.read(document_, chunk);
-    for (std::size_t i = 0; i < trees.size(); ++i) {
-      const syntax::LineTree line = trees[i];
-      if (line.has_label() && jumps.names(line.label))
-        events.push_back({.kind = JumpEvent::Kind::Label, .line = static_cast<std::uint32_t>(i), .label = line.label});
-    }
-    // A line's label counts before what else is on the line.
-    std::inplace_merge(
-        events.begin(), events.begin() + others, events.end(), [](const JumpEvent& a, const JumpEvent& b) {
-          const auto rank = [](const JumpEvent& event) { return event.kind == JumpEvent::Kind::Label ? 0 : 1; };
-          return a.line != b.line ? a.line < b.line : rank(a) < rank(b);
-        });
+    const bool has_lost = !removed.empty() && std::erase_if(rows_[chunk].jumps, is_removed) > 0;
+    if (read_labels(chunk, added, trees) || has_lost) rows_[chunk].is_stale = true;
   }
 }
 
 /// The jumps of the program, from what is known of its chunks.
 JumpMap Analysis::find_jumps() {
   JumpMap jumps;
-  const auto each = [&](JumpEvent::Kind kind, auto take) {
+  const auto each = [&](auto take) {
     for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk)
-      for (const JumpEvent& event : rows_[chunk].jumps)
-        if (event.kind == kind) take(document_.first_line_of_chunk(chunk) + event.line, event);
+      for (const JumpEvent& event : rows_[chunk].jumps) take(document_.first_line_of_chunk(chunk) + event.line, event);
   };
-  each(JumpEvent::Kind::Jump, [&](std::uint64_t line, const JumpEvent& event) { jumps.add(line, event.jump); });
-  if (!jumps.names_the_same(jumps_)) read_labels(jumps);
-  if (jumps.compares_registers())
-    for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk)
-      for (const JumpEvent& event : rows_[chunk].jumps) jumps.note_registers(event.kind, event.reg, event.label);
+  each([&](std::uint64_t line, const JumpEvent& event) {
+    if (event.kind == JumpEvent::Kind::Jump) jumps.add(line, event.jump);
+  });
+  follow_labels(jumps);
+  each([&](std::uint64_t line, const JumpEvent& event) {
+    if (event.kind == JumpEvent::Kind::Label) jumps.note_label(event.label, line);
+    if (jumps.compares_registers()) jumps.note_registers(event.kind, event.reg, event.label);
+  });
   jumps.complete();
-  if (jumps.empty()) return jumps;
-  std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> labels;
-  each(JumpEvent::Kind::Label,
-       [&](std::uint64_t line, const JumpEvent& event) { labels[event.label].push_back(line); });
-  jumps.resolve(labels);
+  if (!jumps.empty()) jumps.resolve();
   return jumps;
 }
 
-/// Tells the jumps where they stand now.
-void Analysis::move_jumps() {
-  std::uint32_t jump = 0;
-  for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk)
+/// Tells the jumps where they stand now, which mean what they meant.
+void Analysis::move_jumps(const Change& change) {
+  std::vector<JumpMap::Site> sites;
+  for (std::size_t chunk = change.first; chunk < change.first + change.inserted; ++chunk)
     for (const JumpEvent& event : rows_[chunk].jumps)
       if (event.kind == JumpEvent::Kind::Jump)
-        jumps_.move_jump(jump++, document_.first_line_of_chunk(chunk) + event.line, event.jump);
+        sites.push_back({document_.first_line_of_chunk(chunk) + event.line, event.jump});
+  const std::size_t first_line =
+      change.inserted > 0 ? document_.first_line_of_chunk(change.first) : document_.line_count();
+  jumps_.move(jumps_.first_from(first_line), sites,
+              static_cast<std::int64_t>(document_.line_count()) - static_cast<std::int64_t>(line_count_));
 }
 
-/// Brings the jumps up to date where some events have been replaced by others. False when they mean something else now.
-bool Analysis::follow_jumps(const std::vector<JumpEvent>& old_events, const std::vector<JumpEvent>& new_events) {
+/// Where jumps do something else now, or values that are assigned mean something else to them, the chunk is to be
+/// checked again.
+void Analysis::check_changed_jumps_again(const JumpMap& old_jumps) {
+  RegisterSet recut = 0;
+  for (int reg = 1; reg <= dialect::kRegisterCount; ++reg)
+    if (jumps_.constants(reg) != old_jumps.constants(reg)) recut |= register_bit(reg);
+  const auto is_assigned_alike = [&](const JumpEvent& event, std::uint32_t next_jump) {
+    const RegisterSet bit = register_bit(event.reg);
+    if (((jumps_.read_before(next_jump) ^ old_jumps.read_before(next_jump)) & bit) != 0) return false;
+    return (recut & bit) == 0 || ValueSet::of(event.value, jumps_.constants(event.reg)) ==
+                                     ValueSet::of(event.value, old_jumps.constants(event.reg));
+  };
+  std::uint32_t jump = 0;
+  for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk)
+    for (const JumpEvent& event : rows_[chunk].jumps) {
+      const bool is_alike = event.kind == JumpEvent::Kind::Jump         ? jumps_.does_the_same(jump++, old_jumps)
+                            : event.kind == JumpEvent::Kind::Assignment ? is_assigned_alike(event, jump)
+                                                                        : true;
+      if (!is_alike) rows_[chunk].is_stale = true;
+    }
+}
+
+/// Brings the jumps up to date where these events have been replaced by others. False when all must be checked again:
+/// frontiers name jumps by number.
+bool Analysis::follow_jumps(const Change& change, const std::vector<JumpEvent>& old_events) {
+  std::vector<JumpEvent> new_events;
+  for (std::size_t i = change.first; i < change.first + change.inserted; ++i) append(new_events, rows_[i].jumps);
   const bool same = std::equal(old_events.begin(), old_events.end(), new_events.begin(), new_events.end(),
                                [](const JumpEvent& a, const JumpEvent& b) { return a.means_the_same(b); });
   if (same) {
-    if (!jumps_.empty()) move_jumps();
+    if (!jumps_.empty()) move_jumps(change);
     return true;
   }
-  JumpMap jumps = find_jumps();
-  const bool stand = jumps.means_the_same(jumps_);
-  jumps_ = std::move(jumps);
-  return stand;
+  const JumpMap old_jumps = std::exchange(jumps_, find_jumps());
+  if (jumps_.sites().size() != old_jumps.sites().size() ||
+      jumps_.compares_registers() != old_jumps.compares_registers())
+    return false;
+  check_changed_jumps_again(old_jumps);
+  return true;
 }
 
 // --- Check
-
-static void append(std::vector<JumpEvent>& all, const std::vector<JumpEvent>& more) {
-  all.insert(all.end(), more.begin(), more.end());
-}
 
 bool Analysis::update(const std::function<bool()>& stop) {
   lines_checked_ = 0;
@@ -125,22 +172,20 @@ bool Analysis::update(const std::function<bool()>& stop) {
   const auto change = rows_.change_to(document_);
   Frontier at_change = is_first ? Frontier{} : before(change.first);
   std::vector<JumpEvent> old_events;
-  std::vector<JumpEvent> new_events;
   for (std::size_t i = change.first; i < change.first + change.removed; ++i) {
     append(old_events, rows_[i].jumps);
-    finding_count_ -= rows_[i].checked->outcome.findings.size();
+    counts_.remove(rows_[i].checked->outcome);
   }
-  const bool has_changed = change.removed + change.inserted > 0;
   syntax::ChunkTrees trees;
   rows_.follow(document_, change, [&](std::size_t chunk) {
     Row fresh;
-    fresh.jumps = read_jumps(chunk, trees);
-    append(new_events, fresh.jumps);
+    read_jumps(chunk, trees, fresh);
     return fresh;
   });
-  const bool jumps_stand = !has_changed || follow_jumps(old_events, new_events);
+  const bool has_changed = change.removed + change.inserted > 0;
+  const bool jumps_stand = !has_changed || follow_jumps(change, old_events);
+  line_count_ = document_.line_count();
   if (is_first || !jumps_stand) {
-    // Frontiers name jumps by number and compare registers by cells: with other jumps all of them mean something else.
     for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].is_stale = true;
     return check_from(0, Checker::start(setup_), stop);
   }
@@ -199,7 +244,6 @@ void Analysis::check_chunk(std::size_t chunk, const syntax::ChunkTrees& trees, C
   Frontier before = checker.frontier;
   checker.check_all(trees, outcome);
   lines_checked_ += trees.size();
-  finding_count_ += outcome.findings.size() - row.checked->outcome.findings.size();
   row.shift = {};
   row.positions = outcome.positions;
   row.is_stale = false;
@@ -208,6 +252,8 @@ void Analysis::check_chunk(std::size_t chunk, const syntax::ChunkTrees& trees, C
       !outcome.findings.empty() || !outcome.labels.empty() || !outcome.live_jumps.empty() || outcome.assigned != 0;
   outcome.findings.shrink_to_fit();
   outcome.count();
+  counts_.remove(row.checked->outcome);
+  counts_.add(outcome);
   *row.checked = {std::move(before), std::move(outcome)};
 }
 
@@ -219,7 +265,7 @@ FirstFindings Analysis::excerpt(const FirstFindingsWishes& wishes) const {
     if (rows_[i].has_more || i + 1 == last_text)
       outcomes.push_back({&rows_[i].checked->outcome, document_.first_line_of_chunk(i)});
   return conclude(
-      outcomes, end_, jumps_,
+      outcomes, counts_, end_, jumps_,
       [&](std::uint64_t line) { return document_.text_of_line(static_cast<std::size_t>(line)); }, wishes);
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -32,7 +34,7 @@ class Analysis {
   /// The first findings, for who does not want all of many.
   FirstFindings excerpt(const FirstFindingsWishes& wishes) const;
   /// How many findings there are, but for those that only the whole program shows.
-  std::size_t finding_count() const { return finding_count_; }
+  std::size_t finding_count() const { return counts_.all(); }
   /// The findings on a line of the document, without their paths and those that only the whole program shows.
   std::vector<LocatedFinding> findings_on(std::size_t line) const;
   /// Where the check stands before a line, with the states of all paths through it.
@@ -46,22 +48,39 @@ class Analysis {
     Frontier before;  ///< But for Row::shift.
     Outcome outcome;  ///< Lines counted from the start of the chunk.
   };
+  /// Between which labels all in a chunk are.
+  struct Labels {
+    std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
+    std::uint64_t most = 0;
+
+    /// As long as nobody has read them.
+    static Labels any() { return {0, std::numeric_limits<std::uint64_t>::max()}; }
+    void add(std::uint64_t label) {
+      least = std::min(least, label);
+      most = std::max(most, label);
+    }
+  };
   struct Row {
     PositionShift shift;    ///< Of all positions before the chunk, since it was checked.
     PositionUse positions;  ///< Of the outcome.
     bool is_stale = true;   ///< To be checked.
     bool has_text = false;
-    bool has_more = false;  ///< Findings, labels, jumps or assignments.
-    std::vector<JumpEvent> jumps;
+    bool has_more = false;         ///< Findings, labels, jumps or assignments.
+    std::vector<JumpEvent> jumps;  ///< What concerns jumps; of labels those alone that some jump names.
+    Labels labels = Labels::any();
     std::unique_ptr<Checked> checked = std::make_unique<Checked>();
   };
 
+  using Change = syntax::PerChunk<Row>::Change;
+
   Frontier before(std::size_t chunk) const;
-  std::vector<JumpEvent> read_jumps(std::size_t chunk, syntax::ChunkTrees& trees) const;
-  bool follow_jumps(const std::vector<JumpEvent>& old_events, const std::vector<JumpEvent>& new_events);
-  void move_jumps();
+  void read_jumps(std::size_t chunk, syntax::ChunkTrees& trees, Row& row) const;
+  bool follow_jumps(const Change& change, const std::vector<JumpEvent>& old_events);
+  void move_jumps(const Change& change);
   JumpMap find_jumps();
-  void read_labels(const JumpMap& jumps);
+  void follow_labels(const JumpMap& jumps);
+  bool read_labels(std::size_t chunk, const std::vector<std::uint64_t>& labels, syntax::ChunkTrees& trees);
+  void check_changed_jumps_again(const JumpMap& old_jumps);
   bool check_from(std::size_t chunk, Frontier frontier, const std::function<bool()>& stop);
   void check_chunk(std::size_t chunk, const syntax::ChunkTrees& trees, Checker& checker);
   std::size_t pass_over(std::size_t chunk, PositionShift& shift);
@@ -70,8 +89,9 @@ class Analysis {
   const execution::Setup& setup_;
   JumpMap jumps_;
   syntax::PerChunk<Row> rows_;
+  std::size_t line_count_ = 0;  // When the jumps were last seen to.
   Frontier end_;
-  std::size_t finding_count_ = 0;
+  FindingCounts counts_;
   std::uint64_t lines_checked_ = 0;
 };
 

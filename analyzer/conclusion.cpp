@@ -26,28 +26,35 @@ bool all_jumps_land(const Outcome& outcome, const JumpMap& jumps) {
 /// A label that a GOTO names may be defined once: the second and each later one that the control reads (D50, D51).
 static void add_duplicate_labels(const std::vector<PlacedOutcome>& outcomes, const JumpMap& jumps,
                                  std::vector<LocatedFinding>& findings) {
+  std::unordered_set<std::uint64_t> seen;
+  std::vector<std::pair<std::uint64_t, LocatedFinding>> repeated;
+  for (const auto& [outcome, first_line] : outcomes)
+    for (const Outcome::Label& label : outcome->labels)
+      if (label.live && jumps.may_repeat(label.label) && !seen.insert(label.label).second)
+        repeated.push_back(
+            {label.label, {first_line + label.line, {.id = "duplicate-label"_diag, .span = label.span}}});
+  if (repeated.empty()) return;
   std::unordered_set<std::uint64_t> named;
   for (const auto& [outcome, first_line] : outcomes)
     for (const std::uint32_t jump : outcome->live_jumps)
       if (jumps.target_of(jump) == JumpMap::Target::Below) named.insert(jumps.sites()[jump].jump.target);
-  std::unordered_set<std::uint64_t> seen;
-  for (const auto& [outcome, first_line] : outcomes)
-    for (const Outcome::Label& label : outcome->labels)
-      if (label.live && named.contains(label.label) && !seen.insert(label.label).second)
-        findings.push_back({first_line + label.line, {.id = "duplicate-label"_diag, .span = label.span}});
+  for (const auto& [label, finding] : repeated)
+    if (named.contains(label)) findings.push_back(finding);
 }
 
 /// Registers that an IF compares and nothing assigns: said at the first such IF.
 static void add_unassigned_registers(const std::vector<PlacedOutcome>& outcomes, const JumpMap& jumps,
                                      std::vector<LocatedFinding>& findings) {
-  RegisterSet known = 0;
-  for (const auto& [outcome, first_line] : outcomes) known |= outcome->assigned;
+  RegisterSet unassigned = jumps.compared();
+  for (auto placed = outcomes.begin(); placed != outcomes.end() && unassigned != 0; ++placed)
+    unassigned &= ~placed->outcome->assigned;
+  if (unassigned == 0) return;
   for (const auto& [outcome, first_line] : outcomes)
     for (const std::uint32_t ordinal : outcome->live_jumps) {
       const JumpMap::Site& site = jumps.sites()[ordinal];
       const int reg = site.jump.variable;
-      if (reg < 1 || !site.jump.condition_is_known() || (known & register_bit(reg)) != 0) continue;
-      known |= register_bit(reg);
+      if (reg < 1 || !site.jump.condition_is_known() || (unassigned & register_bit(reg)) == 0) continue;
+      unassigned &= ~register_bit(reg);
       findings.push_back({site.line, {.id = "register-never-assigned"_diag, .span = site.jump.variable_span}});
     }
 }
@@ -76,13 +83,10 @@ static void add_missing_end(const std::vector<PlacedOutcome>& outcomes, const Fr
                             std::vector<Path>& paths, std::vector<LocatedFinding>& findings) {
   if (end.live.empty()) return;
   LocatedFinding located{0, {.id = "m02-missing"_diag}};
-  bool has_text = false;
-  for (const auto& [outcome, first_line] : outcomes) {
-    if (!outcome->has_text) continue;
-    has_text = true;
-    located.line = first_line + outcome->last_text_line;
-  }
-  if (has_text) {
+  const auto last = std::find_if(outcomes.rbegin(), outcomes.rend(),
+                                 [](const PlacedOutcome& placed) { return placed.outcome->has_text; });
+  if (last != outcomes.rend()) {
+    located.line = last->first_line + last->outcome->last_text_line;
     const std::string_view text = text_of_line(located.line);
     if (may_hide_end(text)) return;
     located.finding.span = without_blanks(text);
@@ -201,16 +205,22 @@ class Gatherer {
 
 }  // namespace
 
-FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const Frontier& end, const JumpMap& jumps,
-                       const std::function<std::string_view(std::uint64_t)>& text_of_line,
+FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const FindingCounts& counts, const Frontier& end,
+                       const JumpMap& jumps, const std::function<std::string_view(std::uint64_t)>& text_of_line,
                        const FirstFindingsWishes& wishes) {
   FirstFindings excerpt;
   Gatherer gatherer(wishes, excerpt);
   auto next = outcomes.begin();
-  for (; next != outcomes.end() && !gatherer.has_enough(); ++next) gatherer.take(*next);
+  FindingCounts left = counts;
+  for (; next != outcomes.end() && !gatherer.has_enough(); ++next) {
+    gatherer.take(*next);
+    left.remove(*next->outcome);
+  }
   const bool has_all = next == outcomes.end();
-  for (; next != outcomes.end(); ++next)
-    for (const auto& [id, number] : next->outcome->tally) gatherer.count(id, number);
+  for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
+    const dialect::DiagnosticId id{static_cast<std::uint8_t>(i)};
+    if (left.of(id) > 0) gatherer.count(id, left.of(id));
+  }
   std::vector<LocatedFinding> of_whole;
   add_findings_of_whole(outcomes, end, jumps, text_of_line, gatherer.paths, of_whole);
   const std::uint64_t behind = gatherer.end();

@@ -32,10 +32,10 @@ struct FirstFindingsWishes {
 /// findings that are said once per program the first (D44). `text_of_line` gives a line's text.
 Report conclude(Outcome outcome, const Frontier& end, const JumpMap& jumps,
                 const std::function<std::string_view(std::uint64_t)>& text_of_line);
-/// The same of several outcomes that have been counted, in the order of the program. Those that have nothing but
-/// `has_text` may be left out, but the last that has.
-FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const Frontier& end, const JumpMap& jumps,
-                       const std::function<std::string_view(std::uint64_t)>& text_of_line,
+/// The same of several outcomes, in the order of the program, and of the `counts` of them all. Those that have nothing
+/// but `has_text` may be left out, but the last that has.
+FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const FindingCounts& counts, const Frontier& end,
+                       const JumpMap& jumps, const std::function<std::string_view(std::uint64_t)>& text_of_line,
                        const FirstFindingsWishes& wishes = {});
 
 /// Whether the labels seen tell where each jump on a feasible path goes.

@@ -213,26 +213,48 @@ void JumpMap::complete() {
   events_ = {};
 }
 
-void JumpMap::resolve(const std::unordered_map<std::uint64_t, std::vector<std::uint64_t>>& label_lines) {
+void JumpMap::note_label(std::uint64_t label, std::uint64_t line) {
+  const auto [last, is_first] = last_lines_.insert_or_assign(label, line);
+  if (!is_first) repeated_.insert(label);
+}
+
+void JumpMap::resolve() {
   targets_of_jumps_.clear();
   for (const Site& site : sites_) {
-    const auto lines = label_lines.find(site.jump.target);
+    const auto last = last_lines_.find(site.jump.target);
     Target target = Target::NotFound;
-    if (lines != label_lines.end() && !lines->second.empty())
-      target = lines->second.back() > site.line ? Target::Below : Target::Above;
+    if (last != last_lines_.end()) target = last->second > site.line ? Target::Below : Target::Above;
     targets_of_jumps_.push_back(target);
   }
+  last_lines_ = {};
   resolved_ = true;
 }
 
 void JumpMap::resolve(std::string_view text) {
-  std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> label_lines;
   std::uint64_t line = 0;
   syntax::each_tree(text, [&](const syntax::LineTree& tree, std::string_view) {
-    if (tree.has_label() && names(tree.label)) label_lines[tree.label].push_back(line);
+    if (tree.has_label() && names(tree.label)) note_label(tree.label, line);
     ++line;
   });
-  resolve(label_lines);
+  resolve();
+}
+
+std::size_t JumpMap::first_from(std::uint64_t line) const {
+  const auto is_above = [&](const Site& site) { return site.line < line; };
+  return static_cast<std::size_t>(std::partition_point(sites_.begin(), sites_.end(), is_above) - sites_.begin());
+}
+
+void JumpMap::move(std::size_t first, const std::vector<Site>& sites, std::int64_t lines) {
+  const auto behind = std::copy(sites.begin(), sites.end(), sites_.begin() + static_cast<std::ptrdiff_t>(first));
+  for (auto site = behind; site != sites_.end(); ++site) site->line += static_cast<std::uint64_t>(lines);
+}
+
+std::vector<std::uint64_t> JumpMap::named_beyond(const JumpMap& other) const {
+  std::vector<std::uint64_t> labels;
+  for (const std::uint64_t label : targets_)
+    if (!other.names(label)) labels.push_back(label);
+  std::sort(labels.begin(), labels.end());
+  return labels;
 }
 
 /// Whether two conditions and their targets are the same.
@@ -246,10 +268,9 @@ bool JumpEvent::means_the_same(const JumpEvent& other) const {
          (kind != Kind::Jump || jump_alike(jump, other.jump));
 }
 
-bool JumpMap::means_the_same(const JumpMap& other) const {
-  const auto same = [](const Site& a, const Site& b) { return jump_alike(a.jump, b.jump); };
-  return std::equal(sites_.begin(), sites_.end(), other.sites_.begin(), other.sites_.end(), same) &&
-         reads_ == other.reads_ && resolved_ == other.resolved_ && targets_of_jumps_ == other.targets_of_jumps_;
+bool JumpMap::does_the_same(std::uint32_t jump, const JumpMap& other) const {
+  return jump_alike(sites_[jump].jump, other.sites_[jump].jump) && reads_[jump] == other.reads_[jump] &&
+         target_of(jump) == other.target_of(jump);
 }
 
 }  // namespace isocnc::analyzer

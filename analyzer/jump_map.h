@@ -8,6 +8,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "interpreter/execution/execute.h"
 #include "interpreter/syntax/line_tree.h"
 
 namespace isocnc::analyzer {
@@ -23,6 +24,7 @@ struct JumpEvent {
   Kind kind = Kind::Jump;
   std::uint8_t reg = 0;     ///< Assigned.
   std::uint32_t line = 0;   ///< Of its chunk.
+  double value = 0;         ///< Assigned.
   std::uint64_t label = 0;  ///< Defined.
   syntax::Jump jump;
 
@@ -40,9 +42,10 @@ void each_event(const syntax::LineTree& line, Take take) {
   if (line.has_label()) take(JumpEvent{.kind = JumpEvent::Kind::Label, .label = line.label});
   for (const syntax::Instruction& instruction : line.instructions) {
     if (instruction.kind != syntax::InstructionKind::Assignment) continue;
-    const double reg = line.command(instruction).value;
-    if (reg >= 1 && reg <= dialect::kRegisterCount)
-      take(JumpEvent{.kind = JumpEvent::Kind::Assignment, .reg = static_cast<std::uint8_t>(reg)});
+    if (const auto assigned = execution::assigned_by(instruction, line))
+      take(JumpEvent{.kind = JumpEvent::Kind::Assignment,
+                     .reg = static_cast<std::uint8_t>(assigned->reg),
+                     .value = assigned->value});
   }
   if (line.jump && line.jump->has_target) take(JumpEvent{.kind = JumpEvent::Kind::Jump, .jump = *line.jump});
 }
@@ -65,6 +68,8 @@ class JumpMap {
   void add(std::uint64_t line, const syntax::Jump& jump);
   /// Whether an IF compares a register: then every line must be noted, in order, for what complete() works out.
   bool compares_registers() const { return compared_ != 0; }
+  /// The registers that they compare.
+  RegisterSet compared() const { return compared_; }
   /// Notes the next event.
   void note_registers(JumpEvent::Kind kind, std::uint8_t reg, std::uint64_t label);
   /// Notes a line's label, assignments and jump.
@@ -84,22 +89,26 @@ class JumpMap {
   /// The same before it; none behind the last jump.
   RegisterSet read_before(std::uint32_t jump) const { return jump < reads_.size() ? reads_[jump].before : 0; }
 
-  /// Marks the jumps that have no label below them, once all definitions of labels are known (lines by label,
-  /// ascending).
-  void resolve(const std::unordered_map<std::uint64_t, std::vector<std::uint64_t>>& label_lines);
+  /// Notes a definition of a label that is named, line by line.
+  void note_label(std::uint64_t label, std::uint64_t line);
+  /// Marks the jumps that have no label below them, once all definitions have been noted.
+  void resolve();
   /// The same from the program's text.
   void resolve(std::string_view text);
   bool is_resolved() const { return resolved_; }
+  /// Whether a label may be defined twice: once the jumps are resolved, whether it is.
+  bool may_repeat(std::uint64_t label) const { return !resolved_ || repeated_.contains(label); }
   enum class Target : std::uint8_t { Below, NotFound, Above };
   Target target_of(std::uint32_t jump) const { return resolved_ ? targets_of_jumps_[jump] : Target::Below; }
-  /// A jump that means the same has another place now.
-  void move_jump(std::uint32_t jump, std::uint64_t line, const syntax::Jump& written) {
-    sites_[jump] = {line, written};
-  }
-  /// Whether both have jumps to the same labels.
-  bool names_the_same(const JumpMap& other) const { return targets_ == other.targets_; }
-  /// Whether two programs' jumps mean the same, wherever they stand.
-  bool means_the_same(const JumpMap& other) const;
+  /// The first jump on a line or below it; the number of all where there is none.
+  std::size_t first_from(std::uint64_t line) const;
+  /// Jumps that mean the same stand elsewhere, or are written otherwise: from this one on those given, and all behind
+  /// them are that many lines further down.
+  void move(std::size_t first, const std::vector<Site>& sites, std::int64_t lines);
+  /// The labels that are named here, and not in the other.
+  std::vector<std::uint64_t> named_beyond(const JumpMap& other) const;
+  /// Whether the jump of this number does the same in both to every state that comes to it.
+  bool does_the_same(std::uint32_t jump, const JumpMap& other) const;
 
  private:
   // Most line numbers are no targets; one bit by a hash of the number tells most of them apart.
@@ -128,9 +137,11 @@ class JumpMap {
 
     friend bool operator==(const Reads&, const Reads&) = default;
   };
-  std::vector<Reads> reads_;  // By jump.
+  std::vector<Reads> reads_;                                     // By jump.
+  std::unordered_map<std::uint64_t, std::uint64_t> last_lines_;  // Of labels, until they are resolved.
   std::vector<Target> targets_of_jumps_;
   bool resolved_ = false;
+  std::unordered_set<std::uint64_t> repeated_;
 };
 
 }  // namespace isocnc::analyzer

@@ -19,4 +19,18 @@ void Outcome::count() {
   }
 }
 
+void FindingCounts::add(const Outcome& outcome) {
+  for (const auto& [id, number] : outcome.tally) {
+    counts_[static_cast<std::size_t>(id)] += number;
+    all_ += number;
+  }
+}
+
+void FindingCounts::remove(const Outcome& outcome) {
+  for (const auto& [id, number] : outcome.tally) {
+    counts_[static_cast<std::size_t>(id)] -= number;
+    all_ -= number;
+  }
+}
+
 }  // namespace isocnc::analyzer

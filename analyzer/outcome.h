@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -37,6 +38,19 @@ struct Outcome {
 
   void clear();
   void count();
+};
+
+/// How many findings of each kind there are in several outcomes that have been counted.
+class FindingCounts {
+ public:
+  void add(const Outcome& outcome);
+  void remove(const Outcome& outcome);
+  std::size_t of(dialect::DiagnosticId id) const { return counts_[static_cast<std::size_t>(id)]; }
+  std::size_t all() const { return all_; }
+
+ private:
+  std::array<std::size_t, dialect::kDiagnosticCount> counts_{};
+  std::size_t all_ = 0;
 };
 
 }  // namespace isocnc::analyzer

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "interpreter/execution/executor.h"
 
@@ -25,11 +26,18 @@ static bool is_lone(InstructionKind kind, const syntax::LineTree& line) {
 
 bool is_lone_jump(const syntax::LineTree& line) { return is_lone(InstructionKind::Jump, line); }
 
-std::optional<LoneAssignment> lone_assignment(const syntax::LineTree& line) {
+std::optional<Assigned> assigned_by(const Instruction& assignment, const syntax::LineTree& line) {
+  const Word& name = line.command(assignment);
+  if (!name.is_plain_integer() || !(name.value >= 1 && name.value <= dialect::kRegisterCount)) return std::nullopt;
+  const bool has_value = assignment.end > assignment.command + 1;
+  return Assigned{static_cast<int>(name.value),
+                  has_value ? line.words[assignment.command + 1u].value : std::numeric_limits<double>::quiet_NaN()};
+}
+
+std::optional<Assigned> lone_assignment(const syntax::LineTree& line) {
   if (!is_lone(InstructionKind::Assignment, line) || line.instructions[0].end != line.instructions[0].command + 2)
     return std::nullopt;
-  const Word& name = line.command(line.instructions[0]);
-  return LoneAssignment{static_cast<int>(name.value), line.words[line.instructions[0].command + 1u].value};
+  return assigned_by(line.instructions[0], line);
 }
 
 void pass_by(State& state) {
@@ -253,11 +261,7 @@ bool Executor::is_configured(ToolCode tool) const {
 }
 
 void Executor::assign(const Instruction& instruction) {
-  const Word& name = line_.command(instruction);
-  if (!name.is_plain_integer() || !(name.value >= 1 && name.value <= dialect::kRegisterCount)) return;
-  const bool has_value = instruction.end > instruction.command + 1;
-  sink_.assign(static_cast<int>(name.value),
-               has_value ? line_.words[instruction.command + 1u].value : std::numeric_limits<double>::quiet_NaN());
+  if (const auto assigned = assigned_by(instruction, line_)) sink_.assign(assigned->reg, assigned->value);
 }
 
 /// In G93 an F without a feed move is ignored, on a rapid's line in G94 as well (D43).

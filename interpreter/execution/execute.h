@@ -14,12 +14,15 @@ namespace isocnc::execution {
 /// knows no line number. It does not decide jumps: an IF belongs to who knows the registers (`line.jump`).
 void execute(const syntax::LineTree& line, State& state, const Setup& setup, Sink& sink);
 
-/// The register and the value that a line of nothing but one sound assignment gives it.
-struct LoneAssignment {
+/// A register, 1 to 30, and the value that it is given. NaN: it could not be read.
+struct Assigned {
   int reg = 0;
   double value = 0;
 };
-std::optional<LoneAssignment> lone_assignment(const syntax::LineTree& line);
+/// What an assignment on the line does; nothing where it names no register.
+std::optional<Assigned> assigned_by(const syntax::Instruction& assignment, const syntax::LineTree& line);
+/// The same of a line of nothing but one sound assignment.
+std::optional<Assigned> lone_assignment(const syntax::LineTree& line);
 /// Whether the line is nothing but one sound IF.
 bool is_lone_jump(const syntax::LineTree& line);
 

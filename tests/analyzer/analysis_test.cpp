@@ -68,6 +68,54 @@ TEST(Analysis, AModeWrittenAboveReachesTheEnd) {
   EXPECT_EQ(support::texts_of(analysis.report()), support::texts_of(check_text(document.text(), kSetup)));
 }
 
+/// The same, with parts that an IF may leave out.
+std::string optional_parts(int count) {
+  std::string text = "M06 T101001\nG90 G1 X0 Y0 Z0 F1000\nV1=1\n";
+  for (int part = 1; part <= count; ++part)
+    text += fmt::format("IF VGPL={} GOTO N{}\nG1 X{}\nY5\nN{} X7 Y7\n", part % 5, part, part % 9, part);
+  return text + "IF V1=1 GOTO N1000000\nX1\nN1000000 X2 Y2\nM02\n";
+}
+
+TEST(Analysis, WhatAnIfComparesIsCheckedAgainWhereItMatters) {
+  Document document(optional_parts(5'000));
+  Analysis analysis(document, kSetup);
+  const std::size_t line = 3 + 4 * 2'000;
+  ASSERT_EQ(document.text_of_line(line), "IF VGPL=1 GOTO N2001");
+  const auto expect_few = [&](std::uint64_t most) {
+    analysis.update();
+    EXPECT_LE(analysis.lines_checked(), most);
+    EXPECT_EQ(support::texts_of(analysis.report()), support::texts_of(check_text(document.text(), kSetup)));
+  };
+  document.replace({line, 8}, {line, 9}, "7");  // IF VGPL=7
+  expect_few(600);
+  document.replace({line, 0}, {line, 9}, "IF V1>=0.5");
+  expect_few(1'200);  // The assignment as well: 1 is told from other values now.
+  document.replace({line, 7}, {line, 10}, "2.5");
+  expect_few(1'200);
+  document.replace({line + 3, 1}, {line + 3, 2}, "8");  // The label is N8001 now, and nowhere is N2001.
+  expect_few(1'200);
+  EXPECT_EQ(analysis.report().findings.front().line, line);
+  document.replace({line + 3, 1}, {line + 3, 2}, "2");
+  expect_few(1'200);
+}
+
+TEST(Analysis, LabelsThatAreNamedFromNowOnAreFound) {
+  std::string moves;
+  for (int i = 0; i < 1'000; ++i) moves += fmt::format("G1 X{}\n", i % 100);
+  const std::string text = "M06 T101001\nG90 G1 X0 Y0 Z0 F1000\nIF VGPL=1 GOTO N5\n" + moves + "N7 X5\nN5 X6\n";
+  Document document(text + moves + "N7 X5\nM02\n");
+  Analysis analysis(document, kSetup);
+  EXPECT_TRUE(analysis.report().findings.empty());
+  document.replace({2, 16}, {2, 17}, "7");
+  analysis.update();
+  ASSERT_EQ(analysis.report().findings.size(), 1u);  // The second N7.
+  EXPECT_EQ(analysis.report().findings[0].line, document.line_count() - 3);
+  EXPECT_EQ(analysis.frontier_before(500), Analysis(document, kSetup).frontier_before(500));
+  document.replace({2, 16}, {2, 17}, "5");
+  analysis.update();
+  EXPECT_TRUE(analysis.report().findings.empty());
+}
+
 /// Mostly G91, with arcs, and now and then an absolute coordinate.
 std::string incremental_zigzag(int count) {
   std::string text = "M06 T101001\nG90 G1 X0.1 Y0.2 Z0.3 F1000\nG91\n";
@@ -225,6 +273,68 @@ TEST(AnalysisProperty, EditedEqualsFreshOverManyChunks) {
   for (const std::uint64_t seed : support::seeds(30)) {
     edit_and_compare(1'000 + seed, 900, 12, seed % 2 == 0 ? 15 : 200);
     if (testing::Test::HasFatalFailure()) return;
+  }
+}
+
+/// A line of a program in which much depends on the values of a few registers.
+std::string line_with_registers(Random& random, int labels) {
+  static constexpr std::string_view kComparisons[] = {"=", "<>", "<", ">", "<=", ">="};
+  const auto number = [&] { return fmt::format("{}{}", random.between(-2, 3), random.one_in(3) ? ".5" : ""); };
+  const std::string label = random.one_in(6) ? fmt::format("N{} ", random.between(1, labels)) : "";
+  switch (random.between(0, 5)) {
+    case 0:
+      return label + fmt::format("V{}={}", random.between(1, 3), number());
+    case 1:
+      return label +
+             fmt::format("IF {} {} {} GOTO N{}", random.one_in(5) ? "VGPL" : fmt::format("V{}", random.between(1, 3)),
+                         kComparisons[random.below(std::size(kComparisons))], number(), random.between(1, labels));
+    case 2:
+      return label + std::string(random.any_of({"G90", "G91", "G70", "G71", "F500", "G1 X1 X2", "G92 X1", "N3 N4"}));
+    default:
+      return label + fmt::format("G1 X{} Y{}", random.between(0, 9), random.between(0, 9));
+  }
+}
+
+/// Changes what a line does to registers, or some digit in it, as fingers do.
+void edit_registers(Random& random, Document& document, int labels) {
+  const std::size_t line = random.below(document.line_count());
+  const std::string text(document.text_of_line(line));
+  const std::size_t digit = text.find_first_of("0123456789", random.below(text.size() + 1));
+  if (digit != std::string::npos && !random.one_in(3)) {
+    document.replace({line, digit}, {line, digit + 1}, fmt::format("{}", random.between(0, 9)));
+  } else if (random.one_in(4)) {
+    document.replace({line, 0}, {line + random.below(2), 0}, line_with_registers(random, labels) + "\n");
+  } else {
+    document.replace({line, 0}, {line, text.size()}, line_with_registers(random, labels));
+  }
+}
+
+TEST(AnalysisProperty, JumpsEditedEqualFresh) {
+  for (const std::uint64_t seed : support::seeds(100)) {
+    Random random(seed);
+    const int lines = random.one_in(2) ? 60 : 1'500;
+    const int labels = lines / 6;
+    std::string text = "M06 T101001\nG90 G1 X0 Y0 Z0 F1000\n";
+    for (int i = 0; i < lines; ++i) {
+      // Labels that mostly rise, so that many jumps find theirs below.
+      const bool is_plain = lines > 60 && !random.one_in(10);
+      if (i % 6 == 0) text += fmt::format("N{} ", 1 + i / 6);
+      text += (is_plain ? fmt::format("X{}", i % 10) : line_with_registers(random, labels)) + "\n";
+    }
+    Document document(text + "M02\n");
+    Analysis analysis(document, kSetup);
+    for (int i = 0; i < 25; ++i) {
+      for (int k = random.between(1, 3); k > 0; --k) edit_registers(random, document, labels);
+      if (random.one_in(4) && !analysis.update([] { return true; })) continue;  // And goes on with the next edit.
+      analysis.update();
+      const Analysis fresh(document, kSetup);
+      const std::string which = fmt::format("seed {}, edit {}\n{}", seed, i, lines > 60 ? "" : document.text());
+      ASSERT_EQ(support::texts_of(analysis.report()), support::texts_of(fresh.report())) << which;
+      ASSERT_EQ(support::texts_of(fresh.report()), support::texts_of(check_text(document.text(), kSetup))) << which;
+      ASSERT_EQ(analysis.finding_count(), fresh.finding_count()) << which;
+      for (std::size_t line = 0; line <= document.line_count(); line += 61)
+        ASSERT_EQ(analysis.frontier_before(line), fresh.frontier_before(line)) << which << ", line " << line;
+    }
   }
 }
 
