@@ -62,19 +62,21 @@ static std::uint64_t hash_of(const execution::State& state) {
 /// Groups that are compared each with each.
 static constexpr std::size_t kFew = 8;
 
-void Groups::converge() {
-  if (all_.size() <= kFew) {
-    for (std::size_t i = 0; i < all_.size(); ++i)
-      for (std::size_t j = i + 1; j < all_.size();) {
-        if (execution::judged_alike(all_[i].state, all_[j].state)) {
-          join(all_[i], std::move(all_[j]));
-          all_.erase(all_.begin() + static_cast<std::ptrdiff_t>(j));
-        } else {
-          ++j;
-        }
+/// Compares each with each.
+static void converge_few(std::vector<Group>& groups) {
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    for (std::size_t j = i + 1; j < groups.size();) {
+      if (execution::judged_alike(groups[i].state, groups[j].state)) {
+        join(groups[i], std::move(groups[j]));
+        groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(j));
+      } else {
+        ++j;
       }
-    return;
-  }
+    }
+}
+
+void Groups::converge() {
+  if (all_.size() <= kFew) return converge_few(all_);
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
   order.reserve(all_.size());
   for (std::size_t i = 0; i < all_.size(); ++i) order.emplace_back(hash_of(all_[i].state), i);

@@ -62,10 +62,9 @@ inline char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 
 inline std::uint32_t non_digits(const char* p) {
 #ifdef __SSE2__
   const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
-  // From -128 on in the order of the bytes, digits first.
-  // NOLINTNEXTLINE(portability-simd-intrinsics): below stands the portable way.
-  const __m128i from_zero = _mm_add_epi8(bytes, _mm_set1_epi8(static_cast<char>(-128 - 0x30)));
-  return static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_cmpgt_epi8(from_zero, _mm_set1_epi8(-128 + 9))));
+  // Digits are 0x30 to 0x39: so they become the least of the signed numbers, -128 to -119, and nothing else does.
+  const __m128i digits_first = _mm_xor_si128(bytes, _mm_set1_epi8(static_cast<char>(0x80 ^ 0x30)));
+  return static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_cmpgt_epi8(digits_first, _mm_set1_epi8(-128 + 9))));
 #else
   std::uint32_t found = 0;
   for (int i = 0; i < 16; ++i) found |= std::uint32_t{!is_digit(p[i])} << i;

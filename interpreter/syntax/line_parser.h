@@ -42,6 +42,7 @@ class LineParser {
   bool is_unit(const Word& first, const Word& second) const;
   bool is_number_of_prose(std::uint16_t index) const;
   void join_prose();
+  bool is_assigned(std::uint16_t index) const;
   bool stands_for_number(std::uint16_t index) const;
   bool is_taken_by_unknown_g(std::uint16_t index) const;
   bool lacks_value(std::uint16_t assign) const;

@@ -196,10 +196,14 @@ bool LineParser::is_taken_by_unknown_g(std::uint16_t index) const {
   return taker.kind == InstructionKind::G && !taker.g() && !spoils_number;
 }
 
+/// Whether a `=` follows the word.
+bool LineParser::is_assigned(std::uint16_t index) const {
+  return index + 1 < word_count() && word(index + 1u).letter == kAssign;
+}
+
 /// X V1: a register where the number should be, which has been said at the X.
 bool LineParser::stands_for_number(std::uint16_t index) const {
-  const bool is_assigned = index + 1 < word_count() && word(index + 1u).letter == kAssign;
-  return index > 0 && word(index - 1u).has(Word::kMissing) && !is_assigned &&
+  return index > 0 && word(index - 1u).has(Word::kMissing) && !is_assigned(index) &&
          contains(dialect::kDimensionLetters | dialect::letters("FS"), word(index - 1u).letter);
 }
 
@@ -229,21 +233,18 @@ void LineParser::own(Instruction& owner, std::uint16_t index) {
 }
 
 void LineParser::add_dimension(std::uint16_t index) {
-  const bool names_register = index > 0 && word(index - 1u).letter == 'V' && word(index - 1u).has(Word::kMissing) &&
-                              index + 1 < word_count() && word(index + 1u).letter == kAssign;
+  const bool names_register =
+      index > 0 && word(index - 1u).letter == 'V' && word(index - 1u).has(Word::kMissing) && is_assigned(index);
   if (names_register) return;  // VI=5: said at the V.
   const char letter = word(index).letter;
-  const bool is_parameter = letter == 'P' && function_ != kNone &&
-                            (function_open_ || (index + 1 < word_count() && word(index + 1u).letter == kAssign));
+  const bool is_parameter = letter == 'P' && function_ != kNone && (function_open_ || is_assigned(index));
   if (is_parameter) {
     own(instruction(static_cast<std::size_t>(function_)), index);
     needs_check_ = true;
     return;
   }
   // P1=1 P2=4.5 without an M: nobody's arguments, and one mistake.
-  if (letter == 'P' && taker_ == kNone && line_.jump < 0 && index + 1 < word_count() &&
-      word(index + 1u).letter == kAssign)
-    return;
+  if (letter == 'P' && taker_ == kNone && line_.jump < 0 && is_assigned(index)) return;
   function_open_ = false;
   if (taker_ != kNone && !contiguous_ && instruction(static_cast<std::size_t>(taker_)).row == dialect::kUnknownGCode &&
       instruction(static_cast<std::size_t>(taker_)).kind == InstructionKind::G)
@@ -276,8 +277,8 @@ void LineParser::add_dimension(std::uint16_t index) {
       if (first.empty()) first = word(i).span();
       word(i).value = std::numeric_limits<double>::quiet_NaN();
     }
-    const bool is_assigned = index + 1 < word_count() && word(index + 1u).letter == kAssign;  // R1=1 R2=2
-    const bool is_said = is_assigned || word(index).has(Word::kMissing | Word::kMalformed);   // Of its number.
+    // Of its number, as in R1=1 R2=2.
+    const bool is_said = is_assigned(index) || word(index).has(Word::kMissing | Word::kMalformed);
     word(index).value = std::numeric_limits<double>::quiet_NaN();
     word(index).flags |= Word::kReported;
     if (!is_said) report("repeated-argument"_diag, word(index).span(), {}, first);
@@ -465,7 +466,7 @@ void LineParser::add_spindle_speed(std::uint16_t index) {
 std::uint16_t LineParser::add_assignment(std::uint16_t index) {
   Instruction& added = add_instruction(InstructionKind::Assignment, index);
   const Word& name = word(index);
-  const bool has_value = index + 1 < word_count() && word(index + 1u).letter == kAssign;
+  const bool has_value = is_assigned(index);
   const bool is_garbled = index + 1 < word_count() && word(index + 1u).letter == kError;  // V1 := 5
   if (!name.has(Word::kMissing | Word::kReported) && !is_garbled) {
     if (!name.is_plain_integer()) {
