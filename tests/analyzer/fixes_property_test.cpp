@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <regex>
-#include <variant>
 
 #include "analyzer/finding_fixes.h"
-#include "interpreter/running/runner.h"
 #include "interpreter/syntax/tree_store.h"
 #include "tests/support/fixed_program.h"
+#include "tests/support/motions.h"
 #include "tests/support/random_program.h"
 
 namespace isocnc::analyzer {
@@ -15,6 +14,7 @@ namespace {
 
 using support::codes_of;
 using support::fixed;
+using support::motions_of;
 using support::Random;
 using support::RandomProgram;
 
@@ -126,18 +126,6 @@ TEST(FixesProperty, KeepLineEndsAndTheLastOnesState) {
     if (once.empty()) continue;
     ASSERT_EQ(once.ends_with(line_end), text.ends_with(line_end)) << "seed " << seed << "\n" << text;
   }
-}
-
-/// What a program does to the machine, wherever in the text it says so; nothing where it does not run to its M02.
-std::string motions_of(const std::string& text, double vgpl) {
-  std::string motions;
-  const running::RunResult result = running::run(text, {.vgpl = vgpl}, [&](running::Event event) {
-    const bool is_about_text = std::holds_alternative<running::JumpEvent>(event.what) ||
-                               std::holds_alternative<running::FrameEvent>(event.what);
-    event.line = 0;
-    if (!is_about_text) motions += running::to_json(event) + "\n";
-  });
-  return result.ending == running::Ending::ProgramEnd ? motions : std::string();
 }
 
 TEST(FixesProperty, SafeOnesLeaveWhatTheProgramDoes) {

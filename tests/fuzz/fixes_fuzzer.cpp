@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "analyzer/check_text.h"
@@ -8,6 +9,7 @@
 #include "analyzer/selection.h"
 #include "interpreter/syntax/document.h"
 #include "require.h"
+#include "tests/support/motions.h"
 
 namespace isocnc::fuzz {
 
@@ -20,7 +22,7 @@ static Counts count(std::string_view text) {
   return counts;
 }
 
-static void check_fixes(std::string_view text, bool unsafe) {
+static void check_fixes(std::string_view text, bool unsafe, double vgpl) {
   const analyzer::Selection selection;
   const execution::Setup setup;
   const analyzer::FixedText fixed =
@@ -34,13 +36,18 @@ static void check_fixes(std::string_view text, bool unsafe) {
     require(after[code] <= before[code] || dialect::definition(id).is_off,
             "no fix brings a finding that is told by default");
   }
+  if (unsafe || fixed.fixed == 0) return;
+  const std::string motions = support::motions_of(text, vgpl);
+  require(motions.empty() || motions == support::motions_of(fixed.text, vgpl),
+          "a safe fix leaves what the program does");
 }
 
 }  // namespace isocnc::fuzz
 
-/// The first bit chooses whether unsafe fixes are made. What holds a zero byte is no program to isolint.
+/// The first bit chooses whether unsafe fixes are made, the next three the operator's VGPL. What holds a zero byte is
+/// no program to isolint.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size > 0 && std::find(data + 1, data + size, 0) == data + size)
-    isocnc::fuzz::check_fixes(isocnc::fuzz::as_text(data + 1, size - 1), (data[0] & 1) != 0);
+    isocnc::fuzz::check_fixes(isocnc::fuzz::as_text(data + 1, size - 1), (data[0] & 1) != 0, data[0] >> 1 & 7);
   return 0;
 }
