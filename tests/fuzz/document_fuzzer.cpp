@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdint>
+#include <string>
 
 #include "analyzer/analysis.h"
 #include "analyzer/check_text.h"
@@ -33,17 +34,28 @@ class Input {
   std::string_view bytes_;
 };
 
-/// An edit is four bytes of places, one of length, and its text.
+/// An edit is five bytes of places, one of length, and its text.
 static void edit_once(Input& input, Document& document) {
-  const Position begin{input.number() % (document.line_count() + 1), input.number() % 64};
+  const std::size_t line = input.number() * 256 + input.number();
+  const Position begin{line % (document.line_count() + 1), input.number() % 64};
   const Position end{begin.line + input.number() % 8, input.number() % 64};
   document.replace(begin, end, input.text(input.number() % 48));
+}
+
+/// One text in four is repeated until there are lines that an edit far away does not concern.
+static std::string first_text(Input& input) {
+  constexpr std::size_t kLong = 8 * 1024;
+  const bool is_repeated = input.number() % 4 == 0;
+  const std::string_view once = input.text(2 * input.number());
+  std::string text(once);
+  while (is_repeated && !once.empty() && text.size() < kLong) text.append("\n").append(once);
+  return text;
 }
 
 static void check_document(std::string_view bytes) {
   Input input(bytes);
   const execution::Setup setup;
-  Document document(input.text(2 * input.number()));
+  Document document(first_text(input));
   analyzer::Analysis analysis(document, setup);
   while (!input.empty()) {
     edit_once(input, document);
