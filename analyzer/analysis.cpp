@@ -31,41 +31,30 @@ static void append(std::vector<JumpEvent>& all, const std::vector<JumpEvent>& mo
 }
 
 /// Reads what in a chunk concerns jumps, as far as the program has any.
-void Analysis::read_jumps(std::size_t chunk, syntax::ChunkTrees& trees, Row& row) const {
+void Analysis::read_jumps(std::size_t chunk, Row& row) const {
   const std::string_view text = document_.chunk_text(chunk);
-  if (!may_hold_jumps(text) && (jumps_.empty() || !may_hold_labels(text))) return;
-  trees.read(document_, chunk);
-  Labels labels;
-  for (std::size_t i = 0; i < trees.size(); ++i) {
-    const syntax::LineTree line = trees[i];
-    if (line.has_label()) labels.add(line.label);
-    if (line.plain_arguments != 0 && !(line.has_label() && jumps_.names(line.label))) continue;
-    each_event(line, [&](JumpEvent event) {
-      if (event.kind == JumpEvent::Kind::Label && !jumps_.names(event.label)) return;
-      event.line = static_cast<std::uint32_t>(i);
-      row.jumps.push_back(event);
-    });
-  }
-  row.labels = labels;
+  if (jumps_.empty() && !may_hold_jumps(text)) return;
+  row.labels = {};
+  each_event_in(text, [&](const JumpEvent& event) {
+    const bool is_label = event.kind == JumpEvent::Kind::Label;
+    if (is_label) row.labels.add(event.label);
+    if (!is_label || jumps_.names(event.label)) row.jumps.push_back(event);
+  });
   row.jumps.shrink_to_fit();
 }
 
 /// Finds labels, in ascending order, in a chunk that may define some of them. Whether it does.
-bool Analysis::read_labels(std::size_t chunk, const std::vector<std::uint64_t>& wanted, syntax::ChunkTrees& trees) {
+bool Analysis::read_labels(std::size_t chunk, const std::vector<std::uint64_t>& wanted) {
   Row& row = rows_[chunk];
   const auto first = std::lower_bound(wanted.begin(), wanted.end(), row.labels.least);
   if (first == wanted.end() || *first > row.labels.most) return false;
   row.labels = {};
-  if (!may_hold_labels(document_.chunk_text(chunk))) return false;
-  trees.read(document_, chunk);
   const auto others = static_cast<std::ptrdiff_t>(row.jumps.size());
-  for (std::size_t i = 0; i < trees.size(); ++i) {
-    const syntax::LineTree line = trees[i];
-    if (!line.has_label()) continue;
-    row.labels.add(line.label);
-    if (std::binary_search(first, wanted.end(), line.label))
-      row.jumps.push_back({.kind = JumpEvent::Kind::Label, .line = static_cast<std::uint32_t>(i), .label = line.label});
-  }
+  each_event_in(document_.chunk_text(chunk), [&](const JumpEvent& event) {
+    if (event.kind != JumpEvent::Kind::Label) return;
+    row.labels.add(event.label);
+    if (std::binary_search(first, wanted.end(), event.label)) row.jumps.push_back(event);
+  });
   // A line's label counts before what else is on the line.
   std::inplace_merge(row.jumps.begin(), row.jumps.begin() + others, row.jumps.end(),
                      [](const JumpEvent& a, const JumpEvent& b) {
@@ -83,10 +72,9 @@ void Analysis::follow_labels(const JumpMap& jumps) {
   const auto is_removed = [&](const JumpEvent& event) {
     return event.kind == JumpEvent::Kind::Label && std::binary_search(removed.begin(), removed.end(), event.label);
   };
-  syntax::ChunkTrees trees;
   for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk) {
     const bool has_lost = !removed.empty() && std::erase_if(rows_[chunk].jumps, is_removed) > 0;
-    if (read_labels(chunk, added, trees) || has_lost) rows_[chunk].is_stale = true;
+    if (read_labels(chunk, added) || has_lost) rows_[chunk].is_stale = true;
   }
 }
 
@@ -176,10 +164,9 @@ bool Analysis::update(const std::function<bool()>& stop) {
     append(old_events, rows_[i].jumps);
     counts_.remove(rows_[i].checked->outcome);
   }
-  syntax::ChunkTrees trees;
   rows_.follow(document_, change, [&](std::size_t chunk) {
     Row fresh;
-    read_jumps(chunk, trees, fresh);
+    read_jumps(chunk, fresh);
     return fresh;
   });
   const bool has_changed = change.removed + change.inserted > 0;

@@ -74,12 +74,12 @@ class Analysis {
   using Change = syntax::PerChunk<Row>::Change;
 
   Frontier before(std::size_t chunk) const;
-  void read_jumps(std::size_t chunk, syntax::ChunkTrees& trees, Row& row) const;
+  void read_jumps(std::size_t chunk, Row& row) const;
   bool follow_jumps(const Change& change, const std::vector<JumpEvent>& old_events);
   void move_jumps(const Change& change);
   JumpMap find_jumps();
   void follow_labels(const JumpMap& jumps);
-  bool read_labels(std::size_t chunk, const std::vector<std::uint64_t>& labels, syntax::ChunkTrees& trees);
+  bool read_labels(std::size_t chunk, const std::vector<std::uint64_t>& wanted);
   void check_changed_jumps_again(const JumpMap& old_jumps);
   bool check_from(std::size_t chunk, Frontier frontier, const std::function<bool()>& stop);
   void check_chunk(std::size_t chunk, const syntax::ChunkTrees& trees, Checker& checker);

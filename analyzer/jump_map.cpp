@@ -62,13 +62,11 @@ static bool may_belong_to_goto(std::string_view text, std::size_t offset) {
   return before == 'G' || before == ')';
 }
 
-static bool has_any(std::string_view text, std::string_view letters) {
-  return std::any_of(letters.begin(), letters.end(),
+bool may_hold_jumps(std::string_view text) {
+  static constexpr std::string_view kLetters = "VvOo";
+  return std::any_of(kLetters.begin(), kLetters.end(),
                      [&](char letter) { return text.find(letter) != std::string_view::npos; });
 }
-
-bool may_hold_jumps(std::string_view text) { return has_any(text, "VvOo"); }
-bool may_hold_labels(std::string_view text) { return has_any(text, "Nn"); }
 
 /// A line number at the start of a line, as most of those that have one write it.
 struct PlainLabel {
@@ -117,6 +115,39 @@ static const char* next_telling_letter(const char* p, const char* end) {
   return p;
 }
 
+/// Calls `take` with the events of a text and the beginnings of their lines. Most lines with a telling letter have a
+/// plain line number and nothing else that tells, which shows where the next such letter stands on another line.
+template <class Take>
+static void scan_events(std::string_view text, Take take) {
+  syntax::TreeStore store;
+  const char* const end = text.data() + text.size();
+  const char* labelled = nullptr;  // The beginning of a line with a plain label, not yet told.
+  PlainLabel label;
+  for (const char* p = next_telling_letter(text.data(), end);;) {
+    const char* begin = p;
+    while (begin != text.data() && !syntax::is_line_end(begin[-1])) --begin;
+    if (labelled && (p == end || begin != labelled))
+      take(JumpEvent{.kind = JumpEvent::Kind::Label, .label = label.number}, labelled);
+    if (p == end) return;
+    label = p == begin && p != labelled ? plain_label(p, end) : PlainLabel{};
+    labelled = label.end ? begin : nullptr;
+    if (!labelled) {
+      store.clear();
+      label.end = store.append_line(begin, end);
+      each_event(store.tree(0, begin), [&](const JumpEvent& event) { take(event, begin); });
+    }
+    p = next_telling_letter(label.end, end);
+  }
+}
+
+void each_event_in(std::string_view text, const std::function<void(const JumpEvent&)>& take) {
+  LineCounter counter(text);
+  scan_events(text, [&](JumpEvent event, const char* line) {
+    event.line = static_cast<std::uint32_t>(counter.line_of(static_cast<std::size_t>(line - text.data())));
+    take(event);
+  });
+}
+
 JumpMap::JumpMap(std::string_view text) {
   LineCounter counter(text);
   syntax::TreeStore store;
@@ -138,27 +169,9 @@ JumpMap::JumpMap(std::string_view text) {
   complete();
 }
 
-/// Gathers the assignments, labels and jumps of the program. Most lines with a telling letter have a plain line number
-/// and nothing else that tells, which shows where the next such letter stands on another line.
+/// Gathers the assignments, labels and jumps of the program.
 void JumpMap::note_all_registers(std::string_view text) {
-  syntax::TreeStore store;
-  const char* const end = text.data() + text.size();
-  const char* labelled = nullptr;  // The beginning of a line with a plain label, not yet noted.
-  PlainLabel label;
-  for (const char* p = next_telling_letter(text.data(), end);;) {
-    const char* begin = p;
-    while (begin != text.data() && !syntax::is_line_end(begin[-1])) --begin;
-    if (labelled && (p == end || begin != labelled)) note_registers(JumpEvent::Kind::Label, 0, label.number);
-    if (p == end) return;
-    label = p == begin && p != labelled ? plain_label(p, end) : PlainLabel{};
-    labelled = label.end ? begin : nullptr;
-    if (!labelled) {
-      store.clear();
-      label.end = store.append_line(begin, end);
-      note_registers(store.tree(0, begin));
-    }
-    p = next_telling_letter(label.end, end);
-  }
+  scan_events(text, [&](const JumpEvent& event, const char*) { note_registers(event.kind, event.reg, event.label); });
 }
 
 void JumpMap::add(std::uint64_t line, const syntax::Jump& jump) {
@@ -174,10 +187,6 @@ void JumpMap::add(std::uint64_t line, const syntax::Jump& jump) {
 
 void JumpMap::note_registers(JumpEvent::Kind kind, std::uint8_t reg, std::uint64_t label) {
   if (kind != JumpEvent::Kind::Label || names(label)) events_.push_back({kind, reg, label});
-}
-
-void JumpMap::note_registers(const syntax::LineTree& line) {
-  each_event(line, [&](const JumpEvent& event) { note_registers(event.kind, event.reg, event.label); });
 }
 
 void JumpMap::complete() {

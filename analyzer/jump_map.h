@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
@@ -23,7 +24,7 @@ struct JumpEvent {
 
   Kind kind = Kind::Jump;
   std::uint8_t reg = 0;     ///< Assigned.
-  std::uint32_t line = 0;   ///< Of its chunk.
+  std::uint32_t line = 0;   ///< Of its chunk, where there is one.
   double value = 0;         ///< Assigned.
   std::uint64_t label = 0;  ///< Defined.
   syntax::Jump jump;
@@ -32,9 +33,8 @@ struct JumpEvent {
   bool means_the_same(const JumpEvent& other) const;
 };
 
-/// Whether a text may hold assignments or jumps; labels. False only where it holds none.
+/// Whether a text may hold assignments or jumps. False only where it holds none.
 bool may_hold_jumps(std::string_view text);
-bool may_hold_labels(std::string_view text);
 
 /// Calls `take` with the events of a line in the order in which they count: label, assignments, jump.
 template <class Take>
@@ -49,6 +49,9 @@ void each_event(const syntax::LineTree& line, Take take) {
   }
   if (line.jump && line.jump->has_target) take(JumpEvent{.kind = JumpEvent::Kind::Jump, .jump = *line.jump});
 }
+
+/// The same of a text, line by line, without parsing the lines that hold none; JumpEvent::line counts from its start.
+void each_event_in(std::string_view text, const std::function<void(const JumpEvent&)>& take);
 
 /// What of a program's jumps must be known before its first line is checked: where the IFs stand, which labels they
 /// name, and what they compare registers with. Jumps go forward only (I.5), so this and one pass over the lines
@@ -72,8 +75,6 @@ class JumpMap {
   RegisterSet compared() const { return compared_; }
   /// Notes the next event.
   void note_registers(JumpEvent::Kind kind, std::uint8_t reg, std::uint64_t label);
-  /// Notes a line's label, assignments and jump.
-  void note_registers(const syntax::LineTree& line);
   /// To be called when all have been added.
   void complete();
 
