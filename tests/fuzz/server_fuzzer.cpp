@@ -166,7 +166,7 @@ class Typist {
   void feed() {
     if (is_waiting_ && !open_.empty()) return;  // Whoever takes the last answer goes on.
     is_waiting_ = false;
-    if (bytes_.size() < 4) return leave();
+    if (bytes_.size() < 4 || ++fed_ > kMostMessages) return leave();
     const std::vector<std::string>& methods = answered_by_features().methods;
     const std::size_t choice = number() % (std::size(kOwn) + methods.size());
     if (choice < std::size(kOwn)) {
@@ -303,7 +303,11 @@ class Typist {
     if (!items.empty()) items_ = std::move(items);
   }
 
+  /// More of them find little more, and take long.
+  static constexpr int kMostMessages = 128;
+
   std::string_view bytes_;
+  int fed_ = 0;
   bool hangs_up_ = false;
   bool is_waiting_ = false;
   bool is_leaving_ = false;
