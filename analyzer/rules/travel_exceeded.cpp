@@ -22,7 +22,8 @@ static void check_travel_exceeded(const Block& block, const execution::Move& mov
     const bool above = reached.most > std::max(travel.most, start[axis]) + kSlack;
     if (!below && !above) continue;
     // In a face frame another coordinate may be what moves the machine's axis.
-    const syntax::Word* const word = block.after.face_mounted && axis < 3 ? nullptr : block.argument("XYZBC"[axis]);
+    const syntax::Word* const word =
+        block.after.face_mounted && axis < 3 ? nullptr : block.argument(dialect::kAxisLetters[axis]);
     sink.report({.id = "travel-exceeded"_diag,
                  .span = word ? word->span() : block.motion_word().span(),
                  .values = {static_cast<double>(axis), below ? reached.least : reached.most,

@@ -127,9 +127,9 @@ class Listing {
 
   void list_to_go() {
     const running::DistanceToGo to_go = present().to_go();
-    constexpr std::string_view kAxes = "XYZBC";
     for (int axis = 0; axis < motion::kAxisCount; ++axis)
-      add(std::string(1, kAxes[static_cast<std::size_t>(axis)]), show(to_go.axes[axis]), axis < 3 ? "mm" : "°");
+      add(std::string(1, dialect::kAxisLetters[static_cast<std::size_t>(axis)]), show(to_go.axes[axis]),
+          axis < 3 ? "mm" : "°");
     add(in_language(kPath), show(to_go.path), "mm");
   }
 

@@ -51,7 +51,6 @@ bool changes_tool(const syntax::LineTree& tree) {
                      [](const syntax::Instruction& each) { return each.kind == syntax::InstructionKind::ToolChange; });
 }
 
-constexpr std::string_view kAxisNames = "XYZBC";
 constexpr Text kBeyondTravel{"axis {} would go to {}, beyond its travel, which ends at {}",
                              "l'asse {} andrebbe a {}, oltre la corsa, che finisce a {}"};
 constexpr Text kAnyToolChange{"tool change", "cambio utensile"};
@@ -62,7 +61,7 @@ std::optional<Exception> find_overtravel(const std::vector<execution::MachineMov
   for (const execution::MachineMove& move : moves)
     for (const motion::Overtravel& found :
          motion::overtravels(machine.motion, running::planned_move(move, machine, tool_length))) {
-      const std::string text = dialect::format(kBeyondTravel, language, kAxisNames[found.axis],
+      const std::string text = dialect::format(kBeyondTravel, language, dialect::kAxisLetters[found.axis],
                                                show_value(found.position), show_value(found.limit));
       return Exception{Watch::Limits, std::string(definition(Watch::Limits).name), text, {}};
     }

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/dialect/letters.h"
+
 namespace isocnc::dialect {
 
 static bool equal_ignoring_case(std::string_view a, std::string_view b) {
@@ -75,9 +77,8 @@ static std::string spelled_out(std::string_view text) {
 static constexpr std::string_view kAxisArgument = "axis";
 
 static std::string axis_name(double axis) {
-  constexpr std::string_view kAxes = "XYZBC";
   const auto index = static_cast<std::size_t>(axis);
-  return std::string(kAxes.substr(std::min(index, kAxes.size()), 1));
+  return std::string(kAxisLetters.substr(std::min(index, kAxisLetters.size()), 1));
 }
 
 std::string message(DiagnosticId id, Language language, std::string_view text, std::span<const double> values) {

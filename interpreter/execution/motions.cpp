@@ -114,7 +114,7 @@ void Executor::move_with_effects(const Arguments& arguments, const GCode& code, 
   }
   if (code.is_arc()) arc(arguments, code, place, &move);
   for (int axis = 0; axis < kAxisCount && !state_.incremental(); ++axis)
-    if (arguments.has("XYZBC"[axis])) move.placed |= axis_bit(static_cast<Axis>(axis));
+    if (arguments.has(letter_of(static_cast<Axis>(axis)))) move.placed |= axis_bit(static_cast<Axis>(axis));
   move_to(arguments);
   move.to = state_.position;
   sink_.move(move, state_);
@@ -123,7 +123,7 @@ void Executor::move_with_effects(const Arguments& arguments, const GCode& code, 
 /// Some motion was meant: where the axes are now is not known, nor whether the tool has cut.
 void Executor::move_illegibly(const Arguments& arguments) {
   for (int axis = 0; axis < kAxisCount; ++axis)
-    if (arguments.has("XYZBC"[axis])) state_.unknown |= axis_bit(static_cast<Axis>(axis));
+    if (arguments.has(letter_of(static_cast<Axis>(axis)))) state_.unknown |= axis_bit(static_cast<Axis>(axis));
   if (state_.motion_illegible)
     state_.forget(State::kStopped | State::kUncut | State::kNotStarted | State::kCutNotStarted);
 }

@@ -13,6 +13,8 @@ namespace isocnc::execution {
 enum class Axis : std::uint8_t { X, Y, Z, B, C };
 inline constexpr int kAxisCount = 5;
 
+constexpr char letter_of(Axis axis) { return dialect::kAxisLetters[static_cast<std::size_t>(axis)]; }
+
 /// A set of axes, one bit each.
 using AxisSet = std::uint8_t;
 constexpr AxisSet axis_bit(Axis axis) { return static_cast<AxisSet>(1u << static_cast<unsigned>(axis)); }

@@ -185,9 +185,9 @@ std::string what_is_wrong(const RestartRefusal& refusal, Language language) {
     case Obstacle::JumpedOver:
       return say(kJumpedOver, refusal.line + 1, refusal.cause + 1);
     case Obstacle::BeyondTravel:
-      return say(
-          kUnsafe, refusal.line + 1,
-          say(kBeyondTravel, "XYZBC"[refusal.overtravel.axis], refusal.overtravel.position, refusal.overtravel.limit));
+      return say(kUnsafe, refusal.line + 1,
+                 say(kBeyondTravel, dialect::kAxisLetters[refusal.overtravel.axis], refusal.overtravel.position,
+                     refusal.overtravel.limit));
     default:
       return say(kUnsafe, refusal.line + 1, say(reason(refusal.obstacle), refusal.g));
   }

@@ -15,8 +15,6 @@ using dialect::Text;
 using execution::State;
 using Json = nlohmann::ordered_json;
 
-static constexpr std::string_view kAxes = "XYZBC";
-
 /// `1 h 02 min 03.4 s`, `2 min 03.4 s`, `3.4 s`: the same in both languages.
 static std::string shown_time(double seconds) {
   const double tenths = std::round(seconds * 10);
@@ -87,8 +85,8 @@ template <std::size_t Count>
 static std::string shown_extents(const std::array<geometry::Range, Count>& extents) {
   std::string text;
   for (std::size_t axis = 0; axis < Count; ++axis)
-    text +=
-        fmt::format("{} {} {:.3f}..{:.3f}", axis == 0 ? "" : ",", kAxes[axis], extents[axis].least, extents[axis].most);
+    text += fmt::format("{} {} {:.3f}..{:.3f}", axis == 0 ? "" : ",", dialect::kAxisLetters[axis], extents[axis].least,
+                        extents[axis].most);
   return text + '\n';
 }
 
@@ -128,7 +126,7 @@ std::string Summary::text(Language language) const {
                 share.rapid_mm);
   for (std::size_t i = 0; i < breaches_.size(); ++i)
     if (const auto& breach = breaches_[i])
-      said += say(kBreach, kAxes[i / 2], breach->farthest, breach->limit, breach->line + 1);
+      said += say(kBreach, dialect::kAxisLetters[i / 2], breach->farthest, breach->limit, breach->line + 1);
   for (std::size_t i = 0; i < excesses_.size(); ++i)
     if (const auto& excess = excesses_[i])
       said += say(kExcesses[i], excess->most, limit_of(static_cast<Limit>(i)), excess->line + 1);
@@ -152,7 +150,7 @@ template <std::size_t Count>
 static Json json_of(const std::array<geometry::Range, Count>& extents) {
   Json json;
   for (std::size_t axis = 0; axis < Count; ++axis)
-    json[std::string(1, kAxes[axis])] = {extents[axis].least, extents[axis].most};
+    json[std::string(1, dialect::kAxisLetters[axis])] = {extents[axis].least, extents[axis].most};
   return json;
 }
 
@@ -221,7 +219,7 @@ std::string Summary::json(std::string_view file, Language language) const {
   json["outsideTravel"] = Json::array();
   for (std::size_t i = 0; i < breaches_.size(); ++i)
     if (const auto& breach = breaches_[i])
-      json["outsideTravel"].push_back({{"axis", std::string(1, kAxes[i / 2])},
+      json["outsideTravel"].push_back({{"axis", std::string(1, dialect::kAxisLetters[i / 2])},
                                        {"line", breach->line + 1},
                                        {"farthest", breach->farthest},
                                        {"limit", breach->limit}});

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "interpreter/dialect/argument_letters.h"
+#include "interpreter/dialect/letters.h"
 #include "interpreter/syntax/characters.h"
 
 namespace isocnc::syntax {

@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "interpreter/dialect/argument_letters.h"
 #include "interpreter/dialect/codes.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/letters.h"
@@ -458,7 +457,7 @@ std::string documentation_of(const std::string& code, Language language) {
   for (const dialect::GCode& g : dialect::kGCodes) {
     if (letter != 'G' || code != fmt::format("G{:02}", g.number)) continue;
     std::string text = fmt::format("**{}** {} ({})", code, g.name.in(language), g.section);
-    for (const dialect::LetterDef& def : dialect::all_letters())
+    for (const dialect::LetterDef& def : dialect::kLetters)
       if (dialect::contains(g.arguments, def.letter))
         text += fmt::format("\n- `{}` {}", def.letter, def.meaning.in(language));
     return text;

@@ -9,10 +9,10 @@
 #include <fmt/ranges.h>
 
 #include "analyzer/rendering.h"
-#include "interpreter/dialect/argument_letters.h"
 #include "interpreter/dialect/codes.h"
 #include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/dialect/format.h"
+#include "interpreter/dialect/letters.h"
 #include "interpreter/execution/machine_move.h"
 #include "interpreter/syntax/unicode.h"
 #include "lsp/documents/assignments.h"

@@ -133,8 +133,7 @@ class HintFinder {
 
   /// ` X12.5`; nothing for what is no coordinate, or not known.
   static std::string coordinate_text(const State& state, char letter) {
-    constexpr std::string_view kLetters = "XYZBC";
-    const std::size_t axis = kLetters.find(letter);
+    const std::size_t axis = dialect::kAxisLetters.find(letter);
     if (axis == std::string_view::npos) return {};
     if ((state.unknown & execution::axis_bit(static_cast<execution::Axis>(axis))) != 0) return {};
     const bool is_linear = axis < 3;

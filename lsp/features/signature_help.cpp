@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "interpreter/dialect/argument_letters.h"
 #include "interpreter/dialect/codes.h"
 #include "interpreter/dialect/letters.h"
 #include "lsp/features/feature.h"
