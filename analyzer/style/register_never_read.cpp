@@ -15,8 +15,8 @@ class RegisterNeverRead final : public Rule {
     for (const syntax::Instruction& instruction : line.tree.instructions) {
       if (instruction.kind != syntax::InstructionKind::Assignment) continue;
       const syntax::Word& word = line.tree.command(instruction);
-      if (!word.is_plain_integer() || !(word.value >= 1 && word.value <= dialect::kRegisterCount)) continue;
-      std::optional<Remark>& first = first_[static_cast<std::size_t>(word.value)];
+      if (word.register_number() == 0) continue;
+      std::optional<Remark>& first = first_[static_cast<std::size_t>(word.register_number())];
       if (!first) first = Remark{line.number, {.id = "register-never-read"_diag, .span = word.span()}};
     }
   }

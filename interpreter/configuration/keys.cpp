@@ -4,6 +4,8 @@
 #include <array>
 #include <charconv>
 
+#include "interpreter/dialect/codes.h"
+
 namespace isocnc::configuration {
 
 using dialect::Language;
@@ -36,7 +38,7 @@ std::optional<int> function_number(std::string_view name) {
   int number = 0;
   const auto read = std::from_chars(name.data() + 1, name.data() + name.size(), number);
   if (read.ec != std::errc() || read.ptr != name.data() + name.size()) return std::nullopt;
-  return number < 1 || (number >= 2 && number <= 6) ? std::nullopt : std::optional(number);
+  return number >= 1 && dialect::is_user_function(number) ? std::optional(number) : std::nullopt;
 }
 
 /// The keys of an axis: of its home, or of its travel.

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <span>
+#include <iterator>
 
 #include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/dialect/letters.h"
@@ -236,9 +237,13 @@ inline constexpr MCode kMCodes[] = {
 
 inline constexpr int kProgramEnd = 2;
 inline constexpr int kToolChange = 6;
-constexpr bool is_user_function(int m) { return m < 2 || m > 6; }
+constexpr bool is_user_function(int m) {
+  return std::none_of(std::begin(kMCodes), std::end(kMCodes), [m](const MCode& code) { return code.number == m; });
+}
 
-inline constexpr int kRegisterCount = 30;           ///< V1 to V30 (I.6).
+inline constexpr int kRegisterCount = 30;  ///< V1 to V30 (I.6).
+constexpr bool is_register(double number) { return number >= 1 && number <= kRegisterCount; }
+
 inline constexpr int kMostFunctionParameters = 20;  ///< P1 to P20 (I.4.4).
 
 }  // namespace isocnc::dialect

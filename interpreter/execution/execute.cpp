@@ -27,10 +27,10 @@ static bool is_lone(InstructionKind kind, const syntax::LineTree& line) {
 bool is_lone_jump(const syntax::LineTree& line) { return is_lone(InstructionKind::Jump, line); }
 
 std::optional<Assigned> assigned_by(const Instruction& assignment, const syntax::LineTree& line) {
-  const Word& name = line.command(assignment);
-  if (!name.is_plain_integer() || !(name.value >= 1 && name.value <= dialect::kRegisterCount)) return std::nullopt;
+  const int reg = line.command(assignment).register_number();
+  if (reg == 0) return std::nullopt;
   const bool has_value = assignment.end > assignment.command + 1;
-  return Assigned{static_cast<int>(name.value),
+  return Assigned{reg,
                   has_value ? line.words[assignment.command + 1u].value : std::numeric_limits<double>::quiet_NaN()};
 }
 

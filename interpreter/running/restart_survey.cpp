@@ -104,9 +104,8 @@ void RestartSurvey::follow(const State& before, const State& after) {
 void RestartSurvey::note(const Block& block) {
   for (const Instruction& instruction : block.tree.instructions) {
     const syntax::Word& command = block.tree.command(instruction);
-    const bool names_register = command.value >= 1 && command.value <= dialect::kRegisterCount;
-    if (instruction.kind == InstructionKind::Assignment && names_register)
-      now_.known_registers |= register_bit(static_cast<int>(command.value));
+    if (instruction.kind == InstructionKind::Assignment && command.register_number() > 0)
+      now_.known_registers |= register_bit(command.register_number());
     const dialect::GCode* const g = instruction.kind == InstructionKind::G ? instruction.g() : nullptr;
     if (g == nullptr) continue;
     now_.waits_at_end = now_.waits_at_end || g->number == 200;

@@ -47,6 +47,10 @@ struct Word {
   constexpr bool has(std::uint8_t flag) const { return (flags & flag) != 0; }
   /// Digits only: what G, M, N, T and V want.
   constexpr bool is_plain_integer() const { return (flags & (kSigned | kPoint | kMalformed | kMissing)) == 0; }
+  /// The register that a V names, 1 to 30; 0 where it names none.
+  constexpr int register_number() const {
+    return is_plain_integer() && dialect::is_register(value) ? static_cast<int>(value) : 0;
+  }
 };
 
 enum class InstructionKind : std::uint8_t {

@@ -86,7 +86,7 @@ const char* TreeStore::append_plain_assignment(const char* begin, const char* en
   Number name;
   Number value;
   if (end - digits < kShortNumberBytes || !scan_short_number(digits, name) || name.is_signed || name.has_point ||
-      !(name.value >= 1 && name.value <= dialect::kRegisterCount))
+      !dialect::is_register(name.value))
     return nullptr;
   const char* const equals = skip_blanks(name.end);
   if (equals == end || *equals != '=') return nullptr;

@@ -471,7 +471,7 @@ std::uint16_t LineParser::add_assignment(std::uint16_t index) {
   if (!name.has(Word::kMissing | Word::kReported) && !is_garbled) {
     if (!name.is_plain_integer()) {
       report("invalid-register-number"_diag, name.span());
-    } else if (!(name.value >= 1 && name.value <= dialect::kRegisterCount)) {
+    } else if (!dialect::is_register(name.value)) {
       report("register-out-of-range"_diag, name.span(), {name.value});
     } else if (!has_value || word(index + 1u).has(Word::kMissing)) {
       report_missing("register-not-assigned"_diag, added);
@@ -653,7 +653,7 @@ bool LineParser::read_variable(Jump& jump, const Word& written, bool has_operato
   if (!has_operator) return true;  // V5 1 is V51, but what is wrong there is the operator (E003).
   if (!written.is_plain_integer()) {
     report("invalid-register-number"_diag, written.span());
-  } else if (!(written.value >= 1 && written.value <= dialect::kRegisterCount)) {
+  } else if (!dialect::is_register(written.value)) {
     report("register-out-of-range"_diag, written.span(), {written.value});
   } else {
     jump.variable = static_cast<std::int8_t>(written.value);

@@ -26,9 +26,8 @@ static std::vector<Occurrence> names_of(const LineTree& tree, std::size_t line) 
   if (const Word* const label = label_word(tree)) add(NameKind::Label, tree.label, label->span(), true);
   for (const syntax::Instruction& instruction : tree.instructions) {
     const Word& command = tree.command(instruction);
-    if (instruction.kind == syntax::InstructionKind::Assignment && command.value >= 1 &&
-        command.value <= dialect::kRegisterCount)
-      add(NameKind::Register, static_cast<std::uint64_t>(command.value), command.span(), true);
+    if (instruction.kind == syntax::InstructionKind::Assignment && command.register_number() > 0)
+      add(NameKind::Register, static_cast<std::uint64_t>(command.register_number()), command.span(), true);
   }
   if (!tree.jump) return names;
   if (tree.jump->variable > 0)

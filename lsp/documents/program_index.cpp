@@ -34,8 +34,8 @@ class LineReader {
         if (command.value == dialect::kProgramEnd) add(LandmarkKind::ProgramEnd, command.span(), 0);
         return;
       case InstructionKind::Assignment:
-        if (command.value >= 1 && command.value <= dialect::kRegisterCount)
-          add(LandmarkKind::Assignment, command.span(), static_cast<std::uint64_t>(command.value));
+        if (const int number = command.register_number(); number > 0)
+          add(LandmarkKind::Assignment, command.span(), static_cast<std::uint64_t>(number));
         return;
       case InstructionKind::Jump:
         return read_jump();

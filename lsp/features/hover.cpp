@@ -319,8 +319,8 @@ class Teller {
     static constexpr Texts kCompared = {{"compared: line", "confrontato: riga"},
                                         {"compared: lines", "confrontato: righe"}};
     title(kRegister.in(language_));
-    if (!word_.is_plain_integer() || !(word_.value >= 1 && word_.value <= dialect::kRegisterCount)) return;
-    const auto number = static_cast<std::uint64_t>(word_.value);
+    const auto number = static_cast<std::uint64_t>(word_.register_number());
+    if (number == 0) return;
     tell_values();
     tell_places(kAssigned, snapshot_.index().landmarks(documents::kinds(LandmarkKind::Assignment), number));
     tell_places(kCompared, snapshot_.index().landmarks(documents::kinds(LandmarkKind::Comparison), number));

@@ -68,7 +68,7 @@ std::optional<Name> read_name(std::string_view text, NameKind kind) {
     if (!syntax::is_digit(digit)) return std::nullopt;
     number = number * 10 + static_cast<std::uint64_t>(digit - '0');
   }
-  if (kind == NameKind::Register && (number < 1 || number > dialect::kRegisterCount)) return std::nullopt;
+  if (kind == NameKind::Register && !dialect::is_register(static_cast<double>(number))) return std::nullopt;
   return Name{kind, number};
 }
 
