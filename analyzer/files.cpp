@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "analyzer/gitignore.h"
+#include "interpreter/dialect/any_case.h"
 #include "interpreter/running/system_texts.h"
 
 namespace isocnc::analyzer {
@@ -39,11 +40,8 @@ static fs::path as_prefix(std::string directory) {
   return directory;
 }
 
-static char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
 static bool has_extension(std::string_view name, std::string_view extension) {
-  return name.size() > extension.size() && std::equal(extension.rbegin(), extension.rend(), name.rbegin(),
-                                                      [](char a, char b) { return lower(a) == lower(b); });
+  return name.size() > extension.size() && dialect::ends_with(name, extension);
 }
 
 static std::string problem(const fs::path& path, const std::error_code& error, dialect::Language language) {

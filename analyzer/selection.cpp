@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/dialect/any_case.h"
 #include "interpreter/dialect/code_set.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/near_names.h"

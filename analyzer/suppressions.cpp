@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "interpreter/dialect/near_names.h"
+#include "interpreter/dialect/any_case.h"
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
 
@@ -20,7 +20,7 @@ static std::size_t find_call(std::string_view text, std::size_t at) {
   for (std::size_t colon = text.find(':', at); colon != std::string_view::npos; colon = text.find(':', colon + 1)) {
     if (colon + 1 < at + kCall.size()) continue;
     const std::size_t begin = colon + 1 - kCall.size();
-    if (dialect::begins_with(text.substr(begin, kCall.size()), kCall)) return begin;
+    if (dialect::begins_with(text.substr(begin), kCall)) return begin;
   }
   return std::string_view::npos;
 }
@@ -80,7 +80,7 @@ void Suppressions::read_directive(std::uint64_t number, std::string_view line, s
   Directive directive{.line = number, .span = {begin, std::max(verb.end, behind_call)}};
   if (verb.empty()) directive.span = {begin, behind_call};
   for (const auto& [name, kind] : kKinds)
-    if (name.size() == verb.end - verb.begin && dialect::begins_with(text_of(verb), name)) directive.kind = kind;
+    if (dialect::equal_words(text_of(verb), name)) directive.kind = kind;
   if (directive.kind != Kind::Unknown) {
     for (syntax::Span word = next_word(line, verb.end, end); !word.empty(); word = next_word(line, word.end, end)) {
       if (line[word.begin] == '-') break;  // A reason follows.

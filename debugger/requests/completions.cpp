@@ -4,16 +4,11 @@
 #include <fmt/format.h>
 
 #include "debugger/requests/request.h"
+#include "interpreter/dialect/any_case.h"
 
 namespace isocnc::debugger::requests {
 
 static bool is_name_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-
-static bool begins_with(std::string_view name, std::string_view prefix) {
-  return name.size() >= prefix.size() && std::equal(prefix.begin(), prefix.end(), name.begin(), [](char a, char b) {
-           return std::toupper(static_cast<unsigned char>(a)) == std::toupper(static_cast<unsigned char>(b));
-         });
-}
 
 /// Names of quantities, and codes, for the word before the cursor.
 static Json answer_completions(Session& session, const Json& arguments) {
@@ -26,7 +21,7 @@ static Json answer_completions(Session& session, const Json& arguments) {
   const std::string_view prefix = std::string_view(typed).substr(begin, end - begin);
   Json targets = Json::array();
   const auto offer = [&](const std::string& label, std::string_view detail, const char* type) {
-    if (!begins_with(label, prefix)) return;
+    if (!dialect::begins_with(label, prefix)) return;
     targets.push_back({{"label", label},
                        {"detail", detail},
                        {"type", type},

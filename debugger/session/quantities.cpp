@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "interpreter/dialect/any_case.h"
 #include "interpreter/motion/numbers.h"
-#include "interpreter/syntax/characters.h"
 
 namespace isocnc::debugger::session {
 
@@ -167,11 +167,6 @@ std::vector<Quantity> make_quantities() {
   return all;
 }
 
-bool is_same_name(std::string_view name, std::string_view upper_name) {
-  return std::equal(name.begin(), name.end(), upper_name.begin(), upper_name.end(),
-                    [](char a, char b) { return syntax::upper(a) == b; });
-}
-
 }  // namespace
 
 std::span<const Quantity> all_quantities() {
@@ -181,7 +176,7 @@ std::span<const Quantity> all_quantities() {
 
 const Quantity* find_quantity(std::string_view name) {
   for (const Quantity& quantity : all_quantities())
-    if (is_same_name(name, quantity.name)) return &quantity;
+    if (dialect::equal_words(name, quantity.name)) return &quantity;
   return nullptr;
 }
 

@@ -2,11 +2,10 @@
 
 #include <vector>
 
+#include "interpreter/dialect/any_case.h"
 #include "interpreter/dialect/near_names.h"
 
 namespace isocnc::dialect {
-
-bool equal_words(std::string_view a, std::string_view b) { return a.size() == b.size() && begins_with(a, b); }
 
 std::optional<CodeSet> find_codes(std::string_view word) {
   CodeSet set;

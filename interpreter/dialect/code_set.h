@@ -23,7 +23,4 @@ std::optional<CodeSet> find_codes(std::string_view word);
 /// The code or name that was most plausibly meant.
 std::optional<std::string> nearest_code(std::string_view word);
 
-/// Whether the words are the same, capitals aside.
-bool equal_words(std::string_view a, std::string_view b);
-
 }  // namespace isocnc::dialect

@@ -1,24 +1,18 @@
 #include "interpreter/dialect/diagnostic_id.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "interpreter/dialect/any_case.h"
 #include "interpreter/dialect/letters.h"
 
 namespace isocnc::dialect {
 
-static bool equal_ignoring_case(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
-
 std::optional<DiagnosticId> find_diagnostic(std::string_view code_or_name) {
   for (std::size_t i = 0; i < kDiagnosticCount; ++i)
-    if (equal_ignoring_case(kDiagnostics[i].code, code_or_name) ||
-        equal_ignoring_case(kDiagnostics[i].name, code_or_name))
+    if (equal_words(kDiagnostics[i].code, code_or_name) || equal_words(kDiagnostics[i].name, code_or_name))
       return DiagnosticId{static_cast<std::uint8_t>(i)};
   return std::nullopt;
 }

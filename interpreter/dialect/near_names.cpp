@@ -1,16 +1,12 @@
 #include "interpreter/dialect/near_names.h"
 
 #include <algorithm>
-#include <cctype>
 #include <vector>
 
+#include "interpreter/dialect/any_case.h"
 #include "interpreter/dialect/format.h"
 
 namespace isocnc::dialect {
-
-static bool same_letter(char a, char b) {
-  return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-}
 
 /// Letters to insert, delete, change or swap with their neighbor to make one of the other.
 static std::size_t distance(std::string_view a, std::string_view b) {
@@ -55,10 +51,6 @@ std::optional<std::string> nearest_name(std::string_view typed, std::span<const 
 std::string did_you_mean(const std::optional<std::string>& name, Language language) {
   static constexpr Text kQuestion = {"; did you mean {}?", "; forse {}?"};
   return name ? dialect::format(kQuestion, language, *name) : "";
-}
-
-bool begins_with(std::string_view text, std::string_view beginning) {
-  return text.size() >= beginning.size() && std::equal(beginning.begin(), beginning.end(), text.begin(), same_letter);
 }
 
 }  // namespace isocnc::dialect

@@ -16,7 +16,4 @@ std::optional<std::string> nearest_name(std::string_view typed, std::span<const 
 /// `; did you mean ISO031?`, or nothing.
 std::string did_you_mean(const std::optional<std::string>& name, Language language);
 
-/// Whether `text` begins with `beginning`, capitals aside.
-bool begins_with(std::string_view text, std::string_view beginning);
-
 }  // namespace isocnc::dialect

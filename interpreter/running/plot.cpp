@@ -1,24 +1,21 @@
 #include "interpreter/running/plot.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include <fmt/format.h>
 
+#include "interpreter/dialect/any_case.h"
 #include "interpreter/running/page_plot.h"
 #include "interpreter/running/svg_plot.h"
 
 namespace isocnc::running {
 
 std::optional<PlotFormat> plot_format(std::string_view file_name) {
-  const auto ends_with = [&](std::string_view ending) {
-    return file_name.size() > ending.size() &&
-           std::equal(ending.rbegin(), ending.rend(), file_name.rbegin(), [](char wanted, char found) {
-             return wanted == std::tolower(static_cast<unsigned char>(found));
-           });
+  const auto has_extension = [&](std::string_view extension) {
+    return file_name.size() > extension.size() && dialect::ends_with(file_name, extension);
   };
-  if (ends_with(".svg")) return PlotFormat::Svg;
-  if (ends_with(".html") || ends_with(".htm")) return PlotFormat::Html;
+  if (has_extension(".svg")) return PlotFormat::Svg;
+  if (has_extension(".html") || has_extension(".htm")) return PlotFormat::Html;
   return std::nullopt;
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
+#include "interpreter/dialect/any_case.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/locale.h"
 #include "interpreter/dialect/near_names.h"

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "interpreter/configuration/configuration.h"
+#include "interpreter/dialect/any_case.h"
 #include "interpreter/dialect/locale.h"
-#include "interpreter/dialect/near_names.h"
 
 namespace isocnc::lsp::documents {
 

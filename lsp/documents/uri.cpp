@@ -4,7 +4,7 @@
 
 #include "analyzer/rendering.h"
 #include "interpreter/configuration/configurations.h"
-#include "interpreter/dialect/near_names.h"
+#include "interpreter/dialect/any_case.h"
 
 namespace isocnc::lsp::documents {
 
@@ -25,7 +25,7 @@ static std::string unescaped(std::string_view text) {
 
 std::optional<std::filesystem::path> path_of(std::string_view uri) {
   static constexpr std::string_view kScheme = "file://";
-  if (!dialect::begins_with(uri.substr(0, kScheme.size()), kScheme)) return std::nullopt;
+  if (!dialect::begins_with(uri, kScheme)) return std::nullopt;
   std::string_view rest = uri.substr(kScheme.size());
   rest = rest.substr(0, rest.find_first_of("?#"));
   // A host may stand before the path; that of this machine is mostly left out.
