@@ -15,13 +15,11 @@ namespace isocnc::analyzer {
 using dialect::Language;
 
 Language Options::reader_language() const {
-  if (language == "it") return Language::Italian;
-  if (language == "en") return Language::English;
-  return dialect::language_of_environment();
+  return dialect::language_named(language).value_or(dialect::language_of_environment());
 }
 
 void Options::follow(const configuration::Configuration& configuration) {
-  if (language.empty() && configuration.language) language = configuration::name_of(*configuration.language);
+  if (language.empty() && configuration.language) language = dialect::name_of(*configuration.language);
 }
 
 bool Options::wants_color() const {
@@ -106,8 +104,8 @@ static void add_options(running::ProgramApp& program, Options& options) {
                 {"Show how many findings each code has", "Mostra quante segnalazioni ha ogni codice"})
       .tells_no_exclusions()
       .excludes(diff);
-  program.add_choice("--lang", options.language, {"en", "it"}, {"LANG", "LINGUA"},
-                     {"en or it; else as the locale says", "en o it; altrimenti secondo il locale"});
+  program.add_language(options.language,
+                       {"en or it; else as the locale says", "en o it; altrimenti secondo il locale"});
   program.add_choice("--color", options.color, {"auto", "always", "never"}, {"WHEN", "QUANDO"},
                      {"auto, always, never", "auto, always, never"});
   program.add_option("--stdin-filename", options.stdin_name, {"NAME", "NOME"},

@@ -53,8 +53,7 @@ struct Options {
   std::string stdin_name = "<stdin>";
 
   Language reader_language() const {
-    if (language.empty()) return dialect::language_of_environment();
-    return language == "it" ? Language::Italian : Language::English;
+    return dialect::language_named(language).value_or(dialect::language_of_environment());
   }
   Mode mode() const {
     if (check) return Mode::Check;
@@ -267,7 +266,7 @@ class Run {
 int format(Options options) {
   configuration::Configurations configurations(options.source, options.reader_language());
   const auto& first = configurations.of(place_of_program(options.paths.front(), options.stdin_name));
-  if (options.language.empty() && first.language) options.language = configuration::name_of(*first.language);
+  if (options.language.empty() && first.language) options.language = dialect::name_of(*first.language);
   const Language language = options.reader_language();
   if (!check_options(options)) return kTrouble;
   const FileSelection selection = select_programs(options.paths, configurations, language);
@@ -340,8 +339,8 @@ void add_options(running::ProgramApp& program, Options& options) {
   program.begin_group({"How it is run", "Esecuzione"});
   program.add_option("--stdin-filename", options.stdin_name, {"NAME", "NOME"},
                      {"What to call standard input", "Come chiamare lo standard input"});
-  program.add_choice("--lang", options.language, {"en", "it"}, {"LANG", "LINGUA"},
-                     {"en or it; else as the locale says", "en o it; altrimenti secondo il locale"});
+  program.add_language(options.language,
+                       {"en or it; else as the locale says", "en o it; altrimenti secondo il locale"});
   configuration::add_source_options(
       program, options.source,
       {"Read this, not the isocnc.json above each program", "Legge questo, non l'isocnc.json sopra ogni programma"});

@@ -5,11 +5,11 @@
 #include "analyzer/fingerprint.h"
 #include "analyzer/renderers.h"
 #include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/dialect/locale.h"
 
 namespace isocnc::analyzer {
 
 using dialect::DiagnosticId;
-using dialect::Language;
 using dialect::Severity;
 using Json = nlohmann::ordered_json;
 
@@ -38,7 +38,7 @@ class SarifRenderer final : public Renderer {
       output += dumped(rule(DiagnosticId{static_cast<std::uint8_t>(i)}));
     }
     output += "\n]}},\n\"language\":\"";
-    output += style_.language == Language::Italian ? "it" : "en";
+    output += dialect::name_of(style_.language);
     output += "\",\n\"columnKind\":\"unicodeCodePoints\",\n\"results\":[";
   }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/dialect/locale.h"
 #include "lsp/rpc/message.h"
 
 namespace isocnc::debugger {
@@ -78,8 +79,7 @@ Json Adapter::initialize(const Json& arguments) {
   client.columns_start_at_1 = find_flag(arguments, "columnsStartAt1").value_or(true);
   client.takes_invalidated = find_flag(arguments, "supportsInvalidatedEvent").value_or(false);
   client.takes_progress = find_flag(arguments, "supportsProgressReporting").value_or(false);
-  if (const auto locale = find_text(arguments, "locale"))
-    client.locale = locale->starts_with("it") ? dialect::Language::Italian : dialect::Language::English;
+  if (const auto locale = find_text(arguments, "locale")) client.locale = dialect::language_of_locale(*locale);
   is_initialized_ = true;
   Json capabilities = Json::object();
   for (const requests::Request* const request : requests::all_requests())

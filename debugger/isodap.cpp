@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "debugger/adapter.h"
-#include "interpreter/configuration/configuration.h"
+#include "interpreter/dialect/locale.h"
 #include "interpreter/running/program_app.h"
 #include "interpreter/running/program_main.h"
 #include "lsp/rpc/serve.h"
@@ -25,7 +25,7 @@ void complain(std::string_view what) { running::complain("isodap", what); }
 
 int run(const Options& options) {
   const auto make = [&](rpc::Loop& loop, rpc::Send send) {
-    return std::make_unique<Adapter>(loop, std::move(send), configuration::language_named(options.language));
+    return std::make_unique<Adapter>(loop, std::move(send), dialect::language_named(options.language));
   };
   rpc::serve(options.port, make, complain);
   return running::kTroubleStatus;  // The port cannot be had.
@@ -53,9 +53,8 @@ int run_main(int argc, char** argv) {
                       "speak by standard input and\noutput",
                       "Aspetta un editor su questa porta dell'interfaccia\nloopback; 0: una qualsiasi. "
                       "Altrimenti parla via\nstandard input e output"});
-  program.add_choice("--lang", options.language, {"en", "it"}, {"LANG", "LINGUA"},
-                     {"en or it; else as the configuration, the editor\nor the locale says",
-                      "en o it; altrimenti secondo la configurazione,\nl'editor o il locale"});
+  program.add_language(options.language, {"en or it; else as the configuration, the editor\nor the locale says",
+                                          "en o it; altrimenti secondo la configurazione,\nl'editor o il locale"});
   if (const auto status = program.answer(argc, argv)) return *status;
   return run(options);
 }

@@ -57,8 +57,7 @@ struct Options {
   std::optional<std::string> machine;
 
   Language reader_language() const {
-    if (language.empty()) return dialect::language_of_environment();
-    return language == "it" ? Language::Italian : Language::English;
+    return dialect::language_named(language).value_or(dialect::language_of_environment());
   }
   bool reads_stdin() const { return file == "-"; }
   /// As a name that the system knows.
@@ -320,8 +319,7 @@ std::optional<FoundMachine> find_machine(Options& options) {
   const configuration::Configuration& configuration = found.in_folder(program.parent_path());
   const configuration::Configuration& machine =
       options.machine ? given.in_folder(program.parent_path()) : configuration;
-  if (options.language.empty() && configuration.language)
-    options.language = configuration::name_of(*configuration.language);
+  if (options.language.empty() && configuration.language) options.language = dialect::name_of(*configuration.language);
   bool is_right = true;
   for (const Configurations* read : {&found, &given})
     for (const std::string& mistake : read->mistakes(options.reader_language())) {
@@ -423,8 +421,8 @@ int run_main(int argc, char** argv) {
       {"Read this, not the isocnc.json above the program", "Legge questo, non l'isocnc.json sopra il programma"});
   const ProgramOption until = program.add_option("--until", options.until, {"LINE", "RIGA"},
                                                  {"Stop before this line", "Si ferma prima di questa riga"});
-  program.add_choice("--lang", options.language, {"en", "it"}, {"LANG", "LINGUA"},
-                     {"en or it; else as the locale says", "en o it; altrimenti secondo il locale"});
+  program.add_language(options.language,
+                       {"en or it; else as the locale says", "en o it; altrimenti secondo il locale"});
 
   program.begin_group({"Restart", "Ripresa"});
   const ProgramOption restart_at = program

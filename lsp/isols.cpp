@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "interpreter/configuration/configuration.h"
+#include "interpreter/dialect/locale.h"
 #include "interpreter/running/program_app.h"
 #include "interpreter/running/program_main.h"
 #include "lsp/rpc/serve.h"
@@ -24,7 +24,7 @@ void complain(std::string_view what) { running::complain("isols", what); }
 
 int run(const Options& options) {
   const auto make = [&](rpc::Loop& loop, rpc::Send send) {
-    return std::make_unique<Server>(loop, std::move(send), configuration::language_named(options.language));
+    return std::make_unique<Server>(loop, std::move(send), dialect::language_named(options.language));
   };
   rpc::serve(options.port, make, complain);
   return running::kTroubleStatus;  // The port cannot be had.
@@ -56,9 +56,8 @@ int run_main(int argc, char** argv) {
                    "Aspetta un editor su questa porta dell'interfaccia\nloopback; 0: una qualsiasi"})
       .excludes(stdio);
   stdio.tells_no_exclusions();
-  program.add_choice("--lang", options.language, {"en", "it"}, {"LANG", "LINGUA"},
-                     {"en or it; else as the editor, the configuration\nor the locale says",
-                      "en o it; altrimenti secondo l'editor, la\nconfigurazione o il locale"});
+  program.add_language(options.language, {"en or it; else as the editor, the configuration\nor the locale says",
+                                          "en o it; altrimenti secondo l'editor, la\nconfigurazione o il locale"});
   // What some clients add by themselves.
   int client_process = 0;
   program.add_option("--clientProcessId", client_process, {}, {}).hidden();

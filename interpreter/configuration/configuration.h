@@ -92,8 +92,4 @@ struct Configuration {
   std::filesystem::path file;  ///< As shown to people; empty without one.
 };
 
-/// A language by the name that files and commands give it, and the other way around.
-std::optional<dialect::Language> language_named(std::string_view name);
-std::string_view name_of(dialect::Language language);
-
 }  // namespace isocnc::configuration

@@ -5,14 +5,13 @@
 #include <charconv>
 
 #include "interpreter/dialect/codes.h"
+#include "interpreter/dialect/locale.h"
 
 namespace isocnc::configuration {
 
-using dialect::Language;
 using Kind = KeyKind;
 
 static constexpr std::string_view kSeverities[] = {"error", "warning", "info", "off"};
-static constexpr std::string_view kLanguages[] = {"en", "it"};
 static constexpr std::string_view kModal[] = {"keep", "write", "fold"};
 static constexpr std::string_view kMachineKinds[] = {"three-axis", "head", "table"};
 
@@ -24,14 +23,6 @@ static constexpr Range kSpeed = {1, 1e7};
 static constexpr Range kAcceleration = {1, 1e6};
 /// From a tenth of a micron.
 static constexpr Range kRounding = {1e-4, 10};
-
-std::optional<Language> language_named(std::string_view name) {
-  if (name == kLanguages[0]) return Language::English;
-  if (name == kLanguages[1]) return Language::Italian;
-  return std::nullopt;
-}
-
-std::string_view name_of(Language language) { return kLanguages[language == Language::Italian ? 1 : 0]; }
 
 std::optional<int> function_number(std::string_view name) {
   if (name.size() < 2 || name.size() > 4 || name.front() != 'M') return std::nullopt;
@@ -427,7 +418,7 @@ static std::vector<Key> make_keys() {
       {.path = "$schema", .kind = Kind::Text, .documentation = "Where editors find the schema of this file."});
   keys.push_back({.path = "language",
                   .kind = Kind::Choice,
-                  .choices = kLanguages,
+                  .choices = dialect::kLanguageNames,
                   .documentation = "The language of messages; as --lang.",
                   .slot = [](Configuration& c, std::size_t) -> Slot { return &c.language; }});
   keys.push_back({.path = "machine", .documentation = "The machine that programs are written for."});

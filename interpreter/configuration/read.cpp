@@ -10,6 +10,7 @@
 #include "interpreter/configuration/json_value.h"
 #include "interpreter/configuration/keys.h"
 #include "interpreter/dialect/code_set.h"
+#include "interpreter/dialect/locale.h"
 #include "interpreter/dialect/near_names.h"
 
 namespace isocnc::configuration {
@@ -284,7 +285,7 @@ class Reader {
   void read_choice(const Key& key, const JsonValue& value, const std::string& path, const Slot& slot) {
     if (!is_chosen(key, value, path)) return;
     if (const auto* const language = std::get_if<std::optional<dialect::Language>*>(&slot)) {
-      **language = language_named(value.string);
+      **language = dialect::language_named(value.string);
     } else {
       *std::get<std::string*>(slot) = value.string;
     }

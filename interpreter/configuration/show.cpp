@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "interpreter/configuration/keys.h"
-#include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/dialect/locale.h"
 
 namespace isocnc::configuration {
 

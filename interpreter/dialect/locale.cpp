@@ -1,16 +1,30 @@
 #include "interpreter/dialect/locale.h"
 
+#include <algorithm>
 #include <cstdlib>
+#include <iterator>
+
+#include "interpreter/dialect/any_case.h"
 
 namespace isocnc::dialect {
+
+std::optional<Language> language_named(std::string_view name) {
+  const auto* const found = std::find(std::begin(kLanguageNames), std::end(kLanguageNames), name);
+  if (found == std::end(kLanguageNames)) return std::nullopt;
+  return static_cast<Language>(found - std::begin(kLanguageNames));
+}
+
+std::string_view name_of(Language language) { return kLanguageNames[static_cast<std::size_t>(language)]; }
+
+Language language_of_locale(std::string_view locale) {
+  const std::string_view name = locale.substr(0, locale.find_first_of("_-.@"));
+  return equal_words(name, name_of(Language::Italian)) ? Language::Italian : Language::English;
+}
 
 Language language_of_environment() {
   for (const char* variable : {"LC_ALL", "LC_MESSAGES", "LANG"}) {
     const char* const value = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe): nobody sets it.
-    if (!value || *value == '\0') continue;
-    const std::string_view locale(value);
-    const bool italian = locale == "it" || locale.starts_with("it_") || locale.starts_with("it.");
-    return italian ? Language::Italian : Language::English;
+    if (value && *value != '\0') return language_of_locale(value);
   }
   return Language::English;
 }

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "interpreter/dialect/locale.h"
 #include "interpreter/running/vector_json.h"
 
 namespace isocnc::running {
@@ -94,7 +95,7 @@ std::string PathRecording::facts(const Toolpath& path, const RunResult& result) 
   const bool is_three_axis = machine_.motion.kinematics.kind == motion::MachineKind::ThreeAxis;
   Json json = {{"version", 1},
                {"name", subject_.name},
-               {"language", subject_.language == dialect::Language::Italian ? "it" : "en"},
+               {"language", dialect::name_of(subject_.language)},
                {"ending", kEndings[static_cast<std::size_t>(result.ending)]},
                {"endLine", result.line},
                {"turnsTool", !is_three_axis},

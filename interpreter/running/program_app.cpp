@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
+#include <iterator>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -54,8 +55,7 @@ static Language language_of_command(int argc, const char* const* argv) {
     const std::string_view value = argument == "--lang"              ? next
                                    : argument.starts_with("--lang=") ? argument.substr(argument.find('=') + 1)
                                                                      : "";
-    if (value == "it") return Language::Italian;
-    if (value == "en") return Language::English;
+    if (const auto language = dialect::language_named(value)) return *language;
   }
   return dialect::language_of_environment();
 }
@@ -122,6 +122,11 @@ ProgramOption ProgramApp::add_choice(const std::string& name, std::string& value
         if (std::find(choices.begin(), choices.end(), given) != choices.end()) return {};
         return no_such_choice(given, choices, Language::English);
       });
+}
+
+ProgramOption ProgramApp::add_language(std::string& value, const Text& description) {
+  return add_choice("--lang", value, {std::begin(dialect::kLanguageNames), std::end(dialect::kLanguageNames)},
+                    {"LANG", "LINGUA"}, description);
 }
 
 ProgramApp::Said ProgramApp::read(int argc, const char* const* argv) {

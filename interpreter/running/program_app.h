@@ -79,6 +79,8 @@ class ProgramApp {
   /// An option that takes one of a few words.
   ProgramOption add_choice(const std::string& name, std::string& value, std::vector<std::string> choices,
                            const dialect::Text& value_name, const dialect::Text& description);
+  /// `--lang`, by the name of the language.
+  ProgramOption add_language(std::string& value, const dialect::Text& description);
   /// Words to complete the value of an option with, given with its dashes; in a list with commas, each piece.
   void suggest(const std::string& option, std::vector<std::string> words) { words_[option] = std::move(words); }
 

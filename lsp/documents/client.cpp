@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include "interpreter/configuration/configuration.h"
-#include "interpreter/dialect/any_case.h"
 #include "interpreter/dialect/locale.h"
 
 namespace isocnc::lsp::documents {
@@ -25,7 +23,7 @@ static bool is_on(const Json& json) { return !json.is_boolean() || json.get<bool
 
 ClientSettings read_settings(const Json& settings) {
   const Json& hints = find(settings, "inlayHints");
-  return {.language = configuration::language_named(text_of(find(settings, "language"))),
+  return {.language = dialect::language_named(text_of(find(settings, "language"))),
           .checks_workspace = is_on(find(settings, "workspaceDiagnostics")),
           .shows_end_positions = is_on(find(hints, "endPosition")),
           .shows_section_times = is_on(find(hints, "sectionTime")),
@@ -76,17 +74,13 @@ static Encoding best_encoding(const Json& capabilities) {
   return Encoding::Utf16;
 }
 
-static std::optional<Language> language_of_locale(const std::string& locale) {
-  if (locale.empty()) return std::nullopt;
-  return dialect::begins_with(locale, "it") ? Language::Italian : Language::English;
-}
-
 Client read_client(const Json& initialize_params) {
   const Json& capabilities = find(initialize_params, "capabilities");
   Client client;
   if (capabilities.is_object()) client.capabilities = capabilities;
   client.encoding = best_encoding(capabilities);
-  client.locale = language_of_locale(text_of(find(initialize_params, "locale")));
+  if (const std::string locale = text_of(find(initialize_params, "locale")); !locale.empty())
+    client.locale = dialect::language_of_locale(locale);
   client.settings = read_settings(find(initialize_params, "initializationOptions"));
   return client;
 }
