@@ -32,11 +32,7 @@ struct Wanted {
 
   /// The place on the line, or null.
   const Word* on(const LineTree& line) const {
-    if (is_label) {
-      const auto is_it = [](const Word& word) { return word.letter == 'N' && word.owner == Word::kNobody; };
-      const auto at = std::find_if(line.words.begin(), line.words.end(), is_it);
-      return line.has_label() && line.label == label && at != line.words.end() ? &*at : nullptr;
-    }
+    if (is_label) return line.has_label() && line.label == label ? line.label_word() : nullptr;
     for (const Instruction& instruction : line.instructions) {
       const dialect::GCode* const code = instruction.kind == syntax::InstructionKind::G ? instruction.g() : nullptr;
       if (!code) continue;

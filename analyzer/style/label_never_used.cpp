@@ -11,7 +11,7 @@ class LabelNeverUsed final : public Rule {
   void read(const Line& line, std::vector<Remark>& remarks) override {
     static_cast<void>(remarks);
     if (!line.tree.is_empty()) ++blocks_;
-    if (const syntax::Word* const word = number_of(line.tree))
+    if (const syntax::Word* const word = line.tree.label_word())
       labels_.push_back({line.tree.label, line.number, word->span()});
     if (line.tree.jump && line.tree.jump->has_target) targets_.insert(line.tree.jump->target);
   }

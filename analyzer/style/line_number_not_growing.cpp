@@ -6,7 +6,7 @@ namespace isocnc::analyzer::style {
 class LineNumberNotGrowing final : public Rule {
  public:
   void read(const Line& line, std::vector<Remark>& remarks) override {
-    const syntax::Word* const word = number_of(line.tree);
+    const syntax::Word* const word = line.tree.label_word();
     if (!word) return;
     if (word->value <= last_) {
       remarks.push_back({line.number, {.id = "line-number-not-growing"_diag, .span = word->span(), .values = {last_}}});

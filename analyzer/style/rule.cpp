@@ -17,14 +17,6 @@ static const RuleRow* const kRules[] = {
 #undef ISOCNC_RULE
 };
 
-const syntax::Word* number_of(const syntax::LineTree& line) {
-  if (!line.has_label()) return nullptr;
-  const auto number = std::find_if(line.words.begin(), line.words.end(), [](const syntax::Word& word) {
-    return word.letter == 'N' && word.owner == syntax::Word::kNobody;
-  });
-  return number == line.words.end() ? nullptr : &*number;
-}
-
 /// Whether the control reads a line: behind M02 only from a label on that a GOTO above names (D47).
 class Reader::Liveness {
  public:

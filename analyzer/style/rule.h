@@ -45,9 +45,6 @@ constexpr RuleRow rule(dialect::DiagnosticId id) {
   return {id, [] { return std::unique_ptr<Rule>(std::make_unique<R>()); }};
 }
 
-/// The word that is the line's own number; null where it has none.
-const syntax::Word* number_of(const syntax::LineTree& line);
-
 /// Which rules are wanted.
 using IsWanted = std::function<bool(dialect::DiagnosticId)>;
 

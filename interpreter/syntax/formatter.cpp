@@ -15,12 +15,8 @@ static constexpr std::string_view kBehind = "\n               ";
 
 /// The word that is the line's number, or the count of words.
 static std::size_t line_number_word(const LineTree& tree) {
-  const auto is_target = [&](const Word& word) {
-    return tree.jump != nullptr && word.span() == tree.jump->target_span;
-  };
-  std::size_t at = 0;
-  while (at < tree.words.size() && (tree.words[at].letter != 'N' || is_target(tree.words[at]))) ++at;
-  return at;
+  const Word* const word = tree.label_word();
+  return word == nullptr ? tree.words.size() : static_cast<std::size_t>(word - tree.words.data());
 }
 
 static bool is_motion(const Instruction& instruction) {

@@ -158,6 +158,13 @@ struct LineTree {
       if (word.span().holds(column)) return &word;
     return nullptr;
   }
+  /// The word of the line's own number, not of the one behind a GOTO; null where it has none.
+  const Word* label_word() const {
+    if (!has_label()) return nullptr;
+    for (const Word& word : words)
+      if (word.letter == 'N' && word.is_plain_integer() && !(jump && word.span() == jump->target_span)) return &word;
+    return nullptr;
+  }
   std::string_view text_of(Span span) const { return text.substr(span.begin, span.end - span.begin); }
 };
 

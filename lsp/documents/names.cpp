@@ -10,20 +10,12 @@ using syntax::LineTree;
 using syntax::Span;
 using syntax::Word;
 
-const Word* label_word(const LineTree& line) {
-  if (!line.has_label()) return nullptr;
-  for (const Word& word : line.words)
-    if (word.letter == 'N' && word.is_plain_integer() && !(line.jump && word.span() == line.jump->target_span))
-      return &word;
-  return nullptr;
-}
-
 static std::vector<Occurrence> names_of(const LineTree& tree, std::size_t line) {
   std::vector<Occurrence> names;
   const auto add = [&](NameKind kind, std::uint64_t number, Span span, bool is_definition) {
     names.push_back({line, span, {kind, number}, is_definition});
   };
-  if (const Word* const label = label_word(tree)) add(NameKind::Label, tree.label, label->span(), true);
+  if (const Word* const label = tree.label_word()) add(NameKind::Label, tree.label, label->span(), true);
   for (const syntax::Instruction& instruction : tree.instructions) {
     const Word& command = tree.command(instruction);
     if (instruction.kind == syntax::InstructionKind::Assignment && command.register_number() > 0)
@@ -58,7 +50,7 @@ std::vector<Occurrence> occurrences(const Snapshot& snapshot, const Name& name) 
   if (is_label)
     for (const std::size_t line : index.lines_of_label(name.number)) {
       const syntax::DocumentLine read = snapshot.document().line(line);
-      if (const Word* const word = label_word(*read)) found.push_back({line, word->span(), name, true});
+      if (const Word* const word = read->label_word()) found.push_back({line, word->span(), name, true});
     }
   std::sort(found.begin(), found.end(), [](const Occurrence& a, const Occurrence& b) {
     return std::pair(a.line, a.span) < std::pair(b.line, b.span);

@@ -37,9 +37,6 @@ std::optional<Occurrence> name_at(const Snapshot& snapshot, const syntax::Positi
 /// All places of a name in the order of the program.
 std::vector<Occurrence> occurrences(const Snapshot& snapshot, const Name& name);
 
-/// The line's own N; null where it has none.
-const syntax::Word* label_word(const syntax::LineTree& line);
-
 /// The pieces of a span that are no comment, without blanks around them: a number is one, but for `N1(a)0`.
 std::vector<syntax::Span> outside_comments(const syntax::LineTree& line, syntax::Span span);
 

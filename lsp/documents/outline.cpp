@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "interpreter/syntax/unicode.h"
-#include "lsp/documents/names.h"
 
 namespace isocnc::lsp::documents {
 
@@ -133,7 +132,7 @@ class Builder {
     for (const std::size_t line : snapshot_.index().lines_of_label(label)) {
       const syntax::DocumentLine read = snapshot_.document().line(line);
       const syntax::LineTree& tree = *read;
-      const syntax::Word* const word = label_word(tree);
+      const syntax::Word* const word = tree.label_word();
       if (!word) continue;
       Section section = section_at(SectionKind::Label, {static_cast<std::uint32_t>(line), {}, word->span(), label});
       section.title = fmt::format("N{}", label);
