@@ -36,8 +36,7 @@ struct Wanted {
     for (const Instruction& instruction : line.instructions) {
       const dialect::GCode* const code = instruction.kind == syntax::InstructionKind::G ? instruction.g() : nullptr;
       if (!code) continue;
-      const bool mounts = code->group == dialect::ModalGroup::Face && code->number != 27;
-      if (mounts_face ? mounts : instruction.row == code_row) return &line.command(instruction);
+      if (mounts_face ? code->mounts_face() : instruction.row == code_row) return &line.command(instruction);
     }
     return nullptr;
   }

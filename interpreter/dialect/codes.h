@@ -42,6 +42,7 @@ struct GCode {
   constexpr bool is_motion() const { return group == ModalGroup::Motion; }
   constexpr bool is_arc() const { return is_motion() && number >= 2; }
   constexpr bool takes_arguments() const { return arguments != 0; }
+  constexpr bool mounts_face() const { return group == ModalGroup::Face && !is_default; }
 };
 
 /// All G codes of the dialect, by number.

@@ -109,8 +109,7 @@ void RestartSurvey::note(const Block& block) {
     const dialect::GCode* const g = instruction.kind == InstructionKind::G ? instruction.g() : nullptr;
     if (g == nullptr) continue;
     now_.waits_at_end = now_.waits_at_end || g->number == 200;
-    if (g->group != ModalGroup::Face || g->number == 27) continue;
-    now_.face_line = block.tree.text;
+    if (g->mounts_face()) now_.face_line = block.tree.text;
   }
   if (block.tree.jump == nullptr) return;
   const int variable = block.tree.jump->variable;

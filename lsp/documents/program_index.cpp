@@ -49,7 +49,7 @@ class LineReader {
     const auto number = static_cast<std::uint64_t>(code->number);
     if (code->number == 92) add(LandmarkKind::WorkpieceFrame, command.span(), number);
     if (code->group != dialect::ModalGroup::Face) return;
-    add(code->number == 27 ? LandmarkKind::FaceDismounted : LandmarkKind::FaceFrame, command.span(), number);
+    add(code->mounts_face() ? LandmarkKind::FaceFrame : LandmarkKind::FaceDismounted, command.span(), number);
   }
 
   void read_jump() {
