@@ -13,6 +13,7 @@
 #include "analyzer/suppressions.h"
 #include "debugger/session/block_effect.h"
 #include "interpreter/dialect/locale.h"
+#include "interpreter/motion/numbers.h"
 #include "interpreter/running/error_message.h"
 #include "interpreter/running/same_file.h"
 
@@ -755,9 +756,8 @@ void Session::tell_output(std::string_view category, const std::string& text, st
 std::string Session::describe(const running::Event& event) const {
   if (const auto* const change = std::get_if<running::ToolEvent>(&event.what)) {
     std::string name = running::tool_name(change->tool);
-    if (configuration_.machine.tools)
-      for (const configuration::Tool& tool : *configuration_.machine.tools)
-        if (tool.code == change->tool && !tool.name.empty()) name += fmt::format(" ({})", tool.name);
+    const configuration::Tool* const tool = configuration_.machine.find_tool(change->tool);
+    if (tool && !tool->name.empty()) name += fmt::format(" ({})", tool->name);
     return in_language(kToolChange, name);
   }
   if (const auto* const speed = std::get_if<running::SpindleSpeedEvent>(&event.what))
@@ -766,9 +766,8 @@ std::string Session::describe(const running::Event& event) const {
     std::string text = fmt::format("M{:02}", call->number);
     for (const execution::FunctionParameter& each : call->parameters)
       text += fmt::format(" P{}={}", each.number, show_value(each.value));
-    if (configuration_.machine.functions)
-      for (const configuration::NamedFunction& named : *configuration_.machine.functions)
-        if (named.number == call->number && !named.name.empty()) text += fmt::format(" ({})", named.name);
+    const configuration::NamedFunction* const named = configuration_.machine.find_function(call->number);
+    if (named && !named->name.empty()) text += fmt::format(" ({})", named->name);
     return text;
   }
   if (std::holds_alternative<running::UpdateEvent>(event.what)) return std::string(in_language(kUpdate));
@@ -830,7 +829,7 @@ void Session::tell_position(bool at_once) {
                {"tip", pose_json(sample.tip)},
                {"joints", pose_json(motion::pose(sample.joints))},
                {"programmed", pose_json(programmed_pose(moment()))},
-               {"speed", sample.speed * 60},
+               {"speed", sample.speed * motion::kSecondsPerMinute},
                {"spindle", {{"function", state.spindle}, {"speed", state.spindle_speed}}},
                {"tool", nullptr}};
   if (state.tool != execution::ToolCode{}) {

@@ -153,9 +153,8 @@ class Listing {
     if (tool == execution::ToolCode{}) return add("T", in_language(kNone));
     for (const std::string_view name : {"T", "HEAD", "HOLDER", "TOOL"}) add_quantity(name);
     const running::TimedMachine& machine = session_.debuggee().machine();
-    if (session_.configuration().machine.tools)
-      for (const configuration::Tool& each : *session_.configuration().machine.tools)
-        if (each.code == tool && !each.name.empty()) add(in_language(kName), syntax::printable(each.name));
+    const configuration::Tool* const known = session_.configuration().machine.find_tool(tool);
+    if (known && !known->name.empty()) add(in_language(kName), syntax::printable(known->name));
     add(in_language(kLength), show(machine.tool_length(tool)), "mm");
     const auto radius = machine.tool_radii.find(tool);
     if (radius != machine.tool_radii.end()) add(in_language(kRadius), show(radius->second), "mm");

@@ -44,6 +44,10 @@ struct Machine {
   std::string kind = "head";                                            ///< `three-axis`, `head`, `table`.
   std::optional<std::vector<Tool>> tools;
   std::optional<std::vector<NamedFunction>> functions;
+
+  /// What the file tells of a tool, and of an M function; null where it tells nothing.
+  const Tool* find_tool(const execution::ToolCode& code) const;
+  const NamedFunction* find_function(int number) const;
 };
 
 /// Codes as a selection names them.

@@ -12,6 +12,7 @@
 #include "interpreter/dialect/code_set.h"
 #include "interpreter/dialect/locale.h"
 #include "interpreter/dialect/near_names.h"
+#include "interpreter/motion/numbers.h"
 
 namespace isocnc::configuration {
 
@@ -338,11 +339,11 @@ static void derive_motion(Machine& machine) {
   for (std::size_t i = 0; i < motion.axes.size(); ++i) {
     motion.axes[i].least = machine.setup.limits.travel[i].least;
     motion.axes[i].most = machine.setup.limits.travel[i].most;
-    motion.axes[i].speed = machine.rapids[i] / 60;
+    motion.axes[i].speed = machine.rapids[i] / motion::kSecondsPerMinute;
   }
   const execution::Limits& limits = machine.setup.limits;
-  motion.feed_speed = limits.feed / 60;
-  motion.feed_turn = limits.rotary_speed / 60;
+  motion.feed_speed = limits.feed / motion::kSecondsPerMinute;
+  motion.feed_turn = limits.rotary_speed / motion::kSecondsPerMinute;
   machine.timed.spindle_speed = limits.spindle_speed;
   machine.timed.home = machine.setup.home;
   for (const Tool& tool : machine.tools.value_or(std::vector<Tool>())) {
@@ -368,13 +369,6 @@ static void derive(Configuration& configuration, const std::filesystem::path& fo
   Lint& lint = configuration.lint;
   lint.excluded = PathPatterns(folder, lint.exclude);
   for (FileWishes& files : lint.files) files.patterns = PathPatterns(folder, files.paths);
-}
-
-std::array<double, execution::kAxisCount> default_rapids() {
-  const motion::Machine machine = motion::default_machine();
-  std::array<double, execution::kAxisCount> rapids{};
-  for (std::size_t i = 0; i < rapids.size(); ++i) rapids[i] = machine.axes[i].speed * 60;
-  return rapids;
 }
 
 ReadConfiguration read_configuration(std::string_view text, const std::filesystem::path& folder) {

@@ -176,12 +176,10 @@ class Builder {
 
   /// The tool's name in the machine's configuration.
   std::string tool_name(std::uint64_t number) const {
-    const auto& tools = snapshot_.configuration().machine.tools;
-    if (!tools || number > 999'999) return {};
-    const execution::ToolCode code = execution::tool_code(static_cast<int>(number));
-    for (const configuration::Tool& tool : *tools)
-      if (tool.code == code) return tool.name;
-    return {};
+    if (number > 999'999) return {};
+    const configuration::Tool* const tool =
+        snapshot_.configuration().machine.find_tool(execution::tool_code(static_cast<int>(number)));
+    return tool ? tool->name : std::string();
   }
 
   /// A G with its arguments, as written.

@@ -260,13 +260,11 @@ class Teller {
     }
     static constexpr Text kUser = {"user function", "funzione dell'utente"};
     title(kUser.in(language_));
-    const auto& functions = snapshot_.configuration().machine.functions;
-    if (!functions) return;
-    for (const configuration::NamedFunction& function : *functions) {
-      if (word_.value != function.number) continue;
-      add(as_it_stands(function.name));
-      if (function.seconds > 0) add(text(kTakes, shown(function.seconds)));
-    }
+    if (!word_.known()) return;
+    const auto* const function = snapshot_.configuration().machine.find_function(static_cast<int>(word_.value));
+    if (!function) return;
+    add(as_it_stands(function->name));
+    if (function->seconds > 0) add(text(kTakes, shown(function->seconds)));
   }
 
   void tell_tool() {
@@ -276,16 +274,13 @@ class Teller {
     if (!word_.is_plain_integer() || word_.digits != 6) return;
     const execution::ToolCode code = execution::tool_code(static_cast<int>(word_.value));
     title(text(kTool, code.head, code.holder, code.tool));
-    const auto& tools = snapshot_.configuration().machine.tools;
-    if (!tools) return;
-    for (const configuration::Tool& tool : *tools) {
-      if (tool.code != code) continue;
-      std::vector<std::string> data;
-      if (!tool.name.empty()) data.push_back(as_it_stands(tool.name));
-      if (tool.length) data.push_back(text(kLength, shown(*tool.length)));
-      if (tool.radius) data.push_back(text(kRadius, shown(*tool.radius)));
-      if (!data.empty()) add(fmt::format("{}", fmt::join(data, ", ")));
-    }
+    const configuration::Tool* const tool = snapshot_.configuration().machine.find_tool(code);
+    if (!tool) return;
+    std::vector<std::string> data;
+    if (!tool->name.empty()) data.push_back(as_it_stands(tool->name));
+    if (tool->length) data.push_back(text(kLength, shown(*tool->length)));
+    if (tool->radius) data.push_back(text(kRadius, shown(*tool->radius)));
+    if (!data.empty()) add(fmt::format("{}", fmt::join(data, ", ")));
   }
 
   struct Texts {

@@ -1,0 +1,29 @@
+#include "interpreter/configuration/configuration.h"
+
+#include <algorithm>
+
+#include "interpreter/motion/numbers.h"
+
+namespace isocnc::configuration {
+
+std::array<double, execution::kAxisCount> default_rapids() {
+  const motion::Machine machine = motion::default_machine();
+  std::array<double, execution::kAxisCount> rapids{};
+  for (std::size_t i = 0; i < rapids.size(); ++i) rapids[i] = machine.axes[i].speed * motion::kSecondsPerMinute;
+  return rapids;
+}
+
+const Tool* Machine::find_tool(const execution::ToolCode& code) const {
+  if (!tools) return nullptr;
+  const auto found = std::find_if(tools->begin(), tools->end(), [&](const Tool& tool) { return tool.code == code; });
+  return found == tools->end() ? nullptr : &*found;
+}
+
+const NamedFunction* Machine::find_function(int number) const {
+  if (!functions) return nullptr;
+  const auto found = std::find_if(functions->begin(), functions->end(),
+                                  [&](const NamedFunction& function) { return function.number == number; });
+  return found == functions->end() ? nullptr : &*found;
+}
+
+}  // namespace isocnc::configuration
