@@ -384,8 +384,10 @@ class Dimensions {
                    double rounding) const {
     const State& modes = deed.modes();
     const double old_scale = modes.mm_per_unit();
-    const double scale = mode_.group == ModalGroup::Units ? (mode_.number == 70 ? 25.4 : 1) : old_scale;
-    const bool incremental = mode_.group == ModalGroup::Distance ? mode_.number == 91 : modes.incremental();
+    State wanted = modes;
+    wanted.set_mode(mode_.group, mode_.number);
+    const double scale = wanted.mm_per_unit();
+    const bool incremental = wanted.incremental();
     for (const Instruction& instruction : line.instructions) {
       if (fixes::is_motion(instruction) && deed.motion()) {
         set_motion(rewrite, line, instruction, *deed.motion(), scale, old_scale, incremental, rounding);
