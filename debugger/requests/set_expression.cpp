@@ -5,12 +5,11 @@ namespace isocnc::debugger::requests {
 
 /// What an expression names takes the value of another one.
 static Json answer_set_expression(Session& session, const Json& arguments) {
-  static constexpr dialect::Text kNoneToSet{"{} cannot be set", "{} non si può impostare"};
   const std::string name = text(arguments, "expression");
   const auto compiled = session::Expression::compile(name, session.language());
   const auto* const expression = std::get_if<session::Expression>(&compiled);
   const session::Quantity* const quantity = expression != nullptr ? expression->sole_quantity() : nullptr;
-  if (quantity == nullptr) throw RequestError(session.in_language(kNoneToSet, name));
+  if (quantity == nullptr) throw session.not_settable(name);
   session.set_quantity(*quantity, session::number_of(session, text(arguments, "value")));
   return {{"value", session::show_value(quantity->at(session.moment()), format_of(session, arguments))}};
 }

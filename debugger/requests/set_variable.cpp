@@ -6,7 +6,6 @@ namespace isocnc::debugger::requests {
 
 /// A variable as the client shows it takes the value of an expression.
 static Json answer_set_variable(Session& session, const Json& arguments) {
-  static constexpr dialect::Text kNoneToSet{"{} cannot be set", "{} non si può impostare"};
   const std::string name = text(arguments, "name");
   const double value = session::number_of(session, text(arguments, "value"));
   for (const session::Variable& variable :
@@ -15,7 +14,7 @@ static Json answer_set_variable(Session& session, const Json& arguments) {
     session.set_quantity(*variable.quantity, value);
     return {{"value", session::show_value(variable.quantity->at(session.moment()), format_of(session, arguments))}};
   }
-  throw RequestError(session.in_language(kNoneToSet, name));
+  throw session.not_settable(name);
 }
 
 static Json set_variable_capabilities() { return {{"supportsSetVariable", true}}; }

@@ -58,6 +58,11 @@ bool may_be_arc(const running::Block& block) {
                      [](const syntax::Instruction& each) { return each.g() != nullptr && each.g()->is_arc(); });
 }
 
+bool changes_tool(const running::Block& block) {
+  return std::any_of(block.tree.instructions.begin(), block.tree.instructions.end(),
+                     [](const syntax::Instruction& each) { return each.kind == syntax::InstructionKind::ToolChange; });
+}
+
 BlockEffect effect_of(const running::Block& block, const execution::Setup& setup) {
   BlockEffect effect{.state = block.state, .registers = block.registers, .moves = {}, .on_arc = {}};
   Scout scout(effect);

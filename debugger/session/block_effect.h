@@ -19,6 +19,9 @@ struct BlockEffect {
 /// Whether the block drives an arc, unless it is wrong.
 bool may_be_arc(const running::Block& block);
 
+/// Whether the block holds an M06.
+bool changes_tool(const running::Block& block);
+
 BlockEffect effect_of(const running::Block& block, const execution::Setup& setup);
 
 }  // namespace isocnc::debugger::session

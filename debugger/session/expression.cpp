@@ -29,8 +29,8 @@ static constexpr Text kNoSuchName{"there is nothing called {}", "non c'è niente
 static constexpr Text kNoSense{"{} has no meaning here", "{} qui non ha senso"};
 static constexpr Text kUnclosed{"this parenthesis is not closed", "questa parentesi non è chiusa"};
 static constexpr Text kTooDeep{"this nests too deeply", "troppi livelli di parentesi"};
-static constexpr Text kBadFormat{"a format is x (hexadecimal) or a number of decimals, 0 to 12, not {}",
-                                 "un formato è x (esadecimale) o un numero di decimali, da 0 a 12, non {}"};
+static constexpr Text kBadFormat{"a format is x (hexadecimal) or a number of decimals, 0 to {}, not {}",
+                                 "un formato è x (esadecimale) o un numero di decimali, da 0 a {}, non {}"};
 
 /// Recursive descent. The first mistake ends it.
 class ExpressionCompiler {
@@ -239,9 +239,11 @@ std::variant<Expression::Formatted, ExpressionProblem> compile_formatted(std::st
   }
   int decimals = 0;
   const auto [behind, error] = std::from_chars(wish.data(), wish.data() + wish.size(), decimals);
-  if (wish.empty() || error != std::errc{} || behind != wish.data() + wish.size() || decimals < 0 || decimals > 12)
-    return ExpressionProblem{dialect::format(kColumn, language, syntax::column_of(text, comma + 1),
-                                             dialect::format(kBadFormat, language, syntax::printable(wish)))};
+  if (wish.empty() || error != std::errc{} || behind != wish.data() + wish.size() || decimals < 0 ||
+      decimals > ValueFormat::kMostDecimals)
+    return ExpressionProblem{
+        dialect::format(kColumn, language, syntax::column_of(text, comma + 1),
+                        dialect::format(kBadFormat, language, ValueFormat::kMostDecimals, syntax::printable(wish)))};
   result.format = {.is_hexadecimal = false, .decimals = decimals, .keeps_zeros = true};
   return result;
 }

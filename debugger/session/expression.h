@@ -20,6 +20,8 @@ struct ExpressionProblem {
 
 /// How a value is to be shown: `V3,x` in hexadecimal, `Z,2` with two decimals.
 struct ValueFormat {
+  static constexpr int kMostDecimals = 12;
+
   bool is_hexadecimal = false;
   int decimals = 4;  ///< At most; trailing zeros are left out, unless they are asked for.
   bool keeps_zeros = false;

@@ -57,7 +57,7 @@ LaunchWishes read_wishes(const Json& arguments, dialect::Language language) {
     wishes.start_line = static_cast<std::uint64_t>(*line) - 1;
   }
   const std::int64_t decimals = find_integer(arguments, "decimals").value_or(wishes.format.decimals);
-  if (decimals < 0 || decimals > 12) refuse("decimals", std::to_string(decimals), language);
+  if (decimals < 0 || decimals > ValueFormat::kMostDecimals) refuse("decimals", std::to_string(decimals), language);
   wishes.format.decimals = static_cast<int>(decimals);
   return wishes;
 }

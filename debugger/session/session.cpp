@@ -303,19 +303,16 @@ std::optional<Session::Stop> Session::end_block(std::uint64_t block) {
                        {"description", breakpoints.description(outcome.stopped.front(), trail_)}}};
 }
 
+static bool has_same_frame(const execution::State& a, const execution::State& b) {
+  return a.workpiece_origin == b.workpiece_origin && a.face_mounted == b.face_mounted && a.face == b.face;
+}
+
 /// What stands before the next block.
 std::optional<Session::Stop> Session::look_at_block(Debuggee& debuggee) {
   if (wishes_.no_debug || debuggee.present().has_ended()) return std::nullopt;
   if (step_out_of_) {
     const auto block = debuggee.next();
-    const execution::State& from = *step_out_of_;
-    const bool changes_tool =
-        block && std::any_of(block->tree.instructions.begin(), block->tree.instructions.end(),
-                             [](const auto& each) { return each.kind == syntax::InstructionKind::ToolChange; });
-    const bool is_other_frame =
-        block && (block->state.workpiece_origin != from.workpiece_origin ||
-                  block->state.face_mounted != from.face_mounted || !(block->state.face == from.face));
-    if (changes_tool || is_other_frame) return Stop{.reason = "step"};
+    if (block && (changes_tool(*block) || !has_same_frame(block->state, *step_out_of_))) return Stop{.reason = "step"};
   }
   const std::uint64_t line = debuggee.present().line();
   if (breakpoints.has_line(line) || breakpoints.has_functions())
@@ -680,9 +677,13 @@ bool Session::can_set(const Quantity& quantity) {
          name == "PLAYBACK";
 }
 
+RequestError Session::not_settable(std::string_view name) const {
+  return RequestError(in_language(kNotSettable, name));
+}
+
 void Session::set_quantity(const Quantity& quantity, double value) {
   Debuggee& debuggee = standing();
-  if (!can_set(quantity)) throw RequestError(in_language(kNotSettable, quantity.name));
+  if (!can_set(quantity)) throw not_settable(quantity.name);
   const bool is_positive = value > 0 || (quantity.name == "PLAYBACK" && value == 0);
   const bool takes_any = quantity.is_register || quantity.name == "VGPL";
   if (!std::isfinite(value) || (!takes_any && !is_positive) || (quantity.name == "OVERRIDE" && value > 1000))

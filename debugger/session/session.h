@@ -96,6 +96,8 @@ class Session {
   /// Throws where it is none that can be set.
   void set_quantity(const Quantity& quantity, double value);
   static bool can_set(const Quantity& quantity);
+  /// What is said where that is tried.
+  RequestError not_settable(std::string_view name) const;
   /// Runs blocks by hand: what they did, for the console.
   std::string run_by_hand(std::string_view text);
 
@@ -149,7 +151,6 @@ class Session {
   void lead_back(const std::function<void(Debuggee& debuggee)>& move);
   void forget_from(std::uint64_t block);
   void changed_by_hand();
-  void require_running() const;
   void require_no_hindrance() const;
   void tell_where_it_is();
   void tell_position(bool at_once);

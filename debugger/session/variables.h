@@ -23,7 +23,6 @@ struct Scope {
   dialect::Text name;
   std::int64_t reference = 0;
   std::string_view hint;  ///< `locals`, `registers`; empty for none.
-  bool is_expensive = false;
 };
 
 std::span<const Scope> all_scopes();

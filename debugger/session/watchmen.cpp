@@ -46,11 +46,6 @@ bool Watchmen::looks_at_blocks() const {
 
 namespace {
 
-bool changes_tool(const syntax::LineTree& tree) {
-  return std::any_of(tree.instructions.begin(), tree.instructions.end(),
-                     [](const syntax::Instruction& each) { return each.kind == syntax::InstructionKind::ToolChange; });
-}
-
 constexpr Text kBeyondTravel{"axis {} would go to {}, beyond its travel, which ends at {}",
                              "l'asse {} andrebbe a {}, oltre la corsa, che finisce a {}"};
 constexpr Text kAnyToolChange{"tool change", "cambio utensile"};
@@ -84,7 +79,7 @@ std::optional<Exception> Watchmen::look_at(const running::Block& block, const ex
   const auto plainly = [&](Watch watch, const Text& text) {
     return Exception{watch, std::string(definition(watch).name), std::string(text.in(language)), {}};
   };
-  if (is_on(Watch::ToolChange) && changes_tool(block.tree)) return plainly(Watch::ToolChange, kAnyToolChange);
+  if (is_on(Watch::ToolChange) && changes_tool(block)) return plainly(Watch::ToolChange, kAnyToolChange);
   if (!is_on(Watch::Limits) && !is_on(Watch::FirstCut)) return std::nullopt;
   const BlockEffect effect = effect_of(block, setup);
   if (effect.has_error) return std::nullopt;
