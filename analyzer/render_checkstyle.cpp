@@ -17,12 +17,9 @@ class CheckstyleRenderer final : public Renderer {
   void end(std::string& output) override { output += "</checkstyle>\n"; }
 
   void file(const CheckedProgram& program, Output& output) override {
-    const std::string_view name = program.name;
-    const std::string_view text = program.text;
-    const Report& report = program.report;
-    LineFinder lines(text);
-    output.buffer() += fmt::format("  <file name=\"{}\">\n", running::xml_escaped(plain_path(name)));
-    for (const LocatedFinding& located : report.findings) {
+    LineFinder lines(program.text);
+    output.buffer() += fmt::format("  <file name=\"{}\">\n", running::xml_escaped(plain_path(program.name)));
+    for (const LocatedFinding& located : program.report.findings) {
       const ShownFinding shown = show(located, lines, style_);
       fmt::format_to(std::back_inserter(output.buffer()),
                      "    <error line=\"{}\" column=\"{}\" severity=\"{}\" message=\"{}\" source=\"isolint.{}\"/>\n",

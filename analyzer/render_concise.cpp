@@ -12,10 +12,8 @@ class ConciseRenderer final : public Renderer {
 
   void file(const CheckedProgram& program, Output& output) override {
     const std::string name = printable(program.name);
-    const std::string_view text = program.text;
-    const Report& report = program.report;
-    LineFinder lines(text);
-    for (const LocatedFinding& located : report.findings) {
+    LineFinder lines(program.text);
+    for (const LocatedFinding& located : program.report.findings) {
       const ShownFinding shown = show(located, lines, style_);
       fmt::format_to(std::back_inserter(output.buffer()), "{}:{}:{}: {}: {} [{}]\n", name, shown.line, shown.column,
                      dialect::severity_name(shown.severity, style_.language), printable(shown.message), shown.def.code);

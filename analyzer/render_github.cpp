@@ -25,20 +25,17 @@ class GithubRenderer final : public Renderer {
   explicit GithubRenderer(const Style& style) : style_(style) {}
 
   void file(const CheckedProgram& program, Output& output) override {
-    const std::string_view name = program.name;
-    const std::string_view text = program.text;
-    const Report& report = program.report;
     static constexpr std::string_view kCommands[] = {"error", "warning", "notice"};
-    const std::string file = escaped(printable(plain_path(name)), true);
-    LineFinder lines(text);
-    const StepTexts steps(text, report, style_.language);
-    for (const LocatedFinding& located : report.findings) {
+    const std::string file = escaped(printable(plain_path(program.name)), true);
+    LineFinder lines(program.text);
+    const StepTexts steps(program.text, program.report, style_.language);
+    for (const LocatedFinding& located : program.report.findings) {
       const ShownFinding shown = show(located, lines, style_);
       fmt::format_to(std::back_inserter(output.buffer()),
                      "::{} file={},line={},endLine={},col={},endColumn={},title={} {}::{}{}\n",
                      kCommands[static_cast<std::size_t>(shown.severity)], file, shown.line, shown.line, shown.column,
                      shown.end_column, shown.def.code, shown.def.name, escaped(printable(shown.message), false),
-                     escaped(steps.note(located, report), false));
+                     escaped(steps.note(located, program.report), false));
       output.relieve();
     }
   }

@@ -18,14 +18,11 @@ class GitlabRenderer final : public Renderer {
   void end(std::string& output) override { output += first_ ? "]\n" : "\n]\n"; }
 
   void file(const CheckedProgram& program, Output& output) override {
-    const std::string_view name = program.name;
-    const std::string_view text = program.text;
-    const Report& report = program.report;
     static constexpr std::string_view kSeverities[] = {"major", "minor", "info"};
-    const std::string path = plain_path(name);
-    LineFinder lines(text);
+    const std::string path = plain_path(program.name);
+    LineFinder lines(program.text);
     Fingerprints fingerprints;
-    for (const LocatedFinding& located : report.findings) {
+    for (const LocatedFinding& located : program.report.findings) {
       const ShownFinding shown = show(located, lines, style_);
       const Fingerprint print = fingerprints.next(located.finding.id, shown.line_text);
       const std::string all =

@@ -17,16 +17,13 @@ class JsonRenderer final : public Renderer {
   void end(std::string& output) override { output += first_ ? "]\n" : "\n]\n"; }
 
   void file(const CheckedProgram& program, Output& output) override {
-    const std::string_view name = program.name;
-    const std::string_view text = program.text;
-    const Report& report = program.report;
-    LineFinder lines(text);
-    const StepTexts steps(text, report, style_.language);
-    FindingFixes fixes(text, report, program.setup);
-    for (const LocatedFinding& located : report.findings) {
+    LineFinder lines(program.text);
+    const StepTexts steps(program.text, program.report, style_.language);
+    FindingFixes fixes(program.text, program.report, program.setup);
+    for (const LocatedFinding& located : program.report.findings) {
       output.buffer() += first_ ? "\n  " : ",\n  ";
       first_ = false;
-      const Json object = to_json(name, lines, located, report, steps, fixes);
+      const Json object = to_json(program.name, lines, located, program.report, steps, fixes);
       output.buffer() += object.dump(-1, ' ', false, Json::error_handler_t::replace);
       output.relieve();
     }

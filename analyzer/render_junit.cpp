@@ -20,22 +20,19 @@ class JunitRenderer final : public Renderer {
   void end(std::string& output) override { output += "</testsuites>\n"; }
 
   void file(const CheckedProgram& program, Output& output) override {
-    const std::string_view name = program.name;
-    const std::string_view text = program.text;
-    const Report& report = program.report;
-    const auto failures = std::count_if(report.findings.begin(), report.findings.end(), [&](const auto& located) {
-      return located.severity() == dialect::Severity::Error;
-    });
-    const std::string file = running::xml_escaped(plain_path(name));
+    const auto failures =
+        std::count_if(program.report.findings.begin(), program.report.findings.end(),
+                      [&](const auto& located) { return located.severity() == dialect::Severity::Error; });
+    const std::string file = running::xml_escaped(plain_path(program.name));
     fmt::format_to(std::back_inserter(output.buffer()), "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n",
-                   file, std::max<std::size_t>(1, report.findings.size()), failures);
+                   file, std::max<std::size_t>(1, program.report.findings.size()), failures);
     // A suite without a case would count as one that was not run.
-    if (report.findings.empty())
+    if (program.report.findings.empty())
       output.buffer() += fmt::format("    <testcase name=\"isolint\" classname=\"{}\"/>\n", file);
-    LineFinder lines(text);
-    const StepTexts steps(text, report, style_.language);
-    for (const LocatedFinding& located : report.findings) {
-      one(file, show(located, lines, style_), steps.note(located, report), output.buffer());
+    LineFinder lines(program.text);
+    const StepTexts steps(program.text, program.report, style_.language);
+    for (const LocatedFinding& located : program.report.findings) {
+      one(file, show(located, lines, style_), steps.note(located, program.report), output.buffer());
       output.relieve();
     }
     output.buffer() += "  </testsuite>\n";

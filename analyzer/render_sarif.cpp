@@ -43,16 +43,13 @@ class SarifRenderer final : public Renderer {
   }
 
   void file(const CheckedProgram& program, Output& output) override {
-    const std::string_view name = program.name;
-    const std::string_view text = program.text;
-    const Report& report = program.report;
-    const Json artifact = {{"uri", uri_of(name)}, {"index", artifacts_.size()}};
-    artifacts_.push_back({{"location", {{"uri", uri_of(name)}}}, {"roles", {"analysisTarget"}}});
-    LineFinder lines(text);
-    const StepTexts steps(text, report, style_.language);
+    const Json artifact = {{"uri", uri_of(program.name)}, {"index", artifacts_.size()}};
+    artifacts_.push_back({{"location", {{"uri", uri_of(program.name)}}}, {"roles", {"analysisTarget"}}});
+    LineFinder lines(program.text);
+    const StepTexts steps(program.text, program.report, style_.language);
     Fingerprints fingerprints;
-    FindingFixes fixes(text, report, program.setup);
-    for (const LocatedFinding& located : report.findings) {
+    FindingFixes fixes(program.text, program.report, program.setup);
+    for (const LocatedFinding& located : program.report.findings) {
       output.buffer() += first_ ? "\n" : ",\n";
       first_ = false;
       const ShownFinding shown = show(located, lines, style_);
@@ -60,7 +57,7 @@ class SarifRenderer final : public Renderer {
       const Fingerprint print = fingerprints.next(located.finding.id, shown.line_text);
       object["partialFingerprints"]["primaryLocationLineHash"] =
           fmt::format("{:016x}:{}", print.line_hash, print.occurrence);
-      if (located.path >= 0) object["codeFlows"] = code_flows(located, report, steps, shown, artifact);
+      if (located.path >= 0) object["codeFlows"] = code_flows(located, program.report, steps, shown, artifact);
       if (const std::optional<fixes::Fix> fix = fixes.offered(located))
         object["fixes"] = Json::array({fix_of(*fix, fixes, artifact)});
       output.buffer() += dumped(object);

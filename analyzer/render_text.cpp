@@ -64,15 +64,13 @@ class TextRenderer final : public Renderer {
 
   void file(const CheckedProgram& program, Output& output) override {
     const std::string name = printable(program.name);
-    const std::string_view text = program.text;
-    const Report& report = program.report;
-    LineFinder lines(text);
-    const StepTexts steps(text, report, style_.language);
-    RelatedPlaces places(text);
-    FindingFixes fixes(text, report, program.setup);
+    LineFinder lines(program.text);
+    const StepTexts steps(program.text, program.report, style_.language);
+    RelatedPlaces places(program.text);
+    FindingFixes fixes(program.text, program.report, program.setup);
     std::size_t helps = 0;
-    for (const LocatedFinding& located : report.findings) {
-      one(name, lines, places, located, report, steps, output.buffer());
+    for (const LocatedFinding& located : program.report.findings) {
+      one(name, lines, places, located, program.report, steps, output.buffer());
       if (helps < kMostHelp)
         if (const std::optional<fixes::Fix> fix = fixes.offered(located)) {
           help(located, *fix, fixes, output.buffer());

@@ -102,7 +102,7 @@ class LineTokens {
   }
 
   static bool is_motion(const Word& word) {
-    return !word.has(Word::kSigned | Word::kPoint | Word::kMalformed | Word::kMissing) && word.value <= 3;
+    return word.is_plain_integer() && word.value <= 3;
   }
   bool is_target(const Word& word) const { return line_->jump && line_->jump->target_span == word.span(); }
   bool is_assigned(const Word& word) const { return !line_->jump || line_->jump->variable_span != word.span(); }
