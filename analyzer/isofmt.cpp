@@ -30,7 +30,7 @@ using dialect::Language;
 using dialect::Text;
 using running::SourceFile;
 
-enum ExitStatus { kDone = 0, kWouldChange = 1, kTrouble = 2 };
+enum ExitStatus { kDone = 0, kWouldChange = 1, kTrouble = running::kTroubleStatus };
 
 enum class Mode { Check, Diff, Stdout, InPlace };
 

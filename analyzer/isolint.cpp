@@ -40,7 +40,7 @@ using namespace dialect::literals;
 using dialect::Language;
 using running::SourceFile;
 
-enum ExitStatus { kClean = 0, kFindings = 1, kTrouble = 2 };
+enum ExitStatus { kClean = 0, kFindings = 1, kTrouble = running::kTroubleStatus };
 
 void complain(std::string_view what) { running::complain("isolint", what); }
 
@@ -303,10 +303,7 @@ class Recorder final : public Renderer {
  public:
   explicit Recorder(Baseline& baseline) : baseline_(baseline) {}
   void file(const CheckedProgram& program, Output&) override {
-    const std::string_view name = program.name;
-    const std::string_view text = program.text;
-    const Report& report = program.report;
-    baseline_.add(name, text, report);
+    baseline_.add(program.name, program.text, program.report);
   }
 
  private:

@@ -35,7 +35,7 @@ namespace {
 using dialect::Language;
 using dialect::Text;
 
-enum ExitStatus { kRan = 0, kStopped = 1, kTrouble = 2 };
+enum ExitStatus { kRan = 0, kStopped = 1, kTrouble = kTroubleStatus };
 
 /// As they stand on the command line. Numbers are read later, when the language to complain in is known.
 struct Options {
@@ -183,22 +183,22 @@ std::optional<RestartOptions> read_restart_options(const Options& options, const
   return restart;
 }
 
-void print_error(const Options& options, const RunResult& result) {
-  const Language language = options.reader_language();
-  const dialect::DiagnosticDef& def = dialect::definition(result.error.id);
-  std::cerr << syntax::printable(fmt::format("{}:{}: {}: {} [{}]", options.shown_file(), result.line + 1,
-                                             dialect::severity_name(def.severity, language),
-                                             error_message(result, language), def.code))
+/// As compilers do.
+void print_finding(const Options& options, std::uint64_t line, dialect::DiagnosticId id, std::string_view message) {
+  const dialect::DiagnosticDef& def = dialect::definition(id);
+  std::cerr << syntax::printable(fmt::format("{}:{}: {}: {} [{}]", options.shown_file(), line + 1,
+                                             dialect::severity_name(def.severity, options.reader_language()), message,
+                                             def.code))
             << '\n';
 }
 
+void print_error(const Options& options, const RunResult& result) {
+  print_finding(options, result.line, result.error.id, error_message(result, options.reader_language()));
+}
+
 void print_warning(const Options& options, const RunWarning& warning) {
-  const Language language = options.reader_language();
-  const dialect::DiagnosticDef& def = dialect::definition(warning.id);
-  std::cerr << syntax::printable(fmt::format("{}:{}: {}: {} [{}]", options.shown_file(), warning.line + 1,
-                                             dialect::severity_name(def.severity, language),
-                                             dialect::message(warning.id, language, "", warning.values), def.code))
-            << '\n';
+  print_finding(options, warning.line, warning.id,
+                dialect::message(warning.id, options.reader_language(), "", warning.values));
 }
 
 /// A file that the run reads or writes, and what it is to people.
