@@ -80,25 +80,37 @@ static std::uint8_t flags_of(const Number& number) {
                                    (number.malformed ? Word::kMalformed : 0));
 }
 
-/// A malformed number is reported with the letters that have a code of their own for it (D9, D12, D49).
-static bool has_own_code(char letter) { return dialect::contains(dialect::letters("GMNTV"), letter); }
-
-const char* LineParser::lex_word(const char* p) {
-  const char* const start = p;
-  ++p;
-  while (p != end_ && is_blank(*p)) ++p;
-  if (p == end_ || !is_number_char(*p)) return lex_without_number(start, p);
-  const Number number = scan_number(p, end_);
-  const char letter = upper(*start);
-  Word& added = add_word(letter, start, number.end);
+Word& LineParser::add_word(char letter, const char* begin, const Number& number) {
+  Word& added = add_word(letter, begin, number.end);
   added.value = number.value;
   added.digits = number.digits;
   added.flags = flags_of(number);
+  return added;
+}
+
+/// Behind a GOTO the label has been read, or what stands in its place.
+void LineParser::end_target() {
+  if (behind_goto_) in_condition_ = behind_goto_ = false;
+}
+
+/// A malformed number is reported with the letters that have a code of their own for it (D9, D12, D49).
+static bool has_own_code(char letter) { return dialect::contains(dialect::letters("GMNTV"), letter); }
+
+const char* LineParser::lex_word(const char* start) {
+  const char* p = start + 1;
+  while (p != end_ && is_blank(*p)) ++p;
+  return p != end_ && is_number_char(*p) ? lex_with_number(start, p) : lex_without_number(start, p);
+}
+
+/// A letter and the number at `p`; blanks and comments may stand between them.
+const char* LineParser::lex_with_number(const char* start, const char* p) {
+  const Number number = scan_number(p, end_);
+  const char letter = upper(*start);
+  add_word(letter, start, number);
   if (number.malformed && !in_condition_ && !has_own_code(letter))
     report("malformed-number"_diag, {column(p), column(number.end)});
-  const bool only_number = number.end - p == number.digits + (number.is_signed ? 1 : 0) + (number.has_point ? 1 : 0);
-  if (!only_number) note_comments_inside(p, number.end);
-  if (behind_goto_) in_condition_ = behind_goto_ = false;
+  if (p != start + 1 || number.has_more_inside(p)) note_comments_inside(start, number.end);
+  end_target();
   return number.end;
 }
 
@@ -106,18 +118,7 @@ const char* LineParser::lex_word(const char* p) {
 const char* LineParser::lex_without_number(const char* start, const char* p) {
   const char letter = upper(*start);
   const char* const behind = skip_space(p);
-  if (behind != p && behind != end_ && is_number_char(*behind)) {  // X(comment)10
-    const Number number = scan_number(behind, end_);
-    Word& added = add_word(letter, start, number.end);
-    added.value = number.value;
-    added.digits = number.digits;
-    added.flags = flags_of(number);
-    if (number.malformed && !in_condition_ && !has_own_code(letter))
-      report("malformed-number"_diag, {column(behind), column(number.end)});
-    note_comments_inside(start, number.end);
-    if (behind_goto_) in_condition_ = behind_goto_ = false;
-    return number.end;
-  }
+  if (behind != end_ && is_number_char(*behind)) return lex_with_number(start, behind);  // X(comment)10
   if (const char* end = lex_keyword(start, letter)) return end;
   Word& added = add_word(letter, start, start + 1);
   added.value = std::numeric_limits<double>::quiet_NaN();
@@ -126,7 +127,7 @@ const char* LineParser::lex_without_number(const char* start, const char* p) {
   // Before a `=` the author gave the value the wrong way (ISO058), and inside a condition E003 tells.
   const bool assigned = behind != end_ && *behind == '=' && letter != 'V';
   if (!in_condition_ && !assigned) report("word-without-number"_diag, added.span());
-  if (behind_goto_) in_condition_ = behind_goto_ = false;
+  end_target();
   return start + 1;
 }
 
@@ -222,12 +223,9 @@ void LineParser::drop_comment_text() {
 const char* LineParser::lex_number_alone(const char* p) {
   const Number number = scan_number(p, end_);
   note_comments_inside(p, number.end);
-  Word& added = add_word(kNumber, p, number.end);
-  added.value = number.value;
-  added.digits = number.digits;
-  added.flags = flags_of(number);
+  Word& added = add_word(kNumber, p, number);
   if (in_condition_) {
-    if (behind_goto_) in_condition_ = behind_goto_ = false;
+    end_target();
   } else if (number.digits == 0) {
     added.letter = kError;
     report("unknown-word"_diag, added.span());
@@ -239,16 +237,15 @@ const char* LineParser::lex_number_alone(const char* p) {
 
 const char* LineParser::lex_equals(const char* p) {
   if (in_condition_ && !behind_goto_) return lex_comparison(p);
-  Word& added = add_word(kAssign, p, p + 1);
-  added.value = std::numeric_limits<double>::quiet_NaN();
-  added.flags = Word::kMissing;
   const char* const at = skip_space(p + 1);
-  if (at == end_ || !is_number_char(*at)) return p + 1;
+  if (at == end_ || !is_number_char(*at)) {
+    Word& added = add_word(kAssign, p, p + 1);
+    added.value = std::numeric_limits<double>::quiet_NaN();
+    added.flags = Word::kMissing;
+    return p + 1;
+  }
   const Number number = scan_number(at, end_);
-  added.value = number.value;
-  added.digits = number.digits;
-  added.flags = flags_of(number);
-  added.end = column(number.end);
+  add_word(kAssign, p, number);
   if (number.malformed) report("malformed-number"_diag, {column(at), column(number.end)});
   note_comments_inside(p, number.end);
   return number.end;
@@ -320,7 +317,7 @@ const char* LineParser::lex_unknown(const char* p) {
   const bool in_place_of_number = !in_condition_ && garbles_number(upper(*start));
   const Word& added = add_word(kError, start, behind);
   if (!in_condition_ && !in_place_of_number) report("unknown-word"_diag, added.span());
-  if (behind_goto_) in_condition_ = behind_goto_ = false;
+  end_target();
   return behind;
 }
 

@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <optional>
 
+#include "interpreter/syntax/number.h"
 #include "interpreter/syntax/tree_store.h"
 
 namespace isocnc::syntax {
@@ -20,7 +21,8 @@ class LineParser {
  private:
   // Characters into words (lexer.cpp).
   const char* lex();
-  const char* lex_word(const char* p);
+  const char* lex_word(const char* start);
+  const char* lex_with_number(const char* start, const char* p);
   const char* lex_without_number(const char* start, const char* p);
   const char* lex_keyword(const char* p, char letter);
   const char* lex_comment(const char* p);
@@ -35,6 +37,8 @@ class LineParser {
   bool goto_follows(const char* p);
   void note_comments_inside(const char* p, const char* end);
   Word& add_word(char letter, const char* begin, const char* end);
+  Word& add_word(char letter, const char* begin, const Number& number);
+  void end_target();
 
   // Words into instructions (structure.cpp).
   void structure();

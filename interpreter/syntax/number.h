@@ -17,6 +17,11 @@ struct Number {
   bool is_signed = false;
   bool has_point = false;
   bool malformed = false;
+
+  /// Whether blanks or comments stand among its characters, from `begin` on.
+  bool has_more_inside(const char* begin) const {
+    return end - begin != digits + (is_signed ? 1 : 0) + (has_point ? 1 : 0);
+  }
 };
 
 namespace detail {

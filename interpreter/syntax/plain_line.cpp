@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
-#include <string_view>
-#include <vector>
 
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/number.h"
@@ -68,9 +66,7 @@ const char* behind_comment(const char* p, const char* end) {
 bool scan_long_number(const char* p, const char* end, Number& number) {
   if (!is_number_char(*p)) return false;
   number = scan_number(p, end);
-  const bool has_more_inside =
-      number.end - p != number.digits + (number.is_signed ? 1 : 0) + (number.has_point ? 1 : 0);
-  return std::isfinite(number.value) && !has_more_inside;
+  return std::isfinite(number.value) && !number.has_more_inside(p);
 }
 
 }  // namespace
