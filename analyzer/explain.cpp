@@ -1,7 +1,6 @@
 #include "analyzer/explain.h"
 
 #include <algorithm>
-#include <cctype>
 #include <functional>
 #include <optional>
 #include <vector>

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "analyzer/report.h"
+#include "interpreter/dialect/diagnostic_id.h"
 
 namespace isocnc::analyzer {
 

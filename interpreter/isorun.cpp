@@ -25,7 +25,6 @@
 #include "interpreter/running/runner.h"
 #include "interpreter/running/same_file.h"
 #include "interpreter/running/source_file.h"
-#include "interpreter/running/system_texts.h"
 #include "interpreter/syntax/number.h"
 #include "interpreter/syntax/unicode.h"
 

@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "analyzer/rules/rule.h"
 #include "interpreter/geometry/arc.h"
 

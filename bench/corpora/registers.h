@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string_view>
-
 #include "bench/corpora/random.h"
 #include "bench/corpora/writer.h"
 

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "debugger/requests/request.h"
 
 namespace isocnc::debugger::requests {

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
 

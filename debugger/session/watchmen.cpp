@@ -1,7 +1,6 @@
 #include "debugger/session/watchmen.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "analyzer/explain.h"
 #include "debugger/session/block_effect.h"

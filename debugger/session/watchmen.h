@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "interpreter/dialect/diagnostic.h"
 #include "interpreter/dialect/diagnostic_id.h"

@@ -1,7 +1,6 @@
 #include "interpreter/execution/execute.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "interpreter/execution/executor.h"

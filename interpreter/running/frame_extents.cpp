@@ -1,7 +1,5 @@
 #include "interpreter/running/frame_extents.h"
 
-#include <algorithm>
-
 #include "interpreter/motion/travel.h"
 
 namespace isocnc::running {

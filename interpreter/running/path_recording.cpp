@@ -1,7 +1,6 @@
 #include "interpreter/running/path_recording.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <nlohmann/json.hpp>

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "interpreter/dialect/any_case.h"
 #include "interpreter/running/page_plot.h"
 #include "interpreter/running/svg_plot.h"

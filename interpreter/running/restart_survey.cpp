@@ -1,7 +1,6 @@
 #include "interpreter/running/restart_survey.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "interpreter/geometry/arc.h"
 

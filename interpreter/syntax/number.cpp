@@ -1,7 +1,6 @@
 #include "interpreter/syntax/number.h"
 
 #include <charconv>
-#include <cmath>
 #include <string>
 
 namespace isocnc::syntax {

@@ -1,7 +1,6 @@
 #include "lsp/documents/program_index.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace isocnc::lsp::documents {
 

@@ -1,11 +1,8 @@
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
-#include <utility>
 #include <vector>
 
 #include "lsp/documents/snapshot.h"

@@ -2,8 +2,6 @@
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "analyzer/program_formatter.h"
 #include "analyzer/rewriting.h"
 #include "lsp/documents/snapshot_program.h"

@@ -8,7 +8,6 @@
 #include <fstream>
 #include <regex>
 #include <set>
-#include <sstream>
 
 #include "analyzer/check_text.h"
 #include "analyzer/finding_fixes.h"

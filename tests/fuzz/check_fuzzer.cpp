@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cstdint>
-#include <vector>
 
 #include "analyzer/check_text.h"
 #include "interpreter/syntax/document.h"

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <vector>
 
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
