@@ -8,12 +8,9 @@ import threading
 import time
 from pathlib import Path
 
-SEED = 1
+from compare import SEED, CannotMeasure
+
 BUILD = Path(__file__).resolve().parent.parent / "build/release"
-
-
-class CannotMeasure(Exception):
-    """The other side is missing or does not answer, so that no figure would mean anything."""
 
 
 class Client:

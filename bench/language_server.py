@@ -12,9 +12,10 @@ import re
 import time
 from pathlib import Path
 
+import compare
 import editor
 
-KINDS = ["short", "arcs", "fiveaxis", "incremental", "production", "production-if", "hostile-if", "errors"]
+KINDS = [*compare.CLEAN_KINDS, *compare.PATH_KINDS, "errors"]
 
 OPEN_S = 0.5
 EDIT_P50_MS = 1.0
