@@ -83,7 +83,7 @@ std::optional<NumberStyle> read_numbers(std::string_view text) {
   const auto start = std::from_chars(text.data(), end, style.start);
   if (start.ec != std::errc{} || start.ptr == end || *start.ptr != ':') return std::nullopt;
   const auto step = std::from_chars(start.ptr + 1, end, style.step);
-  static constexpr std::uint64_t kMost = 1'000'000'000;
+  static constexpr std::uint64_t kMost = configuration::Renumber::kMost;
   if (step.ec != std::errc{} || step.ptr != end || style.step < 1 || style.step > kMost || style.start > kMost)
     return std::nullopt;
   return style;
@@ -123,10 +123,10 @@ bool check_options(const Options& options) {
   return true;
 }
 
-/// 0 to 15, and keep.
+/// 0, 1, ..., and keep.
 std::vector<std::string> decimals_choices() {
   std::vector<std::string> choices;
-  for (int most = 0; most <= 15; ++most) choices.push_back(std::to_string(most));
+  for (int most = 0; most <= configuration::Format::kMostDecimals; ++most) choices.push_back(std::to_string(most));
   choices.emplace_back("keep");
   return choices;
 }

@@ -73,6 +73,8 @@ struct Lint {
 };
 
 struct Renumber {
+  static constexpr int kMost = 1'000'000'000;
+
   int start = 10;
   int step = 10;
   bool all_lines = false;
@@ -80,6 +82,8 @@ struct Renumber {
 
 /// How programs are formatted, where the command does not tell.
 struct Format {
+  static constexpr int kMostDecimals = 15;
+
   bool word_order = false;
   std::optional<int> decimals;
   std::optional<int> g_digits;

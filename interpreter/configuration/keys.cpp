@@ -380,7 +380,7 @@ static void add_format(std::vector<Key>& keys) {
                   .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.word_order; }});
   keys.push_back({.path = "format.decimals",
                   .kind = Kind::Integer,
-                  .range = {0, 15},
+                  .range = {0, Format::kMostDecimals},
                   .documentation = "Drops zeros from numbers that need no more decimals than this; as --decimals.",
                   .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.decimals; }});
   keys.push_back({.path = "format.gDigits",
@@ -398,12 +398,12 @@ static void add_format(std::vector<Key>& keys) {
                   .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.renumber; }});
   keys.push_back({.path = "format.renumber.start",
                   .kind = Kind::Integer,
-                  .range = {0, 1e9},
+                  .range = {0, Renumber::kMost},
                   .documentation = "The first number.",
                   .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.renumber->start; }});
   keys.push_back({.path = "format.renumber.step",
                   .kind = Kind::Integer,
-                  .range = {1, 1e9},
+                  .range = {1, Renumber::kMost},
                   .documentation = "From one number to the next.",
                   .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.renumber->step; }});
   keys.push_back({.path = "format.renumber.allLines",
