@@ -12,6 +12,7 @@
 #include "analyzer/fixes/fix_table.h"
 #include "analyzer/suppressions.h"
 #include "interpreter/configuration/show.h"
+#include "interpreter/syntax/unicode.h"
 
 namespace isocnc::analyzer {
 
@@ -63,8 +64,7 @@ static std::string folded(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find(' ', at), text.size());
     const std::string_view word = text.substr(at, end - at);
-    const auto width = static_cast<std::size_t>(
-        std::count_if(word.begin(), word.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+    const std::size_t width = syntax::column_of(word, word.size()) - 1;
     if (column > 0 && column + 1 + width > 78) {
       result += '\n';
       column = 0;

@@ -6,6 +6,7 @@
 #include "analyzer/related.h"
 #include "analyzer/renderers.h"
 #include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/syntax/unicode.h"
 
 namespace isocnc::analyzer {
 
@@ -43,9 +44,7 @@ struct Excerpt {
 };
 
 static Excerpt excerpt_around(std::string_view line, std::size_t byte) {
-  const auto is_inside = [&](std::size_t at) {
-    return at < line.size() && (static_cast<unsigned char>(line[at]) & 0xC0) == 0x80;
-  };
+  const auto is_inside = [&](std::size_t at) { return at < line.size() && syntax::is_inside_character(line[at]); };
   Excerpt excerpt;
   if (line.size() > kWidth && byte > kContext + kContext / 2) excerpt.begin = byte - kContext;
   while (excerpt.begin > 0 && is_inside(excerpt.begin)) --excerpt.begin;

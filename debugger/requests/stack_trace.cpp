@@ -20,7 +20,7 @@ static std::string name_of(const Session& session, std::uint64_t line) {
   if (name.empty()) return std::string(session.in_language(kEnd));
   if (name.size() <= kLongestName) return name;
   std::size_t end = kLongestName;
-  while ((static_cast<unsigned char>(name[end]) & 0xC0u) == 0x80u) --end;
+  while (syntax::is_inside_character(name[end])) --end;
   return name.substr(0, end) + "…";
 }
 

@@ -9,6 +9,9 @@ namespace isocnc::syntax {
 /// Bytes of the well-formed UTF-8 sequence that starts `text`; 0 when none does. `text` must not be empty.
 std::size_t sequence_length(std::string_view text);
 
+/// Whether a byte goes on with a character of UTF-8 that has begun before it.
+constexpr bool is_inside_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) == 0x80; }
+
 /// Columns from 1 in Unicode code points; a byte that is no UTF-8 counts as one.
 std::size_t column_of(std::string_view line, std::size_t byte);
 

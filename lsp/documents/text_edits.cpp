@@ -5,14 +5,13 @@
 #include <fmt/format.h>
 
 #include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/unicode.h"
 #include "lsp/rpc/message.h"
 
 namespace isocnc::lsp::documents {
 
 using analyzer::fixes::Edit;
-
-/// Whether a byte goes on with a character of UTF-8.
-static bool is_inside_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) == 0x80; }
+using syntax::is_inside_character;
 
 std::optional<TextEdit> line_edit(const Snapshot& snapshot, std::size_t line, std::string_view text) {
   const std::string_view before = snapshot.document().text_of_line(line);
