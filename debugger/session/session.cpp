@@ -228,6 +228,25 @@ void Session::run_on(Clock::time_point deadline) {
   schedule();
 }
 
+/// Lets the machine go on within one block, and tells what that block does where it begins. Its number.
+template <class Move>
+std::uint64_t Session::advance(const Move& move) {
+  const running::Simulation& present = debuggee_->present();
+  const std::uint64_t block = present.blocks();
+  const std::uint64_t line = present.line();
+  if (present.is_in_block()) {
+    move(*debuggee_);
+    return block - 1;
+  }
+  begin_trail();
+  const Journal::Modes modes(present.run().state);
+  move(*debuggee_);
+  const running::Simulation& behind = debuggee_->present();
+  journal_.take(block, line, modes, Journal::Modes(behind.run().state), behind.runner().events());
+  tell_events(behind.runner().events());
+  return block;
+}
+
 /// One block, or less of it. What comes of it: a stop, the end of the run, or nothing.
 std::optional<Session::Stop> Session::go_on_one_block(double until) {
   Debuggee& debuggee = *debuggee_;
@@ -236,19 +255,9 @@ std::optional<Session::Stop> Session::go_on_one_block(double until) {
       has_arrived_ = true;
       return due;
     }
-  const std::uint64_t block = debuggee.present().blocks();
-  const std::uint64_t line = debuggee.present().line();
-  const bool begins = !debuggee.present().is_in_block();
-  if (begins) begin_trail();
-  const Journal::Modes modes(debuggee.present().run().state);
-  debuggee.advance_in_block(until);
-  if (begins) {
-    const running::Simulation& present = debuggee.present();
-    journal_.take(block, line, modes, Journal::Modes(present.run().state), present.runner().events());
-    tell_events(present.runner().events());
-  }
+  const std::uint64_t block = advance([until](Debuggee& moved) { moved.advance_in_block(until); });
   if (debuggee.present().is_in_block()) return std::nullopt;
-  return end_block(begins ? block : block - 1);
+  return end_block(block);
 }
 
 /// Values along an arc: what only goes beyond a threshold and comes back shows there alone.
@@ -492,24 +501,16 @@ void Session::step(Step step) {
   activity_ = Activity::Running;
   loop_.post([this, step, generation = ++generation_] {
     if (generation != generation_ || !is_launched()) return;
-    const std::uint64_t block = debuggee_->present().blocks();
-    const bool begins = !debuggee_->present().is_in_block();
-    const std::uint64_t line = debuggee_->present().line();
-    if (begins) begin_trail();
-    const Journal::Modes modes(debuggee_->present().run().state);
-    if (step == Step::Block) {
-      debuggee_->step_block();
-    } else {
-      debuggee_->step_instruction();
-    }
-    if (begins) {
-      const running::Simulation& present = debuggee_->present();
-      journal_.take(block, line, modes, Journal::Modes(present.run().state), present.runner().events());
-      tell_events(present.runner().events());
-    }
+    const std::uint64_t block = advance([step](Debuggee& moved) {
+      if (step == Step::Block) {
+        moved.step_block();
+      } else {
+        moved.step_instruction();
+      }
+    });
     has_arrived_ = false;
     if (debuggee_->present().is_in_block()) return stop({.reason = "step"});
-    if (const auto due = end_block(begins ? block : block - 1)) return stop(*due);
+    if (const auto due = end_block(block)) return stop(*due);
     if (is_launched()) settle("step");
   });
 }

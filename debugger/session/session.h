@@ -138,6 +138,8 @@ class Session {
   std::uint64_t end_of_past() const;
   double next_moment();
   std::optional<Stop> go_on_one_block(double until);
+  template <class Move>
+  std::uint64_t advance(const Move& move);
   std::optional<Stop> arrive();
   std::optional<Stop> look_at_breakpoints(Debuggee& debuggee);
   std::optional<Stop> look_at_block(Debuggee& debuggee);
