@@ -24,8 +24,7 @@ void MotionInForce::leave(const syntax::LineTree& line) {
   for (const Instruction& instruction : line.instructions) {
     if (instruction.kind == InstructionKind::G && instruction.g() != nullptr && instruction.g()->is_motion())
       in_force_ = static_cast<std::uint8_t>(instruction.g()->number);
-    if (instruction.kind == InstructionKind::Function && line.command(instruction).value == dialect::kProgramEnd)
-      in_force_ = kNotReached;
+    if (line.ends_program(instruction)) in_force_ = kNotReached;
   }
   if (!line.findings.empty()) in_force_ = kNotKnown;  // What the author meant is for the author to say.
   if (line.jump == nullptr || !line.jump->has_target) return;

@@ -156,11 +156,6 @@ class LineRewrite {
   bool has_comment_ = false;
 };
 
-const Instruction* motion_in(const LineTree& line) {
-  const auto motion = std::find_if(line.instructions.begin(), line.instructions.end(), fixes::is_motion);
-  return motion == line.instructions.end() ? nullptr : &*motion;
-}
-
 // --- Arcs
 
 /// By which words an arc's circle is given, in the order of the line.
@@ -212,7 +207,7 @@ void give_circle(LineRewrite& rewrite, Rewrite how, const LineTree& line, const 
 std::vector<Edit> rewrite_arc(Rewrite how, fixes::Program& program, const execution::Setup& setup,
                               std::uint64_t number) {
   const LineTree line = program.line(number);
-  const Instruction* const motion = motion_in(line);
+  const Instruction* const motion = line.motion();
   if (!motion || words_of(line, *motion, old_letters(how)).empty()) return {};
   const std::optional<State> before = program.state_before(number);
   if (!before || before->unknown != 0 || before->ended) return {};
@@ -330,7 +325,7 @@ class Dimensions {
   bool turns_below() {
     for (std::uint64_t line = last_ + 1; line < program_.line_count(); ++line) {
       const LineTree tree = program_.line(line);
-      const Instruction* const motion = motion_in(tree);
+      const Instruction* const motion = tree.motion();
       if (motion && words_of(tree, *motion, dialect::kLinearLetters).empty()) return true;
     }
     return false;
@@ -389,7 +384,7 @@ class Dimensions {
     const double scale = wanted.mm_per_unit();
     const bool incremental = wanted.incremental();
     for (const Instruction& instruction : line.instructions) {
-      if (fixes::is_motion(instruction) && deed.motion()) {
+      if (instruction.is_motion() && deed.motion()) {
         set_motion(rewrite, line, instruction, *deed.motion(), scale, old_scale, incremental, rounding);
       } else if (instruction.kind == InstructionKind::G && instruction.g() != nullptr && old_scale != scale) {
         set_origin(rewrite, line, instruction, before.mm_per_unit(), scale, rounding);
@@ -432,7 +427,7 @@ class Dimensions {
   /// Per minute and along a way: inverse time and degrees know no units.
   static void set_feed(LineRewrite& rewrite, const LineTree& line, const Deed& deed, double factor) {
     if (deed.modes().inverse_time()) return;
-    const Instruction* const motion = motion_in(line);
+    const Instruction* const motion = line.motion();
     if (motion && words_of(line, *motion, dialect::kLinearLetters).empty()) return;
     const Word& feed = line.words[static_cast<std::size_t>(line.feed)];
     const double value = feed.value * factor;

@@ -67,7 +67,7 @@ static std::optional<State> state_at_motion(const Request& request, const Instru
 static const Instruction* marked_motion(const Request& request) {
   const Word* const word = word_at(request.line, request.finding.span);
   const Instruction* const motion = word ? owner_of(request.line, *word) : nullptr;
-  return motion && is_motion(*motion) ? motion : nullptr;
+  return motion && motion->is_motion() ? motion : nullptr;
 }
 
 static std::optional<WrittenArc> written_arc(const Request& request) {

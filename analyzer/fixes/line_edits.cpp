@@ -82,11 +82,6 @@ const Word* first_word(const LineTree& line) {
   return first != line.words.end() ? &*first : nullptr;
 }
 
-bool is_motion(const Instruction& instruction) {
-  if (instruction.kind == syntax::InstructionKind::Continuation) return true;
-  return instruction.kind == syntax::InstructionKind::G && instruction.g() != nullptr && instruction.g()->is_motion();
-}
-
 std::string written(double value, int decimals) {
   std::string text = fmt::format("{:.{}f}", value, decimals);
   if (text.find('.') != std::string::npos) {

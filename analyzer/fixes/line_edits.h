@@ -27,7 +27,6 @@ const syntax::Word* word_at(const syntax::LineTree& line, syntax::Span span);
 const syntax::Instruction* owner_of(const syntax::LineTree& line, const syntax::Word& word);
 /// The first word that is no line number, or null.
 const syntax::Word* first_word(const syntax::LineTree& line);
-bool is_motion(const syntax::Instruction& instruction);
 
 /// A number as programs write it: at most `decimals`, without zeros at the end.
 std::string written(double value, int decimals);

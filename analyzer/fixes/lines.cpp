@@ -35,10 +35,6 @@ Draft m05_above(const Request& request) { return line_above(request, "M05"); }
 Draft g90_above(const Request& request) { return line_above(request, "G90"); }
 Draft g71_above(const Request& request) { return line_above(request, "G71"); }
 
-static bool ends_program(const LineTree& line, const Instruction& instruction) {
-  return instruction.kind == InstructionKind::Function && line.command(instruction).value == dialect::kProgramEnd;
-}
-
 /// Lines that are looked over for the G27 that comes too late.
 static constexpr std::uint64_t kFarthestDismount = 5'000;
 
@@ -52,7 +48,7 @@ Draft later_g27_above(const Request& request) {
     const LineTree line = parsed.tree();
     if (is_jumped_to(line, request.program)) return {};
     for (const Instruction& each : line.instructions) {
-      if (each.kind == InstructionKind::Jump || ends_program(line, each)) return {};
+      if (each.kind == InstructionKind::Jump || line.ends_program(each)) return {};
       const dialect::GCode* const code = each.kind == InstructionKind::G ? each.g() : nullptr;
       if (!code || (code->group != ModalGroup::Face && code->group != ModalGroup::Workpiece)) continue;
       if (code->number != 27 || line.instructions.size() > 1) return {};
@@ -132,8 +128,8 @@ Draft tool_of_other_line(const Request& request) {
 /// Whether the line does what a T may be moved past: nothing that moves, mounts, jumps or ends.
 static bool lets_tool_pass(const LineTree& line, Program& program) {
   const auto is_in_the_way = [&](const Instruction& each) {
-    return is_motion(each) || each.kind == InstructionKind::ToolChange || each.kind == InstructionKind::StrayTool ||
-           each.kind == InstructionKind::Jump || ends_program(line, each);
+    return each.is_motion() || each.kind == InstructionKind::ToolChange || each.kind == InstructionKind::StrayTool ||
+           each.kind == InstructionKind::Jump || line.ends_program(each);
   };
   return !is_jumped_to(line, program) &&
          std::none_of(line.instructions.begin(), line.instructions.end(), is_in_the_way);

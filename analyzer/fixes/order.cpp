@@ -60,7 +60,7 @@ static bool takes_all_its_words(const LineTree& line, const Instruction& instruc
 static bool speeds_stay_with_motions(const LineTree& line, Extent alone) {
   const auto part_of = [&](std::size_t word) { return word < alone.first ? 0 : 1; };
   for (const Instruction& instruction : line.instructions) {
-    if (!is_motion(instruction)) continue;
+    if (!instruction.is_motion()) continue;
     for (const std::int32_t speed : {line.feed, line.spindle})
       if (speed >= 0 && part_of(static_cast<std::size_t>(speed)) != part_of(instruction.command)) return false;
   }
@@ -109,7 +109,7 @@ Draft mode_first(const Request& request) {
 Draft arguments_together(const Request& request) {
   const LineTree& line = request.line;
   const Instruction* const motion = marked_instruction(request);
-  if (!motion || !is_motion(*motion)) return {};
+  if (!motion || !motion->is_motion()) return {};
   Draft draft;
   std::size_t last = motion->kind == InstructionKind::G ? motion->command : motion->begin;
   std::string strays;
@@ -140,8 +140,8 @@ Draft command_first(const Request& request) {
 
 /// The first word of the line's first motion, or null.
 static const Word* motion_begin(const LineTree& line) {
-  const auto motion = std::find_if(line.instructions.begin(), line.instructions.end(), is_motion);
-  if (motion == line.instructions.end()) return nullptr;
+  const Instruction* const motion = line.motion();
+  if (motion == nullptr) return nullptr;
   return &line.words[motion->kind == InstructionKind::G ? motion->command : motion->begin];
 }
 
@@ -156,7 +156,7 @@ Draft compensation_before_motion(const Request& request) {
 static const Instruction* last_motion(const LineTree& line) {
   const Instruction* last = nullptr;
   for (const Instruction& each : line.instructions)
-    if (is_motion(each)) last = &each;
+    if (each.is_motion()) last = &each;
   return last;
 }
 

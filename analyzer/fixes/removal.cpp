@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "analyzer/fixes/line_edits.h"
+#include "interpreter/dialect/any_case.h"
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
 
@@ -54,7 +55,7 @@ Draft removed_earlier_mode(const Request& request) {
   const auto matters = [&](const Word& word) {
     if (word.begin <= earlier.begin || word.begin >= request.finding.span.begin) return false;
     const Instruction* const owner = owner_of(request.line, word);
-    return owner != nullptr && (owner->kind != syntax::InstructionKind::G || is_motion(*owner) || !owner->g() ||
+    return owner != nullptr && (owner->kind != syntax::InstructionKind::G || owner->is_motion() || !owner->g() ||
                                 owner->g()->takes_arguments());
   };
   if (earlier.empty() || holds_comment(request.line.text_of(earlier))) return {};
@@ -101,10 +102,8 @@ Draft removed_first_motion(const Request& request) {
 }
 
 static bool is_one_of(std::string_view word, std::initializer_list<std::string_view> names) {
-  return std::any_of(names.begin(), names.end(), [&](std::string_view name) {
-    return std::equal(word.begin(), word.end(), name.begin(), name.end(),
-                      [](char a, char b) { return syntax::upper(a) == syntax::upper(b); });
-  });
+  return std::any_of(names.begin(), names.end(),
+                     [&](std::string_view name) { return dialect::equal_words(word, name); });
 }
 
 static bool names_w190(std::string_view line) {
@@ -122,7 +121,7 @@ Draft removed_suppression(const Request& request) {
   const std::string_view line = request.line.text;
   const Span span = request.finding.span;
   const std::string_view text = request.marked();
-  const bool is_whole = text.size() > kCall.size() && is_one_of(text.substr(0, kCall.size()), {kCall});
+  const bool is_whole = text.size() > kCall.size() && dialect::begins_with(text, kCall);
   if (!is_whole) {
     // Without its last code the comment would silence everything. Known codes are told one by one beside a useful one,
     // an unknown one, or W190.

@@ -10,7 +10,7 @@ static void check_modal_group_twice(const Block& block, execution::Sink& sink) {
   std::array<const syntax::Word*, dialect::kModalGroupCount> first{};
   for (const syntax::Instruction& instruction : block.line.instructions) {
     const dialect::GCode* const code = instruction.kind == syntax::InstructionKind::G ? instruction.g() : nullptr;
-    const bool moves = instruction.kind == syntax::InstructionKind::Continuation || (code && code->is_motion());
+    const bool moves = instruction.is_motion();
     if (moves) first = {};
     if (!code || moves || code->group == dialect::ModalGroup::None) continue;
     const syntax::Word*& seen = first[static_cast<std::size_t>(code->group)];

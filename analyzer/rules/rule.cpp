@@ -20,10 +20,8 @@ void ask_all(const Block& block, execution::Sink& sink) {
   for (const syntax::Instruction& instruction : block.line.instructions) {
     switch (instruction.kind) {
       case syntax::InstructionKind::Continuation:
-        concerns |= kMotion;
-        break;
       case syntax::InstructionKind::G:
-        concerns |= instruction.g() && instruction.g()->is_motion() ? kMotion : kModal;
+        concerns |= instruction.is_motion() ? kMotion : kModal;
         break;
       case syntax::InstructionKind::Function:
         concerns |= kFunction;
@@ -59,9 +57,9 @@ void judge_arc(const geometry::Circle& circle, syntax::Span span, const executio
 static const syntax::Instruction* motion_instruction(const syntax::LineTree& line) {
   const syntax::Instruction* found = nullptr;
   for (const syntax::Instruction& instruction : line.instructions) {
-    const bool is_g = instruction.kind == syntax::InstructionKind::G && instruction.g() && instruction.g()->is_motion();
-    if (is_g) return &instruction;
-    if (instruction.kind == syntax::InstructionKind::Continuation) found = &instruction;
+    if (!instruction.is_motion()) continue;
+    if (instruction.kind == syntax::InstructionKind::G) return &instruction;
+    found = &instruction;
   }
   return found;
 }

@@ -24,9 +24,8 @@ class Reader::Liveness {
     if (line.has_label() && targets_.contains(line.label)) ended_ = false;
     if (ended_) return false;
     if (line.jump && line.jump->has_target) targets_.insert(line.jump->target);
-    ended_ = std::any_of(line.instructions.begin(), line.instructions.end(), [&](const syntax::Instruction& each) {
-      return each.kind == syntax::InstructionKind::Function && line.command(each).value == dialect::kProgramEnd;
-    });
+    ended_ = std::any_of(line.instructions.begin(), line.instructions.end(),
+                         [&](const syntax::Instruction& each) { return line.ends_program(each); });
     return true;
   }
 

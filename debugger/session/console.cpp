@@ -45,10 +45,8 @@ struct Blocks {
 };
 
 bool needs_g909(const syntax::Instruction& instruction) {
-  if (instruction.kind == InstructionKind::Function || instruction.kind == InstructionKind::ToolChange) return false;
-  if (instruction.kind == InstructionKind::Continuation) return false;
-  const dialect::GCode* const code = instruction.g();
-  return !(instruction.kind == InstructionKind::G && code != nullptr && code->is_motion());
+  return instruction.kind != InstructionKind::Function && instruction.kind != InstructionKind::ToolChange &&
+         !instruction.is_motion();
 }
 
 void add_line(std::string_view line, Blocks& blocks) {

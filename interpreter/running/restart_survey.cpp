@@ -134,8 +134,7 @@ std::uint16_t RestartSurvey::traits_of(const Block& block) const {
     const dialect::GCode* const g = instruction.kind == InstructionKind::G ? instruction.g() : nullptr;
     if (instruction.kind == InstructionKind::Continuation) traits |= kContinues;
     // Behind M02 nothing is left to be done.
-    if (instruction.kind == InstructionKind::Function && block.tree.command(instruction).value == dialect::kProgramEnd)
-      traits |= kIdle;
+    if (block.tree.ends_program(instruction)) traits |= kIdle;
     if (g != nullptr && g->is_motion()) traits |= kNamesMotion;
     if (g != nullptr && g->number == 9 && instruction.has(Instruction::kFirst)) traits |= kStopsExactly;
   }

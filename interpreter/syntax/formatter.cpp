@@ -19,11 +19,6 @@ static std::size_t line_number_word(const LineTree& tree) {
   return word == nullptr ? tree.words.size() : static_cast<std::size_t>(word - tree.words.data());
 }
 
-static bool is_motion(const Instruction& instruction) {
-  return instruction.kind == InstructionKind::Continuation ||
-         (instruction.kind == InstructionKind::G && instruction.g() != nullptr && instruction.g()->is_motion());
-}
-
 static bool is_argument(const LineTree& tree, const Instruction& instruction, std::size_t index) {
   const bool is_command = instruction.kind != InstructionKind::Continuation && index == instruction.command;
   return tree.words[index].owner == instruction.number && !is_command;
@@ -105,7 +100,7 @@ class Rereading {
   }
 
   bool does_the_same(const Instruction& a, const Instruction& b) const {
-    if (is_motion(a) && is_motion(b)) return is_same_motion(a, b) && has_same_arguments(a, b);
+    if (a.is_motion() && b.is_motion()) return is_same_motion(a, b) && has_same_arguments(a, b);
     if (a.kind != b.kind || a.row != b.row || a.flags != b.flags) return false;
     if (a.kind == InstructionKind::G) return has_same_arguments(a, b);
     return a.kind == InstructionKind::Jump || has_same_words(a, b);  // A jump's words are in the Jump.
@@ -225,9 +220,8 @@ void Formatter::start(const LineTree& tree) {
 /// stand at the end, one behind a G that is dropped from the start of the line at the start.
 void Formatter::choose_order(const LineTree& tree, const LineChange& change) {
   if (tree.words.empty()) return;
-  const auto motion = std::find_if(tree.instructions.begin(), tree.instructions.end(), is_motion);
-  const bool drops_first =
-      change.motion == LineChange::Motion::Drop && motion != tree.instructions.end() && motion->command == 0;
+  const Instruction* const motion = tree.motion();
+  const bool drops_first = change.motion == LineChange::Motion::Drop && motion != nullptr && motion->command == 0;
   const Word& first = tree.words[drops_first ? 1 : 0];
   for (const Span comment : tree.comments)
     if (comment.begin > first.begin && comment.begin < tree.words.back().begin) return;
@@ -256,8 +250,8 @@ void Formatter::sort_arguments(const LineTree& tree, const Instruction& instruct
 
 /// F is the speed of the line's motion wherever it stands (D14); a line has at most one motion.
 void Formatter::move_feed(const LineTree& tree) {
-  const auto motion = std::find_if(tree.instructions.begin(), tree.instructions.end(), is_motion);
-  if (tree.feed < 0 || motion == tree.instructions.end()) return;
+  const Instruction* const motion = tree.motion();
+  if (tree.feed < 0 || motion == nullptr) return;
   const auto feed = static_cast<std::uint16_t>(tree.feed);
   order_.erase(std::find(order_.begin(), order_.end(), feed));
   auto behind = order_.end();
@@ -266,10 +260,8 @@ void Formatter::move_feed(const LineTree& tree) {
 }
 
 void Formatter::write_words(const LineTree& tree, const LineChange& change) {
-  const auto motion = change.motion == LineChange::Motion::Keep
-                          ? tree.instructions.end()
-                          : std::find_if(tree.instructions.begin(), tree.instructions.end(), is_motion);
-  bool is_pending = motion != tree.instructions.end();
+  const Instruction* const motion = change.motion == LineChange::Motion::Keep ? nullptr : tree.motion();
+  bool is_pending = motion != nullptr;
   const std::size_t number_at = change.line_number ? line_number_word(tree) : tree.words.size();
   bool needs_number = change.line_number && number_at == tree.words.size();
   char letter_before = '\0';

@@ -80,6 +80,8 @@ struct Instruction {
 
   constexpr bool has(std::uint8_t flag) const { return (flags & flag) != 0; }
   const dialect::GCode* g() const { return row == dialect::kUnknownGCode ? nullptr : &dialect::kGCodes[row]; }
+  /// A motion, by its G or continued.
+  bool is_motion() const { return kind == InstructionKind::Continuation || (g() != nullptr && g()->is_motion()); }
 };
 
 /// IF left comparison value GOTO label (I.5).
@@ -144,6 +146,16 @@ struct LineTree {
   /// Nothing but blanks, comments and N: a block that does nothing (D13).
   bool is_empty() const { return instructions.empty() && feed < 0 && spindle < 0; }
   const Word& command(const Instruction& instruction) const { return words[instruction.command]; }
+  /// The first motion, or null.
+  const Instruction* motion() const {
+    for (const Instruction& instruction : instructions)
+      if (instruction.is_motion()) return &instruction;
+    return nullptr;
+  }
+  /// Whether an instruction of the line is the M02.
+  bool ends_program(const Instruction& instruction) const {
+    return instruction.kind == InstructionKind::Function && command(instruction).value == dialect::kProgramEnd;
+  }
   PlainLine plain() const {
     return {.words = words,
             .arguments = plain_arguments,

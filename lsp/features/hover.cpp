@@ -104,9 +104,7 @@ class Teller {
     const std::string_view meaning = dialect::meaning_of(word_.letter).in(language_);
     if (!meaning.empty()) title(meaning);
     const Instruction* const owner = instruction();
-    const bool moves = owner && (owner->kind == InstructionKind::Continuation ||
-                                 (owner->kind == InstructionKind::G && owner->g() && owner->g()->is_motion()));
-    if (moves) tell_motion();
+    if (owner && owner->is_motion()) tell_motion();
   }
 
   void tell_g() {

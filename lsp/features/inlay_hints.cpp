@@ -68,15 +68,6 @@ class StateWalk {
   std::optional<State> state_;
 };
 
-const syntax::Instruction* motion_of(const LineTree& line) {
-  for (const syntax::Instruction& instruction : line.instructions) {
-    const bool is_g = instruction.kind == syntax::InstructionKind::G && instruction.g();
-    if (instruction.kind == syntax::InstructionKind::Continuation || (is_g && instruction.g()->is_motion()))
-      return &instruction;
-  }
-  return nullptr;
-}
-
 /// Three decimals at most: a thousandth of a millimeter is what one reads.
 std::string number_text(double value) {
   const double rounded = std::round(value * 1000) / 1000;
@@ -91,7 +82,7 @@ class HintFinder {
   void look_at(std::size_t index) {
     const syntax::DocumentLine read = snapshot_.document().line(index);
     const syntax::LineTree& line = *read;
-    const syntax::Instruction* const motion = motion_of(line);
+    const syntax::Instruction* const motion = line.motion();
     walk_.arrive(index);
     if (motion && motion->kind == syntax::InstructionKind::Continuation) tell_of_motion(index, line, *motion);
     walk_.step(index, line);
