@@ -188,6 +188,22 @@ TEST(Documentation, VersionIsThatOfTheBuild) {
             version.substr(0, version.rfind('.')));
 }
 
+TEST(Documentation, ProgramsHaveTheSameExtensionsEverywhere) {
+  static const std::regex kExtension(R"re("\.([a-z]+)")re");
+  const std::string list = read(kRoot / "interpreter/configuration/configuration.h");
+  const std::size_t begin = list.find("kProgramExtensions{");
+  ASSERT_NE(begin, std::string::npos);
+  const std::string extensions = list.substr(begin, list.find('}', begin) - begin);
+  std::string either;
+  for (std::sregex_iterator it(extensions.begin(), extensions.end(), kExtension); it != std::sregex_iterator(); ++it) {
+    for (const std::string file :
+         {"analyzer/command_line.cpp", "analyzer/isofmt.cpp", "docs/isolint.md", "docs/git.md"})
+      EXPECT_NE(read(kRoot / file).find("." + (*it)[1].str()), std::string::npos) << file << ": " << (*it)[1];
+    either += (either.empty() ? "" : "|") + (*it)[1].str();
+  }
+  EXPECT_NE(read(kRoot / ".pre-commit-hooks.yaml").find("\\.(" + either + ")$"), std::string::npos) << either;
+}
+
 TEST(Documentation, TellsOfMessagesBeyondTheProtocols) {
   static const std::regex kOwn(R"re("(isocnc[/.][A-Za-z]+)")re");
   const std::string pages = read(kRoot / "docs/isols.md") + read(kRoot / "docs/isodap.md");
