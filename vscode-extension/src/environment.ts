@@ -24,11 +24,22 @@ export function language(): Language {
   return vscode.env.language.startsWith('it') ? 'it' : 'en';
 }
 
+/** What we read of our package.json. */
+interface Manifest {
+  version: string;
+  contributes: { languages: { extensions?: string[] }[] };
+}
+
 export class Environment {
   constructor(private readonly context: vscode.ExtensionContext) {}
 
   get version(): string {
-    return (this.context.extension.packageJSON as { version: string }).version;
+    return this.manifest.version;
+  }
+
+  /** What the names of programs end in. */
+  get endings(): string[] {
+    return this.manifest.contributes.languages.flatMap(({ extensions = [] }) => extensions);
   }
 
   find(name: ProgramName): string | null {
@@ -45,6 +56,10 @@ export class Environment {
     const file = this.find(name);
     if (!file) await adviseMissing(name);
     return file;
+  }
+
+  private get manifest(): Manifest {
+    return this.context.extension.packageJSON as Manifest;
   }
 }
 

@@ -5,8 +5,7 @@ import type { Environment } from './environment';
 import { checkFile } from './tasks';
 
 /** What VS Code calls a text that it does not synchronize. */
-export const mostBytes = 50 * 1024 * 1024;
-const endings = ['.iso', '.cnc', '.nc'];
+const mostBytes = 50 * 1024 * 1024;
 
 export function activate(context: vscode.ExtensionContext, environment: Environment): void {
   const told = new Set<string>();
@@ -14,7 +13,7 @@ export function activate(context: vscode.ExtensionContext, environment: Environm
     const input = vscode.window.tabGroups.activeTabGroup.activeTab?.input;
     if (!(input instanceof vscode.TabInputText)) return;
     const { uri } = input;
-    if (uri.scheme !== 'file' || told.has(uri.fsPath) || !endings.includes(extname(uri.fsPath).toLowerCase())) return;
+    if (uri.scheme !== 'file' || told.has(uri.fsPath) || !environment.endings.includes(extname(uri.fsPath).toLowerCase())) return;
     if ((await sizeOf(uri)) <= mostBytes || told.has(uri.fsPath)) return;
     told.add(uri.fsPath);
     await advise(environment, uri);
