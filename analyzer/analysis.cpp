@@ -106,7 +106,7 @@ void Analysis::move_jumps(const Change& change) {
       if (event.kind == JumpEvent::Kind::Jump)
         sites.push_back({document_.first_line_of_chunk(chunk) + event.line, event.jump});
   const std::size_t first_line =
-      change.inserted > 0 ? document_.first_line_of_chunk(change.first) : document_.line_count();
+      change.first < rows_.size() ? document_.first_line_of_chunk(change.first) : document_.line_count();
   jumps_.move(jumps_.first_from(first_line), sites,
               static_cast<std::int64_t>(document_.line_count()) - static_cast<std::int64_t>(line_count_));
 }

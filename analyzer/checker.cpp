@@ -307,7 +307,7 @@ void Checker::note_line(const LineTree& line, const execution::State& before, co
   for (const syntax::Instruction& instruction : line.instructions) {
     const bool is_g = instruction.kind == syntax::InstructionKind::G;
     const dialect::GCode* const code = is_g ? instruction.g() : nullptr;
-    moves |= instruction.kind == syntax::InstructionKind::Continuation || (code && code->is_motion());
+    moves |= instruction.is_motion();
     changes_frame |=
         is_g && (!code || code->group == dialect::ModalGroup::Face || code->group == dialect::ModalGroup::Workpiece);
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <optional>
 
 #ifdef __SSE2__
 #include <emmintrin.h>

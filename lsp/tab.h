@@ -24,8 +24,6 @@ namespace isocnc::lsp {
 class Tab : public std::enable_shared_from_this<Tab> {
  public:
   using ClientPointer = std::shared_ptr<const documents::Client>;
-  /// The result or error of a request, as the body of a message.
-  using Reply = std::function<void(std::string body)>;
 
   /// What is wrong with a configuration file, told as diagnostics of its own.
   using TellConfiguration = std::function<void(std::string uri, std::string params)>;

@@ -99,6 +99,20 @@ TEST(Analysis, WhatAnIfComparesIsCheckedAgainWhereItMatters) {
   expect_few(1'200);
 }
 
+TEST(Analysis, AJumpBelowLinesThatAreGoneStandsHigherUp) {
+  const std::string below = "IF V9=1 GOTO N5\nX1\nN5 X2\nM02\n";
+  const std::string text = zigzag(1'000);
+  for (std::size_t first = 60; first < 460; ++first) {  // Whole chunks, too.
+    Document document(text.substr(0, text.size() - 4) + below);
+    Analysis analysis(document, kSetup);
+    document.replace({first, 0}, {first + 128, 0}, "");
+    analysis.update();
+    const Report report = analysis.report();
+    ASSERT_EQ(report.findings.size(), 1u);  // Nothing gives V9 a value.
+    ASSERT_EQ(report.findings[0].line, document.line_count() - 5) << first;
+  }
+}
+
 TEST(Analysis, LabelsThatAreNamedFromNowOnAreFound) {
   std::string moves;
   for (int i = 0; i < 1'000; ++i) moves += fmt::format("G1 X{}\n", i % 100);
