@@ -1,7 +1,6 @@
 #include "analyzer/analysis.h"
 
 #include <algorithm>
-#include <unordered_map>
 #include <utility>
 
 namespace isocnc::analyzer {
