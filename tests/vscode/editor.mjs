@@ -165,16 +165,23 @@ export class Editor {
     await this.press('Control+1');
   }
 
+  /** Puts the cursor of the program's editor there. Keys may be lost while the focus leaves a panel. */
   async goTo(line, column = 1) {
-    await this.press('Control+g');
-    await this.page.locator('.quick-input-widget input').first().fill(`:${line}:${column}`);
-    await this.press('Enter');
-    await eventually(() => this.place(), `the cursor is not on ${line}`, (place) => place.line === line);
+    await eventually(
+      async () => {
+        await this.press('Escape', 'Control+1', 'Control+g');
+        await this.page.locator('.quick-input-widget input').first().fill(`:${line}:${column}`, { timeout: patience / 4 });
+        await this.press('Enter');
+        return this.place();
+      },
+      `the cursor is not on ${line}`,
+      (place) => place.line === line,
+    );
   }
 
   /** Where the cursor is, as the status bar has it. */
   async place() {
-    const text = await this.page.locator('#status\\.editor\\.selection').innerText();
+    const text = await this.page.locator('#status\\.editor\\.selection').innerText({ timeout: patience / 4 });
     const [, line, column] = /Ln (\d+), Col (\d+)/.exec(text) ?? [];
     return { line: Number(line), column: Number(column) };
   }
