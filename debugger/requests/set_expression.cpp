@@ -9,7 +9,7 @@ static Json answer_set_expression(Session& session, const Json& arguments) {
   const auto compiled = session::Expression::compile(name, session.language());
   const auto* const expression = std::get_if<session::Expression>(&compiled);
   const session::Quantity* const quantity = expression != nullptr ? expression->sole_quantity() : nullptr;
-  if (quantity == nullptr) throw session.not_settable(name);
+  if (quantity == nullptr) session.refuse_to_set(name);
   session.set_quantity(*quantity, session::number_of(session, text(arguments, "value")));
   return {{"value", session::show_value(quantity->at(session.moment()), format_of(session, arguments))}};
 }

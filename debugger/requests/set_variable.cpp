@@ -14,7 +14,7 @@ static Json answer_set_variable(Session& session, const Json& arguments) {
     session.set_quantity(*variable.quantity, value);
     return {{"value", session::show_value(variable.quantity->at(session.moment()), format_of(session, arguments))}};
   }
-  throw session.not_settable(name);
+  session.refuse_to_set(name);
 }
 
 static Json set_variable_capabilities() { return {{"supportsSetVariable", true}}; }

@@ -678,13 +678,11 @@ bool Session::can_set(const Quantity& quantity) {
          name == "PLAYBACK";
 }
 
-RequestError Session::not_settable(std::string_view name) const {
-  return RequestError(in_language(kNotSettable, name));
-}
+void Session::refuse_to_set(std::string_view name) const { throw RequestError(in_language(kNotSettable, name)); }
 
 void Session::set_quantity(const Quantity& quantity, double value) {
   Debuggee& debuggee = standing();
-  if (!can_set(quantity)) throw not_settable(quantity.name);
+  if (!can_set(quantity)) refuse_to_set(quantity.name);
   const bool is_positive = value > 0 || (quantity.name == "PLAYBACK" && value == 0);
   const bool takes_any = quantity.is_register || quantity.name == "VGPL";
   if (!std::isfinite(value) || (!takes_any && !is_positive) || (quantity.name == "OVERRIDE" && value > 1000))

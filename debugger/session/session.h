@@ -96,8 +96,8 @@ class Session {
   /// Throws where it is none that can be set.
   void set_quantity(const Quantity& quantity, double value);
   static bool can_set(const Quantity& quantity);
-  /// What is said where that is tried.
-  RequestError not_settable(std::string_view name) const;
+  /// Throws what is said where that is tried.
+  [[noreturn]] void refuse_to_set(std::string_view name) const;
   /// Runs blocks by hand: what they did, for the console.
   std::string run_by_hand(std::string_view text);
 
