@@ -34,12 +34,16 @@ static void add_duplicate_labels(const std::vector<PlacedOutcome>& outcomes, con
         repeated.push_back(
             {label.label, {first_line + label.line, {.id = "duplicate-label"_diag, .span = label.span}}});
   if (repeated.empty()) return;
-  std::unordered_set<std::uint64_t> named;
+  std::unordered_map<std::uint64_t, bool> is_named;
+  for (const auto& [label, finding] : repeated) is_named[label] = false;
   for (const auto& [outcome, first_line] : outcomes)
-    for (const std::uint32_t jump : outcome->live_jumps)
-      if (jumps.target_of(jump) == JumpMap::Target::Below) named.insert(jumps.sites()[jump].jump.target);
+    for (const std::uint32_t jump : outcome->live_jumps) {
+      if (jumps.target_of(jump) != JumpMap::Target::Below) continue;
+      const auto named = is_named.find(jumps.sites()[jump].jump.target);
+      if (named != is_named.end()) named->second = true;
+    }
   for (const auto& [label, finding] : repeated)
-    if (named.contains(label)) findings.push_back(finding);
+    if (is_named[label]) findings.push_back(finding);
 }
 
 /// Registers that an IF compares and nothing assigns: said at the first such IF.
