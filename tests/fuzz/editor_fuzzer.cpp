@@ -1,5 +1,7 @@
 #include <cstdint>
+#include <string>
 
+#include "interpreter/running/source_file.h"
 #include "lsp/documents/open_document.h"
 #include "require.h"
 #include "tests/support/report_text.h"
@@ -41,10 +43,16 @@ class Input {
   std::string_view bytes_;
 };
 
+/// The whole text, with the byte-order mark that the document keeps apart: behind it there may be another.
+static std::string text_of(const OpenDocument& document) {
+  const bool has_mark = document.to_client({0, 0}, Encoding::Utf8).character > 0;
+  return std::string(has_mark ? running::kByteOrderMark : "") + document.document().text();
+}
+
 /// What the document says, and what one says that has been opened with its text.
 static void compare(OpenDocument& edited, SettingsStore& settings) {
   OpenDocument fresh(kUri, settings);
-  fresh.open(1, edited.document().text());
+  fresh.open(1, text_of(edited));
   fresh.update();
   edited.update();
   require(support::texts_of(edited.report()) == support::texts_of(fresh.report()), "edited equals opened afresh");
