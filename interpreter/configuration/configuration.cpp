@@ -19,7 +19,7 @@ const Tool* Machine::find_tool(const execution::ToolCode& code) const {
   return found == tools->end() ? nullptr : &*found;
 }
 
-const NamedFunction* Machine::find_function(int number) const {
+const NamedFunction* Machine::find_function(double number) const {
   if (!functions) return nullptr;
   const auto found = std::find_if(functions->begin(), functions->end(),
                                   [&](const NamedFunction& function) { return function.number == number; });

@@ -45,9 +45,9 @@ struct Machine {
   std::optional<std::vector<Tool>> tools;
   std::optional<std::vector<NamedFunction>> functions;
 
-  /// What the file tells of a tool, and of an M function; null where it tells nothing.
+  /// What the file tells of a tool, and of an M function by its number as written; null where it tells nothing.
   const Tool* find_tool(const execution::ToolCode& code) const;
-  const NamedFunction* find_function(int number) const;
+  const NamedFunction* find_function(double number) const;
 };
 
 /// Codes as a selection names them.

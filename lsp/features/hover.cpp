@@ -258,8 +258,7 @@ class Teller {
     }
     static constexpr Text kUser = {"user function", "funzione dell'utente"};
     title(kUser.in(language_));
-    if (!word_.known()) return;
-    const auto* const function = snapshot_.configuration().machine.find_function(static_cast<int>(word_.value));
+    const auto* const function = snapshot_.configuration().machine.find_function(word_.value);
     if (!function) return;
     add(as_it_stands(function->name));
     if (function->seconds > 0) add(text(kTakes, shown(function->seconds)));

@@ -119,7 +119,7 @@ std::optional<Signature> of_function(const Snapshot& snapshot, const LineTree& l
   if (!command.known() || !dialect::is_user_function(static_cast<int>(command.value))) return std::nullopt;
   const Language language = snapshot.language();
   Signature signature{fmt::format("M{}", command.value), std::string(kUser.in(language)), {}};
-  const auto* const function = snapshot.configuration().machine.find_function(static_cast<int>(command.value));
+  const auto* const function = snapshot.configuration().machine.find_function(command.value);
   if (function && !function->name.empty()) signature.documentation = function->name;
   std::size_t last = 0;
   for (std::size_t i = instruction.begin; i < instruction.end; ++i) {
