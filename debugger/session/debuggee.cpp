@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "interpreter/execution/feed.h"
+
 namespace isocnc::debugger::session {
 
 using running::History;
@@ -107,6 +109,18 @@ void Debuggee::set_state(const execution::State& state) {
   Runner runner = present().runner();
   runner.set_state(state);
   begin_stretch(present(), runner, machine());
+}
+
+void Debuggee::set_feed(double number) {
+  execution::State state = present().run().state;
+  execution::take_feed(number, state);
+  set_state(state);
+}
+
+void Debuggee::set_spindle_speed(double number) {
+  execution::State state = present().run().state;
+  execution::take_spindle_speed(number, state);
+  set_state(state);
 }
 
 void Debuggee::set_feed_override(double factor) {

@@ -71,13 +71,15 @@ class Debuggee {
 
   std::optional<Hindrance> hindrance() const;
   // Only where nothing hinders it.
-  void set_state(const execution::State& state);
+  void set_feed(double number);           ///< Does all that an F of the program does.
+  void set_spindle_speed(double number);  ///< Does all that an S of the program does.
   /// 1: feeds as they are written.
   void set_feed_override(double factor);
   double feed_override() const { return machine().feed_override; }
   MdiOutcome run_by_hand(std::string_view text);
 
  private:
+  void set_state(const execution::State& state);
   struct Stretch {
     std::unique_ptr<const running::TimedMachine> machine;
     running::History history;

@@ -695,18 +695,12 @@ void Session::set_quantity(const Quantity& quantity, double value) {
     return set_speed(value);
   } else {
     require_no_hindrance();
-    execution::State state = debuggee.present().run().state;
     if (quantity.name == "OVERRIDE") {
       debuggee.set_feed_override(value / 100);
     } else if (quantity.name == "S") {
-      state.spindle_speed = value;
-      state.forget(execution::State::kNoSpeed);
-      debuggee.set_state(state);
+      debuggee.set_spindle_speed(value);
     } else {
-      state.last_feed = {.number = value, .mm_per_unit = state.mm_per_unit()};
-      if (!state.inverse_time()) state.feed_per_minute = state.last_feed;
-      state.feed_given = true;
-      debuggee.set_state(state);
+      debuggee.set_feed(value);
     }
   }
   changed_by_hand();

@@ -44,16 +44,19 @@ void pass_by(State& state) {
   state.tool_awaited = false;
 }
 
+void take_spindle_speed(double number, State& state) {
+  if (!(number > 0)) return;  // Reported.
+  state.spindle_speed = number;
+  state.forget(State::kNoSpeed);
+  if (state.knows(State::kCutNotStarted)) state.learn(State::kNotStarted);
+}
+
 void Executor::run() {
   // S comes before the line's motion wherever it stands (I.4.2).
   if (line_.spindle >= 0) {
     const double speed = line_.words[static_cast<std::size_t>(line_.spindle)].value;
-    if (speed > 0) {
-      state_.spindle_speed = speed;
-      state_.forget(State::kNoSpeed);
-      if (state_.knows(State::kCutNotStarted)) state_.learn(State::kNotStarted);
-      sink_.spindle_speed(speed);
-    }
+    take_spindle_speed(speed, state_);
+    if (speed > 0) sink_.spindle_speed(speed);
   }
   for (const Instruction& instruction : line_.instructions) {
     switch (instruction.kind) {

@@ -5,6 +5,7 @@
 
 #include "interpreter/execution/arguments.h"
 #include "interpreter/execution/execute.h"
+#include "interpreter/execution/feed.h"
 #include "interpreter/geometry/arc.h"
 
 namespace isocnc::execution {
@@ -21,9 +22,6 @@ struct Plane {
 };
 
 const Plane& plane_in_force(const State& state);
-
-/// Puts an F in force (D43).
-void take_feed(double number, State& state);
 
 /// Executes the instructions of one line on a state. Lives for one call of execute().
 class Executor {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "debug_client.h"
+#include "debugger/session/debuggee.h"
 #include "programs.h"
 
 namespace isocnc::debugger {
@@ -51,6 +52,32 @@ TEST(Changing, VariablesThatAreShownCanBeSetWhereTheyMayBe) {
         client.refusal("setVariable",
                        {{"variablesReference", reference_of(client, "Position")}, {"name", name}, {"value", "1"}}),
         std::string(name) + " cannot be set");
+}
+
+/// What the machine knows after an S or an F that is set is what it knows after a block with it.
+TEST(Changing, SpeedsThatAreSetDoAllThatTheProgramsDo) {
+  const running::RunOptions options;
+  const running::TimedMachine machine;
+  for (const std::string_view before : {"G94", "G93", "G70"}) {
+    const std::string text = "M06 T101001\n" + std::string(before) + "\nG01 X1 F2\nX2 F3\nX3 F3\nM05\nM02\n";
+    for (const char letter : {'S', 'F'}) {
+      session::Debuggee by_hand(session::ProgramText(text), options, machine);
+      session::Debuggee set(session::ProgramText(text), options, machine);
+      for (session::Debuggee* const each : {&by_hand, &set})
+        while (each->present().line() < 3) each->step_block();
+      // A feed move that goes nowhere: under G93 an F counts for its own line alone.
+      by_hand.run_by_hand(letter == 'S' ? "S7" : "G01 X1 F7");
+      if (letter == 'S') {
+        set.set_spindle_speed(7);
+      } else {
+        set.set_feed(7);
+      }
+      execution::State expected = by_hand.present().run().state;
+      execution::State found = set.present().run().state;
+      expected.exact_stop_fits = found.exact_stop_fits = false;  // Of the block, not of its speed.
+      EXPECT_EQ(found, expected) << before << " " << letter;
+    }
+  }
 }
 
 /// The machine takes no hand on it where it is on its way, or has ended.
