@@ -20,9 +20,8 @@
 #include "analyzer/program_fixing.h"
 #include "analyzer/program_settings.h"
 #include "analyzer/renderers.h"
+#include "analyzer/shown_report.h"
 #include "analyzer/side_by_side.h"
-#include "analyzer/style_findings.h"
-#include "analyzer/suppressions.h"
 #include "analyzer/tally.h"
 #include "interpreter/configuration/show.h"
 #include "interpreter/dialect/format.h"
@@ -180,9 +179,7 @@ class Run {
     const std::string_view text = source->text();
     std::size_t told = 0;
     const auto tell = [&](std::size_t bytes) { progress_.add(bytes - std::exchange(told, bytes)); };
-    Report report = settings.selection.shown(check_text(text, settings.setup, jobs_for(text), tell));
-    report = with_style(std::move(report), text, settings.selection);
-    report = settings.selection.shown(suppress(std::move(report), text, settings.selection));
+    Report report = shown_report(check_text(text, settings.setup, jobs_for(text), tell), text, settings.selection);
     const std::size_t all = report.findings.size();
     checked.report = without_known(std::move(report), checked.name, text);
     known_ += all - checked.report.findings.size();

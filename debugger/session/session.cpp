@@ -10,7 +10,7 @@
 #include "analyzer/check_text.h"
 #include "analyzer/explain.h"
 #include "analyzer/program_settings.h"
-#include "analyzer/suppressions.h"
+#include "analyzer/shown_report.h"
 #include "debugger/session/block_effect.h"
 #include "interpreter/dialect/locale.h"
 #include "interpreter/motion/numbers.h"
@@ -878,9 +878,9 @@ void Session::check_for_warnings() {
     configuration::Configurations configurations({}, language);
     analyzer::SettingsFinder finder(configurations, {});
     const analyzer::ProgramSettings& settings = finder.of(program);
-    analyzer::Report report = analyzer::check_text(debuggee->text().text(), debuggee->setup());
-    report =
-        analyzer::suppress(settings.selection.shown(std::move(report)), debuggee->text().text(), settings.selection);
+    const std::string_view text = debuggee->text().text();
+    const analyzer::Report report =
+        analyzer::shown_report(analyzer::check_text(text, debuggee->setup()), text, settings.selection);
     std::multimap<std::uint64_t, Warning> warnings;
     for (const analyzer::LocatedFinding& found : report.findings) {
       if (found.severity() != dialect::Severity::Warning) continue;

@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "analyzer/shown_report.h"
 #include "analyzer/style_findings.h"
-#include "analyzer/suppressions.h"
 #include "interpreter/running/source_file.h"
 #include "lsp/documents/uri.h"
 
@@ -91,9 +91,7 @@ analyzer::Suppressions OpenDocument::read_suppressions() {
 
 /// As isolint would tell it.
 analyzer::Report OpenDocument::shown_report() {
-  const analyzer::Selection& selection = settings_.program->selection;
-  analyzer::Report report = analyzer::with_style(selection.shown(analysis_->report()), document_, selection);
-  return selection.shown(read_suppressions().apply(std::move(report), selection));
+  return analyzer::shown_report(analysis_->report(), document_, read_suppressions(), settings_.program->selection);
 }
 
 const analyzer::Report& OpenDocument::report() {

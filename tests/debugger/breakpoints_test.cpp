@@ -319,6 +319,22 @@ TEST(Breakpoints, WarningsStopTheRunWhereTheyAreAskedFor) {
   EXPECT_EQ(client.line(), 4);
 }
 
+/// The rules of style that the shop has switched on are among the warnings, and what it has switched off is not: the
+/// same order of style, comments and selection as in isolint.
+TEST(Breakpoints, WarningsAreThoseThatIsolintShows) {
+  const char* const program = "M06 T101001\nG00 X1 ;isolint: ignore W001\ng00 x2\nM02\n";
+  DebugClient with_style;
+  with_style.write("isocnc.json", R"({"lint": {"severity": {"W125": "warning", "W190": "off"}}})");
+  with_style.launch(program, {{"breakOnWarnings", true}});
+  EXPECT_EQ(with_style.run("configurationDone").at("text"), "W125");
+  EXPECT_EQ(with_style.line(), 3);
+  DebugClient with_w190;
+  with_w190.write("isocnc.json", R"({"lint": {"severity": {"W190": "warning"}}})");
+  with_w190.launch(program, {{"breakOnWarnings", true}});
+  EXPECT_EQ(with_w190.run("configurationDone").at("text"), "W190");
+  EXPECT_EQ(with_w190.line(), 2);
+}
+
 /// The wish of the launch outlives what the client says of its own filters.
 TEST(Breakpoints, WarningsStopTheRunBesideTheFiltersOfTheClient) {
   DebugClient client;

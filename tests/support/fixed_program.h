@@ -6,8 +6,7 @@
 
 #include "analyzer/check_text.h"
 #include "analyzer/fixer.h"
-#include "analyzer/style_findings.h"
-#include "analyzer/suppressions.h"
+#include "analyzer/shown_report.h"
 
 namespace isocnc::support {
 
@@ -28,8 +27,7 @@ inline std::string fixed(std::string_view text, bool unsafe, std::string_view co
 /// What is found and shown.
 inline analyzer::Report found_in(std::string_view text, std::string_view code = {}) {
   const analyzer::Selection selection = selection_with(code);
-  analyzer::Report report = analyzer::with_style(analyzer::check_text(text, {}), text, selection);
-  return selection.shown(analyzer::suppress(std::move(report), text, selection));
+  return analyzer::shown_report(analyzer::check_text(text, {}), text, selection);
 }
 
 /// What is found and shown, by its codes.
