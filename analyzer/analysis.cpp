@@ -155,6 +155,28 @@ bool Analysis::follow_jumps(const Change& change, const std::vector<JumpEvent>& 
 
 bool Analysis::update(const std::function<bool()>& stop) {
   lines_checked_ = 0;
+  return follow_text(stop) && follow_centers(stop);
+}
+
+/// Whether centers are suspected of counting from the start depends on all arcs of the program: when that changes, the
+/// chunks that have arcs which are legal both ways are checked again.
+bool Analysis::follow_centers(const std::function<bool()>& stop) {
+  bool suspects = false;
+  for (std::size_t i = 0; i < rows_.size(); ++i) suspects |= rows_[i].centers.from_start;
+  if (suspects == suspects_centers_) return true;
+  suspects_centers_ = suspects;
+  for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].is_stale |= rows_[i].centers.open;
+  return check_stale(stop);
+}
+
+bool Analysis::check_stale(const std::function<bool()>& stop) {
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    if (rows_[i].is_stale && !check_from(i, before(i), stop)) return false;
+  return true;
+}
+
+/// Brings the analysis up to date with the text, as far as centers are judged as they were.
+bool Analysis::follow_text(const std::function<bool()>& stop) {
   const bool is_first = rows_.size() == 0;
   const auto change = rows_.change_to(document_);
   Frontier at_change = is_first ? Frontier{} : before(change.first);
@@ -176,14 +198,12 @@ bool Analysis::update(const std::function<bool()>& stop) {
     return check_from(0, Checker::start(setup_), stop);
   }
   if (has_changed && !check_from(change.first, std::move(at_change), stop)) return false;
-  for (std::size_t i = 0; i < rows_.size(); ++i)
-    if (rows_[i].is_stale && !check_from(i, before(i), stop)) return false;
-  return true;
+  return check_stale(stop);
 }
 
 /// Goes on from a chunk, as long as there is anything new. False when stopped, with the rest stale.
 bool Analysis::check_from(std::size_t chunk, Frontier frontier, const std::function<bool()>& stop) {
-  Checker checker(setup_, jumps_);
+  Checker checker(setup_, jumps_, suspects_centers_);
   checker.frontier = std::move(frontier);
   syntax::ChunkTrees trees;
   for (std::size_t checked = 1; chunk < rows_.size(); ++chunk) {
@@ -232,6 +252,7 @@ void Analysis::check_chunk(std::size_t chunk, const syntax::ChunkTrees& trees, C
   lines_checked_ += trees.size();
   row.shift = {};
   row.positions = outcome.positions;
+  row.centers = outcome.centers;
   row.is_stale = false;
   row.has_text = outcome.has_text;
   row.has_more =

@@ -38,6 +38,8 @@ class Analysis {
   std::vector<LocatedFinding> findings_on(std::size_t line) const;
   /// Where the check stands before a line, with the states of all paths through it.
   Frontier frontier_before(std::size_t line) const;
+  /// Whether an arc under G90 fits only with its center counted from the start.
+  bool suspects_centers() const { return suspects_centers_; }
   /// Lines executed by the last update: what an edit costs.
   std::uint64_t lines_checked() const { return lines_checked_; }
 
@@ -63,6 +65,7 @@ class Analysis {
     PositionShift shift;    ///< Of all positions before the chunk, since it was checked.
     PositionUse positions;  ///< Of the outcome.
     bool is_stale = true;   ///< To be checked.
+    CenterUse centers;      ///< Of the outcome.
     bool has_text = false;
     bool has_more = false;         ///< Findings, labels, jumps or assignments.
     std::vector<JumpEvent> jumps;  ///< What concerns jumps; of labels those alone that some jump names.
@@ -72,6 +75,9 @@ class Analysis {
 
   using Change = syntax::PerChunk<Row>::Change;
 
+  bool follow_text(const std::function<bool()>& stop);
+  bool follow_centers(const std::function<bool()>& stop);
+  bool check_stale(const std::function<bool()>& stop);
   Frontier before(std::size_t chunk) const;
   void read_jumps(std::size_t chunk, Row& row) const;
   bool follow_jumps(const Change& change, const std::vector<JumpEvent>& old_events);
@@ -89,6 +95,7 @@ class Analysis {
   JumpMap jumps_;
   syntax::PerChunk<Row> rows_;
   std::size_t line_count_ = 0;  // When the jumps were last seen to.
+  bool suspects_centers_ = false;
   Frontier end_;
   FindingCounts counts_;
   std::uint64_t lines_checked_ = 0;

@@ -68,7 +68,7 @@ class Batch {
 /// meanwhile.
 class Pass {
  public:
-  Pass(std::string_view text, const execution::Setup& setup, const JumpMap& jumps, int jobs,
+  Pass(std::string_view text, const execution::Setup& setup, const JumpMap& jumps, bool suspects_centers, int jobs,
        const std::function<void(std::size_t)>& on_progress)
       : on_progress_(on_progress),
         jobs_(jobs),
@@ -77,7 +77,7 @@ class Pass {
         begin_(text.data()),
         next_(text.data()),
         end_(text.data() + text.size()),
-        checker_(setup, jumps) {}
+        checker_(setup, jumps, suspects_centers) {}
 
   void run() {
     side_by_side(jobs_, [this] { work(); });
@@ -155,16 +155,22 @@ Report check_text(std::string_view text, const execution::Setup& setup, int jobs
                   const std::function<void(std::size_t)>& on_progress) {
   jobs = std::clamp<int>(jobs, 1, static_cast<int>(text.size() / kSharedBatchBytes) + 1);
   JumpMap jumps(text);
+  bool suspects_centers = false;
   for (;;) {
-    Pass pass(text, setup, jumps, jobs, on_progress);
+    Pass pass(text, setup, jumps, suspects_centers, jobs, on_progress);
     pass.run();
     Outcome outcome = pass.take_outcome();
-    if (jumps.is_resolved() || all_jumps_land(outcome, jumps))
+    // Rare, each at most once: a jump whose label is not below it (E004, E005), or not among the lines that had to be
+    // read: once more with all labels known. Centers that count from the start in some arcs, and may do so in others:
+    // once more to tell of these.
+    if (!jumps.is_resolved() && !all_jumps_land(outcome, jumps)) {
+      jumps.resolve(text);
+    } else if (!suspects_centers && outcome.centers.from_start && outcome.centers.open) {
+      suspects_centers = true;
+    } else {
       return conclude(std::move(outcome), pass.checker().frontier, jumps,
                       [&](std::uint64_t line) { return LineFinder(text).line(line); });
-    // Rare: a jump whose label is not below it (E004, E005), or not among the lines that had to be read. Once more, now
-    // with all labels known.
-    jumps.resolve(text);
+    }
   }
 }
 

@@ -38,9 +38,7 @@ class Checker::Listener final : public execution::Sink {
       : Sink(checker.watches_moves_), line_(line), checker_(checker), outcome_(outcome) {}
 
   void report(const Finding& finding) override { outcome_.findings.push_back({line_, finding}); }
-  void arc_fits(const geometry::Circle& circle, syntax::Span span) override {
-    rules::judge_arc(circle, span, checker_.setup_, *this);
-  }
+  void centered_arc(const execution::CenteredArc& arc) override { checker_.judge_arc(arc, outcome_, *this); }
   void move(const execution::Move& move, const execution::State&) override { checker_.move_ = move; }
 
  private:
@@ -49,8 +47,12 @@ class Checker::Listener final : public execution::Sink {
   Outcome& outcome_;
 };
 
-Checker::Checker(const execution::Setup& setup, const JumpMap& jumps)
-    : frontier(start(setup)), setup_(setup), jumps_(jumps), watches_moves_(rules::watches_moves(setup)) {}
+Checker::Checker(const execution::Setup& setup, const JumpMap& jumps, bool suspects_centers)
+    : frontier(start(setup)),
+      setup_(setup),
+      jumps_(jumps),
+      watches_moves_(rules::watches_moves(setup)),
+      suspects_centers_(suspects_centers) {}
 
 Frontier Checker::start(const execution::Setup& setup) {
   Frontier frontier;
@@ -112,7 +114,7 @@ std::size_t Checker::check_plain(std::size_t count, std::uint64_t line_number, O
                                  PlainLineAt plain_line_at) {
   if (frontier.live.size() != 1 || watches_moves_) return 0;
   const execution::State& state = frontier.live[0].state;
-  execution::PlainRun run(frontier.live[0].state, setup_);
+  execution::PlainRun run(frontier.live[0].state, setup_, suspects_centers_);
   PositionUse use = outcome.positions;
   std::size_t done = 0;
   for (; done < count; ++done) {
@@ -120,6 +122,7 @@ std::size_t Checker::check_plain(std::size_t count, std::uint64_t line_number, O
     if ((line.has_label && jumps_.names(line.label)) || !run.run(line)) break;
     note_plain_move(line, run, state, use);
   }
+  outcome.centers.open |= run.met_open_center();
   if (done == 0) return 0;
   outcome.has_text = true;
   outcome.last_text_line = line_number + done - 1;
@@ -253,9 +256,7 @@ void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_num
       GroupListener(Checker& checker, std::size_t group, Outcome& outcome)
           : Sink(checker.watches_moves_), checker_(checker), group_(group), outcome_(outcome) {}
       void report(const Finding& finding) override { checker_.group_findings_.push_back({finding, group_}); }
-      void arc_fits(const geometry::Circle& circle, syntax::Span span) override {
-        rules::judge_arc(circle, span, checker_.setup_, *this);
-      }
+      void centered_arc(const execution::CenteredArc& arc) override { checker_.judge_arc(arc, outcome_, *this); }
       void move(const execution::Move& move, const execution::State&) override { checker_.move_ = move; }
       void assign(int reg, double value) override {
         checker_.assign(checker_.frontier.live[group_], reg, value, outcome_);
@@ -273,8 +274,9 @@ void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_num
       GroupListener listener(*this, i, outcome);
       execution::State& state = live[i].state;
       if (!watches_moves_) {
-        execution::PlainRun run(state, setup_);
+        execution::PlainRun run(state, setup_, suspects_centers_);
         if (run.run(line.plain())) {
+          outcome.centers.open |= run.met_open_center();
           note_plain_move(line.plain(), run, state, outcome.positions);
           continue;
         }
@@ -333,6 +335,19 @@ void Checker::note_line(const LineTree& line, const execution::State& before, co
 void Checker::judge_move(const LineTree& line, const execution::State& before, const execution::State& after,
                          execution::Sink& sink) {
   if (move_) rules::ask_about_move({line, before, after, setup_}, *move_, sink);
+}
+
+/// What an arc whose circle is given by its center says of itself, and of how centers are meant (D70).
+void Checker::judge_arc(const execution::CenteredArc& arc, Outcome& outcome, execution::Sink& sink) const {
+  const double tolerance = setup_.arc_tolerance;
+  const geometry::CenterReadings readings =
+      geometry::read_center_both_ways(arc.given, arc.start, arc.incremental, tolerance);
+  if (!arc.incremental) {
+    outcome.centers.from_start |= readings.shows_other_origin(tolerance);
+    outcome.centers.open |= readings.is_legal_both_ways(tolerance);
+  }
+  if (arc.circle.problem == geometry::ArcProblem::None)
+    rules::judge_arc(arc, readings, suspects_centers_, setup_, sink);
 }
 
 /// Each finding once. One that only some groups have carries the decisions that lead to them.

@@ -19,7 +19,9 @@ inline constexpr std::size_t kMostStates = 512;
 /// that a check can go on from any earlier frontier.
 class Checker {
  public:
-  Checker(const execution::Setup& setup, const JumpMap& jumps);
+  /// With `suspects_centers` arcs under G90 that are legal with their center counted from the start, too, are told of
+  /// (W142): for who has seen in the outcome that others fit only so.
+  Checker(const execution::Setup& setup, const JumpMap& jumps, bool suspects_centers = false);
 
   /// The frontier before the first line.
   static Frontier start(const execution::Setup& setup);
@@ -64,10 +66,12 @@ class Checker {
                  bool has_findings, PositionUse& use) const;
   void judge_move(const syntax::LineTree& line, const execution::State& before, const execution::State& after,
                   execution::Sink& sink);
+  void judge_arc(const execution::CenteredArc& arc, Outcome& outcome, execution::Sink& sink) const;
 
   const execution::Setup& setup_;
   const JumpMap& jumps_;
   const bool watches_moves_;
+  const bool suspects_centers_;
   std::optional<execution::Move> move_;       // Of the line, where moves are watched.
   std::vector<GroupFinding> group_findings_;  // Of one line; kept for its memory.
 };

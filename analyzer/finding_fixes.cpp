@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/syntax/unicode.h"
@@ -31,7 +32,18 @@ std::optional<Fix> FindingFixes::offered(const LocatedFinding& located) {
   std::optional<Fix> fix = of(located);
   if (!fix) return fix;
   if (!trial_) trial_.emplace(program_, setup_, program_.jumps());
-  if (!trial_->mends(*fix, located, program_.frontier_before(located.line))) fix.reset();
+  const bool mends = fix->habit == fixes::Habit::None
+                         ? trial_->mends(*fix, located, program_.frontier_before(located.line))
+                         : trial_->mends(fix->habit);
+  if (!mends) fix.reset();
+  return fix;
+}
+
+std::optional<Fix> FindingFixes::offered_in_full(const LocatedFinding& located) {
+  std::optional<Fix> fix = offered(located);
+  if (!fix || fix->habit == fixes::Habit::None) return fix;
+  if (std::exchange(given_in_full_[static_cast<std::size_t>(fix->habit)], true)) return std::nullopt;
+  fix->edits = all_edits(*fix, program_);
   return fix;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -30,8 +31,12 @@ class FindingFixes {
   FindingFixes(std::string_view text, const Report& report, const execution::Setup& setup);
 
   std::optional<fixes::Fix> of(const LocatedFinding& located);
-  /// The same without a fix that would be undone when it is made: what may be offered to users.
+  /// The same without a fix that would be undone when it is made: what may be offered to users. The edits of a habit
+  /// are those of the finding's own line.
   std::optional<fixes::Fix> offered(const LocatedFinding& located);
+  /// offered() with all edits that the fix takes. A habit's are given with the first of its findings; the others have
+  /// no fix, since to make it twice would be wrong.
+  std::optional<fixes::Fix> offered_in_full(const LocatedFinding& located);
   std::vector<ShownEdit> shown(const fixes::Fix& fix);
   /// The line as it would be, where the fix changes nothing else.
   std::optional<std::string> changed_line(const LocatedFinding& located, const fixes::Fix& fix);
@@ -42,8 +47,9 @@ class FindingFixes {
 
   TextProgram program_;
   const execution::Setup& setup_;
-  std::optional<FixTrial> trial_;  // Once it is asked for.
-  std::uint64_t reduced_from_;     // From this line on, not every path is known.
+  std::optional<FixTrial> trial_;                         // Once it is asked for.
+  std::array<bool, fixes::kHabitCount> given_in_full_{};  // Habits.
+  std::uint64_t reduced_from_;                            // From this line on, not every path is known.
   // Columns are counted once along a line.
   std::uint64_t counted_line_ = 0;
   std::size_t counted_bytes_ = 0;

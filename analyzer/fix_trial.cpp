@@ -1,14 +1,17 @@
 #include "analyzer/fix_trial.h"
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "analyzer/check_text.h"
 #include "analyzer/conclusion.h"
+#include "interpreter/dialect/diagnostic_id.h"
 
 namespace isocnc::analyzer {
 
+using namespace dialect::literals;
 using fixes::Edit;
 using fixes::Fix;
 
@@ -143,18 +146,97 @@ bool FixTrial::is_concerned_by_jumps(const syntax::LineTree& line) const {
   return line.jump != nullptr || (line.has_label() && jumps_.names(line.label));
 }
 
-bool FixTrial::mends_in_whole(const Fix& fix, const LocatedFinding& located) {
+std::optional<Report> FixTrial::found_with(std::vector<Edit> edits) {
   const std::uint64_t lines = program_.line_count();
-  const auto check_with = [&](std::vector<Edit> edits) {
-    work_left_ -= std::min(work_left_, lines);
-    return check_text(edited_lines(program_, 0, lines - 1, std::move(edits)), setup_);
-  };
-  if (work_left_ < (found_in_whole_ ? lines : 2 * lines)) return true;
-  if (!found_in_whole_) found_in_whole_ = check_with({});
+  if (work_left_ < lines) return std::nullopt;
+  work_left_ -= lines;
+  return check_text(edited_lines(program_, 0, lines - 1, std::move(edits)), setup_);
+}
+
+const Report* FixTrial::found_in_whole() {
+  if (!found_in_whole_) found_in_whole_ = found_with({});
+  return found_in_whole_ ? &*found_in_whole_ : nullptr;
+}
+
+bool FixTrial::mends_in_whole(const Fix& fix, const LocatedFinding& located) {
+  const Report* const before = found_in_whole();
+  const std::optional<Report> after = before ? found_with(fix.edits) : std::nullopt;
+  if (!after) return true;
   Balance balance;
-  balance.count(check_with(fix.edits), 1);
-  balance.count(*found_in_whole_, -1);
-  return is_better(balance, finds(found_in_whole_->findings, located.finding.id), located);
+  balance.count(*after, 1);
+  balance.count(*before, -1);
+  return is_better(balance, finds(before->findings, located.finding.id), located);
+}
+
+/// Codes that a habit leads to.
+static std::span<const dialect::DiagnosticId> codes_of(fixes::Habit habit) {
+  static constexpr dialect::DiagnosticId kCenters[] = {
+      "arc-center-mismatch"_diag,       "arc-radius-mismatch"_diag,       "center-undetermined-g17-i"_diag,
+      "center-undetermined-g17-j"_diag, "center-undetermined-g18-i"_diag, "center-undetermined-g18-k"_diag,
+      "center-undetermined-g19-j"_diag, "center-undetermined-g19-k"_diag, "arc-barely-fits"_diag,
+      "center-legal-both-ways"_diag};
+  static constexpr dialect::DiagnosticId kUnits[] = {"unsupported-g"_diag};
+  static constexpr dialect::DiagnosticId kMilliseconds[] = {"dwell-of-odd-length"_diag};
+  switch (habit) {
+    case fixes::Habit::None:
+      break;
+    case fixes::Habit::CentersInG90:
+    case fixes::Habit::CentersInG91:
+      return kCenters;
+    case fixes::Habit::ForeignUnits:
+      return kUnits;
+    case fixes::Habit::Milliseconds:
+      return kMilliseconds;
+  }
+  return {};
+}
+
+/// Codes that judge where the machine goes, how fast, and what is written once too often, by the reading that is in
+/// force.
+static constexpr dialect::DiagnosticId kJudgedByReading[] = {"redundant-modal"_diag,
+                                                             "arc-radius-mismatch"_diag,
+                                                             "arc-radius-too-small"_diag,
+                                                             "arc-center-mismatch"_diag,
+                                                             "center-undetermined-g17-i"_diag,
+                                                             "center-undetermined-g17-j"_diag,
+                                                             "center-undetermined-g18-i"_diag,
+                                                             "center-undetermined-g18-k"_diag,
+                                                             "center-undetermined-g19-j"_diag,
+                                                             "center-undetermined-g19-k"_diag,
+                                                             "arc-barely-fits"_diag,
+                                                             "center-legal-both-ways"_diag,
+                                                             "arc-goes-nowhere"_diag,
+                                                             "motion-goes-nowhere"_diag,
+                                                             "travel-exceeded"_diag,
+                                                             "feed-above-machine"_diag,
+                                                             "rotary-speed-above-machine"_diag,
+                                                             "rapid-below-clearance"_diag,
+                                                             "dwell-of-odd-length"_diag,
+                                                             "end-in-inches"_diag,
+                                                             "useless-suppression"_diag};
+
+bool reads_better(const Report& before, const Report& after, fixes::Habit habit) {
+  Balance balance;
+  balance.count(after, 1);
+  balance.count(before, -1);
+  int of_habit = 0;
+  for (const dialect::DiagnosticId id : codes_of(habit)) of_habit += balance.of(id);
+  for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
+    const dialect::DiagnosticId id{static_cast<std::uint8_t>(i)};
+    const bool is_judged_by_reading =
+        std::find(std::begin(kJudgedByReading), std::end(kJudgedByReading), id) != std::end(kJudgedByReading);
+    if (balance.of(id) > 0 && !is_judged_by_reading && !dialect::definition(id).is_off) return false;
+  }
+  return of_habit < 0;
+}
+
+bool FixTrial::mends(fixes::Habit habit) {
+  std::optional<bool>& known = mended_habits_[static_cast<std::size_t>(habit)];
+  if (known) return *known;
+  const Report* const before = found_in_whole();
+  const std::optional<Report> after = before ? found_with(all_edits({.habit = habit}, program_)) : std::nullopt;
+  known = !after || reads_better(*before, *after, habit);
+  return *known;
 }
 
 bool FixTrial::mends(const Fix& fix, const LocatedFinding& located, const Frontier& before) {

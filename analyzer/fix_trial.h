@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -9,6 +10,11 @@
 #include "analyzer/trails.h"
 
 namespace isocnc::analyzer {
+
+/// Whether a program reads better once all that shows a habit has been rewritten: less is found of what the habit
+/// leads to, and nothing new but what shows only when the program is read as it was meant, such as arcs that fit in
+/// mm by the tolerance and not in inches. What is found then was wrong before.
+bool reads_better(const Report& before, const Report& after, fixes::Habit habit);
 
 /// Tries fixes out, one at a time, on the part of a program that they concern: from the finding's line on, until the
 /// check stands where it would stand without them, or where an earlier fix has led it (of twenty that put the same
@@ -23,12 +29,17 @@ class FixTrial {
 
   /// `before` is where the check stands before the finding's line.
   bool mends(const fixes::Fix& fix, const LocatedFinding& located, const Frontier& before);
+  /// Whether all rewrites of a habit make the program read better (reads_better). Tried once.
+  bool mends(fixes::Habit habit);
 
  private:
   struct Comparison;
 
   bool is_concerned_by_jumps(const syntax::LineTree& line) const;
   bool mends_in_whole(const fixes::Fix& fix, const LocatedFinding& located);
+  /// What is found in the whole program with these edits; nothing once too much has been spent.
+  std::optional<Report> found_with(std::vector<fixes::Edit> edits);
+  const Report* found_in_whole();
   /// Goes on from this line, below the edits.
   bool follow(Comparison& compared, std::uint64_t next, const LocatedFinding& located);
   void spend(const Frontier& frontier);
@@ -40,6 +51,7 @@ class FixTrial {
   Trails trails_;
   std::uint64_t work_left_;
   std::optional<Report> found_in_whole_;  // Once it is asked for.
+  std::array<std::optional<bool>, fixes::kHabitCount> mended_habits_;
 };
 
 }  // namespace isocnc::analyzer

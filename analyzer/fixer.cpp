@@ -1,6 +1,7 @@
 #include "analyzer/fixer.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <map>
 #include <numeric>
@@ -32,6 +33,7 @@ constexpr int kGuesses = 4;
 struct Candidate {
   LocatedFinding located;
   std::vector<Edit> edits;  // Sorted.
+  fixes::Habit habit = fixes::Habit::None;
 };
 
 /// Where something is found: what does not change when lines around it do.
@@ -152,7 +154,6 @@ class Fixer {
   }
 
   FixedText run() {
-    const std::size_t before = present_.concerned.findings.size();
     while (work_left_ > 0) {
       const std::vector<Candidate> all = candidates();
       if (!all.empty()) {
@@ -161,12 +162,12 @@ class Fixer {
         break;
       } else {  // In other surroundings they may be right.
         undone_.clear();
+        undone_habits_ = {};
         changed_since_undone_ = false;
       }
     }
-    const std::size_t after = present_.concerned.findings.size();
-    return {std::move(present_.text), std::move(present_.concerned), before - std::min(before, after),
-            present_.unconcerned, std::move(present_.origins)};
+    return {std::move(present_.text), std::move(present_.concerned), fixed_, present_.unconcerned,
+            std::move(present_.origins)};
   }
 
  private:
@@ -187,7 +188,7 @@ class Fixer {
     return version;
   }
 
-  /// The fixes that can be made together, in the order of the program.
+  /// The fixes that can be made together, in the order of the program. All rewrites of a habit are made alone.
   std::vector<Candidate> candidates() const {
     std::vector<Candidate> all;
     FindingFixes fixes(present_.text, present_.found, wishes_.setup);
@@ -196,10 +197,14 @@ class Fixer {
       if (undone_.contains(key_of(located))) continue;
       std::optional<Fix> fix = fixes.of(located);
       if (!fix || (fix->safety == Safety::Unsafe && !wishes_.unsafe)) continue;
+      if (fix->habit != fixes::Habit::None) {
+        if (undone_habits_[static_cast<std::size_t>(fix->habit)]) continue;
+        return {{located, all_edits(*fix, fixes.program()), fix->habit}};
+      }
       std::vector<std::pair<std::size_t, std::size_t>> parts;
       for (const Edit& edit : fix->edits)
         parts.emplace_back(fixes.program().offset(edit.begin), fixes.program().offset(edit.end));
-      if (taken.take(std::move(parts))) all.push_back({located, std::move(fix->edits)});
+      if (taken.take(std::move(parts))) all.push_back({.located = located, .edits = std::move(fix->edits)});
     }
     return all;
   }
@@ -212,7 +217,9 @@ class Fixer {
     std::string text = edited(present_.text, edits, TextProgram(present_.text, wishes_.setup));
     trial.version = checked(std::move(text));
     trial.lines = LineFollower(present_.origins).follow(edits);
-    trial.is_good = is_good(trial.version.found, candidates.size());
+    const fixes::Habit habit = candidates.empty() ? fixes::Habit::None : candidates.front().habit;
+    trial.is_good = habit == fixes::Habit::None ? is_good(trial.version.found, candidates.size())
+                                                : reads_better(present_.found, trial.version.found, habit);
     return trial;
   }
 
@@ -244,7 +251,10 @@ class Fixer {
       trial = made(all);
     }
     if (trial.is_good) return accept(std::move(trial));
-    for (const Candidate& candidate : all) undone_.insert(key_of(candidate.located));
+    for (const Candidate& candidate : all) {
+      undone_.insert(key_of(candidate.located));
+      undone_habits_[static_cast<std::size_t>(candidate.habit)] = true;
+    }
   }
 
   /// Without the candidates that are nearest above what is found newly.
@@ -286,10 +296,23 @@ class Fixer {
     return first;
   }
 
+  /// Counts the findings of each code that are fixed. What shows only now takes nothing away from that.
+  void count_fixed(const Version& next) {
+    Tally before;
+    Tally after;
+    before.add(present_.concerned);
+    after.add(next.concerned);
+    for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
+      const dialect::DiagnosticId id{static_cast<std::uint8_t>(i)};
+      fixed_ += before.of(id) - std::min(before.of(id), after.of(id));
+    }
+  }
+
   void accept(Trial trial) {
     std::set<FindingKey> undone;
     for (const auto& [line, id, begin] : undone_) undone.emplace(trial.lines.new_lines[line], id, begin);
     undone_ = std::move(undone);
+    count_fixed(trial.version);
     present_ = std::move(trial.version);
     present_.origins = std::move(trial.lines.origins);
     changed_since_undone_ = true;
@@ -299,7 +322,9 @@ class Fixer {
   std::size_t work_left_;
   Version present_;
   std::set<FindingKey> undone_;  // Findings whose fix was not right.
+  std::array<bool, fixes::kHabitCount> undone_habits_{};
   bool changed_since_undone_ = false;
+  std::size_t fixed_ = 0;
 };
 
 }  // namespace

@@ -17,6 +17,13 @@ struct PositionUse {
   bool far = false;             ///< An axis has been so far away that moves may not add up exactly.
 };
 
+/// What the arcs of a stretch of lines say of how centers are meant under G90 (D70). Arcs of a PlainRun count as open
+/// already when it takes a closer look.
+struct CenterUse {
+  bool from_start = false;  ///< An arc fits only with its center counted from the start.
+  bool open = false;        ///< An arc is right, and may be so with its center counted from the start as well.
+};
+
 /// What the check of a stretch of lines has found.
 struct Outcome {
   struct Label {
@@ -34,6 +41,7 @@ struct Outcome {
   bool has_text = false;
   RegisterSet assigned = 0;  ///< Registers that have been given a value; followed only where an IF compares one.
   PositionUse positions;
+  CenterUse centers;
   std::vector<std::pair<dialect::DiagnosticId, std::size_t>> tally;  ///< Findings of each kind, after count().
 
   void clear();

@@ -55,7 +55,7 @@ class JsonRenderer final : public Renderer {
   }
 
   Json fix_of(const LocatedFinding& located, FindingFixes& fixes) const {
-    const std::optional<fixes::Fix> fix = fixes.offered(located);
+    const std::optional<fixes::Fix> fix = fixes.offered_in_full(located);
     if (!fix) return nullptr;
     Json edits = Json::array();
     for (const ShownEdit& edit : fixes.shown(*fix))

@@ -58,7 +58,7 @@ class SarifRenderer final : public Renderer {
       object["partialFingerprints"]["primaryLocationLineHash"] =
           fmt::format("{:016x}:{}", print.line_hash, print.occurrence);
       if (located.path >= 0) object["codeFlows"] = code_flows(located, program.report, steps, shown, artifact);
-      if (const std::optional<fixes::Fix> fix = fixes.offered(located))
+      if (const std::optional<fixes::Fix> fix = fixes.offered_in_full(located))
         object["fixes"] = Json::array({fix_of(*fix, fixes, artifact)});
       output.buffer() += dumped(object);
       output.relieve();

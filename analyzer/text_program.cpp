@@ -24,7 +24,8 @@ struct TextProgram::Walk {
   }
 };
 
-TextProgram::TextProgram(std::string_view text, const execution::Setup& setup) : text_(text), setup_(setup) {}
+TextProgram::TextProgram(std::string_view text, const execution::Setup& setup, std::function<void()> on_line)
+    : text_(text), setup_(setup), on_line_(std::move(on_line)) {}
 
 TextProgram::~TextProgram() = default;
 
@@ -44,6 +45,7 @@ const std::vector<std::size_t>& TextProgram::starts() const {
 std::uint64_t TextProgram::line_count() const { return starts().size(); }
 
 std::string_view TextProgram::text(std::uint64_t line) {
+  if (on_line_) on_line_();
   const std::vector<std::size_t>& all = starts();
   const bool is_last = line + 1 == all.size();
   std::size_t end = is_last ? text_.size() : all[line + 1];
@@ -67,6 +69,11 @@ const JumpMap& TextProgram::jumps() {
     if (!jumps_->empty()) jumps_->resolve(text_);
   }
   return *jumps_;
+}
+
+bool TextProgram::is_read(std::uint64_t line) {
+  const Frontier& frontier = frontier_before(line);
+  return !frontier.live.empty() || !frontier.running_through(syntax::ParsedLine(text(line)).tree()).empty();
 }
 
 bool TextProgram::is_jumped_to(std::uint64_t label) { return jumps().names(label); }

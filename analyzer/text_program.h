@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -16,14 +17,16 @@ namespace isocnc::analyzer {
 /// no more than one check of the whole text.
 class TextProgram final : public fixes::Program {
  public:
-  /// Both must outlive this.
-  TextProgram(std::string_view text, const execution::Setup& setup);
+  /// Both must outlive this. `on_line` is called for each line that is asked for; it may throw to end a long search.
+  TextProgram(std::string_view text, const execution::Setup& setup, std::function<void()> on_line = {});
   ~TextProgram() override;
 
+  const execution::Setup& setup() const override { return setup_; }
   std::uint64_t line_count() const override;
   std::string_view text(std::uint64_t line) override;
   syntax::LineTree line(std::uint64_t line) override;
   std::optional<execution::State> state_before(std::uint64_t line) override;
+  bool is_read(std::uint64_t line) override;
   bool is_jumped_to(std::uint64_t label) override;
   std::optional<std::uint64_t> free_line_number() override;
 
@@ -44,6 +47,7 @@ class TextProgram final : public fixes::Program {
 
   std::string_view text_;
   const execution::Setup& setup_;
+  std::function<void()> on_line_;
   mutable std::vector<std::size_t> starts_;  // Of the lines; found when first asked for.
   syntax::TreeStore tree_;                   // Of line `parsed_`.
   std::optional<std::uint64_t> parsed_;

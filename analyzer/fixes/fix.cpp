@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "analyzer/fixes/fix_table.h"
+#include "analyzer/fixes/habits.h"
+#include "analyzer/fixes/line_edits.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
@@ -24,9 +26,13 @@ static constexpr auto kFirstRows = [] {
 }();
 static_assert(kFixes.size() < 255);
 
-/// Longer lines have lost their line ends; they may have thousands of findings, and to look through them for each would
-/// take long.
-static constexpr std::size_t kLongestLine = 1'000;
+Program::Program() = default;
+Program::~Program() = default;
+
+Habits& Program::habits() {
+  if (!habits_) habits_ = std::make_unique<Habits>(*this);
+  return *habits_;
+}
 
 std::string Fix::title_in(dialect::Language language) const {
   return dialect::format(title, language, fmt::arg("text", marked), fmt::arg("new", what));
@@ -58,9 +64,7 @@ static std::optional<std::string> edited_line(const Request& request, std::vecto
   return text;
 }
 
-/// What the line alone shows must be less than before: a fix that mends one thing and breaks another is none. What
-/// follows from the lines before is not looked at here.
-static bool helps(const Request& request, const std::vector<Edit>& edits) {
+bool helps(const Request& request, const std::vector<Edit>& edits) {
   const std::optional<std::string> text = edited_line(request, edits);
   if (!text) return true;
   std::array<std::int16_t, dialect::kDiagnosticCount> counts{};
@@ -78,6 +82,14 @@ static bool helps(const Request& request, const std::vector<Edit>& edits) {
   }
 }
 
+std::vector<Edit> all_edits(const Fix& fix, Program& program) {
+  if (fix.habit == Habit::None) return fix.edits;
+  std::vector<Edit> edits;
+  for (const LineRewrite& rewrite : program.habits().rewrites(fix.habit))
+    edits.insert(edits.end(), rewrite.edits.begin(), rewrite.edits.end());
+  return edits;
+}
+
 std::optional<Fix> fix_of(const Place& place, Program& program) {
   const DiagnosticId id = place.finding.id;
   std::size_t row = kFirstRows[static_cast<std::size_t>(id)];
@@ -87,8 +99,12 @@ std::optional<Fix> fix_of(const Place& place, Program& program) {
   for (; row < kFixes.size() && kFixes[row].diagnostic == id; ++row) {
     Draft draft = kFixes[row].make(request);
     if (draft.edits.empty() || !helps(request, draft.edits)) continue;
-    return Fix{kFixes[row].safety, kFixes[row].title, std::string(request.marked()), std::move(draft.what),
-               std::move(draft.edits)};
+    return Fix{.safety = kFixes[row].safety,
+               .title = kFixes[row].title,
+               .marked = std::string(request.marked()),
+               .what = std::move(draft.what),
+               .edits = std::move(draft.edits),
+               .habit = draft.habit};
   }
   return std::nullopt;
 }

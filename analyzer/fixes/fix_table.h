@@ -32,8 +32,9 @@ inline constexpr Text kWholeNumber = {"write {new}, without sign and point", "sc
 inline constexpr Text kZero = {"write the digit 0 for the letter O", "scrivere la cifra 0 al posto della lettera O"};
 inline constexpr Text kComment = {"put the text in a comment", "mettere il testo in un commento"};
 inline constexpr Text kAbove = {"insert {new} above", "inserire prima una linea con {new}"};
-inline constexpr Text kMeantCenter = {"write {new}: the center was given with the other origin (G90, G91)",
-                                      "scrivere {new}: il centro era riferito all'altra origine (G90, G91)"};
+inline constexpr Text kMeantCenter = {
+    "write {new}, and all centers of the program so: they were given with the other origin (G90, G91)",
+    "scrivere {new}, e così tutti i centri del programma: erano riferiti all'altra origine (G90, G91)"};
 inline constexpr Text kNearestCenter = {"move the center to {new}, equally far from both ends",
                                         "spostare il centro in {new}, alla stessa distanza dai due estremi"};
 inline constexpr Text kOtherCenter = {"add {new}, the start's coordinate", "aggiungere {new}, la quota di partenza"};
@@ -110,15 +111,16 @@ inline constexpr auto kFixes = [] {
        command_to_next_line},
       {"arc-end-outside-plane"_diag, None, kMeaningUnknown},
       {"circle-not-given"_diag, None, kValueUnknown},
+      {"arc-radius-mismatch"_diag, Unsafe, kMeantCenter, center_from_other_origin},
       {"arc-radius-mismatch"_diag,
        Unsafe,
        {"remove {text}: the center gives the circle", "togliere {text}: il cerchio è dato dal centro"},
-       removed_mark},
+       removed_contradicting_radius},
       {"arc-radius-too-small"_diag,
        Unsafe,
        {"write {new}, a half circle", "scrivere {new}, una semicirconferenza"},
        radius_large_enough},
-      {"arc-center-mismatch"_diag, Unsafe, kMeantCenter, center_from_start},
+      {"arc-center-mismatch"_diag, Unsafe, kMeantCenter, center_from_other_origin},
       {"arc-center-mismatch"_diag, Unsafe, kNearestCenter, center_between_ends},
       {"five-axis-not-enabled"_diag, Unsafe, kAbove, g49_above},
       {"g48-g49-not-alone"_diag, Safe, kOwnLine, on_its_own_line},
@@ -144,11 +146,17 @@ inline constexpr auto kFixes = [] {
       {"m02-missing"_diag, Unsafe, {"end the program with M02", "chiudere il programma con M02"}, end_of_program},
       {"repeated-spindle-speed"_diag, Safe, kRepetition, removed_repetition},
       {"linear-coordinate-missing"_diag, Unsafe, kAbove, g49_above},
+      {"center-undetermined-g17-i"_diag, Unsafe, kMeantCenter, center_from_other_origin},
       {"center-undetermined-g17-i"_diag, Unsafe, kOtherCenter, center_completed},
+      {"center-undetermined-g17-j"_diag, Unsafe, kMeantCenter, center_from_other_origin},
       {"center-undetermined-g17-j"_diag, Unsafe, kOtherCenter, center_completed},
+      {"center-undetermined-g18-i"_diag, Unsafe, kMeantCenter, center_from_other_origin},
       {"center-undetermined-g18-i"_diag, Unsafe, kOtherCenter, center_completed},
+      {"center-undetermined-g18-k"_diag, Unsafe, kMeantCenter, center_from_other_origin},
       {"center-undetermined-g18-k"_diag, Unsafe, kOtherCenter, center_completed},
+      {"center-undetermined-g19-j"_diag, Unsafe, kMeantCenter, center_from_other_origin},
       {"center-undetermined-g19-j"_diag, Unsafe, kOtherCenter, center_completed},
+      {"center-undetermined-g19-k"_diag, Unsafe, kMeantCenter, center_from_other_origin},
       {"center-undetermined-g19-k"_diag, Unsafe, kOtherCenter, center_completed},
       {"tool-without-m06"_diag, Safe, {"move {new} before the T", "spostare {new} prima della T"}, change_before_tool},
       {"tool-without-m06"_diag,
@@ -238,7 +246,9 @@ inline constexpr auto kFixes = [] {
       {"feed-on-rapid"_diag, Safe, kIgnored, removed_on_every_path},
       {"feed-of-inverse-time"_diag, None, kValueUnknown},
       {"arc-goes-nowhere"_diag, None, kMeaningUnknown},
+      {"arc-barely-fits"_diag, Unsafe, kMeantCenter, center_from_other_origin},
       {"arc-barely-fits"_diag, Unsafe, kNearestCenter, center_between_ends},
+      {"center-legal-both-ways"_diag, Unsafe, kMeantCenter, center_from_other_origin},
       {"compensation-across-change"_diag, None, kMeaningUnknown},
       {"axes-nearly-orthogonal"_diag, None, kVectorUnknown},
       {"dwell-of-odd-length"_diag,

@@ -15,6 +15,10 @@ Edit removed(const Request& request, syntax::Span span);
 /// As removed(); the whole line when nothing else stands on it.
 Edit removed_with_line(const Request& request, syntax::Span span);
 
+/// Whether the line alone shows less than before with these edits of it: a fix that mends one thing and breaks another
+/// is none. What follows from the lines before is not looked at here, nor are edits of other lines.
+bool helps(const Request& request, const std::vector<Edit>& edits);
+
 /// The blanks that the line starts with.
 std::string_view indentation(std::string_view line);
 bool is_blank(std::string_view text);

@@ -22,8 +22,12 @@ struct Request {
 /// What a maker gives: without edits, this finding has no such fix.
 struct Draft {
   std::vector<Edit> edits;
-  std::string what = {};  ///< For the title.
+  std::string what = {};      ///< For the title.
+  Habit habit = Habit::None;  ///< The rest of whose rewrites belong to the edits.
 };
+
+/// What a habit has to have rewritten on the finding's line; nothing where it cannot be rewritten everywhere.
+Draft habit_draft(const Request& request, Habit habit);
 
 using Maker = Draft (*)(const Request&);
 
@@ -84,7 +88,8 @@ Draft tool_to_later_change(const Request& request);
 Draft command_to_next_line(const Request& request);
 
 // arcs.cpp: circles that fit.
-Draft center_from_start(const Request& request);
+Draft center_from_other_origin(const Request& request);
+Draft removed_contradicting_radius(const Request& request);
 Draft center_between_ends(const Request& request);
 Draft center_completed(const Request& request);
 Draft radius_large_enough(const Request& request);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "analyzer/fixes/habits.h"
 #include "analyzer/fixes/line_edits.h"
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/prose.h"
@@ -45,11 +46,14 @@ Draft zero_for_letter_o(const Request& request) {
   return {{replaced(request, zeros, std::string(zeros.end - zeros.begin, '0'))}};
 }
 
-/// 10,5; separators of thousands, as in 1.000,5, are left to who wrote them.
+/// 10,5; separators of thousands, as in 1.000,5, are left to their author, as is 1,500 where the program has 2,000.5.
 Draft point_for_comma(const Request& request) {
   std::string text(request.marked());
   if (!holds_only(text, "0123456789,+- \t")) return {};
   if (std::count(text.begin(), text.end(), ',') != 1) return {};
+  const auto behind =
+      std::count_if(text.begin() + static_cast<std::ptrdiff_t>(text.find(',')), text.end(), syntax::is_digit);
+  if (behind == 3 && request.program.habits().separates_thousands()) return {};
   std::replace(text.begin(), text.end(), ',', '.');
   return rewritten(request, std::move(text));
 }
@@ -124,13 +128,11 @@ Draft label_with_letter(const Request& request) {
 /// What other controls call inches and millimeters.
 Draft code_of_this_control(const Request& request) {
   const Word* const word = word_at(request.line, request.finding.span);
-  if (!word || !word->is_plain_integer()) return {};
-  if (word->value == 20) return rewritten(request, "G70");
-  if (word->value == 21) return rewritten(request, "G71");
-  return {};
+  const bool is_unit = word && word->is_plain_integer() && (word->value == 20 || word->value == 21);
+  return is_unit ? habit_draft(request, Habit::ForeignUnits) : Draft{};
 }
 
-/// G04 X2 or G04 F2, as other controls write it.
+/// G04 X2 or G04 F2, as other controls write it. X1000 without a decimal point is a second there, or a thousand.
 Draft time_by_p(const Request& request) {
   const Word* const command = word_at(request.line, request.finding.span);
   const Instruction* const dwell = command ? owner_of(request.line, *command) : nullptr;
@@ -138,15 +140,12 @@ Draft time_by_p(const Request& request) {
   const Word& time = request.line.words[dwell->command + 1u];
   const bool is_x = time.letter == 'X' && time.owner == dwell->number && dwell->end == dwell->command + 2;
   if ((!is_x && time.letter != 'F') || !time.known()) return {};
+  if (is_x && time.value >= 10 && request.line.text_of(time.span()).find('.') == std::string_view::npos) return {};
   return {{replaced(request, {time.begin, time.begin + 1}, "P")}, std::string(1, time.letter)};
 }
 
 /// G04 P500.
-Draft seconds_of_milliseconds(const Request& request) {
-  const double milliseconds = request.finding.values[0];
-  if (!(milliseconds > 0) || request.marked().find('(') != std::string_view::npos) return {};
-  return rewritten(request, request.marked().front() + written(milliseconds / 1000, 6));
-}
+Draft seconds_of_milliseconds(const Request& request) { return habit_draft(request, Habit::Milliseconds); }
 
 Draft free_label(const Request& request) {
   const std::optional<std::uint64_t> number = request.program.free_line_number();

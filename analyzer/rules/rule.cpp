@@ -48,10 +48,16 @@ void ask_about_move(const Block& block, const execution::Move& move, execution::
     if (rule->check_move) rule->check_move(block, move, sink);
 }
 
-void judge_arc(const geometry::Circle& circle, syntax::Span span, const execution::Setup& setup,
-               execution::Sink& sink) {
-  if (span.empty() || std::abs(circle.found - circle.wanted) <= setup.arc_tolerance / 2) return;
-  sink.report({.id = "arc-barely-fits"_diag, .span = span, .values = {circle.found, circle.wanted}});
+void judge_arc(const execution::CenteredArc& arc, const geometry::CenterReadings& readings, bool suspects_centers,
+               const execution::Setup& setup, execution::Sink& sink) {
+  const geometry::Circle& circle = arc.circle;
+  if (suspects_centers && !arc.incremental && readings.is_legal_both_ways(setup.arc_tolerance)) {
+    sink.report({.id = "center-legal-both-ways"_diag,
+                 .span = arc.centers,
+                 .values = {readings.radius, readings.other_radius}});
+  } else if (std::abs(circle.found - circle.wanted) > setup.arc_tolerance / 2) {
+    sink.report({.id = "arc-barely-fits"_diag, .span = arc.centers, .values = {circle.found, circle.wanted}});
+  }
 }
 
 static const syntax::Instruction* motion_instruction(const syntax::LineTree& line) {

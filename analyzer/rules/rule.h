@@ -71,7 +71,9 @@ bool watches_moves(const execution::Setup& setup);
 /// Asks all rules about the motion of a block, given in the frame in force behind it.
 void ask_about_move(const Block& block, const execution::Move& move, execution::Sink& sink);
 
-/// Tells of an arc that would not fit with half the tolerance.
-void judge_arc(const geometry::Circle& circle, syntax::Span span, const execution::Setup& setup, execution::Sink& sink);
+/// Judges an arc that the control accepts: W142 where it is legal both ways and centers of the program are suspected
+/// of counting from the start, else W112 where it would not fit with half the tolerance.
+void judge_arc(const execution::CenteredArc& arc, const geometry::CenterReadings& readings, bool suspects_centers,
+               const execution::Setup& setup, execution::Sink& sink);
 
 }  // namespace isocnc::analyzer::rules

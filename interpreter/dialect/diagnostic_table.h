@@ -1935,6 +1935,32 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
               "già con il cambio utensile."},
      .wrong = "M06 T101001\nG01 X10 F1000\nS12000 [!M03!]\nX20\nM05\nM02\n",
      .right = "M06 T101001\nS12000 M03\nG01 X10 F1000\nX20\nM05\nM02\n"},
+    {.code = "W142",
+     .name = "center-legal-both-ways",
+     .severity = Severity::Warning,
+     .section = "I.3.4.3.a",
+     .arguments = {"absolute", "relative"},
+     .title = {.en = "Arc center that may have been meant from the start",
+               .it = "Centro dell'arco forse riferito al punto iniziale"},
+     .message = {.en =
+                     "the radius is {absolute} mm as written (G90: absolute center), and {relative} mm with the center "
+                     "counted from the start, as other arcs of this program have it",
+                 .it =
+                     "il raggio è di {absolute} mm così come è scritto (G90: centro assoluto), e di {relative} mm con "
+                     "il centro riferito al punto iniziale, come in altri archi di questo programma"},
+     .explanation =
+         {.en = "Other arcs of the program have an ISO031 or its like, and fit once I, J and K count from the start of "
+                "the arc, as on other controls. This arc is legal both ways, so the control would run it without a "
+                "word, about an absolute center: write that center, if it is not the one meant. A full turn is legal "
+                "about any center. A false alarm where the mistake is in the other arcs alone.",
+          .it =
+              "Altri archi del programma danno ISO031 o un errore simile, e tornano se I, J e K sono riferiti al punto "
+              "iniziale dell'arco, come su altri controlli. Questo arco è lecito in entrambi i modi: il controllo lo "
+              "eseguirebbe senza segnalare nulla, attorno a un centro assoluto. Se il centro inteso è un altro, "
+              "scriverlo. Un giro completo è lecito attorno a qualsiasi centro. Falso allarme se sbagliati sono solo "
+              "gli altri archi."},
+     .wrong = "",
+     .right = ""},
     {.code = "W190",
      .name = "useless-suppression",
      .severity = Severity::Warning,

@@ -294,8 +294,18 @@ void Executor::arc(const Arguments& arguments, const GCode& code, Span place, Mo
   if (!known) return;
 
   const geometry::Circle circle = geometry::find_circle(given, setup_.arc_tolerance);
+  if (given.center_u || given.center_v) {
+    const AxisSet in_plane = axis_bit(static_cast<Axis>(plane.u)) | axis_bit(static_cast<Axis>(plane.v));
+    sink_.centered_arc({.plane = plane,
+                        .given = given,
+                        .start = {state_.position.tip[plane.u], state_.position.tip[plane.v]},
+                        .start_is_known = (state_.unknown & in_plane) == 0,
+                        .incremental = state_.incremental(),
+                        .mm_per_unit = scale,
+                        .circle = circle,
+                        .centers = arguments.span_of(dialect::kCenterLetters)});
+  }
   if (circle.problem != ArcProblem::None) return report_circle(arguments, circle, plane);
-  sink_.arc_fits(circle, arguments.span_of(dialect::kCenterLetters));
   if (!move || circle.goes_nowhere) return;
   move->kind = MoveKind::Arc;
   move->center = state_.position.tip;

@@ -17,7 +17,7 @@ void take_feed(double number, State& state) {
 }
 
 /// Whether a first look shows that an arc is sound; arc() has the last word on the others.
-bool PlainRun::is_sound_arc(const PlainLine& line) const {
+bool PlainRun::is_sound_arc(const PlainLine& line) {
   const Plane& plane = plane_in_force(state_);
   const auto has = [&](char letter) { return dialect::contains(line.arguments, letter); };
   if ((line.arguments & dialect::kRotaryLetters) != 0 || state_.face_mounted || has(plane.stray_center)) return false;
@@ -38,7 +38,12 @@ bool PlainRun::is_sound_arc(const PlainLine& line) const {
       arc.radius = value;
     }
   }
-  return geometry::surely_fits(arc, setup_.arc_tolerance);
+  if (!geometry::surely_fits(arc, setup_.arc_tolerance)) return false;
+  if (incremental_ || arc.radius) return true;
+  const geometry::PlanePoint start{state_.position.tip[plane.u], state_.position.tip[plane.v]};
+  if (geometry::surely_absolute(arc, start, setup_.arc_tolerance)) return true;
+  met_open_center_ = true;
+  return !suspects_centers_;
 }
 
 void PlainRun::take_feed(const PlainLine& line) {

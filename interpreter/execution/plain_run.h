@@ -11,9 +11,11 @@ namespace isocnc::execution {
 /// each costs next to nothing. In between the state has the position right; all of it is when the run is gone.
 class PlainRun {
  public:
-  PlainRun(State& state, const Setup& setup)
+  /// With `suspects_centers` an arc under G90 whose center may as well count from the start is not plain.
+  PlainRun(State& state, const Setup& setup, bool suspects_centers = false)
       : state_(state),
         setup_(setup),
+        suspects_centers_(suspects_centers),
         scale_(state.mm_per_unit()),
         straight_(state.five_axis() ? dialect::kCoordinateLetters : dialect::kLinearLetters),
         incremental_(state.incremental()),
@@ -50,6 +52,8 @@ class PlainRun {
   bool is_incremental() const { return incremental_; }
   /// Whether the last line was an arc.
   bool was_arc() const { return mode_ > 1; }
+  /// Whether there was an arc under G90 whose center may as well count from the start.
+  bool met_open_center() const { return met_open_center_; }
 
  private:
   static bool concerns_rules(const State& state) {
@@ -70,12 +74,13 @@ class PlainRun {
   void move(double& position, double value) const {
     position = incremental_ ? geometry::advanced(position, value) : value;
   }
-  bool is_sound_arc(const syntax::PlainLine& line) const;
+  bool is_sound_arc(const syntax::PlainLine& line);
   void take_feed(const syntax::PlainLine& line);
   void finish();
 
   State& state_;
   const Setup& setup_;
+  const bool suspects_centers_;
   const double scale_;
   const dialect::LetterSet straight_;  ///< What a straight motion may move.
   const bool incremental_;
@@ -84,6 +89,7 @@ class PlainRun {
   std::uint8_t mode_;
   bool has_run_ = false;
   bool feeds_ = false;  ///< A feed move has run.
+  bool met_open_center_ = false;
 };
 
 }  // namespace isocnc::execution

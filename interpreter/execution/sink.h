@@ -27,6 +27,20 @@ struct Move {
   bool inverse_time = false;
 };
 
+struct Plane;
+
+/// An arc whose circle is given by its center, as the control reads it.
+struct CenteredArc {
+  const Plane& plane;
+  const geometry::ArcGiven& given;
+  geometry::PlanePoint start;   ///< In the frame in force, mm.
+  bool start_is_known = false;  ///< Always under G90.
+  bool incremental = false;     ///< G91 is in force.
+  double mm_per_unit = 1;       ///< What a unit in the program is worth.
+  const geometry::Circle& circle;
+  syntax::Span centers;  ///< What I, J and K span.
+};
+
 /// A parameter of a user M (I.4.4).
 struct FunctionParameter {
   int number = 0;
@@ -46,8 +60,9 @@ class Sink {
 
   /// `state` is the one in which the motion runs: its frame, modes and spindle.
   virtual void move(const Move&, const State&) {}
-  /// An arc without a mistake, and the span of what gives its circle. Not told of plain arcs that surely fit.
-  virtual void arc_fits(const geometry::Circle&, syntax::Span) {}
+  /// An arc whose circle is given by its center, with a mistake in it or not. Not called for the plain arcs of a
+  /// PlainRun.
+  virtual void centered_arc(const CenteredArc&) {}
   virtual void dwell(double) {}  ///< Seconds.
   virtual void spindle_speed(double) {}
   virtual void function(int, std::span<const FunctionParameter>) {}

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace isocnc::geometry {
@@ -66,6 +67,50 @@ bool surely_fits(const ArcGiven& given, double tolerance) {
   const double diameter2 = 4 * *given.radius * *given.radius;
   const double chord2 = d.u * d.u + d.v * d.v;
   return *given.radius > 0 && chord2 <= diameter2 * (1 - 1e-12) && chord2 > 4 * kEqualCoordinate * kEqualCoordinate;
+}
+
+/// How far the ends of an arc, and its R, are from one circle about the center.
+static double misfit_about(PlanePoint center, const ArcGiven& given) {
+  const double radius = center.norm();
+  if (radius <= kEqualCoordinate) return std::numeric_limits<double>::infinity();
+  const double misfit = std::abs(radius - (center - given.end).norm());
+  return given.radius ? std::max(misfit, std::abs(*given.radius - radius)) : misfit;
+}
+
+CenterReadings read_center_both_ways(const ArcGiven& given, PlanePoint start, bool incremental, double tolerance) {
+  CenterReadings readings{.chord = given.end.norm(),
+                          .is_complete = given.center_u && given.center_v,
+                          .has_radius = given.radius.has_value()};
+  PlanePoint center{given.center_u.value_or(0), given.center_v.value_or(0)};
+  if (readings.is_complete) {
+    readings.misfit = misfit_about(center, given);
+    readings.radius = center.norm();
+  } else {
+    const Circle circle = find_circle(given, tolerance);
+    const bool is_circle = circle.problem == ArcProblem::None;
+    readings.misfit = is_circle ? 0 : std::numeric_limits<double>::infinity();
+    readings.radius = circle.center.norm();
+    if (is_circle) center = circle.center;
+  }
+  const auto other = [&](const std::optional<double>& coordinate, double from) {
+    return coordinate ? *coordinate + (incremental ? -from : from) : 0;
+  };
+  readings.other_center = {other(given.center_u, start.u), other(given.center_v, start.v)};
+  readings.other_misfit = misfit_about(readings.other_center, given);
+  readings.other_radius = readings.other_center.norm();
+  readings.is_same_center = (readings.other_center - center).norm() <= kEqualCoordinate;
+  return readings;
+}
+
+bool surely_absolute(const ArcGiven& given, PlanePoint start, double tolerance) {
+  if (!given.center_u || !given.center_v) return false;
+  const PlanePoint center{*given.center_u + start.u, *given.center_v + start.v};
+  const PlanePoint from_end = center - given.end;
+  const double start2 = center.u * center.u + center.v * center.v;
+  const double end2 = from_end.u * from_end.u + from_end.v * from_end.v;
+  // |a - b| is |a2 - b2| / (a + b), and (a + b)2 is at most 2 (a2 + b2).
+  const double nearly = CenterReadings::kNearly * tolerance;
+  return (start2 - end2) * (start2 - end2) > 2 * nearly * nearly * (start2 + end2);
 }
 
 double sweep_deg(const PlanePoint& center, const PlanePoint& end, bool counterclockwise) {

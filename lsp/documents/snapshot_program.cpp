@@ -1,16 +1,62 @@
 #include "lsp/documents/snapshot_program.h"
 
 #include <algorithm>
+#include <memory>
+#include <string>
 
+#include "analyzer/text_program.h"
 #include "interpreter/syntax/formatter.h"
 
 namespace isocnc::lsp::documents {
 
 static constexpr std::uint32_t kLinesWithoutPause = 1024;
 
+namespace {
+
+/// The habits of one version of a document.
+class HabitsOfDocument {
+ public:
+  analyzer::fixes::Habits& of(const Snapshot& snapshot) {
+    present_ = &snapshot;
+    if (!program_ || version_ != snapshot.version() || settings_ != snapshot.settings_owner()) {
+      program_.reset();
+      version_ = snapshot.version();
+      settings_ = snapshot.settings_owner();
+      text_ = snapshot.document().text();
+      program_ = std::make_unique<analyzer::TextProgram>(text_, snapshot.setup(), [this] { pause(); });
+    }
+    return program_->habits();
+  }
+
+ private:
+  void pause() {
+    if (++lines_seen_ % kLinesWithoutPause == 0) present_->give_way();
+  }
+
+  const Snapshot* present_ = nullptr;  // Of the request that is being answered.
+  std::int64_t version_ = 0;
+  std::shared_ptr<const void> settings_;  // Hold the setup.
+  std::string text_;
+  std::unique_ptr<analyzer::TextProgram> program_;
+  std::uint32_t lines_seen_ = 0;
+};
+
+}  // namespace
+
+analyzer::fixes::Habits& SnapshotProgram::habits() {
+  auto& memory = snapshot_.memory<std::shared_ptr<HabitsOfDocument>>();
+  if (!memory) memory = std::make_shared<HabitsOfDocument>();
+  return memory->of(snapshot_);
+}
+
 syntax::LineTree SnapshotProgram::line(std::uint64_t line) {
   if (++lines_seen_ % kLinesWithoutPause == 0) snapshot_.give_way();
   return *line_.emplace(snapshot_.document().line(line));
+}
+
+bool SnapshotProgram::is_read(std::uint64_t line) {
+  const syntax::DocumentLine next = snapshot_.document().line(line);
+  return !snapshot_.frontier_before(line).running_through(*next).empty();
 }
 
 bool SnapshotProgram::is_jumped_to(std::uint64_t label) {

@@ -13,10 +13,14 @@ class SnapshotProgram final : public analyzer::fixes::Program {
  public:
   explicit SnapshotProgram(const Snapshot& snapshot) : snapshot_(snapshot) {}
 
+  const execution::Setup& setup() const override { return snapshot_.setup(); }
   std::uint64_t line_count() const override { return snapshot_.document().line_count(); }
   std::string_view text(std::uint64_t line) override { return snapshot_.document().text_of_line(line); }
   syntax::LineTree line(std::uint64_t line) override;
   std::optional<execution::State> state_before(std::uint64_t line) override { return snapshot_.state_before(line); }
+  /// Found by one check of the whole text, and remembered until the document changes.
+  analyzer::fixes::Habits& habits() override;
+  bool is_read(std::uint64_t line) override;
   bool is_jumped_to(std::uint64_t label) override;
   std::optional<std::uint64_t> free_line_number() override;
 

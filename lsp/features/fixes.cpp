@@ -28,6 +28,9 @@ static constexpr std::string_view kFixAll = "source.fixAll.isocnc";
 /// Findings for which actions are offered at once.
 static constexpr std::ptrdiff_t kMostFixed = 50;
 
+/// Edits that are sent with an offer. More, which only a habit of the program takes, wait until they are wanted.
+static constexpr std::size_t kMostEdits = 1'000;
+
 namespace {
 
 /// Findings of the lines, as many as are looked at.
@@ -57,13 +60,25 @@ void offer_fixes(const Snapshot& snapshot, const ActionParams& params, std::vect
     const bool on_every_path = located.path < 0 && !snapshot.frontier_before(located.line).reduced;
     const std::optional<Fix> fix = analyzer::fixes::fix_of({located.line, located.finding, on_every_path}, program);
     if (!fix) continue;
-    actions.push_back({.title = fix->title_in(snapshot.language()),
-                       .kind = kQuickFix,
-                       .is_preferred = fix->safety == analyzer::fixes::Safety::Safe,
-                       .diagnostics = diagnostics_of(snapshot, located, params),
-                       .edit = workspace_edit(snapshot, to_client(snapshot, fix->edits)),
-                       .data = nullptr});
+    const std::vector<Edit> edits = all_edits(*fix, program);
+    Action& action = actions.emplace_back(Action{.title = fix->title_in(snapshot.language()),
+                                                 .kind = kQuickFix,
+                                                 .is_preferred = fix->safety == analyzer::fixes::Safety::Safe,
+                                                 .diagnostics = diagnostics_of(snapshot, located, params),
+                                                 .data = {{"habit", fix->habit}}});
+    if (edits.size() <= kMostEdits) action.edit = workspace_edit(snapshot, to_client(snapshot, edits));
   }
+}
+
+/// All that a habit has to have rewritten, which may be much of the program.
+Json rewrite_habit(const Snapshot& snapshot, const Json& data) {
+  const auto habit = data.value("habit", std::size_t{0});
+  if (habit >= analyzer::fixes::kHabitCount) throw rpc::Error(rpc::ErrorCode::RequestFailed, "no such habit");
+  SnapshotProgram program(snapshot);
+  const std::vector<Edit> edits =
+      all_edits({.habit = analyzer::fixes::Habit{static_cast<std::uint8_t>(habit)}}, program);
+  if (edits.empty()) throw rpc::Error(rpc::ErrorCode::RequestFailed, "the program has changed: nothing to rewrite");
+  return workspace_edit(snapshot, to_client(snapshot, edits));
 }
 
 // --- Silencing
@@ -137,7 +152,7 @@ Json fix_all_now(const Snapshot& snapshot, const FixAllParams&) {
 }  // namespace
 
 extern const Feature fixes = {.commands = {on<&fix_all_now>("isocnc.fixAll")},
-                              .actions = {{.kind = kQuickFix, .offer = offer_fixes},
+                              .actions = {{.kind = kQuickFix, .offer = offer_fixes, .edit = rewrite_habit},
                                           {.kind = kQuickFix, .offer = offer_silence},
                                           {.kind = kFixAll, .offer = offer_fix_all, .edit = fix_all}}};
 

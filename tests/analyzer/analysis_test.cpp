@@ -352,6 +352,46 @@ TEST(AnalysisProperty, JumpsEditedEqualFresh) {
   }
 }
 
+/// Whether arcs are suspected depends on others, however far away (W142).
+TEST(AnalysisProperty, CentersEditedEqualFresh) {
+  std::size_t suspected = 0;
+  for (const std::uint64_t seed : support::seeds(60)) {
+    Random random(seed);
+    const auto line = [&] {
+      return std::string(random.any_of({"G00 X110 Y110", "G02 X110 Y110 I-5 J0", "G02 X110 Y110 I-5 J0", "X1 Y2",
+                                        "G90 G00 X100 Y100", "G91 G00 X1", "G03 X120 Y100 J10 I10", "G70", "G71",
+                                        "IF VGPL=1 GOTO N7", "N7 G00 X110", "G02 X100 Y100 I100 J90", "G01 X3 F500"}));
+    };
+    std::string text = "M06 T101001\nF1000\n";
+    for (int i = 0; i < 1'000; ++i)
+      text += (random.one_in(40) ? line() : fmt::format("G90 G71 G00 X110 Y{}", i % 7)) + "\n";
+    Document document(text + "M02\n");
+    Analysis analysis(document, kSetup);
+    for (int i = 0; i < 20; ++i) {
+      const std::size_t at = random.below(document.line_count());
+      // An arc that fits only with its center counted from the start comes, or one of them goes.
+      const std::string arc = random.one_in(3) ? "G90 G00 X110 Y110\nG02 X120 Y120 I10 J0\n" : line() + "\n";
+      document.replace({at, 0}, {at, 0}, arc);
+      const std::size_t found = document.text().find("G02 X120 Y120 I10 J0");
+      if (random.one_in(2) && found != std::string::npos) {
+        const std::string all = document.text();
+        const auto number =
+            static_cast<std::size_t>(std::count(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(found), '\n'));
+        document.replace({number, 0}, {number + 1, 0}, "");
+      }
+      if (random.one_in(4) && !analysis.update([] { return true; })) continue;  // And goes on with the next edit.
+      analysis.update();
+      const std::vector<std::string> report = support::texts_of(analysis.report());
+      const std::string which = fmt::format("seed {}, edit {}", seed, i);
+      ASSERT_EQ(report, support::texts_of(Analysis(document, kSetup).report())) << which;
+      ASSERT_EQ(report, support::texts_of(check_text(document.text(), kSetup))) << which;
+      suspected += analysis.suspects_centers() ? 1 : 0;
+    }
+  }
+  EXPECT_GT(suspected, support::often(200));
+  EXPECT_LT(suspected, support::often(1'000));
+}
+
 TEST(AnalysisProperty, ShiftedEqualsFresh) {
   for (const std::uint64_t seed : support::seeds(25)) {
     Random random(seed);

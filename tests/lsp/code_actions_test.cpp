@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "client_text.h"
@@ -56,6 +57,15 @@ constexpr Case kFixes[] = {
      "M06 T101001\nG01 X10 ; più isolint: ignore ISO066\nM02\n"},
     {"silence ISO066 in the whole program", "M06 T101001\r\nG01[!!] X10\r\nM02\r\n",
      ";isolint: ignore-file ISO066\r\nM06 T101001\r\nG01 X10\r\nM02\r\n"},
+    // All centers of the program, from any of their findings; the inches of other controls.
+    {"write I105 J110", "M06 T101001\nG00 X110 Y110\n[!!]G02 X110 Y110 I-5 J0 F1000\nG02 X120 Y120 I10 J0\nM02\n",
+     "M06 T101001\nG00 X110 Y110\nG02 X110 Y110 I105 J110 F1000\nG02 X120 Y120 I120 J110\nM02\n"},
+    {"write I120 J110", "M06 T101001\nG00 X110 Y110\nG02 X110 Y110 I-5 J0 F1000\n[!!]G02 X120 Y120 I10 J0\nM02\n",
+     "M06 T101001\nG00 X110 Y110\nG02 X110 Y110 I105 J110 F1000\nG02 X120 Y120 I120 J110\nM02\n"},
+    {"write I",
+     "M06 T101001\nG00 X110 Y110\nG02 X110 Y110 I-5 J0 F1000\n[!!]G02 X120 Y120 I10 J0\nG02 X126 Y118 I120 J110\nM02\n",
+     nullptr},
+    {"write G70", "M06 T101001\n[!!]G20\nG00 X1\nG21\nM02\n", "M06 T101001\nG70\nG00 X1\nG71\nM02\n"},
     // The number is free in the whole program, wherever labels stand.
     {"number the line N80", "M06 T101001\nIF VGPL = 1 GOTO N5\nN5 G00 X1\n[!!]N5 G00 X2\nN73 X4\nM02\n",
      "M06 T101001\nIF VGPL = 1 GOTO N5\nN5 G00 X1\nN80 G00 X2\nN73 X4\nM02\n"},
@@ -172,6 +182,32 @@ TEST(CodeActionsResolved, AreMadeWhenTheyAreChosen) {
   Json wrong = actions[1];
   wrong["data"]["version"] = 2;
   wrong["data"]["source"] = 99;
+  EXPECT_TRUE(session.respond("codeAction/resolve", wrong).contains("error"));
+}
+
+/// What a habit has rewritten may be much of the program: it is put together when it is wanted.
+TEST(CodeActionsResolved, HabitsAreRewrittenWhenTheyAreChosen) {
+  Session session;
+  session.start(kResolves, {{"locale", "en"}});
+  std::string turns;
+  std::string mended;
+  for (int i = 0; i < 1'500; ++i) {
+    turns += "G02 X110 Y110 I-5 J0 F1000\n";
+    mended += "G02 X110 Y110 I105 J110 F1000\n";
+  }
+  const SelectedProgram program("M06 T101001\nG00 X110 Y110\n" + turns + "[!!]G02 X120 Y120 I10 J0\nM02\n");
+  session.open(kUri, program.text);
+  const Json actions = session.request("textDocument/codeAction", params_of(program, Json::array({"quickfix"})));
+  const auto fix = std::find_if(actions.begin(), actions.end(), [](const Json& action) {
+    return action["title"].get<std::string>().starts_with("write I120 J110");
+  });
+  ASSERT_NE(fix, actions.end()) << actions;
+  EXPECT_FALSE(fix->contains("edit"));
+  const Json resolved = session.request("codeAction/resolve", *fix);
+  EXPECT_EQ(ClientText(program.text).with(resolved["edit"]["documentChanges"][0]["edits"]),
+            "M06 T101001\nG00 X110 Y110\n" + mended + "G02 X120 Y120 I120 J110\nM02\n");
+  Json wrong = *fix;
+  wrong["data"]["action"]["habit"] = 99;
   EXPECT_TRUE(session.respond("codeAction/resolve", wrong).contains("error"));
 }
 

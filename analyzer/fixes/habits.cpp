@@ -1,0 +1,215 @@
+#include "analyzer/fixes/habits.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analyzer/fixes/centered_arcs.h"
+#include "analyzer/fixes/line_edits.h"
+
+namespace isocnc::analyzer::fixes {
+
+using namespace dialect::literals;
+using geometry::CenterReadings;
+using geometry::PlanePoint;
+using syntax::Instruction;
+using syntax::LineTree;
+using syntax::Word;
+
+namespace {
+
+/// From here on a G04 without a decimal point may be meant in milliseconds: nobody waits for less than ten.
+constexpr double kFewMilliseconds = 10;
+
+bool has_centers(const LineTree& line, const Instruction& motion) {
+  for (std::size_t i = motion.begin; i < motion.end; ++i)
+    if (line.words[i].owner == motion.number && dialect::contains(dialect::kCenterLetters, line.words[i].letter))
+      return true;
+  return false;
+}
+
+bool has_centers(const LineTree& line) {
+  return std::any_of(line.instructions.begin(), line.instructions.end(),
+                     [&](const Instruction& each) { return each.is_motion() && has_centers(line, each); });
+}
+
+/// The center of an arc as it reads from the other origin. What adds up of numbers with few decimals has few itself.
+LineRewrite with_other_center(const LineTree& line, std::uint64_t number, const ArcOfProgram& arc) {
+  const PlanePoint center = arc.readings.other_center;
+  int decimals = decimals_of_center(line, arc);
+  const auto error = [&] { return (rounded_center(arc, center, decimals) - center).norm(); };
+  while (decimals < kMaxDecimals && error() > geometry::kEqualCoordinate) ++decimals;
+  WrittenCenter written = center_written(arc, number, center, decimals);
+  return {number, std::move(written.edits), std::move(written.words)};
+}
+
+/// The arcs of a program that give their circles by centers, under one of G90 and G91, and what follows for the habit
+/// to count centers from the other origin (D70).
+class CenterSurvey {
+ public:
+  explicit CenterSurvey(double tolerance) : tolerance_(tolerance) {}
+
+  /// There is an arc of which nothing is known, or whose words cannot be changed.
+  void add_unknown() { has_unknown_ = true; }
+
+  void add(const CenterReadings& readings, LineRewrite rewrite) {
+    if (readings.is_same_center) return;
+    is_shown_ |= readings.shows_other_origin(tolerance_);
+    const bool is_legal = readings.fits(tolerance_);
+    if (readings.shows_own_origin(tolerance_)) {
+      is_contradicted_ = true;
+      return;
+    }
+    if (is_legal && !readings.nearly_fits_other(tolerance_)) add_unknown();
+    has_open_ |= is_legal;
+    if (readings.shows_other_origin(tolerance_)) certain_.push_back(rewrites_.size());
+    rewrites_.push_back(std::move(rewrite));
+  }
+
+  bool is_shown() const { return is_shown_; }
+
+  /// All centers, where nothing contradicts the habit; where some arcs do, those that fit in no other way, unless more
+  /// are legal both ways.
+  HabitRewrites rewrites() {
+    if (!is_shown_ || has_unknown_ || (is_contradicted_ && has_open_)) return {};
+    if (!is_contradicted_) return std::move(rewrites_);
+    HabitRewrites certain;
+    for (const std::size_t index : certain_) certain.push_back(std::move(rewrites_[index]));
+    return certain;
+  }
+
+ private:
+  double tolerance_;
+  HabitRewrites rewrites_;
+  std::vector<std::size_t> certain_;  // Of rewrites_: arcs that fit from the other origin alone.
+  bool is_shown_ = false;
+  bool is_contradicted_ = false;
+  bool has_open_ = false;  // Legal as it is written, and from the other origin at least nearly so.
+  bool has_unknown_ = false;
+};
+
+}  // namespace
+
+LineTree Habits::line(std::uint64_t number) {
+  const std::string_view text = program_.text(number);
+  line_.clear();
+  line_.append_line(text.data(), text.data() + text.size());
+  return line_.tree(0, text.data());
+}
+
+void Habits::find_centers() {
+  const double tolerance = program_.setup().arc_tolerance;
+  CenterSurvey absolute(tolerance);
+  CenterSurvey incremental(tolerance);
+  for (std::uint64_t number = 0; number < program_.line_count(); ++number) {
+    if (program_.text(number).find_first_of("IJKijk") == std::string_view::npos) continue;
+    if (!has_centers(line(number)) || !program_.is_read(number)) continue;
+    const std::optional<execution::State> before = program_.state_before(number);
+    const LineTree tree = line(number);
+    const bool is_short = tree.text.size() <= kLongestLine;
+    if (const auto arc = before && is_short ? arc_on(tree, *before, program_.setup()) : std::nullopt) {
+      (arc->incremental ? incremental : absolute).add(arc->readings, with_other_center(tree, number, *arc));
+    } else if (!before || may_be_arc(tree, *before, program_.setup())) {
+      absolute.add_unknown();
+      incremental.add_unknown();
+    }
+  }
+  for (const auto& [habit, survey] :
+       {std::pair{Habit::CentersInG90, &absolute}, std::pair{Habit::CentersInG91, &incremental}})
+    found_[static_cast<std::size_t>(habit)] = {.rewrites = survey->rewrites(), .is_shown = survey->is_shown()};
+}
+
+/// G20 and G21 are inches and millimeters on other controls: a program changed by half would mix them.
+Habits::Found Habits::find_foreign_units() {
+  Found found;
+  for (std::uint64_t number = 0; number < program_.line_count(); ++number) {
+    if (program_.text(number).find_first_of("Gg") == std::string_view::npos) continue;
+    const LineTree tree = line(number);
+    LineRewrite rewrite{.line = number};
+    for (const Word& word : tree.words) {
+      if (word.letter != 'G' || !word.is_plain_integer() || (word.value != 20 && word.value != 21)) continue;
+      const syntax::Finding finding{.id = "unsupported-g"_diag, .span = word.span()};
+      const Request request{number, finding, true, tree, program_};
+      rewrite.what = word.value == 20 ? "G70" : "G71";
+      rewrite.edits.push_back(replaced(request, word.span(), rewrite.what));
+      if (!helps(request, rewrite.edits)) return {.is_shown = true};
+    }
+    if (!rewrite.edits.empty() && program_.is_read(number)) found.rewrites.push_back(std::move(rewrite));
+  }
+  found.is_shown = !found.rewrites.empty();
+  return found;
+}
+
+/// G04 P500: where one waiting time is far too long for seconds, all are milliseconds, unless one has a decimal point
+/// or is too short for that.
+Habits::Found Habits::find_milliseconds() {
+  Found found;
+  for (std::uint64_t number = 0; number < program_.line_count(); ++number) {
+    if (program_.text(number).find_first_of("Gg") == std::string_view::npos) continue;
+    const LineTree tree = line(number);
+    for (const Instruction& dwell : tree.instructions) {
+      if (dwell.kind != syntax::InstructionKind::G || !dwell.g() || dwell.g()->number != 4) continue;
+      const auto is_time = [&](const Word& word) { return word.letter == 'P' && word.owner == dwell.number; };
+      const auto time = std::find_if(tree.words.begin(), tree.words.end(), is_time);
+      if (time == tree.words.end() || time->value == 0 || !program_.is_read(number)) continue;
+      const std::string_view text = tree.text_of(time->span());
+      const bool may_be_milliseconds =
+          time->known() && time->value >= kFewMilliseconds && text.find_first_of(".(") == std::string_view::npos;
+      if (!may_be_milliseconds) return {};
+      found.is_shown |= time->value > program_.setup().opinions.longest_dwell;
+      std::string what = text.front() + written(time->value / 1000, 6);
+      found.rewrites.push_back({number, {{{number, time->begin}, {number, time->end}, what}}, what});
+    }
+  }
+  return found.is_shown ? found : Found{};
+}
+
+const Habits::Found& Habits::found(Habit habit) {
+  std::optional<Found>& known = found_[static_cast<std::size_t>(habit)];
+  if (known) return *known;
+  switch (habit) {
+    case Habit::None:
+      known = Found{};
+      break;
+    case Habit::CentersInG90:
+    case Habit::CentersInG91:
+      find_centers();
+      break;
+    case Habit::ForeignUnits:
+      known = find_foreign_units();
+      break;
+    case Habit::Milliseconds:
+      known = find_milliseconds();
+      break;
+  }
+  return *known;
+}
+
+const HabitRewrites& Habits::rewrites(Habit habit) { return found(habit).rewrites; }
+
+bool Habits::shows(Habit habit) { return found(habit).is_shown; }
+
+bool Habits::separates_thousands() {
+  if (separates_thousands_) return *separates_thousands_;
+  separates_thousands_ = false;
+  for (std::uint64_t number = 0; number < program_.line_count() && !*separates_thousands_; ++number) {
+    if (program_.text(number).find(',') == std::string_view::npos) continue;
+    const LineTree tree = line(number);
+    for (const syntax::Finding& finding : tree.findings) {
+      const std::string_view text = tree.text_of(finding.span);
+      const std::size_t comma = text.find(',');
+      if (comma == std::string_view::npos || finding.id != "malformed-number"_diag) continue;
+      *separates_thousands_ |= text.find_first_of(",.", comma + 1) != std::string_view::npos;
+    }
+  }
+  return *separates_thousands_;
+}
+
+Draft habit_draft(const Request& request, Habit habit) {
+  const HabitRewrites& all = request.program.habits().rewrites(habit);
+  const auto own = std::lower_bound(all.begin(), all.end(), request.number,
+                                    [](const LineRewrite& each, std::uint64_t line) { return each.line < line; });
+  if (own == all.end() || own->line != request.number) return {};
+  return {.edits = own->edits, .what = own->what, .habit = habit};
+}
+
+}  // namespace isocnc::analyzer::fixes
