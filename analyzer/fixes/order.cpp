@@ -75,6 +75,14 @@ static bool has_another_finding(const Request& request) {
   return std::any_of(request.line.findings.begin(), request.line.findings.end(), is_another);
 }
 
+/// Whether a word has a finding of its own: what it should have been, and so what belongs to what, is not known.
+static bool is_in_doubt(const LineTree& line, const Word& word) {
+  const auto marks_it = [&](const syntax::Finding& finding) {
+    return finding.span.begin < word.end && word.begin < finding.span.end;
+  };
+  return std::any_of(line.findings.begin(), line.findings.end(), marks_it);
+}
+
 /// G00 Z50 M02 on two lines, S5000 M03 G04 P2 G01 X5 on three: what takes effect, and in which order, stays as it is.
 Draft on_its_own_line(const Request& request) {
   const LineTree& line = request.line;
@@ -90,8 +98,11 @@ Draft on_its_own_line(const Request& request) {
   if (std::any_of(behind.begin(), behind.end(), is_label)) return {};
   if (!behind.empty() && alone->kind == InstructionKind::Function && !may_be_followed) return {};
   if (!behind.empty() && alone->kind == InstructionKind::Jump) return {};
-  Draft draft;
   const auto before = line.words.first(extent->first);
+  // G92 X10 Y20= Z146: the Z belongs to the G92.
+  if ((!behind.empty() && is_in_doubt(line, behind.front())) || (!before.empty() && is_in_doubt(line, before.back())))
+    return {};
+  Draft draft;
   if (!std::all_of(before.begin(), before.end(), is_label))
     draft.edits.push_back(line_end_before(request, line.words[extent->first].begin));
   if (!behind.empty()) draft.edits.push_back(line_end_before(request, behind.front().begin));
