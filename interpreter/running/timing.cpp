@@ -6,8 +6,6 @@
 #include <span>
 #include <utility>
 
-#include <Eigen/LU>
-
 #include "interpreter/motion/numbers.h"
 
 namespace isocnc::running {
@@ -67,14 +65,11 @@ motion::Move planned_move(const MoveEvent& move, const TimedMachine& machine, do
 }
 
 Timing::Timing(const TimedMachine& machine, Listeners listeners)
-    : machine_(&machine), listeners_(std::move(listeners)), planner_(machine.motion), programmed_(machine.home) {}
+    : machine_(&machine), listeners_(std::move(listeners)), planner_(machine.motion), position_(machine.home) {}
 
 Timing::Timing(const TimedMachine& machine, const Standing& standing) : Timing(machine, Listeners{}) {
   planner_.rest(standing.time);
-  tool_length_ = standing.tool_length;
-  programmed_ = standing.programmed;
-  off_program_ = standing.tip.tip - standing.programmed.tip;
-  frame_axes_ = standing.frame_axes;
+  position_ = {standing.tip, standing.programmed, standing.tool_length, standing.frame_axes};
 }
 
 void Timing::take(const Event& event) {
@@ -89,7 +84,7 @@ void Timing::take(const Event& event) {
     holds_motion_ = true;
     return;
   }
-  if (const auto* const frame = std::get_if<FrameEvent>(&event.what)) frame_axes_ = frame->face.axes;
+  if (const auto* const frame = std::get_if<FrameEvent>(&event.what)) position_.take(*frame);
   const double seconds = seconds_of(event);
   if (seconds >= 0) return rest(event, seconds);
   enqueue(event);
@@ -108,9 +103,9 @@ void Timing::push_motion() {
   if (!std::exchange(holds_motion_, false)) return;
   Waiting& waiting = waiting_.back();
   const MoveEvent& move = std::get<MoveEvent>(waiting.timed.event.what);
-  motion::Move planned = planned_move(move, *machine_, tool_length_);
+  motion::Move planned = planned_move(move, *machine_, position_.tool_length());
   planned.tag = waiting.motion;
-  start_where_machine_is(planned, move);
+  position_.follow(move, planned);
   planned.exact_stop = std::exchange(stops_exactly_, false);
   // In three-axis interpolation the channel runs empty; in five-axis the motion goes on at once (I.3.8).
   if (planned.exact_stop && !move.five_axis) waiting.timed.wait = machine_->durations.channel;
@@ -119,33 +114,6 @@ void Timing::push_motion() {
   planner_.push(planned);
   if (channel > 0) planner_.rest(channel);
   take_stretches();
-}
-
-void Timing::start_where_machine_is(motion::Move& planned, const MoveEvent& move) {
-  programmed_ = move.to;
-  if (off_program_ == geometry::Vec3::Zero()) return;
-  planned.from.tip += off_program_;
-  geometry::Vec3 kept = frame_axes_.inverse() * off_program_;
-  for (int axis = 0; axis < 3; ++axis)
-    if ((move.placed & execution::axis_bit(static_cast<execution::Axis>(axis))) != 0) kept[axis] = 0;
-  off_program_ = frame_axes_ * kept;
-  planned.to.tip += off_program_;
-  planned.center += off_program_;
-}
-
-/// The joints stay where they are.
-void Timing::mount(const execution::ToolCode& tool) {
-  const double length = machine_->tool_length(tool);
-  if (length == tool_length_) return;
-  const motion::Coordinates standing = joints();
-  tool_length_ = length;
-  off_program_ = motion::forward(machine_->motion.kinematics, standing, length).head<3>() - programmed_.tip;
-}
-
-geometry::Pose Timing::tip() const { return {programmed_.tip + off_program_, programmed_.b, programmed_.c}; }
-
-motion::Coordinates Timing::joints() const {
-  return motion::inverse(machine_->motion.kinematics, motion::coordinates(tip()), tool_length_);
 }
 
 void Timing::take_stretches() {
@@ -187,7 +155,8 @@ void Timing::rest(const Event& event, double seconds) {
   come_to_rest();
   const double start = planner_.time();
   planner_.rest(seconds);
-  if (const auto* const tool = std::get_if<ToolEvent>(&event.what)) mount(tool->tool);
+  if (const auto* const tool = std::get_if<ToolEvent>(&event.what))
+    position_.mount(machine_->motion.kinematics, machine_->tool_length(tool->tool));
   if (listeners_.event) listeners_.event({.event = event, .start = start, .duration = seconds});
 }
 

@@ -11,6 +11,7 @@
 #include "interpreter/motion/planner.h"
 #include "interpreter/running/event.h"
 #include "interpreter/running/fifo.h"
+#include "interpreter/running/tip_position.h"
 
 namespace isocnc::running {
 
@@ -54,10 +55,6 @@ struct TimedEvent {
 /// Gives the events of a run their times: the control looks ahead, so what a motion takes is known some motions later.
 /// Events come out in the order in which they went in. Memory does not grow with the program: behind more events than
 /// any control looks ahead the machine is taken to stop.
-///
-/// A tool change moves no axis, so the tip of a longer tool is lower behind it. The program goes on from the old place:
-/// axes that the next motions leave out, or move by a distance (G91), stay off it, and those that are given come to
-/// where they are sent (I.3.4, D33).
 class Timing {
  public:
   /// A machine that stands, with a program behind it.
@@ -101,8 +98,8 @@ class Timing {
   double time() const { return planner_.time(); }
 
   /// Where the machine stands, tip (machine frame) and joints: at the begin, while a tool change is told, at the end.
-  geometry::Pose tip() const;
-  motion::Coordinates joints() const;
+  geometry::Pose tip() const { return position_.tip(); }
+  motion::Coordinates joints() const { return position_.joints(machine_->motion.kinematics); }
 
  private:
   /// An event that has no time yet.
@@ -115,8 +112,6 @@ class Timing {
 
   Waiting& enqueue(const Event& event);
   void push_motion();
-  void start_where_machine_is(motion::Move& planned, const MoveEvent& move);
-  void mount(const execution::ToolCode& tool);
   void take_stretches();
   void take_stretch(const motion::Stretch& stretch);
   void tell_first();
@@ -131,10 +126,7 @@ class Timing {
   std::uint64_t motions_ = 0;
   bool holds_motion_ = false;  ///< The last of waiting_: a G09 may follow.
   bool stops_exactly_ = false;
-  double tool_length_ = 0;
-  geometry::Pose programmed_;                               ///< The tip as the program has it, machine frame.
-  geometry::Vec3 off_program_ = geometry::Vec3::Zero();     ///< From there to the tip.
-  geometry::Mat3 frame_axes_ = geometry::Mat3::Identity();  ///< Of the frame in force, machine frame.
+  TipPosition position_;
 };
 
 /// What a motion asks of the machine, where that is where the program has it.
