@@ -34,12 +34,25 @@ static bool stops_reading(const Event& event) {
 
 static bool turns(const MoveEvent& move) { return move.from.b != move.to.b || move.from.c != move.to.c; }
 
+Compensation::Compensation(const TimedMachine& machine, const execution::ToolCode& tool, const MoveEvent* beside)
+    : machine_(&machine) {
+  mount(tool);
+  if (beside == nullptr) return;
+  turn_plane(beside->normal);
+  is_beside_ = true;
+  tip_ = beside->to;
+}
+
+void Compensation::mount(const execution::ToolCode& tool) {
+  const auto radius = machine_->tool_radii.find(tool);
+  radius_ = radius == machine_->tool_radii.end() ? 0 : radius->second;
+}
+
 void Compensation::take(const Event& event, const Listeners& listeners) {
   const auto* const move = std::get_if<MoveEvent>(&event.what);
   if (const auto* const tool = std::get_if<ToolEvent>(&event.what)) {
     end_contour(listeners);
-    const auto radius = machine_->tool_radii.find(tool->tool);
-    radius_ = radius == machine_->tool_radii.end() ? 0 : radius->second;
+    mount(tool->tool);
   }
   if (stops_reading(event)) pause(listeners);
   if (move == nullptr) return is_open_ ? wait(event, listeners) : listeners.event(event);
@@ -100,13 +113,17 @@ void Compensation::begin_contour(const MoveEvent& move) {
   if (!is_beside_) tip_ = move.from;
   is_beside_ = true;
   if ((plane_.normal - move.normal).norm() > kNowhere || contour_.radius() != radius_) {
-    plane_.normal = move.normal;
-    Vec3::Index least = 0;
-    move.normal.cwiseAbs().minCoeff(&least);
-    plane_.u = Vec3::Unit(least).cross(move.normal).normalized();
-    plane_.v = move.normal.cross(plane_.u);
+    turn_plane(move.normal);
     contour_ = geometry::ContourOffset(radius_);
   }
+}
+
+void Compensation::turn_plane(const Vec3& normal) {
+  plane_.normal = normal;
+  Vec3::Index least = 0;
+  normal.cwiseAbs().minCoeff(&least);
+  plane_.u = Vec3::Unit(least).cross(normal).normalized();
+  plane_.v = normal.cross(plane_.u);
 }
 
 void Compensation::end_contour(const Listeners& listeners) {
@@ -184,9 +201,10 @@ void Compensation::go_beside(const Event& event, const Listeners& listeners) {
   go(event.line, beside, listeners);
 }
 
-/// From where the tip is.
+/// From where the tip is. Beside a contour each motion has its normal, by which a copy of the machine can go on.
 void Compensation::go(std::uint64_t line, const MoveEvent& move, const Listeners& listeners) {
   MoveEvent gone = move;
+  if (is_beside_) gone.normal = plane_.normal;
   gone.from.tip = tip_.tip;
   gone.length = (gone.to.tip - gone.from.tip).norm();
   if (gone.kind == MoveKind::Arc) {

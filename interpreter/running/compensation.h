@@ -36,6 +36,9 @@ class Compensation {
 
   /// Keeps a reference to the machine, which knows the radii of the tools.
   explicit Compensation(const TimedMachine& machine) : machine_(&machine) {}
+  /// Of a machine that stands between two blocks, not under G41 or G42, with that tool. `beside` is the motion that has
+  /// led it beside a contour, from which none has led it back; null elsewhere.
+  Compensation(const TimedMachine& machine, const execution::ToolCode& tool, const MoveEvent* beside);
 
   void take(const Event& event, const Listeners& listeners);
 
@@ -71,7 +74,9 @@ class Compensation {
 
   void wait(const Event& event, const Listeners& listeners);
   void follow(const Event& event, const MoveEvent& move, const Listeners& listeners);
+  void mount(const execution::ToolCode& tool);
   void begin_contour(const MoveEvent& move);
+  void turn_plane(const geometry::Vec3& normal);
   void end_contour(const Listeners& listeners);
   void come_back(const Event& event, const MoveEvent& move, const Listeners& listeners);
   void pass_on(const Listeners& listeners);

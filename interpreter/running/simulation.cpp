@@ -27,9 +27,22 @@ static geometry::Pose at_rest(const geometry::Pose& tip, const geometry::Pose& p
   return {rounds ? programmed.tip : tip.tip, programmed.b, programmed.c};
 }
 
-static Timing::Standing standing(const Simulation& before, const Runner& run, const TimedMachine& machine) {
+static geometry::Pose programmed_pose(const execution::State& state) {
+  return {state.to_machine(state.position.tip), state.position.b, state.position.c};
+}
+
+/// The motion that has ended beside a contour, if it is the last one: elsewhere than the program.
+static const MoveEvent* motion_beside(const TimedEvent* last, const execution::State& state) {
+  if (last == nullptr) return nullptr;
+  const auto& move = std::get<MoveEvent>(last->event.what);
+  const bool is_beside = (move.to.tip - programmed_pose(state).tip).norm() > geometry::kEqualCoordinate;
+  return is_beside && move.normal != geometry::Vec3::Zero() ? &move : nullptr;
+}
+
+static Timing::Standing standing(const Simulation& before, const Runner& run, const TimedMachine& machine,
+                                 const MoveEvent* beside) {
   const execution::State& state = run.result().state;
-  const geometry::Pose programmed{state.to_machine(state.position.tip), state.position.b, state.position.c};
+  const geometry::Pose programmed = beside != nullptr ? beside->to : programmed_pose(state);
   return {.time = before.time(),
           .tip = at_rest(before.sample().tip, programmed, machine.motion),
           .programmed = programmed,
@@ -38,11 +51,16 @@ static Timing::Standing standing(const Simulation& before, const Runner& run, co
 }
 
 Simulation::Simulation(const Simulation& before, const Runner& run, const TimedMachine& machine)
+    : Simulation(before, run, machine, motion_beside(before.last_motion_.get(), run.result().state)) {}
+
+Simulation::Simulation(const Simulation& before, const Runner& run, const TimedMachine& machine,
+                       const MoveEvent* beside)
     : machine_(&machine),
       present_(run),
       ahead_(present_),
-      compensation_(machine),
-      timing_(machine, standing(before, run, machine)),
+      compensation_(machine, run.result().state.tool, beside),
+      timing_(machine, standing(before, run, machine, beside)),
+      last_motion_(before.last_motion_),
       begin_(timing_.tip()),
       begin_tool_length_(before.tool_length_),
       tool_length_(before.tool_length_),
@@ -137,6 +155,7 @@ void Simulation::pass_piece() {
     if (!stretch->ends_move)
       gone_ += stretch->parameter_at(stretch->start + stretch->duration) - stretch->parameter_at(stretch->start);
     last_stretch_ = stretch;
+    last_motion_ = pieces_[passed_].cause;
   }
   ++passed_;
 }

@@ -97,6 +97,8 @@ class Simulation {
   std::size_t memory() const;
 
  private:
+  Simulation(const Simulation& before, const Runner& run, const TimedMachine& machine, const MoveEvent* beside);
+
   /// A stretch of a motion, or what the machine stands still for.
   struct Piece {
     double start = 0;
@@ -127,6 +129,7 @@ class Simulation {
   std::vector<Piece> pieces_;  ///< Those read whose times are known.
   std::size_t passed_ = 0;     ///< Of them.
   std::optional<motion::Stretch> last_stretch_;
+  std::shared_ptr<const TimedEvent> last_motion_;  ///< That the machine has begun, also before its begin; or null.
   geometry::Pose begin_;  ///< Where the machine stood at the begin, with a tool of that length.
   double begin_tool_length_ = 0;
   double gone_ = 0;         ///< Of the path of its motion.

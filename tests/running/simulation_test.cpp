@@ -138,6 +138,49 @@ TEST(Simulation, ShowsTheToolBesideTheContour) {
   EXPECT_NEAR(simulation.sample().tip.tip.y(), 0, 0.1);
 }
 
+/// Where the tip stands after each line of a program in which somebody takes the machine over before line `change`
+/// (from 0), and leaves it as it is.
+std::vector<geometry::Vec3> places_when_taken_over(const Case& of, std::uint64_t change) {
+  std::vector<geometry::Vec3> places;
+  auto simulation = std::make_unique<Simulation>(of.start());
+  while (!simulation->has_ended()) {
+    if (simulation->line() == change)
+      simulation = std::make_unique<Simulation>(*simulation, simulation->runner(), of.machine());
+    simulation->step_block();
+    places.push_back(simulation->sample().tip.tip);
+  }
+  return places;
+}
+
+/// The tool of 3 mm radius stands at X40 Y3 after the G40, and goes straight to X60 Y0; the second contour runs at Y17.
+TEST(Simulation, TakenOverByHandGoesTheSameWay) {
+  const Case contours{
+      "M06 T101001\n"
+      "G1 X-20 Y20 Z0 F6000\n"
+      "G41 X0 Y0\n"
+      "X40\n"
+      "G40\n"
+      "G0 Z9\n"
+      "G18 G0 Z4\n"
+      "G17\n"
+      "G1 X60\n"
+      "G42 X80 Y20\n"
+      "X120\n"
+      "X140 Y20 G40\n"
+      "G1 X150 Y40\n"
+      "M02\n"};
+  constexpr double kRoundedCorner = 0.05;  // mm
+  for (const std::uint64_t change : {1u, 2u, 5u, 6u, 7u, 8u, 9u, 12u}) {
+    const std::vector<geometry::Vec3> places = places_when_taken_over(contours, change);
+    ASSERT_EQ(places.size(), 14u) << change;
+    for (const std::size_t line : {4u, 5u, 6u, 7u})
+      EXPECT_NEAR((places[line].head<2>() - geometry::Vec2(40, 3)).norm(), 0, kRoundedCorner) << change << ' ' << line;
+    EXPECT_NEAR((places[8] - geometry::Vec3(60, 0, 4)).norm(), 0, kRoundedCorner) << change;
+    EXPECT_NEAR((places[10] - geometry::Vec3(120, 17, 4)).norm(), 0, kRoundedCorner) << change;
+    EXPECT_NEAR((places[12] - geometry::Vec3(150, 40, 4)).norm(), 0, kRoundedCorner) << change;
+  }
+}
+
 /// I.5: of what comes behind an IF the control knows nothing until the machine has come there.
 TEST(Simulation, StopsBesideTheContourAtAnIf) {
   const Case fork{
