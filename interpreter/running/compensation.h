@@ -49,6 +49,11 @@ class Compensation {
   /// The run is over: the tool stays beside the contour where that ends.
   void finish(const Listeners& listeners) { end_contour(listeners); }
 
+  /// Whether motions wait for what follows: the tool is not yet where those taken will have led it.
+  bool holds_motions() const { return is_open_ && !is_paused_; }
+  /// Whether the tool is off the programmed path. After G40 it is, until a motion leads it back.
+  bool is_beside_contour() const { return is_beside_; }
+
   /// Bytes that it holds, beside itself.
   std::size_t memory() const;
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
+#include <utility>
 
 #include "interpreter/dialect/format.h"
 #include "interpreter/geometry/arc.h"
@@ -24,8 +26,17 @@ static constexpr Text kChoice{" (--vgpl and --set choose the way)", " (--vgpl e 
 static constexpr Text kUnsafe{"no safe restart before line {}: {}", "nessuna ripresa sicura dalla riga {}: {}"};
 static constexpr Text kCompensation{"cutter compensation (G{}) is in force",
                                     "è in presa la correzione raggio fresa (G{})"};
-static constexpr Text kOnContour{"G40 has just ended the compensation, and the tool is still on the contour",
-                                 "la G40 ha appena tolto la correzione e l'utensile è ancora sul profilo"};
+static constexpr Text kOnContour{
+    "after G40 the tool still stands beside the contour, and from there the program would not go on as it does",
+    "dopo la G40 l'utensile è ancora accanto al profilo, e da lì il programma non proseguirebbe allo stesso modo"};
+static constexpr Text kRadiusUnknown{
+    "after G40 the tool still stands beside the contour, and how far is not known without its radius (machine.tools)",
+    "dopo la G40 l'utensile è ancora accanto al profilo, e senza il suo raggio (machine.tools) non si sa quanto"};
+static constexpr Text kOffProgram{
+    "the tool change has left the tip off the programmed place, and from there the program would not go on as it does",
+    "il cambio utensile ha lasciato la punta fuori dalla quota programmata, e da lì il programma non proseguirebbe "
+    "allo "
+    "stesso modo"};
 static constexpr Text kChangedLow{
     "the frame has changed with the tool in the cut, and no rapid has followed",
     "il sistema di riferimento è cambiato con l'utensile nel pezzo, senza un rapido dopo"};
@@ -93,11 +104,10 @@ bool has_same_modes(const State& a, const State& b, bool needs_motion) {
   return true;
 }
 
-/// Whether all that follows is the same after `a` as after `b`.
-bool is_same(const State& a, const State& b, bool needs_motion) {
+/// Whether all that follows is the same after `a` as after `b`, where the tip is in the same place.
+bool is_same_but_for_tip(const State& a, const State& b, bool needs_motion) {
   constexpr State::Knowledge kTurns = State::kClockwise | State::kCounterclockwise;
-  return is_near(a.position.tip, b.position.tip) &&
-         std::abs(a.position.b - b.position.b) <= geometry::kEqualCoordinate &&
+  return std::abs(a.position.b - b.position.b) <= geometry::kEqualCoordinate &&
          std::abs(a.position.c - b.position.c) <= geometry::kEqualCoordinate && has_same_frames(a, b) &&
          has_same_modes(a, b, needs_motion) && a.tool == b.tool && a.tool_selected == b.tool_selected &&
          a.feed_per_minute == b.feed_per_minute && feed_in_force(a) == feed_in_force(b) &&
@@ -114,43 +124,187 @@ struct Trial {
 Trial try_program(std::string_view program, std::uint64_t preamble_lines, const RestartSurvey& survey,
                   const RestartOptions& options) {
   const RestartPoint& point = survey.point();
+  // Off the program the restart begins with another programmed place, and goes on as the original: runs_alike().
+  const auto is_same = [&](const State& a, const State& b) {
+    return is_same_but_for_tip(a, b, point.continues_motion) &&
+           (point.is_off_program || is_near(a.position.tip, b.position.tip));
+  };
   Trial trial;
+  MachineCourse course(options.machine, options.run.setup.home);
   bool comes_to_state = false;
   RunOptions run_options = options.run;
   run_options.before_block = [&](const Block& block) {
     if (block.line == preamble_lines)
-      comes_to_state = is_same(block.state, point.state, point.continues_motion) && block.registers == point.registers;
+      comes_to_state = is_same(block.state, point.state) && block.registers == point.registers &&
+                       is_near(course.tip().tip, point.machine_tip.tip);
   };
-  Timing approach(options.machine, {.event = [&](const TimedEvent& timed) {
-                    if (!timed.move || trial.overtravel) return;
-                    const auto found = motion::overtravels(options.machine.motion, *timed.move);
-                    if (!found.empty()) trial.overtravel = found.front();
-                  }});
+  const MachineCourse::Listeners approach = {.move =
+                                                 [&](const Event&, const motion::Move& move) {
+                                                   if (trial.overtravel) return;
+                                                   const auto found = motion::overtravels(options.machine.motion, move);
+                                                   if (!found.empty()) trial.overtravel = found.front();
+                                                 },
+                                             .frame = {}};
   const RunResult result = run(program, run_options, [&](const Event& event) {
-    if (event.line < preamble_lines) approach.take(event);
+    if (event.line < preamble_lines) course.take(event, approach);
   });
-  approach.finish();
-  trial.is_proved = comes_to_state && result.ending == Ending::ProgramEnd &&
-                    is_same(result.state, survey.run().state, point.continues_motion);
+  trial.is_proved = comes_to_state && result.ending == Ending::ProgramEnd && is_same(result.state, survey.run().state);
   return trial;
 }
 
-void propose_lines(const RestartSurvey& survey, RestartRefusal& refusal) {
-  for (std::uint64_t line = std::min(refusal.line, survey.end()); line-- > 0 && !refusal.before;)
-    if (survey.is_safe(line)) refusal.before = line;
-  for (std::uint64_t line = refusal.line + 1; line < survey.end() && !refusal.behind; ++line)
-    if (survey.is_safe(line)) refusal.behind = line;
+/// The motions of the machine from a line on.
+class Rest {
+ public:
+  struct Motion {
+    std::uint64_t line = 0;  // From the line on.
+    execution::MoveKind kind = execution::MoveKind::Rapid;
+    motion::Move move;
+  };
+
+  Rest(std::string_view text, const RestartOptions& options, std::uint64_t line)
+      : line_(line), program_(text), runner_(program_, options.run), course_(options.machine, options.run.setup.home) {
+    while (!runner_.has_ended() && runner_.place().line < line) step();
+  }
+  Rest(const Rest&) = delete;
+  Rest& operator=(const Rest&) = delete;
+
+  /// The next that goes anywhere.
+  std::optional<Motion> next() {
+    while (motions_.empty() && !runner_.has_ended()) step();
+    if (motions_.empty()) return std::nullopt;
+    const Motion first = motions_.front();
+    motions_.pop_front();
+    return first;
+  }
+
+ private:
+  void step() {
+    runner_.step();
+    for (const Event& event : runner_.events()) course_.take(event, listeners_);
+    if (runner_.has_ended()) course_.finish(listeners_);
+  }
+  void add(const Event& event, const motion::Move& move) {
+    const bool goes =
+        move.is_arc || !is_near(move.from.tip, move.to.tip) || move.from.b != move.to.b || move.from.c != move.to.c;
+    if (event.line >= line_ && goes)
+      motions_.push_back({event.line - line_, std::get<MoveEvent>(event.what).kind, move});
+  }
+
+  const std::uint64_t line_;
+  const Program program_;
+  Runner runner_;
+  MachineCourse course_;
+  const MachineCourse::Listeners listeners_{
+      .move = [this](const Event& event, const motion::Move& move) { add(event, move); }, .frame = {}};
+  std::deque<Motion> motions_;
+};
+
+bool is_near(const motion::Feed& a, const motion::Feed& b) {
+  constexpr double kRounding = 1e-6;
+  return a.kind == b.kind && std::abs(a.value - b.value) <= kRounding * std::abs(a.value);
 }
 
-RestartRefusal refuse(Obstacle obstacle, const RestartSurvey& survey, std::uint64_t line) {
-  RestartRefusal refusal{.obstacle = obstacle, .line = line};
-  refusal.cause = survey.line_of_cause(line);
+bool is_near(const geometry::Pose& a, const geometry::Pose& b) {
+  return is_near(a.tip, b.tip) && std::abs(a.b - b.b) <= geometry::kEqualCoordinate &&
+         std::abs(a.c - b.c) <= geometry::kEqualCoordinate;
+}
+
+bool is_same(const Rest::Motion& a, const Rest::Motion& b) {
+  if (a.line != b.line || a.kind != b.kind || a.move.is_arc != b.move.is_arc) return false;
+  if (!is_near(a.move.from, b.move.from) || !is_near(a.move.to, b.move.to)) return false;
+  if (!is_near(a.move.feed, b.move.feed) || a.move.splits_arcs != b.move.splits_arcs) return false;
+  return !a.move.is_arc || (is_near(a.move.center, b.move.center) && is_near(a.move.normal, b.move.normal) &&
+                            std::abs(a.move.sweep_deg - b.move.sweep_deg) <= geometry::kEqualCoordinate);
+}
+
+/// Whether the machine goes on in a restart program exactly as in the original.
+bool runs_alike(std::string_view text, std::string_view program, std::uint64_t preamble_lines,
+                const RestartOptions& options) {
+  Rest original(text, options, options.line);
+  Rest restarted(program, options, preamble_lines);
+  for (;;) {
+    const auto wanted = original.next();
+    const auto found = restarted.next();
+    if (!wanted || !found) return !wanted && !found;
+    if (!is_same(*wanted, *found)) return false;
+  }
+}
+
+/// A restart program, or what stands in its way.
+struct Attempt {
+  std::string program;
+  Obstacle obstacle = Obstacle::None;
+  std::optional<motion::Overtravel> overtravel;
+};
+
+Attempt attempt(std::string_view text, const RestartOptions& options, const RestartSurvey& survey) {
+  Attempt made{.program = {}, .obstacle = survey.obstacle(options.line), .overtravel = {}};
+  if (made.obstacle != Obstacle::None) return made;
+  const RestartPoint& point = survey.point();
+  made.program = restart_preamble(point, options, line_end_of(text));
+  const std::uint64_t preamble_lines = count_lines(made.program);
+  made.program += text.substr(find_line(text, options.line).offset);
+  const Trial trial = try_program(made.program, preamble_lines, survey, options);
+  if (point.is_off_program && !(trial.is_proved && runs_alike(text, made.program, preamble_lines, options))) {
+    made.obstacle = point.is_beside_contour ? Obstacle::OnContour : Obstacle::OffProgram;
+  } else if (!trial.is_proved) {
+    made.obstacle = Obstacle::NotProved;
+  } else if (trial.overtravel) {
+    made.obstacle = Obstacle::BeyondTravel;
+    made.overtravel = trial.overtravel;
+  }
+  return made;
+}
+
+/// Looks for a line from which there is a restart, from the first candidate to the next. Where the machine is off the
+/// program only a restart program shows it, and no more than a few are made.
+class Proposals {
+ public:
+  Proposals(std::string_view text, const RestartOptions& options, const RestartSurvey& survey)
+      : text_(text), options_(options), survey_(survey) {}
+
+  bool fits(std::uint64_t line) {
+    if (!survey_.is_safe(line)) return false;
+    if (!survey_.is_off_program(line)) return true;
+    constexpr int kMaxTrials = 4;
+    if (trials_ == kMaxTrials) return false;
+    ++trials_;
+    RestartOptions there = options_;
+    there.line = line;
+    const RestartSurvey survey(text_, there.run, there.machine, line);
+    return attempt(text_, there, survey).obstacle == Obstacle::None;
+  }
+
+ private:
+  const std::string_view text_;
+  const RestartOptions& options_;
+  const RestartSurvey& survey_;
+  int trials_ = 0;
+};
+
+void propose_lines(std::string_view text, const RestartOptions& options, const RestartSurvey& survey,
+                   RestartRefusal& refusal) {
+  Proposals above(text, options, survey);
+  for (std::uint64_t line = std::min(refusal.line, survey.end()); line-- > 0 && !refusal.before;)
+    if (above.fits(line)) refusal.before = line;
+  Proposals below(text, options, survey);
+  for (std::uint64_t line = refusal.line + 1; line < survey.end() && !refusal.behind; ++line)
+    if (below.fits(line)) refusal.behind = line;
+}
+
+RestartRefusal refuse(const Attempt& made, std::string_view text, const RestartOptions& options,
+                      const RestartSurvey& survey) {
+  const Obstacle obstacle = made.obstacle;
+  RestartRefusal refusal{.obstacle = obstacle, .line = options.line};
+  refusal.cause = survey.line_of_cause(options.line);
   refusal.run = survey.run();
   refusal.has_choices = survey.has_choices();
   const State& state = survey.point().state;
   refusal.g = state.mode(obstacle == Obstacle::Compensation ? ModalGroup::CutterCompensation : ModalGroup::Motion);
+  if (made.overtravel) refusal.overtravel = *made.overtravel;
   // Whether the travel suffices for other lines, only a trial of each would tell.
-  if (obstacle != Obstacle::ProgramError && obstacle != Obstacle::BeyondTravel) propose_lines(survey, refusal);
+  if (obstacle != Obstacle::ProgramError && obstacle != Obstacle::BeyondTravel)
+    propose_lines(text, options, survey, refusal);
   return refusal;
 }
 
@@ -160,6 +314,10 @@ const Text& reason(Obstacle obstacle) {
       return kCompensation;
     case Obstacle::OnContour:
       return kOnContour;
+    case Obstacle::RadiusUnknown:
+      return kRadiusUnknown;
+    case Obstacle::OffProgram:
+      return kOffProgram;
     case Obstacle::FrameChangedLow:
       return kChangedLow;
     case Obstacle::FaceLooksDown:
@@ -196,23 +354,12 @@ std::string what_is_wrong(const RestartRefusal& refusal, Language language) {
 }  // namespace
 
 std::variant<std::string, RestartRefusal> restart_program(std::string_view text, const RestartOptions& options) {
-  const LineStart start = find_line(text, options.line);
-  if (!start.is_there)
+  if (!find_line(text, options.line).is_there)
     return RestartRefusal{.obstacle = Obstacle::NoSuchLine, .line = options.line, .cause = count_lines(text)};
-  const RestartSurvey survey(text, options.run, options.line);
-  const Obstacle obstacle = survey.obstacle(options.line);
-  if (obstacle != Obstacle::None) return refuse(obstacle, survey, options.line);
-  std::string program = restart_preamble(survey.point(), options, line_end_of(text));
-  const std::uint64_t preamble_lines = count_lines(program);
-  program += text.substr(start.offset);
-  const Trial trial = try_program(program, preamble_lines, survey, options);
-  if (!trial.is_proved) return refuse(Obstacle::NotProved, survey, options.line);
-  if (trial.overtravel) {
-    RestartRefusal refusal = refuse(Obstacle::BeyondTravel, survey, options.line);
-    refusal.overtravel = *trial.overtravel;
-    return refusal;
-  }
-  return program;
+  const RestartSurvey survey(text, options.run, options.machine, options.line);
+  Attempt made = attempt(text, options, survey);
+  if (made.obstacle != Obstacle::None) return refuse(made, text, options, survey);
+  return std::move(made.program);
 }
 
 std::string message(const RestartRefusal& refusal, Language language) {

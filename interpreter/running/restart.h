@@ -24,8 +24,8 @@ struct RestartRefusal {
 };
 
 /// A program that brings the machine into the state before a line, and goes on with the lines of `text` from there,
-/// byte for byte. It has been tried: run from its start it comes to that line in the same state, and ends as the
-/// original does. A UTF-8 byte-order mark is not part of either.
+/// byte for byte. It has been tried: run from its start it comes to that line in the same state, with the machine in
+/// the same place, and goes on and ends as the original does. A UTF-8 byte-order mark is not part of either.
 std::variant<std::string, RestartRefusal> restart_program(std::string_view text, const RestartOptions& options);
 
 /// Says it to an operator, in lines without an end; not for ProgramError, which has a finding.

@@ -67,7 +67,7 @@ class Preamble {
       : point_(point),
         options_(options),
         line_end_(line_end),
-        target_(point.state),
+        target_(state_at(point)),
         state_(execution::initial_state(options.run.setup)) {}
 
   std::string text() {
@@ -111,6 +111,12 @@ class Preamble {
     if (!assumed.empty()) comment(dialect::format(kAssumed, language, assumed));
     for (const Event& event : point_.functions)
       comment(dialect::format(kNotRepeated, language, shown(std::get<FunctionEvent>(event.what)), event.line + 1));
+  }
+
+  static State state_at(const RestartPoint& point) {
+    State state = point.state;
+    state.position.tip = point.tip;
+    return state;
   }
 
   bool is_written(ModalGroup group) const { return (target_.written >> static_cast<unsigned>(group) & 1u) != 0; }
@@ -302,8 +308,8 @@ class Preamble {
   const RestartPoint& point_;
   const RestartOptions& options_;
   const std::string_view line_end_;
-  const State& target_;
-  State state_;  // Behind the last line written.
+  const State target_;  // With the tip where it stands, which need not be where the program has it.
+  State state_;         // Behind the last line written.
   std::string text_;
 };
 

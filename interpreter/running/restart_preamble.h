@@ -13,7 +13,7 @@ namespace isocnc::running {
 /// How a restart program comes to its point. Lengths in mm, feeds in mm/min.
 struct RestartOptions {
   RunOptions run;
-  TimedMachine machine;    ///< Whose travel the approach keeps to.
+  TimedMachine machine;    ///< Whose travel the approach keeps to, and whose tools say where the tip is.
   std::uint64_t line = 0;  ///< From 0.
   /// Z of the frame in force from which the tool goes down in feed. Else the machine's (Setup::clearance), or the
   /// highest Z at which the program itself has begun or ended a feed move in that frame, whichever is higher. In any

@@ -15,57 +15,102 @@ static constexpr double kSame = geometry::kEqualCoordinate;
 
 static std::uint32_t register_bit(int number) { return std::uint32_t{1} << static_cast<unsigned>(number); }
 
-static bool same_frame(const State& a, const State& b) {
+static bool same_frame(const FrameEvent& a, const FrameEvent& b) {
   return a.face_mounted == b.face_mounted && a.workpiece_origin == b.workpiece_origin && a.face == b.face;
 }
 
 static bool compensates(const State& state) { return state.mode(ModalGroup::CutterCompensation) != 40; }
 
-/// Z of the face frame runs downward in the machine.
-static bool looks_down(const State& state) { return state.face_mounted && state.face.axes(2, 2) < -kSame; }
+/// Z of the face frame runs downward in the machine; of a State or a FrameEvent.
+template <class Frames>
+static bool looks_down(const Frames& frames) {
+  return frames.face_mounted && frames.face.axes(2, 2) < -kSame;
+}
 
 /// In the machine, as the normal of a G29 with the same angles (D28).
 static bool tool_points_up(const State& state) {
   return geometry::axes_from_angles(state.position.b, state.position.c)(2, 2) < -kSame;
 }
 
-/// The coordinate that the arc plane in force leaves out.
-static int normal_of_plane(const State& state) {
-  const std::uint8_t plane = state.mode(ModalGroup::Plane);
-  return plane == 17 ? 2 : plane == 18 ? 1 : 0;
+static bool differ(const geometry::Vec3& a, const geometry::Vec3& b) { return (a - b).cwiseAbs().maxCoeff() > kSame; }
+
+TipLog::TipLog(const State& start)
+    : highest_(start.to_machine(start.position.tip).z()), highest_in_frame_(start.position.tip.z()) {}
+
+geometry::Vec3 TipLog::to_frame(const geometry::Vec3& place) const {
+  const geometry::Vec3 in_workpiece = place - frame_.workpiece_origin;
+  return frame_.face_mounted ? frame_.face.to_inner(in_workpiece) : in_workpiece;
 }
 
-static bool moved_in_plane(const State& before, const State& after) {
-  geometry::Vec3 way = after.position.tip - before.position.tip;
-  way[normal_of_plane(after)] = 0;
-  return same_frame(before, after) && way.cwiseAbs().maxCoeff() > kSame;
+void TipLog::add(const Event& event, const motion::Move& move) {
+  turns_ = turns_ || move.from.b != move.to.b || move.from.c != move.to.c;
+  const geometry::Vec3 from = to_frame(move.from.tip);
+  const geometry::Vec3 to = to_frame(move.to.tip);
+  const bool moved = move.from.tip != move.to.tip;
+  const bool fed = moved && std::get<MoveEvent>(event.what).kind != execution::MoveKind::Rapid;
+  const bool leaves_cut = changed_low_ && moved && !fed;
+  if (fed || leaves_cut) fed_.extend(from).extend(to);
+  if (leaves_cut) changed_low_ = false;
+  highest_ = std::max(highest_, move.to.tip.z());
+  highest_in_frame_ = std::max(highest_in_frame_, to.z());
 }
 
-RestartSurvey::RestartSurvey(std::string_view text, const RunOptions& options, std::uint64_t line) : line_(line) {
+void TipLog::add(const FrameEvent& frame, const geometry::Vec3& tip) {
+  if (same_frame(frame_, frame)) return;
+  changed_low_ = changed_low_ || looks_down(frame_) || to_frame(tip).z() < fed_.max().z() - kSame;
+  frame_ = frame;
+  highest_in_frame_ = to_frame(tip).z();
+  fed_.setEmpty();
+}
+
+RestartSurvey::RestartSurvey(std::string_view text, const RunOptions& options, const TimedMachine& machine,
+                             std::uint64_t line)
+    : line_(line),
+      known_radii_(machine.tool_radii),
+      machine_(machine),
+      course_(machine_, options.setup.home),
+      log_(execution::initial_state(options.setup)),
+      to_log_{.move = [this](const Event& event, const motion::Move& move) { log_.add(event, move); },
+              .frame = [this](const FrameEvent& frame, const geometry::Vec3& tip) { log_.add(frame, tip); }} {
   RunOptions watched = options;
   watched.before_block = [this](const Block& block) { look_at(block); };
-  now_.state = execution::initial_state(options.setup);
-  now_.highest = now_.highest_in_frame = now_.state.position.tip.z();
   for (int number = 1; number <= dialect::kRegisterCount; ++number)
     if (options.registers[static_cast<std::size_t>(number)] != 0) now_.known_registers |= register_bit(number);
-  run_ = running::run(text, watched, [this](const Event& event) {
-    if (const auto* const jump = std::get_if<JumpEvent>(&event.what); jump != nullptr && jump->taken)
-      jumps_.emplace_back(event.line, jump->target_line);
-    const auto* const function = std::get_if<FunctionEvent>(&event.what);
-    if (function == nullptr || !dialect::is_user_function(function->number)) return;
-    const auto is_it = [&](const Event& earlier) {
-      return std::get<FunctionEvent>(earlier.what).number == function->number;
-    };
-    now_.functions.erase(std::remove_if(now_.functions.begin(), now_.functions.end(), is_it), now_.functions.end());
-    now_.functions.push_back(event);
-  });
-  point_.turns = now_.turns;
+  run_ = running::run(text, watched, [this](const Event& event) { take(event); });
+  point_.turns = log_.turns();
   point_.continues_motion = continues_motion(line);
 }
 
+void RestartSurvey::take(const Event& event) {
+  follow(event);
+  if (const auto* const jump = std::get_if<JumpEvent>(&event.what); jump != nullptr && jump->taken)
+    jumps_.emplace_back(event.line, jump->target_line);
+  const auto* const function = std::get_if<FunctionEvent>(&event.what);
+  if (function == nullptr || !dialect::is_user_function(function->number)) return;
+  const auto is_it = [&](const Event& earlier) {
+    return std::get<FunctionEvent>(earlier.what).number == function->number;
+  };
+  now_.functions.erase(std::remove_if(now_.functions.begin(), now_.functions.end(), is_it), now_.functions.end());
+  now_.functions.push_back(event);
+}
+
+/// Lets the machine follow. A tool whose radius is not known gets one that shows while it is beside the contour.
+void RestartSurvey::follow(const Event& event) {
+  constexpr double kShowing = 1e-3;  // mm
+  if (const auto* const tool = std::get_if<ToolEvent>(&event.what)) {
+    has_unknown_radius_ = !known_radii_.contains(tool->tool);
+    if (has_unknown_radius_) machine_.tool_radii[tool->tool] = kShowing;
+  }
+  if (const auto* const move = std::get_if<MoveEvent>(&event.what))
+    is_beside_by_unknown_ = is_beside_by_unknown_ || (has_unknown_radius_ && move->compensation.side != 0);
+  course_.take(event, to_log_);
+  is_beside_by_unknown_ = is_beside_by_unknown_ && course_.is_beside_contour();
+  is_tip_found_ = false;
+}
+
 void RestartSurvey::look_at(const Block& block) {
-  follow(now_.state, block.state);
   now_.state = block.state;
+  if (!compensates(block.state)) find_tip();
   traits_.resize(block.line + 1);
   traits_.back() = traits_of(block);
   if (block.line == line_) {
@@ -75,28 +120,33 @@ void RestartSurvey::look_at(const Block& block) {
   note(block);
 }
 
-/// Follows heights, frames and compensation from one block to the next.
-void RestartSurvey::follow(const State& before, const State& after) {
-  const double z = after.position.tip.z();
-  now_.turns = now_.turns || after.position.b != before.position.b || after.position.c != before.position.c;
-  now_.highest = std::max(now_.highest, after.to_machine(after.position.tip).z());
-  if (!same_frame(before, after)) {
-    changed_low_ = changed_low_ || looks_down(before) || before.position.tip.z() < now_.fed.max().z() - kSame;
-    now_.highest_in_frame = z;
-    now_.fed.setEmpty();
-  } else {
-    const bool moved = after.position.tip != before.position.tip;
-    const bool fed = after.exact_stop_fits && moved;  // A G09 fits behind feed moves alone.
-    const bool leaves_cut = changed_low_ && moved && !fed;
-    if (fed || leaves_cut) now_.fed.extend(before.position.tip).extend(after.position.tip);
-    if (leaves_cut) changed_low_ = false;
-    now_.highest_in_frame = std::max(now_.highest_in_frame, z);
+/// Where the tip is before a line without compensation. A contour that goes on if G41 comes again is left as it is.
+void RestartSurvey::find_tip() {
+  const auto keep = [&](const MachineCourse& course, const TipLog& log) {
+    now_.machine_tip = course.tip();
+    now_.highest = log.highest();
+    now_.highest_in_frame = log.highest_in_frame();
+    now_.fed = log.fed();
+    changed_low_ = log.has_changed_low();
+    tip_ = log.to_frame(now_.machine_tip.tip);
+  };
+  if (!std::exchange(is_tip_found_, true)) {
+    if (course_.holds_motions()) {
+      MachineCourse course = course_;
+      TipLog log = log_;
+      course.finish({.move = [&](const Event& event, const motion::Move& move) { log.add(event, move); },
+                     .frame = [&](const FrameEvent& frame, const geometry::Vec3& tip) { log.add(frame, tip); }});
+      keep(course, log);
+    } else {
+      keep(course_, log_);
+    }
   }
-  if (compensates(after)) {
-    compensated_ = true;
-  } else if (!compensates(before) && moved_in_plane(before, after)) {
-    compensated_ = false;
-  }
+  const State& state = now_.state;
+  now_.is_beside_contour = course_.is_beside_contour();
+  const bool has_moved = state.mode(ModalGroup::Motion) != dialect::kNoMotion;
+  now_.is_off_program =
+      has_moved && (now_.is_beside_contour || differ(now_.machine_tip.tip, state.to_machine(state.position.tip)));
+  now_.tip = now_.is_off_program ? tip_ : state.position.tip;  // As exact as it has been written.
 }
 
 /// Remembers what a block will have done that its state does not hold.
@@ -122,8 +172,8 @@ std::uint16_t RestartSurvey::traits_of(const Block& block) const {
   const std::uint8_t motion = state.mode(ModalGroup::Motion);
   unsigned traits = kReached;
   if (compensates(state)) traits |= kCompensated;
-  // At the heights of rapids nothing is in the way of a tool that stands a radius beside where it stood.
-  if (compensated_ && state.position.tip.z() < now_.fed.max().z() - kSame) traits |= kOnContour;
+  if (now_.is_off_program) traits |= kOffProgram;
+  if (is_beside_by_unknown_) traits |= kUnknownRadius;
   if (changed_low_) traits |= kChangedLow;
   if (looks_down(state)) traits |= kLooksDown;
   if (!state.face_mounted && tool_points_up(state)) traits |= kPointsUp;
@@ -149,7 +199,7 @@ Obstacle RestartSurvey::obstacle(std::uint64_t line) const {
   if (run_.ending == Ending::Error) return Obstacle::ProgramError;
   if (!has(line, kReached)) return line < traits_.size() ? Obstacle::JumpedOver : Obstacle::BehindEnd;
   if (has(line, kCompensated)) return Obstacle::Compensation;
-  if (has(line, kOnContour)) return Obstacle::OnContour;
+  if (has(line, kUnknownRadius)) return Obstacle::RadiusUnknown;
   if (has(line, kChangedLow)) return Obstacle::FrameChangedLow;
   if (has(line, kLooksDown)) return Obstacle::FaceLooksDown;
   if (has(line, kPointsUp)) return Obstacle::ToolPointsUp;

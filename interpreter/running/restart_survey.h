@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "interpreter/running/machine_course.h"
 #include "interpreter/running/runner.h"
 
 namespace isocnc::running {
@@ -20,7 +21,9 @@ enum class Obstacle : std::uint8_t {
   BehindEnd,        ///< M02 comes first.
   JumpedOver,       ///< A taken IF passes over the line.
   Compensation,     ///< G41 or G42 is in force.
-  OnContour,        ///< G40 has been written, and the tool is still where the compensation has led it.
+  OnContour,        ///< G40 has left the tool beside the contour, and from there the rest would run differently.
+  RadiusUnknown,    ///< The same, and how far beside is not known.
+  OffProgram,       ///< A tool change has left the tip off the program, and from there the rest would run differently.
   FrameChangedLow,  ///< The frame has changed with the tool in the cut, and no rapid has followed.
   FaceLooksDown,    ///< The face's Z points down: there is no way to it from above.
   ToolPointsUp,     ///< B has turned the tool beyond the horizontal.
@@ -30,27 +33,60 @@ enum class Obstacle : std::uint8_t {
   NotProved,        ///< The trial run of the restart program has not come to the same state.
 };
 
+/// Heights and frames on the path of the tip, as the machine makes it: beside the contour under compensation, and off
+/// the program after a tool change.
+class TipLog {
+ public:
+  explicit TipLog(const execution::State& start);
+
+  void add(const Event& event, const motion::Move& move);
+  void add(const FrameEvent& frame, const geometry::Vec3& tip);
+
+  /// From the machine frame to the frame in force.
+  geometry::Vec3 to_frame(const geometry::Vec3& place) const;
+  double highest() const { return highest_; }                    ///< As in RestartPoint.
+  double highest_in_frame() const { return highest_in_frame_; }  ///< As in RestartPoint.
+  const Eigen::AlignedBox3d& fed() const { return fed_; }        ///< As in RestartPoint.
+  bool turns() const { return turns_; }                          ///< B or C have moved.
+  /// The frame has changed with the tool in the cut, and no rapid has followed.
+  bool has_changed_low() const { return changed_low_; }
+
+ private:
+  FrameEvent frame_;
+  double highest_ = 0;
+  double highest_in_frame_ = 0;
+  Eigen::AlignedBox3d fed_;
+  bool turns_ = false;
+  bool changed_low_ = false;
+};
+
 /// The machine before a line, and what the way there tells of how to come back.
 struct RestartPoint {
   execution::State state;
+  geometry::Pose machine_tip;                   ///< Where the tip stands, machine frame.
+  geometry::Vec3 tip = geometry::Vec3::Zero();  ///< The same in the frame in force, mm.
+  bool is_beside_contour = false;               ///< Compensation has led the tool off the program, and not yet back.
+  bool is_off_program = false;                  ///< For this reason or by a tool change the tip is elsewhere.
   Registers registers{};
   std::uint32_t known_registers = 0;  ///< Bit n: Vn was assigned by the program, or set at the start.
   std::string face_line;              ///< The G24, G28 or G29 in force as written.
   double highest = 0;                 ///< The highest that the tip has been, home included: Z of the machine frame, mm.
   double highest_in_frame = 0;        ///< Since the frame in force is so: its Z, mm.
   Eigen::AlignedBox3d fed;            ///< Where feed moves have begun and ended since then, in that frame.
-  bool waits_at_end = false;          ///< G200 (I.3.12).
-  bool turns = false;                 ///< B or C move somewhere in the program.
-  bool continues_motion = false;      ///< Coordinates may come before any motion G.
-  std::vector<Event> functions;       ///< The user's M functions on the way; of each number the last.
-  std::vector<int> assumed;           ///< Registers, or 0 for VGPL, that an IF has asked for and nobody has assigned.
+  bool waits_at_end = false;      ///< G200 (I.3.12).
+  bool turns = false;             ///< B or C move somewhere in the program.
+  bool continues_motion = false;  ///< Coordinates may come before any motion G.
+  std::vector<Event> functions;   ///< The user's M functions on the way; of each number the last.
+  std::vector<int> assumed;       ///< Registers, or 0 for VGPL, that an IF has asked for and nobody has assigned.
 };
 
 /// One run over a whole program: where it could be taken up again, and what that takes.
 class RestartSurvey {
  public:
   /// `line` (from 0) is the one whose point is kept.
-  RestartSurvey(std::string_view text, const RunOptions& options, std::uint64_t line);
+  RestartSurvey(std::string_view text, const RunOptions& options, const TimedMachine& machine, std::uint64_t line);
+  RestartSurvey(const RestartSurvey&) = delete;
+  RestartSurvey& operator=(const RestartSurvey&) = delete;
 
   const RunResult& run() const { return run_; }
   Obstacle obstacle(std::uint64_t line) const;
@@ -58,6 +94,8 @@ class RestartSurvey {
   std::uint64_t line_of_cause(std::uint64_t line) const;
   /// Whether it is a line to propose: without an obstacle, and with something to do.
   bool is_safe(std::uint64_t line) const;
+  /// Whether the machine is not where the program has it: whether the rest is the same from there shows when it is run.
+  bool is_off_program(std::uint64_t line) const { return has(line, kOffProgram); }
   /// Whether an IF on the way could send the run elsewhere.
   bool has_choices() const;
   /// Lines that the run has come to lie before this one.
@@ -69,7 +107,7 @@ class RestartSurvey {
   enum Trait : std::uint16_t {
     kReached = 1,
     kCompensated = 2,
-    kOnContour = 4,
+    kOffProgram = 4,
     kChangedLow = 8,
     kLooksDown = 16,
     kInArc = 32,
@@ -79,10 +117,13 @@ class RestartSurvey {
     kNamesMotion = 512,
     kJumps = 1024,
     kPointsUp = 2048,
+    kUnknownRadius = 4096,
   };
 
   void look_at(const Block& block);
-  void follow(const execution::State& before, const execution::State& after);
+  void take(const Event& event);
+  void follow(const Event& event);
+  void find_tip();
   void note(const Block& block);
   std::uint16_t traits_of(const Block& block) const;
   bool has(std::uint64_t line, std::uint16_t trait) const;
@@ -90,13 +131,21 @@ class RestartSurvey {
   bool continues_motion(std::uint64_t line) const;
 
   const std::uint64_t line_;
+  const std::map<execution::ToolCode, double> known_radii_;
+  TimedMachine machine_;
+  MachineCourse course_;
+  TipLog log_;
+  const MachineCourse::Listeners to_log_;
   RunResult run_;
   RestartPoint now_;  // Of the line that the run has come to.
   RestartPoint point_;
   std::vector<std::uint16_t> traits_;
   std::vector<std::pair<std::uint64_t, std::uint64_t>> jumps_;  // Taken: from an IF to a label.
-  bool compensated_ = false;                                    // The tool may be off the programmed contour.
-  bool changed_low_ = false;
+  bool is_tip_found_ = false;                                   // now_ knows where the tip is.
+  geometry::Vec3 tip_ = geometry::Vec3::Zero();                 // In the frame in force.
+  bool has_unknown_radius_ = false;                             // The tool that is mounted.
+  bool is_beside_by_unknown_ = false;                           // Such a tool has been led beside a contour.
+  bool changed_low_ = false;                                    // Before the line that the run has come to.
 };
 
 }  // namespace isocnc::running

@@ -19,8 +19,9 @@ using testing::StartsWith;
 /// One case of a file in restarts/: a program, how it is taken up again, and what becomes of it.
 struct Case {
   std::string program;
-  std::vector<std::string> wishes;  ///< `line 4`, `clearance 30`, `approach-feed 500`, `vgpl 1`, `italian`.
-  std::string expected;             ///< The restart program, or the refusal.
+  /// `line 4`, `clearance 30`, `approach-feed 500`, `vgpl 1`, `radius T101002 8`, `italian` and so on.
+  std::vector<std::string> wishes;
+  std::string expected;  ///< The restart program, or the refusal.
 };
 
 std::string content_of(const fs::path& file) {
@@ -51,6 +52,18 @@ std::vector<Case> cases_in(const fs::path& file) {
   return cases;
 }
 
+/// `radius T101002 8` or `length T101002 50`.
+void add_tool(const std::string& wish, TimedMachine& machine) {
+  std::istringstream words(wish);
+  std::string what;
+  char letter = 0;
+  int code = 0;
+  double value = 0;
+  words >> what >> letter >> code >> value;
+  auto& values = what == "radius" ? machine.tool_radii : machine.tool_lengths;
+  values[execution::tool_code(code)] = value;
+}
+
 RestartOptions options_of(const Case& each) {
   RestartOptions options;
   options.name = "part.iso";
@@ -66,7 +79,9 @@ RestartOptions options_of(const Case& each) {
     } else if (what == "machine-clearance") {
       options.run.setup.clearance = value;
     } else if (what == "home-z") {
-      options.run.setup.home.tip.z() = value;
+      options.run.setup.home.tip.z() = options.machine.home.tip.z() = value;
+    } else if (what == "radius" || what == "length") {
+      add_tool(wish, options.machine);
     } else if (what == "approach-feed") {
       options.approach_feed = value;
     } else if (what == "vgpl") {
