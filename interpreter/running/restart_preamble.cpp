@@ -165,8 +165,8 @@ class Preamble {
   }
   std::string across(const Vec3& point) const { return length('X', point.x()) + " " + length('Y', point.y()); }
 
-  /// Whether the last motion was a feed move: the tool may touch the work.
-  bool cuts() const { return target_.mode(ModalGroup::Motion) != 0; }
+  /// The tool may touch the work. A rapid that leads nowhere, as G00 Z-5 at this depth, does not take it out.
+  bool cuts() const { return target_.mode(ModalGroup::Motion) != 0 || point_.came_in_feed; }
 
   /// The height from which the tool feeds down, Z of the frame in force.
   double height() const {

@@ -51,6 +51,7 @@ void TipLog::add(const Event& event, const motion::Move& move) {
   const bool leaves_cut = changed_low_ && moved && !fed;
   if (fed || leaves_cut) fed_.extend(from).extend(to);
   if (leaves_cut) changed_low_ = false;
+  if (moved) came_in_feed_ = fed;
   highest_ = std::max(highest_, move.to.tip.z());
   highest_in_frame_ = std::max(highest_in_frame_, to.z());
 }
@@ -127,6 +128,7 @@ void RestartSurvey::find_tip() {
     now_.highest = log.highest();
     now_.highest_in_frame = log.highest_in_frame();
     now_.fed = log.fed();
+    now_.came_in_feed = log.came_in_feed();
     changed_low_ = log.has_changed_low();
     tip_ = log.to_frame(now_.machine_tip.tip);
   };

@@ -47,6 +47,7 @@ class TipLog {
   double highest() const { return highest_; }                    ///< As in RestartPoint.
   double highest_in_frame() const { return highest_in_frame_; }  ///< As in RestartPoint.
   const Eigen::AlignedBox3d& fed() const { return fed_; }        ///< As in RestartPoint.
+  bool came_in_feed() const { return came_in_feed_; }            ///< As in RestartPoint.
   bool turns() const { return turns_; }                          ///< B or C have moved.
   /// The frame has changed with the tool in the cut, and no rapid has followed.
   bool has_changed_low() const { return changed_low_; }
@@ -56,6 +57,7 @@ class TipLog {
   double highest_ = 0;
   double highest_in_frame_ = 0;
   Eigen::AlignedBox3d fed_;
+  bool came_in_feed_ = false;
   bool turns_ = false;
   bool changed_low_ = false;
 };
@@ -73,6 +75,7 @@ struct RestartPoint {
   double highest = 0;                 ///< The highest that the tip has been, home included: Z of the machine frame, mm.
   double highest_in_frame = 0;        ///< Since the frame in force is so: its Z, mm.
   Eigen::AlignedBox3d fed;            ///< Where feed moves have begun and ended since then, in that frame.
+  bool came_in_feed = false;      ///< The last motion that led anywhere was a feed move: the tool may be in the cut.
   bool waits_at_end = false;      ///< G200 (I.3.12).
   bool turns = false;             ///< B or C move somewhere in the program.
   bool continues_motion = false;  ///< Coordinates may come before any motion G.
