@@ -61,6 +61,7 @@ std::string restart_text(const Snapshot& snapshot, const RestartParams& params) 
   running::RestartOptions options;
   options.run.setup = snapshot.setup();
   options.run.vgpl = params.vgpl.value_or(0);
+  options.machine = snapshot.configuration().machine.timed;
   options.line = params.line;
   options.name = name_of(snapshot);
   options.language = snapshot.language();

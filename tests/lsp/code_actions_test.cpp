@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <optional>
 
 #include "client_text.h"
@@ -287,6 +289,28 @@ TEST(Restart, IsMadeByTheEditorWhereItMakesDocuments) {
   const Json changes = session.wait_for("workspace/applyEdit")["params"]["edit"]["documentChanges"];
   EXPECT_EQ(changes[0]["uri"], "file:///nowhere/part-from-3.iso");
   EXPECT_THAT(changes[1]["edits"][0]["newText"].get<std::string>(), testing::EndsWith("X20\nM02\n"));
+}
+
+/// The tool stands 8 mm beside the contour, and has no more than 40 mm to be raised in.
+TEST(Restart, IsMadeForTheConfiguredMachine) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "isols-restart";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "isocnc.json") << R"({"machine": {
+    "axes": {"Z": {"max": 130}},
+    "tools": [{"head": 1, "holder": 1, "tool": 2, "length": 90, "radius": 8}]}})";
+  const std::string uri = "file://" + (folder / "part.iso").string();
+  Session session;
+  session.start();
+  session.open(uri,
+               "M06 T101002\nG00 X-30 Y-30 Z30\nG01 Z-5 F1000\nG41 X0 Y-15\nY100\nX60\nG40\nG00 Z30\nX90 Y100\nG00 "
+               "Z70\nX0 Y0\nM02\n");
+  const auto restart = [&](int line) {
+    return session.respond("workspace/executeCommand",
+                           {{"command", "isocnc.restart"}, {"arguments", {{{"uri", uri}, {"line", line}}}}});
+  };
+  EXPECT_THAT(restart(8)["result"]["text"].get<std::string>(), testing::HasSubstr("\nX60 Y108\n"));
+  EXPECT_THAT(restart(10)["error"]["message"].get<std::string>(), testing::HasSubstr("Z would go to 160"));
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Restart, IsTheCommandsResultForEditorsThatMakeNoDocuments) {
