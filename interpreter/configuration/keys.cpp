@@ -202,11 +202,11 @@ static void add_kinematics(std::vector<Key>& keys) {
        .kind = Kind::Number,
        .range = {0, 1e4},
        .unit = "mm",
-       .documentation = "Head: from the B axis to the spindle nose.",
+       .documentation = "Head: from the B axis down to the spindle nose, with B at 0.",
        .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.timed.motion.kinematics.pivot; }});
   add_point(keys, "machine.kinematics.bFromC", "Head: from the C axis to the B axis, with B and C at 0.", head_offset,
             false);
-  add_point(keys, "machine.kinematics.spindleFromB", "Head: from the B axis to the spindle's, beside the pivot.",
+  add_point(keys, "machine.kinematics.spindleFromB", "Head: from the B axis to the spindle axis, with B and C at 0.",
             head_offset, true);
   add_point(keys, "machine.kinematics.bPoint", "Table: a point of the B axis, in machine coordinates.", table_point,
             false);

@@ -289,6 +289,23 @@ static std::string section_of(const Key& section) {
                      rows_of(keys, prefix.size()));
 }
 
+/// Stands below the table of machine.kinematics.
+static constexpr std::string_view kMeasuringAHead = R"(
+### Measuring a head
+
+![A head from the side and from above, with B and C at 0: bFromC goes from the C axis to the B axis, spindleFromB from the B axis to the spindle axis, pivot from the B axis down to the spindle nose. With C at 90 the B axis is turned with it.](images/head.svg)
+
+Measure with B and C at 0. `bFromC` goes from the C axis to the B axis, `spindleFromB` from the B axis to the spindle axis, both along the X, Y and Z
+of the machine: a B axis that lies 20 mm further in +X than the C axis is `"bFromC": {"x": 20}`, one further in -X has -20. `pivot` goes down from the B axis
+to the spindle nose, and is never negative.
+
+The C axis is a vertical line and the B axis one along Y. So of `bFromC.y` and `spindleFromB.y` only the sum counts, `bFromC.z` does not count at all, and
+`spindleFromB.z` shortens the pivot: leave these three at 0 where they are not known.
+
+To compare with the control: with `pivot` 100, `bFromC.x` 20, `spindleFromB.y` 7, a tool of 50 mm, its tip at X0 Y0 Z0 and C at 90, the axes X, Y and Z stand at
+27, -13 and 50. `isorun` says so in `finalJoints` of its [summary as JSON](isorun.md#the-summary-as-json), and in the `joints` of its samples.
+)";
+
 std::string machine_page() {
   std::string page = R"(# The machine
 
@@ -324,8 +341,12 @@ against it, that is the spindle nose, with the tool's length and what the head s
 Codes in parentheses are the [findings](rules.md) that a key brings about. Machine coordinates are those of the control without any G92; how B and C
 are counted and where their axes stand is in [motion.md](motion.md#kinematics).
 )";
-  for (const Key& key : all_keys())
-    if (key.path == "machine" || (key.kind < KeyKind::Number && parent_of(key) == "machine")) page += section_of(key);
+  for (const Key& key : all_keys()) {
+    if (key.path == "machine" || (key.kind < KeyKind::Number && parent_of(key) == "machine")) {
+      page += section_of(key);
+      if (key.path == "machine.kinematics") page += kMeasuringAHead;
+    }
+  }
   return page;
 }
 

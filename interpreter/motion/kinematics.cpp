@@ -64,11 +64,14 @@ static VectorJet shifted(VectorJet v, const Vec3& by) {
 
 static Vec3 tool(double length) { return {0, 0, length}; }
 
-/// From the tip to the spindle nose's place at B = C = 0; depends on B and C alone.
+/// Head: from the spindle nose back to the B axis, at B = C = 0.
+static Vec3 arm(const Kinematics& k) { return tool(k.pivot) - k.spindle_from_b; }
+
+/// From the tip to the spindle nose's place at B = C = 0; depends on B and C alone. Goes up from the tip to the B axis
+/// and on to the C axis, as B and C have turned them, and back down as they are at 0.
 static VectorJet head_reach(const Kinematics& k, const Jet& jet, double tool_length) {
-  const Vec3 arm = k.spindle_from_b + tool(k.pivot);
-  const VectorJet from_b = turn_about_y(angle(jet, kB, 1), {.value = arm + tool(tool_length)});
-  return shifted(turn_about_z(angle(jet, kC, 1), shifted(from_b, k.b_from_c)), -(k.b_from_c + arm));
+  const VectorJet to_b = turn_about_y(angle(jet, kB, 1), {.value = arm(k) + tool(tool_length)});
+  return shifted(turn_about_z(angle(jet, kC, 1), shifted(to_b, -k.b_from_c)), k.b_from_c - arm(k));
 }
 
 static Jet with_linear(const Jet& jet, const VectorJet& linear) {
@@ -130,7 +133,7 @@ double lever(const Kinematics& k, const Vec3& tip, double tool_length) {
     case MachineKind::ThreeAxis:
       return 0;
     case MachineKind::Head:
-      return k.b_from_c.norm() + (k.spindle_from_b + tool(k.pivot + tool_length)).norm();
+      return k.b_from_c.norm() + (arm(k) + tool(tool_length)).norm();
     case MachineKind::Table:
       return (tip - k.c_point).norm() + 2 * (k.c_point - k.b_point).norm();
   }

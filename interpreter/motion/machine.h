@@ -30,11 +30,14 @@ enum class MachineKind : std::uint8_t {
 /// How the joints carry the tool. X, Y and Z stand where the spindle nose is with B = C = 0, whatever the kind: for a
 /// tool of length l upright at the tip t they are t + l ez. In the workpiece's eyes the tool axis, from tip to
 /// spindle, is Rz(C) Ry(B) ez for heads and tables alike, as in G29 (D28), so one program suits both.
+///
+/// Offsets go from the first place named to the second, along the machine's X, Y and Z: a B axis 20 mm further in +X
+/// than the C axis has `b_from_c` = (20, 0, 0). docs/machine.md shows how they are measured.
 struct Kinematics {
   MachineKind kind = MachineKind::ThreeAxis;
-  double pivot = 0;                                        ///< Head: from the B axis to the spindle nose, mm.
+  double pivot = 0;                                        ///< Head: from the B axis down to the spindle nose, mm.
   geometry::Vec3 b_from_c = geometry::Vec3::Zero();        ///< Head: from the C axis to the B axis, at B = C = 0.
-  geometry::Vec3 spindle_from_b = geometry::Vec3::Zero();  ///< Head: from the B axis to the spindle's, beside `pivot`.
+  geometry::Vec3 spindle_from_b = geometry::Vec3::Zero();  ///< Head: from the B axis to the spindle axis, at B = C = 0.
   geometry::Vec3 b_point = geometry::Vec3::Zero();         ///< Table: a point of the B axis, machine frame.
   geometry::Vec3 c_point = geometry::Vec3::Zero();         ///< Table: a point of the C axis at B = 0, machine frame.
 };

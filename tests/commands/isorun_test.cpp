@@ -274,6 +274,17 @@ constexpr std::string_view kMachine = R"({"machine": {
   "tools": [{"head": 1, "holder": 1, "tool": 1, "length": 100}],
   "functions": {"M50": {"time": 3}}}})";
 
+/// The example of docs/machine.md.
+TEST(IsorunMachine, TakesAHeadAsItIsMeasured) {
+  const TemporaryFolder folder;
+  const std::string machine = folder.write("head.json", R"({"machine": {
+    "kinematics": {"type": "head", "pivot": 100, "bFromC": {"x": 20}, "spindleFromB": {"y": 7}},
+    "tools": [{"head": 1, "holder": 1, "tool": 1, "length": 50}]}})");
+  const json joints = summary_of("M06 T101001\nG00 X0 Y0 Z0 C90\nM02\n", {"--machine", machine}).at("finalJoints");
+  const double expected[] = {27, -13, 50, 0, 90};
+  for (std::size_t axis = 0; axis < 5; ++axis) EXPECT_NEAR(joints[axis], expected[axis], 1e-9) << axis;
+}
+
 TEST(IsorunMachine, GivesTimesAndTravel) {
   const TemporaryFolder folder;
   const std::string machine = folder.write("machine.json", kMachine);

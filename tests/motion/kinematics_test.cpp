@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <random>
 
+#include <Eigen/Geometry>
+
 #include "interpreter/geometry/frame.h"
+#include "tests/support/random.h"
 
 namespace isocnc::motion {
 namespace {
@@ -82,6 +86,131 @@ TEST(Kinematics, TheTableKeepsItsAxes) {
   Coordinates turned = on_c;
   turned[kC] = -212;
   EXPECT_LT((inverse(table(), on_c, 0) - inverse(table(), turned, 0)).head<3>().norm(), 1e-9);
+}
+
+/// Turns counterclockwise about an axis, seen from its positive end.
+Vec3 turned(const Vec3& vector, const Vec3& axis, double degrees) {
+  return Eigen::AngleAxisd(degrees * std::numbers::pi / 180, axis) * vector;
+}
+
+/// A head as docs/machine.md describes it, link by link from the joints down to the tip.
+Vec3 tip_of_head(const Kinematics& head, const Coordinates& joints, double tool_length) {
+  const auto as_turned = [&](const Vec3& beyond_b) {
+    return turned(turned(beyond_b, Vec3::UnitY(), joints[kB]), Vec3::UnitZ(), joints[kC]);
+  };
+  const Vec3 nose_from_b = head.spindle_from_b + Vec3(0, 0, -head.pivot);
+  // X, Y and Z say where the nose would be with B = C = 0; B and C do not move the C axis.
+  const Vec3 c_axis = joints.head<3>() - nose_from_b - head.b_from_c;
+  const Vec3 b_axis = c_axis + turned(head.b_from_c, Vec3::UnitZ(), joints[kC]);
+  const Vec3 nose = b_axis + as_turned(nose_from_b);
+  return nose + as_turned(Vec3(0, 0, -tool_length));
+}
+
+/// A table as docs/machine.md describes it: the place on the workpiece, as it lies with B = C = 0, that a tool reaches.
+/// The table turns the other way than a head, C first: B carries the C axis.
+Vec3 tip_at_table(const Kinematics& table, const Coordinates& joints, double tool_length) {
+  const Vec3 in_machine = joints.head<3>() - Vec3(0, 0, tool_length);
+  const Vec3 untilted = table.b_point + turned(in_machine - table.b_point, Vec3::UnitY(), joints[kB]);
+  return table.c_point + turned(untilted - table.c_point, Vec3::UnitZ(), joints[kC]);
+}
+
+class RandomKinematics {
+ public:
+  explicit RandomKinematics(std::uint64_t seed) : random_(seed) {}
+
+  Vec3 offset(double most) { return {real(most), real(most), real(most)}; }
+  Kinematics head() {
+    return {.kind = MachineKind::Head,
+            .pivot = random_.real(0, 300),
+            .b_from_c = offset(300),
+            .spindle_from_b = offset(100)};
+  }
+  Kinematics table() { return {.kind = MachineKind::Table, .b_point = offset(500), .c_point = offset(500)}; }
+  Coordinates pose() {
+    const Vec3 place = offset(2000);
+    return at(place.x(), place.y(), place.z(), real(180), real(360));
+  }
+  double tool_length() { return random_.real(0, 200); }
+
+ private:
+  double real(double most) { return random_.real(-most, most); }
+
+  support::Random random_;
+};
+
+/// The example of docs/machine.md.
+TEST(Kinematics, AHeadIsEnteredAsItIsMeasured) {
+  const Kinematics kinematics{
+      .kind = MachineKind::Head, .pivot = 100, .b_from_c = {20, 0, 0}, .spindle_from_b = {0, 7, 0}};
+  EXPECT_LT((inverse(kinematics, at(0, 0, 0, 0, 90), 50) - at(27, -13, 50, 0, 90)).norm(), 1e-9);
+  EXPECT_LT((inverse(kinematics, at(0, 0, 0, 0, 0), 50) - at(0, 0, 50, 0, 0)).norm(), 1e-9);
+}
+
+TEST(Kinematics, HeadsAreWhatIsDescribed) {
+  for (const std::uint64_t seed : support::seeds(400)) {
+    RandomKinematics random(seed);
+    const Kinematics head = random.head();
+    const Coordinates joints = random.pose();
+    const double length = random.tool_length();
+    Coordinates tip = joints;
+    tip.head<3>() = tip_of_head(head, joints, length);
+    EXPECT_LT((forward(head, joints, length) - tip).norm(), 1e-9) << seed;
+    EXPECT_LT((inverse(head, tip, length) - joints).norm(), 1e-9) << seed;
+  }
+}
+
+TEST(Kinematics, TablesAreWhatIsDescribed) {
+  for (const std::uint64_t seed : support::seeds(400)) {
+    RandomKinematics random(seed);
+    const Kinematics table = random.table();
+    const Coordinates joints = random.pose();
+    const double length = random.tool_length();
+    Coordinates tip = joints;
+    tip.head<3>() = tip_at_table(table, joints, length);
+    EXPECT_LT((forward(table, joints, length) - tip).norm(), 1e-9) << seed;
+    EXPECT_LT((inverse(table, tip, length) - joints).norm(), 1e-9) << seed;
+  }
+}
+
+/// docs/machine.md: the C axis is a vertical line, the B axis one along Y, and it does not matter where on them.
+TEST(Kinematics, HeadsHaveLinesForAxes) {
+  for (const std::uint64_t seed : support::seeds(100)) {
+    RandomKinematics random(seed);
+    const Kinematics head = random.head();
+    const Coordinates tip = random.pose();
+    Kinematics other = head;
+    other.b_from_c.z() += 30;
+    other.b_from_c.y() += 11;
+    other.spindle_from_b.y() -= 11;
+    other.spindle_from_b.z() += 5;
+    other.pivot += 5;
+    EXPECT_LT((inverse(head, tip, 80) - inverse(other, tip, 80)).norm(), 1e-9) << seed;
+  }
+}
+
+/// While the tip rests, a radian of B or C moves no linear joint by more than the lever.
+TEST(Kinematics, TheLeverBoundsWhatTurningMoves) {
+  constexpr double kStep = 1e-3;
+  double fullest = 0;
+  for (const std::uint64_t seed : support::seeds(400)) {
+    RandomKinematics random(seed);
+    const Coordinates tip = random.pose();
+    const double length = random.tool_length();
+    for (const Kinematics& kinematics : {random.head(), random.table()}) {
+      for (const Axis axis : {kB, kC}) {
+        Coordinates more = tip;
+        more[axis] += kStep;
+        const Vec3 moved = (inverse(kinematics, more, length) - inverse(kinematics, tip, length)).head<3>();
+        const double by_radian = moved.norm() / (kStep * std::numbers::pi / 180);
+        const double most = lever(kinematics, tip.head<3>(), length);
+        EXPECT_LE(by_radian, most * (1 + 1e-6)) << seed << " axis " << axis;
+        if (kinematics.kind == MachineKind::Head) fullest = std::max(fullest, by_radian / most);
+      }
+    }
+  }
+  if (support::kTriesAll) {
+    EXPECT_GT(fullest, 0.95) << "a bound that is never reached may be a wrong one";
+  }
 }
 
 /// Derivatives against differences, of values and of first derivatives.
