@@ -43,7 +43,7 @@ bool watches_moves(const execution::Setup& setup) {
 }
 
 void ask_about_move(const Block& block, const execution::Move& move, execution::Sink& sink) {
-  if ((block.before.unknown | block.after.unknown) != 0 || block.after.face_undefined) return;
+  if ((block.before.unknown | block.after.unknown) != 0 || !block.after.knows_frame()) return;
   for (const Rule* const rule : kRules)
     if (rule->check_move) rule->check_move(block, move, sink);
 }

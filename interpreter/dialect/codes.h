@@ -242,6 +242,9 @@ constexpr bool is_user_function(int m) {
   return std::none_of(std::begin(kMCodes), std::end(kMCodes), [m](const MCode& code) { return code.number == m; });
 }
 
+/// How far B or C of a G29 may be from 0, degrees (I.3.2).
+constexpr double most_face_angle(char letter) { return letter == 'B' ? 90 : 180; }
+
 inline constexpr int kRegisterCount = 30;  ///< V1 to V30 (I.6).
 constexpr bool is_register(double number) { return number >= 1 && number <= kRegisterCount; }
 

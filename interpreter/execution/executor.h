@@ -70,6 +70,7 @@ class Executor {
   void leave_face();
   bool read_axes(const Arguments& arguments, std::string_view letters, geometry::Mat3& axes);
   bool read_point(const Arguments& arguments, geometry::Vec3& point) const;
+  AxisSet read_origin(const Arguments& arguments, geometry::Vec3& origin) const;
   bool motion_is_legible() const { return state_.mode(dialect::ModalGroup::Motion) != dialect::kNoMotion; }
   bool may_be_motion(const syntax::Word& g, const Arguments& arguments) const;
   void move_illegibly(const Arguments& arguments);

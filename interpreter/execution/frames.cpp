@@ -20,11 +20,29 @@ bool Executor::read_point(const Arguments& arguments, Vec3& point) const {
 /// The position goes from the face frame to the workpiece frame: the tip does not move (D25).
 void Executor::leave_face() {
   if (!state_.face_mounted) return;
-  if ((state_.unknown & kLinearAxes) != 0 || state_.face_undefined) blur_linear_axes();
+  if ((state_.unknown & kLinearAxes) != 0 || state_.face_undefined || state_.face_unplaced) blur_linear_axes();
   state_.position.tip = state_.face.to_outer(state_.position.tip);
   state_.face = Frame{};
   state_.face_mounted = false;
   state_.face_undefined = false;
+  state_.face_unplaced = false;
+}
+
+/// The origin that a G92 gives, and the axes of it that are not known: what could not be read, or all where the
+/// coordinate that it needs is missing.
+AxisSet Executor::read_origin(const Arguments& arguments, Vec3& origin) const {
+  if ((arguments.present() & dialect::kLinearLetters) == 0) {
+    origin = Vec3::Zero();
+    return kLinearAxes;
+  }
+  AxisSet unknown = 0;
+  read_point(arguments, origin);
+  for (int i = 0; i < 3; ++i) {
+    if (std::isfinite(origin[i])) continue;
+    unknown |= axis_bit(static_cast<Axis>(i));
+    origin[i] = 0;
+  }
+  return unknown;
 }
 
 void Executor::workpiece_frame(const Instruction& instruction) {
@@ -34,15 +52,11 @@ void Executor::workpiece_frame(const Instruction& instruction) {
     state_.set_mode(dialect::ModalGroup::Face, 27);
     state_.dismount_forgiven = true;
   }
-  Vec3 origin;
   const Arguments arguments(line_, instruction);
-  if (!read_point(arguments, origin)) {
-    for (int i = 0; i < 3; ++i) {
-      if (std::isfinite(origin[i])) continue;
-      state_.unknown |= axis_bit(static_cast<Axis>(i));
-      origin[i] = 0;
-    }
-  }
+  Vec3 origin;
+  const AxisSet unknown = read_origin(arguments, origin);
+  state_.unknown |= state_.workpiece_unknown | unknown;
+  state_.workpiece_unknown = unknown;
   state_.position.tip += state_.workpiece_origin - origin;
   state_.workpiece_origin = origin;
   sink_.frame_changed(state_);
@@ -87,6 +101,15 @@ void Executor::go_home(const Arguments& arguments) {
   blur_linear_axes();
 }
 
+/// Whether a G29 says how its face lies: with an argument at all, and angles that can be read and are in their range.
+static bool has_face_angles(const Arguments& arguments) {
+  const auto is_in_range = [&](char letter) {
+    return std::abs(arguments.value_or(letter, 0)) <= dialect::most_face_angle(letter);
+  };
+  constexpr dialect::LetterSet kTaken = dialect::kLinearLetters | dialect::kRotaryLetters;
+  return (arguments.present() & kTaken) != 0 && is_in_range('B') && is_in_range('C');
+}
+
 void Executor::mount_face(const Instruction& instruction, const dialect::GCode& code) {
   const syntax::Span place = line_.command(instruction).span();
   const Arguments arguments(line_, instruction);
@@ -94,15 +117,14 @@ void Executor::mount_face(const Instruction& instruction, const dialect::GCode& 
   if (state_.face_mounted) report("face-already-mounted"_diag, place);
   leave_face();
   state_.dismount_forgiven = false;
+  const bool knows_tip = (state_.unknown & kLinearAxes) == 0;
   Frame face;
   face.origin = state_.position.tip;
   bool defined = true;
   if (code.number != 28) defined = read_point(arguments, face.origin);
   if (code.number == 29) {
-    const double b = arguments.value_or('B', 0);
-    const double c = arguments.value_or('C', 0);
-    defined = defined && std::isfinite(b) && std::isfinite(c);
-    if (defined) face.axes = geometry::axes_from_angles(b, c);
+    defined = defined && has_face_angles(arguments);
+    if (defined) face.axes = geometry::axes_from_angles(arguments.value_or('B', 0), arguments.value_or('C', 0));
   } else {
     const bool complete = read_axes(arguments, code.number == 24 ? "ABCIJKPQR" : "XYZIJKPQR", face.axes);
     const bool flat = complete && geometry::are_coplanar(face.axes);
@@ -112,10 +134,11 @@ void Executor::mount_face(const Instruction& instruction, const dialect::GCode& 
   state_.set_mode(dialect::ModalGroup::Face, static_cast<std::uint8_t>(code.number));
   state_.face_mounted = true;
   state_.face_undefined = !defined;
+  state_.face_unplaced = defined && code.number == 28 && !knows_tip;
   if (defined) {
     state_.face = face;
     state_.position.tip = face.to_inner(state_.position.tip);
-    if ((state_.unknown & kLinearAxes) != 0) blur_linear_axes();
+    if (!knows_tip) blur_linear_axes();
   } else {
     state_.face = Frame{};
     blur_linear_axes();

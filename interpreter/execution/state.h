@@ -55,7 +55,9 @@ struct State {
   geometry::Vec3 workpiece_origin = geometry::Vec3::Zero();  ///< Machine frame (G92).
   geometry::Frame face;                                      ///< In the workpiece frame; identity unless mounted.
   bool face_mounted = false;
+  AxisSet workpiece_unknown = 0;   ///< Axes of `workpiece_origin` that an error has left open.
   bool face_undefined = false;     ///< Mounted by a definition in error: its axes are not known.
+  bool face_unplaced = false;      ///< Mounted where the tip was (G28), which was not known.
   bool dismount_forgiven = false;  ///< A G92 has dismounted it in error (ISO055): a G27 that follows is right (D29).
 
   Feed feed_per_minute;      ///< Last F under G94.
@@ -86,6 +88,8 @@ struct State {
   bool inverse_time() const { return mode(dialect::ModalGroup::FeedMode) == 93; }
   double mm_per_unit() const { return mode(dialect::ModalGroup::Units) == 70 ? 25.4 : 1.0; }
 
+  /// Whether it is known where the frame in force lies on the machine.
+  bool knows_frame() const { return workpiece_unknown == 0 && !face_undefined && !face_unplaced; }
   /// From the frame in force to the machine frame, mm.
   geometry::Vec3 to_machine(const geometry::Vec3& p) const {
     return workpiece_origin + (face_mounted ? face.to_outer(p) : p);

@@ -234,7 +234,7 @@ void LineParser::check_face_angles(const Instruction& frame) {
   for (std::uint16_t i = frame.begin; i < frame.end; ++i) {
     const Word& angle = word(i);
     if (angle.owner != frame.number || !contains(dialect::kRotaryLetters, angle.letter)) continue;
-    const double limit = angle.letter == 'B' ? 90 : 180;
+    const double limit = dialect::most_face_angle(angle.letter);
     if (std::abs(angle.value) > limit) report("face-angle-out-of-range"_diag, angle.span(), {angle.value, limit});
   }
 }

@@ -149,7 +149,9 @@ class Teller {
     static constexpr Text kWay = {"length {} mm", "lunghezza {} mm"};
     static constexpr Text kPartial = {"`?`: that depends on the jumps before", "`?`: dipende dai salti precedenti"};
     const std::vector<LineRun> runs = documents::run_line_on_all_paths(snapshot_, line_number_);
-    const auto is_unclear = [](const LineRun& run) { return !run.move || run.after.unknown != 0; };
+    const auto is_unclear = [](const LineRun& run) {
+      return !run.move || run.after.unknown != 0 || !run.moved_in.knows_frame();
+    };
     if (runs.empty() || std::any_of(runs.begin(), runs.end(), is_unclear)) return;
     const auto all = [&](auto holds) { return std::all_of(runs.begin(), runs.end(), holds); };
     Agreement agreement(runs);

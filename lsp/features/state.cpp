@@ -45,10 +45,10 @@ Json state_json(const execution::State& state) {
   Json in_force;
   for (std::size_t i = 0; i < dialect::kModalGroupCount; ++i)
     in_force[kGroupNames[i]] = state.in_force[i] == dialect::kNoMotion ? Json() : Json(state.in_force[i]);
-  const bool knows_linear = (state.unknown & execution::kLinearAxes) == 0;
+  const bool knows_place = (state.unknown & execution::kLinearAxes) == 0 && state.knows_frame();
   Json json = {{"inForce", in_force},
                {"position", position_json(state)},
-               {"machinePosition", knows_linear ? vector_json(state.to_machine(state.position.tip)) : Json()},
+               {"machinePosition", knows_place ? vector_json(state.to_machine(state.position.tip)) : Json()},
                {"workpieceOrigin", vector_json(state.workpiece_origin)},
                {"faceMounted", state.face_mounted},
                {"spindle", {{"function", state.spindle}, {"speed", state.spindle_speed}}},

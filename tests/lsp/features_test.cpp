@@ -158,6 +158,19 @@ TEST(State, IsThatBeforeAndAfterALine) {
   EXPECT_EQ(behind["before"], nullptr);
 }
 
+TEST(State, OnTheMachineIsNotKnownInAFrameInError) {
+  Session session;
+  session.start();
+  session.open(kUri, "M06 T101001\nG29 X5 C180\nG00 X1 Y2 Z3\nG27\nG29 X5 C181\nG00 X1 Y2 Z3\nG27\nM02\n");
+  const auto after = [&](int line) {
+    return session.request("isocnc/state", {{"textDocument", {{"uri", kUri}}}, {"line", line}})["after"];
+  };
+  EXPECT_EQ(after(2)["machinePosition"]["x"], 4);
+  EXPECT_EQ(after(5)["position"]["x"], 1) << "in the frame";
+  EXPECT_EQ(after(5)["machinePosition"], nullptr);
+  EXPECT_EQ(after(6)["position"]["x"], nullptr);
+}
+
 TEST(State, AtALabelIsThatOfAllThatJumpsThere) {
   const auto x_at_label = [](const std::string& above) {
     Session session;
