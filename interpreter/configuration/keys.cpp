@@ -225,8 +225,10 @@ static void add_times(std::vector<Key>& keys) {
          .slot = [member](Configuration& c, std::size_t) -> Slot { return &(c.machine.timed.durations.*member); }});
   };
   keys.push_back({.path = "machine.times", .documentation = "How long the machine takes for what is no motion."});
-  add("toolChange", "An M06, from rest to rest.", &running::Durations::tool_change);
-  add("spindle", "An M03, M04 or M05, until the spindle has its speed or stands.", &running::Durations::spindle);
+  add("toolChange", "An M06, from rest to rest; also of the tool that is mounted.", &running::Durations::tool_change);
+  add("spindle",
+      "An M03, M04 or M05, until the spindle has its speed or stands; one that changes neither takes no time.",
+      &running::Durations::spindle);
   add("channel", "A G09 in G48, until the interpolation channel is full again (I.3.8).", &running::Durations::channel);
 }
 

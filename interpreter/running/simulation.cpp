@@ -43,11 +43,15 @@ static Timing::Standing standing(const Simulation& before, const Runner& run, co
                                  const MoveEvent* beside) {
   const execution::State& state = run.result().state;
   const geometry::Pose programmed = beside != nullptr ? beside->to : programmed_pose(state);
-  return {.time = before.time(),
-          .tip = at_rest(before.sample().tip, programmed, machine.motion),
-          .programmed = programmed,
-          .tool_length = before.tool_length(),
-          .frame_axes = state.face_mounted ? state.face.axes : geometry::Mat3(geometry::Mat3::Identity())};
+  const bool turns = state.knows(execution::State::kClockwise | execution::State::kCounterclockwise);
+  return {
+      .time = before.time(),
+      .tip = at_rest(before.sample().tip, programmed, machine.motion),
+      .programmed = programmed,
+      .tool_length = before.tool_length(),
+      .frame_axes = state.face_mounted ? state.face.axes : geometry::Mat3(geometry::Mat3::Identity()),
+      .spindle = turns ? Timing::Spindle{.function = state.spindle, .speed = state.spindle_speed} : Timing::Spindle{},
+      .spindle_speed = state.spindle_speed};
 }
 
 Simulation::Simulation(const Simulation& before, const Runner& run, const TimedMachine& machine)

@@ -70,6 +70,8 @@ Timing::Timing(const TimedMachine& machine, Listeners listeners)
 Timing::Timing(const TimedMachine& machine, const Standing& standing) : Timing(machine, Listeners{}) {
   planner_.rest(standing.time);
   position_ = {standing.tip, standing.programmed, standing.tool_length, standing.frame_axes};
+  spindle_ = standing.spindle;
+  spindle_speed_ = standing.spindle_speed;
 }
 
 void Timing::take(const Event& event) {
@@ -86,6 +88,7 @@ void Timing::take(const Event& event) {
   }
   if (const auto* const frame = std::get_if<FrameEvent>(&event.what)) position_.take(*frame);
   const double seconds = seconds_of(event);
+  turn_spindle(event);
   if (seconds >= 0) return rest(event, seconds);
   enqueue(event);
 }
@@ -166,13 +169,27 @@ double Timing::seconds_of(const Event& event) const {
   if (const auto* const dwell = std::get_if<DwellEvent>(&event.what)) return std::min(dwell->seconds, kLongest);
   if (std::holds_alternative<ToolEvent>(event.what)) return durations.tool_change;
   if (const auto* const function = std::get_if<FunctionEvent>(&event.what)) {
-    if (!dialect::is_user_function(function->number)) return durations.spindle;
+    if (!dialect::is_user_function(function->number))
+      return spindle_after(function->number) == spindle_ ? 0 : durations.spindle;
     const auto named = durations.functions.find(function->number);
     return named == durations.functions.end() ? 0 : named->second;
   }
   const bool waits = std::holds_alternative<JumpEvent>(event.what) || std::holds_alternative<UpdateEvent>(event.what) ||
                      std::holds_alternative<EndEvent>(event.what);
   return waits ? 0 : -1;
+}
+
+/// What an M03, M04 or M05 brings about.
+Timing::Spindle Timing::spindle_after(int function) const {
+  return function == 5 ? Spindle{} : Spindle{.function = function, .speed = spindle_speed_};
+}
+
+/// An S alone waits for the next M03 or M04 (I.4.2); a tool change stops the spindle.
+void Timing::turn_spindle(const Event& event) {
+  if (const auto* const given = std::get_if<SpindleSpeedEvent>(&event.what)) spindle_speed_ = given->speed;
+  if (std::holds_alternative<ToolEvent>(event.what)) spindle_ = {};
+  const auto* const function = std::get_if<FunctionEvent>(&event.what);
+  if (function != nullptr && !dialect::is_user_function(function->number)) spindle_ = spindle_after(function->number);
 }
 
 void Timing::finish() {

@@ -17,9 +17,9 @@ namespace isocnc::running {
 
 /// How long the machine takes for what is no motion; seconds.
 struct Durations {
-  double tool_change = 8;           ///< M06, from rest to rest.
-  double spindle = 2;               ///< M03, M04, M05: until the spindle has its speed, or stands.
-  double channel = 0.1;             ///< G09 in G48: until the emptied interpolation channel is full again (I.3.8).
+  double tool_change = 8;  ///< M06, from rest to rest.
+  double spindle = 2;      ///< M03, M04, M05 that change something: until the spindle has its speed, or stands.
+  double channel = 0.1;    ///< G09 in G48: until the emptied interpolation channel is full again (I.3.8).
   std::map<int, double> functions;  ///< User Ms; those that are not named take no time.
 };
 
@@ -57,6 +57,14 @@ struct TimedEvent {
 /// any control looks ahead the machine is taken to stop.
 class Timing {
  public:
+  /// What the spindle does. It takes up an S with the next M03 or M04 (I.4.2).
+  struct Spindle {
+    int function = 5;  ///< 3, 4 or 5.
+    double speed = 0;  ///< Revolutions per minute; 0 while it stands, and before any S.
+
+    friend bool operator==(const Spindle&, const Spindle&) = default;
+  };
+
   /// A machine that stands, with a program behind it.
   struct Standing {
     double time = 0;
@@ -64,6 +72,8 @@ class Timing {
     geometry::Pose programmed;  ///< Where the program has led it, machine frame: elsewhere after a tool change.
     double tool_length = 0;
     geometry::Mat3 frame_axes = geometry::Mat3::Identity();  ///< Of the frame in force, machine frame.
+    Spindle spindle;
+    double spindle_speed = 0;  ///< The last S; 0 before any.
   };
 
   /// Who is told; any may be left out.
@@ -118,6 +128,8 @@ class Timing {
   void come_to_rest();
   void rest(const Event& event, double seconds);
   double seconds_of(const Event& event) const;
+  Spindle spindle_after(int function) const;
+  void turn_spindle(const Event& event);
 
   const TimedMachine* machine_;  ///< Outlives it.
   Listeners listeners_;
@@ -127,6 +139,8 @@ class Timing {
   bool holds_motion_ = false;  ///< The last of waiting_: a G09 may follow.
   bool stops_exactly_ = false;
   TipPosition position_;
+  Spindle spindle_;
+  double spindle_speed_ = 0;  ///< The last S; 0 before any.
 };
 
 /// What a motion asks of the machine, where that is where the program has it.

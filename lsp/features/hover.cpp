@@ -250,12 +250,14 @@ class Teller {
 
   void tell_m() {
     static constexpr Text kTakes = {"takes {} s", "richiede {} s"};
+    static constexpr Text kTakesWhereItChanges = {"takes {} s where it changes what the spindle does",
+                                                  "richiede {} s se cambia ciò che fa il mandrino"};
     for (const dialect::MCode& code : dialect::kMCodes) {
       if (word_.value != code.number) continue;
       title(fmt::format("{} ({})", code.name.in(language_), code.section));
       const running::Durations& durations = snapshot_.configuration().machine.timed.durations;
       if (code.number == dialect::kToolChange) add(text(kTakes, shown(durations.tool_change)));
-      if (code.number >= 3 && code.number <= 5) add(text(kTakes, shown(durations.spindle)));
+      if (code.number >= 3 && code.number <= 5) add(text(kTakesWhereItChanges, shown(durations.spindle)));
       return;
     }
     static constexpr Text kUser = {"user function", "funzione dell'utente"};

@@ -83,7 +83,7 @@ TEST(Changing, SpeedsThatAreSetDoAllThatTheProgramsDo) {
 /// The machine takes no hand on it where it is on its way, or has ended.
 TEST(Changing, WaitsForAMachineThatStandsBetweenTwoBlocks) {
   DebugClient client;
-  client.stand_at_begin("M06 T101001\nG01 X10 F600 M05\nM02\n");
+  client.stand_at_begin("M06 T101001\nG01 X10 F600 M03\nM02\n");
   client.run("next");
   client.run("stepIn");
   client.run("stepIn");

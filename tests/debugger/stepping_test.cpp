@@ -101,7 +101,7 @@ TEST(Stepping, WhatEndsTheRunIsToldBehindAnyAmountOfOutput) {
 
 TEST(Stepping, StepsInByInstructions) {
   DebugClient client;
-  client.stand_at_begin("M06 T101001\nG01 X10 F600 M05\nM02\n");
+  client.stand_at_begin("M06 T101001\nG01 X10 F600 M03\nM02\n");
   client.run("next");
   client.run("stepIn");
   EXPECT_EQ(client.line(), 2);

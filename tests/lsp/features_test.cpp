@@ -81,7 +81,7 @@ TEST(Hover, TellsOfJumpsAndOfWhatTheyCompare) {
 TEST(Hover, TellsHowLongALineTakes) {
   const char* const kTimed = "M06 T101001\nM03 S1000\nG00 X3000 Y10\nG04 P1.5\nG93 G01 X0 F30\nG94 G01 F0 X5\nM02\n";
   EXPECT_THAT(hover(kTimed, 0, 0), HasSubstr("takes 8 s"));
-  EXPECT_THAT(hover(kTimed, 1, 0), HasSubstr("takes 2 s"));
+  EXPECT_THAT(hover(kTimed, 1, 0), HasSubstr("takes 2 s where it changes"));
   EXPECT_THAT(hover(kTimed, 2, 4), HasSubstr("at full rapid speed 3 s"));  // 60 m/min.
   EXPECT_THAT(hover(kTimed, 3, 0), HasSubstr("waits 1.5 s"));
   EXPECT_THAT(hover(kTimed, 4, 8), HasSubstr("at the programmed feed 2 s"));

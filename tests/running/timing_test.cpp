@@ -86,6 +86,37 @@ TEST(Timing, MachineStandsForWhatIsNoMotion) {
   EXPECT_NEAR(seconds_of("G01 X100 F3000\nIF V1 = 1 GOTO N5\nX200\nN5\n"), 2 * parts, kTiny);
 }
 
+/// docs/isorun.md: an M03, M04 or M05 takes its 3 s where it changes what the spindle does.
+TEST(Timing, OfTheSpindleIsThatOfItsChanges) {
+  const std::pair<std::string_view, int> programs[] = {
+      {"M05\n", 0},                                 // It stands at the start,
+      {"S1000 M03\nM05\nM05\n", 2},                 // and after an M05.
+      {"S1000 M03\nM03\nS1000 M03\n", 1},           // It turns that way, at that speed.
+      {"S1000 M04\nM04\n", 1},                      //
+      {"M03\nM03\n", 1},                            // Before any S, too.
+      {"S1000 M03\nS2000 M03\n", 2},                // Another speed,
+      {"S1000 M03\nM04\nM03\n", 3},                 // another way,
+      {"S1000 M03\nM05\nM03\n", 3},                 // from rest again.
+      {"S1000\nS2000\n", 0},                        // An S waits for its M03.
+      {"S1000 M03\nS2000\nG01 X0 F100\nM03\n", 2},  //
+      {"S1000 M03\nS2000\nS1000 M03\n", 1},         //
+      {"S1000 M03\nM100\nM03\n", 1},                // Besides the 7 s of M100.
+  };
+  for (const auto& [program, changes] : programs) {
+    const double functions = program.find("M100") == std::string_view::npos ? 0 : 7;
+    EXPECT_NEAR(seconds_of(program), 3 * changes + functions, kTiny) << program;
+  }
+  EXPECT_NEAR(seconds_of("S1000 M03\nM06 T101001\nM05\nM03\n"), 3 + 5 + 3, kTiny) << "a tool change stops it";
+}
+
+/// What changes nothing still stops the axes where the control waits.
+TEST(Timing, OfWhatChangesNothingIsThatOfTheStop) {
+  const double parts = trapezoid(100, 50);
+  for (const std::string_view idle : {"M05\n", "G04 P0\n", "G990\n"})
+    EXPECT_NEAR(seconds_of("G01 X100 F3000\n" + std::string(idle) + "X200\n"), 2 * parts, kTiny) << idle;
+  EXPECT_NEAR(seconds_of("G01 X100 F3000\nS500\nX200\n"), trapezoid(200, 50), kTiny) << "an S alone does not";
+}
+
 /// What does not stop the machine has the time of the motion behind it; a motion that goes nowhere takes none.
 TEST(Timing, EventsComeInOrderWithTheirTimes) {
   const Timed timed = time("M06 T101001\nG01 X100 F3000\nS500\nX100\nX200\nM02\n");
