@@ -46,7 +46,7 @@ void RunReport::close(OutputFile& output, const std::string& name) {
 void RunReport::take(const TimedEvent& timed) {
   summary_.add(timed);
   if (plot_) plot_->add(timed);
-  if (trace_ != nullptr) trace_->write(to_json(timed) + '\n');
+  if (trace_ != nullptr) trace_->write(to_json(timed, machine_) + '\n');
   if (samples_ == nullptr || !std::holds_alternative<ToolEvent>(timed.event.what)) return;
   // The joints stand still; what ends elsewhere from now on is the tool.
   sample_rest(timed.start + timed.duration);

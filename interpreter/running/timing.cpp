@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "interpreter/motion/numbers.h"
+#include "interpreter/motion/travel.h"
 
 namespace isocnc::running {
 
@@ -32,10 +33,15 @@ double TimedMachine::tool_length(const execution::ToolCode& tool) const {
   return known == tool_lengths.end() ? 0 : known->second;
 }
 
-std::string to_json(const TimedEvent& timed) {
-  std::array<std::pair<std::string_view, double>, 3> more;
+double tip_length(const TimedEvent& timed, const TimedMachine& machine) {
+  return timed.move ? motion::tip_travel(machine.motion, *timed.move).length : 0;
+}
+
+std::string to_json(const TimedEvent& timed, const TimedMachine& machine) {
+  std::array<std::pair<std::string_view, double>, 4> more;
   std::size_t count = 0;
   const auto* const move = std::get_if<MoveEvent>(&timed.event.what);
+  if (timed.move) more[count++] = {"lengthMm", tip_length(timed, machine)};
   if (move != nullptr && move->kind != MoveKind::Rapid) more[count++] = {"feed", feed_of(*move)};
   more[count++] = {"start", timed.start};
   more[count++] = {"duration", timed.duration};

@@ -146,7 +146,11 @@ class Timing {
 /// What a motion asks of the machine, where that is where the program has it.
 motion::Move planned_move(const MoveEvent& move, const TimedMachine& machine, double tool_length);
 
-/// As to_json(event), with `start` and `duration` in seconds, and for feed moves `feed`, mm/min.
-std::string to_json(const TimedEvent& timed);
+/// How far the tip goes in a motion, on the path that the machine takes; mm. 0 for what is no motion.
+double tip_length(const TimedEvent& timed, const TimedMachine& machine);
+
+/// As to_json(event), with `start` and `duration` in seconds, for feed moves `feed`, mm/min, and for all moves
+/// tip_length() as `lengthMm`.
+std::string to_json(const TimedEvent& timed, const TimedMachine& machine);
 
 }  // namespace isocnc::running

@@ -17,10 +17,11 @@ struct Adder {
       sections.try_emplace(line, TimedSection{.start = timed.start});
     }
     TimedSection& section = sections[line];
-    section.seconds += timed.duration;
-    if (const auto* const move = std::get_if<running::MoveEvent>(&timed.event.what)) section.mm += move->length;
+    section.seconds += timed.duration + timed.wait;
+    section.mm += running::tip_length(timed, machine);
   }
 
+  const running::TimedMachine& machine;
   Sections sections;
   std::uint64_t line = 0;
 };
@@ -49,7 +50,7 @@ std::shared_ptr<const Sections> SectionTimes::known(const Snapshot& snapshot) {
 
 std::shared_ptr<const Sections> SectionTimes::time(const TimedProgram& program, const std::function<bool()>& stop) {
   if (auto found = known(program.version(), program.machine())) return found;
-  Adder adder;
+  Adder adder{.machine = program.machine().timed};
   const running::RunResult result =
       program.run(stop, {.event = [&](const running::TimedEvent& timed) { adder.add(timed); }, .stretch = {}});
   if (result.ending == running::Ending::Error) adder.sections.erase(adder.line);

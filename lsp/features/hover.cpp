@@ -14,6 +14,8 @@
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/letters.h"
 #include "interpreter/execution/machine_move.h"
+#include "interpreter/motion/travel.h"
+#include "interpreter/running/timing.h"
 #include "interpreter/syntax/unicode.h"
 #include "lsp/documents/assignments.h"
 #include "lsp/documents/line_run.h"
@@ -173,7 +175,7 @@ class Teller {
     row(kMachine, [](const LineRun& run) -> geometry::Vec3 { return run.moved_in.to_machine(run.move->to.tip); });
     add(fmt::format("{}", fmt::join(rows, "\n")));
     const auto in_machine = [](const LineRun& run) { return execution::in_machine(*run.move, run.moved_in); };
-    const std::string length = agreement.of([&](const LineRun& run) { return in_machine(run).length; });
+    const std::string length = agreement.of([&](const LineRun& run) { return tip_length(in_machine(run), run); });
     if (all([](const LineRun& run) { return run.move->kind == execution::MoveKind::Arc; })) {
       const auto center = [&](int axis) {
         return agreement.of([&](const LineRun& run) { return run.move->center[axis]; });
@@ -190,6 +192,13 @@ class Teller {
       add(text(kRapid, agreement.of([&](const LineRun& run) { return seconds_in_rapid(in_machine(run)); })));
     }
     if (agreement.is_partial) add(text(kPartial));
+  }
+
+  /// The way of the tip, which a rapid that turns B or C swings; mm.
+  double tip_length(const execution::MachineMove& move, const LineRun& run) const {
+    const running::TimedMachine& machine = snapshot_.configuration().machine.timed;
+    return motion::tip_travel(machine.motion, running::planned_move(move, machine, machine.tool_length(run.after.tool)))
+        .length;
   }
 
   /// To the hundredth, without the machine's accelerations.

@@ -259,6 +259,23 @@ TEST(IsorunSummary, FollowsTheTipWhereARapidTurnsB) {
   EXPECT_LT(summary.at("extents").at("Z")[0], -30);
 }
 
+/// Also where the tool is longer than the program knows, and where a feed is given as a time.
+TEST(IsorunTrace, HasTheLengthsOfTheSummary) {
+  const std::string program =
+      "M06 T101001\nG00 X10 B90\nG00 B0 Z20\nG01 X50 F4000\nG03 X90 I70 J0 Z5\nG49\nX120 B30 C40\nG93\nG01 Y50 C0 F20\n"
+      "G02 X150 R40 B0 F30\nG94\nM06 T101002\nG00 X0\nM02\n";
+  const TemporaryFolder folder;
+  const std::string machine = folder.write("machine.json", R"({"machine": {"tools": [
+    {"head": 1, "holder": 1, "tool": 1, "length": 60}, {"head": 1, "holder": 1, "tool": 2, "length": 90}]}})");
+  std::map<std::string, double> sums;
+  for (const json& event : trace_of(program, {"--machine", machine}))
+    if (event.contains("lengthMm")) sums[event.at("kind")] += event.at("lengthMm").get<double>();
+  const json summary = summary_of(program, {"--machine", machine});
+  for (const auto& [kind, kinds] : {std::pair("rapid", "rapids"), {"feed", "feeds"}, {"arc", "arcs"}})
+    EXPECT_NEAR(sums[kind], summary.at(kinds).at("lengthMm").get<double>(), 1e-6) << kind;
+  EXPECT_GT(trace_of("M06 T101001\nG00 B90\nM02\n").at(1).at("lengthMm"), 100) << "the head's pivot swings the tip";
+}
+
 TEST(IsorunSummary, KeepsWhatWasDoneBeforeAnError) {
   const json summary = summary_of("M06 T101001\nG01 X100 F6000\nG01\nM02\n");
   EXPECT_EQ(summary.at("result"), "error");

@@ -27,6 +27,24 @@ TEST(CodeLens, TellsTheTimeAndPathOfEachToolSection) {
   EXPECT_EQ(title(after[1]), "not run");
 }
 
+/// As isorun says: exact stops take 0.1 s each, and a rapid that turns B swings the tip.
+TEST(CodeLens, CountsExactStopsAndSwings) {
+  Session session;
+  session.start();
+  std::string program = "M06 T101001\nG01 X0 F6000\nG91\n";
+  for (int i = 0; i < 100; ++i) program += "X1 G09\n";
+  program += "M06 T101002\nG00 B90\nB-180\nB180\nM02\n";
+  session.open(kUri, program);
+  const Json lenses = session.request("textDocument/codeLens", kParams);
+  ASSERT_EQ(lenses.size(), 2u) << lenses;
+  const auto title = [&](const Json& lens) -> std::string {
+    return session.request("codeLens/resolve", lens)["command"]["title"];
+  };
+  // 8 s for the tool, 10 s for the stops; 1 mm takes from 0.036 to 0.06 s.
+  EXPECT_THAT(title(lenses[0]), testing::AllOf(testing::Ge("0:00:21"), testing::Le("0:00:25, path 0.1 m")));
+  EXPECT_THAT(title(lenses[1]), testing::Not(testing::EndsWith("path 0.0 m")));
+}
+
 TEST(CodeLens, OfADocumentThatHasBeenClosedIsNoMistakeOfTheClient) {
   Session session;
   session.start();

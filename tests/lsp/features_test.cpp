@@ -87,6 +87,13 @@ TEST(Hover, TellsHowLongALineTakes) {
   EXPECT_THAT(hover(kTimed, 4, 8), HasSubstr("at the programmed feed 2 s"));
 }
 
+/// The pivot of the default machine's head is 180 mm: B90 swings the tip through a good part of a quarter turn.
+TEST(Hover, TellsTheLengthThatTheTipIsSwung) {
+  const char* const kSwings = "M06 T101001\nG00 X10 B90\nB0\nM02\n";
+  EXPECT_THAT(hover(kSwings, 2, 0), testing::Not(HasSubstr("length 0 mm")));
+  EXPECT_THAT(hover("M06 T101001\nG00 X10 B90\nX30\nM02\n", 2, 0), HasSubstr("length 20 mm"));
+}
+
 TEST(Hover, TellsWhatAllWaysToALineAgreeOn) {
   const std::string program =
       "M06 T101001\nG00 X10 Y5 Z50\nIF VGPL = 1 GOTO N5\nX20\nN5 G00 Y8\nG00 X0 Z40\nG91 G00 X1\nM02\n";

@@ -7,9 +7,11 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "interpreter/motion/travel.h"
 #include "interpreter/running/runner.h"
+#include "interpreter/running/summary.h"
 #include "interpreter/running/timing.h"
 #include "tests/support/random.h"
 
@@ -248,6 +250,46 @@ TEST_P(Trips, GoAllTheirWay) {
         ASSERT_NEAR(length, programmed.length, 1e-2) << "motion " << i;
       }
     }
+  });
+}
+
+/// How far the tip goes where each joint goes straight to its end, as chords between many places.
+double swung_length(const TimedMachine& machine, const motion::Move& move) {
+  constexpr int kChords = 4000;
+  const motion::Kinematics& kinematics = machine.motion.kinematics;
+  const motion::Coordinates from = inverse(kinematics, motion::coordinates(move.from), move.tool_length);
+  const motion::Coordinates way = inverse(kinematics, motion::coordinates(move.to), move.tool_length) - from;
+  double sum = 0;
+  geometry::Vec3 before = move.from.tip;
+  for (int i = 1; i <= kChords; ++i) {
+    const motion::Coordinates joints = from + static_cast<double>(i) / kChords * way;
+    const geometry::Vec3 tip = forward(kinematics, joints, move.tool_length).head<3>();
+    sum += (tip - before).norm();
+    before = tip;
+  }
+  return sum;
+}
+
+/// docs/isorun.md: `lengthMm` is how far the tip goes, and the summary is the sum.
+TEST_P(Trips, TraceTheLengthsOfTheSummary) {
+  for_trips([](const TimedMachine& machine, const Trip& trip) {
+    Summary summary(machine);
+    std::map<std::string, double> sums;
+    for (const TimedEvent& timed : trip.motions) {
+      summary.add(timed);
+      const auto line = nlohmann::json::parse(to_json(timed, machine));
+      const double length = line.at("lengthMm");
+      sums[line.at("kind")] += length;
+      const motion::Move& move = *timed.move;
+      if (move.is_arc) continue;
+      const double expected =
+          move.controls_tool_point ? (move.to.tip - move.from.tip).norm() : swung_length(machine, move);
+      ASSERT_NEAR(length, expected, 1e-9 + 1e-4 * expected) << line.dump();
+    }
+    summary.finish({}, trip.seconds, motion::Coordinates::Zero(), {});
+    const auto total = nlohmann::json::parse(summary.json("", dialect::Language::English));
+    for (const auto& [kind, kinds] : {std::pair("rapid", "rapids"), {"feed", "feeds"}, {"arc", "arcs"}})
+      ASSERT_NEAR(sums[kind], total.at(kinds).at("lengthMm").get<double>(), 1e-6) << kind;
   });
 }
 
