@@ -247,10 +247,15 @@ class Preamble {
     }
   }
 
-  /// To three significant digits, and never to 0.
+  /// Down to three significant digits, since it may not be exceeded; but never to 0.
   static std::string rounded_feed(double feed) {
-    const double digit = std::pow(10, std::floor(std::log10(feed)) - 2);
-    return coordinate(std::max(std::round(feed / digit) * digit, 1e-9));
+    constexpr double kLeast = 1e-9;
+    constexpr double kNoise = 1e-12;  // 12.3 is to stay 12.3, though it is 122.99999999999999 tenths.
+    feed = std::max(feed, kLeast);
+    const double decimals = 2 - std::floor(std::log10(feed));
+    const double scale = std::pow(10, std::abs(decimals));
+    const double digits = std::floor((decimals < 0 ? feed / scale : feed * scale) * (1 + kNoise));
+    return exact(decimals < 0 ? digits * scale : digits / scale);
   }
 
   /// The frame as the program wrote it. A G28, whose origin is where the tip was, becomes the G24 of that origin.
