@@ -57,6 +57,17 @@ TEST(Optimality, FastCirclesAreWithinAPercent) {
   }
 }
 
+/// docs/motion.md, from rest to rest: the shorter the arc, the more of it is spent on speeding up and slowing down.
+TEST(Optimality, FastArcsLoseNoMoreThanIsSaid) {
+  constexpr std::pair<double, double> kSweeps[] = {{360, 1.006}, {90, 1.007}, {45, 1.018}};
+  for (const Machine& machine : {uniform_machine(10000, 2000), three_axis_router()})
+    for (const auto& [sweep, most] : kSweeps) {
+      const double found = ratio(machine, {arc_xy({-20, 0, 0}, {0, 0, 0}, sweep, 0, speed(10000))}, 200);
+      EXPECT_LE(found, most) << sweep;
+      EXPECT_GE(found, 0.9999) << sweep;
+    }
+}
+
 /// Five axes at once: the pivot's swing takes nearly all.
 TEST(Optimality, SwingingPivotsAreWithinAPercent) {
   Machine machine = uniform_machine(400, 2000);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -108,6 +109,36 @@ TEST(Planner, ARightAngleIsRoundedWithinTheTolerance) {
   EXPECT_TRUE(stretches[1].ends_move);
   EXPECT_EQ(stretches[2].tag, 1U);
   EXPECT_FALSE(stretches[2].ends_move);
+}
+
+/// docs/motion.md: where an element is too short for the tolerance, a corner takes a quarter d of it from each end, and
+/// comes as near to the programmed point as d |e2 - e1| / 4.
+TEST(Planner, ACornerTakesAQuarterOfAShortElement) {
+  constexpr double kLength = 0.05;
+  const Vec3 corner(kLength, 0, 0);
+  const auto stretches =
+      plan(uniform_machine(1000, 2000),
+           {line(kOrigin, corner, speed(1000)), line(corner, corner + Vec3(0, kLength, 0), speed(1000)),
+            line(corner + Vec3(0, kLength, 0), corner + Vec3(1, kLength, 0), speed(1000))});
+  double nearest = kLength;
+  for (const Stretch& stretch : stretches)
+    for (const double part : {0.0, 0.5, 1.0})
+      nearest = std::min(nearest, (stretch.at({}, stretch.start + part * stretch.duration).tip.tip - corner).norm());
+  EXPECT_NEAR(nearest, kLength / 4 * std::numbers::sqrt2 / 4, 1e-9);
+}
+
+/// What is left of each line between two corners is enough to speed up and to slow down on.
+TEST(Planner, AChainOfShortLinesIsNearlyAsFastAsItsCurve) {
+  const Machine machine = uniform_machine(1000, 3000);
+  const double arc = time_of(machine, {arc_xy({100, 0, 0}, kOrigin, 360, 0, speed(1000))});
+  constexpr int kChords = 6000;
+  std::vector<Move> chords;
+  const auto at = [](int i) {
+    const double angle = 2 * std::numbers::pi * i / kChords;
+    return Vec3(100 * std::cos(angle), 100 * std::sin(angle), 0);
+  };
+  for (int i = 0; i < kChords; ++i) chords.push_back(line(at(i), at(i + 1), speed(1000)));
+  EXPECT_LT(time_of(machine, chords), 1.5 * arc);
 }
 
 TEST(Planner, ACircleBelowTheCentripetalLimitKeepsItsFeed) {
