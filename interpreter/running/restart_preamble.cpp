@@ -40,8 +40,9 @@ static std::string exact(double value) {
   return {digits.data(), end};
 }
 
-/// A coordinate to a billionth, which hides what sums of G91 lose and no tolerance sees.
-static std::string coordinate(double value) { return exact(std::round(value * 1e9) / 1e9); }
+/// Coordinates are written to a billionth, which hides what sums of G91 lose and no tolerance sees.
+static constexpr double kStepsPerUnit = 1e9;
+static std::string coordinate(double value) { return exact(std::round(value * kStepsPerUnit) / kStepsPerUnit); }
 
 /// Letters, digits and signs; what else a file may be called has no place in a program.
 static std::string ascii(std::string_view name) {
@@ -192,12 +193,16 @@ class Preamble {
     return rounded(tip + (std::max(way, 0.0) + kBesideWork) * tool);
   }
 
-  /// The highest Z of the machine frame to which the machine lifts the tip from home; rounded down.
+  /// The highest Z of the workpiece frame to which the machine lifts the tip from home; rounded down, in inches too, so
+  /// that what is written is not beyond the end of the axis.
   double reach_up() const {
     const TimedMachine& machine = options_.machine;
     const motion::Coordinates tip = motion::coordinates({Vec3::Zero(), state_.position.b, state_.position.c});
     const motion::Coordinates nose = motion::inverse(machine.motion.kinematics, tip, machine.tool_length(target_.tool));
-    return std::floor((machine.motion.axes[motion::kZ].most - nose[motion::kZ]) * 1000) / 1000;
+    const double room = std::floor((machine.motion.axes[motion::kZ].most - nose[motion::kZ]) * 1000) / 1000;
+    constexpr double kNoise = 1e-3;
+    const double step = state_.mm_per_unit() / kStepsPerUnit;
+    return std::floor((room - state_.workpiece_origin.z()) / step + kNoise) * step;
   }
 
   static Vec3 rounded(const Vec3& place) { return (place * 1000).array().round() / 1000; }
@@ -209,7 +214,7 @@ class Preamble {
     Vec3 entry(tip.x(), tip.y(), target_.face_mounted ? above : height());
     if (target_.face_mounted) entry = rounded(target_.face.to_outer(entry));
     if (beside) entry = *beside;
-    const double top = std::max(std::min(point_.highest, reach_up()) - target_.workpiece_origin.z(), entry.z());
+    const double top = std::max(std::min(point_.highest - target_.workpiece_origin.z(), reach_up()), entry.z());
     add("G00 " + length('Z', top));
     if (point_.turns) add("B" + coordinate(target_.position.b) + " C" + coordinate(target_.position.c));
     add(across(entry));

@@ -19,7 +19,7 @@ using testing::StartsWith;
 /// One case of a file in restarts/: a program, how it is taken up again, and what becomes of it.
 struct Case {
   std::string program;
-  /// `line 4`, `clearance 30`, `approach-feed 500`, `vgpl 1`, `radius T101002 8`, `italian` and so on.
+  /// `line 4`, `clearance 30`, `highest-z 820`, `approach-feed 500`, `vgpl 1`, `radius T101002 8`, `italian` and so on.
   std::vector<std::string> wishes;
   std::string expected;  ///< The restart program, or the refusal.
 };
@@ -80,6 +80,8 @@ RestartOptions options_of(const Case& each) {
       options.run.setup.clearance = value;
     } else if (what == "home-z") {
       options.run.setup.home.tip.z() = options.machine.home.tip.z() = value;
+    } else if (what == "highest-z") {
+      options.machine.motion.axes[motion::kZ].most = value;
     } else if (what == "radius" || what == "length") {
       add_tool(wish, options.machine);
     } else if (what == "approach-feed") {
