@@ -343,7 +343,7 @@ void Checker::judge_arc(const execution::CenteredArc& arc, Outcome& outcome, exe
   const geometry::CenterReadings readings =
       geometry::read_center_both_ways(arc.given, arc.start, arc.incremental, tolerance);
   if (!arc.incremental) {
-    outcome.centers.from_start |= readings.shows_other_origin(tolerance);
+    outcome.centers.from_start |= !readings.is_same_center && readings.shows_other_origin(tolerance);
     outcome.centers.open |= readings.is_legal_both_ways(tolerance);
   }
   if (arc.circle.problem == geometry::ArcProblem::None)

@@ -83,9 +83,16 @@ std::string edited_lines(fixes::Program& program, std::uint64_t first, std::uint
   const auto offset = [&](const syntax::Position& place) { return starts[place.line - first] + place.column; };
   const auto by_place = [](const Edit& a, const Edit& b) { return a.begin < b.begin; };
   std::stable_sort(edits.begin(), edits.end(), by_place);
-  for (auto edit = edits.rbegin(); edit != edits.rend(); ++edit)
-    text.replace(offset(edit->begin), offset(edit->end) - offset(edit->begin), edit->text);
-  return text;
+  std::string edited;
+  edited.reserve(text.size() + 16 * edits.size());
+  std::size_t copied = 0;
+  for (const Edit& edit : edits) {
+    edited.append(text, copied, offset(edit.begin) - copied);
+    edited += edit.text;
+    copied = offset(edit.end);
+  }
+  edited.append(text, copied);
+  return edited;
 }
 
 /// The lines of a text and their trees.

@@ -68,6 +68,9 @@ Draft center_completed(const Request& request) {
   const std::optional<ArcOfProgram> arc = marked_arc(request);
   if (!arc || (arc->center_u != nullptr) == (arc->center_v != nullptr)) return {};
   const PlanePoint center{arc->given.center_u.value_or(0), arc->given.center_v.value_or(0)};
+  // Where both readings are the same, the arc is right in either; but that it lacks a coordinate shows how other
+  // centers may be meant.
+  if (arc->readings.is_same_center && request.program.habits().leaves_open(habit_of(*arc))) return {};
   if (may_mean_other_origin(request, *arc)) return {};
   if (fitting_center(request, *arc, center).edits.empty()) return {};
   const bool has_u = arc->center_u != nullptr;
@@ -79,10 +82,12 @@ Draft center_completed(const Request& request) {
   return {{inserted(request, given.end, " " + word)}, word};
 }
 
-/// R12 with a center at 10: the center gives the circle, unless it may be the center that is not as meant.
+/// R12 with a center at 10: the center gives the circle, unless it may be the center that is not as meant. With one of
+/// its coordinates alone nearly any circle fits.
 Draft removed_contradicting_radius(const Request& request) {
   const std::optional<ArcOfProgram> arc = marked_arc(request);
-  return arc && !may_mean_other_origin(request, *arc) ? removed_mark(request) : Draft{};
+  const bool is_certain = arc && arc->readings.is_complete && !may_mean_other_origin(request, *arc);
+  return is_certain ? removed_mark(request) : Draft{};
 }
 
 /// R9.999 where half the way is 10: a rounding.

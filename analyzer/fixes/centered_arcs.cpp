@@ -57,6 +57,7 @@ std::optional<ArcOfProgram> arc_on(const LineTree& line, const execution::State&
   if (line.text_of(collector.centers).find('(') != std::string_view::npos) return std::nullopt;
   for (const Word& word : line.words) {
     if (word.begin < collector.centers.begin || word.end > collector.centers.end) continue;
+    if (word.has(Word::kReported)) return std::nullopt;  // I=5
     if (word.letter == arc.plane->u_center) arc.center_u = &word;
     if (word.letter == arc.plane->v_center) arc.center_v = &word;
   }

@@ -38,7 +38,8 @@ struct ArcOfProgram {
 inline constexpr int kMaxDecimals = 9;
 
 /// The line's only arc that gives its circle by a center, run from this state. Nothing where there is none, or several,
-/// where its start is not known, or where a comment within its words would be lost by rewriting them.
+/// where its start is not known, where its words have a finding of their own, or where a comment within them would be
+/// lost by rewriting them.
 std::optional<ArcOfProgram> arc_on(const syntax::LineTree& line, const execution::State& before,
                                    const execution::Setup& setup);
 

@@ -246,7 +246,6 @@ inline constexpr auto kFixes = [] {
       {"feed-on-rapid"_diag, Safe, kIgnored, removed_on_every_path},
       {"feed-of-inverse-time"_diag, None, kValueUnknown},
       {"arc-goes-nowhere"_diag, None, kMeaningUnknown},
-      {"arc-barely-fits"_diag, Unsafe, kMeantCenter, center_from_other_origin},
       {"arc-barely-fits"_diag, Unsafe, kNearestCenter, center_between_ends},
       {"center-legal-both-ways"_diag, Unsafe, kMeantCenter, center_from_other_origin},
       {"compensation-across-change"_diag, None, kMeaningUnknown},

@@ -32,6 +32,21 @@ bool has_centers(const LineTree& line) {
                      [&](const Instruction& each) { return each.is_motion() && has_centers(line, each); });
 }
 
+bool starts_with_lost_letter(const LineTree& line) {
+  const auto is_no_label = [](const Word& word) { return word.letter != 'N'; };
+  const auto first = std::find_if(line.words.begin(), line.words.end(), is_no_label);
+  return first != line.words.end() && first->letter == syntax::kNumber;
+}
+
+/// Whether a G of the line, or the number of one that has lost its letter, cannot be read: which motion and which modes
+/// are in force after it is not known. G91.1 can be read, and is another control's.
+bool hides_a_g(const LineTree& line) {
+  return starts_with_lost_letter(line) || std::any_of(line.words.begin(), line.words.end(), [](const Word& word) {
+           return word.letter == 'G' && word.has(Word::kMissing | Word::kMalformed | Word::kReported) &&
+                  !word.has(Word::kPoint);
+         });
+}
+
 /// The center of an arc as it reads from the other origin. What adds up of numbers with few decimals has few itself.
 LineRewrite with_other_center(const LineTree& line, std::uint64_t number, const ArcOfProgram& arc) {
   const PlanePoint center = arc.readings.other_center;
@@ -59,16 +74,21 @@ class CenterSurvey {
       is_contradicted_ = true;
       return;
     }
-    if (is_legal && !readings.nearly_fits_other(tolerance_)) add_unknown();
     has_open_ |= is_legal;
+    if (!readings.fits_other(tolerance_)) {
+      // What fits neither way stays a finding; what is legal, and would not be, must not stay without one.
+      if (is_legal) add_unknown();
+      return;
+    }
     if (readings.shows_other_origin(tolerance_)) certain_.push_back(rewrites_.size());
     rewrites_.push_back(std::move(rewrite));
   }
 
   bool is_shown() const { return is_shown_; }
+  bool is_open() const { return (has_open_ || has_unknown_) && !is_contradicted_; }
 
-  /// All centers, where nothing contradicts the habit; where some arcs do, those that fit in no other way, unless more
-  /// are legal both ways.
+  /// All centers that fit from the other origin, where nothing contradicts the habit; where some arcs do, those that
+  /// fit in no other way, unless more are legal both ways.
   HabitRewrites rewrites() {
     if (!is_shown_ || has_unknown_ || (is_contradicted_ && has_open_)) return {};
     if (!is_contradicted_) return std::move(rewrites_);
@@ -101,8 +121,14 @@ void Habits::find_centers() {
   CenterSurvey absolute(tolerance);
   CenterSurvey incremental(tolerance);
   for (std::uint64_t number = 0; number < program_.line_count(); ++number) {
-    if (program_.text(number).find_first_of("IJKijk") == std::string_view::npos) continue;
-    if (!has_centers(line(number)) || !program_.is_read(number)) continue;
+    const bool is_concerned = has_centers(line(number));
+    if (!is_concerned && !hides_a_g(line(number))) continue;
+    if (!program_.is_read(number)) continue;
+    if (!is_concerned || hides_a_g(line(number))) {
+      absolute.add_unknown();
+      incremental.add_unknown();
+      continue;
+    }
     const std::optional<execution::State> before = program_.state_before(number);
     const LineTree tree = line(number);
     const bool is_short = tree.text.size() <= kLongestLine;
@@ -115,7 +141,8 @@ void Habits::find_centers() {
   }
   for (const auto& [habit, survey] :
        {std::pair{Habit::CentersInG90, &absolute}, std::pair{Habit::CentersInG91, &incremental}})
-    found_[static_cast<std::size_t>(habit)] = {.rewrites = survey->rewrites(), .is_shown = survey->is_shown()};
+    found_[static_cast<std::size_t>(habit)] = {
+        .rewrites = survey->rewrites(), .is_shown = survey->is_shown(), .is_open = survey->is_open()};
 }
 
 /// G20 and G21 are inches and millimeters on other controls: a program changed by half would mix them.
@@ -187,6 +214,8 @@ const Habits::Found& Habits::found(Habit habit) {
 const HabitRewrites& Habits::rewrites(Habit habit) { return found(habit).rewrites; }
 
 bool Habits::shows(Habit habit) { return found(habit).is_shown; }
+
+bool Habits::leaves_open(Habit habit) { return found(habit).is_open; }
 
 bool Habits::separates_thousands() {
   if (separates_thousands_) return *separates_thousands_;

@@ -33,6 +33,8 @@ class Habits {
   const HabitRewrites& rewrites(Habit habit);
   /// Whether a place of the program has the habit and cannot be meant otherwise.
   bool shows(Habit habit);
+  /// Whether places of the program are legal as they are and with the habit, and nothing contradicts it.
+  bool leaves_open(Habit habit);
   /// Whether a number of the program has commas between its thousands: 1,234.5.
   bool separates_thousands();
 
@@ -40,6 +42,7 @@ class Habits {
   struct Found {
     HabitRewrites rewrites;
     bool is_shown = false;
+    bool is_open = false;
   };
 
   /// Valid until the next call. Program::line() may be in use by who asks for a habit.

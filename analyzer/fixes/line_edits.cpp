@@ -76,6 +76,14 @@ const Instruction* owner_of(const LineTree& line, const Word& word) {
   return owner != line.instructions.end() ? &*owner : nullptr;
 }
 
+bool lacks_frame_arguments(const LineTree& line, const Word& g) {
+  const Instruction* const owner = owner_of(line, g);
+  const bool is_frame = owner && owner->g() && owner->g()->group == dialect::ModalGroup::Face;
+  const Word* const next = &g + 1;
+  return is_frame && next != line.words.data() + line.words.size() && next->owner != owner->number &&
+         dialect::contains(dialect::kDimensionLetters, next->letter);
+}
+
 const Word* first_word(const LineTree& line) {
   const auto first =
       std::find_if(line.words.begin(), line.words.end(), [](const Word& word) { return word.letter != 'N'; });

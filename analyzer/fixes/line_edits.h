@@ -29,6 +29,9 @@ std::string_view trimmed(std::string_view text);
 const syntax::Word* word_at(const syntax::LineTree& line, syntax::Span span);
 /// The instruction that the word belongs to, or null.
 const syntax::Instruction* owner_of(const syntax::LineTree& line, const syntax::Word& word);
+/// Whether the word is the G of a frame and a dimension stands directly after it that is none of its arguments, as in
+/// G27 X5: what it was meant for is not known.
+bool lacks_frame_arguments(const syntax::LineTree& line, const syntax::Word& g);
 /// The first word that is no line number, or null.
 const syntax::Word* first_word(const syntax::LineTree& line);
 

@@ -88,7 +88,7 @@ Draft on_its_own_line(const Request& request) {
   const LineTree& line = request.line;
   const Instruction* const alone = marked_instruction(request);
   if (!alone || (alone->kind == InstructionKind::G && !alone->g()) || !takes_all_its_words(line, *alone)) return {};
-  if (has_another_finding(request)) return {};
+  if (has_another_finding(request) || lacks_frame_arguments(line, line.command(*alone))) return {};
   const std::optional<Extent> extent = extent_of(line, *alone);
   if (!extent || !speeds_stay_with_motions(line, *extent)) return {};
   const bool may_be_followed =

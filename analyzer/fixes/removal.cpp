@@ -23,8 +23,40 @@ Draft removed_mark(const Request& request) {
   return {{removed_with_line(request, request.finding.span)}};
 }
 
+/// Whether all other words belong to what they belonged to once the marked one is gone, as the X of G01 G27 X5 does
+/// not.
+static bool keeps_other_words(const Request& request) {
+  const Word* const marked = word_at(request.line, request.finding.span);
+  if (marked && lacks_frame_arguments(request.line, *marked)) return false;
+  const LineTree& before = request.line;
+  std::string text(before.text);
+  text.replace(request.finding.span.begin, request.finding.span.end - request.finding.span.begin, " ");
+  const syntax::ParsedLine parsed(text);
+  const LineTree after = parsed.tree();
+  const auto command_of = [](const LineTree& line, const Word& word) -> const Word* {
+    const Instruction* const owner = owner_of(line, word);
+    return owner ? &line.command(*owner) : nullptr;
+  };
+  const auto same = [](const Word* a, const Word* b) {
+    return (a == nullptr) == (b == nullptr) &&
+           (a == nullptr || (a->letter == b->letter && (a->value == b->value || (!a->known() && !b->known()))));
+  };
+  std::size_t next = 0;
+  for (const Word& word : before.words) {
+    if (word.span() == request.finding.span) continue;
+    if (next == after.words.size()) return false;
+    const Word& there = after.words[next++];
+    const bool is_the_same = same(&word, &there) && word.has(Word::kBreak) == there.has(Word::kBreak) &&
+                             same(command_of(before, word), command_of(after, there));
+    if (!is_the_same) return false;
+  }
+  return next == after.words.size();
+}
+
 /// What changes nothing on one path may be needed on another.
-Draft removed_on_every_path(const Request& request) { return request.on_every_path ? removed_mark(request) : Draft{}; }
+Draft removed_on_every_path(const Request& request) {
+  return request.on_every_path && keeps_other_words(request) ? removed_mark(request) : Draft{};
+}
 
 /// The word that the marked one repeats.
 static Span first_of_two(const Request& request) {

@@ -9,6 +9,8 @@
 #include <regex>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "analyzer/check_text.h"
 #include "analyzer/finding_fixes.h"
 #include "analyzer/fixer.h"
@@ -148,6 +150,30 @@ TEST(OfferedFixes, AreTriedWhereTheyAreMadeWhateverItCosts) {
   FindingFixes fixes(text, report, setup);
   EXPECT_GT(report.findings.size(), 2'999u);
   for (const LocatedFinding& located : report.findings) ASSERT_FALSE(fixes.offered(located)) << located.line;
+}
+
+/// A center with a finding of its own is not rewritten before that is mended: I=-5 would become I105=-5.
+TEST(ArcFixes, MendAWordBeforeItIsRewritten) {
+  const auto program = [](std::string_view evidence, std::string_view turn) {
+    return fmt::format("M06 T101001\nG00 X110 Y105\nG03 X115 Y110 {} F1000\nG01 X110 Y110\nG02 X110 Y110 {}\nM02\n",
+                       evidence, turn);
+  };
+  EXPECT_EQ(fixed(program("I0 J5", "I=-5 J0"), true), program("I110 J110", "I105 J110"));
+}
+
+/// Many centers of one habit are tried, and shown, in no time that grows with their square.
+TEST(ArcFixes, OfManyCentersAreMadeAtOnce) {
+  std::string text = "M06 T101001\nG00 X110 Y105\nG03 X115 Y110 I0 J5 F1000\n";
+  for (int i = 0; i < 20'000; ++i) text += i % 2 == 0 ? "G02 X105 Y110 I-5 J0\n" : "G02 X115 Y110 I5 J0\n";
+  text += "M02\n";
+  const execution::Setup setup;
+  const Report report = support::found_in(text);
+  FindingFixes fixes(text, report, setup);
+  std::size_t in_full = 0;
+  for (const LocatedFinding& located : report.findings)
+    if (const auto fix = fixes.offered_in_full(located)) in_full += fix->edits.size();
+  EXPECT_EQ(in_full, 2u * 20'001);
+  EXPECT_TRUE(codes_of(fixed(text, true)).empty());
 }
 
 /// Arcs are mended by the tolerance of the machine: up to ten times as far, and to within half of it.
