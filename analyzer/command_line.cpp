@@ -4,11 +4,11 @@
 
 #include <cstdlib>
 
-#include "analyzer/renderers.h"
-#include "interpreter/configuration/source_options.h"
+#include "analyzer/formats/renderers.h"
+#include "interpreter/command_line/program_app.h"
+#include "interpreter/command_line/source_options.h"
 #include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/dialect/locale.h"
-#include "interpreter/running/program_app.h"
 
 namespace isocnc::analyzer {
 
@@ -45,7 +45,7 @@ static std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-static void add_options(running::ProgramApp& program, Options& options) {
+static void add_options(command_line::ProgramApp& program, Options& options) {
   static constexpr dialect::Text kCodes = {"CODES", "CODICI"};
   program.add_option(
       "PATH", options.paths, {"...", "..."},
@@ -69,13 +69,13 @@ static void add_options(running::ProgramApp& program, Options& options) {
       .add_option("--severity", options.wishes.severities, {"CODE=LEVEL", "CODICE=LIVELLO"},
                   {"Weigh it as error, warning, info or off", "Gli dà il peso error, warning, info oppure off"})
       .takes_one();
-  const running::ProgramOption baseline =
-      program.add_option("--baseline", options.baseline, running::kFileValue,
+  const command_line::ProgramOption baseline =
+      program.add_option("--baseline", options.baseline, command_line::kFileValue,
                          {"Not the findings recorded in this file", "Non le segnalazioni registrate in questo file"});
-  const running::ProgramOption write_baseline =
+  const command_line::ProgramOption write_baseline =
       program
           .add_option(
-              "--write-baseline", options.write_baseline, running::kFileValue,
+              "--write-baseline", options.write_baseline, command_line::kFileValue,
               {"Record all findings in this file instead", "Registra invece tutte le segnalazioni in questo file"})
           .excludes(baseline);
 
@@ -87,16 +87,17 @@ static void add_options(running::ProgramApp& program, Options& options) {
       .excludes(write_baseline);
   program.add_flag("--unsafe-fixes", options.unsafe_fixes,
                    {"Count fixes as well that are likely, not certain", "Anche le correzioni probabili ma non certe"});
-  const running::ProgramOption diff = program.add_flag(
+  const command_line::ProgramOption diff = program.add_flag(
       "--diff", options.diff,
       {"Show what --fix would change, and change nothing", "Mostra che cosa cambierebbe --fix, senza cambiarlo"});
   diff.tells_no_exclusions().excludes(write_baseline);
 
   program.begin_group({"How it is shown", "Come mostrarlo"});
-  const std::string formats = listed(format_names());
-  diff.excludes(program.add_choice("--format", options.format, format_names(), {"NAME", "NOME"}, {formats, formats}));
+  const std::string formats = listed(formats::format_names());
+  diff.excludes(
+      program.add_choice("--format", options.format, formats::format_names(), {"NAME", "NOME"}, {formats, formats}));
   program
-      .add_option("--output", options.output, running::kFileValue,
+      .add_option("--output", options.output, command_line::kFileValue,
                   {"Write to this file, not to standard output", "Scrive in questo file, non sullo standard output"})
       .check([](const std::string& given) { return std::string(given.empty() ? "no name" : ""); });
   program
@@ -126,7 +127,7 @@ static void add_options(running::ProgramApp& program, Options& options) {
       .add_option("--jobs,-j", options.jobs, {"N", "N"},
                   {"Threads; else one per core", "Thread; altrimenti uno per core"})
       .in_range(1, 1024);
-  configuration::add_source_options(
+  command_line::add_source_options(
       program, options.source,
       {"Read this, not the isocnc.json above each program", "Legge questo, non l'isocnc.json sopra ogni programma"});
   program.add_flag(
@@ -145,7 +146,7 @@ static void add_options(running::ProgramApp& program, Options& options) {
 
 CommandLine read_command_line(int argc, const char* const* argv) {
   CommandLine read;
-  running::ProgramApp program(
+  command_line::ProgramApp program(
       argc, argv,
       {"Checks ISOCNC programs and reports what the control would stop at.",
        "Verifica i programmi ISOCNC e segnala dove il controllo si fermerebbe."},

@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "analyzer/check_text.h"
-#include "analyzer/finding_fixes.h"
+#include "analyzer/check/check_text.h"
 #include "analyzer/fixes/fix_table.h"
-#include "analyzer/suppressions.h"
+#include "analyzer/fixing/finding_fixes.h"
+#include "analyzer/selection/suppressions.h"
 #include "interpreter/configuration/show.h"
 #include "interpreter/syntax/unicode.h"
 
@@ -100,9 +100,9 @@ static std::string shown(std::string_view program) {
 static std::optional<fixes::Fix> fix_of_wrong_program(DiagnosticId id) {
   const std::string wrong = read_marked(dialect::definition(id).wrong).text;
   const execution::Setup setup;
-  const Report report = suppress(check_text(wrong, setup), wrong, {});
-  FindingFixes fixes(wrong, report, setup);
-  for (const LocatedFinding& located : report.findings)
+  const check::Report report = selection::suppress(check::check_text(wrong, setup), wrong, {});
+  fixing::FindingFixes fixes(wrong, report, setup);
+  for (const check::LocatedFinding& located : report.findings)
     if (located.finding.id == id) return fixes.offered(located);
   return std::nullopt;
 }

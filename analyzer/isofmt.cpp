@@ -7,30 +7,30 @@
 
 #include <fmt/format.h>
 
-#include "analyzer/files.h"
-#include "analyzer/program_formatter.h"
-#include "analyzer/unified_diff.h"
+#include "analyzer/fixing/unified_diff.h"
+#include "analyzer/formatting/program_formatter.h"
+#include "analyzer/input/files.h"
+#include "interpreter/command_line/program_app.h"
+#include "interpreter/command_line/program_main.h"
+#include "interpreter/command_line/progress.h"
+#include "interpreter/command_line/source_options.h"
 #include "interpreter/configuration/configurations.h"
-#include "interpreter/configuration/source_options.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/locale.h"
-#include "interpreter/running/output_file.h"
-#include "interpreter/running/program_app.h"
-#include "interpreter/running/program_main.h"
-#include "interpreter/running/progress.h"
-#include "interpreter/running/replace_file.h"
-#include "interpreter/running/source_file.h"
-#include "interpreter/running/system_texts.h"
 #include "interpreter/syntax/unicode.h"
+#include "interpreter/system/output_file.h"
+#include "interpreter/system/replace_file.h"
+#include "interpreter/system/source_file.h"
+#include "interpreter/system/system_texts.h"
 
 namespace isocnc::analyzer {
 namespace {
 
 using dialect::Language;
 using dialect::Text;
-using running::SourceFile;
+using system::SourceFile;
 
-enum ExitStatus { kDone = 0, kWouldChange = 1, kTrouble = running::kTroubleStatus };
+enum ExitStatus { kDone = 0, kWouldChange = 1, kTrouble = command_line::kTroubleStatus };
 
 enum class Mode { Check, Diff, Stdout, InPlace };
 
@@ -62,7 +62,7 @@ struct Options {
   }
 };
 
-void complain(std::string_view what) { running::complain("isofmt", what); }
+void complain(std::string_view what) { command_line::complain("isofmt", what); }
 
 constexpr Text kWrongRenumber{"--renumber wants a start and a step, such as 10:10 or 5:5, or keep, not {}",
                               "--renumber vuole un inizio e un passo, come 10:10 o 5:5, oppure keep, non {}"};
@@ -77,8 +77,8 @@ constexpr Text kWouldBeChanged{"{} of {} programs would be changed", "programmi 
 constexpr Text kWereChanged{"{} of {} programs changed", "programmi modificati: {} di {}"};
 
 /// 10:10; the step is at least 1.
-std::optional<NumberStyle> read_numbers(std::string_view text) {
-  NumberStyle style;
+std::optional<formatting::NumberStyle> read_numbers(std::string_view text) {
+  formatting::NumberStyle style;
   const char* const end = text.data() + text.size();
   const auto start = std::from_chars(text.data(), end, style.start);
   if (start.ec != std::errc{} || start.ptr == end || *start.ptr != ':') return std::nullopt;
@@ -96,12 +96,12 @@ void outweigh(std::optional<int>& value, const std::string& option) {
 }
 
 /// The configuration's style with what the command line says in its place. The options have been checked.
-ProgramStyle wished_style(configuration::Format format, const Options& options) {
+formatting::ProgramStyle wished_style(configuration::Format format, const Options& options) {
   if (options.word_order || options.no_word_order) format.word_order = options.word_order;
   outweigh(format.decimals, options.decimals);
   outweigh(format.g_digits, options.g_digits);
   if (!options.modal.empty()) format.modal = options.modal;
-  ProgramStyle style = style_by(format);
+  formatting::ProgramStyle style = formatting::style_by(format);
   if (!options.renumber.empty()) style.numbers = read_numbers(options.renumber);
   const bool numbers_all = options.renumber_all || (format.renumber && format.renumber->all_lines);
   if (style.numbers && numbers_all) style.numbers->all_lines = true;
@@ -134,15 +134,15 @@ std::vector<std::string> decimals_choices() {
 /// Formats programs one after another.
 class Run {
  public:
-  Run(const Options& options, const FileSelection& selection)
+  Run(const Options& options, const input::FileSelection& selection)
       : options_(options),
         selection_(selection),
         mode_(options.mode()),
         language_(options.reader_language()),
-        progress_(shares_terminal() ? nullptr : running::terminal_writer(), bytes_of(selection.files)) {}
+        progress_(shares_terminal() ? nullptr : command_line::terminal_writer(), input::bytes_of(selection.files)) {}
 
   /// `styles` has one for each file.
-  int run(const std::vector<ProgramStyle>& styles) {
+  int run(const std::vector<formatting::ProgramStyle>& styles) {
     trouble_ = !selection_.problems.empty();
     for (std::size_t i = 0; i < selection_.files.size(); ++i) {
       format_file(selection_.files[i], styles[i]);
@@ -150,7 +150,7 @@ class Run {
     }
     progress_.clear();
     if (output_.flush() != 0) {
-      complain(fmt::format("<stdout>: {}", running::cannot_write(output_.error(), language_)));
+      complain(fmt::format("<stdout>: {}", system::cannot_write(output_.error(), language_)));
       return kTrouble;
     }
     if (mode_ != Mode::Stdout) {
@@ -171,17 +171,17 @@ class Run {
     trouble_ = true;
   }
 
-  void format_file(const std::filesystem::path& file, const ProgramStyle& style) {
+  void format_file(const std::filesystem::path& file, const formatting::ProgramStyle& style) {
     const bool from_stdin = file == "-";
     const std::string name = from_stdin ? options_.stdin_name : file.string();
-    std::optional<running::FileReplacement> replacement;
+    std::optional<system::FileReplacement> replacement;
     if (mode_ == Mode::InPlace) replacement.emplace(file);  // Before the file is read.
     const auto opened =
         from_stdin ? SourceFile::read_stream(STDIN_FILENO, language_) : SourceFile::open(file, language_);
     if (const auto* problem = std::get_if<SourceFile::Problem>(&opened)) return fail(name, problem->message);
     const auto& source = std::get<SourceFile>(opened);
     ++read_;
-    ProgramFormatter formatter(source.text(), style);
+    formatting::ProgramFormatter formatter(source.text(), style);
     if (const auto& obstacle = formatter.obstacle())
       return fail(name, dialect::format(kNotRenumbered, language_, obstacle->message(language_)));
     told_ = 0;
@@ -202,8 +202,8 @@ class Run {
     progress_.add(source.text().size() - told_);
   }
 
-  std::optional<FormattedPiece> next_piece(ProgramFormatter& formatter) {
-    const std::optional<FormattedPiece> piece = formatter.next();
+  std::optional<formatting::FormattedPiece> next_piece(formatting::ProgramFormatter& formatter) {
+    const std::optional<formatting::FormattedPiece> piece = formatter.next();
     if (piece) {
       told_ += piece->before.size();
       progress_.add(piece->before.size());
@@ -211,7 +211,7 @@ class Run {
     return piece;
   }
 
-  void check(ProgramFormatter& formatter, const std::string& name) {
+  void check(formatting::ProgramFormatter& formatter, const std::string& name) {
     while (const auto piece = next_piece(formatter)) {
       if (!piece->is_changed()) continue;
       ++changed_;
@@ -219,26 +219,26 @@ class Run {
     }
   }
 
-  void show_difference(ProgramFormatter& formatter, const std::string& name, bool has_byte_order_mark) {
-    UnifiedDiff diff(name, has_byte_order_mark, [&](std::string_view text) { output_.write(text); });
+  void show_difference(formatting::ProgramFormatter& formatter, const std::string& name, bool has_byte_order_mark) {
+    fixing::UnifiedDiff diff(name, has_byte_order_mark, [&](std::string_view text) { output_.write(text); });
     while (const auto piece = next_piece(formatter)) diff.add(piece->before, piece->after);
     diff.finish();
     changed_ += diff.has_changes() ? 1 : 0;
   }
 
-  void print(ProgramFormatter& formatter, const SourceFile& source) {
-    if (source.has_byte_order_mark()) output_.write(running::kByteOrderMark);
+  void print(formatting::ProgramFormatter& formatter, const SourceFile& source) {
+    if (source.has_byte_order_mark()) output_.write(system::kByteOrderMark);
     while (const auto piece = next_piece(formatter)) output_.write(piece->after);
   }
 
   /// A file that is as it should be is not touched at all.
-  void replace(ProgramFormatter& formatter, const SourceFile& source, running::FileReplacement& replacement,
+  void replace(formatting::ProgramFormatter& formatter, const SourceFile& source, system::FileReplacement& replacement,
                const std::string& name) {
     bool is_changed = false;
     while (const auto piece = next_piece(formatter)) {
       if (!is_changed && !piece->is_changed()) continue;
       if (!is_changed) {
-        if (source.has_byte_order_mark()) replacement.write(running::kByteOrderMark);
+        if (source.has_byte_order_mark()) replacement.write(system::kByteOrderMark);
         const std::string_view text = source.text();
         replacement.write(text.substr(0, static_cast<std::size_t>(piece->before.data() - text.data())));
         is_changed = true;
@@ -251,12 +251,12 @@ class Run {
   }
 
   const Options& options_;
-  const FileSelection& selection_;
+  const input::FileSelection& selection_;
   const Mode mode_;
   const Language language_;
-  running::Progress progress_;
+  command_line::Progress progress_;
   std::size_t told_ = 0;  // Bytes of the file that the bar knows of.
-  running::OutputFile output_{STDOUT_FILENO};
+  system::OutputFile output_{STDOUT_FILENO};
   std::size_t read_ = 0;
   std::size_t changed_ = 0;
   bool trouble_ = false;
@@ -265,15 +265,15 @@ class Run {
 /// Takes the first path's configuration for the language, too: one command speaks one.
 int format(Options options) {
   configuration::Configurations configurations(options.source, options.reader_language());
-  const auto& first = configurations.of(place_of_program(options.paths.front(), options.stdin_name));
+  const auto& first = configurations.of(input::place_of_program(options.paths.front(), options.stdin_name));
   if (options.language.empty() && first.language) options.language = dialect::name_of(*first.language);
   const Language language = options.reader_language();
   if (!check_options(options)) return kTrouble;
-  const FileSelection selection = select_programs(options.paths, configurations, language);
-  std::vector<ProgramStyle> styles;
+  const input::FileSelection selection = input::select_programs(options.paths, configurations, language);
+  std::vector<formatting::ProgramStyle> styles;
   for (const std::filesystem::path& file : selection.files)
     styles.push_back(wished_style(
-        configurations.in_folder(place_of_program(file, options.stdin_name).parent_path()).format, options));
+        configurations.in_folder(input::place_of_program(file, options.stdin_name).parent_path()).format, options));
   const std::vector<std::string> mistakes = configurations.mistakes(language);
   for (const std::string& mistake : mistakes) std::cerr << mistake << '\n';
   if (!mistakes.empty()) return kTrouble;
@@ -290,7 +290,7 @@ int format(Options options) {
   return Run(options, selection).run(styles);
 }
 
-void add_options(running::ProgramApp& program, Options& options) {
+void add_options(command_line::ProgramApp& program, Options& options) {
   program
       .add_option("PATH", options.paths, {"...", "..."},
                   {"Programs, directories (searched for .iso .nc .cnc\n.tap .ngc), or - for standard input",
@@ -298,7 +298,7 @@ void add_options(running::ProgramApp& program, Options& options) {
       .required();
 
   program.begin_group({"What to do", "Che cosa fare"});
-  const running::ProgramOption modes[] = {
+  const command_line::ProgramOption modes[] = {
       program.add_flag("--check", options.check,
                        {"Name the programs that would be changed", "Elenca i programmi da modificare"}),
       program.add_flag("--diff", options.diff, {"Show what would be changed", "Mostra che cosa cambierebbe"}),
@@ -307,16 +307,17 @@ void add_options(running::ProgramApp& program, Options& options) {
                         "Stampa il programma formattato; così anche senza\nnessuna di queste"}),
       program.add_flag("-i,--in-place", options.in_place, {"Rewrite the programs", "Riscrive i programmi"}),
   };
-  for (const running::ProgramOption& mode : modes)
-    for (const running::ProgramOption& other : modes)
+  for (const command_line::ProgramOption& mode : modes)
+    for (const command_line::ProgramOption& other : modes)
       if (&mode != &other) mode.excludes(other).tells_no_exclusions();
 
   program.begin_group({"What programs are to look like", "Come scrivere i programmi"});
-  const running::ProgramOption word_order = program
-                                                .add_flag("--word-order", options.word_order,
-                                                          {"N first, arguments as X Y Z A B C I J K P Q R,\nthen F",
-                                                           "Prima N, argomenti come X Y Z A B C I J K P Q R,\npoi F"})
-                                                .tells_no_exclusions();
+  const command_line::ProgramOption word_order =
+      program
+          .add_flag("--word-order", options.word_order,
+                    {"N first, arguments as X Y Z A B C I J K P Q R,\nthen F",
+                     "Prima N, argomenti come X Y Z A B C I J K P Q R,\npoi F"})
+          .tells_no_exclusions();
   program
       .add_flag("--no-word-order", options.no_word_order,
                 {"Words in the order in which they stand", "Parole nell'ordine in cui si trovano"})
@@ -341,14 +342,14 @@ void add_options(running::ProgramApp& program, Options& options) {
                      {"What to call standard input", "Come chiamare lo standard input"});
   program.add_language(options.language,
                        {"en or it; else as the locale says", "en o it; altrimenti secondo il locale"});
-  configuration::add_source_options(
+  command_line::add_source_options(
       program, options.source,
       {"Read this, not the isocnc.json above each program", "Legge questo, non l'isocnc.json sopra ogni programma"});
 }
 
 int run_main(int argc, char** argv) {
   Options options;
-  running::ProgramApp program(
+  command_line::ProgramApp program(
       argc, argv,
       {"Formats ISOCNC programs. What a program does stays as it is.",
        "Formatta i programmi ISOCNC. Ciò che un programma fa non cambia."},
@@ -374,5 +375,5 @@ int run_main(int argc, char** argv) {
 }  // namespace isocnc::analyzer
 
 int main(int argc, char** argv) {
-  return isocnc::running::program_main("isofmt", isocnc::analyzer::run_main, argc, argv);
+  return isocnc::command_line::program_main("isofmt", isocnc::analyzer::run_main, argc, argv);
 }

@@ -11,37 +11,37 @@
 
 #include <fmt/format.h>
 
-#include "analyzer/baseline.h"
-#include "analyzer/check_text.h"
+#include "analyzer/check/check_text.h"
+#include "analyzer/check/side_by_side.h"
 #include "analyzer/command_line.h"
 #include "analyzer/explain.h"
-#include "analyzer/files.h"
-#include "analyzer/fixer.h"
-#include "analyzer/program_fixing.h"
-#include "analyzer/program_settings.h"
-#include "analyzer/renderers.h"
-#include "analyzer/shown_report.h"
-#include "analyzer/side_by_side.h"
-#include "analyzer/tally.h"
+#include "analyzer/fixing/fixer.h"
+#include "analyzer/fixing/program_fixing.h"
+#include "analyzer/formats/renderers.h"
+#include "analyzer/input/files.h"
+#include "analyzer/selection/baseline.h"
+#include "analyzer/selection/program_settings.h"
+#include "analyzer/selection/shown_report.h"
+#include "analyzer/selection/tally.h"
+#include "interpreter/command_line/program_main.h"
+#include "interpreter/command_line/progress.h"
 #include "interpreter/configuration/show.h"
 #include "interpreter/dialect/format.h"
-#include "interpreter/running/output_file.h"
-#include "interpreter/running/program_main.h"
-#include "interpreter/running/progress.h"
-#include "interpreter/running/same_file.h"
-#include "interpreter/running/source_file.h"
-#include "interpreter/running/system_texts.h"
+#include "interpreter/system/output_file.h"
+#include "interpreter/system/same_file.h"
+#include "interpreter/system/source_file.h"
+#include "interpreter/system/system_texts.h"
 
 namespace isocnc::analyzer {
 namespace {
 
 using namespace dialect::literals;
 using dialect::Language;
-using running::SourceFile;
+using system::SourceFile;
 
-enum ExitStatus { kClean = 0, kFindings = 1, kTrouble = running::kTroubleStatus };
+enum ExitStatus { kClean = 0, kFindings = 1, kTrouble = command_line::kTroubleStatus };
 
-void complain(std::string_view what) { running::complain("isolint", what); }
+void complain(std::string_view what) { command_line::complain("isolint", what); }
 
 /// Tells what is wrong with the configurations read so far; false when there is nothing.
 bool complain_of(const configuration::Configurations& configurations, Language language) {
@@ -51,19 +51,19 @@ bool complain_of(const configuration::Configurations& configurations, Language l
 }
 
 /// Where findings and all other answers go.
-class Answer final : public Output {
+class Answer final : public formats::Output {
  public:
   explicit Answer(const Options& options)
       : path_(options.output),
         language_(options.reader_language()),
         descriptor_(options.prints_program() ? STDERR_FILENO : STDOUT_FILENO),
-        file_(path_.empty() ? running::OutputFile(descriptor_) : running::OutputFile(std::filesystem::path(path_))) {}
+        file_(path_.empty() ? system::OutputFile(descriptor_) : system::OutputFile(std::filesystem::path(path_))) {}
 
   /// Writes all of it; false, after a complaint, when anything has been lost.
   bool finish() {
     flush();
     const std::string standard = descriptor_ == STDOUT_FILENO ? "<stdout>" : "<stderr>";
-    const std::optional<std::string> problem = running::commit(file_, path_.empty() ? standard : path_, language_);
+    const std::optional<std::string> problem = system::commit(file_, path_.empty() ? standard : path_, language_);
     if (problem) complain(*problem);
     return !problem;
   }
@@ -76,7 +76,7 @@ class Answer final : public Output {
   const std::string path_;
   const Language language_;
   const int descriptor_;
-  running::OutputFile file_;
+  system::OutputFile file_;
 };
 
 /// Prints an answer that is no finding.
@@ -89,14 +89,14 @@ ExitStatus say(std::string_view text, const Options& options) {
 /// What is to be checked, and how: one for each file.
 struct Programs {
   std::vector<std::filesystem::path> files;
-  std::vector<std::reference_wrapper<const ProgramSettings>> settings;
+  std::vector<std::reference_wrapper<const selection::ProgramSettings>> settings;
 };
 
 /// Checks files side by side and shows what was found in their order.
 class Run {
  public:
-  Run(const Options& options, const Style& style, std::unique_ptr<Renderer> renderer, std::optional<Baseline> baseline,
-      Programs programs)
+  Run(const Options& options, const formats::Style& style, std::unique_ptr<formats::Renderer> renderer,
+      std::optional<selection::Baseline> baseline, Programs programs)
       : options_(options),
         style_(style),
         baseline_(std::move(baseline)),
@@ -104,7 +104,7 @@ class Run {
         settings_(std::move(programs.settings)),
         renderer_(std::move(renderer)),
         jobs_(options.jobs > 0 ? options.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
-        progress_(running::terminal_writer(), bytes_of(files_)),
+        progress_(command_line::terminal_writer(), input::bytes_of(files_)),
         output_(options) {}
 
   int run(bool trouble) {
@@ -115,12 +115,12 @@ class Run {
     }
     renderer_->begin(output_.buffer());
     const auto workers = std::min<std::size_t>(static_cast<std::size_t>(jobs_), files_.size());
-    side_by_side(static_cast<int>(workers), [this] { work(); });
+    check::side_by_side(static_cast<int>(workers), [this] { work(); });
     progress_.clear();
     renderer_->end(output_.buffer());
     if (!output_.finish()) return kTrouble;
     if (program_.flush() != 0) {
-      complain(fmt::format("<stdout>: {}", running::cannot_write(program_.error(), style_.language)));
+      complain(fmt::format("<stdout>: {}", system::cannot_write(program_.error(), style_.language)));
       return kTrouble;
     }
     if (options_.format == "text") {
@@ -137,9 +137,9 @@ class Run {
   struct Checked {
     std::string name;
     std::variant<SourceFile, SourceFile::Problem> opened;
-    const ProgramSettings& settings;
-    Report report = {};
-    std::optional<FixedText> fixed = {};
+    const selection::ProgramSettings& settings;
+    check::Report report = {};
+    std::optional<fixing::FixedText> fixed = {};
     std::optional<std::string> why_not_fixed = {};
 
     std::string_view original() const { return std::get<SourceFile>(opened).text(); }
@@ -157,9 +157,9 @@ class Run {
     }
   }
 
-  Checked check(const std::filesystem::path& path, const ProgramSettings& settings) {
+  Checked check(const std::filesystem::path& path, const selection::ProgramSettings& settings) {
     const bool from_stdin = path == "-";
-    std::optional<FileFixing> fixing;
+    std::optional<fixing::FileFixing> fixing;
     if (options_.fix && !options_.diff && !from_stdin) fixing.emplace(path);  // Before the file is read.
     Checked checked{
         from_stdin ? options_.stdin_name : path.string(),
@@ -179,7 +179,8 @@ class Run {
     const std::string_view text = source->text();
     std::size_t told = 0;
     const auto tell = [&](std::size_t bytes) { progress_.add(bytes - std::exchange(told, bytes)); };
-    Report report = shown_report(check_text(text, settings.setup, jobs_for(text), tell), text, settings.selection);
+    check::Report report = selection::shown_report(check::check_text(text, settings.setup, jobs_for(text), tell), text,
+                                                   settings.selection);
     const std::size_t all = report.findings.size();
     checked.report = without_known(std::move(report), checked.name, text);
     known_ += all - checked.report.findings.size();
@@ -188,20 +189,20 @@ class Run {
 
   void fix(Checked& checked) {
     const std::string_view text = checked.original();
-    const FixWishes wishes{.selection = checked.settings.selection,
-                           .setup = checked.settings.setup,
-                           .unsafe = options_.unsafe_fixes,
-                           .jobs = jobs_for(text),
-                           .concern = [&](Report report, std::string_view version) {
-                             return without_known(std::move(report), checked.name, version);
-                           }};
-    checked.fixed = fix_text(text, wishes);
+    const fixing::FixWishes wishes{.selection = checked.settings.selection,
+                                   .setup = checked.settings.setup,
+                                   .unsafe = options_.unsafe_fixes,
+                                   .jobs = jobs_for(text),
+                                   .concern = [&](check::Report report, std::string_view version) {
+                                     return without_known(std::move(report), checked.name, version);
+                                   }};
+    checked.fixed = fixing::fix_text(text, wishes);
     checked.report = checked.fixed->report;
   }
 
   int jobs_for(std::string_view text) const { return files_.size() == 1 || text.size() > kLargeFile ? jobs_ : 1; }
 
-  Report without_known(Report report, const std::string& name, std::string_view text) const {
+  check::Report without_known(check::Report report, const std::string& name, std::string_view text) const {
     return baseline_ ? baseline_->without_known(std::move(report), name, text) : report;
   }
 
@@ -220,8 +221,8 @@ class Run {
     ++files_checked_;
     if (checked.fixed) fixed_ += checked.fixed->fixed;
     if (options_.prints_program())
-      write_fixed(std::get<SourceFile>(checked.opened), *checked.fixed,
-                  [&](std::string_view text) { program_.write(text); });
+      fixing::write_fixed(std::get<SourceFile>(checked.opened), *checked.fixed,
+                          [&](std::string_view text) { program_.write(text); });
     if (output_.has_failed()) return;
     if (options_.diff) return show_difference(checked);
     renderer_->file({checked.name, checked.text(), checked.report, checked.settings.setup}, output_);
@@ -229,7 +230,7 @@ class Run {
 
   void show_difference(const Checked& checked) {
     const auto& source = std::get<SourceFile>(checked.opened);
-    has_difference_ |= write_diff(checked.name, source, *checked.fixed, [&](std::string_view text) {
+    has_difference_ |= fixing::write_diff(checked.name, source, *checked.fixed, [&](std::string_view text) {
       output_.buffer() += text;
       output_.relieve();
     });
@@ -274,21 +275,21 @@ class Run {
   static constexpr std::size_t kLargeFile = 8 * 1024 * 1024;
 
   const Options& options_;
-  const Style& style_;
-  const std::optional<Baseline> baseline_;
+  const formats::Style& style_;
+  const std::optional<selection::Baseline> baseline_;
   const std::vector<std::filesystem::path> files_;
-  const std::vector<std::reference_wrapper<const ProgramSettings>> settings_;
-  std::unique_ptr<Renderer> renderer_;
+  const std::vector<std::reference_wrapper<const selection::ProgramSettings>> settings_;
+  std::unique_ptr<formats::Renderer> renderer_;
   const int jobs_;
-  running::Progress progress_;
+  command_line::Progress progress_;
   std::atomic<std::size_t> next_ = 0;
   std::atomic<std::size_t> known_ = 0;  // Findings of the baseline.
   std::mutex mutex_;
   std::condition_variable turn_changed_;
   std::size_t turn_ = 0;  // With all below: guarded by mutex_.
   Answer output_;
-  Tally tally_;
-  running::OutputFile program_{STDOUT_FILENO};  // With --fix -.
+  selection::Tally tally_;
+  system::OutputFile program_{STDOUT_FILENO};  // With --fix -.
   std::size_t files_checked_ = 0;
   std::size_t fixed_ = 0;
   bool has_difference_ = false;
@@ -296,46 +297,46 @@ class Run {
 };
 
 /// Records findings in place of showing them.
-class Recorder final : public Renderer {
+class Recorder final : public formats::Renderer {
  public:
-  explicit Recorder(Baseline& baseline) : baseline_(baseline) {}
-  void file(const CheckedProgram& program, Output&) override {
+  explicit Recorder(selection::Baseline& baseline) : baseline_(baseline) {}
+  void file(const formats::CheckedProgram& program, formats::Output&) override {
     baseline_.add(program.name, program.text, program.report);
   }
 
  private:
-  Baseline& baseline_;
+  selection::Baseline& baseline_;
 };
 
 /// Checks, and writes all that is found as a baseline, unless programs would be missing in it.
-int record(Options options, const Style& style, Programs programs, bool trouble) {
+int record(Options options, const formats::Style& style, Programs programs, bool trouble) {
   const bool italian = style.language == Language::Italian;
   const std::string& file = options.write_baseline;
   options.exit_zero = true;  // What is recorded is nobody's failure.
-  Baseline baseline(file);
+  selection::Baseline baseline(file);
   if (Run(options, style, std::make_unique<Recorder>(baseline), {}, std::move(programs)).run(trouble) != kClean) {
     complain(fmt::format("{}: {}", file, italian ? "non scritto" : "not written"));
     return kTrouble;
   }
-  running::OutputFile output{std::filesystem::path(file)};
+  system::OutputFile output{std::filesystem::path(file)};
   output.write(baseline.to_json());
-  const std::optional<std::string> problem = running::commit(output, file, style.language);
+  const std::optional<std::string> problem = system::commit(output, file, style.language);
   if (problem) complain(*problem);
   return problem ? kTrouble : kClean;
 }
 
 /// The programs to be checked; none, after a complaint, when the check cannot begin.
 std::optional<Programs> find_programs(const Options& options, configuration::Configurations& configurations,
-                                      SettingsFinder& settings, bool& trouble) {
+                                      selection::SettingsFinder& settings, bool& trouble) {
   const Language language = options.reader_language();
-  FileSelection found = select_programs(options.paths, configurations, language);
+  input::FileSelection found = input::select_programs(options.paths, configurations, language);
   // Readers of JSON compare arrays, whatever order the files were named in.
   if (options.format == "json")
     std::sort(found.files.begin(), found.files.end(),
               [](const auto& a, const auto& b) { return a.native() < b.native(); });
   Programs programs{.files = std::move(found.files), .settings = {}};
   for (const std::filesystem::path& file : programs.files)
-    programs.settings.emplace_back(settings.of(place_of_program(file, options.stdin_name)));
+    programs.settings.emplace_back(settings.of(input::place_of_program(file, options.stdin_name)));
   if (complain_of(configurations, language)) return std::nullopt;
   for (const std::string& problem : found.problems) complain(problem);
   trouble = !found.problems.empty();
@@ -354,12 +355,12 @@ const dialect::Text* what_it_overwrites(const std::string& written, const Progra
   static constexpr dialect::Text kTwice = {"is written by --write-baseline", "viene scritto da --write-baseline"};
   const bool is_output = &written == &options.output;
   if (written.empty()) return nullptr;
-  if (is_output && running::is_same_file(written, options.baseline)) return &kBaseline;
-  if (is_output && running::is_same_file(written, options.write_baseline)) return &kTwice;
+  if (is_output && system::is_same_file(written, options.baseline)) return &kBaseline;
+  if (is_output && system::is_same_file(written, options.write_baseline)) return &kTwice;
   for (const std::filesystem::path& file : programs.files) {
-    if (running::is_same_file(written, file)) return &kProgram;
-    const std::filesystem::path place = place_of_program(file, options.stdin_name);
-    if (running::is_same_file(written, configurations.of(place).file)) return &kConfiguration;
+    if (system::is_same_file(written, file)) return &kProgram;
+    const std::filesystem::path place = input::place_of_program(file, options.stdin_name);
+    if (system::is_same_file(written, configurations.of(place).file)) return &kConfiguration;
   }
   return nullptr;
 }
@@ -368,21 +369,22 @@ const dialect::Text* what_it_overwrites(const std::string& written, const Progra
 int check(Options options) {
   if (options.paths.empty()) options.paths = {"."};
   configuration::Configurations configurations(options.source, options.reader_language());
-  options.follow(configurations.of(place_of_program(options.paths.front(), options.stdin_name)));
-  const Style style{
+  options.follow(configurations.of(input::place_of_program(options.paths.front(), options.stdin_name)));
+  const formats::Style style{
       .language = options.reader_language(), .color = options.wants_color(), .unsafe_fixes = options.unsafe_fixes};
-  const std::vector<std::string> problems = Selection().follow(options.wishes, style.language);
+  const std::vector<std::string> problems = selection::Selection().follow(options.wishes, style.language);
   for (const std::string& problem : problems) complain(problem);
   if (!problems.empty()) return kTrouble;
-  std::unique_ptr<Renderer> renderer =
-      options.statistics ? make_statistics_renderer(options.format, style) : make_renderer(options.format, style);
+  std::unique_ptr<formats::Renderer> renderer = options.statistics
+                                                    ? formats::make_statistics_renderer(options.format, style)
+                                                    : formats::make_renderer(options.format, style);
   if (!renderer) {
     complain(fmt::format("--statistics: {} text, concise, json",
                          style.language == Language::Italian ? "solo con --format" : "only with --format"));
     return kTrouble;
   }
   bool trouble = false;
-  SettingsFinder settings(configurations, options.wishes);
+  selection::SettingsFinder settings(configurations, options.wishes);
   auto programs = find_programs(options, configurations, settings, trouble);
   if (!programs) return kTrouble;
   for (const std::string* written : {&options.output, &options.write_baseline}) {
@@ -392,14 +394,14 @@ int check(Options options) {
     return kTrouble;
   }
   if (!options.write_baseline.empty()) return record(options, style, *std::move(programs), trouble);
-  std::optional<Baseline> baseline;
+  std::optional<selection::Baseline> baseline;
   if (!options.baseline.empty()) {
-    auto read = Baseline::read(options.baseline, style.language);
+    auto read = selection::Baseline::read(options.baseline, style.language);
     if (const auto* mistake = std::get_if<std::string>(&read)) {
       complain(*mistake);
       return kTrouble;
     }
-    baseline = std::get<Baseline>(std::move(read));
+    baseline = std::get<selection::Baseline>(std::move(read));
   }
   return Run(options, style, std::move(renderer), std::move(baseline), *std::move(programs)).run(trouble);
 }
@@ -407,7 +409,7 @@ int check(Options options) {
 int explain_code(const Options& options) {
   const Language language = options.reader_language();
   if (const auto id = dialect::find_diagnostic(options.explain)) return say(explain(*id, language), options);
-  complain(unknown_code(options.explain, language));
+  complain(selection::unknown_code(options.explain, language));
   return kTrouble;
 }
 
@@ -427,7 +429,7 @@ int show_config(Options options) {
   static constexpr dialect::Text kOnePath = {"--show-config takes one path", "--show-config vuole un solo percorso"};
   if (options.paths.empty()) options.paths = {"."};
   configuration::Configurations configurations(options.source, options.reader_language());
-  const std::filesystem::path place = place_of_program(options.paths.front(), options.stdin_name);
+  const std::filesystem::path place = input::place_of_program(options.paths.front(), options.stdin_name);
   const configuration::Configuration& shown = configurations.of(place);
   options.follow(shown);
   const Language language = options.reader_language();
@@ -447,7 +449,7 @@ int run_main(int argc, char** argv) {
   const CommandLine command = read_command_line(argc, argv);
   const Options& options = command.options;
   if (command.answer) return say(*command.answer, options);
-  if (command.complaint) return running::complain_of_command("isolint", *command.complaint);
+  if (command.complaint) return command_line::complain_of_command("isolint", *command.complaint);
   if (options.rules_page) return say(rules_page(), options);
   if (options.config_schema) return say(configuration::json_schema(), options);
   if (options.config_keys) return say(configuration::key_page(), options);
@@ -462,5 +464,5 @@ int run_main(int argc, char** argv) {
 }  // namespace isocnc::analyzer
 
 int main(int argc, char** argv) {
-  return isocnc::running::program_main("isolint", isocnc::analyzer::run_main, argc, argv);
+  return isocnc::command_line::program_main("isolint", isocnc::analyzer::run_main, argc, argv);
 }

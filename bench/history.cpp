@@ -1,6 +1,6 @@
 // What it costs to run a program on the simulated machine, and to go back in it: isocnc_history_benchmark FILE.
 
-#include "interpreter/running/history.h"
+#include "interpreter/simulation/history.h"
 
 #include <benchmark/benchmark.h>
 
@@ -12,19 +12,19 @@
 #include <string_view>
 #include <variant>
 
-#include "interpreter/running/source_file.h"
+#include "interpreter/system/source_file.h"
 
 namespace isocnc::running {
 namespace {
 
 /// The program, and a history that has come to its end.
 struct Case {
-  explicit Case(std::string_view text) : program(text), history(Simulation(program, options, machine)) {}
+  explicit Case(std::string_view text) : program(text), history(simulation::Simulation(program, options, machine)) {}
 
   Program program;
   RunOptions options;
-  TimedMachine machine;
-  History history;
+  simulation::TimedMachine machine;
+  simulation::History history;
 };
 
 void count_blocks(benchmark::State& state, std::uint64_t blocks) {
@@ -39,9 +39,9 @@ void interpret(benchmark::State& state, const Case& of) {
 }
 
 void simulate(benchmark::State& state, const Case& of) {
-  Simulation simulation(of.program, of.options, of.machine);
+  simulation::Simulation simulation(of.program, of.options, of.machine);
   for (auto _ : state) {
-    simulation = Simulation(of.program, of.options, of.machine);
+    simulation = simulation::Simulation(of.program, of.options, of.machine);
     simulation.advance_to(std::numeric_limits<double>::infinity());
   }
   count_blocks(state, simulation.blocks());
@@ -113,12 +113,12 @@ int run_main(int argc, char** argv) {
     std::fputs("usage: isocnc_history_benchmark [BENCHMARK OPTIONS] FILE\n", stderr);
     return 2;
   }
-  const auto opened = SourceFile::open(argv[1], dialect::Language::English);
-  if (const auto* const problem = std::get_if<SourceFile::Problem>(&opened)) {
+  const auto opened = system::SourceFile::open(argv[1], dialect::Language::English);
+  if (const auto* const problem = std::get_if<system::SourceFile::Problem>(&opened)) {
     std::fprintf(stderr, "%s: %s\n", argv[1], problem->message.c_str());
     return 2;
   }
-  Case of(std::get<SourceFile>(opened).text());
+  Case of(std::get<system::SourceFile>(opened).text());
   register_all(of);
   benchmark::RunSpecifiedBenchmarks();
   return 0;

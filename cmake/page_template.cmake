@@ -4,13 +4,13 @@
 #
 # Where npm is missing or gets no answer, the page is empty and a warning says so; with REQUIRED that is an error.
 
-set(empty_page "#include \"interpreter/running/page_template.h\"
+set(empty_page "#include \"interpreter/plot/page_template.h\"
 
-namespace isocnc::running {
+namespace isocnc::plot {
 
 const std::string_view kPageTemplate;
 
-}  // namespace isocnc::running
+}  // namespace isocnc::plot
 ")
 
 function(write_if_different text)

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "debugger/adapter.h"
+#include "interpreter/command_line/program_app.h"
+#include "interpreter/command_line/program_main.h"
 #include "interpreter/dialect/locale.h"
-#include "interpreter/running/program_app.h"
-#include "interpreter/running/program_main.h"
 #include "lsp/rpc/serve.h"
 
 namespace isocnc::debugger {
@@ -21,19 +21,19 @@ struct Options {
   std::string language;
 };
 
-void complain(std::string_view what) { running::complain("isodap", what); }
+void complain(std::string_view what) { command_line::complain("isodap", what); }
 
 int run(const Options& options) {
   const auto make = [&](rpc::Loop& loop, rpc::Send send) {
     return std::make_unique<Adapter>(loop, std::move(send), dialect::language_named(options.language));
   };
   rpc::serve(options.port, make, complain);
-  return running::kTroubleStatus;  // The port cannot be had.
+  return command_line::kTroubleStatus;  // The port cannot be had.
 }
 
 int run_main(int argc, char** argv) {
   Options options;
-  running::ProgramApp program(
+  command_line::ProgramApp program(
       argc, argv,
       {"The debug adapter for ISOCNC programs: an editor starts it and speaks with it.",
        "Il debug adapter per i programmi ISOCNC: un editor lo avvia e parla con lui."},
@@ -63,5 +63,5 @@ int run_main(int argc, char** argv) {
 }  // namespace isocnc::debugger
 
 int main(int argc, char** argv) {
-  return isocnc::running::program_main("isodap", isocnc::debugger::run_main, argc, argv);
+  return isocnc::command_line::program_main("isodap", isocnc::debugger::run_main, argc, argv);
 }

@@ -9,32 +9,32 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/command_line/program_app.h"
+#include "interpreter/command_line/program_main.h"
+#include "interpreter/command_line/progress.h"
+#include "interpreter/command_line/source_options.h"
 #include "interpreter/configuration/configurations.h"
-#include "interpreter/configuration/plot_tools.h"
-#include "interpreter/configuration/source_options.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/locale.h"
+#include "interpreter/plot/page_template.h"
+#include "interpreter/plot/plot_tools.h"
+#include "interpreter/restart/restart.h"
+#include "interpreter/run_report.h"
 #include "interpreter/running/error_message.h"
-#include "interpreter/running/output_file.h"
-#include "interpreter/running/page_template.h"
-#include "interpreter/running/program_app.h"
-#include "interpreter/running/program_main.h"
-#include "interpreter/running/progress.h"
-#include "interpreter/running/restart.h"
-#include "interpreter/running/run_report.h"
 #include "interpreter/running/runner.h"
-#include "interpreter/running/same_file.h"
-#include "interpreter/running/source_file.h"
 #include "interpreter/syntax/number.h"
 #include "interpreter/syntax/unicode.h"
+#include "interpreter/system/output_file.h"
+#include "interpreter/system/same_file.h"
+#include "interpreter/system/source_file.h"
 
-namespace isocnc::running {
+namespace isocnc::interpreter {
 namespace {
 
 using dialect::Language;
 using dialect::Text;
 
-enum ExitStatus { kRan = 0, kStopped = 1, kTrouble = kTroubleStatus };
+enum ExitStatus { kRan = 0, kStopped = 1, kTrouble = command_line::kTroubleStatus };
 
 /// As they stand on the command line. Numbers are read later, when the language to complain in is known.
 struct Options {
@@ -64,7 +64,7 @@ struct Options {
   std::string shown_file() const { return reads_stdin() ? "<stdin>" : file; }
 };
 
-void complain(std::string_view what) { running::complain("isorun", what); }
+void complain(std::string_view what) { command_line::complain("isorun", what); }
 
 /// A number as programs write it, and nothing else: sign, digits, point.
 std::optional<double> read_decimal(std::string_view text) {
@@ -84,7 +84,7 @@ std::optional<std::uint64_t> read_count(std::string_view text, std::uint64_t mos
 }
 
 /// V3=1.5
-bool read_register(std::string_view setting, RunOptions& run) {
+bool read_register(std::string_view setting, running::RunOptions& run) {
   const std::size_t equals = setting.find('=');
   if (!setting.starts_with('V') || equals == std::string_view::npos) return false;
   const auto reg = read_count(setting.substr(1, equals - 1), dialect::kRegisterCount);
@@ -129,8 +129,8 @@ std::nullopt_t refuse(const Text& why, std::string_view value, const Options& op
 }
 
 /// What is asked of the run; nothing after a complaint.
-std::optional<RunOptions> read_run_options(const Options& options) {
-  RunOptions run;
+std::optional<running::RunOptions> read_run_options(const Options& options) {
+  running::RunOptions run;
   for (const std::string& setting : options.settings)
     if (!read_register(setting, run)) return refuse(kWrongSetting, setting, options);
   const auto vgpl = read_decimal(options.vgpl);
@@ -156,16 +156,16 @@ std::optional<RunOutputs> read_outputs(const Options& options) {
   const auto seconds = read_decimal(options.sample_seconds);
   if (!seconds || !(*seconds >= kShortest)) return refuse(kWrongSeconds, options.sample_seconds, options);
   outputs.sample_seconds = *seconds;
-  const auto format = plot_format(options.plot);
+  const auto format = plot::plot_format(options.plot);
   if (!options.plot.empty() && !format) return refuse(kWrongPlot, options.plot, options);
-  if (format == PlotFormat::Html && kPageTemplate.empty()) return refuse(kNoPage, options.plot, options);
+  if (format == plot::PlotFormat::Html && plot::kPageTemplate.empty()) return refuse(kNoPage, options.plot, options);
   if (options.trace == "-" && options.samples == "-") return refuse(kOneStandardOutput, "", options);
   return outputs;
 }
 
 /// How the program is to be taken up again; nothing after a complaint.
-std::optional<RestartOptions> read_restart_options(const Options& options, const RunOptions& run) {
-  RestartOptions restart;
+std::optional<restart::RestartOptions> read_restart_options(const Options& options, const running::RunOptions& run) {
+  restart::RestartOptions restart;
   restart.run = run;
   restart.language = options.reader_language();
   restart.name = options.reads_stdin() ? "<stdin>" : std::filesystem::path(options.file).filename().string();
@@ -191,11 +191,11 @@ void print_finding(const Options& options, std::uint64_t line, dialect::Diagnost
             << '\n';
 }
 
-void print_error(const Options& options, const RunResult& result) {
-  print_finding(options, result.line, result.error.id, error_message(result, options.reader_language()));
+void print_error(const Options& options, const running::RunResult& result) {
+  print_finding(options, result.line, result.error.id, running::error_message(result, options.reader_language()));
 }
 
-void print_warning(const Options& options, const RunWarning& warning) {
+void print_warning(const Options& options, const simulation::RunWarning& warning) {
   print_finding(options, warning.line, warning.id,
                 dialect::message(warning.id, options.reader_language(), "", warning.values));
 }
@@ -234,46 +234,46 @@ bool files_are_apart(const Options& options, const std::filesystem::path& config
   };
   for (std::size_t i = 0; i < written.size(); ++i) {
     for (const NamedFile& each : read)
-      if (is_same_file(each.path, written[i].path)) return refuse_file(written[i], kOverwrites, each.what);
+      if (system::is_same_file(each.path, written[i].path)) return refuse_file(written[i], kOverwrites, each.what);
     for (std::size_t k = i + 1; k < written.size(); ++k)
-      if (is_same_file(written[i].path, written[k].path))
+      if (system::is_same_file(written[i].path, written[k].path))
         return refuse_file(written[i], kOneFile, written[i].what, written[k].what);
   }
   return true;
 }
 
 /// A bar on the terminal while the run goes through the program.
-RunResult run_with_progress(std::string_view program, RunOptions options, const RunOutputs& outputs,
-                            const std::function<void(const Event&)>& on_event) {
+running::RunResult run_with_progress(std::string_view program, running::RunOptions options, const RunOutputs& outputs,
+                                     const std::function<void(const running::Event&)>& on_event) {
   constexpr std::size_t kPace = 4096;  // Bytes: asking the clock on every line would cost more than the line.
   const bool shares_terminal = (outputs.trace == "-" || outputs.samples == "-") && isatty(STDOUT_FILENO) != 0;
-  Progress progress(shares_terminal ? nullptr : terminal_writer(), program.size());
+  command_line::Progress progress(shares_terminal ? nullptr : command_line::terminal_writer(), program.size());
   std::size_t told = 0;
-  options.before_block = [&](const Block& block) {
+  options.before_block = [&](const running::Block& block) {
     const auto reached = static_cast<std::size_t>(block.tree.text.data() - program.data());
     if (reached >= told + kPace) progress.add(reached - std::exchange(told, reached));
   };
   return run(program, options, on_event);
 }
 
-int run_program(std::string_view program, const Options& options, const RunOptions& run_options,
-                const RunOutputs& outputs, const TimedMachine& machine) {
+int run_program(std::string_view program, const Options& options, const running::RunOptions& run_options,
+                const RunOutputs& outputs, const simulation::TimedMachine& machine) {
   RunReport report(outputs, machine);
-  std::optional<RunResult> result;
+  std::optional<running::RunResult> result;
   if (report.is_ready()) {
-    result = run_with_progress(program, run_options, outputs, [&](const Event& event) { report.take(event); });
+    result = run_with_progress(program, run_options, outputs, [&](const running::Event& event) { report.take(event); });
     report.finish(*result);
-    for (const RunWarning& warning : report.warnings()) print_warning(options, warning);
-    if (result->ending == Ending::Error) print_error(options, *result);
+    for (const simulation::RunWarning& warning : report.warnings()) print_warning(options, warning);
+    if (result->ending == running::Ending::Error) print_error(options, *result);
   }
   for (const std::string& problem : report.problems()) complain(problem);
   if (!report.problems().empty()) return kTrouble;
-  return result->ending == Ending::Error ? kStopped : kRan;
+  return result->ending == running::Ending::Error ? kStopped : kRan;
 }
 
 bool write_restart(std::string_view program, const Options& options) {
   const bool is_file = !options.output.empty() && options.output != "-";
-  std::optional<OutputFile> output;
+  std::optional<system::OutputFile> output;
   if (is_file) {
     output.emplace(std::filesystem::path(options.output));
   } else {
@@ -281,24 +281,24 @@ bool write_restart(std::string_view program, const Options& options) {
   }
   output->write(program);
   const std::optional<std::string> problem =
-      commit(*output, is_file ? options.output : "<stdout>", options.reader_language());
+      system::commit(*output, is_file ? options.output : "<stdout>", options.reader_language());
   if (problem) complain(*problem);
   return !problem;
 }
 
-int restart(const SourceFile& source, const Options& options, const RestartOptions& restart_options) {
-  const auto made = restart_program(source.text(), restart_options);
+int restart(const system::SourceFile& source, const Options& options, const restart::RestartOptions& restart_options) {
+  const auto made = restart::restart_program(source.text(), restart_options);
   if (const auto* const program = std::get_if<std::string>(&made)) {
-    const std::string_view mark = source.has_byte_order_mark() ? kByteOrderMark : "";
+    const std::string_view mark = source.has_byte_order_mark() ? system::kByteOrderMark : "";
     return write_restart(std::string(mark) + *program, options) ? kRan : kTrouble;
   }
-  const auto& refusal = std::get<RestartRefusal>(made);
-  if (refusal.obstacle == Obstacle::ProgramError) {
+  const auto& refusal = std::get<restart::RestartRefusal>(made);
+  if (refusal.obstacle == restart::Obstacle::ProgramError) {
     print_error(options, refusal.run);
     return kStopped;
   }
   complain(fmt::format("{}: {}", options.shown_file(), message(refusal, options.reader_language())));
-  return refusal.obstacle == Obstacle::NoSuchLine ? kTrouble : kStopped;
+  return refusal.obstacle == restart::Obstacle::NoSuchLine ? kTrouble : kStopped;
 }
 
 /// A machine, and the isocnc.json that has been read for the program.
@@ -328,12 +328,13 @@ std::optional<FoundMachine> find_machine(Options& options) {
   return is_right ? std::optional(FoundMachine{machine.machine, configuration.file}) : std::nullopt;
 }
 
-PlotSubject plot_subject(std::string_view program, const configuration::Machine& machine, const Options& options) {
+plot::PlotSubject plot_subject(std::string_view program, const configuration::Machine& machine,
+                               const Options& options) {
   return {.name = std::filesystem::path(options.shown_file()).filename().string(),
           .program = program,
           .home = machine.setup.home,
-          .tools = configuration::plot_tools(machine),
-          .page = kPageTemplate,
+          .tools = plot::plot_tools(machine),
+          .page = plot::kPageTemplate,
           .language = options.reader_language()};
 }
 
@@ -342,25 +343,25 @@ int run_file(Options options) {
   if (!found) return kTrouble;
   const configuration::Machine& machine = found->machine;
   const Language language = options.reader_language();
-  std::optional<RunOptions> run_options = read_run_options(options);
+  std::optional<running::RunOptions> run_options = read_run_options(options);
   if (!run_options) return kTrouble;
   run_options->setup = machine.setup;
   std::optional<RunOutputs> outputs = read_outputs(options);
   if (!outputs) return kTrouble;
-  std::optional<RestartOptions> restart_options;
+  std::optional<restart::RestartOptions> restart_options;
   if (options.restart_at) {
     restart_options = read_restart_options(options, *run_options);
     if (!restart_options) return kTrouble;
     restart_options->machine = machine.timed;
   }
   if (!files_are_apart(options, found->configuration)) return kTrouble;
-  const auto opened = options.reads_stdin() ? SourceFile::read_stream(STDIN_FILENO, language)
-                                            : SourceFile::open(options.file, language);
-  if (const auto* problem = std::get_if<SourceFile::Problem>(&opened)) {
+  const auto opened = options.reads_stdin() ? system::SourceFile::read_stream(STDIN_FILENO, language)
+                                            : system::SourceFile::open(options.file, language);
+  if (const auto* problem = std::get_if<system::SourceFile::Problem>(&opened)) {
     complain(fmt::format("{}: {}", options.shown_file(), problem->message));
     return kTrouble;
   }
-  const auto& source = std::get<SourceFile>(opened);
+  const auto& source = std::get<system::SourceFile>(opened);
   if (restart_options) return restart(source, options, *restart_options);
   outputs->subject = plot_subject(source.text(), machine, options);
   return run_program(source.text(), options, *run_options, *outputs, machine.timed);
@@ -368,7 +369,7 @@ int run_file(Options options) {
 
 int run_main(int argc, char** argv) {
   Options options;
-  ProgramApp program(
+  command_line::ProgramApp program(
       argc, argv, {"Runs an ISOCNC program and tells what it does.", "Esegue un programma ISOCNC e dice che cosa fa."},
       {.program = "isorun",
        .version = ISOCNC_VERSION,
@@ -390,21 +391,23 @@ int run_main(int argc, char** argv) {
       .add_option("FILE", options.file, {" ", " "},
                   {"The program, or - for standard input", "Il programma, o - per lo standard input"})
       .required();
-  const ProgramOption trace = program.add_option("--trace", options.trace, kFileValue,
-                                                 {"What happens, as JSON lines; - for standard output",
-                                                  "Che cosa succede, in linee JSON; - per lo standard\noutput"});
-  const ProgramOption samples = program.add_option("--samples", options.samples, kFileValue,
-                                                   {"Where the machine is, in steps of time, as JSON lines",
-                                                    "Dove si trova la macchina a passi di tempo, in linee\nJSON"});
+  const command_line::ProgramOption trace =
+      program.add_option("--trace", options.trace, command_line::kFileValue,
+                         {"What happens, as JSON lines; - for standard output",
+                          "Che cosa succede, in linee JSON; - per lo standard\noutput"});
+  const command_line::ProgramOption samples =
+      program.add_option("--samples", options.samples, command_line::kFileValue,
+                         {"Where the machine is, in steps of time, as JSON lines",
+                          "Dove si trova la macchina a passi di tempo, in linee\nJSON"});
   program
       .add_option(
           "--dt", options.sample_seconds, {"SECONDS", "SECONDI"},
           {"The step of --samples in seconds (else 0.01)", "Il passo di --samples in secondi (altrimenti 0.01)"})
       .needs(samples);
-  const ProgramOption plot = program.add_option(
-      "--plot", options.plot, kFileValue,
+  const command_line::ProgramOption plot = program.add_option(
+      "--plot", options.plot, command_line::kFileValue,
       {"A picture of the path: FILE.svg or, in 3-D, .html", "Un disegno del percorso: FILE.svg o, in 3D, .html"});
-  const ProgramOption json =
+  const command_line::ProgramOption json =
       program.add_flag("--json", options.json, {"The summary as JSON", "Il riassunto in JSON"}).tells_no_exclusions();
   program.add_option("--vgpl", options.vgpl, {"VALUE", "VALORE"},
                      {"Value of VGPL (else 0)", "Valore di VGPL (altrimenti 0)"});
@@ -413,29 +416,29 @@ int run_main(int argc, char** argv) {
                   {"Value of a register at the start: V3=1.5", "Valore iniziale di un registro: V3=1.5"})
       .takes_one();
   program.add_option(
-      "--machine", options.machine, kFileValue,
+      "--machine", options.machine, command_line::kFileValue,
       {"The machine of this file, not of the isocnc.json", "La macchina di questo file, non dell'isocnc.json"});
-  configuration::add_source_options(
+  command_line::add_source_options(
       program, options.source,
       {"Read this, not the isocnc.json above the program", "Legge questo, non l'isocnc.json sopra il programma"});
-  const ProgramOption until = program.add_option("--until", options.until, {"LINE", "RIGA"},
-                                                 {"Stop before this line", "Si ferma prima di questa riga"});
+  const command_line::ProgramOption until = program.add_option(
+      "--until", options.until, {"LINE", "RIGA"}, {"Stop before this line", "Si ferma prima di questa riga"});
   program.add_language(options.language,
                        {"en or it; else as the locale says", "en o it; altrimenti secondo il locale"});
 
   program.begin_group({"Restart", "Ripresa"});
-  const ProgramOption restart_at = program
-                                       .add_option("--restart-at", options.restart_at, {"LINE", "RIGA"},
-                                                   {"Write a program that goes on from this line",
-                                                    "Scrive un programma che riprende da questa riga"})
-                                       .excludes(until)
-                                       .excludes(trace)
-                                       .excludes(samples)
-                                       .excludes(plot)
-                                       .excludes(json);
-  const ProgramOption restarting[] = {
+  const command_line::ProgramOption restart_at = program
+                                                     .add_option("--restart-at", options.restart_at, {"LINE", "RIGA"},
+                                                                 {"Write a program that goes on from this line",
+                                                                  "Scrive un programma che riprende da questa riga"})
+                                                     .excludes(until)
+                                                     .excludes(trace)
+                                                     .excludes(samples)
+                                                     .excludes(plot)
+                                                     .excludes(json);
+  const command_line::ProgramOption restarting[] = {
       program.add_option(
-          "-o,--output", options.output, kFileValue,
+          "-o,--output", options.output, command_line::kFileValue,
           {"Where to write it; else to standard output", "Dove scriverlo; altrimenti sullo standard output"}),
       program.add_option("--clearance", options.clearance, {"Z", "Z"},
                          {"Go down in rapid to this Z; else machine.clearance",
@@ -443,14 +446,14 @@ int run_main(int argc, char** argv) {
       program.add_option(
           "--approach-feed", options.approach_feed, {"F", "F"},
           {"Go on down at most at this F (else 1000)", "Poi scende al più con questa F (altrimenti 1000)"})};
-  for (const ProgramOption& option : restarting) option.needs(restart_at);
+  for (const command_line::ProgramOption& option : restarting) option.needs(restart_at);
   if (const auto status = program.answer(argc, argv)) return *status;
   return run_file(options);
 }
 
 }  // namespace
-}  // namespace isocnc::running
+}  // namespace isocnc::interpreter
 
 int main(int argc, char** argv) {
-  return isocnc::running::program_main("isorun", isocnc::running::run_main, argc, argv);
+  return isocnc::command_line::program_main("isorun", isocnc::interpreter::run_main, argc, argv);
 }

@@ -5,9 +5,9 @@
 #include <utility>
 #include <variant>
 
-#include "analyzer/files.h"
+#include "analyzer/input/files.h"
 #include "interpreter/configuration/configurations.h"
-#include "interpreter/running/source_file.h"
+#include "interpreter/system/source_file.h"
 #include "lsp/documents/open_document.h"
 #include "lsp/documents/snapshot.h"
 #include "lsp/documents/uri.h"
@@ -20,7 +20,7 @@ static constexpr std::int64_t kNoVersion = -1;
 std::vector<std::filesystem::path> ClosedPrograms::programs_in(const std::vector<std::filesystem::path>& folders) {
   // A configuration may be forgotten while the search still asks it.
   std::vector<std::shared_ptr<const void>> owners;
-  const auto rules = [&](const std::filesystem::path& folder) -> analyzer::SearchRules {
+  const auto rules = [&](const std::filesystem::path& folder) -> input::SearchRules {
     const documents::DocumentSettings settings = settings_.of(folder / "program");
     if (owners.empty() || owners.back() != settings.owner) owners.push_back(settings.owner);
     const configuration::Lint& lint = settings.configuration->lint;
@@ -30,7 +30,7 @@ std::vector<std::filesystem::path> ClosedPrograms::programs_in(const std::vector
   paths.reserve(folders.size());
   for (const std::filesystem::path& folder : folders) paths.push_back(folder.string());
   // What stands in the way of reading a folder is the user's to see where the folders are shown.
-  return analyzer::select_files(paths, rules, dialect::Language::English).files;
+  return input::select_files(paths, rules, dialect::Language::English).files;
 }
 
 /// Nothing where the file cannot be read, or the answer is not wanted any more.
@@ -39,8 +39,8 @@ std::optional<std::string> ClosedPrograms::answer_of(const std::filesystem::path
                                                      const std::atomic<bool>& cancelled, const Answer& answer) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(program, error)) return std::nullopt;  // A pipe would be waited for.
-  const auto opened = running::SourceFile::open_unmapped(program, dialect::Language::English);
-  const auto* const source = std::get_if<running::SourceFile>(&opened);
+  const auto opened = system::SourceFile::open_unmapped(program, dialect::Language::English);
+  const auto* const source = std::get_if<system::SourceFile>(&opened);
   if (source == nullptr) return std::nullopt;
   documents::OpenDocument document(uri, settings_);
   document.open(kNoVersion, source->text());

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <utility>
 
+#include "interpreter/command_line/program_app.h"
+#include "interpreter/command_line/program_main.h"
 #include "interpreter/dialect/locale.h"
-#include "interpreter/running/program_app.h"
-#include "interpreter/running/program_main.h"
 #include "lsp/rpc/serve.h"
 #include "lsp/server.h"
 
@@ -20,19 +20,19 @@ struct Options {
   std::string language;
 };
 
-void complain(std::string_view what) { running::complain("isols", what); }
+void complain(std::string_view what) { command_line::complain("isols", what); }
 
 int run(const Options& options) {
   const auto make = [&](rpc::Loop& loop, rpc::Send send) {
     return std::make_unique<Server>(loop, std::move(send), dialect::language_named(options.language));
   };
   rpc::serve(options.port, make, complain);
-  return running::kTroubleStatus;  // The port cannot be had.
+  return command_line::kTroubleStatus;  // The port cannot be had.
 }
 
 int run_main(int argc, char** argv) {
   Options options;
-  running::ProgramApp program(
+  command_line::ProgramApp program(
       argc, argv,
       {"The language server for ISOCNC programs: an editor starts it and speaks with it.",
        "Il language server per i programmi ISOCNC: un editor lo avvia e parla con lui."},
@@ -47,7 +47,7 @@ int run_main(int argc, char** argv) {
                 {"1", "The editor is gone, or ended the server without shutting it down."},
                 {"2", "A mistake in the command, or the port cannot be had."}},
        .see_also = {"isolint", "isofmt", "isorun"}});
-  const running::ProgramOption stdio = program.add_flag(
+  const command_line::ProgramOption stdio = program.add_flag(
       "--stdio", options.stdio,
       {"Speak by standard input and output; so without", "Parla via standard input e output; così anche senza"});
   program
@@ -68,4 +68,6 @@ int run_main(int argc, char** argv) {
 }  // namespace
 }  // namespace isocnc::lsp
 
-int main(int argc, char** argv) { return isocnc::running::program_main("isols", isocnc::lsp::run_main, argc, argv); }
+int main(int argc, char** argv) {
+  return isocnc::command_line::program_main("isols", isocnc::lsp::run_main, argc, argv);
+}

@@ -58,15 +58,15 @@ function literal(text) {
 
 writeFileSync(
   process.argv[2],
-  `#include "interpreter/running/page_template.h"
+  `#include "interpreter/plot/page_template.h"
 
-namespace isocnc::running {
+namespace isocnc::plot {
 
 static constexpr char kPage[] =
     ${literal(page)};
 
 const std::string_view kPageTemplate(kPage, sizeof kPage - 1);
 
-}  // namespace isocnc::running
+}  // namespace isocnc::plot
 `,
 );

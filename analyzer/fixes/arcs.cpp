@@ -5,7 +5,7 @@
 #include "analyzer/fixes/habits.h"
 #include "analyzer/fixes/line_edits.h"
 
-namespace isocnc::analyzer::fixes {
+namespace isocnc::fixes {
 
 using execution::State;
 using geometry::PlanePoint;
@@ -104,4 +104,4 @@ Draft radius_large_enough(const Request& request) {
   return {{replaced(request, request.finding.span, larger)}, larger};
 }
 
-}  // namespace isocnc::analyzer::fixes
+}  // namespace isocnc::fixes

@@ -6,7 +6,7 @@
 #include "analyzer/fixes/line_edits.h"
 #include "interpreter/execution/silent_sink.h"
 
-namespace isocnc::analyzer::fixes {
+namespace isocnc::fixes {
 
 using geometry::PlanePoint;
 using syntax::LineTree;
@@ -100,4 +100,4 @@ WrittenCenter center_written(const ArcOfProgram& arc, std::uint64_t line, PlaneP
   return {{edit(given.begin, given.end, words)}, words};
 }
 
-}  // namespace isocnc::analyzer::fixes
+}  // namespace isocnc::fixes

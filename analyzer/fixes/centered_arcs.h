@@ -8,7 +8,7 @@
 #include "interpreter/geometry/arc.h"
 #include "interpreter/syntax/line_tree.h"
 
-namespace isocnc::analyzer::fixes {
+namespace isocnc::fixes {
 
 /// An arc of the program whose circle is given by its center, as it is written and as it reads. mm, degrees; places in
 /// the plane are in the frame in force, or from the start where they say so.
@@ -61,4 +61,4 @@ int decimals_of_center(const syntax::LineTree& line, const ArcOfProgram& arc);
 /// The center, given from the start, as it is with its coordinates in the program rounded to so many decimals.
 geometry::PlanePoint rounded_center(const ArcOfProgram& arc, geometry::PlanePoint center, int decimals);
 
-}  // namespace isocnc::analyzer::fixes
+}  // namespace isocnc::fixes

@@ -12,7 +12,7 @@
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
 
-namespace isocnc::analyzer::fixes {
+namespace isocnc::fixes {
 
 using dialect::DiagnosticId;
 
@@ -109,4 +109,4 @@ std::optional<Fix> fix_of(const Place& place, Program& program) {
   return std::nullopt;
 }
 
-}  // namespace isocnc::analyzer::fixes
+}  // namespace isocnc::fixes

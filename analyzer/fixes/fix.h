@@ -12,7 +12,7 @@
 #include "interpreter/syntax/document.h"
 #include "interpreter/syntax/finding.h"
 
-namespace isocnc::analyzer::fixes {
+namespace isocnc::fixes {
 
 /// Replaces what stands between two places: lines and byte columns from 0, the end exclusive; a place at the start of
 /// the line behind the last terminator is the end of the program.
@@ -105,4 +105,4 @@ std::vector<Edit> all_edits(const Fix& fix, Program& program);
 /// The fix of a finding, when there is one.
 std::optional<Fix> fix_of(const Place& place, Program& program);
 
-}  // namespace isocnc::analyzer::fixes
+}  // namespace isocnc::fixes

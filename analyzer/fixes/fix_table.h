@@ -5,7 +5,7 @@
 #include "analyzer/fixes/makers.h"
 #include "interpreter/dialect/diagnostic_id.h"
 
-namespace isocnc::analyzer::fixes {
+namespace isocnc::fixes {
 
 /// How findings of one code are mended, or why they are not.
 struct FixDef {
@@ -291,4 +291,4 @@ inline constexpr auto kFixes = [] {
   });
 }();
 
-}  // namespace isocnc::analyzer::fixes
+}  // namespace isocnc::fixes

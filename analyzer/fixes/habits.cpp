@@ -6,7 +6,7 @@
 #include "analyzer/fixes/centered_arcs.h"
 #include "analyzer/fixes/line_edits.h"
 
-namespace isocnc::analyzer::fixes {
+namespace isocnc::fixes {
 
 using namespace dialect::literals;
 using geometry::CenterReadings;
@@ -241,4 +241,4 @@ Draft habit_draft(const Request& request, Habit habit) {
   return {.edits = own->edits, .what = own->what, .habit = habit};
 }
 
-}  // namespace isocnc::analyzer::fixes
+}  // namespace isocnc::fixes

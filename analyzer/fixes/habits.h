@@ -9,7 +9,7 @@
 #include "analyzer/fixes/fix.h"
 #include "interpreter/syntax/tree_store.h"
 
-namespace isocnc::analyzer::fixes {
+namespace isocnc::fixes {
 
 /// What is rewritten on one line.
 struct LineRewrite {
@@ -58,4 +58,4 @@ class Habits {
   std::optional<bool> separates_thousands_;
 };
 
-}  // namespace isocnc::analyzer::fixes
+}  // namespace isocnc::fixes

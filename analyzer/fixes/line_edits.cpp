@@ -6,7 +6,7 @@
 
 #include "interpreter/syntax/characters.h"
 
-namespace isocnc::analyzer::fixes {
+namespace isocnc::fixes {
 
 using syntax::Instruction;
 using syntax::LineTree;
@@ -99,4 +99,4 @@ std::string written(double value, int decimals) {
   return text == "-0" ? "0" : text;
 }
 
-}  // namespace isocnc::analyzer::fixes
+}  // namespace isocnc::fixes

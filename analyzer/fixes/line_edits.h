@@ -6,7 +6,7 @@
 
 #include "analyzer/fixes/makers.h"
 
-namespace isocnc::analyzer::fixes {
+namespace isocnc::fixes {
 
 Edit replaced(const Request& request, syntax::Span span, std::string text);
 Edit inserted(const Request& request, std::uint32_t column, std::string text);
@@ -38,4 +38,4 @@ const syntax::Word* first_word(const syntax::LineTree& line);
 /// A number as programs write it: at most `decimals`, without zeros at the end.
 std::string written(double value, int decimals);
 
-}  // namespace isocnc::analyzer::fixes
+}  // namespace isocnc::fixes

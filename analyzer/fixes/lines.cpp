@@ -4,7 +4,7 @@
 #include "analyzer/fixes/line_edits.h"
 #include "interpreter/syntax/tree_store.h"
 
-namespace isocnc::analyzer::fixes {
+namespace isocnc::fixes {
 
 using dialect::ModalGroup;
 using execution::State;
@@ -171,4 +171,4 @@ Draft command_to_next_line(const Request& request) {
   return {{removed_with_line(request, request.finding.span), there}};
 }
 
-}  // namespace isocnc::analyzer::fixes
+}  // namespace isocnc::fixes

@@ -6,7 +6,7 @@
 #include "analyzer/fixes/fix.h"
 #include "interpreter/syntax/line_tree.h"
 
-namespace isocnc::analyzer::fixes {
+namespace isocnc::fixes {
 
 /// What a fix is made from.
 struct Request {
@@ -94,4 +94,4 @@ Draft center_between_ends(const Request& request);
 Draft center_completed(const Request& request);
 Draft radius_large_enough(const Request& request);
 
-}  // namespace isocnc::analyzer::fixes
+}  // namespace isocnc::fixes

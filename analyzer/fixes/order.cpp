@@ -4,7 +4,7 @@
 #include "analyzer/fixes/line_edits.h"
 #include "interpreter/syntax/characters.h"
 
-namespace isocnc::analyzer::fixes {
+namespace isocnc::fixes {
 
 using syntax::Instruction;
 using syntax::InstructionKind;
@@ -217,4 +217,4 @@ Draft motions_on_two_lines(const Request& request) {
   return {{line_end_before(request, request.finding.span.begin)}};
 }
 
-}  // namespace isocnc::analyzer::fixes
+}  // namespace isocnc::fixes

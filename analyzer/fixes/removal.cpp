@@ -7,7 +7,7 @@
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
 
-namespace isocnc::analyzer::fixes {
+namespace isocnc::fixes {
 
 using namespace dialect::literals;
 using syntax::Instruction;
@@ -175,4 +175,4 @@ Draft removed_suppression(const Request& request) {
   return {{is_all ? removed_with_line(request, *comment) : removed(request, span)}};
 }
 
-}  // namespace isocnc::analyzer::fixes
+}  // namespace isocnc::fixes

@@ -9,7 +9,7 @@
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/prose.h"
 
-namespace isocnc::analyzer::fixes {
+namespace isocnc::fixes {
 
 using syntax::Instruction;
 using syntax::Span;
@@ -217,4 +217,4 @@ Draft blank_for_tab(const Request& request) {
   return draft;
 }
 
-}  // namespace isocnc::analyzer::fixes
+}  // namespace isocnc::fixes

@@ -1,7 +1,7 @@
 #include "analyzer/rules/rule.h"
 #include "interpreter/geometry/arc.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// An arc by radius that ends where it starts has no sweep (D36): a full turn was meant, and needs a center.
 static void check_arc_goes_nowhere(const Block& block, execution::Sink& sink) {
@@ -20,4 +20,4 @@ static void check_arc_goes_nowhere(const Block& block, execution::Sink& sink) {
 
 extern const Rule arc_goes_nowhere = {kMotion, check_arc_goes_nowhere};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

@@ -5,7 +5,7 @@
 #include "analyzer/rules/rule.h"
 #include "interpreter/geometry/frame.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// Face axes that are orthogonal for the control, but not quite (D26).
 static void check_axes_nearly_orthogonal(const Block& block, execution::Sink& sink) {
@@ -24,4 +24,4 @@ static void check_axes_nearly_orthogonal(const Block& block, execution::Sink& si
 
 extern const Rule axes_nearly_orthogonal = {kModal, check_axes_nearly_orthogonal};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

@@ -3,7 +3,7 @@
 
 #include "analyzer/rules/rule.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// More than rounding explains, and less than a length that somebody chose: a digit is wrong.
 static constexpr double kChosen = 0.1;
@@ -36,4 +36,4 @@ static void check_axes_nearly_unit(const Block& block, execution::Sink& sink) {
 
 extern const Rule axes_nearly_unit = {kModal, check_axes_nearly_unit};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

@@ -1,6 +1,6 @@
 #include "analyzer/rules/rule.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// The plane, the frame or the tool changes while G41 or G42 is in force.
 static void check_compensation_across_change(const Block& block, execution::Sink& sink) {
@@ -22,4 +22,4 @@ static void check_compensation_across_change(const Block& block, execution::Sink
 
 extern const Rule compensation_across_change = {kModal | kToolChange, check_compensation_across_change};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

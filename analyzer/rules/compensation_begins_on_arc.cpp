@@ -1,6 +1,6 @@
 #include "analyzer/rules/rule.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// An arc as the first motion under G41 or G42.
 static void check_compensation_begins_on_arc(const Block& block, execution::Sink& sink) {
@@ -13,4 +13,4 @@ static void check_compensation_begins_on_arc(const Block& block, execution::Sink
 
 extern const Rule compensation_begins_on_arc = {kMotion, check_compensation_begins_on_arc};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

@@ -1,6 +1,6 @@
 #include "analyzer/rules/rule.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// G04 P0, and a P so long that milliseconds may have been meant.
 static void check_dwell_of_odd_length(const Block& block, execution::Sink& sink) {
@@ -13,4 +13,4 @@ static void check_dwell_of_odd_length(const Block& block, execution::Sink& sink)
 
 extern const Rule dwell_of_odd_length = {kModal, check_dwell_of_odd_length};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

@@ -1,6 +1,6 @@
 #include "analyzer/rules/rule.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// M02 with G70 in force.
 static void check_end_in_inches(const Block& block, execution::Sink& sink) {
@@ -10,4 +10,4 @@ static void check_end_in_inches(const Block& block, execution::Sink& sink) {
 
 extern const Rule end_in_inches = {kFunction, check_end_in_inches};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

@@ -1,6 +1,6 @@
 #include "analyzer/rules/rule.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// M02 without G40 before it.
 static void check_end_with_compensation(const Block& block, execution::Sink& sink) {
@@ -11,4 +11,4 @@ static void check_end_with_compensation(const Block& block, execution::Sink& sin
 
 extern const Rule end_with_compensation = {kFunction, check_end_with_compensation};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

@@ -1,6 +1,6 @@
 #include "analyzer/rules/rule.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// M02 without G27 before it.
 static void check_end_with_face_mounted(const Block& block, execution::Sink& sink) {
@@ -10,4 +10,4 @@ static void check_end_with_face_mounted(const Block& block, execution::Sink& sin
 
 extern const Rule end_with_face_mounted = {kFunction, check_end_with_face_mounted};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

@@ -1,6 +1,6 @@
 #include "analyzer/rules/rule.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 using execution::State;
 
@@ -13,4 +13,4 @@ static void check_end_with_spindle_on(const Block& block, execution::Sink& sink)
 
 extern const Rule end_with_spindle_on = {kFunction, check_end_with_spindle_on};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

@@ -2,7 +2,7 @@
 #include "interpreter/execution/machine_move.h"
 #include "interpreter/geometry/arc.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// An F that drives the tool tip faster than the machine can, in mm/min; in G93 the length decides.
 static void check_feed_above_machine(const Block& block, const execution::Move& move, execution::Sink& sink) {
@@ -26,4 +26,4 @@ static void check_alone(const Block& block, execution::Sink& sink) {
 
 extern const Rule feed_above_machine = {kFeed, check_alone, check_feed_above_machine};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

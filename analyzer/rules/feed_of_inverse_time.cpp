@@ -1,6 +1,6 @@
 #include "analyzer/rules/rule.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// The first feed move back in G94 when the last F was given in G93 and meant a time (D43).
 static void check_feed_of_inverse_time(const Block& block, execution::Sink& sink) {
@@ -12,4 +12,4 @@ static void check_feed_of_inverse_time(const Block& block, execution::Sink& sink
 
 extern const Rule feed_of_inverse_time = {kMotion, check_feed_of_inverse_time};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

@@ -1,6 +1,6 @@
 #include "analyzer/rules/rule.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// An F that its line's G00 ignores (I.3.7, D43); in G93 that is W003.
 static void check_feed_on_rapid(const Block& block, execution::Sink& sink) {
@@ -12,4 +12,4 @@ static void check_feed_on_rapid(const Block& block, execution::Sink& sink) {
 
 extern const Rule feed_on_rapid = {kMotion, check_feed_on_rapid};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

@@ -2,7 +2,7 @@
 
 #include "analyzer/rules/rule.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// Of two Gs of one modal group on a line only the later one counts (D20), unless a motion between them obeys the first
 /// (D14). The same G twice is W001.
@@ -25,4 +25,4 @@ static void check_modal_group_twice(const Block& block, execution::Sink& sink) {
 
 extern const Rule modal_group_twice = {kModal, check_modal_group_twice};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

@@ -1,7 +1,7 @@
 #include "analyzer/rules/rule.h"
 #include "interpreter/geometry/arc.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// A rapid or a straight feed move to where the tool stands; arcs have a code of their own.
 static void check_motion_goes_nowhere(const Block& block, const execution::Move& move, execution::Sink& sink) {
@@ -14,4 +14,4 @@ static void check_motion_goes_nowhere(const Block& block, const execution::Move&
 
 extern const Rule motion_goes_nowhere = {.check_move = check_motion_goes_nowhere};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

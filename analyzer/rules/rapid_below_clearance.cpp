@@ -1,7 +1,7 @@
 #include "analyzer/rules/rule.h"
 #include "interpreter/geometry/arc.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// A rapid that goes below the clearance, or crosses the face beneath it; not one that rises to it.
 static void check_rapid_below_clearance(const Block& block, const execution::Move& move, execution::Sink& sink) {
@@ -21,4 +21,4 @@ static void check_rapid_below_clearance(const Block& block, const execution::Mov
 
 extern const Rule rapid_below_clearance = {.check_move = check_rapid_below_clearance};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

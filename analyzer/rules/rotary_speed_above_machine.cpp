@@ -5,7 +5,7 @@
 #include "interpreter/execution/machine_move.h"
 #include "interpreter/geometry/arc.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// A feed move that would turn B or C faster than the machine can, degrees/min.
 static void check_rotary_speed_above_machine(const Block& block, const execution::Move& move, execution::Sink& sink) {
@@ -27,4 +27,4 @@ static void check_rotary_speed_above_machine(const Block& block, const execution
 
 extern const Rule rotary_speed_above_machine = {.check_move = check_rotary_speed_above_machine};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

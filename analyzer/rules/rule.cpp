@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 #define ISOCNC_RULE(name) extern const Rule name;
 #include <rules.inc>
@@ -125,4 +125,4 @@ const syntax::Word* Block::m(int number) const {
   return nullptr;
 }
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

@@ -5,7 +5,7 @@
 #include "interpreter/execution/state.h"
 #include "interpreter/syntax/line_tree.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 using namespace dialect::literals;
 
@@ -76,4 +76,4 @@ void ask_about_move(const Block& block, const execution::Move& move, execution::
 void judge_arc(const execution::CenteredArc& arc, const geometry::CenterReadings& readings, bool suspects_centers,
                const execution::Setup& setup, execution::Sink& sink);
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

@@ -1,6 +1,6 @@
 #include "analyzer/rules/rule.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// M04 while M03 is in force, or the other way round.
 static void check_spindle_reversed(const Block& block, execution::Sink& sink) {
@@ -12,4 +12,4 @@ static void check_spindle_reversed(const Block& block, execution::Sink& sink) {
 
 extern const Rule spindle_reversed = {kFunction, check_spindle_reversed};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

@@ -1,6 +1,6 @@
 #include "analyzer/rules/rule.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 static void check_spindle_speed_above_machine(const Block& block, execution::Sink& sink) {
   const syntax::Word& word = block.line.words[static_cast<std::size_t>(block.line.spindle)];
@@ -10,4 +10,4 @@ static void check_spindle_speed_above_machine(const Block& block, execution::Sin
 
 extern const Rule spindle_speed_above_machine = {kSpindle, check_spindle_speed_above_machine};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

@@ -1,6 +1,6 @@
 #include "analyzer/rules/rule.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// The first M03 or M04 behind feed moves.
 static void check_spindle_started_late(const Block& block, execution::Sink& sink) {
@@ -11,4 +11,4 @@ static void check_spindle_started_late(const Block& block, execution::Sink& sink
 
 extern const Rule spindle_started_late = {kFunction, check_spindle_started_late};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

@@ -1,6 +1,6 @@
 #include "analyzer/rules/rule.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// A feed move after M05, or after an S whose spindle nothing has started. Without an S, a spindle may not be meant at
 /// all: a laser, a part of a program.
@@ -18,4 +18,4 @@ static void check_spindle_stopped_feed(const Block& block, execution::Sink& sink
 
 extern const Rule spindle_stopped_feed = {kMotion, check_spindle_stopped_feed};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

@@ -1,6 +1,6 @@
 #include "analyzer/rules/rule.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// M03 or M04 before any S.
 static void check_spindle_without_speed(const Block& block, execution::Sink& sink) {
@@ -11,4 +11,4 @@ static void check_spindle_without_speed(const Block& block, execution::Sink& sin
 
 extern const Rule spindle_without_speed = {kFunction, check_spindle_without_speed};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

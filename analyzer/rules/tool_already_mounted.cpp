@@ -2,7 +2,7 @@
 
 #include "analyzer/rules/rule.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// A tool change to the tool that is there.
 static void check_tool_already_mounted(const Block& block, execution::Sink& sink) {
@@ -14,4 +14,4 @@ static void check_tool_already_mounted(const Block& block, execution::Sink& sink
 
 extern const Rule tool_already_mounted = {kToolChange, check_tool_already_mounted};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

@@ -1,6 +1,6 @@
 #include "analyzer/rules/rule.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// M06 while M03 or M04 is in force.
 static void check_tool_change_with_spindle_on(const Block& block, execution::Sink& sink) {
@@ -13,4 +13,4 @@ static void check_tool_change_with_spindle_on(const Block& block, execution::Sin
 
 extern const Rule tool_change_with_spindle_on = {kToolChange, check_tool_change_with_spindle_on};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

@@ -1,6 +1,6 @@
 #include "analyzer/rules/rule.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// A tool change to another tool while the last one has done nothing.
 static void check_tool_never_cuts(const Block& block, execution::Sink& sink) {
@@ -12,4 +12,4 @@ static void check_tool_never_cuts(const Block& block, execution::Sink& sink) {
 
 extern const Rule tool_never_cuts = {kToolChange, check_tool_never_cuts};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

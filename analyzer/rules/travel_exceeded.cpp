@@ -4,7 +4,7 @@
 #include "analyzer/rules/rule.h"
 #include "interpreter/execution/machine_move.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 using execution::Travel;
 
@@ -33,4 +33,4 @@ static void check_travel_exceeded(const Block& block, const execution::Move& mov
 
 extern const Rule travel_exceeded = {.check_move = check_travel_exceeded};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

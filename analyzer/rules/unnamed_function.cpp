@@ -2,7 +2,7 @@
 
 #include "analyzer/rules/rule.h"
 
-namespace isocnc::analyzer::rules {
+namespace isocnc::rules {
 
 /// A user's M that is not among those the machine file names.
 static void check_unnamed_function(const Block& block, execution::Sink& sink) {
@@ -19,4 +19,4 @@ static void check_unnamed_function(const Block& block, execution::Sink& sink) {
 
 extern const Rule unnamed_function = {kFunction, check_unnamed_function};
 
-}  // namespace isocnc::analyzer::rules
+}  // namespace isocnc::rules

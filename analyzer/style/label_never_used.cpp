@@ -2,7 +2,7 @@
 
 #include "analyzer/style/rule.h"
 
-namespace isocnc::analyzer::style {
+namespace isocnc::style {
 
 /// A line number to which no GOTO leads, in a program that has jumps and numbers few of its lines: there a number is
 /// written to be jumped to.
@@ -36,4 +36,4 @@ class LabelNeverUsed final : public Rule {
 
 extern const RuleRow label_never_used = rule<LabelNeverUsed>("label-never-used"_diag);
 
-}  // namespace isocnc::analyzer::style
+}  // namespace isocnc::style

@@ -1,6 +1,6 @@
 #include "analyzer/style/rule.h"
 
-namespace isocnc::analyzer::style {
+namespace isocnc::style {
 
 /// A line number that is no greater than the one before: repeated ones are never growing ones all the way between.
 class LineNumberNotGrowing final : public Rule {
@@ -20,4 +20,4 @@ class LineNumberNotGrowing final : public Rule {
 
 extern const RuleRow line_number_not_growing = rule<LineNumberNotGrowing>("line-number-not-growing"_diag);
 
-}  // namespace isocnc::analyzer::style
+}  // namespace isocnc::style

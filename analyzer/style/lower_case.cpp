@@ -2,7 +2,7 @@
 
 #include "analyzer/style/rule.h"
 
-namespace isocnc::analyzer::style {
+namespace isocnc::style {
 
 static bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
 
@@ -27,4 +27,4 @@ class LowerCase final : public Rule {
 
 extern const RuleRow lower_case = rule<LowerCase>("lower-case"_diag);
 
-}  // namespace isocnc::analyzer::style
+}  // namespace isocnc::style

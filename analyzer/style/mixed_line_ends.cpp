@@ -1,6 +1,6 @@
 #include "analyzer/style/rule.h"
 
-namespace isocnc::analyzer::style {
+namespace isocnc::style {
 
 /// Where the line ends first differ from those above: one mistake, however many lines follow.
 class MixedLineEnds final : public Rule {
@@ -21,4 +21,4 @@ class MixedLineEnds final : public Rule {
 
 extern const RuleRow mixed_line_ends = rule<MixedLineEnds>("mixed-line-ends"_diag);
 
-}  // namespace isocnc::analyzer::style
+}  // namespace isocnc::style

@@ -3,7 +3,7 @@
 
 #include "analyzer/style/rule.h"
 
-namespace isocnc::analyzer::style {
+namespace isocnc::style {
 
 /// A register that is given a value and compared by no IF: said at the first V.
 class RegisterNeverRead final : public Rule {
@@ -33,4 +33,4 @@ class RegisterNeverRead final : public Rule {
 
 extern const RuleRow register_never_read = rule<RegisterNeverRead>("register-never-read"_diag);
 
-}  // namespace isocnc::analyzer::style
+}  // namespace isocnc::style

@@ -5,7 +5,7 @@
 
 #include "interpreter/syntax/each_tree.h"
 
-namespace isocnc::analyzer::style {
+namespace isocnc::style {
 
 #define ISOCNC_RULE(name) extern const RuleRow name;
 #include <style_rules.inc>
@@ -61,4 +61,4 @@ std::vector<Remark> read_program(std::string_view text, const IsWanted& is_wante
   return reader.finish();
 }
 
-}  // namespace isocnc::analyzer::style
+}  // namespace isocnc::style

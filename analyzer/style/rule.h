@@ -8,7 +8,7 @@
 
 #include "interpreter/syntax/line_tree.h"
 
-namespace isocnc::analyzer::style {
+namespace isocnc::style {
 
 using namespace dialect::literals;
 
@@ -71,4 +71,4 @@ class Reader {
 /// What the wanted rules say of a program, in no order.
 std::vector<Remark> read_program(std::string_view text, const IsWanted& is_wanted);
 
-}  // namespace isocnc::analyzer::style
+}  // namespace isocnc::style

@@ -1,6 +1,6 @@
 #include "analyzer/style/rule.h"
 
-namespace isocnc::analyzer::style {
+namespace isocnc::style {
 
 /// The first tab of a line outside comments.
 class Tab final : public Rule {
@@ -18,4 +18,4 @@ class Tab final : public Rule {
 
 extern const RuleRow tab = rule<Tab>("tab"_diag);
 
-}  // namespace isocnc::analyzer::style
+}  // namespace isocnc::style

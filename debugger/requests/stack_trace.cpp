@@ -41,7 +41,7 @@ static Json frame(const Session& session, std::size_t id, const std::string& nam
 
 /// The segment of an arc, the block, and below it the jumps that have led there.
 static Json answer_stack_trace(Session& session, const Json& arguments) {
-  const running::Simulation& present = session.standing().present();
+  const simulation::Simulation& present = session.standing().present();
   Json frames = Json::array();
   if (const auto segment = present.segment())
     frames.push_back(

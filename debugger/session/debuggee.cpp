@@ -7,12 +7,12 @@
 
 namespace isocnc::debugger::session {
 
-using running::History;
 using running::Program;
 using running::Runner;
 using running::RunOptions;
-using running::Simulation;
-using running::TimedMachine;
+using simulation::History;
+using simulation::Simulation;
+using simulation::TimedMachine;
 
 Debuggee::Debuggee(ProgramText text, const RunOptions& options, const TimedMachine& machine)
     : text_(std::make_unique<const ProgramText>(std::move(text))),

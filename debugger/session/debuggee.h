@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "debugger/session/program_text.h"
-#include "interpreter/running/history.h"
+#include "interpreter/simulation/history.h"
 
 namespace isocnc::debugger::session {
 
@@ -35,12 +35,12 @@ struct MdiOutcome {
 /// it undoes it.
 class Debuggee {
  public:
-  Debuggee(ProgramText text, const running::RunOptions& options, const running::TimedMachine& machine);
+  Debuggee(ProgramText text, const running::RunOptions& options, const simulation::TimedMachine& machine);
 
   const ProgramText& text() const { return *text_; }
-  const running::TimedMachine& machine() const { return *stretches_.back().machine; }
+  const simulation::TimedMachine& machine() const { return *stretches_.back().machine; }
   const execution::Setup& setup() const { return options_->setup; }
-  const running::Simulation& present() const { return history().present(); }
+  const simulation::Simulation& present() const { return history().present(); }
   /// Seconds and blocks are those of the run; there is nothing before.
   bool is_at_begin() const;
 
@@ -56,7 +56,7 @@ class Debuggee {
   void step_instruction_back();
   void go_to_block(std::uint64_t blocks);
   void skip_to_line(std::uint64_t line) { history().skip_to_line(line); }
-  void return_to(const running::Simulation& before) { history().return_to(before); }
+  void return_to(const simulation::Simulation& before) { history().return_to(before); }
   /// As in History.
   std::optional<std::uint64_t> find_line(std::uint64_t line) const;
   /// The last of the blocks [from, blocks) that is it.
@@ -81,17 +81,17 @@ class Debuggee {
  private:
   void set_state(const execution::State& state);
   struct Stretch {
-    std::unique_ptr<const running::TimedMachine> machine;
-    running::History history;
+    std::unique_ptr<const simulation::TimedMachine> machine;
+    simulation::History history;
     std::uint64_t first_block = 0;
     std::uint64_t first_line = 0;
   };
 
-  running::History& history() { return stretches_.back().history; }
-  const running::History& history() const { return stretches_.back().history; }
+  simulation::History& history() { return stretches_.back().history; }
+  const simulation::History& history() const { return stretches_.back().history; }
   bool is_at_begin_of_stretch() const;
-  void begin_stretch(const running::Simulation& from, const running::Runner& runner,
-                     const running::TimedMachine& machine);
+  void begin_stretch(const simulation::Simulation& from, const running::Runner& runner,
+                     const simulation::TimedMachine& machine);
 
   // On the heap: what refers to them goes on doing so when this is moved.
   std::unique_ptr<const ProgramText> text_;

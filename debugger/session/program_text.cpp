@@ -6,10 +6,10 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "interpreter/running/source_file.h"
-#include "interpreter/running/system_texts.h"
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
+#include "interpreter/system/source_file.h"
+#include "interpreter/system/system_texts.h"
 
 namespace isocnc::debugger::session {
 
@@ -30,11 +30,11 @@ std::variant<ProgramText, ProgramText::Problem> ProgramText::read(const std::fil
                                                                   dialect::Language language) {
   // Not blocking, so that a pipe without a writer is told as what it is: empty.
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor < 0) return Problem{running::cannot_read(errno, language)};
-  const auto opened = running::SourceFile::read_stream(descriptor, language);
+  if (descriptor < 0) return Problem{system::cannot_read(errno, language)};
+  const auto opened = system::SourceFile::read_stream(descriptor, language);
   ::close(descriptor);
-  if (const auto* const problem = std::get_if<running::SourceFile::Problem>(&opened)) return Problem{problem->message};
-  return ProgramText(std::string(std::get<running::SourceFile>(opened).text()));
+  if (const auto* const problem = std::get_if<system::SourceFile::Problem>(&opened)) return Problem{problem->message};
+  return ProgramText(std::string(std::get<system::SourceFile>(opened).text()));
 }
 
 std::size_t ProgramText::offset_of(std::uint64_t line) const {

@@ -15,7 +15,7 @@ using geometry::Pose;
 
 static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-Moment moment_of(const running::Simulation& simulation) {
+Moment moment_of(const simulation::Simulation& simulation) {
   const running::RunResult& run = simulation.run();
   return {.state = run.state,
           .registers = run.registers,

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "interpreter/running/simulation.h"
+#include "interpreter/simulation/simulation.h"
 
 namespace isocnc::debugger::session {
 
@@ -20,11 +20,11 @@ struct Moment {
   double playback = 0;            ///< 0: as fast as possible; 1: in real time.
   /// Where the machine is. Without it, as where the way back is searched, it counts as standing where the program has
   /// led it, and there is no time.
-  const running::Simulation* machine = nullptr;
+  const simulation::Simulation* machine = nullptr;
 };
 
 /// The present of a simulation.
-Moment moment_of(const running::Simulation& simulation);
+Moment moment_of(const simulation::Simulation& simulation);
 
 /// Something that has a number at any moment, and its name: `X`, `ZM`, `V12`, `MOTION`.
 struct Quantity {

@@ -7,15 +7,15 @@
 
 #include <fmt/format.h>
 
-#include "analyzer/check_text.h"
+#include "analyzer/check/check_text.h"
 #include "analyzer/explain.h"
-#include "analyzer/program_settings.h"
-#include "analyzer/shown_report.h"
+#include "analyzer/selection/program_settings.h"
+#include "analyzer/selection/shown_report.h"
 #include "debugger/session/block_effect.h"
 #include "interpreter/dialect/locale.h"
 #include "interpreter/motion/numbers.h"
 #include "interpreter/running/error_message.h"
-#include "interpreter/running/same_file.h"
+#include "interpreter/system/same_file.h"
 
 namespace isocnc::debugger::session {
 
@@ -231,7 +231,7 @@ void Session::run_on(Clock::time_point deadline) {
 /// Lets the machine go on within one block, and tells what that block does where it begins. Its number.
 template <class Move>
 std::uint64_t Session::advance(const Move& move) {
-  const running::Simulation& present = debuggee_->present();
+  const simulation::Simulation& present = debuggee_->present();
   const std::uint64_t block = present.blocks();
   const std::uint64_t line = present.line();
   if (present.is_in_block()) {
@@ -241,7 +241,7 @@ std::uint64_t Session::advance(const Move& move) {
   begin_trail();
   const Journal::Modes modes(present.run().state);
   move(*debuggee_);
-  const running::Simulation& behind = debuggee_->present();
+  const simulation::Simulation& behind = debuggee_->present();
   journal_.take(block, line, modes, Journal::Modes(behind.run().state), behind.runner().events());
   tell_events(behind.runner().events());
   return block;
@@ -287,7 +287,7 @@ void Session::begin_trail() {
 
 /// The block is over: has the program ended, or has something become what somebody waits for?
 std::optional<Session::Stop> Session::end_block(std::uint64_t block) {
-  const running::Simulation& present = debuggee_->present();
+  const simulation::Simulation& present = debuggee_->present();
   if (present.has_ended()) {
     if (present.run().ending != running::Ending::Error) {
       finish(0);
@@ -390,7 +390,7 @@ void Session::finish(int exit_code) {
   ++generation_;
   const bool has_run = std::exchange(activity_, Activity::None) != Activity::None;
   if (!is_launched()) return;
-  const running::Simulation& present = debuggee_->present();
+  const simulation::Simulation& present = debuggee_->present();
   tell_untold();
   if (has_run && present.has_ended() && exit_code == 0)
     tell_output("console", in_language(kProgramEnd, present.blocks(), show_value(present.time(), {.decimals = 1})),
@@ -415,7 +415,7 @@ void Session::go_on() {
 
 /// Blocks before this one have begun. Where an error has ended the program, its block counts.
 std::uint64_t Session::end_of_past() const {
-  const running::Simulation& present = debuggee_->present();
+  const simulation::Simulation& present = debuggee_->present();
   const bool has_failed = present.has_ended() && present.run().ending == running::Ending::Error;
   return present.blocks() + (has_failed ? 1 : 0);
 }
@@ -547,7 +547,7 @@ void Session::step_out() {
 }
 
 void Session::go_to_line(std::uint64_t line) {
-  const running::Simulation& present = standing().present();
+  const simulation::Simulation& present = standing().present();
   const bool is_within = present.is_in_block() || present.has_ended();
   const bool is_behind = line < present.line() || (line == present.line() && is_within);
   if (!is_behind) return go_on_to_line(line, "goto");
@@ -576,7 +576,7 @@ void Session::go_on_to_line(std::uint64_t line, std::string_view reason) {
 /// On, and nothing on the way is stopped at.
 void Session::run_to_line(Clock::time_point deadline) {
   do {
-    const running::Simulation& present = debuggee_->present();
+    const simulation::Simulation& present = debuggee_->present();
     const bool is_over = present.has_ended() || (!present.is_in_block() && present.line() >= target_line_);
     if (is_over) {
       const bool is_there = !present.has_ended() && present.line() == target_line_;
@@ -634,7 +634,7 @@ void Session::tell_of_moved_breakpoints() {
 
 /// Also when the file is gone meanwhile.
 bool Session::is_program(const std::filesystem::path& file) const {
-  return file == wishes_.program || running::is_same_file(file.string(), wishes_.program.string());
+  return file == wishes_.program || system::is_same_file(file.string(), wishes_.program.string());
 }
 
 // --- Changing
@@ -814,7 +814,7 @@ void Session::tell_position(bool at_once) {
   const auto now = Clock::now();
   if (!at_once && now - last_position_ < kBetweenPositions) return;
   last_position_ = now;
-  const running::Simulation& present = debuggee_->present();
+  const simulation::Simulation& present = debuggee_->present();
   const motion::Sample sample = present.sample();
   const execution::State& state = present.run().state;
   Json body = {{"line", client.to_client_line(present.line())},
@@ -876,13 +876,13 @@ void Session::check_for_warnings() {
   is_checking_ = is_checked_ = true;
   pool_.post([this, debuggee = debuggee_, program = wishes_.program, language = language()] {
     configuration::Configurations configurations({}, language);
-    analyzer::SettingsFinder finder(configurations, {});
-    const analyzer::ProgramSettings& settings = finder.of(program);
+    selection::SettingsFinder finder(configurations, {});
+    const selection::ProgramSettings& settings = finder.of(program);
     const std::string_view text = debuggee->text().text();
-    const analyzer::Report report =
-        analyzer::shown_report(analyzer::check_text(text, debuggee->setup()), text, settings.selection);
+    const check::Report report =
+        selection::shown_report(check::check_text(text, debuggee->setup()), text, settings.selection);
     std::multimap<std::uint64_t, Warning> warnings;
-    for (const analyzer::LocatedFinding& found : report.findings) {
+    for (const check::LocatedFinding& found : report.findings) {
       if (found.severity() != dialect::Severity::Warning) continue;
       const std::string_view line = debuggee->text().line(found.line);
       const std::string_view marked = line.substr(std::min<std::size_t>(found.finding.span.begin, line.size()),

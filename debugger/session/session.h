@@ -186,9 +186,9 @@ class Session {
   std::optional<Exception> exception_;
   std::optional<execution::State> step_out_of_;  ///< The run stops where frame or tool become others.
   std::uint64_t target_line_ = 0;
-  std::optional<running::Simulation> origin_;  ///< Where the way to target_line_ began.
-  std::uint64_t search_begin_ = 0;             ///< Blocks, when a search began.
-  std::uint64_t searched_ = 0;                 ///< From this block on there is nothing.
+  std::optional<simulation::Simulation> origin_;  ///< Where the way to target_line_ began.
+  std::uint64_t search_begin_ = 0;                ///< Blocks, when a search began.
+  std::uint64_t searched_ = 0;                    ///< From this block on there is nothing.
   std::string_view arrival_reason_ = "goto";
   Trail trail_;  ///< Of the block in progress.
 

@@ -126,7 +126,7 @@ class Listing {
   }
 
   void list_to_go() {
-    const running::DistanceToGo to_go = present().to_go();
+    const simulation::DistanceToGo to_go = present().to_go();
     for (int axis = 0; axis < motion::kAxisCount; ++axis)
       add(std::string(1, dialect::kAxisLetters[static_cast<std::size_t>(axis)]), show(to_go.axes[axis]),
           axis < 3 ? "mm" : "°");
@@ -152,7 +152,7 @@ class Listing {
     const execution::ToolCode& tool = moment_.state.tool;
     if (tool == execution::ToolCode{}) return add("T", in_language(kNone));
     for (const std::string_view name : {"T", "HEAD", "HOLDER", "TOOL"}) add_quantity(name);
-    const running::TimedMachine& machine = session_.debuggee().machine();
+    const simulation::TimedMachine& machine = session_.debuggee().machine();
     const configuration::Tool* const known = session_.configuration().machine.find_tool(tool);
     if (known && !known->name.empty()) add(in_language(kName), syntax::printable(known->name));
     add(in_language(kLength), show(machine.tool_length(tool)), "mm");
@@ -218,7 +218,7 @@ class Listing {
   }
 
  private:
-  const running::Simulation& present() const { return session_.debuggee().present(); }
+  const simulation::Simulation& present() const { return session_.debuggee().present(); }
 
   std::string pose_text(const geometry::Pose& pose) const {
     return fmt::format("X {} Y {} Z {} B {} C {}", show(pose.tip.x()), show(pose.tip.y()), show(pose.tip.z()),

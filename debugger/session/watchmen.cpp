@@ -51,10 +51,10 @@ constexpr Text kAnyToolChange{"tool change", "cambio utensile"};
 constexpr Text kFirstCut{"first feed move of this tool", "primo movimento in lavoro di questo utensile"};
 
 std::optional<Exception> find_overtravel(const std::vector<execution::MachineMove>& moves, double tool_length,
-                                         const running::TimedMachine& machine, Language language) {
+                                         const simulation::TimedMachine& machine, Language language) {
   for (const execution::MachineMove& move : moves)
     for (const motion::Overtravel& found :
-         motion::overtravels(machine.motion, running::planned_move(move, machine, tool_length))) {
+         motion::overtravels(machine.motion, simulation::planned_move(move, machine, tool_length))) {
       const std::string text = dialect::format(kBeyondTravel, language, dialect::kAxisLetters[found.axis],
                                                show_value(found.position), show_value(found.limit));
       return Exception{Watch::Limits, std::string(definition(Watch::Limits).name), text, {}};
@@ -72,7 +72,7 @@ std::optional<Exception> Watchmen::look_at_warnings(const running::Block& block,
 }
 
 std::optional<Exception> Watchmen::look_at(const running::Block& block, const execution::Setup& setup,
-                                           const running::TimedMachine& machine, Language language) const {
+                                           const simulation::TimedMachine& machine, Language language) const {
   if (is_on(Watch::Warnings))
     if (auto warned = look_at_warnings(block, language)) return warned;
   const auto plainly = [&](Watch watch, const Text& text) {

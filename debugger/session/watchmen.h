@@ -10,7 +10,7 @@
 #include "interpreter/dialect/diagnostic.h"
 #include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/running/runner.h"
-#include "interpreter/running/timing.h"
+#include "interpreter/simulation/timing.h"
 
 namespace isocnc::debugger::session {
 
@@ -53,7 +53,7 @@ class Watchmen {
   /// Whether look_at() can find anything: it is not called for nothing.
   bool looks_at_blocks() const;
   std::optional<Exception> look_at(const running::Block& block, const execution::Setup& setup,
-                                   const running::TimedMachine& machine, dialect::Language language) const;
+                                   const simulation::TimedMachine& machine, dialect::Language language) const;
 
  private:
   std::optional<Exception> look_at_warnings(const running::Block& block, dialect::Language language) const;

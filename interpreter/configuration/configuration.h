@@ -11,7 +11,7 @@
 #include "interpreter/configuration/path_patterns.h"
 #include "interpreter/dialect/diagnostic.h"
 #include "interpreter/execution/setup.h"
-#include "interpreter/running/timing.h"
+#include "interpreter/simulation/timing.h"
 
 namespace isocnc::configuration {
 
@@ -39,7 +39,7 @@ std::array<double, execution::kAxisCount> default_rapids();
 struct Machine {
   execution::Setup setup;  ///< Its tools and functions are those below.
   /// How it moves. Travel, rapids and kind are those of `setup` and below; its tools and functions those below.
-  running::TimedMachine timed;
+  simulation::TimedMachine timed;
   std::array<double, execution::kAxisCount> rapids = default_rapids();  ///< mm/min, degrees/min.
   std::string kind = "head";                                            ///< `three-axis`, `head`, `table`.
   std::optional<std::vector<Tool>> tools;

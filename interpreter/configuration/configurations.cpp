@@ -8,14 +8,14 @@
 
 #include "interpreter/configuration/read.h"
 #include "interpreter/dialect/diagnostic_id.h"
-#include "interpreter/running/source_file.h"
 #include "interpreter/syntax/unicode.h"
+#include "interpreter/system/source_file.h"
 
 namespace isocnc::configuration {
 
 namespace fs = std::filesystem;
 using dialect::Language;
-using running::SourceFile;
+using system::SourceFile;
 
 fs::path real_path(const fs::path& path) {
   std::error_code error;

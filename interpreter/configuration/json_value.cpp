@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "interpreter/running/counted_bytes.h"
 #include "interpreter/syntax/unicode.h"
+#include "interpreter/system/counted_bytes.h"
 
 namespace isocnc::configuration {
 
@@ -186,7 +186,7 @@ std::variant<JsonValue, Mistake> parse_json(std::string_view text) {
   const char* furthest = text.data();
   const char* const end = text.data() + text.size();
   JsonBuilder builder(text, furthest);
-  using running::CountedBytes;
+  using system::CountedBytes;
   if (nlohmann::json::sax_parse(CountedBytes(text.data(), furthest), CountedBytes(end, furthest), &builder,
                                 nlohmann::json::input_format_t::json, true, true))
     return builder.take();

@@ -225,11 +225,13 @@ static void add_times(std::vector<Key>& keys) {
          .slot = [member](Configuration& c, std::size_t) -> Slot { return &(c.machine.timed.durations.*member); }});
   };
   keys.push_back({.path = "machine.times", .documentation = "How long the machine takes for what is no motion."});
-  add("toolChange", "An M06, from rest to rest; also of the tool that is mounted.", &running::Durations::tool_change);
+  add("toolChange", "An M06, from rest to rest; also of the tool that is mounted.",
+      &simulation::Durations::tool_change);
   add("spindle",
       "An M03, M04 or M05, until the spindle has its speed or stands; one that changes neither takes no time.",
-      &running::Durations::spindle);
-  add("channel", "A G09 in G48, until the interpolation channel is full again (I.3.8).", &running::Durations::channel);
+      &simulation::Durations::spindle);
+  add("channel", "A G09 in G48, until the interpolation channel is full again (I.3.8).",
+      &simulation::Durations::channel);
 }
 
 static std::optional<Objection> tool_twice(const Configuration& configuration, std::size_t index) {

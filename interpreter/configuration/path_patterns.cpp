@@ -14,7 +14,7 @@ std::optional<PathPatterns::Pattern> PathPatterns::parse(std::string_view text) 
   pattern.whole_path = text.find('/') != std::string_view::npos;
   if (text.starts_with('/')) text.remove_prefix(1);
   if (text.empty()) return std::nullopt;
-  std::optional<running::Glob> glob = running::Glob::parse(text, pattern.whole_path);
+  std::optional<system::Glob> glob = system::Glob::parse(text, pattern.whole_path);
   if (!glob) return std::nullopt;
   pattern.glob = std::move(*glob);
   return pattern;

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "interpreter/running/glob.h"
+#include "interpreter/system/glob.h"
 
 namespace isocnc::configuration {
 
@@ -29,7 +29,7 @@ class PathPatterns {
 
  private:
   struct Pattern {
-    running::Glob glob;
+    system::Glob glob;
     bool only_directories = false;
     bool whole_path = false;
   };

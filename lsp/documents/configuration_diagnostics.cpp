@@ -6,16 +6,16 @@
 
 #include "interpreter/configuration/configurations.h"
 #include "interpreter/configuration/read.h"
-#include "interpreter/running/source_file.h"
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/unicode.h"
+#include "interpreter/system/source_file.h"
 
 namespace isocnc::lsp::documents {
 
 namespace fs = std::filesystem;
 using configuration::Mistake;
 using dialect::Language;
-using running::SourceFile;
+using system::SourceFile;
 
 /// Where the value, key or sign ends that begins here.
 static std::size_t end_of_token(std::string_view text, std::size_t at) {
@@ -54,9 +54,9 @@ static Json diagnostic(const ClientRange& range, const std::string& message) {
 
 Json configuration_diagnostics(std::string_view text, const fs::path& folder, Encoding encoding, Language language) {
   Json all = Json::array();
-  if (text.starts_with(running::kByteOrderMark)) {
+  if (text.starts_with(system::kByteOrderMark)) {
     all.push_back(diagnostic({}, Mistake{.text = configuration::mistakes::kByteOrderMark}.message(language)));
-    text.remove_prefix(running::kByteOrderMark.size());
+    text.remove_prefix(system::kByteOrderMark.size());
   }
   if (text.size() > configuration::kLongestFile) {
     all.push_back(diagnostic({}, Mistake{.text = configuration::mistakes::kTooLarge}.message(language)));
@@ -76,7 +76,7 @@ Json configuration_diagnostics(const fs::path& file, Encoding encoding, Language
   const auto opened = SourceFile::open_unmapped(file, language);
   if (const auto* const why = std::get_if<SourceFile::Problem>(&opened)) return problem(why->message);
   const auto& source = std::get<SourceFile>(opened);
-  std::string text(source.has_byte_order_mark() ? running::kByteOrderMark : std::string_view());
+  std::string text(source.has_byte_order_mark() ? system::kByteOrderMark : std::string_view());
   text += source.text();
   return configuration_diagnostics(text, configuration::real_path(file.parent_path()), encoding, language);
 }

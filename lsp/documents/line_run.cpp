@@ -40,12 +40,12 @@ std::optional<LineRun> run_line(const Snapshot& snapshot, std::size_t line) {
 
 std::vector<LineRun> run_line_on_all_paths(const Snapshot& snapshot, std::size_t line) {
   if (line >= snapshot.document().line_count()) return {};
-  const analyzer::Frontier frontier = snapshot.frontier_before(line);
+  const check::Frontier frontier = snapshot.frontier_before(line);
   if (frontier.reduced) return {};
   const syntax::DocumentLine read = snapshot.document().line(line);
   std::vector<LineRun> runs;
-  const analyzer::Groups groups = frontier.running_through(*read);
-  for (const analyzer::Group& group : groups) runs.push_back(run_from(snapshot, group.state, *read));
+  const check::Groups groups = frontier.running_through(*read);
+  for (const check::Group& group : groups) runs.push_back(run_from(snapshot, group.state, *read));
   return runs;
 }
 

@@ -5,9 +5,9 @@
 #include <limits>
 #include <utility>
 
-#include "analyzer/shown_report.h"
-#include "analyzer/style_findings.h"
-#include "interpreter/running/source_file.h"
+#include "analyzer/selection/shown_report.h"
+#include "analyzer/selection/style_findings.h"
+#include "interpreter/system/source_file.h"
 #include "lsp/documents/uri.h"
 
 namespace isocnc::lsp::documents {
@@ -16,8 +16,8 @@ OpenDocument::OpenDocument(std::string uri, SettingsStore& settings) : uri_(std:
 
 void OpenDocument::open(std::int64_t version, std::string_view text) {
   version_ = version;
-  has_byte_order_mark_ = text.starts_with(running::kByteOrderMark);
-  if (has_byte_order_mark_) text.remove_prefix(running::kByteOrderMark.size());
+  has_byte_order_mark_ = text.starts_with(system::kByteOrderMark);
+  if (has_byte_order_mark_) text.remove_prefix(system::kByteOrderMark.size());
   settings_ = store_.of(path_of(uri_));
   analysis_.reset();
   index_ = {};
@@ -47,11 +47,11 @@ void OpenDocument::replace(const ContentChange& change, Encoding encoding) {
   const auto last_line = static_cast<std::uint32_t>(document_.line_count() - 1);
   if (first.line > last_line) first = {last_line, std::numeric_limits<std::uint32_t>::max()};
   // For the client the mark is a character like any other.
-  if (first.line == 0 && std::exchange(has_byte_order_mark_, false)) document_.replace({}, {}, running::kByteOrderMark);
+  if (first.line == 0 && std::exchange(has_byte_order_mark_, false)) document_.replace({}, {}, system::kByteOrderMark);
   document_.replace(from_client(first, encoding), from_client(last, encoding), change.text);
-  if (first.line > 0 || !document_.text_of_line(0).starts_with(running::kByteOrderMark)) return;
+  if (first.line > 0 || !document_.text_of_line(0).starts_with(system::kByteOrderMark)) return;
   has_byte_order_mark_ = true;
-  document_.replace({}, {0, running::kByteOrderMark.size()}, {});
+  document_.replace({}, {0, system::kByteOrderMark.size()}, {});
 }
 
 void OpenDocument::reread_settings() {
@@ -66,7 +66,7 @@ void OpenDocument::reread_settings() {
 bool OpenDocument::update(const std::function<bool()>& stop) {
   if (is_up_to_date_) return true;
   report_.reset();
-  if (!analysis_) analysis_.emplace(document_, settings_.program->setup, analyzer::Analysis::Unchecked{});
+  if (!analysis_) analysis_.emplace(document_, settings_.program->setup, check::Analysis::Unchecked{});
   is_up_to_date_ = analysis_->update(stop);
   return is_up_to_date_;
 }
@@ -77,10 +77,10 @@ const ProgramIndex& OpenDocument::index() {
 }
 
 /// What the program's comments say to isolint.
-analyzer::Suppressions OpenDocument::read_suppressions() {
+selection::Suppressions OpenDocument::read_suppressions() {
   speaks_.update(document_,
-                 [&](std::size_t chunk) { return analyzer::Suppressions::may_speak(document_.chunk_text(chunk)); });
-  analyzer::Suppressions suppressions;
+                 [&](std::size_t chunk) { return selection::Suppressions::may_speak(document_.chunk_text(chunk)); });
+  selection::Suppressions suppressions;
   for (std::size_t chunk = 0; chunk < speaks_.size(); ++chunk) {
     const std::size_t first = document_.first_line_of_chunk(chunk);
     for (std::size_t line = first; speaks_[chunk] && line < first + document_.chunk_lines(chunk); ++line)
@@ -90,11 +90,11 @@ analyzer::Suppressions OpenDocument::read_suppressions() {
 }
 
 /// As isolint would tell it.
-analyzer::Report OpenDocument::shown_report() {
-  return analyzer::shown_report(analysis_->report(), document_, read_suppressions(), settings_.program->selection);
+check::Report OpenDocument::shown_report() {
+  return selection::shown_report(analysis_->report(), document_, read_suppressions(), settings_.program->selection);
 }
 
-const analyzer::Report& OpenDocument::report() {
+const check::Report& OpenDocument::report() {
   if (!report_) report_ = shown_report();
   return *report_;
 }
@@ -105,32 +105,32 @@ static constexpr std::size_t kFewFindings = 4'000;
 /// Whether the report has so many findings that it is not made as a whole unless somebody asks for it. Not where
 /// comments, or opinions on style, have a say in what it holds.
 bool OpenDocument::is_long() {
-  return !report_ && analysis_->finding_count() > kFewFindings && !analyzer::has_style(settings_.program->selection) &&
+  return !report_ && analysis_->finding_count() > kFewFindings && !selection::has_style(settings_.program->selection) &&
          read_suppressions().empty();
 }
 
-analyzer::FirstFindings OpenDocument::excerpt(std::size_t most) {
+check::FirstFindings OpenDocument::excerpt(std::size_t most) {
   if (!is_long()) return {report(), 0};
-  const analyzer::Selection& selection = settings_.program->selection;
-  analyzer::FirstFindings first =
+  const selection::Selection& selection = settings_.program->selection;
+  check::FirstFindings first =
       analysis_->excerpt({.most = most, .counts = [&](dialect::DiagnosticId id) { return selection.shows(id); }});
   first.report = selection.shown(std::move(first.report));
   return first;
 }
 
-std::vector<analyzer::LocatedFinding> OpenDocument::findings_on(std::size_t line) {
+std::vector<check::LocatedFinding> OpenDocument::findings_on(std::size_t line) {
   if (is_long())
     return settings_.program->selection.shown({.findings = analysis_->findings_on(line), .paths = {}}).findings;
   const auto [begin, end] = std::equal_range(
-      report().findings.begin(), report().findings.end(), analyzer::LocatedFinding{.line = line, .finding = {}},
-      [](const analyzer::LocatedFinding& a, const analyzer::LocatedFinding& b) { return a.line < b.line; });
+      report().findings.begin(), report().findings.end(), check::LocatedFinding{.line = line, .finding = {}},
+      [](const check::LocatedFinding& a, const check::LocatedFinding& b) { return a.line < b.line; });
   return {begin, end};
 }
 
 ClientPosition OpenDocument::to_client(const syntax::Position& position, Encoding encoding) const {
   const std::string_view line = document_.text_of_line(position.line);
   std::uint32_t column = units_before(line, position.column, encoding);
-  if (has_byte_order_mark_ && position.line == 0) column += units_before(running::kByteOrderMark, 3, encoding);
+  if (has_byte_order_mark_ && position.line == 0) column += units_before(system::kByteOrderMark, 3, encoding);
   return {static_cast<std::uint32_t>(position.line), column};
 }
 
@@ -141,7 +141,7 @@ syntax::Position OpenDocument::from_client(const ClientPosition& position, Encod
   }
   std::uint32_t column = position.character;
   if (has_byte_order_mark_ && position.line == 0)
-    column -= std::min(column, units_before(running::kByteOrderMark, 3, encoding));
+    column -= std::min(column, units_before(system::kByteOrderMark, 3, encoding));
   return {position.line, byte_at(document_.text_of_line(position.line), column, encoding)};
 }
 

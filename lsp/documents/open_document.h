@@ -9,8 +9,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "analyzer/analysis.h"
-#include "analyzer/suppressions.h"
+#include "analyzer/check/analysis.h"
+#include "analyzer/selection/suppressions.h"
 #include "interpreter/syntax/per_chunk.h"
 #include "lsp/documents/encoding.h"
 #include "lsp/documents/program_index.h"
@@ -46,13 +46,13 @@ class OpenDocument {
   const syntax::Document& document() const { return document_; }
   const DocumentSettings& settings() const { return settings_; }
   /// The rest is as of the last update.
-  const analyzer::Analysis& analysis() const { return *analysis_; }
-  const analyzer::Report& report();
+  const check::Analysis& analysis() const { return *analysis_; }
+  const check::Report& report();
   /// The first findings of the report, at least so many, and how many there are behind them.
-  analyzer::FirstFindings excerpt(std::size_t most);
+  check::FirstFindings excerpt(std::size_t most);
   /// The report's findings on a line; of a report with very many, without their paths and those that only the whole
   /// program shows.
-  std::vector<analyzer::LocatedFinding> findings_on(std::size_t line);
+  std::vector<check::LocatedFinding> findings_on(std::size_t line);
   const ProgramIndex& index();
 
   ClientPosition to_client(const syntax::Position& position, Encoding encoding) const;
@@ -68,9 +68,9 @@ class OpenDocument {
 
  private:
   void replace(const ContentChange& change, Encoding encoding);
-  analyzer::Report shown_report();
+  check::Report shown_report();
   bool is_long();
-  analyzer::Suppressions read_suppressions();
+  selection::Suppressions read_suppressions();
 
   const std::string uri_;
   SettingsStore& store_;
@@ -78,9 +78,9 @@ class OpenDocument {
   std::int64_t version_ = 0;
   syntax::Document document_;
   bool has_byte_order_mark_ = false;  // Before the text; no part of the document.
-  std::optional<analyzer::Analysis> analysis_;
+  std::optional<check::Analysis> analysis_;
   bool is_up_to_date_ = false;
-  std::optional<analyzer::Report> report_;  // Once somebody has asked.
+  std::optional<check::Report> report_;  // Once somebody has asked.
   ProgramIndex index_;
   syntax::PerChunk<bool> speaks_;  // To isolint, perhaps, in its comments.
   std::unordered_map<std::type_index, std::any> memories_;

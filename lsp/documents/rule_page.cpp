@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "analyzer/rendering.h"
+#include "analyzer/formats/rendering.h"
 #include "lsp/documents/uri.h"
 
 namespace isocnc::lsp::documents {
@@ -23,7 +23,7 @@ static std::string find_page(const fs::path& page) {
 }
 
 std::string rule_page(dialect::DiagnosticId id) {
-  std::string url = analyzer::rule_url(id);
+  std::string url = formats::rule_url(id);
   if (url.find("://") != std::string::npos) return url;
   const std::size_t anchor = url.find('#');
   static const std::string kFile = find_page(url.substr(0, anchor));

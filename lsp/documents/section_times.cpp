@@ -11,17 +11,17 @@ namespace {
 
 /// Adds up what it hears of a run.
 struct Adder {
-  void add(const running::TimedEvent& timed) {
+  void add(const simulation::TimedEvent& timed) {
     if (std::holds_alternative<running::ToolEvent>(timed.event.what)) {
       line = timed.event.line;
       sections.try_emplace(line, TimedSection{.start = timed.start});
     }
     TimedSection& section = sections[line];
     section.seconds += timed.duration + timed.wait;
-    section.mm += running::tip_length(timed, machine);
+    section.mm += simulation::tip_length(timed, machine);
   }
 
-  const running::TimedMachine& machine;
+  const simulation::TimedMachine& machine;
   Sections sections;
   std::uint64_t line = 0;
 };
@@ -52,7 +52,7 @@ std::shared_ptr<const Sections> SectionTimes::time(const TimedProgram& program, 
   if (auto found = known(program.version(), program.machine())) return found;
   Adder adder{.machine = program.machine().timed};
   const running::RunResult result =
-      program.run(stop, {.event = [&](const running::TimedEvent& timed) { adder.add(timed); }, .stretch = {}});
+      program.run(stop, {.event = [&](const simulation::TimedEvent& timed) { adder.add(timed); }, .stretch = {}});
   if (result.ending == running::Ending::Error) adder.sections.erase(adder.line);
   const std::lock_guard lock(mutex_);
   version_ = program.version();

@@ -11,8 +11,8 @@ struct SettingsStore::Generation {
   std::mutex mutex;  // Guards all below.
   configuration::Configurations found{{}, dialect::language_of_environment()};
   configuration::Configurations none{{.file = {}, .none = true}, dialect::language_of_environment()};
-  analyzer::SettingsFinder settings{found, {}};
-  analyzer::SettingsFinder settings_of_none{none, {}};
+  selection::SettingsFinder settings{found, {}};
+  selection::SettingsFinder settings_of_none{none, {}};
   std::set<std::filesystem::path> claimed;
 };
 

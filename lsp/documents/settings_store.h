@@ -5,14 +5,14 @@
 #include <mutex>
 #include <optional>
 
-#include "analyzer/program_settings.h"
+#include "analyzer/selection/program_settings.h"
 
 namespace isocnc::lsp::documents {
 
 /// How a program is checked, with its configuration. Stays as it is when the files change.
 struct DocumentSettings {
   std::shared_ptr<const void> owner;  ///< Of what the others refer to.
-  const analyzer::ProgramSettings* program = nullptr;
+  const selection::ProgramSettings* program = nullptr;
   const configuration::Configuration* configuration = nullptr;
 };
 

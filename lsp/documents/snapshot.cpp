@@ -16,7 +16,7 @@ bool Snapshot::is_wanted() const {
 }
 
 std::optional<execution::State> Snapshot::state_before(std::size_t line) const {
-  const analyzer::Frontier frontier = frontier_before(line);
+  const check::Frontier frontier = frontier_before(line);
   if (line >= document().line_count()) return frontier.state_at({});
   const syntax::DocumentLine next = document().line(line);
   return frontier.state_at(*next);

@@ -36,15 +36,15 @@ class Snapshot {
   std::int64_t version() const { return document_.version(); }
 
   const syntax::Document& document() const { return document_.document(); }
-  const analyzer::Report& report() const { return document_.report(); }
+  const check::Report& report() const { return document_.report(); }
   /// The first findings of the report, at least so many, and how many there are behind them: a program may have a
   /// hundred thousand, after each edit.
-  analyzer::FirstFindings excerpt(std::size_t most) const { return document_.excerpt(most); }
+  check::FirstFindings excerpt(std::size_t most) const { return document_.excerpt(most); }
   /// Of the report, those on a line.
-  std::vector<analyzer::LocatedFinding> findings_on(std::size_t line) const { return document_.findings_on(line); }
-  const analyzer::Analysis& analysis() const { return document_.analysis(); }
+  std::vector<check::LocatedFinding> findings_on(std::size_t line) const { return document_.findings_on(line); }
+  const check::Analysis& analysis() const { return document_.analysis(); }
   /// Where all paths stand before a line; lines behind the end count as the end.
-  analyzer::Frontier frontier_before(std::size_t line) const { return document_.analysis().frontier_before(line); }
+  check::Frontier frontier_before(std::size_t line) const { return document_.analysis().frontier_before(line); }
   /// Where labels, jumps, registers, tools and frames stand.
   const ProgramIndex& index() const { return document_.index(); }
   /// The state before a line, of all that comes from above or has jumped to it, where there is only one: none where no
@@ -52,7 +52,7 @@ class Snapshot {
   std::optional<execution::State> state_before(std::size_t line) const;
 
   const execution::Setup& setup() const { return document_.settings().program->setup; }
-  const analyzer::Selection& selection() const { return document_.settings().program->selection; }
+  const selection::Selection& selection() const { return document_.settings().program->selection; }
   const configuration::Configuration& configuration() const { return *document_.settings().configuration; }
   /// Who keeps all three after the call, for what goes on with them.
   std::shared_ptr<const void> settings_owner() const { return document_.settings().owner; }

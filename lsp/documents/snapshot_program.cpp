@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "analyzer/text_program.h"
+#include "analyzer/fixing/text_program.h"
 #include "interpreter/syntax/formatter.h"
 
 namespace isocnc::lsp::documents {
@@ -16,14 +16,14 @@ namespace {
 /// The habits of one version of a document.
 class HabitsOfDocument {
  public:
-  analyzer::fixes::Habits& of(const Snapshot& snapshot) {
+  fixes::Habits& of(const Snapshot& snapshot) {
     present_ = &snapshot;
     if (!program_ || version_ != snapshot.version() || settings_ != snapshot.settings_owner()) {
       program_.reset();
       version_ = snapshot.version();
       settings_ = snapshot.settings_owner();
       text_ = snapshot.document().text();
-      program_ = std::make_unique<analyzer::TextProgram>(text_, snapshot.setup(), [this] { pause(); });
+      program_ = std::make_unique<fixing::TextProgram>(text_, snapshot.setup(), [this] { pause(); });
     }
     return program_->habits();
   }
@@ -37,13 +37,13 @@ class HabitsOfDocument {
   std::int64_t version_ = 0;
   std::shared_ptr<const void> settings_;  // Hold the setup.
   std::string text_;
-  std::unique_ptr<analyzer::TextProgram> program_;
+  std::unique_ptr<fixing::TextProgram> program_;
   std::uint32_t lines_seen_ = 0;
 };
 
 }  // namespace
 
-analyzer::fixes::Habits& SnapshotProgram::habits() {
+fixes::Habits& SnapshotProgram::habits() {
   auto& memory = snapshot_.memory<std::shared_ptr<HabitsOfDocument>>();
   if (!memory) memory = std::make_shared<HabitsOfDocument>();
   return memory->of(snapshot_);
@@ -70,7 +70,7 @@ std::optional<std::uint64_t> SnapshotProgram::free_line_number() {
   return last_line_number_;
 }
 
-analyzer::EachLine each_line_of(const Snapshot& snapshot) {
+formatting::EachLine each_line_of(const Snapshot& snapshot) {
   return [&snapshot](const std::function<void(const syntax::LineTree&)>& look) {
     const syntax::Document& document = snapshot.document();
     syntax::ChunkTrees trees;

@@ -3,13 +3,13 @@
 #include <optional>
 
 #include "analyzer/fixes/fix.h"
-#include "analyzer/renumbering.h"
+#include "analyzer/formatting/renumbering.h"
 #include "lsp/documents/snapshot.h"
 
 namespace isocnc::lsp::documents {
 
 /// A snapshot as fixes and rewrites look at it.
-class SnapshotProgram final : public analyzer::fixes::Program {
+class SnapshotProgram final : public fixes::Program {
  public:
   explicit SnapshotProgram(const Snapshot& snapshot) : snapshot_(snapshot) {}
 
@@ -19,7 +19,7 @@ class SnapshotProgram final : public analyzer::fixes::Program {
   syntax::LineTree line(std::uint64_t line) override;
   std::optional<execution::State> state_before(std::uint64_t line) override { return snapshot_.state_before(line); }
   /// Found by one check of the whole text, and remembered until the document changes.
-  analyzer::fixes::Habits& habits() override;
+  fixes::Habits& habits() override;
   bool is_read(std::uint64_t line) override;
   bool is_jumped_to(std::uint64_t label) override;
   std::optional<std::uint64_t> free_line_number() override;
@@ -32,6 +32,6 @@ class SnapshotProgram final : public analyzer::fixes::Program {
 };
 
 /// All lines of the snapshot's document, which gives way now and then.
-analyzer::EachLine each_line_of(const Snapshot& snapshot);
+formatting::EachLine each_line_of(const Snapshot& snapshot);
 
 }  // namespace isocnc::lsp::documents

@@ -10,7 +10,7 @@
 
 namespace isocnc::lsp::documents {
 
-using analyzer::fixes::Edit;
+using fixes::Edit;
 using syntax::is_inside_character;
 
 std::optional<TextEdit> line_edit(const Snapshot& snapshot, std::size_t line, std::string_view text) {

@@ -16,7 +16,7 @@ namespace isocnc::lsp::documents {
 std::optional<TextEdit> line_edit(const Snapshot& snapshot, std::size_t line, std::string_view text);
 
 /// Edits as the client makes them, with the line ends of the program.
-std::vector<TextEdit> to_client(const Snapshot& snapshot, const std::vector<analyzer::fixes::Edit>& edits);
+std::vector<TextEdit> to_client(const Snapshot& snapshot, const std::vector<fixes::Edit>& edits);
 
 /// The edits that make `text` of the document, where each of its lines has the origin told: the line of the document
 /// that it was, ascending, or anything else for a new one. Lines that stay are not touched.

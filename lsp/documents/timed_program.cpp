@@ -13,13 +13,13 @@ TimedProgram::TimedProgram(const Snapshot& snapshot, double vgpl)
       options_{.setup = snapshot.setup(), .vgpl = vgpl},
       version_(snapshot.version()) {}
 
-running::RunResult TimedProgram::run(const std::function<bool()>& stop, running::Timing::Listeners listeners) const {
+running::RunResult TimedProgram::run(const std::function<bool()>& stop, simulation::Timing::Listeners listeners) const {
   running::RunOptions options = options_;
   options.before_block = [&, blocks = 0u](const running::Block&) mutable {
     if (++blocks % 1024 == 0 && stop())
       throw rpc::Error(rpc::ErrorCode::RequestCancelled, "nobody waits for the answer any more");
   };
-  return running::run_timed(text_, options, machine_->timed, std::move(listeners));
+  return simulation::run_timed(text_, options, machine_->timed, std::move(listeners));
 }
 
 }  // namespace isocnc::lsp::documents

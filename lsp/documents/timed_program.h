@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "interpreter/running/timed_run.h"
+#include "interpreter/simulation/timed_run.h"
 #include "lsp/documents/snapshot.h"
 
 namespace isocnc::lsp::documents {
@@ -19,7 +19,7 @@ class TimedProgram {
   const configuration::Machine& machine() const { return *machine_; }
 
   /// Runs it, up to an error. Asked now and then whether to `stop`, it throws rpc::Error, RequestCancelled.
-  running::RunResult run(const std::function<bool()>& stop, running::Timing::Listeners listeners) const;
+  running::RunResult run(const std::function<bool()>& stop, simulation::Timing::Listeners listeners) const;
 
  private:
   std::string text_;

@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-#include "analyzer/rendering.h"
+#include "analyzer/formats/rendering.h"
 #include "interpreter/configuration/configurations.h"
 #include "interpreter/dialect/any_case.h"
 
@@ -41,6 +41,6 @@ bool names_configuration(std::string_view uri) {
   return path && path->filename() == configuration::kFileName;
 }
 
-std::string uri_of(const std::filesystem::path& path) { return analyzer::uri_of(path.string()); }
+std::string uri_of(const std::filesystem::path& path) { return formats::uri_of(path.string()); }
 
 }  // namespace isocnc::lsp::documents

@@ -10,7 +10,7 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
-#include "analyzer/rendering.h"
+#include "analyzer/formats/rendering.h"
 #include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/dialect/format.h"
 #include "lsp/documents/rule_page.h"
@@ -20,7 +20,7 @@
 namespace isocnc::lsp::features {
 
 using namespace dialect::literals;
-using analyzer::LocatedFinding;
+using check::LocatedFinding;
 
 /// Findings that are told of one program; a last one says how many there are.
 static constexpr std::size_t kMostFindings = 1000;
@@ -124,13 +124,13 @@ class DiagnosticWriter {
   /// The jumps through which a finding is reached.
   Json path_of(const LocatedFinding& located) const {
     Json steps = Json::array();
-    for (const analyzer::PathStep& step : first_.report.paths[static_cast<std::size_t>(located.path)]) {
+    for (const check::PathStep& step : first_.report.paths[static_cast<std::size_t>(located.path)]) {
       const syntax::DocumentLine read = snapshot_.document().line(step.line);
       const syntax::LineTree& line = *read;
       const syntax::Span span =
           line.jump ? syntax::Span{line.jump->if_span.begin, line.jump->target_span.end} : syntax::Span{};
       steps.push_back({{"location", documents::Location{snapshot_.uri(), snapshot_.to_client(step.line, span)}},
-                       {"message", analyzer::describe_step(step, line.text, language_)}});
+                       {"message", formats::describe_step(step, line.text, language_)}});
     }
     return steps;
   }
@@ -147,7 +147,7 @@ class DiagnosticWriter {
 
   const Snapshot& snapshot_;
   const dialect::Language language_;
-  const analyzer::FirstFindings first_;
+  const check::FirstFindings first_;
   const bool tells_related_;
 };
 

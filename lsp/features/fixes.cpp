@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "analyzer/fixer.h"
 #include "analyzer/fixes/fix.h"
+#include "analyzer/fixing/fixer.h"
 #include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/dialect/format.h"
 #include "lsp/documents/snapshot_program.h"
@@ -16,11 +16,11 @@
 /// How findings are mended, one by one or all that is safe, and how they are silenced.
 namespace isocnc::lsp::features {
 
-using analyzer::LocatedFinding;
-using analyzer::fixes::Edit;
-using analyzer::fixes::Fix;
+using check::LocatedFinding;
 using dialect::Text;
 using documents::SnapshotProgram;
+using fixes::Edit;
+using fixes::Fix;
 
 static constexpr std::string_view kQuickFix = "quickfix";
 static constexpr std::string_view kFixAll = "source.fixAll.isocnc";
@@ -58,12 +58,12 @@ void offer_fixes(const Snapshot& snapshot, const ActionParams& params, std::vect
   SnapshotProgram program(snapshot);
   for (const LocatedFinding& located : findings_of(snapshot, params)) {
     const bool on_every_path = located.path < 0 && !snapshot.frontier_before(located.line).reduced;
-    const std::optional<Fix> fix = analyzer::fixes::fix_of({located.line, located.finding, on_every_path}, program);
+    const std::optional<Fix> fix = fixes::fix_of({located.line, located.finding, on_every_path}, program);
     if (!fix) continue;
     const std::vector<Edit> edits = all_edits(*fix, program);
     Action& action = actions.emplace_back(Action{.title = fix->title_in(snapshot.language()),
                                                  .kind = kQuickFix,
-                                                 .is_preferred = fix->safety == analyzer::fixes::Safety::Safe,
+                                                 .is_preferred = fix->safety == fixes::Safety::Safe,
                                                  .diagnostics = diagnostics_of(snapshot, located, params),
                                                  .data = {{"habit", fix->habit}}});
     if (edits.size() <= kMostEdits) action.edit = workspace_edit(snapshot, to_client(snapshot, edits));
@@ -73,10 +73,9 @@ void offer_fixes(const Snapshot& snapshot, const ActionParams& params, std::vect
 /// All that a habit has to have rewritten, which may be much of the program.
 Json rewrite_habit(const Snapshot& snapshot, const Json& data) {
   const auto habit = data.value("habit", std::size_t{0});
-  if (habit >= analyzer::fixes::kHabitCount) throw rpc::Error(rpc::ErrorCode::RequestFailed, "no such habit");
+  if (habit >= fixes::kHabitCount) throw rpc::Error(rpc::ErrorCode::RequestFailed, "no such habit");
   SnapshotProgram program(snapshot);
-  const std::vector<Edit> edits =
-      all_edits({.habit = analyzer::fixes::Habit{static_cast<std::uint8_t>(habit)}}, program);
+  const std::vector<Edit> edits = all_edits({.habit = fixes::Habit{static_cast<std::uint8_t>(habit)}}, program);
   if (edits.empty()) throw rpc::Error(rpc::ErrorCode::RequestFailed, "the program has changed: nothing to rewrite");
   return workspace_edit(snapshot, to_client(snapshot, edits));
 }
@@ -120,12 +119,12 @@ void offer_silence(const Snapshot& snapshot, const ActionParams& params, std::ve
 
 std::vector<documents::TextEdit> edits_of_all(const Snapshot& snapshot) {
   const std::string text = snapshot.document().text();
-  const auto pause = [&](analyzer::Report report, std::string_view) {
+  const auto pause = [&](check::Report report, std::string_view) {
     snapshot.give_way();
     return report;
   };
-  const analyzer::FixedText fixed =
-      analyzer::fix_text(text, {.selection = snapshot.selection(), .setup = snapshot.setup(), .concern = pause});
+  const fixing::FixedText fixed =
+      fixing::fix_text(text, {.selection = snapshot.selection(), .setup = snapshot.setup(), .concern = pause});
   return edits_to(snapshot, fixed.text, fixed.origins);
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "analyzer/program_formatter.h"
+#include "analyzer/formatting/program_formatter.h"
 #include "interpreter/syntax/characters.h"
 #include "lsp/documents/snapshot_program.h"
 #include "lsp/documents/text_edits.h"
@@ -12,9 +12,9 @@
 /// The program as isofmt would write it, by the configuration. Where it cannot be renumbered, the rest is done.
 namespace isocnc::lsp::features {
 
-using analyzer::LinesFormatter;
-using analyzer::ProgramStyle;
 using documents::TextEdit;
+using formatting::LinesFormatter;
+using formatting::ProgramStyle;
 
 namespace {
 
@@ -43,8 +43,8 @@ std::vector<TextEdit> format_lines(const Snapshot& snapshot, LinesFormatter& for
 }
 
 documents::RawJson format(const Snapshot& snapshot, const documents::DocumentParams&) {
-  ProgramStyle style = analyzer::style_by(snapshot.configuration().format);
-  const analyzer::EachLine each_line = documents::each_line_of(snapshot);
+  ProgramStyle style = formatting::style_by(snapshot.configuration().format);
+  const formatting::EachLine each_line = documents::each_line_of(snapshot);
   std::optional<LinesFormatter> formatter(std::in_place, style, each_line);
   if (formatter->obstacle()) {
     style.numbers.reset();
@@ -55,7 +55,7 @@ documents::RawJson format(const Snapshot& snapshot, const documents::DocumentPar
 
 /// Line numbers are the whole program's concern, and stay.
 documents::RawJson format_range(const Snapshot& snapshot, const documents::RangeParams& params) {
-  ProgramStyle style = analyzer::style_by(snapshot.configuration().format);
+  ProgramStyle style = formatting::style_by(snapshot.configuration().format);
   style.numbers.reset();
   LinesFormatter formatter(style, {});
   const bool ends_before_line = params.range.end.character == 0 && params.range.end.line > params.range.start.line;
@@ -81,7 +81,7 @@ std::vector<TextEdit> format_on_type(const Snapshot& snapshot, const OnTypeParam
     const syntax::DocumentLine typed = snapshot.document().line(line);
     edit = line_edit(snapshot, line, in_capitals(*typed));
   } else if (line > 0) {
-    ProgramStyle style = analyzer::style_by(snapshot.configuration().format);
+    ProgramStyle style = formatting::style_by(snapshot.configuration().format);
     syntax::Formatter formatter(style.line);
     const syntax::DocumentLine ended = snapshot.document().line(line - 1);
     edit = line_edit(snapshot, line - 1, formatter.format(*ended));

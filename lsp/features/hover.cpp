@@ -8,14 +8,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analyzer/rendering.h"
+#include "analyzer/formats/rendering.h"
 #include "interpreter/dialect/codes.h"
 #include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/letters.h"
 #include "interpreter/execution/machine_move.h"
 #include "interpreter/motion/travel.h"
-#include "interpreter/running/timing.h"
+#include "interpreter/simulation/timing.h"
 #include "interpreter/syntax/unicode.h"
 #include "lsp/documents/assignments.h"
 #include "lsp/documents/line_run.h"
@@ -196,8 +196,9 @@ class Teller {
 
   /// The way of the tip, which a rapid that turns B or C swings; mm.
   double tip_length(const execution::MachineMove& move, const LineRun& run) const {
-    const running::TimedMachine& machine = snapshot_.configuration().machine.timed;
-    return motion::tip_travel(machine.motion, running::planned_move(move, machine, machine.tool_length(run.after.tool)))
+    const simulation::TimedMachine& machine = snapshot_.configuration().machine.timed;
+    return motion::tip_travel(machine.motion,
+                              simulation::planned_move(move, machine, machine.tool_length(run.after.tool)))
         .length;
   }
 
@@ -264,7 +265,7 @@ class Teller {
     for (const dialect::MCode& code : dialect::kMCodes) {
       if (word_.value != code.number) continue;
       title(fmt::format("{} ({})", code.name.in(language_), code.section));
-      const running::Durations& durations = snapshot_.configuration().machine.timed.durations;
+      const simulation::Durations& durations = snapshot_.configuration().machine.timed.durations;
       if (code.number == dialect::kToolChange) add(text(kTakes, shown(durations.tool_change)));
       if (code.number >= 3 && code.number <= 5) add(text(kTakesWhereItChanges, shown(durations.spindle)));
       return;
@@ -356,7 +357,7 @@ class Teller {
   }
 
   void tell_findings() {
-    for (const analyzer::LocatedFinding& located : snapshot_.findings_on(line_number_)) {
+    for (const check::LocatedFinding& located : snapshot_.findings_on(line_number_)) {
       if (!located.finding.span.holds(word_.begin)) continue;
       const dialect::DiagnosticDef& def = dialect::definition(located.finding.id);
       add(fmt::format("**{}** {}", def.code, def.explanation.in(language_)));

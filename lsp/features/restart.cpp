@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "interpreter/dialect/format.h"
-#include "interpreter/running/restart.h"
+#include "interpreter/restart/restart.h"
 #include "lsp/documents/uri.h"
 #include "lsp/features/feature.h"
 
@@ -49,24 +49,24 @@ std::string uri_of_restart(const std::string& uri, std::uint64_t line) {
 }
 
 /// What stands in the way, for people.
-std::string why_not(const running::RestartRefusal& refusal, dialect::Language language) {
+std::string why_not(const restart::RestartRefusal& refusal, dialect::Language language) {
   static constexpr Text kError = {"the program stops at line {} with an error; correct it first",
                                   "il programma si ferma alla riga {} con un errore: va prima corretto"};
-  if (refusal.obstacle == running::Obstacle::ProgramError)
+  if (refusal.obstacle == restart::Obstacle::ProgramError)
     return dialect::format(kError, language, refusal.run.line + 1);
   return message(refusal, language);
 }
 
 std::string restart_text(const Snapshot& snapshot, const RestartParams& params) {
-  running::RestartOptions options;
+  restart::RestartOptions options;
   options.run.setup = snapshot.setup();
   options.run.vgpl = params.vgpl.value_or(0);
   options.machine = snapshot.configuration().machine.timed;
   options.line = params.line;
   options.name = name_of(snapshot);
   options.language = snapshot.language();
-  auto made = running::restart_program(snapshot.document().text(), options);
-  if (const auto* const refusal = std::get_if<running::RestartRefusal>(&made))
+  auto made = restart::restart_program(snapshot.document().text(), options);
+  if (const auto* const refusal = std::get_if<restart::RestartRefusal>(&made))
     throw rpc::Error(rpc::ErrorCode::RequestFailed, why_not(*refusal, snapshot.language()));
   return std::get<std::string>(std::move(made));
 }

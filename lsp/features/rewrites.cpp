@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "analyzer/program_formatter.h"
-#include "analyzer/rewriting.h"
+#include "analyzer/fixing/rewriting.h"
+#include "analyzer/formatting/program_formatter.h"
 #include "lsp/documents/snapshot_program.h"
 #include "lsp/documents/text_edits.h"
 #include "lsp/features/feature.h"
@@ -11,13 +11,13 @@
 /// Other ways to write what the program does; its motions stay as they are.
 namespace isocnc::lsp::features {
 
-using analyzer::LinesFormatter;
-using analyzer::MotionStyle;
-using analyzer::NumberStyle;
-using analyzer::ProgramStyle;
-using analyzer::Rewrite;
 using dialect::Text;
 using documents::TextEdit;
+using fixing::Rewrite;
+using formatting::LinesFormatter;
+using formatting::MotionStyle;
+using formatting::NumberStyle;
+using formatting::ProgramStyle;
 
 /// Selections of so many lines are looked at before something is offered; longer ones when it has been chosen.
 static constexpr std::size_t kQuickLines = 500;
@@ -68,7 +68,7 @@ constexpr Text kNotTheSame = {
 
 std::optional<Json> try_rewrite(const Snapshot& snapshot, Rewrite how, std::size_t first, std::size_t last) {
   documents::SnapshotProgram program(snapshot);
-  const auto edits = analyzer::rewrite(how, program, snapshot.setup(), first, last);
+  const auto edits = fixing::rewrite(how, program, snapshot.setup(), first, last);
   if (!edits) return std::nullopt;
   return workspace_edit(snapshot, to_client(snapshot, *edits));
 }
@@ -102,7 +102,7 @@ Json make_rewrite(const Snapshot& snapshot, const Json& data) {
 /// The edits of lines `first` to `last` that change more than blanks and letter case.
 std::vector<TextEdit> formatted(const Snapshot& snapshot, const ProgramStyle& style, std::size_t first,
                                 std::size_t last) {
-  const analyzer::EachLine each_line = documents::each_line_of(snapshot);
+  const formatting::EachLine each_line = documents::each_line_of(snapshot);
   LinesFormatter formatter(style, each_line);
   if (formatter.obstacle()) refuse(formatter.obstacle()->message(snapshot.language()));
   std::vector<TextEdit> edits;
@@ -125,7 +125,7 @@ struct Styling {
 };
 
 ProgramStyle numbering(const configuration::Format& format) {
-  const auto configured = analyzer::style_by(format).numbers;
+  const auto configured = formatting::style_by(format).numbers;
   return {.numbers = configured.value_or(NumberStyle{})};
 }
 

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "interpreter/configuration/plot_tools.h"
-#include "interpreter/running/path_recording.h"
+#include "interpreter/plot/path_recording.h"
+#include "interpreter/plot/plot_tools.h"
 #include "lsp/documents/timed_program.h"
 #include "lsp/documents/uri.h"
 #include "lsp/features/feature.h"
@@ -46,7 +46,7 @@ void from_json(const Json& json, ToolpathParams& params) {
 
 /// A stream, or how it differs from the one that the client has.
 std::string stream(std::string_view now, const std::string* before) {
-  if (!before) return fmt::format(R"({{"data":"{}"}})", running::base64(now));
+  if (!before) return fmt::format(R"({{"data":"{}"}})", plot::base64(now));
   const auto head = static_cast<std::size_t>(
       std::mismatch(now.begin(), now.end(), before->begin(), before->end()).first - now.begin());
   const std::size_t most_tail = std::min(now.size(), before->size()) - head;
@@ -54,13 +54,13 @@ std::string stream(std::string_view now, const std::string* before) {
       std::mismatch(now.rbegin(), now.rbegin() + static_cast<std::ptrdiff_t>(most_tail), before->rbegin()).first -
       now.rbegin());
   return fmt::format(R"({{"start":{},"removed":{},"data":"{}"}})", head, before->size() - head - tail,
-                     running::base64(now.substr(head, now.size() - head - tail)));
+                     plot::base64(now.substr(head, now.size() - head - tail)));
 }
 
 /// All that the study takes with it.
 struct Task {
   documents::TimedProgram program;
-  running::PlotSubject subject;
+  plot::PlotSubject subject;
   std::string previous;
   std::shared_ptr<LastTold> last;
 
@@ -68,12 +68,12 @@ struct Task {
 };
 
 std::string Task::study(const std::function<bool()>& stop) {
-  const running::TimedMachine& machine = program.machine().timed;
-  running::PathRecording recording(subject, machine);
-  running::Toolpath path(machine, subject.home, [&](const running::ToolpathStep& step) { recording.add(step); });
+  const simulation::TimedMachine& machine = program.machine().timed;
+  plot::PathRecording recording(subject, machine);
+  plot::Toolpath path(machine, subject.home, [&](const plot::ToolpathStep& step) { recording.add(step); });
   const running::RunResult result = program.run(
-      stop, {.event = [&](const running::TimedEvent& timed) { path.add(timed); },
-             .stretch = [&](const motion::Stretch& stretch, const running::TimedEvent&) { path.add(stretch); }});
+      stop, {.event = [&](const simulation::TimedEvent& timed) { path.add(timed); },
+             .stretch = [&](const motion::Stretch& stretch, const simulation::TimedEvent&) { path.add(stretch); }});
   const auto now = std::make_shared<ToldPath>(ToldPath{.id = 0,
                                                        .steps = std::string(recording.steps()),
                                                        .points = std::string(recording.points()),
@@ -100,7 +100,7 @@ Study begin(const Snapshot& snapshot, const ToolpathParams& params) {
                                                 .subject = {.name = path ? path->filename().string() : snapshot.uri(),
                                                             .program = {},
                                                             .home = machine.setup.home,
-                                                            .tools = configuration::plot_tools(machine),
+                                                            .tools = plot::plot_tools(machine),
                                                             .page = {},
                                                             .language = snapshot.language()},
                                                 .previous = params.previous,

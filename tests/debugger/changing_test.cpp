@@ -57,7 +57,7 @@ TEST(Changing, VariablesThatAreShownCanBeSetWhereTheyMayBe) {
 /// What the machine knows after an S or an F that is set is what it knows after a block with it.
 TEST(Changing, SpeedsThatAreSetDoAllThatTheProgramsDo) {
   const running::RunOptions options;
-  const running::TimedMachine machine;
+  const simulation::TimedMachine machine;
   for (const std::string_view before : {"G94", "G93", "G70"}) {
     const std::string text = "M06 T101001\n" + std::string(before) + "\nG01 X1 F2\nX2 F3\nX3 F3\nM05\nM02\n";
     for (const char letter : {'S', 'F'}) {

@@ -4,12 +4,12 @@
 
 #include "debug_client.h"
 #include "debugger/session/debuggee.h"
-#include "tests/running/random_run.h"
+#include "tests/simulation/random_run.h"
 
 namespace isocnc::debugger::session {
 namespace {
 
-using running::Simulation;
+using simulation::Simulation;
 
 bool are_equal(const Simulation& a, const Simulation& b) {
   const motion::Sample here = a.sample();
@@ -22,7 +22,7 @@ bool are_equal(const Simulation& a, const Simulation& b) {
 
 /// A fresh run to the same moment.
 Simulation fresh_run_to(const Simulation& moment, const running::Program& program, const running::RunOptions& options,
-                        const running::TimedMachine& machine) {
+                        const simulation::TimedMachine& machine) {
   Simulation fresh(program, options, machine);
   const std::uint64_t whole = moment.blocks() - (moment.is_in_block() ? 1 : 0);
   while (!fresh.has_ended() && (fresh.blocks() < whole || fresh.is_in_block())) fresh.step_block();
@@ -38,9 +38,9 @@ class Walks : public testing::TestWithParam<int> {};
 
 TEST_P(Walks, EndWhereAFreshRunDoes) {
   support::Random random(static_cast<std::uint64_t>(GetParam()));
-  const std::string text = running::RandomRun(random).text(3);
-  const running::TimedMachine machine = running::machine_of_tests();
-  const running::RunOptions options = running::options_for(machine);
+  const std::string text = simulation::RandomRun(random).text(3);
+  const simulation::TimedMachine machine = simulation::machine_of_tests();
+  const running::RunOptions options = simulation::options_for(machine);
   const running::Program program(text);
   Debuggee walker(ProgramText(text), options, machine);
   for (int step = 0; step < 60; ++step) {
@@ -74,7 +74,7 @@ class ClientWalks : public testing::TestWithParam<int> {};
 /// All that a client is shown between two blocks, however it has come there, is what it was on the first way on.
 TEST_P(ClientWalks, ShowWhatTheFirstWayShowed) {
   support::Random random(static_cast<std::uint64_t>(GetParam()));
-  std::string text = running::RandomRun(random).text(2);
+  std::string text = simulation::RandomRun(random).text(2);
   if (!text.ends_with("M02\n")) text += "M02\n";
   DebugClient client;
   client.stand_at_begin(text);
@@ -133,9 +133,9 @@ TEST(ByHand, WhatIsUndoneLeavesNoTrace) {
   int undone = 0;
   for (int seed = 0; seed < 10; ++seed) {
     support::Random random(static_cast<std::uint64_t>(seed));
-    const std::string text = running::RandomRun(random).text(2);
-    const running::TimedMachine machine = running::machine_of_tests();
-    Debuggee walker(ProgramText(text), running::options_for(machine), machine);
+    const std::string text = simulation::RandomRun(random).text(2);
+    const simulation::TimedMachine machine = simulation::machine_of_tests();
+    Debuggee walker(ProgramText(text), simulation::options_for(machine), machine);
     for (int i = random.between(1, 20); i > 0; --i) walker.step_block();
     if (walker.hindrance()) continue;
     const Simulation before = walker.present();

@@ -7,12 +7,12 @@
 
 #include <unistd.h>
 
-#include "analyzer/baseline.h"
+#include "analyzer/selection/baseline.h"
 #include "require.h"
 
 namespace isocnc::fuzz {
 
-using analyzer::Baseline;
+using selection::Baseline;
 
 /// Of this process; gone with it.
 static const std::filesystem::path& file() {

@@ -1,16 +1,16 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "analyzer/check_text.h"
+#include "analyzer/check/check_text.h"
 #include "interpreter/syntax/document.h"
 #include "require.h"
 #include "tests/support/report_text.h"
 
 namespace isocnc::fuzz {
 
-using analyzer::LocatedFinding;
+using check::LocatedFinding;
 
-static void check_places(std::string_view text, const analyzer::Report& report) {
+static void check_places(std::string_view text, const check::Report& report) {
   const syntax::Document document(text);
   for (const LocatedFinding& located : report.findings) {
     require(located.line < document.line_count(), "findings stand on lines of the text");
@@ -35,11 +35,11 @@ static std::string several_batches(std::string_view text) {
 }
 
 static void check_program(std::string_view text) {
-  check_places(text, analyzer::check_text(text, {}));
+  check_places(text, check::check_text(text, {}));
   if (text.size() % 64 != 0) return;  // Long texts are slow; some of them do.
   const std::string longer = several_batches(text);
-  const auto alone = support::texts_of(analyzer::check_text(longer, {}, 1));
-  require(alone == support::texts_of(analyzer::check_text(longer, {}, 2)), "two jobs give the same report as one");
+  const auto alone = support::texts_of(check::check_text(longer, {}, 1));
+  require(alone == support::texts_of(check::check_text(longer, {}, 2)), "two jobs give the same report as one");
 }
 
 }  // namespace isocnc::fuzz

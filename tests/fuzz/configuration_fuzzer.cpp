@@ -5,7 +5,7 @@
 #include "interpreter/configuration/read.h"
 #include "interpreter/configuration/show.h"
 #include "interpreter/running/runner.h"
-#include "interpreter/running/summary.h"
+#include "interpreter/simulation/summary.h"
 #include "require.h"
 
 namespace isocnc::fuzz {
@@ -18,15 +18,15 @@ static constexpr const char* kProgram =
 
 /// Whatever machine a file describes, a program on it takes a time that is a number, and has its summary.
 static void run_on(const configuration::Machine& machine, bool is_summed_up) {
-  running::Summary summary(machine.timed);
+  simulation::Summary summary(machine.timed);
   double last = 0;
-  running::Timing timing(machine.timed, {.event = [&](const running::TimedEvent& timed) {
-                           require(timed.start >= last - 1e-9 * last, "events come in the order of their times");
-                           require(timed.duration >= 0 && std::isfinite(timed.start + timed.duration),
-                                   "times are numbers");
-                           last = timed.start;
-                           if (is_summed_up) summary.add(timed);
-                         }});
+  simulation::Timing timing(machine.timed, {.event = [&](const simulation::TimedEvent& timed) {
+                              require(timed.start >= last - 1e-9 * last, "events come in the order of their times");
+                              require(timed.duration >= 0 && std::isfinite(timed.start + timed.duration),
+                                      "times are numbers");
+                              last = timed.start;
+                              if (is_summed_up) summary.add(timed);
+                            }});
   running::RunOptions options;
   options.setup = machine.setup;
   options.stop_at_errors = false;

@@ -1,8 +1,8 @@
 #include <cstdint>
 #include <string>
 
-#include "analyzer/analysis.h"
-#include "analyzer/check_text.h"
+#include "analyzer/check/analysis.h"
+#include "analyzer/check/check_text.h"
 #include "require.h"
 #include "tests/support/report_text.h"
 
@@ -55,7 +55,7 @@ static void check_document(std::string_view bytes) {
   Input input(bytes);
   const execution::Setup setup;
   Document document(first_text(input));
-  analyzer::Analysis analysis(document, setup);
+  check::Analysis analysis(document, setup);
   while (!input.empty()) {
     edit_once(input, document);
     analysis.update();
@@ -63,9 +63,9 @@ static void check_document(std::string_view bytes) {
   const std::string text = document.text();
   require(support::text_of(document) == support::text_of(Document(text)), "an edited document equals a fresh one");
   const auto report = support::texts_of(analysis.report());
-  require(report == support::texts_of(analyzer::Analysis(document, setup).report()),
+  require(report == support::texts_of(check::Analysis(document, setup).report()),
           "an edited analysis equals a fresh one");
-  require(report == support::texts_of(analyzer::check_text(text, setup)), "an analysis equals a check of the text");
+  require(report == support::texts_of(check::check_text(text, setup)), "an analysis equals a check of the text");
 }
 
 }  // namespace isocnc::fuzz

@@ -1,7 +1,7 @@
 #include <cstdint>
 #include <string>
 
-#include "interpreter/running/source_file.h"
+#include "interpreter/system/source_file.h"
 #include "lsp/documents/open_document.h"
 #include "require.h"
 #include "tests/support/report_text.h"
@@ -46,7 +46,7 @@ class Input {
 /// The whole text, with the byte-order mark that the document keeps apart: behind it there may be another.
 static std::string text_of(const OpenDocument& document) {
   const bool has_mark = document.to_client({0, 0}, Encoding::Utf8).character > 0;
-  return std::string(has_mark ? running::kByteOrderMark : "") + document.document().text();
+  return std::string(has_mark ? system::kByteOrderMark : "") + document.document().text();
 }
 
 /// What the document says, and what one says that has been opened with its text.

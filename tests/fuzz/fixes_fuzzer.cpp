@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "analyzer/fixer.h"
-#include "analyzer/selection.h"
+#include "analyzer/fixing/fixer.h"
+#include "analyzer/selection/selection.h"
 #include "interpreter/syntax/document.h"
 #include "require.h"
 #include "tests/support/fixed_program.h"
@@ -14,10 +14,9 @@
 namespace isocnc::fuzz {
 
 static void check_fixes(std::string_view text, bool unsafe, double vgpl) {
-  const analyzer::Selection selection;
+  const selection::Selection selection;
   const execution::Setup setup;
-  const analyzer::FixedText fixed =
-      analyzer::fix_text(text, {.selection = selection, .setup = setup, .unsafe = unsafe});
+  const fixing::FixedText fixed = fixing::fix_text(text, {.selection = selection, .setup = setup, .unsafe = unsafe});
   require(fixed.origins.size() == syntax::Document(fixed.text).line_count(), "each line has its origin");
   if (fixed.fixed == 0) require(fixed.text == text, "without a fix nothing changes");
   const std::multiset<std::string> before = support::codes_of(text);

@@ -4,20 +4,20 @@
 #include <string>
 #include <vector>
 
-#include "analyzer/check_text.h"
-#include "analyzer/program_formatter.h"
+#include "analyzer/check/check_text.h"
+#include "analyzer/formatting/program_formatter.h"
 #include "interpreter/running/runner.h"
 #include "require.h"
 
 namespace isocnc::fuzz {
 
-using analyzer::MotionStyle;
-using analyzer::NumberStyle;
-using analyzer::ProgramStyle;
+using formatting::MotionStyle;
+using formatting::NumberStyle;
+using formatting::ProgramStyle;
 
 /// Nothing where the program cannot be renumbered.
 static std::optional<std::string> format(std::string_view text, const ProgramStyle& style) {
-  analyzer::ProgramFormatter formatter(text, style);
+  formatting::ProgramFormatter formatter(text, style);
   if (formatter.obstacle()) return std::nullopt;
   std::string formatted;
   std::size_t read = 0;
@@ -42,7 +42,7 @@ static std::string events_of(std::string_view text) {
 /// told, and whether the paths tell the same one.
 static std::vector<std::uint64_t> findings_of(std::string_view text) {
   std::vector<std::uint64_t> all;
-  for (const analyzer::LocatedFinding& located : analyzer::check_text(text, {}).findings)
+  for (const check::LocatedFinding& located : check::check_text(text, {}).findings)
     all.push_back(located.line * 1'000 + static_cast<std::uint64_t>(located.finding.id));
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
@@ -71,12 +71,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace isocnc;
   if (size == 0) return 0;
   const unsigned choice = data[0];
-  analyzer::ProgramStyle style;
+  formatting::ProgramStyle style;
   if ((choice & 1u) != 0) style.line.most_decimals = 2;
   if ((choice & 2u) != 0) style.line.word_order = true;
   style.line.g_digits = static_cast<syntax::GDigits>((choice >> 2) % 3);
-  style.motions = static_cast<analyzer::MotionStyle>((choice >> 4) % 3);
-  if ((choice & 64u) != 0) style.numbers = analyzer::NumberStyle{.all_lines = (choice & 128u) != 0};
+  style.motions = static_cast<formatting::MotionStyle>((choice >> 4) % 3);
+  if ((choice & 64u) != 0) style.numbers = formatting::NumberStyle{.all_lines = (choice & 128u) != 0};
   fuzz::check_style(fuzz::as_text(data + 1, size - 1), style);
   return 0;
 }

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <string>
 
-#include "interpreter/running/compensation.h"
-#include "interpreter/running/restart.h"
+#include "interpreter/restart/restart.h"
 #include "interpreter/running/runner.h"
-#include "interpreter/running/summary.h"
+#include "interpreter/simulation/compensation.h"
+#include "interpreter/simulation/summary.h"
 #include "require.h"
 
 namespace isocnc::fuzz {
@@ -33,8 +33,8 @@ static void run_program(std::string_view text, bool stop_at_errors) {
 }
 
 /// Head, travel and tools: all that a motion can meet.
-static running::TimedMachine machine() {
-  running::TimedMachine machine{.motion = motion::head_router()};
+static simulation::TimedMachine machine() {
+  simulation::TimedMachine machine{.motion = motion::head_router()};
   machine.tool_lengths[execution::tool_code(101001)] = 120;
   machine.home.tip.z() = 500;
   return machine;
@@ -44,19 +44,19 @@ static running::TimedMachine machine() {
 /// is left out.
 static void time_program(std::string_view text) {
   constexpr double kLongestWay = 500;
-  const running::TimedMachine timed_on = machine();
-  running::Summary summary(timed_on);
+  const simulation::TimedMachine timed_on = machine();
+  simulation::Summary summary(timed_on);
   std::size_t taken = 0;
   std::size_t told = 0;
   double last = 0;
-  running::Timing timing(timed_on, {.event = [&](const running::TimedEvent& timed) {
-                           ++told;
-                           require(timed.start >= last - 1e-9 * last, "events come in the order of their times");
-                           require(timed.duration >= 0 && std::isfinite(timed.start + timed.duration),
-                                   "times are numbers");
-                           last = timed.start;
-                           summary.add(timed);
-                         }});
+  simulation::Timing timing(timed_on, {.event = [&](const simulation::TimedEvent& timed) {
+                              ++told;
+                              require(timed.start >= last - 1e-9 * last, "events come in the order of their times");
+                              require(timed.duration >= 0 && std::isfinite(timed.start + timed.duration),
+                                      "times are numbers");
+                              last = timed.start;
+                              summary.add(timed);
+                            }});
   double way = 0;
   running::RunOptions options;
   options.setup.home = timed_on.home;
@@ -75,18 +75,18 @@ static void time_program(std::string_view text) {
 }
 
 static void follow_tool(std::string_view text) {
-  running::TimedMachine machine;
+  simulation::TimedMachine machine;
   machine.tool_radii[{1, 1, 1}] = 4;
   std::uint64_t line = 0;
   std::uint64_t warned = 0;
-  const running::Compensation::Listeners listeners{
+  const simulation::Compensation::Listeners listeners{
       .event =
           [&](const running::Event& event) {
             require(event.line >= line, "a tool goes forward");
             line = event.line;
           },
-      .warning = [&](const running::RunWarning& warning) { warned = std::max(warned, warning.line); }};
-  running::Compensation compensation(machine);
+      .warning = [&](const simulation::RunWarning& warning) { warned = std::max(warned, warning.line); }};
+  simulation::Compensation compensation(machine);
   running::RunOptions options;
   options.stop_at_errors = false;
   running::run(text, options, [&](const running::Event& event) { compensation.take(event, listeners); });
@@ -95,19 +95,19 @@ static void follow_tool(std::string_view text) {
 }
 
 static void restart_program(std::string_view text) {
-  running::RestartOptions options;
+  restart::RestartOptions options;
   options.line = text.size() % most_lines(text);
   options.machine = machine();
   options.run.setup.home = options.machine.home;
-  const auto made = running::restart_program(text, options);
+  const auto made = restart::restart_program(text, options);
   if (const auto* const program = std::get_if<std::string>(&made)) {
     const auto result = running::run(*program, options.run, [](const running::Event&) {});
     require(result.ending == running::Ending::ProgramEnd, "a restart program ends");
     require(text.empty() || program->back() == text.back(), "and as the text does");
     return;
   }
-  const auto& refusal = std::get<running::RestartRefusal>(made);
-  require(!running::message(refusal, dialect::Language::Italian).empty(), "a refusal has its reason");
+  const auto& refusal = std::get<restart::RestartRefusal>(made);
+  require(!restart::message(refusal, dialect::Language::Italian).empty(), "a refusal has its reason");
 }
 
 }  // namespace isocnc::fuzz

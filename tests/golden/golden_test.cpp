@@ -5,12 +5,13 @@
 
 #include <fmt/format.h>
 
-#include "analyzer/check_text.h"
-#include "analyzer/rendering.h"
-#include "analyzer/style_findings.h"
-#include "analyzer/suppressions.h"
+#include "analyzer/check/check_text.h"
+#include "analyzer/formats/rendering.h"
+#include "analyzer/selection/style_findings.h"
+#include "analyzer/selection/suppressions.h"
 #include "golden_program.h"
 #include "interpreter/running/runner.h"
+#include "interpreter/syntax/line_finder.h"
 #include "tests/support/report_text.h"
 
 namespace isocnc::golden {
@@ -23,28 +24,28 @@ std::string shown(const ExpectedFinding& finding, const std::string& line) {
 }
 
 std::string line_of(const std::string& program, std::size_t index) {
-  return std::string(analyzer::LineFinder(program).line(index));
+  return std::string(syntax::LineFinder(program).line(index));
 }
 
 /// What isolint would report.
-analyzer::Report reported_in(const Part& part) {
-  analyzer::Selection selection;
+check::Report reported_in(const Part& part) {
+  selection::Selection selection;
   EXPECT_THAT(selection.follow({.severities = part.selected}, dialect::Language::English), testing::IsEmpty());
   execution::Setup setup = part.setup;
   setup.every_motion = !part.selected.empty();
-  analyzer::Report report = analyzer::with_style(analyzer::check_text(part.program, setup), part.program, selection);
-  return selection.shown(analyzer::suppress(std::move(report), part.program, selection));
+  check::Report report = selection::with_style(check::check_text(part.program, setup), part.program, selection);
+  return selection.shown(selection::suppress(std::move(report), part.program, selection));
 }
 
-std::vector<std::string> found_in(const Part& part, const analyzer::Report& report) {
+std::vector<std::string> found_in(const Part& part, const check::Report& report) {
   std::vector<std::string> found;
-  for (const analyzer::LocatedFinding& located : report.findings) {
+  for (const check::LocatedFinding& located : report.findings) {
     if (!part.is_about_rules && support::is_lint(dialect::definition(located.finding.id).code)) continue;
     const std::string line = line_of(part.program, located.line);
     const syntax::Span span = located.finding.span;
     found.push_back(shown({.line = located.line,
-                           .begin = analyzer::column_of(line, span.begin) - 1,
-                           .end = analyzer::column_of(line, span.end) - 1,
+                           .begin = syntax::column_of(line, span.begin) - 1,
+                           .end = syntax::column_of(line, span.end) - 1,
                            .code = std::string(dialect::definition(located.finding.id).code)},
                           line));
   }
@@ -71,7 +72,7 @@ TEST_P(Golden, FindsWhatIsMarkedAndNothingElse) {
       expected.push_back(
           shown({finding.line, finding.begin, finding.end, finding.code, {}}, line_of(part.program, finding.line)));
     }
-    const analyzer::Report report = reported_in(part);
+    const check::Report report = reported_in(part);
     const std::vector<std::string> found = found_in(part, report);
     EXPECT_EQ(difference(expected, found), "") << "missing in " << part.name;
     EXPECT_EQ(difference(found, expected), "") << "not marked in " << part.name;
@@ -80,15 +81,15 @@ TEST_P(Golden, FindsWhatIsMarkedAndNothingElse) {
 
 TEST_P(Golden, NamesTheJumpThatLeadsToAFinding) {
   for (const Part& part : read_golden(GetParam())) {
-    const analyzer::Report report = reported_in(part);
+    const check::Report report = reported_in(part);
     for (const ExpectedFinding& finding : part.findings) {
       if (finding.via.empty()) continue;
       bool named = false;
-      for (const analyzer::LocatedFinding& located : report.findings) {
+      for (const check::LocatedFinding& located : report.findings) {
         if (located.line != finding.line || dialect::definition(located.finding.id).code != finding.code) continue;
         ASSERT_GE(located.path, 0) << part.name << " line " << finding.line + 1 << ": no path";
         std::vector<std::size_t> lines;
-        for (const analyzer::PathStep& step : report.paths[static_cast<std::size_t>(located.path)])
+        for (const check::PathStep& step : report.paths[static_cast<std::size_t>(located.path)])
           lines.push_back(step.line + 1);
         EXPECT_THAT(lines, testing::IsSupersetOf(finding.via)) << part.name;
         named = true;

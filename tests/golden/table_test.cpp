@@ -4,14 +4,14 @@
 #include <regex>
 #include <set>
 
-#include "analyzer/check_text.h"
+#include "analyzer/check/check_text.h"
 #include "analyzer/explain.h"
-#include "analyzer/rendering.h"
-#include "analyzer/selection.h"
-#include "analyzer/style_findings.h"
-#include "analyzer/suppressions.h"
-#include "interpreter/running/compensation.h"
+#include "analyzer/formats/rendering.h"
+#include "analyzer/selection/selection.h"
+#include "analyzer/selection/style_findings.h"
+#include "analyzer/selection/suppressions.h"
 #include "interpreter/running/runner.h"
+#include "interpreter/simulation/compensation.h"
 #include "tests/support/report_text.h"
 
 namespace isocnc::dialect {
@@ -19,7 +19,7 @@ namespace {
 
 using analyzer::MarkedProgram;
 using analyzer::read_marked;
-using analyzer::Report;
+using check::Report;
 
 /// The setup that the programs of the table are written for: one tool, so that ISO067 can be shown.
 execution::Setup table_setup(const DiagnosticDef& def) {
@@ -38,11 +38,11 @@ execution::Setup table_setup(const DiagnosticDef& def) {
 /// What isolint would report with the row's code selected, too; without opinions, where the row is about the control's
 /// own codes.
 Report reported_in(std::string_view program, const DiagnosticDef& def) {
-  analyzer::Selection selection;
+  selection::Selection selection;
   EXPECT_THAT(selection.follow({.severities = {std::string(def.code) + "=warning"}}, Language::English),
               testing::IsEmpty());
-  Report report = analyzer::with_style(analyzer::check_text(program, table_setup(def)), program, selection);
-  report = selection.shown(analyzer::suppress(std::move(report), program, selection));
+  Report report = selection::with_style(check::check_text(program, table_setup(def)), program, selection);
+  report = selection.shown(selection::suppress(std::move(report), program, selection));
   if (!support::is_lint(def.code))
     std::erase_if(report.findings, [](const auto& it) { return support::is_lint(definition(it.finding.id).code); });
   return report;
@@ -50,16 +50,16 @@ Report reported_in(std::string_view program, const DiagnosticDef& def) {
 
 /// What isorun would tell, with a cutter of 10 mm radius.
 std::string told_in_run_of(std::string_view program) {
-  running::TimedMachine machine;
+  simulation::TimedMachine machine;
   machine.tool_radii[{1, 1, 1}] = 10;
   std::string codes;
-  running::Compensation compensation(machine);
-  const running::Compensation::Listeners listeners{.event = [](const running::Event&) {},
-                                                   .warning =
-                                                       [&](const running::RunWarning& warning) {
-                                                         codes += std::string(definition(warning.id).code) + "@" +
-                                                                  std::to_string(warning.line + 1) + " ";
-                                                       }};
+  simulation::Compensation compensation(machine);
+  const simulation::Compensation::Listeners listeners{.event = [](const running::Event&) {},
+                                                      .warning =
+                                                          [&](const simulation::RunWarning& warning) {
+                                                            codes += std::string(definition(warning.id).code) + "@" +
+                                                                     std::to_string(warning.line + 1) + " ";
+                                                          }};
   const auto result =
       running::run(program, {}, [&](const running::Event& event) { compensation.take(event, listeners); });
   compensation.finish(listeners);

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "client_text.h"
-#include "interpreter/running/restart.h"
+#include "interpreter/restart/restart.h"
 #include "session.h"
 
 /// What an editor offers to do with a line or a selection, and what becomes of the program.
@@ -273,9 +273,9 @@ TEST(Restart, IsANewDocumentBesideTheProgram) {
   ASSERT_EQ(actions.size(), 1u) << actions;
   const Json changes = session.request("codeAction/resolve", actions[0])["edit"]["documentChanges"];
   EXPECT_EQ(changes[0], Json({{"kind", "create"}, {"uri", "file:///nowhere/part-from-5.iso"}}));
-  running::RestartOptions options{.line = 4};
+  restart::RestartOptions options{.line = 4};
   options.name = "part.iso";
-  const auto made = running::restart_program(program.text, options);
+  const auto made = restart::restart_program(program.text, options);
   ASSERT_TRUE(std::holds_alternative<std::string>(made));
   EXPECT_EQ(changes[1]["edits"][0]["newText"], std::get<std::string>(made));
 }

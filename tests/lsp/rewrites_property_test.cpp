@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "analyzer/rewriting.h"
+#include "analyzer/fixing/rewriting.h"
 #include "client_text.h"
 #include "interpreter/running/runner.h"
 #include "session.h"
@@ -161,7 +161,7 @@ TEST(RewritesProperty, TheMachineMovesAsItDid) {
                                                       << after;
         ASSERT_EQ(new_deeds.moves.size(), old_deeds.moves.size()) << "seed " << seed << ", " << title << '\n' << after;
         for (std::size_t i = 0; i < old_deeds.moves.size(); ++i)
-          ASSERT_LE(difference(old_deeds.moves[i], new_deeds.moves[i]), 3 * analyzer::kSameArc)
+          ASSERT_LE(difference(old_deeds.moves[i], new_deeds.moves[i]), 3 * fixing::kSameArc)
               << "seed " << seed << ", " << title << ", move " << i << '\n'
               << text << "---\n"
               << after;

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "random_run.h"
+#include "tests/simulation/random_run.h"
 
 namespace isocnc::running {
 namespace {
@@ -110,7 +110,7 @@ TEST(Runner, StopsWhereAJumpLeadsOverTheLineAskedFor) {
 TEST(RunnerProperty, CopiesGoOnAsTheOriginal) {
   for (const std::uint64_t seed : seeds(60)) {
     Random random(seed);
-    const std::string text = RandomRun(random).text(3);
+    const std::string text = simulation::RandomRun(random).text(3);
     const Program program(text);
     const RunOptions options;
     std::vector<std::string> all;

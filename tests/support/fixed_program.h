@@ -4,36 +4,36 @@
 #include <string>
 #include <string_view>
 
-#include "analyzer/check_text.h"
-#include "analyzer/fixer.h"
-#include "analyzer/shown_report.h"
+#include "analyzer/check/check_text.h"
+#include "analyzer/fixing/fixer.h"
+#include "analyzer/selection/shown_report.h"
 
 namespace isocnc::support {
 
 /// What is shown by default, and one code more.
-inline analyzer::Selection selection_with(std::string_view code) {
-  analyzer::Selection selection;
+inline selection::Selection selection_with(std::string_view code) {
+  selection::Selection selection;
   if (!code.empty()) selection.follow({.severities = {std::string(code) + "=warning"}}, dialect::Language::English);
   return selection;
 }
 
 /// The text with all that can be fixed; `code` is selected, too.
 inline std::string fixed(std::string_view text, bool unsafe, std::string_view code = {}) {
-  const analyzer::Selection selection = selection_with(code);
+  const selection::Selection selection = selection_with(code);
   const execution::Setup setup;
-  return analyzer::fix_text(text, {.selection = selection, .setup = setup, .unsafe = unsafe}).text;
+  return fixing::fix_text(text, {.selection = selection, .setup = setup, .unsafe = unsafe}).text;
 }
 
 /// What is found and shown.
-inline analyzer::Report found_in(std::string_view text, std::string_view code = {}) {
-  const analyzer::Selection selection = selection_with(code);
-  return analyzer::shown_report(analyzer::check_text(text, {}), text, selection);
+inline check::Report found_in(std::string_view text, std::string_view code = {}) {
+  const selection::Selection selection = selection_with(code);
+  return selection::shown_report(check::check_text(text, {}), text, selection);
 }
 
 /// What is found and shown, by its codes.
 inline std::multiset<std::string> codes_of(std::string_view text, std::string_view code = {}) {
   std::multiset<std::string> codes;
-  for (const analyzer::LocatedFinding& located : found_in(text, code).findings)
+  for (const check::LocatedFinding& located : found_in(text, code).findings)
     codes.emplace(dialect::definition(located.finding.id).code);
   return codes;
 }

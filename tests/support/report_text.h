@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "analyzer/report.h"
+#include "analyzer/check/report.h"
 #include "tests/support/tree_text.h"
 
 namespace isocnc::support {
@@ -12,12 +12,12 @@ namespace isocnc::support {
 inline bool is_lint(std::string_view code) { return code >= "W101" && code < "W190"; }
 
 /// A report's findings with the paths that lead to them, one text each: equal texts mean that users are told the same.
-inline std::vector<std::string> texts_of(const analyzer::Report& report) {
+inline std::vector<std::string> texts_of(const check::Report& report) {
   std::vector<std::string> texts;
-  for (const analyzer::LocatedFinding& located : report.findings) {
+  for (const check::LocatedFinding& located : report.findings) {
     std::string text = fmt::format("line {}: {}", located.line, text_of(located.finding));
     if (located.path >= 0)
-      for (const analyzer::PathStep& step : report.paths.at(static_cast<std::size_t>(located.path)))
+      for (const check::PathStep& step : report.paths.at(static_cast<std::size_t>(located.path)))
         text += fmt::format(" via {}{}", step.taken ? "" : "not ", step.line);
     texts.push_back(std::move(text));
   }

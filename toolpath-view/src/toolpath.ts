@@ -1,4 +1,4 @@
-/** The path of the tool tip, as isorun has recorded it (interpreter/running/path_recording.cpp writes it). Machine frame; mm,
+/** The path of the tool tip, as isorun has recorded it (interpreter/plot/path_recording.cpp writes it). Machine frame; mm,
  * degrees, seconds. Lines count from 0. */
 
 export const Kind = { Rapid: 0, Feed: 1, Arc: 2, Wait: 3 } as const;

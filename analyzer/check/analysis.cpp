@@ -1,0 +1,303 @@
+#include "analyzer/check/analysis.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace isocnc::check {
+
+/// Chunks that are checked before somebody is asked whether to go on: a millisecond or so.
+static constexpr std::size_t kChunksAtOnce = 64;
+
+Analysis::Analysis(const syntax::Document& document, const execution::Setup& setup)
+    : Analysis(document, setup, Unchecked{}) {
+  update();
+}
+
+Analysis::Analysis(const syntax::Document& document, const execution::Setup& setup, Unchecked)
+    : document_(document), setup_(setup) {}
+
+Frontier Analysis::before(std::size_t chunk) const {
+  if (chunk == rows_.size()) return end_;
+  Frontier frontier = rows_[chunk].checked->before;
+  rows_[chunk].shift.apply(frontier);
+  return frontier;
+}
+
+// --- Jumps
+
+static void append(std::vector<JumpEvent>& all, const std::vector<JumpEvent>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+/// Reads what in a chunk concerns jumps, as far as the program has any.
+void Analysis::read_jumps(std::size_t chunk, Row& row) const {
+  const std::string_view text = document_.chunk_text(chunk);
+  if (jumps_.empty() && !may_hold_jumps(text)) return;
+  row.labels = {};
+  each_event_in(text, [&](const JumpEvent& event) {
+    const bool is_label = event.kind == JumpEvent::Kind::Label;
+    if (is_label) row.labels.add(event.label);
+    if (!is_label || jumps_.names(event.label)) row.jumps.push_back(event);
+  });
+  row.jumps.shrink_to_fit();
+}
+
+/// Finds labels, in ascending order, in a chunk that may define some of them. Whether it does.
+bool Analysis::read_labels(std::size_t chunk, const std::vector<std::uint64_t>& wanted) {
+  Row& row = rows_[chunk];
+  const auto first = std::lower_bound(wanted.begin(), wanted.end(), row.labels.least);
+  if (first == wanted.end() || *first > row.labels.most) return false;
+  row.labels = {};
+  const auto others = static_cast<std::ptrdiff_t>(row.jumps.size());
+  each_event_in(document_.chunk_text(chunk), [&](const JumpEvent& event) {
+    if (event.kind != JumpEvent::Kind::Label) return;
+    row.labels.add(event.label);
+    if (std::binary_search(first, wanted.end(), event.label)) row.jumps.push_back(event);
+  });
+  // A line's label counts before what else is on the line.
+  std::inplace_merge(row.jumps.begin(), row.jumps.begin() + others, row.jumps.end(),
+                     [](const JumpEvent& a, const JumpEvent& b) {
+                       const auto rank = [](const JumpEvent& event) { return event.kind != JumpEvent::Kind::Label; };
+                       return a.line != b.line ? a.line < b.line : rank(a) < rank(b);
+                     });
+  return static_cast<std::ptrdiff_t>(row.jumps.size()) > others;
+}
+
+/// Finds the labels that these jumps name, where they are not those that were named before.
+void Analysis::follow_labels(const JumpMap& jumps) {
+  const std::vector<std::uint64_t> added = jumps.named_beyond(jumps_);
+  const std::vector<std::uint64_t> removed = jumps_.named_beyond(jumps);
+  if (added.empty() && removed.empty()) return;
+  const auto is_removed = [&](const JumpEvent& event) {
+    return event.kind == JumpEvent::Kind::Label && std::binary_search(removed.begin(), removed.end(), event.label);
+  };
+  for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk) {
+    const bool has_lost = !removed.empty() && std::erase_if(rows_[chunk].jumps, is_removed) > 0;
+    if (read_labels(chunk, added) || has_lost) rows_[chunk].is_stale = true;
+  }
+}
+
+/// The jumps of the program, from what is known of its chunks.
+JumpMap Analysis::find_jumps() {
+  JumpMap jumps;
+  const auto each = [&](auto take) {
+    for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk)
+      for (const JumpEvent& event : rows_[chunk].jumps) take(document_.first_line_of_chunk(chunk) + event.line, event);
+  };
+  each([&](std::uint64_t line, const JumpEvent& event) {
+    if (event.kind == JumpEvent::Kind::Jump) jumps.add(line, event.jump);
+  });
+  follow_labels(jumps);
+  each([&](std::uint64_t line, const JumpEvent& event) {
+    if (event.kind == JumpEvent::Kind::Label) jumps.note_label(event.label, line);
+    if (jumps.compares_registers()) jumps.note_registers(event.kind, event.reg, event.label);
+  });
+  jumps.complete();
+  if (!jumps.empty()) jumps.resolve();
+  return jumps;
+}
+
+/// Tells the jumps where they stand now, which mean what they meant.
+void Analysis::move_jumps(const Change& change) {
+  std::vector<JumpMap::Site> sites;
+  for (std::size_t chunk = change.first; chunk < change.first + change.inserted; ++chunk)
+    for (const JumpEvent& event : rows_[chunk].jumps)
+      if (event.kind == JumpEvent::Kind::Jump)
+        sites.push_back({document_.first_line_of_chunk(chunk) + event.line, event.jump});
+  const std::size_t first_line =
+      change.first < rows_.size() ? document_.first_line_of_chunk(change.first) : document_.line_count();
+  jumps_.move(jumps_.first_from(first_line), sites,
+              static_cast<std::int64_t>(document_.line_count()) - static_cast<std::int64_t>(line_count_));
+}
+
+/// Where jumps do something else now, or values that are assigned mean something else to them, the chunk is to be
+/// checked again.
+void Analysis::check_changed_jumps_again(const JumpMap& old_jumps) {
+  RegisterSet recut = 0;
+  for (int reg = 1; reg <= dialect::kRegisterCount; ++reg)
+    if (jumps_.constants(reg) != old_jumps.constants(reg)) recut |= register_bit(reg);
+  const auto is_assigned_alike = [&](const JumpEvent& event, std::uint32_t next_jump) {
+    const RegisterSet bit = register_bit(event.reg);
+    if (((jumps_.read_before(next_jump) ^ old_jumps.read_before(next_jump)) & bit) != 0) return false;
+    return (recut & bit) == 0 || ValueSet::of(event.value, jumps_.constants(event.reg)) ==
+                                     ValueSet::of(event.value, old_jumps.constants(event.reg));
+  };
+  std::uint32_t jump = 0;
+  for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk)
+    for (const JumpEvent& event : rows_[chunk].jumps) {
+      const bool is_alike = event.kind == JumpEvent::Kind::Jump         ? jumps_.does_the_same(jump++, old_jumps)
+                            : event.kind == JumpEvent::Kind::Assignment ? is_assigned_alike(event, jump)
+                                                                        : true;
+      if (!is_alike) rows_[chunk].is_stale = true;
+    }
+}
+
+/// Brings the jumps up to date where these events have been replaced by others. False when all must be checked again:
+/// frontiers name jumps by number.
+bool Analysis::follow_jumps(const Change& change, const std::vector<JumpEvent>& old_events) {
+  std::vector<JumpEvent> new_events;
+  for (std::size_t i = change.first; i < change.first + change.inserted; ++i) append(new_events, rows_[i].jumps);
+  const bool same = std::equal(old_events.begin(), old_events.end(), new_events.begin(), new_events.end(),
+                               [](const JumpEvent& a, const JumpEvent& b) { return a.means_the_same(b); });
+  if (same) {
+    if (!jumps_.empty()) move_jumps(change);
+    return true;
+  }
+  const JumpMap old_jumps = std::exchange(jumps_, find_jumps());
+  if (jumps_.sites().size() != old_jumps.sites().size() ||
+      jumps_.compares_registers() != old_jumps.compares_registers())
+    return false;
+  check_changed_jumps_again(old_jumps);
+  return true;
+}
+
+// --- Check
+
+bool Analysis::update(const std::function<bool()>& stop) {
+  lines_checked_ = 0;
+  return follow_text(stop) && follow_centers(stop);
+}
+
+/// Whether centers are suspected of counting from the start depends on all arcs of the program: when that changes, the
+/// chunks that have arcs which are legal both ways are checked again.
+bool Analysis::follow_centers(const std::function<bool()>& stop) {
+  bool suspects = false;
+  for (std::size_t i = 0; i < rows_.size(); ++i) suspects |= rows_[i].centers.from_start;
+  if (suspects == suspects_centers_) return true;
+  suspects_centers_ = suspects;
+  for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].is_stale |= rows_[i].centers.open;
+  return check_stale(stop);
+}
+
+bool Analysis::check_stale(const std::function<bool()>& stop) {
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    if (rows_[i].is_stale && !check_from(i, before(i), stop)) return false;
+  return true;
+}
+
+/// Brings the analysis up to date with the text, as far as centers are judged as they were.
+bool Analysis::follow_text(const std::function<bool()>& stop) {
+  const bool is_first = rows_.size() == 0;
+  const auto change = rows_.change_to(document_);
+  Frontier at_change = is_first ? Frontier{} : before(change.first);
+  std::vector<JumpEvent> old_events;
+  for (std::size_t i = change.first; i < change.first + change.removed; ++i) {
+    append(old_events, rows_[i].jumps);
+    counts_.remove(rows_[i].checked->outcome);
+  }
+  rows_.follow(document_, change, [&](std::size_t chunk) {
+    Row fresh;
+    read_jumps(chunk, fresh);
+    return fresh;
+  });
+  const bool has_changed = change.removed + change.inserted > 0;
+  const bool jumps_stand = !has_changed || follow_jumps(change, old_events);
+  line_count_ = document_.line_count();
+  if (is_first || !jumps_stand) {
+    for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].is_stale = true;
+    return check_from(0, Checker::start(setup_), stop);
+  }
+  if (has_changed && !check_from(change.first, std::move(at_change), stop)) return false;
+  return check_stale(stop);
+}
+
+/// Goes on from a chunk, as long as there is anything new. False when stopped, with the rest stale.
+bool Analysis::check_from(std::size_t chunk, Frontier frontier, const std::function<bool()>& stop) {
+  Checker checker(setup_, jumps_, suspects_centers_);
+  checker.frontier = std::move(frontier);
+  syntax::ChunkTrees trees;
+  for (std::size_t checked = 1; chunk < rows_.size(); ++chunk) {
+    if (!rows_[chunk].is_stale) {
+      auto shift = shift_between(before(chunk), checker.frontier);
+      if (shift) {
+        chunk = pass_over(chunk, *shift);
+        if (shift->empty()) return true;
+        checker.frontier = before(chunk);
+        shift->apply(checker.frontier);
+        if (chunk == rows_.size()) break;
+      }
+    }
+    if (stop && checked++ % kChunksAtOnce == 0 && stop()) {
+      rows_[chunk].checked->before = std::move(checker.frontier);
+      rows_[chunk].shift = {};
+      rows_[chunk].is_stale = true;
+      return false;
+    }
+    trees.read(document_, chunk);
+    check_chunk(chunk, trees, checker);
+  }
+  end_ = std::move(checker.frontier);
+  return true;
+}
+
+/// Shifts chunks from this one on, as long as they do not mind. Returns the first that does, with what is left of the
+/// shift before it.
+std::size_t Analysis::pass_over(std::size_t chunk, PositionShift& shift) {
+  for (; chunk < rows_.size() && !shift.empty(); ++chunk) {
+    Row& row = rows_[chunk];
+    const PositionUse& use = row.positions;
+    const bool minds =
+        row.is_stale || use.far || (shift.axes & use.read) != 0 || (use.by_several && (shift.axes & use.set) != 0);
+    if (minds || !row.shift.add(shift)) break;
+    shift.drop(use.set);
+  }
+  return chunk;
+}
+
+void Analysis::check_chunk(std::size_t chunk, const syntax::ChunkTrees& trees, Checker& checker) {
+  Row& row = rows_[chunk];
+  Outcome outcome;
+  Frontier before = checker.frontier;
+  checker.check_all(trees, outcome);
+  lines_checked_ += trees.size();
+  row.shift = {};
+  row.positions = outcome.positions;
+  row.centers = outcome.centers;
+  row.is_stale = false;
+  row.has_text = outcome.has_text;
+  row.has_more =
+      !outcome.findings.empty() || !outcome.labels.empty() || !outcome.live_jumps.empty() || outcome.assigned != 0;
+  outcome.findings.shrink_to_fit();
+  outcome.count();
+  counts_.remove(row.checked->outcome);
+  counts_.add(outcome);
+  *row.checked = {std::move(before), std::move(outcome)};
+}
+
+FirstFindings Analysis::excerpt(const FirstFindingsWishes& wishes) const {
+  std::size_t last_text = rows_.size();
+  while (last_text > 0 && !rows_[last_text - 1].has_text) --last_text;
+  std::vector<PlacedOutcome> outcomes;
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    if (rows_[i].has_more || i + 1 == last_text)
+      outcomes.push_back({&rows_[i].checked->outcome, document_.first_line_of_chunk(i)});
+  return conclude(
+      outcomes, counts_, end_, jumps_,
+      [&](std::uint64_t line) { return document_.text_of_line(static_cast<std::size_t>(line)); }, wishes);
+}
+
+std::vector<LocatedFinding> Analysis::findings_on(std::size_t line) const {
+  const std::size_t chunk = document_.chunk_of_line(line);
+  const std::size_t first_line = document_.first_line_of_chunk(chunk);
+  std::vector<LocatedFinding> found;
+  for (const LocatedFinding& located : rows_[chunk].checked->outcome.findings) {
+    if (first_line + located.line != line) continue;
+    found.push_back({line, located.finding});
+  }
+  return found;
+}
+
+Frontier Analysis::frontier_before(std::size_t line) const {
+  line = std::min(line, document_.line_count());
+  if (line == document_.line_count()) return end_;
+  const std::size_t chunk = document_.chunk_of_line(line);
+  Checker checker(setup_, jumps_);
+  checker.frontier = before(chunk);
+  Outcome ignored;
+  syntax::ChunkTrees trees;
+  trees.read(document_, chunk, line - document_.first_line_of_chunk(chunk));
+  checker.check_all(trees, ignored);
+  return checker.frontier;
+}
+
+}  // namespace isocnc::check

@@ -1,0 +1,177 @@
+#include "analyzer/check/check_text.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <mutex>
+#include <vector>
+
+#include "analyzer/check/checker.h"
+#include "analyzer/check/conclusion.h"
+#include "analyzer/check/side_by_side.h"
+#include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/line_finder.h"
+#include "interpreter/syntax/tree_store.h"
+
+namespace isocnc::check {
+
+using syntax::TreeStore;
+
+/// Text that is parsed in one go: its trees should stay in the cache until they are executed.
+static constexpr std::ptrdiff_t kBatchBytes = 16 * 1024;
+/// With several threads: so much that handing it over costs nothing beside it.
+static constexpr std::ptrdiff_t kSharedBatchBytes = 64 * 1024;
+
+namespace {
+
+/// Nothing below is executed, and nothing is left to say of that.
+bool is_over(const Frontier& frontier) { return frontier.finished() && frontier.dead_told; }
+
+/// Lines that have been parsed, not yet executed.
+class Batch {
+ public:
+  const char* text = nullptr;
+  std::size_t size = 0;
+  TreeStore trees;
+
+  /// Parses whole lines from `begin`, at least one.
+  void parse(const char* begin, const char* batch_end, const char* end) {
+    text = begin;
+    size = static_cast<std::size_t>(batch_end - begin);
+    trees.clear();
+    trees.append_lines(begin, batch_end, end);
+  }
+
+  /// Executes them as lines `line` and following; returns the line after them.
+  std::uint64_t check(Checker& checker, std::uint64_t line, Outcome& outcome) const {
+    const char* p = text;
+    for (std::size_t i = 0; i < trees.size();) {
+      const std::size_t plain = checker.check_plain_lines(trees, i, line, outcome);
+      line += plain;
+      for (const std::size_t behind = i + plain; i < behind; ++i) p = behind_line(i, p);
+      if (i == trees.size()) break;
+      checker.check_any(trees.tree(i, p), line++, outcome);
+      if (is_over(checker.frontier)) return line;
+      p = behind_line(i++, p);
+    }
+    return line;
+  }
+
+ private:
+  /// Behind a line that begins at `p`, and its terminator.
+  const char* behind_line(std::size_t index, const char* p) const {
+    return syntax::skip_line_end(p + trees.length(index), text + size);
+  }
+};
+
+/// One pass over the text. Threads parse batches side by side. Whoever has parsed the batch that is next to be
+/// executed, while nobody executes, does so, and goes on as long as the next one is there; the others parse ahead
+/// meanwhile.
+class Pass {
+ public:
+  Pass(std::string_view text, const execution::Setup& setup, const JumpMap& jumps, bool suspects_centers, int jobs,
+       const std::function<void(std::size_t)>& on_progress)
+      : on_progress_(on_progress),
+        jobs_(jobs),
+        ring_(static_cast<std::size_t>(jobs == 1 ? 1 : kAhead * jobs)),
+        batch_bytes_(jobs == 1 ? kBatchBytes : kSharedBatchBytes),
+        begin_(text.data()),
+        next_(text.data()),
+        end_(text.data() + text.size()),
+        checker_(setup, jumps, suspects_centers) {}
+
+  void run() {
+    side_by_side(jobs_, [this] { work(); });
+  }
+
+  const Checker& checker() const { return checker_; }
+  Outcome take_outcome() { return std::move(outcome_); }
+
+ private:
+  /// A place in the ring: free, or being parsed, or waiting to be executed.
+  struct Slot {
+    Batch batch;
+    bool is_ready = false;
+  };
+
+  Slot& slot(std::uint64_t ticket) { return ring_[ticket % ring_.size()]; }
+
+  void work() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      may_take_.wait(lock, [&] { return finished_ || next_ == end_ || taken_ - executed_ < ring_.size(); });
+      if (finished_ || next_ == end_) return;
+      const char* const begin = next_;
+      const auto size = std::min<std::ptrdiff_t>(batch_bytes_, end_ - begin);
+      next_ = syntax::skip_line_end(syntax::find_line_end(begin + size, end_), end_);
+      const char* const batch_end = next_;
+      Slot& mine = slot(taken_++);
+      lock.unlock();
+      mine.batch.parse(begin, batch_end, end_);
+      lock.lock();
+      mine.is_ready = true;
+      if (!is_executing_) execute_what_is_ready(lock);
+    }
+  }
+
+  void execute_what_is_ready(std::unique_lock<std::mutex>& lock) {
+    is_executing_ = true;
+    while (!finished_ && executed_ < taken_ && slot(executed_).is_ready) {
+      Slot& due = slot(executed_);
+      lock.unlock();
+      line_ = due.batch.check(checker_, line_, outcome_);
+      lock.lock();
+      due.is_ready = false;
+      ++executed_;
+      finished_ = is_over(checker_.frontier);
+      if (on_progress_) on_progress_(static_cast<std::size_t>(due.batch.text - begin_) + due.batch.size);
+      if (jobs_ > 1) may_take_.notify_all();
+    }
+    is_executing_ = false;
+  }
+
+  static constexpr int kAhead = 3;  // Batches for each thread.
+
+  const std::function<void(std::size_t)>& on_progress_;
+  const int jobs_;
+  std::mutex mutex_;  // Guards all below, but a slot that is not ready, and what is executed, are their thread's.
+  std::condition_variable may_take_;
+  std::vector<Slot> ring_;
+  const std::ptrdiff_t batch_bytes_;
+  const char* const begin_;
+  const char* next_;
+  const char* const end_;
+  std::uint64_t taken_ = 0;
+  std::uint64_t executed_ = 0;
+  bool is_executing_ = false;
+  bool finished_ = false;
+  Checker checker_;
+  std::uint64_t line_ = 0;
+  Outcome outcome_;
+};
+
+}  // namespace
+
+Report check_text(std::string_view text, const execution::Setup& setup, int jobs,
+                  const std::function<void(std::size_t)>& on_progress) {
+  jobs = std::clamp<int>(jobs, 1, static_cast<int>(text.size() / kSharedBatchBytes) + 1);
+  JumpMap jumps(text);
+  bool suspects_centers = false;
+  for (;;) {
+    Pass pass(text, setup, jumps, suspects_centers, jobs, on_progress);
+    pass.run();
+    Outcome outcome = pass.take_outcome();
+    // Rare, each at most once: a jump whose label is not below it (E004, E005), or not among the lines that had to be
+    // read: once more with all labels known. Centers that count from the start in some arcs, and may do so in others:
+    // once more to tell of these.
+    if (!jumps.is_resolved() && !all_jumps_land(outcome, jumps)) {
+      jumps.resolve(text);
+    } else if (!suspects_centers && outcome.centers.from_start && outcome.centers.open) {
+      suspects_centers = true;
+    } else {
+      return conclude(std::move(outcome), pass.checker().frontier, jumps,
+                      [&](std::uint64_t line) { return syntax::LineFinder(text).line(line); });
+    }
+  }
+}
+
+}  // namespace isocnc::check

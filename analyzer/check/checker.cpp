@@ -1,0 +1,484 @@
+#include "analyzer/check/checker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "analyzer/rules/rule.h"
+#include "interpreter/execution/plain_run.h"
+#include "interpreter/geometry/increment.h"
+#include "interpreter/syntax/tree_store.h"
+
+namespace isocnc::check {
+
+using namespace dialect::literals;
+using syntax::Finding;
+using syntax::LineTree;
+using syntax::PlainLine;
+
+/// Longer paths are told by their latest decisions.
+static constexpr std::size_t kLongestPath = 64;
+/// Valuations of the registers that are kept apart in one group.
+static constexpr std::size_t kMostValuations = 256;
+/// More than a few live groups are paid from a bucket that fills by some extra executions a line and holds this many:
+/// long stretches may follow all paths, endless ones only those few.
+static constexpr std::uint32_t kSpreadLimit = 20'000'000;
+/// Groups that are followed once some have been given up: the rest of a program must not take long, whatever it does.
+static constexpr std::size_t kMostStatesReduced = 16;
+/// How much of it a line makes up for.
+static constexpr std::uint32_t kSpreadRelief = 32;
+/// Labels that may be waited for at once.
+static constexpr std::size_t kMostWaiting = 16'384;
+
+/// Listens to one execution: findings to a place, assignments to the group's registers.
+class Checker::Listener final : public execution::Sink {
+ public:
+  Listener(std::uint64_t line, Checker& checker, Outcome& outcome)
+      : Sink(checker.watches_moves_), line_(line), checker_(checker), outcome_(outcome) {}
+
+  void report(const Finding& finding) override { outcome_.findings.push_back({line_, finding}); }
+  void centered_arc(const execution::CenteredArc& arc) override { checker_.judge_arc(arc, outcome_, *this); }
+  void move(const execution::Move& move, const execution::State&) override { checker_.move_ = move; }
+
+ private:
+  std::uint64_t line_;
+  Checker& checker_;
+  Outcome& outcome_;
+};
+
+Checker::Checker(const execution::Setup& setup, const JumpMap& jumps, bool suspects_centers)
+    : frontier(start(setup)),
+      setup_(setup),
+      jumps_(jumps),
+      watches_moves_(rules::watches_moves(setup)),
+      suspects_centers_(suspects_centers) {}
+
+Frontier Checker::start(const execution::Setup& setup) {
+  Frontier frontier;
+  frontier.live.add({.state = execution::initial_state(setup), .registers = Valuations::unknown()});
+  return frontier;
+}
+
+static void sort_by_column(std::vector<LocatedFinding>& findings, std::size_t first) {
+  if (findings.size() - first > 1)
+    std::stable_sort(
+        findings.begin() + static_cast<std::ptrdiff_t>(first), findings.end(),
+        [](const LocatedFinding& a, const LocatedFinding& b) { return a.finding.span.begin < b.finding.span.begin; });
+}
+
+/// Opinions on a line are asked for unless something is an error there: a remark does not make it unclear, nor does an
+/// M02 that has company, which ends the program all the same (D22).
+static bool is_error(const Finding& finding) {
+  return dialect::definition(finding.id).severity == dialect::Severity::Error && finding.id != "m02-not-alone"_diag;
+}
+
+/// Whether one of the findings from this one on is.
+static bool has_error(const std::vector<LocatedFinding>& findings, std::size_t first) {
+  return std::any_of(findings.begin() + static_cast<std::ptrdiff_t>(first), findings.end(),
+                     [](const LocatedFinding& located) { return is_error(located.finding); });
+}
+
+/// T101001 on one line and M06 on a later one are one mistake, told at the T.
+static bool is_told_above(const Finding& finding, const execution::State& before) {
+  return finding.id == "tool-change-without-tool"_diag && before.tool_prepared;
+}
+
+/// The axes among some letters.
+static constexpr execution::AxisSet axes_of(dialect::LetterSet letters) {
+  static_assert(dialect::kLinearLetters == 7u << 23 && dialect::kRotaryLetters == 3u << 1);
+  return static_cast<execution::AxisSet>((letters >> 23 & 7u) | (letters >> 1 & 3u) << 3);
+}
+
+/// Half of where increments add up exactly: positions may be shifted by as much again.
+static bool is_far(const geometry::Pose& pose) {
+  constexpr double kFar = geometry::kFarthestStep / 2;
+  return !(std::abs(pose.tip[0]) <= kFar && std::abs(pose.tip[1]) <= kFar && std::abs(pose.tip[2]) <= kFar &&
+           std::abs(pose.b) <= kFar && std::abs(pose.c) <= kFar);
+}
+
+/// A line that a run of plain ones has done. Under G91 an arc is judged by what is written; under G90 by its start as
+/// well.
+static void note_plain_move(const PlainLine& line, const execution::PlainRun& run, const execution::State& state,
+                            PositionUse& use) {
+  if (run.is_incremental()) {
+    use.far |= is_far(state.position);
+    return;
+  }
+  if (run.was_arc()) use.read |= static_cast<execution::AxisSet>(execution::kLinearAxes & ~use.set);
+  use.set |= axes_of(line.arguments);
+}
+
+template <class PlainLineAt>
+std::size_t Checker::check_plain(std::size_t count, std::uint64_t line_number, Outcome& outcome,
+                                 PlainLineAt plain_line_at) {
+  if (frontier.live.size() != 1 || watches_moves_) return 0;
+  const execution::State& state = frontier.live[0].state;
+  execution::PlainRun run(frontier.live[0].state, setup_, suspects_centers_);
+  PositionUse use = outcome.positions;
+  std::size_t done = 0;
+  for (; done < count; ++done) {
+    const PlainLine line = plain_line_at(done);
+    if ((line.has_label && jumps_.names(line.label)) || !run.run(line)) break;
+    note_plain_move(line, run, state, use);
+  }
+  outcome.centers.open |= run.met_open_center();
+  if (done == 0) return 0;
+  outcome.has_text = true;
+  outcome.last_text_line = line_number + done - 1;
+  use.by_several |= !frontier.waiting.empty();
+  outcome.positions = use;
+  relieve(done);
+  return done;
+}
+
+std::size_t Checker::check_plain_lines(const syntax::TreeStore& trees, std::size_t first, std::uint64_t line_number,
+                                       Outcome& outcome) {
+  return check_plain(trees.size() - first, line_number, outcome,
+                     [&](std::size_t index) { return trees.plain(first + index); });
+}
+
+void Checker::check_all(const syntax::ChunkTrees& trees, Outcome& outcome) {
+  for (std::size_t line = 0; line < trees.size(); ++line) {
+    line += check_plain_lines(trees.store(), line, line, outcome);
+    if (line < trees.size()) check_any(trees[line], line, outcome);
+  }
+}
+
+void Checker::check(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+  if (check_plain(1, line_number, outcome, [&](std::size_t) { return line.plain(); }) == 0)
+    check_any(line, line_number, outcome);
+}
+
+/// A program without jumps has one path and one state.
+void Checker::check_straight(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+  if (frontier.live.empty()) return tell_of_dead_code(line, line_number, outcome);
+  execution::State& state = frontier.live[0].state;
+  Listener listener(line_number, *this, outcome);
+  const std::size_t first = outcome.findings.size();
+  for (const Finding& finding : line.findings)
+    if (!is_told_above(finding, state)) outcome.findings.push_back({line_number, finding});
+  if (line.is_empty()) return;
+  const execution::State before = state;
+  execution::execute(line, state, setup_, listener);
+  if (!has_error(outcome.findings, first)) {
+    rules::ask_all({line, before, state, setup_}, listener);
+    judge_move(line, before, state, listener);
+  }
+  move_.reset();
+  note_line(line, before, state, outcome.findings.size() > first, outcome.positions);
+  if (outcome.findings.size() > first + 1) sort_by_column(outcome.findings, first);
+  if (!state.ended) return;
+  frontier.live.clear();
+  // M02 on a line with another mistake may not be meant as the end.
+  frontier.dead_told = has_error(outcome.findings, first);
+}
+
+void Checker::check_any(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+  if (!line.words.empty() || !line.comments.empty() || !line.findings.empty()) {
+    outcome.has_text = true;
+    outcome.last_text_line = line_number;
+  }
+  if (jumps_.empty()) return check_straight(line, line_number, outcome);
+  if (line.has_label()) arrive(line, line_number, outcome);
+  Groups& live = frontier.live;
+  if (live.empty()) {
+    if (line.jump && line.jump->has_target) ++frontier.next_jump;
+    return tell_of_dead_code(line, line_number, outcome);
+  }
+  frontier.dead_told = false;
+  outcome.positions.by_several |= live.size() > 1 || !frontier.waiting.empty();
+  const std::size_t first = outcome.findings.size();
+  for (const Finding& finding : line.findings) {
+    const auto is_told = [&](const Group& group) { return is_told_above(finding, group.state); };
+    if (!std::all_of(live.begin(), live.end(), is_told)) outcome.findings.push_back({line_number, finding});
+  }
+  execute_in_all_groups(line, line_number, outcome);
+  if (line.jump && line.jump->has_target) branch(line, line_number, outcome);
+  sort_by_column(outcome.findings, first);
+  if (live.empty() || !live[0].state.ended) return;
+  live.clear();  // M02 ends every path through it. On a line with another mistake it may not be meant as the end.
+  frontier.dead_told = has_error(outcome.findings, first);
+}
+
+void Checker::relieve(std::size_t lines) {
+  frontier.spread -= static_cast<std::uint32_t>(std::min<std::size_t>(frontier.spread, kSpreadRelief * lines));
+}
+
+/// Lines on no feasible path are never read, and nothing is said of them but that, at the first (D51).
+void Checker::tell_of_dead_code(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+  if (frontier.dead_told || line.is_empty()) return;
+  frontier.dead_told = true;
+  if (frontier.reduced) return;  // A path that is not followed may lead here.
+  syntax::Span span;
+  for (const syntax::Word& word : line.words)
+    if (word.letter != 'N') span = span.empty() ? word.span() : syntax::hull(span, word.span());
+  outcome.findings.push_back({line_number, {.id = "never-runs"_diag, .span = span}});
+}
+
+/// A label: paths that jumped here go on from here, on every feasible path or not.
+void Checker::arrive(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+  if (!jumps_.names(line.label)) return;
+  if (const auto waiting = frontier.waiting.find(line.label); waiting != frontier.waiting.end()) {
+    frontier.live.add_all(std::move(waiting->second));
+    frontier.waiting.erase(waiting);
+    bound_states(line, line_number, outcome);
+  }
+  for (const syntax::Word& word : line.words) {
+    if (word.letter != 'N' || word.owner != syntax::Word::kNobody) continue;
+    outcome.labels.push_back({line.label, line_number, word.span(), !frontier.live.empty()});
+    break;
+  }
+}
+
+/// Most values are never compared: where no IF will see this one, that of before is forgotten, and no more is done.
+void Checker::assign(Group& group, int reg, double value, Outcome& outcome) const {
+  outcome.assigned |= register_bit(reg);
+  if ((jumps_.read_before(frontier.next_jump) & register_bit(reg)) != 0) {
+    group.registers.assign(reg, value, jumps_);
+  } else {
+    group.registers.keep_only(~register_bit(reg));
+  }
+}
+
+void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+  Groups& live = frontier.live;
+  if (const auto assignment = execution::lone_assignment(line)) {
+    for (Group& group : live) {
+      execution::pass_by(group.state);
+      assign(group, assignment->reg, assignment->value, outcome);
+    }
+  } else if (execution::is_lone_jump(line)) {
+    for (Group& group : live) execution::pass_by(group.state);
+  } else if (!line.is_empty()) {
+    class GroupListener final : public execution::Sink {
+     public:
+      GroupListener(Checker& checker, std::size_t group, Outcome& outcome)
+          : Sink(checker.watches_moves_), checker_(checker), group_(group), outcome_(outcome) {}
+      void report(const Finding& finding) override { checker_.group_findings_.push_back({finding, group_}); }
+      void centered_arc(const execution::CenteredArc& arc) override { checker_.judge_arc(arc, outcome_, *this); }
+      void move(const execution::Move& move, const execution::State&) override { checker_.move_ = move; }
+      void assign(int reg, double value) override {
+        checker_.assign(checker_.frontier.live[group_], reg, value, outcome_);
+      }
+
+     private:
+      Checker& checker_;
+      std::size_t group_;
+      Outcome& outcome_;
+    };
+    const auto is_error_here = [](const GroupFinding& found) { return is_error(found.finding); };
+    const bool is_wrong = std::any_of(line.findings.begin(), line.findings.end(), is_error);
+    group_findings_.clear();
+    for (std::size_t i = 0; i < live.size(); ++i) {
+      GroupListener listener(*this, i, outcome);
+      execution::State& state = live[i].state;
+      if (!watches_moves_) {
+        execution::PlainRun run(state, setup_, suspects_centers_);
+        if (run.run(line.plain())) {
+          outcome.centers.open |= run.met_open_center();
+          note_plain_move(line.plain(), run, state, outcome.positions);
+          continue;
+        }
+      }
+      const auto first = static_cast<std::ptrdiff_t>(group_findings_.size());
+      const execution::State before = state;
+      execution::execute(line, state, setup_, listener);
+      if (!is_wrong && std::none_of(group_findings_.begin() + first, group_findings_.end(), is_error_here)) {
+        rules::ask_all({line, before, state, setup_}, listener);
+        judge_move(line, before, state, listener);
+      }
+      move_.reset();
+      const bool has_findings = !line.findings.empty() || static_cast<std::ptrdiff_t>(group_findings_.size()) > first;
+      note_line(line, before, state, has_findings, outcome.positions);
+    }
+    if (!group_findings_.empty()) report_common_findings(line_number, outcome);
+  }
+  if (live.size() == 1) return relieve(1);
+  live.converge();
+  bound_states(line, line_number, outcome);
+}
+
+static constexpr execution::AxisSet kAllAxes = (1u << execution::kAxisCount) - 1;
+
+/// A line that is not plain: where it takes thought what its judgment depends on, it counts as depending on all.
+void Checker::note_line(const LineTree& line, const execution::State& before, const execution::State& after,
+                        bool has_findings, PositionUse& use) const {
+  bool moves = false;
+  bool changes_frame = false;
+  for (const syntax::Instruction& instruction : line.instructions) {
+    const bool is_g = instruction.kind == syntax::InstructionKind::G;
+    const dialect::GCode* const code = is_g ? instruction.g() : nullptr;
+    moves |= instruction.is_motion();
+    changes_frame |=
+        is_g && (!code || code->group == dialect::ModalGroup::Face || code->group == dialect::ModalGroup::Workpiece);
+  }
+  if (!moves && !changes_frame) return;
+  use.far |= is_far(after.position);
+  const bool is_clear = !has_findings && !changes_frame && !watches_moves_ && before.unknown == after.unknown &&
+                        after.mode(dialect::ModalGroup::Motion) != dialect::kNoMotion;
+  if (is_clear && after.incremental()) return;
+  dialect::LetterSet letters = 0;
+  for (const syntax::Word& word : line.words)
+    if (dialect::contains(dialect::kCoordinateLetters, word.letter)) letters |= dialect::letter_bit(word.letter);
+  // A straight move under G49 is right from anywhere; else the start of an arc, or of an axis that is not to turn,
+  // counts.
+  const bool is_straight = after.mode(dialect::ModalGroup::Motion) <= 1;
+  const execution::AxisSet read = !is_clear     ? kAllAxes
+                                  : is_straight ? axes_of(letters & dialect::kRotaryLetters)
+                                                : kAllAxes;
+  use.read |= static_cast<execution::AxisSet>(read & ~use.set);
+  if (is_clear) use.set |= axes_of(letters);
+}
+
+/// What the rules think of the line's motion, if it has one and somebody wants to know.
+void Checker::judge_move(const LineTree& line, const execution::State& before, const execution::State& after,
+                         execution::Sink& sink) {
+  if (move_) rules::ask_about_move({line, before, after, setup_}, *move_, sink);
+}
+
+/// What an arc whose circle is given by its center says of itself, and of how centers are meant (D70).
+void Checker::judge_arc(const execution::CenteredArc& arc, Outcome& outcome, execution::Sink& sink) const {
+  const double tolerance = setup_.arc_tolerance;
+  const geometry::CenterReadings readings =
+      geometry::read_center_both_ways(arc.given, arc.start, arc.incremental, tolerance);
+  if (!arc.incremental) {
+    outcome.centers.from_start |= !readings.is_same_center && readings.shows_other_origin(tolerance);
+    outcome.centers.open |= readings.is_legal_both_ways(tolerance);
+  }
+  if (arc.circle.problem == geometry::ArcProblem::None)
+    rules::judge_arc(arc, readings, suspects_centers_, setup_, sink);
+}
+
+/// Each finding once. One that only some groups have carries the decisions that lead to them.
+void Checker::report_common_findings(std::uint64_t line_number, Outcome& outcome) {
+  const Groups& live = frontier.live;
+  for (std::size_t i = 0; i < group_findings_.size(); ++i) {
+    const Finding& finding = group_findings_[i].finding;
+    const auto same = [&](const GroupFinding& other) {
+      return other.finding.id == finding.id && other.finding.span == finding.span;
+    };
+    const auto here = group_findings_.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::any_of(group_findings_.begin(), here, same)) continue;
+    LocatedFinding located{line_number, finding};
+    // The decisions that all of its paths share.
+    Path path = live[group_findings_[i].group].path;
+    std::size_t count = 0;
+    for (auto other = here; other != group_findings_.end(); ++other) {
+      if (!same(*other)) continue;
+      ++count;
+      const Path& theirs = live[other->group].path;
+      std::erase_if(path, [&](const Decision& decision) {
+        return std::find(theirs.begin(), theirs.end(), decision) == theirs.end();
+      });
+    }
+    // On every path that comes here only jumps are worth telling: that no IF skipped the line goes without saying.
+    if (count == live.size()) std::erase_if(path, [](const Decision& decision) { return !decision.taken; });
+    if (!path.empty()) {
+      located.path = static_cast<std::int32_t>(outcome.paths.size());
+      if (!outcome.paths.empty() && outcome.paths.back() == path) {
+        --located.path;
+      } else {
+        outcome.paths.push_back(std::move(path));
+      }
+    }
+    outcome.findings.push_back(located);
+  }
+}
+
+/// IF: follows the paths that are feasible (D51, D52).
+void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+  const syntax::Jump& jump = *line.jump;
+  const std::uint32_t ordinal = frontier.next_jump++;
+  outcome.live_jumps.push_back(ordinal);
+  switch (jumps_.target_of(ordinal)) {
+    case JumpMap::Target::Below:
+      break;
+    case JumpMap::Target::NotFound:
+      outcome.findings.push_back({line_number, {.id = "label-not-found"_diag, .span = jump.target_span}});
+      return;
+    case JumpMap::Target::Above:
+      outcome.findings.push_back({line_number, {.id = "backward-jump"_diag, .span = jump.target_span}});
+      return;
+  }
+  Groups jumping;
+  bool may_jump = false;
+  bool may_stay = false;
+  const auto decide = [&](Path path, bool taken) {
+    path.insert(path.begin(), {ordinal, taken});
+    if (path.size() > kLongestPath) path.pop_back();
+    return path;
+  };
+  std::size_t staying = 0;
+  for (Group& group : frontier.live) {
+    const bool on_register = jump.variable > 0 && jump.condition_is_known();
+    Valuations where_true = on_register ? group.registers.where(jump, true) : group.registers;
+    if (on_register) group.registers = group.registers.where(jump, false);
+    if (jumps_.compares_registers()) {
+      where_true.keep_only(jumps_.read_at_target(ordinal));
+      group.registers.keep_only(jumps_.read_behind(ordinal));
+    }
+    const bool jumps_on = where_true.possible();
+    const bool stays = group.registers.possible();
+    may_jump |= jumps_on;
+    may_stay |= stays;
+    if (jumps_on) jumping.append({group.state, std::move(where_true), stays ? decide(group.path, true) : group.path});
+    if (!stays) continue;
+    if (jumps_on) group.path = decide(std::move(group.path), false);
+    Group& place = frontier.live[staying++];
+    if (&place != &group) place = std::move(group);
+  }
+  frontier.live.keep_first(staying);
+  if (!jumping.empty()) {
+    Groups& waiting = frontier.waiting[jump.target];
+    waiting.add_all(std::move(jumping));
+    if (reduce(waiting)) admit_reduction(line, line_number, outcome);
+  }
+  if (may_jump != may_stay && !frontier.reduced) {
+    outcome.findings.push_back({line_number, {.id = "condition-decided"_diag, .span = jump.if_span}});
+    frontier.dead_told = !may_stay;  // That the lines below do not run is what a switch is for.
+  }
+  if (frontier.waiting.size() > kMostWaiting) {
+    frontier.waiting.erase(std::prev(frontier.waiting.end()));
+    admit_reduction(line, line_number, outcome);
+  }
+}
+
+/// Whether there were too many.
+bool Checker::reduce(Groups& groups) const {
+  const std::size_t most = frontier.reduced ? kMostStatesReduced : kMostStates;
+  if (groups.size() <= most) return false;
+  groups.reduce_to(most / 2);
+  return true;
+}
+
+void Checker::bound_states(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+  Groups& live = frontier.live;
+  bool reduced = false;
+  frontier.spread += static_cast<std::uint32_t>(live.size()) - 1;
+  frontier.spread -= std::min(frontier.spread, kSpreadRelief);
+  reduced |= reduce(live);
+  if (frontier.spread > kSpreadLimit) {
+    live.reduce_to(1);
+    frontier.spread = 0;
+    reduced = true;
+  }
+  for (Group& group : live) {
+    if (group.registers.size() <= kMostValuations) continue;
+    group.registers.reduce_to(kMostValuations / 2);
+    reduced = true;
+  }
+  if (reduced) admit_reduction(line, line_number, outcome);
+}
+
+/// Says, once, that not all is followed from here on.
+void Checker::admit_reduction(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+  if (frontier.reduced) return;
+  frontier.reduced = true;
+  syntax::Span span;
+  if (!line.words.empty()) span = line.words.front().span();
+  outcome.findings.push_back(
+      {line_number, {.id = "too-many-paths"_diag, .span = span, .values = {static_cast<double>(kMostStates)}}});
+}
+
+}  // namespace isocnc::check

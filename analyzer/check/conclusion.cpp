@@ -1,0 +1,242 @@
+#include "analyzer/check/conclusion.h"
+
+#include <algorithm>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/tree_store.h"
+
+namespace isocnc::check {
+
+using namespace dialect::literals;
+using syntax::LineTree;
+
+bool all_jumps_land(const Outcome& outcome, const JumpMap& jumps) {
+  std::unordered_map<std::uint64_t, std::uint64_t> last_lines;
+  for (const Outcome::Label& label : outcome.labels) last_lines[label.label] = label.line;
+  return std::all_of(outcome.live_jumps.begin(), outcome.live_jumps.end(), [&](std::uint32_t ordinal) {
+    const JumpMap::Site& site = jumps.sites()[ordinal];
+    const auto last = last_lines.find(site.jump.target);
+    return last != last_lines.end() && last->second > site.line;
+  });
+}
+
+/// A label that a GOTO names may be defined once: the second and each later one that the control reads (D50, D51).
+static void add_duplicate_labels(const std::vector<PlacedOutcome>& outcomes, const JumpMap& jumps,
+                                 std::vector<LocatedFinding>& findings) {
+  std::unordered_set<std::uint64_t> seen;
+  std::vector<std::pair<std::uint64_t, LocatedFinding>> repeated;
+  for (const auto& [outcome, first_line] : outcomes)
+    for (const Outcome::Label& label : outcome->labels)
+      if (label.live && jumps.may_repeat(label.label) && !seen.insert(label.label).second)
+        repeated.push_back(
+            {label.label, {first_line + label.line, {.id = "duplicate-label"_diag, .span = label.span}}});
+  if (repeated.empty()) return;
+  std::unordered_map<std::uint64_t, bool> is_named;
+  for (const auto& [label, finding] : repeated) is_named[label] = false;
+  for (const auto& [outcome, first_line] : outcomes)
+    for (const std::uint32_t jump : outcome->live_jumps) {
+      if (jumps.target_of(jump) != JumpMap::Target::Below) continue;
+      const auto named = is_named.find(jumps.sites()[jump].jump.target);
+      if (named != is_named.end()) named->second = true;
+    }
+  for (const auto& [label, finding] : repeated)
+    if (is_named[label]) findings.push_back(finding);
+}
+
+/// Registers that an IF compares and nothing assigns: said at the first such IF.
+static void add_unassigned_registers(const std::vector<PlacedOutcome>& outcomes, const JumpMap& jumps,
+                                     std::vector<LocatedFinding>& findings) {
+  RegisterSet unassigned = jumps.compared();
+  for (auto placed = outcomes.begin(); placed != outcomes.end() && unassigned != 0; ++placed)
+    unassigned &= ~placed->outcome->assigned;
+  if (unassigned == 0) return;
+  for (const auto& [outcome, first_line] : outcomes)
+    for (const std::uint32_t ordinal : outcome->live_jumps) {
+      const JumpMap::Site& site = jumps.sites()[ordinal];
+      const int reg = site.jump.variable;
+      if (reg < 1 || !site.jump.condition_is_known() || (unassigned & register_bit(reg)) == 0) continue;
+      unassigned &= ~register_bit(reg);
+      findings.push_back({site.line, {.id = "register-never-assigned"_diag, .span = site.jump.variable_span}});
+    }
+}
+
+static syntax::Span without_blanks(std::string_view text) {
+  std::size_t begin = 0;
+  std::size_t end = text.size();
+  while (begin < end && syntax::is_blank(text[begin])) ++begin;
+  while (end > begin && syntax::is_blank(text[end - 1])) --end;
+  return {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
+}
+
+/// Whether an M02 may be meant on a line that has a finding for it: (M02 and M, MO2, or M0.
+static bool may_hide_end(std::string_view text) {
+  const syntax::ParsedLine parsed(text);
+  const LineTree tree = parsed.tree();
+  if (tree.has(LineTree::kUnclosed)) return true;
+  return std::any_of(tree.words.begin(), tree.words.end(), [](const syntax::Word& word) {
+    return word.letter == 'M' && (!word.known() || word.has(syntax::Word::kMalformed));
+  });
+}
+
+/// A path that reaches the end of the file without an M02: said on the last line with any text (D47).
+static void add_missing_end(const std::vector<PlacedOutcome>& outcomes, const Frontier& end,
+                            const std::function<std::string_view(std::uint64_t)>& text_of_line,
+                            std::vector<Path>& paths, std::vector<LocatedFinding>& findings) {
+  if (end.live.empty()) return;
+  LocatedFinding located{0, {.id = "m02-missing"_diag}};
+  const auto last = std::find_if(outcomes.rbegin(), outcomes.rend(),
+                                 [](const PlacedOutcome& placed) { return placed.outcome->has_text; });
+  if (last != outcomes.rend()) {
+    located.line = last->first_line + last->outcome->last_text_line;
+    const std::string_view text = text_of_line(located.line);
+    if (may_hide_end(text)) return;
+    located.finding.span = without_blanks(text);
+  }
+  Path path = end.live[0].path;
+  for (const Group& group : end.live)
+    std::erase_if(path, [&](const Decision& decision) {
+      return !decision.taken || std::find(group.path.begin(), group.path.end(), decision) == group.path.end();
+    });
+  if (!path.empty()) {
+    located.path = static_cast<std::int32_t>(paths.size());
+    paths.push_back(std::move(path));
+  }
+  findings.push_back(located);
+}
+
+/// Said once per program: one mistake, however many paths show it (D44).
+static constexpr dialect::DiagnosticId kSaidOnce[] = {"initial-tool-missing"_diag, "feed-missing"_diag,
+                                                      "too-many-paths"_diag};
+
+static void keep_first_of_each(std::vector<LocatedFinding>& findings) {
+  for (const dialect::DiagnosticId id : kSaidOnce) {
+    bool seen = false;
+    std::erase_if(findings, [&](const LocatedFinding& located) {
+      if (located.finding.id != id) return false;
+      return std::exchange(seen, true);
+    });
+  }
+}
+
+static bool by_place(const LocatedFinding& a, const LocatedFinding& b) {
+  return a.line != b.line ? a.line < b.line : a.finding.span.begin < b.finding.span.begin;
+}
+
+/// What only the whole program shows.
+static void add_findings_of_whole(const std::vector<PlacedOutcome>& outcomes, const Frontier& end, const JumpMap& jumps,
+                                  const std::function<std::string_view(std::uint64_t)>& text_of_line,
+                                  std::vector<Path>& paths, std::vector<LocatedFinding>& findings) {
+  add_duplicate_labels(outcomes, jumps, findings);
+  if (!end.reduced) add_unassigned_registers(outcomes, jumps, findings);
+  add_missing_end(outcomes, end, text_of_line, paths, findings);
+}
+
+/// Brings findings into their order, and tells their paths as users read them.
+static Report ordered(std::vector<LocatedFinding> findings, const std::vector<Path>& paths, const JumpMap& jumps) {
+  Report report{.findings = std::move(findings), .paths = {}};
+  if (!std::is_sorted(report.findings.begin(), report.findings.end(), by_place))
+    std::stable_sort(report.findings.begin(), report.findings.end(), by_place);
+  keep_first_of_each(report.findings);
+  for (const Path& path : paths) {
+    std::vector<PathStep>& steps = report.paths.emplace_back();
+    for (auto decision = path.rbegin(); decision != path.rend(); ++decision)
+      steps.push_back({jumps.sites()[decision->jump].line, decision->taken});
+  }
+  return report;
+}
+
+Report conclude(Outcome outcome, const Frontier& end, const JumpMap& jumps,
+                const std::function<std::string_view(std::uint64_t)>& text_of_line) {
+  std::vector<LocatedFinding> findings = std::move(outcome.findings);
+  std::vector<Path> paths = std::move(outcome.paths);
+  add_findings_of_whole({{&outcome, 0}}, end, jumps, text_of_line, paths, findings);
+  return ordered(std::move(findings), paths, jumps);
+}
+
+namespace {
+
+/// Takes findings until there are enough, and counts the others.
+class Gatherer {
+ public:
+  Gatherer(const FirstFindingsWishes& wishes, FirstFindings& excerpt) : wishes_(wishes), excerpt_(excerpt) {}
+
+  bool has_enough() const { return taken_ >= wishes_.most; }
+  /// The line behind all that have been taken.
+  std::uint64_t end() const { return end_; }
+
+  void take(const PlacedOutcome& placed) {
+    const auto first_path = static_cast<std::int32_t>(paths.size());
+    for (LocatedFinding located : placed.outcome->findings) {
+      located.line += placed.first_line;
+      if (located.path >= 0) located.path += first_path;
+      take(located);
+    }
+    const std::vector<Path>& theirs = placed.outcome->paths;
+    paths.insert(paths.end(), theirs.begin(), theirs.end());
+  }
+  void take(const LocatedFinding& located) {
+    findings.push_back(located);
+    end_ = located.line + 1;
+    if (counts(located.finding.id)) ++taken_;
+  }
+  void count(dialect::DiagnosticId id, std::size_t number = 1) {
+    if (is_said_once(id)) number = 1;
+    if (counts(id)) excerpt_.left_out += number;
+  }
+
+  std::vector<LocatedFinding> findings;
+  std::vector<Path> paths;
+
+ private:
+  static bool is_said_once(dialect::DiagnosticId id) {
+    return std::find(std::begin(kSaidOnce), std::end(kSaidOnce), id) != std::end(kSaidOnce);
+  }
+  bool counts(dialect::DiagnosticId id) {
+    for (std::size_t i = 0; i < std::size(kSaidOnce); ++i)
+      if (kSaidOnce[i] == id && std::exchange(said_[i], true)) return false;
+    return !wishes_.counts || wishes_.counts(id);
+  }
+
+  const FirstFindingsWishes& wishes_;
+  FirstFindings& excerpt_;
+  std::size_t taken_ = 0;
+  std::uint64_t end_ = 0;
+  std::array<bool, std::size(kSaidOnce)> said_{};
+};
+
+}  // namespace
+
+FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const FindingCounts& counts, const Frontier& end,
+                       const JumpMap& jumps, const std::function<std::string_view(std::uint64_t)>& text_of_line,
+                       const FirstFindingsWishes& wishes) {
+  FirstFindings excerpt;
+  Gatherer gatherer(wishes, excerpt);
+  auto next = outcomes.begin();
+  FindingCounts left = counts;
+  for (; next != outcomes.end() && !gatherer.has_enough(); ++next) {
+    gatherer.take(*next);
+    left.remove(*next->outcome);
+  }
+  const bool has_all = next == outcomes.end();
+  for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
+    const dialect::DiagnosticId id{static_cast<std::uint8_t>(i)};
+    if (left.of(id) > 0) gatherer.count(id, left.of(id));
+  }
+  std::vector<LocatedFinding> of_whole;
+  add_findings_of_whole(outcomes, end, jumps, text_of_line, gatherer.paths, of_whole);
+  const std::uint64_t behind = gatherer.end();
+  for (const LocatedFinding& located : of_whole) {
+    if (has_all || located.line < behind) {
+      gatherer.take(located);
+    } else {
+      gatherer.count(located.finding.id);
+    }
+  }
+  excerpt.report = ordered(std::move(gatherer.findings), gatherer.paths, jumps);
+  return excerpt;
+}
+
+}  // namespace isocnc::check

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "analyzer/check/outcome.h"
+
+namespace isocnc::check {
+
+/// The outcome of some lines, which stand from this one on.
+struct PlacedOutcome {
+  const Outcome* outcome = nullptr;
+  std::uint64_t first_line = 0;
+};
+
+/// The first findings of a program, and how many there are behind them.
+struct FirstFindings {
+  Report report;
+  std::size_t left_out = 0;  ///< Those that count.
+};
+
+/// What an excerpt is to hold.
+struct FirstFindingsWishes {
+  std::size_t most = static_cast<std::size_t>(-1);         ///< So many findings that count, or a few more.
+  std::function<bool(dialect::DiagnosticId)> counts = {};  ///< Without it all do.
+};
+
+/// Puts together what was found: sorts, adds what only the whole program shows (E006, ISO045), and leaves of the
+/// findings that are said once per program the first (D44). `text_of_line` gives a line's text.
+Report conclude(Outcome outcome, const Frontier& end, const JumpMap& jumps,
+                const std::function<std::string_view(std::uint64_t)>& text_of_line);
+/// The same of several outcomes, in the order of the program, and of the `counts` of them all. Those that have nothing
+/// but `has_text` may be left out, but the last that has.
+FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const FindingCounts& counts, const Frontier& end,
+                       const JumpMap& jumps, const std::function<std::string_view(std::uint64_t)>& text_of_line,
+                       const FirstFindingsWishes& wishes = {});
+
+/// Whether the labels seen tell where each jump on a feasible path goes.
+bool all_jumps_land(const Outcome& outcome, const JumpMap& jumps);
+
+}  // namespace isocnc::check

@@ -1,0 +1,147 @@
+#include "analyzer/check/frontier.h"
+
+#include <algorithm>
+#include <bit>
+#include <iterator>
+#include <utility>
+
+namespace isocnc::check {
+
+/// The decisions that both paths share; both have the latest first.
+static Path common_decisions(const Path& a, const Path& b) {
+  Path common;
+  for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end();) {
+    if (*i == *j) {
+      common.push_back(*i++);
+      ++j;
+    } else if (i->jump > j->jump) {
+      ++i;
+    } else if (i->jump < j->jump) {
+      ++j;
+    } else {
+      ++i;
+      ++j;
+    }
+  }
+  return common;
+}
+
+static void join(Group& into, Group&& other) {
+  into.registers.unite(std::move(other.registers));
+  into.state.knowledge &= other.state.knowledge;
+  if (into.state.tool != other.state.tool) into.state.forget(execution::State::kToolKnown);
+  into.path = common_decisions(into.path, other.path);
+}
+
+void Groups::add(Group group) {
+  for (Group& present : all_)
+    if (execution::judged_alike(present.state, group.state)) return join(present, std::move(group));
+  all_.push_back(std::move(group));
+}
+
+void Groups::add_all(Groups&& groups) {
+  all_.insert(all_.end(), std::make_move_iterator(groups.begin()), std::make_move_iterator(groups.end()));
+  if (all_.size() > groups.size()) converge();
+  groups.clear();
+}
+
+/// The same for states that are judged alike, and for few others.
+static std::uint64_t hash_of(const execution::State& state) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  const auto mix = [&](std::uint64_t bits) { hash = std::rotl((hash ^ bits) * 0x9E3779B97F4A7C15ULL, 29); };
+  const auto mix_number = [&](double number) { mix(std::bit_cast<std::uint64_t>(number + 0.0)); };  // -0 equals 0.
+  for (int i = 0; i < 3; ++i) mix_number(state.position.tip[i]);
+  mix_number(state.position.b);
+  mix_number(state.position.c);
+  for (int i = 0; i < 3; ++i) mix_number(state.workpiece_origin[i]);
+  for (const std::uint8_t mode : state.in_force) mix(mode);
+  mix(std::uint64_t{state.unknown} << 16 | state.written);
+  return hash;
+}
+
+/// Groups that are compared each with each.
+static constexpr std::size_t kFew = 8;
+
+/// Compares each with each.
+static void converge_few(std::vector<Group>& groups) {
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    for (std::size_t j = i + 1; j < groups.size();) {
+      if (execution::judged_alike(groups[i].state, groups[j].state)) {
+        join(groups[i], std::move(groups[j]));
+        groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(j));
+      } else {
+        ++j;
+      }
+    }
+}
+
+void Groups::converge() {
+  if (all_.size() <= kFew) return converge_few(all_);
+  std::vector<std::pair<std::uint64_t, std::size_t>> order;
+  order.reserve(all_.size());
+  for (std::size_t i = 0; i < all_.size(); ++i) order.emplace_back(hash_of(all_[i].state), i);
+  std::sort(order.begin(), order.end());
+  std::vector<bool> is_gone;
+  for (std::size_t i = 0; i < order.size(); ++i)
+    for (std::size_t j = i + 1; j < order.size() && order[j].first == order[i].first; ++j) {
+      const std::size_t into = order[i].second;
+      const std::size_t other = order[j].second;
+      if (!is_gone.empty() && (is_gone[into] || is_gone[other])) continue;
+      if (!execution::judged_alike(all_[into].state, all_[other].state)) continue;
+      join(all_[into], std::move(all_[other]));
+      is_gone.resize(all_.size());
+      is_gone[other] = true;
+    }
+  if (is_gone.empty()) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < all_.size(); ++i)
+    if (!is_gone[i]) {
+      if (kept != i) all_[kept] = std::move(all_[i]);
+      ++kept;
+    }
+  all_.resize(kept);
+}
+
+/// Makes `a` stand for both states if they differ in position alone.
+static bool blur_positions(execution::State& a, const execution::State& b) {
+  execution::State other = b;
+  other.position = a.position;
+  other.unknown = a.unknown;
+  if (!execution::judged_alike(a, other)) return false;
+  const auto compare = [&](execution::Axis axis, double& mine, double theirs) {
+    const execution::AxisSet bit = execution::axis_bit(axis);
+    if (mine == theirs && ((a.unknown | b.unknown) & bit) == 0) return;
+    a.unknown |= bit;
+    mine = 0;
+  };
+  for (int i = 0; i < 3; ++i) compare(static_cast<execution::Axis>(i), a.position.tip[i], b.position.tip[i]);
+  compare(execution::Axis::B, a.position.b, b.position.b);
+  compare(execution::Axis::C, a.position.c, b.position.c);
+  return true;
+}
+
+void Groups::reduce_to(std::size_t limit) {
+  for (std::size_t i = 0; i < all_.size(); ++i)
+    for (std::size_t j = all_.size() - 1; j > i && all_.size() > limit; --j) {
+      if (!blur_positions(all_[i].state, all_[j].state)) continue;
+      join(all_[i], std::move(all_[j]));
+      all_.erase(all_.begin() + static_cast<std::ptrdiff_t>(j));
+    }
+  if (all_.size() > limit) all_.resize(limit);
+}
+
+Groups Frontier::running_through(const syntax::LineTree& next) const {
+  Groups groups = live;
+  const auto jumped = next.has_label() ? waiting.find(next.label) : waiting.end();
+  if (jumped != waiting.end())
+    for (const Group& group : jumped->second) groups.add(group);
+  return groups;
+}
+
+std::optional<execution::State> Frontier::state_at(const syntax::LineTree& next) const {
+  const Groups groups = running_through(next);
+  if (groups.size() != 1 || reduced) return std::nullopt;
+  return groups[0].state;
+}
+
+}  // namespace isocnc::check

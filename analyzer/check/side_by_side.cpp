@@ -1,0 +1,24 @@
+#include "analyzer/check/side_by_side.h"
+
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace isocnc::check {
+
+void side_by_side(int workers, const std::function<void()>& work) {
+  if (workers <= 1) {
+    work();
+    return;
+  }
+  const auto work_or_end = [&work]() noexcept { work(); };
+  std::vector<std::thread> helpers;
+  try {
+    while (static_cast<int>(helpers.size()) + 1 < workers) helpers.emplace_back(work_or_end);
+  } catch (const std::system_error&) {  // Those that are there will do.
+  }
+  work_or_end();
+  for (std::thread& helper : helpers) helper.join();
+}
+
+}  // namespace isocnc::check

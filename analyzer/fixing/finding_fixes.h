@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analyzer/check/report.h"
+#include "analyzer/fixes/fix.h"
+#include "analyzer/fixing/fix_trial.h"
+#include "analyzer/fixing/text_program.h"
+
+namespace isocnc::fixing {
+
+/// An edit as the formats tell it: lines and columns from 1, columns in code points, the end exclusive; the program's
+/// own line ends in the text.
+struct ShownEdit {
+  std::uint64_t line = 0;
+  std::size_t column = 0;
+  std::uint64_t end_line = 0;
+  std::size_t end_column = 0;
+  std::string text;
+};
+
+/// The fixes of a report's findings, which are best asked for in their order.
+class FindingFixes {
+ public:
+  /// All must outlive this.
+  FindingFixes(std::string_view text, const check::Report& report, const execution::Setup& setup);
+
+  std::optional<fixes::Fix> of(const check::LocatedFinding& located);
+  /// The same without a fix that would be undone when it is made: what may be offered to users. The edits of a habit
+  /// are those of the finding's own line.
+  std::optional<fixes::Fix> offered(const check::LocatedFinding& located);
+  /// offered() with all edits that the fix takes. A habit's are given with the first of its findings; the others have
+  /// no fix, since to make it twice would be wrong.
+  std::optional<fixes::Fix> offered_in_full(const check::LocatedFinding& located);
+  std::vector<ShownEdit> shown(const fixes::Fix& fix);
+  /// The line as it would be, where the fix changes nothing else.
+  std::optional<std::string> changed_line(const check::LocatedFinding& located, const fixes::Fix& fix);
+  TextProgram& program() { return program_; }
+
+ private:
+  std::size_t column(const syntax::Position& position);
+
+  TextProgram program_;
+  const execution::Setup& setup_;
+  std::optional<FixTrial> trial_;                         // Once it is asked for.
+  std::array<bool, fixes::kHabitCount> given_in_full_{};  // Habits.
+  std::uint64_t reduced_from_;                            // From this line on, not every path is known.
+  // Columns are counted once along a line.
+  std::uint64_t counted_line_ = 0;
+  std::size_t counted_bytes_ = 0;
+  std::size_t counted_columns_ = 0;
+};
+
+/// The text with the edits made, which must not overlap; they are sorted.
+std::string edited(std::string_view text, std::vector<fixes::Edit>& edits, const TextProgram& program);
+
+}  // namespace isocnc::fixing

@@ -1,0 +1,317 @@
+#include "analyzer/fixing/fix_trial.h"
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analyzer/check/check_text.h"
+#include "analyzer/check/conclusion.h"
+#include "interpreter/dialect/diagnostic_id.h"
+
+namespace isocnc::fixing {
+
+using namespace dialect::literals;
+using fixes::Edit;
+using fixes::Fix;
+
+/// Lines of the finding and its edits, and lines below them.
+static constexpr std::uint64_t kMostEdited = 6'000;
+static constexpr std::uint64_t kFarthest = 10'000;
+/// Lines, times the states in which each is executed, for all fixes of a program; and so many more for each of its
+/// lines.
+static constexpr std::uint64_t kLeastWork = 400'000;
+static constexpr std::uint64_t kWorkPerLine = 20;
+/// Lines that are tried when all that has been spent: what most fixes could do wrong shows where they are made.
+static constexpr std::uint64_t kNearest = 8;
+/// Lines below the edits that are looked over for whether the program ends there.
+static constexpr std::uint64_t kMostBlank = 8;
+
+namespace {
+
+bool finds(const std::vector<check::LocatedFinding>& findings, dialect::DiagnosticId id) {
+  return std::any_of(findings.begin(), findings.end(),
+                     [&](const check::LocatedFinding& located) { return located.finding.id == id; });
+}
+
+/// A check that goes on from somewhere, and what it finds.
+class Attempt {
+ public:
+  Attempt(const execution::Setup& setup, const check::JumpMap& jumps, const check::Frontier& from)
+      : jumps_(jumps), checker_(setup, jumps) {
+    checker_.frontier = from;
+  }
+
+  void check(const syntax::LineTree& tree) {
+    checker_.check(tree, line_, outcome_);
+    if (outcome_.has_text && outcome_.last_text_line == line_) last_text_ = tree.text;
+    ++line_;
+  }
+
+  const check::Frontier& frontier() const { return checker_.frontier; }
+
+  /// Adds what has been found since this was last asked for.
+  void count(Balance& balance, int times) {
+    balance.count(outcome_.findings, counted_, times);
+    counted_ = outcome_.findings.size();
+  }
+  const std::vector<check::LocatedFinding>& findings() const { return outcome_.findings; }
+
+  /// What has been found, with what the end of the program shows, where it has come there.
+  check::Report conclusion() {
+    return check::conclude(std::move(outcome_), checker_.frontier, jumps_, [&](std::uint64_t) { return last_text_; });
+  }
+
+ private:
+  const check::JumpMap& jumps_;
+  check::Checker checker_;
+  check::Outcome outcome_;
+  std::uint64_t line_ = 0;
+  std::size_t counted_ = 0;
+  std::string_view last_text_;
+};
+
+/// Some lines of a program, one after the other, with the edits made.
+std::string edited_lines(fixes::Program& program, std::uint64_t first, std::uint64_t last, std::vector<Edit> edits) {
+  std::string text;
+  std::vector<std::size_t> starts;
+  for (std::uint64_t line = first; line <= last; ++line) {
+    starts.push_back(text.size());
+    text += program.text(line);
+    if (line < last) text += '\n';
+  }
+  const auto offset = [&](const syntax::Position& place) { return starts[place.line - first] + place.column; };
+  const auto by_place = [](const Edit& a, const Edit& b) { return a.begin < b.begin; };
+  std::stable_sort(edits.begin(), edits.end(), by_place);
+  std::string edited;
+  edited.reserve(text.size() + 16 * edits.size());
+  std::size_t copied = 0;
+  for (const Edit& edit : edits) {
+    edited.append(text, copied, offset(edit.begin) - copied);
+    edited += edit.text;
+    copied = offset(edit.end);
+  }
+  edited.append(text, copied);
+  return edited;
+}
+
+/// The lines of a text and their trees.
+class TextLines {
+ public:
+  explicit TextLines(std::string_view text) {
+    for (std::size_t end = 0; (end = text.find('\n')) != std::string_view::npos; text.remove_prefix(end + 1))
+      append(text.substr(0, end));
+    append(text);
+  }
+  std::size_t size() const { return starts_.size(); }
+  syntax::LineTree operator[](std::size_t index) const { return store_.tree(index, starts_[index]); }
+
+ private:
+  void append(std::string_view line) {
+    starts_.push_back(line.data());
+    store_.append_line(line.data(), line.data() + line.size());
+  }
+
+  std::vector<const char*> starts_;
+  syntax::TreeStore store_;
+};
+
+}  // namespace
+
+/// The program as it is, and with a fix.
+struct FixTrial::Comparison {
+  Attempt without;
+  Attempt with;
+  Balance balance = {};
+
+  const Balance& so_far() {
+    with.count(balance, 1);
+    without.count(balance, -1);
+    return balance;
+  }
+  bool has_met() const { return without.frontier() == with.frontier(); }
+};
+
+/// Whether nothing that is told by default is found more often, and the finding's own code, where it was found, less.
+static bool is_better(const Balance& balance, bool found_own, const check::LocatedFinding& located) {
+  for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
+    const dialect::DiagnosticId id{static_cast<std::uint8_t>(i)};
+    if (balance.of(id) > 0 && !dialect::definition(id).is_off) return false;
+  }
+  return !found_own || balance.of(located.finding.id) < 0;
+}
+
+FixTrial::FixTrial(fixes::Program& program, const execution::Setup& setup, const check::JumpMap& jumps)
+    : program_(program),
+      setup_(setup),
+      jumps_(jumps),
+      lines_(program),
+      work_left_(kLeastWork + kWorkPerLine * program.line_count()) {}
+
+/// Jumps are known by their number in the program, and labels by where they stand.
+bool FixTrial::is_concerned_by_jumps(const syntax::LineTree& line) const {
+  return line.jump != nullptr || (line.has_label() && jumps_.names(line.label));
+}
+
+std::optional<check::Report> FixTrial::found_with(std::vector<Edit> edits) {
+  const std::uint64_t lines = program_.line_count();
+  if (work_left_ < lines) return std::nullopt;
+  work_left_ -= lines;
+  return check::check_text(edited_lines(program_, 0, lines - 1, std::move(edits)), setup_);
+}
+
+const check::Report* FixTrial::found_in_whole() {
+  if (!found_in_whole_) found_in_whole_ = found_with({});
+  return found_in_whole_ ? &*found_in_whole_ : nullptr;
+}
+
+bool FixTrial::mends_in_whole(const Fix& fix, const check::LocatedFinding& located) {
+  const check::Report* const before = found_in_whole();
+  const std::optional<check::Report> after = before ? found_with(fix.edits) : std::nullopt;
+  if (!after) return true;
+  Balance balance;
+  balance.count(*after, 1);
+  balance.count(*before, -1);
+  return is_better(balance, finds(before->findings, located.finding.id), located);
+}
+
+/// Codes that a habit leads to.
+static std::span<const dialect::DiagnosticId> codes_of(fixes::Habit habit) {
+  static constexpr dialect::DiagnosticId kCenters[] = {
+      "arc-center-mismatch"_diag,       "arc-radius-mismatch"_diag,       "center-undetermined-g17-i"_diag,
+      "center-undetermined-g17-j"_diag, "center-undetermined-g18-i"_diag, "center-undetermined-g18-k"_diag,
+      "center-undetermined-g19-j"_diag, "center-undetermined-g19-k"_diag, "arc-barely-fits"_diag,
+      "center-legal-both-ways"_diag};
+  static constexpr dialect::DiagnosticId kUnits[] = {"unsupported-g"_diag};
+  static constexpr dialect::DiagnosticId kMilliseconds[] = {"dwell-of-odd-length"_diag};
+  switch (habit) {
+    case fixes::Habit::None:
+      break;
+    case fixes::Habit::CentersInG90:
+    case fixes::Habit::CentersInG91:
+      return kCenters;
+    case fixes::Habit::ForeignUnits:
+      return kUnits;
+    case fixes::Habit::Milliseconds:
+      return kMilliseconds;
+  }
+  return {};
+}
+
+/// Codes that judge where the machine goes, how fast, and what is written once too often, by the reading that is in
+/// force.
+static constexpr dialect::DiagnosticId kJudgedByReading[] = {"redundant-modal"_diag,
+                                                             "arc-radius-mismatch"_diag,
+                                                             "arc-radius-too-small"_diag,
+                                                             "arc-center-mismatch"_diag,
+                                                             "center-undetermined-g17-i"_diag,
+                                                             "center-undetermined-g17-j"_diag,
+                                                             "center-undetermined-g18-i"_diag,
+                                                             "center-undetermined-g18-k"_diag,
+                                                             "center-undetermined-g19-j"_diag,
+                                                             "center-undetermined-g19-k"_diag,
+                                                             "arc-barely-fits"_diag,
+                                                             "center-legal-both-ways"_diag,
+                                                             "arc-goes-nowhere"_diag,
+                                                             "motion-goes-nowhere"_diag,
+                                                             "travel-exceeded"_diag,
+                                                             "feed-above-machine"_diag,
+                                                             "rotary-speed-above-machine"_diag,
+                                                             "rapid-below-clearance"_diag,
+                                                             "dwell-of-odd-length"_diag,
+                                                             "end-in-inches"_diag,
+                                                             "useless-suppression"_diag};
+
+bool reads_better(const check::Report& before, const check::Report& after, fixes::Habit habit) {
+  Balance balance;
+  balance.count(after, 1);
+  balance.count(before, -1);
+  int of_habit = 0;
+  for (const dialect::DiagnosticId id : codes_of(habit)) of_habit += balance.of(id);
+  for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
+    const dialect::DiagnosticId id{static_cast<std::uint8_t>(i)};
+    const bool is_judged_by_reading =
+        std::find(std::begin(kJudgedByReading), std::end(kJudgedByReading), id) != std::end(kJudgedByReading);
+    if (balance.of(id) > 0 && !is_judged_by_reading && !dialect::definition(id).is_off) return false;
+  }
+  return of_habit < 0;
+}
+
+bool FixTrial::mends(fixes::Habit habit) {
+  std::optional<bool>& known = mended_habits_[static_cast<std::size_t>(habit)];
+  if (known) return *known;
+  const check::Report* const before = found_in_whole();
+  const std::optional<check::Report> after = before ? found_with(all_edits({.habit = habit}, program_)) : std::nullopt;
+  known = !after || reads_better(*before, *after, habit);
+  return *known;
+}
+
+bool FixTrial::mends(const Fix& fix, const check::LocatedFinding& located, const check::Frontier& before) {
+  const std::uint64_t first = located.line;
+  std::uint64_t last = first;
+  for (const Edit& edit : fix.edits) {
+    if (edit.begin.line < first) return mends_in_whole(fix, located);
+    last = std::max(last, edit.end.line);
+  }
+  if (last - first > (work_left_ > 0 ? kMostEdited : kNearest)) return true;
+
+  const std::string text = edited_lines(program_, first, last, fix.edits);
+  const TextLines edited(text);
+  for (std::size_t i = 0; i < edited.size(); ++i)
+    if (is_concerned_by_jumps(edited[i])) return mends_in_whole(fix, located);
+  Comparison compared{.without = {setup_, jumps_, before}, .with = {setup_, jumps_, before}};
+  for (std::uint64_t line = first; line <= last; ++line) {
+    const syntax::LineTree tree = lines_[line];
+    if (is_concerned_by_jumps(tree)) return mends_in_whole(fix, located);
+    compared.without.check(tree);
+    spend(compared.without.frontier());
+  }
+  for (std::size_t i = 0; i < edited.size(); ++i) {
+    compared.with.check(edited[i]);
+    spend(compared.with.frontier());
+  }
+  return follow(compared, last + 1, located);
+}
+
+void FixTrial::spend(const check::Frontier& frontier) {
+  work_left_ -= std::min<std::uint64_t>(work_left_, 1 + frontier.live.size());
+}
+
+bool FixTrial::follow(Comparison& compared, std::uint64_t next, const check::LocatedFinding& located) {
+  const std::uint64_t end = program_.line_count();
+  const std::uint64_t nearest = next + kNearest;
+  const std::uint64_t farthest = std::min(end, next + kFarthest);
+  const auto is_near_end = [&] { return end - next <= kMostBlank; };
+  Trail trail;
+  std::optional<Trail::Rest> rest;
+  while (next < farthest && (work_left_ > 0 || next < nearest) && (!compared.has_met() || is_near_end())) {
+    rest = trails_.rest_from(next, compared.with.frontier());
+    if (rest) break;
+    trail.pass(next, compared.with.frontier(), compared.so_far());
+    const syntax::LineTree tree = lines_[next++];
+    compared.without.check(tree);
+    compared.with.check(tree);
+    spend(compared.with.frontier());
+  }
+  const Balance so_far = compared.so_far();
+  bool found_own = finds(compared.without.findings(), located.finding.id);
+  if (!rest) {
+    rest = Trail::Rest{.next_line = next, .has_more = next < end && !compared.has_met()};
+    if (next == end) {
+      rest->balance.count(compared.with.conclusion(), 1);
+      const check::Report found = compared.without.conclusion();
+      rest->balance.count(found, -1);
+      rest->balance -= so_far;
+      found_own |= finds(found.findings, located.finding.id);
+    }
+  }
+  Balance in_all = so_far;
+  in_all += rest->balance;
+  if (trail.is_long()) {
+    trail.end(so_far, *rest);
+    trails_.keep(std::move(trail));
+  }
+  return is_better(in_all, found_own, located);
+}
+
+}  // namespace isocnc::fixing

@@ -1,0 +1,334 @@
+#include "analyzer/fixing/fixer.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <set>
+#include <tuple>
+#include <unordered_map>
+
+#include "analyzer/check/check_text.h"
+#include "analyzer/fixing/finding_fixes.h"
+#include "analyzer/selection/style_findings.h"
+#include "analyzer/selection/suppressions.h"
+#include "analyzer/selection/tally.h"
+
+namespace isocnc::fixing {
+
+using fixes::Edit;
+using fixes::Fix;
+using fixes::Safety;
+
+namespace {
+
+/// Bytes that may be checked for a text of a size: a bound for hostile programs, on which most fixes are undone.
+constexpr std::size_t kLeastWork = 64'000'000;
+constexpr std::size_t kWorkPerByte = 40;
+/// How often what is to blame for a new finding is guessed before it is searched for.
+constexpr int kGuesses = 4;
+
+/// A fix that is to be made.
+struct Candidate {
+  check::LocatedFinding located;
+  std::vector<Edit> edits;  // Sorted.
+  fixes::Habit habit = fixes::Habit::None;
+};
+
+/// Where something is found: what does not change when lines around it do.
+using FindingKey = std::tuple<std::uint64_t, dialect::DiagnosticId, std::uint32_t>;
+FindingKey key_of(const check::LocatedFinding& located) {
+  return {located.line, located.finding.id, located.finding.span.begin};
+}
+
+/// A text, what is found in it, and what of that is to be fixed.
+struct Version {
+  std::string text;
+  check::Report found;      // Whether selected or not.
+  check::Report concerned;  // Selected.
+  std::size_t unconcerned = 0;
+  std::vector<std::uint64_t> origins;
+};
+
+/// Parts of a text that are taken.
+class Taken {
+ public:
+  /// Takes the parts, unless one of them meets what is taken. Two parts may touch, but for an insertion, whose order
+  /// would be open.
+  bool take(std::vector<std::pair<std::size_t, std::size_t>> parts) {
+    std::sort(parts.begin(), parts.end());
+    if (std::any_of(parts.begin(), parts.end(), [&](const auto& part) { return meets(part.first, part.second); }))
+      return false;
+    for (const auto& [begin, end] : parts) taken_.emplace_hint(taken_.end(), begin, end);
+    return true;
+  }
+
+ private:
+  bool meets(std::size_t begin, std::size_t end) const {
+    const auto next = taken_.lower_bound(begin);
+    if (next != taken_.end() && conflict(begin, end, next->first, next->second)) return true;
+    if (next == taken_.begin()) return false;
+    const auto before = std::prev(next);
+    return conflict(before->first, before->second, begin, end);
+  }
+  static bool conflict(std::size_t begin, std::size_t end, std::size_t next_begin, std::size_t next_end) {
+    return next_begin < end || (next_begin == end && (begin == end || next_begin == next_end));
+  }
+
+  std::multimap<std::size_t, std::size_t> taken_;
+};
+
+/// Where the lines of a text are after edits.
+struct LineMap {
+  std::vector<std::uint64_t> new_lines;  // By old line.
+  std::vector<std::uint64_t> origins;    // By new line, in the original text.
+};
+
+/// Follows the edits, which are sorted, through the lines of a text whose lines have these origins.
+class LineFollower {
+ public:
+  explicit LineFollower(const std::vector<std::uint64_t>& origins) : origins_(origins), origin_(origins.front()) {
+    map_.new_lines.resize(origins.size());
+  }
+
+  LineMap follow(const std::vector<Edit>& edits) {
+    for (const Edit& edit : edits) {
+      leave_lines_up_to(edit.begin.line);
+      pass(edit);
+    }
+    leave_lines_up_to(origins_.size() - 1);
+    map_.origins.push_back(origin_);
+    return std::move(map_);
+  }
+
+ private:
+  void enter(std::uint64_t line) {
+    line_ = line;
+    map_.new_lines[line] = map_.origins.size();
+  }
+
+  void leave_lines_up_to(std::uint64_t line) {
+    while (line_ < line) {
+      map_.origins.push_back(origin_);
+      enter(line_ + 1);
+      origin_ = origins_[line_];
+    }
+  }
+
+  /// What is inserted at the start of a line stands above it; elsewhere it is a line's end that is new.
+  void pass(const Edit& edit) {
+    const bool is_above = edit.begin.column == 0;
+    for (auto left = std::count(edit.text.begin(), edit.text.end(), '\n'); left > 0; --left) {
+      map_.origins.push_back(is_above ? FixedText::kNew : origin_);
+      if (!is_above) origin_ = FixedText::kNew;
+    }
+    if (is_above) enter(line_);
+    while (line_ < edit.end.line) {
+      enter(line_ + 1);
+      if (is_above) origin_ = origins_[line_];
+    }
+  }
+
+  const std::vector<std::uint64_t>& origins_;
+  LineMap map_;
+  std::uint64_t line_ = 0;  // The old one.
+  std::uint64_t origin_;    // Of the new line that is being put together.
+};
+
+/// Candidates, made together.
+struct Trial {
+  Version version;
+  LineMap lines;
+  bool is_good = false;
+};
+
+class Fixer {
+ public:
+  Fixer(std::string_view text, const FixWishes& wishes)
+      : wishes_(wishes), work_left_(kLeastWork + kWorkPerByte * text.size()) {
+    present_ = checked(std::string(text));
+    std::vector<std::uint64_t>& origins = present_.origins;
+    origins.resize(TextProgram(present_.text, wishes.setup).line_count());
+    std::iota(origins.begin(), origins.end(), std::uint64_t{0});
+  }
+
+  FixedText run() {
+    while (work_left_ > 0) {
+      const std::vector<Candidate> all = candidates();
+      if (!all.empty()) {
+        make_some_of(all);
+      } else if (undone_.empty() || !changed_since_undone_) {
+        break;
+      } else {  // In other surroundings they may be right.
+        undone_.clear();
+        undone_habits_ = {};
+        changed_since_undone_ = false;
+      }
+    }
+    return {std::move(present_.text), std::move(present_.concerned), fixed_, present_.unconcerned,
+            std::move(present_.origins)};
+  }
+
+ private:
+  Version checked(std::string text) {
+    work_left_ -= std::min(work_left_, text.size() + 1);
+    Version version{.text = std::move(text)};
+    version.found = check::check_text(version.text, wishes_.setup, wishes_.jobs);
+    version.found = selection::with_style(std::move(version.found), version.text, wishes_.selection);
+    std::erase_if(version.found.findings, [&](const check::LocatedFinding& located) {
+      const dialect::DiagnosticId id = located.finding.id;
+      return dialect::definition(id).is_off && !wishes_.selection.shows(id);  // Nobody looks for it.
+    });
+    version.found = selection::suppress(std::move(version.found), version.text, wishes_.selection);
+    version.concerned = wishes_.selection.shown(version.found);
+    const std::size_t selected = version.concerned.findings.size();
+    if (wishes_.concern) version.concerned = wishes_.concern(std::move(version.concerned), version.text);
+    version.unconcerned = selected - version.concerned.findings.size();
+    return version;
+  }
+
+  /// The fixes that can be made together, in the order of the program. All rewrites of a habit are made alone.
+  std::vector<Candidate> candidates() const {
+    std::vector<Candidate> all;
+    FindingFixes fixes(present_.text, present_.found, wishes_.setup);
+    Taken taken;
+    for (const check::LocatedFinding& located : present_.concerned.findings) {
+      if (undone_.contains(key_of(located))) continue;
+      std::optional<Fix> fix = fixes.of(located);
+      if (!fix || (fix->safety == Safety::Unsafe && !wishes_.unsafe)) continue;
+      if (fix->habit != fixes::Habit::None) {
+        if (undone_habits_[static_cast<std::size_t>(fix->habit)]) continue;
+        return {{located, all_edits(*fix, fixes.program()), fix->habit}};
+      }
+      std::vector<std::pair<std::size_t, std::size_t>> parts;
+      for (const Edit& edit : fix->edits)
+        parts.emplace_back(fixes.program().offset(edit.begin), fixes.program().offset(edit.end));
+      if (taken.take(std::move(parts))) all.push_back({.located = located, .edits = std::move(fix->edits)});
+    }
+    return all;
+  }
+
+  Trial made(const std::vector<Candidate>& candidates) {
+    std::vector<Edit> edits;
+    for (const Candidate& candidate : candidates)
+      edits.insert(edits.end(), candidate.edits.begin(), candidate.edits.end());
+    Trial trial;
+    std::string text = edited(present_.text, edits, TextProgram(present_.text, wishes_.setup));
+    trial.version = checked(std::move(text));
+    trial.lines = LineFollower(present_.origins).follow(edits);
+    const fixes::Habit habit = candidates.empty() ? fixes::Habit::None : candidates.front().habit;
+    trial.is_good = habit == fixes::Habit::None ? is_good(trial.version.found, candidates.size())
+                                                : reads_better(present_.found, trial.version.found, habit);
+    return trial;
+  }
+
+  /// Every fix has done away with its finding, and no code is found more often.
+  bool is_good(const check::Report& found, std::size_t made) const {
+    selection::Tally before;
+    selection::Tally after;
+    before.add(present_.found);
+    after.add(found);
+    for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
+      const dialect::DiagnosticId id{static_cast<std::uint8_t>(i)};
+      if (after.of(id) > before.of(id)) return false;
+    }
+    return found.findings.size() + made <= present_.found.findings.size();
+  }
+
+  /// Makes as many of the candidates as a few attempts allow; at least one is made, or one is given up.
+  void make_some_of(std::vector<Candidate> all) {
+    Trial trial = made(all);
+    for (int i = 0; i < kGuesses && !trial.is_good && work_left_ > 0; ++i) {
+      std::vector<Candidate> innocent = without_suspects(all, trial);
+      if (innocent.empty() || innocent.size() == all.size()) break;
+      all = std::move(innocent);
+      trial = made(all);
+    }
+    // Half of them, and half of these, until what is left is right, or is the one that is wrong.
+    while (!trial.is_good && all.size() > 1 && work_left_ > 0) {
+      all.resize((all.size() + 1) / 2);
+      trial = made(all);
+    }
+    if (trial.is_good) return accept(std::move(trial));
+    for (const Candidate& candidate : all) {
+      undone_.insert(key_of(candidate.located));
+      undone_habits_[static_cast<std::size_t>(candidate.habit)] = true;
+    }
+  }
+
+  /// Without the candidates that are nearest above what is found newly.
+  std::vector<Candidate> without_suspects(const std::vector<Candidate>& all, const Trial& trial) const {
+    const auto place = [](std::uint64_t line, dialect::DiagnosticId id) {
+      return line << 8 | static_cast<std::uint64_t>(id);
+    };
+    std::unordered_map<std::uint64_t, std::int64_t> expected;
+    for (const check::LocatedFinding& located : present_.found.findings)
+      ++expected[place(trial.lines.new_lines[located.line], located.finding.id)];
+    std::vector<std::uint64_t> first_lines;
+    for (const Candidate& candidate : all) {
+      const check::LocatedFinding& located = candidate.located;
+      --expected[place(trial.lines.new_lines[located.line], located.finding.id)];
+      const std::uint64_t above = first_lines.empty() ? 0 : first_lines.back();
+      first_lines.push_back(std::max(above, first_new_line(candidate, trial.lines)));
+    }
+    std::vector<bool> suspected(all.size());
+    for (const check::LocatedFinding& located : trial.version.found.findings) {
+      if (--expected[place(located.line, located.finding.id)] >= 0) continue;
+      const auto behind = std::upper_bound(first_lines.begin(), first_lines.end(), located.line);
+      if (behind != first_lines.begin()) suspected[static_cast<std::size_t>(behind - first_lines.begin()) - 1] = true;
+    }
+    std::vector<Candidate> innocent;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (!suspected[i]) innocent.push_back(all[i]);
+    return innocent;
+  }
+
+  /// The first line that the candidate changes or inserts.
+  static std::uint64_t first_new_line(const Candidate& candidate, const LineMap& lines) {
+    std::uint64_t first = lines.new_lines[candidate.located.line];
+    for (const Edit& edit : candidate.edits) {
+      const bool is_above = edit.begin.column == 0;
+      const auto inserted = is_above ? std::count(edit.text.begin(), edit.text.end(), '\n') : 0;
+      const std::uint64_t line = lines.new_lines[edit.begin.line];
+      first = std::min(first, line - std::min(line, static_cast<std::uint64_t>(inserted)));
+    }
+    return first;
+  }
+
+  /// Counts the findings of each code that are fixed. What shows only now takes nothing away from that.
+  void count_fixed(const Version& next) {
+    selection::Tally before;
+    selection::Tally after;
+    before.add(present_.concerned);
+    after.add(next.concerned);
+    for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
+      const dialect::DiagnosticId id{static_cast<std::uint8_t>(i)};
+      fixed_ += before.of(id) - std::min(before.of(id), after.of(id));
+    }
+  }
+
+  void accept(Trial trial) {
+    std::set<FindingKey> undone;
+    for (const auto& [line, id, begin] : undone_) undone.emplace(trial.lines.new_lines[line], id, begin);
+    undone_ = std::move(undone);
+    count_fixed(trial.version);
+    present_ = std::move(trial.version);
+    present_.origins = std::move(trial.lines.origins);
+    changed_since_undone_ = true;
+  }
+
+  const FixWishes& wishes_;
+  std::size_t work_left_;
+  Version present_;
+  std::set<FindingKey> undone_;  // Findings whose fix was not right.
+  std::array<bool, fixes::kHabitCount> undone_habits_{};
+  bool changed_since_undone_ = false;
+  std::size_t fixed_ = 0;
+};
+
+}  // namespace
+
+FixedText fix_text(std::string_view text, const FixWishes& wishes) { return Fixer(text, wishes).run(); }
+
+}  // namespace isocnc::fixing

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "analyzer/fixes/fix.h"
+#include "interpreter/syntax/tree_store.h"
+
+namespace isocnc::fixing {
+
+/// Trees of a program's lines, for who goes over the same lines again and again: each is parsed once, or nearly so.
+class RecentTrees {
+ public:
+  explicit RecentTrees(fixes::Program& program) : program_(program) {}
+
+  /// Valid until another line is asked for.
+  syntax::LineTree operator[](std::uint64_t line);
+
+ private:
+  static constexpr std::size_t kMost = 256;
+
+  struct Parsed {
+    std::optional<std::uint64_t> line;
+    syntax::TreeStore store;
+  };
+
+  fixes::Program& program_;
+  std::array<Parsed, kMost> parsed_;  ///< Where the line's number leads.
+};
+
+}  // namespace isocnc::fixing

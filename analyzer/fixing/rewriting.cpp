@@ -1,0 +1,460 @@
+#include "analyzer/fixing/rewriting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "analyzer/fixes/line_edits.h"
+#include "interpreter/execution/execute.h"
+#include "interpreter/execution/executor.h"
+#include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/tree_store.h"
+
+namespace isocnc::fixing {
+
+using dialect::ModalGroup;
+using execution::Feed;
+using execution::Move;
+using execution::MoveKind;
+using execution::State;
+using fixes::Edit;
+using syntax::Instruction;
+using syntax::InstructionKind;
+using syntax::LineTree;
+using syntax::Span;
+using syntax::Word;
+
+namespace {
+
+/// What a line does, as far as another way to write it must do the same.
+class Deed final : public execution::Sink {
+ public:
+  Deed(const LineTree& line, State& state, const execution::Setup& setup) : Sink(true) {
+    for (const syntax::Finding& finding : line.findings) report(finding);
+    execution::execute(line, state, setup, *this);
+    if (!motion_) modes_ = state;
+  }
+
+  void report(const syntax::Finding& finding) override {
+    has_error_ |= dialect::definition(finding.id).severity == dialect::Severity::Error;
+  }
+  void move(const Move& move, const State& state) override {
+    motion_ = move;
+    modes_ = state;
+  }
+
+  bool has_error() const { return has_error_; }
+  const std::optional<Move>& motion() const { return motion_; }
+  /// In which the motion runs; without one, behind the line.
+  const State& modes() const { return modes_; }
+
+ private:
+  bool has_error_ = false;
+  std::optional<Move> motion_;
+  State modes_;
+};
+
+bool is_near(double a, double b, double tolerance) { return std::abs(a - b) <= tolerance; }
+bool is_near(const geometry::Vec3& a, const geometry::Vec3& b, double tolerance) {
+  return (a - b).cwiseAbs().maxCoeff() <= tolerance;
+}
+bool is_same(const geometry::Pose& a, const geometry::Pose& b) {
+  return is_near(a.tip, b.tip, kSamePlace) && is_near(a.b, b.b, kSamePlace) && is_near(a.c, b.c, kSamePlace);
+}
+bool is_same_feed(double a, double b) { return std::abs(a - b) <= 1e-6 * std::max(std::abs(a), std::abs(b)); }
+bool is_same_feed(const Feed& a, const Feed& b) {
+  return is_same_feed(a.number * a.mm_per_unit, b.number * b.mm_per_unit);
+}
+
+bool is_same(const Move& a, const Move& b) {
+  if (a.kind != b.kind || a.inverse_time != b.inverse_time || !is_same_feed(a.feed, b.feed)) return false;
+  if (!is_same(a.from, b.from) || !is_same(a.to, b.to)) return false;
+  if (a.kind != MoveKind::Arc) return true;
+  const double turn = (a.sweep_deg - b.sweep_deg) * std::numbers::pi / 180;
+  return is_near(a.center, b.center, kSameArc) && is_near(a.radius, b.radius, kSameArc) && a.normal == b.normal &&
+         std::abs(turn) * a.radius <= kSameArc;
+}
+
+/// The same for all that follows. `but` are groups that may differ.
+bool is_same(const State& a, const State& b, std::initializer_list<ModalGroup> but) {
+  for (std::size_t group = 0; group < dialect::kModalGroupCount; ++group)
+    if (a.in_force[group] != b.in_force[group] &&
+        std::find(but.begin(), but.end(), static_cast<ModalGroup>(group)) == but.end())
+      return false;
+  return is_same(a.position, b.position) && a.unknown == b.unknown &&
+         is_near(a.workpiece_origin, b.workpiece_origin, kSamePlace) && a.face_mounted == b.face_mounted &&
+         is_near(a.face.origin, b.face.origin, kSamePlace) && a.face.axes.isApprox(b.face.axes, 1e-9) &&
+         is_same_feed(feed_in_force(a), feed_in_force(b)) && a.feed_given == b.feed_given && a.tool == b.tool &&
+         a.spindle == b.spindle && a.spindle_speed == b.spindle_speed && a.ended == b.ended;
+}
+
+/// How a number may be off in what is written, mm or degrees: first as short as it may be, then as long as it takes.
+constexpr double kRoundings[] = {2e-6, 1e-8};
+constexpr double kRadiusRoundings[] = {5e-5, 2e-6, 1e-8};
+constexpr int kMostDecimals = 9;
+
+/// With as few decimals as leave it off by no more than that.
+std::string number_text(double value, double rounding) {
+  int decimals = 0;
+  while (decimals < kMostDecimals) {
+    const double power = std::pow(10, decimals);
+    if (std::abs(std::round(value * power) / power - value) <= rounding) break;
+    ++decimals;
+  }
+  return fixes::written(value, decimals);
+}
+
+/// The words of one line that are written anew.
+class LineRewrite {
+ public:
+  LineRewrite(std::uint64_t number, const LineTree& line) : number_(number), line_(line) {}
+
+  /// Blanks and comments inside a word would be lost: a comment is not.
+  void replace(Span span, std::string text) {
+    has_comment_ |= line_.text_of(span).find('(') != std::string_view::npos;
+    edits_.push_back({{number_, span.begin}, {number_, span.end}, std::move(text)});
+  }
+  /// With the blanks before it, or behind it at the start of the line.
+  void remove(Span span) {
+    has_comment_ |= line_.text_of(span).find('(') != std::string_view::npos;
+    Span wide = span;
+    while (wide.begin > 0 && syntax::is_blank(line_.text[wide.begin - 1])) --wide.begin;
+    if (wide.begin == 0) {  // The indentation stays.
+      wide = span;
+      while (wide.end < line_.text.size() && syntax::is_blank(line_.text[wide.end])) ++wide.end;
+    }
+    for (const Edit& edit : edits_)  // The blanks between two words go once.
+      if (edit.begin.column < wide.begin)
+        wide.begin = std::max(wide.begin, static_cast<std::uint32_t>(edit.end.column));
+    edits_.push_back({{number_, wide.begin}, {number_, wide.end}, {}});
+  }
+  /// A word of a letter with a new value, unless it has that value.
+  void set(const Word& word, double value, double mm_per_unit, double rounding) {
+    if (std::abs(word.value - value) * mm_per_unit > rounding)
+      replace(word.span(), word.letter + number_text(value, rounding / mm_per_unit));
+  }
+
+  bool has_comment() const { return has_comment_; }
+  std::vector<Edit> edits() const {
+    std::vector<Edit> sorted = edits_;
+    std::sort(sorted.begin(), sorted.end(), [](const Edit& a, const Edit& b) { return a.begin < b.begin; });
+    return sorted;
+  }
+  std::string text() const {
+    std::string text(line_.text);
+    const std::vector<Edit> sorted = edits();
+    for (auto edit = sorted.rbegin(); edit != sorted.rend(); ++edit)
+      text.replace(edit->begin.column, edit->end.column - edit->begin.column, edit->text);
+    return text;
+  }
+
+ private:
+  const std::uint64_t number_;
+  const LineTree& line_;
+  std::vector<Edit> edits_;
+  bool has_comment_ = false;
+};
+
+// --- Arcs
+
+/// By which words an arc's circle is given, in the order of the line.
+std::vector<const Word*> words_of(const LineTree& line, const Instruction& motion, dialect::LetterSet letters) {
+  std::vector<const Word*> words;
+  for (std::size_t i = motion.begin; i < motion.end; ++i)
+    if (line.words[i].owner == motion.number && dialect::contains(letters, line.words[i].letter))
+      words.push_back(&line.words[i]);
+  return words;
+}
+
+/// The center's words, `I10 J0`, as G90 or G91 wants them.
+std::string center_text(const Deed& deed, double rounding) {
+  const State& modes = deed.modes();
+  const execution::Plane& plane = execution::plane_in_force(modes);
+  const auto word = [&](char letter, int axis) {
+    const double center = deed.motion()->center[axis] - (modes.incremental() ? deed.motion()->from.tip[axis] : 0);
+    return letter + number_text(center / modes.mm_per_unit(), rounding / modes.mm_per_unit());
+  };
+  const std::string u = word(plane.u_center, plane.u);
+  const std::string v = word(plane.v_center, plane.v);
+  return u < v ? u + " " + v : v + " " + u;
+}
+
+constexpr dialect::LetterSet kRadiusLetters = dialect::letter_bit('R');
+
+/// The letters that a rewrite takes out.
+constexpr dialect::LetterSet old_letters(Rewrite how) {
+  return how == Rewrite::ArcByRadius ? dialect::kCenterLetters : kRadiusLetters;
+}
+
+/// The arc's line with its circle given the other way. Where it is given both ways, the old words only go.
+void give_circle(LineRewrite& rewrite, Rewrite how, const LineTree& line, const Instruction& motion, const Deed& deed,
+                 double rounding) {
+  const bool by_radius = how == Rewrite::ArcByRadius;
+  const std::vector<const Word*> old = words_of(line, motion, old_letters(how));
+  const std::vector<const Word*> there = words_of(line, motion, by_radius ? kRadiusLetters : dialect::kCenterLetters);
+  const bool is_there = there.size() == (by_radius ? 1 : 2);
+  const double mm_per_unit = deed.modes().mm_per_unit();
+  const std::string fresh = by_radius ? "R" + number_text(deed.motion()->radius / mm_per_unit, rounding / mm_per_unit)
+                                      : center_text(deed, rounding);
+  if (!is_there) {
+    for (const Word* const word : there) rewrite.remove(word->span());
+    rewrite.replace(old.front()->span(), fresh);
+  }
+  for (std::size_t i = is_there ? 0 : 1; i < old.size(); ++i) rewrite.remove(old[i]->span());
+}
+
+std::vector<Edit> rewrite_arc(Rewrite how, fixes::Program& program, const execution::Setup& setup,
+                              std::uint64_t number) {
+  const LineTree line = program.line(number);
+  const Instruction* const motion = line.motion();
+  if (!motion || words_of(line, *motion, old_letters(how)).empty()) return {};
+  const std::optional<State> before = program.state_before(number);
+  if (!before || before->unknown != 0 || before->ended) return {};
+  State after = *before;
+  const Deed deed(line, after, setup);
+  if (deed.has_error() || !deed.motion() || deed.motion()->kind != MoveKind::Arc) return {};
+  if (how == Rewrite::ArcByRadius && std::abs(deed.motion()->sweep_deg) > 180 + 1e-6) return {};
+  for (const double rounding : kRadiusRoundings) {
+    LineRewrite rewrite(number, line);
+    give_circle(rewrite, how, line, *motion, deed, rounding);
+    if (rewrite.has_comment()) return {};
+    const syntax::ParsedLine parsed(rewrite.text());
+    State trial_after = *before;
+    const Deed trial(parsed.tree(), trial_after, setup);
+    if (!trial.has_error() && trial.motion() && is_same(*deed.motion(), *trial.motion()) &&
+        is_same(after, trial_after, {}))
+      return rewrite.edits();
+  }
+  return {};
+}
+
+std::vector<Edit> rewrite_arcs(Rewrite how, fixes::Program& program, const execution::Setup& setup, std::uint64_t first,
+                               std::uint64_t last) {
+  std::vector<Edit> all;
+  for (std::uint64_t line = first; line <= last; ++line) {
+    const std::vector<Edit> edits = rewrite_arc(how, program, setup, line);
+    all.insert(all.end(), edits.begin(), edits.end());
+  }
+  return all;
+}
+
+// --- Dimensions
+
+/// Which mode a rewrite brings about.
+struct Mode {
+  ModalGroup group;
+  std::uint8_t number;
+};
+
+constexpr Mode mode_of(Rewrite how) {
+  switch (how) {
+    case Rewrite::Incremental:
+      return {ModalGroup::Distance, 91};
+    case Rewrite::Absolute:
+      return {ModalGroup::Distance, 90};
+    case Rewrite::Inches:
+      return {ModalGroup::Units, 70};
+    default:
+      return {ModalGroup::Units, 71};
+  }
+}
+
+/// Lines whose dimensions are rewritten, one after another, with the machine as the old and as the new lines have left
+/// it. New increments count from where the new lines have come to, so that roundings do not add up.
+class Dimensions {
+ public:
+  Dimensions(Rewrite how, fixes::Program& program, const execution::Setup& setup, std::uint64_t first,
+             std::uint64_t last)
+      : mode_(mode_of(how)), program_(program), setup_(setup), first_(first), last_(last) {}
+
+  std::optional<std::vector<Edit>> rewrite() {
+    const std::optional<State> before = program_.state_before(first_);
+    if (!before || before->unknown != 0 || before->ended) return std::nullopt;
+    old_ = new_ = *before;
+    if (!enter()) return std::nullopt;
+    for (std::uint64_t line = first_; line <= last_ && !old_.ended; ++line)
+      if (!rewrite_line(line)) return std::nullopt;
+    if (!leave() || !has_changed_numbers_) return std::nullopt;
+    return std::move(edits_);
+  }
+
+ private:
+  static std::string mode_text(std::uint8_t number) { return "G" + std::to_string(number); }
+
+  bool enter() {
+    if (old_.mode(mode_.group) == mode_.number) return true;
+    edits_.push_back({{first_, 0}, {first_, 0}, indentation(first_) + mode_text(mode_.number) + "\n"});
+    return execute_mode(mode_.number);
+  }
+
+  /// Sets the mode back for what follows. A G09 there must still follow its motion (D23).
+  bool leave() {
+    const std::uint8_t wanted = old_.mode(mode_.group);
+    if (!old_.ended && wanted != mode_.number) {
+      if (old_.exact_stop_fits && exact_stop_follows()) return false;
+      const std::string text = indentation(last_) + mode_text(wanted);
+      const bool is_end = last_ + 1 == program_.line_count();
+      const syntax::Position at =
+          is_end ? syntax::Position{last_, program_.text(last_).size()} : syntax::Position{last_ + 1, 0};
+      edits_.push_back({at, at, is_end ? "\n" + text : text + "\n"});
+      if (!execute_mode(wanted)) return false;
+    }
+    if (old_.ended) return true;
+    const bool rotary_feed_is_other = feed_in_force(old_).number != feed_in_force(new_).number;
+    return is_same(old_, new_, {}) && !(rotary_feed_is_other && turns_below());
+  }
+
+  bool execute_mode(std::uint8_t number) {
+    const syntax::ParsedLine parsed(mode_text(number));
+    return !Deed(parsed.tree(), new_, setup_).has_error();
+  }
+
+  bool exact_stop_follows() {
+    for (std::uint64_t line = last_ + 1; line < program_.line_count(); ++line) {
+      const LineTree tree = program_.line(line);
+      if (tree.is_empty()) continue;
+      if (tree.instructions.empty()) return false;
+      const Instruction& first = tree.instructions.front();
+      return first.kind == InstructionKind::G && first.g() != nullptr && first.g()->number == 9;
+    }
+    return false;
+  }
+
+  /// Whether B or C turn alone somewhere below: their F is in degrees, whatever the units (I.3.7).
+  bool turns_below() {
+    for (std::uint64_t line = last_ + 1; line < program_.line_count(); ++line) {
+      const LineTree tree = program_.line(line);
+      const Instruction* const motion = tree.motion();
+      if (motion && words_of(tree, *motion, dialect::kLinearLetters).empty()) return true;
+    }
+    return false;
+  }
+
+  std::string indentation(std::uint64_t line) { return std::string(fixes::indentation(program_.text(line))); }
+
+  bool rewrite_line(std::uint64_t number) {
+    const LineTree line = program_.line(number);
+    if (line.jump != nullptr || (line.has_label() && program_.is_jumped_to(line.label))) return false;
+    const State before = old_;
+    const Deed deed(line, old_, setup_);
+    if (deed.has_error() || old_.unknown != 0) return false;
+    for (const double rounding : kRoundings) {
+      LineRewrite rewrite(number, line);
+      State after = new_;
+      const bool has_changed = set_numbers(rewrite, line, deed, before, rounding);
+      remove_modes(rewrite, line);
+      if (rewrite.has_comment()) return false;
+      const std::string text = rewrite.text();
+      const syntax::ParsedLine parsed(text);
+      const Deed trial(parsed.tree(), after, setup_);
+      if (trial.has_error() || trial.motion().has_value() != deed.motion().has_value()) continue;
+      if (deed.motion() && !is_same(*deed.motion(), *trial.motion())) continue;
+      if (!is_same(old_, after, {mode_.group})) continue;
+      new_ = after;
+      has_changed_numbers_ |= has_changed;
+      take(number, line, rewrite, text);
+      return true;
+    }
+    return false;
+  }
+
+  /// A line that has become blank goes.
+  void take(std::uint64_t number, const LineTree& line, const LineRewrite& rewrite, const std::string& text) {
+    if (!line.words.empty() && fixes::is_blank(text) && number + 1 < program_.line_count()) {
+      edits_.push_back({{number, 0}, {number + 1, 0}, {}});
+      return;
+    }
+    const std::vector<Edit> edits = rewrite.edits();
+    edits_.insert(edits_.end(), edits.begin(), edits.end());
+  }
+
+  void remove_modes(LineRewrite& rewrite, const LineTree& line) const {
+    for (const Instruction& instruction : line.instructions)
+      if (instruction.kind == InstructionKind::G && instruction.g() != nullptr && instruction.g()->group == mode_.group)
+        rewrite.remove(line.command(instruction).span());
+  }
+
+  bool set_numbers(LineRewrite& rewrite, const LineTree& line, const Deed& deed, const State& before,
+                   double rounding) const {
+    const State& modes = deed.modes();
+    const double old_scale = modes.mm_per_unit();
+    State wanted = modes;
+    wanted.set_mode(mode_.group, mode_.number);
+    const double scale = wanted.mm_per_unit();
+    const bool incremental = wanted.incremental();
+    for (const Instruction& instruction : line.instructions) {
+      if (instruction.is_motion() && deed.motion()) {
+        set_motion(rewrite, line, instruction, *deed.motion(), scale, old_scale, incremental, rounding);
+      } else if (instruction.kind == InstructionKind::G && instruction.g() != nullptr && old_scale != scale) {
+        set_origin(rewrite, line, instruction, before.mm_per_unit(), scale, rounding);
+      }
+    }
+    if (line.feed >= 0 && old_scale != scale) set_feed(rewrite, line, deed, old_scale / scale);
+    return !rewrite.edits().empty();
+  }
+
+  void set_motion(LineRewrite& rewrite, const LineTree& line, const Instruction& instruction, const Move& motion,
+                  double scale, double old_scale, bool incremental, double rounding) const {
+    const auto from_start = [&](double value, double start) { return incremental ? value - start : value; };
+    for (const Word* const word : words_of(line, instruction, dialect::kDimensionLetters)) {
+      const char letter = word->letter;
+      if (letter >= 'X' && letter <= 'Z') {
+        const int axis = letter - 'X';
+        rewrite.set(*word, from_start(motion.to.tip[axis], new_.position.tip[axis]) / scale, scale, rounding);
+      } else if (letter >= 'I' && letter <= 'K' && motion.kind == MoveKind::Arc) {
+        const int axis = letter - 'I';
+        rewrite.set(*word, from_start(motion.center[axis], new_.position.tip[axis]) / scale, scale, rounding);
+      } else if (letter == 'B' || letter == 'C') {
+        const bool is_b = letter == 'B';
+        rewrite.set(*word, from_start(is_b ? motion.to.b : motion.to.c, is_b ? new_.position.b : new_.position.c), 1,
+                    rounding);
+      } else if (letter == 'R') {
+        rewrite.set(*word, word->value * old_scale / scale, scale, rounding);
+      }
+    }
+  }
+
+  /// Of a frame: G28 has components in X, Y and Z.
+  static void set_origin(LineRewrite& rewrite, const LineTree& line, const Instruction& instruction, double old_scale,
+                         double scale, double rounding) {
+    const int number = instruction.g()->number;
+    if (number != 24 && number != 29 && number != 92) return;
+    for (const Word* const word : words_of(line, instruction, dialect::kLinearLetters))
+      rewrite.set(*word, word->value * old_scale / scale, scale, rounding);
+  }
+
+  /// Per minute and along a way: inverse time and degrees know no units.
+  static void set_feed(LineRewrite& rewrite, const LineTree& line, const Deed& deed, double factor) {
+    if (deed.modes().inverse_time()) return;
+    const Instruction* const motion = line.motion();
+    if (motion && words_of(line, *motion, dialect::kLinearLetters).empty()) return;
+    const Word& feed = line.words[static_cast<std::size_t>(line.feed)];
+    const double value = feed.value * factor;
+    rewrite.set(feed, value, 1, std::abs(value) * 1e-7);
+  }
+
+  const Mode mode_;
+  fixes::Program& program_;
+  const execution::Setup& setup_;
+  const std::uint64_t first_;
+  const std::uint64_t last_;
+  State old_;
+  State new_;
+  std::vector<Edit> edits_;
+  bool has_changed_numbers_ = false;
+};
+
+}  // namespace
+
+std::optional<std::vector<Edit>> rewrite(Rewrite how, fixes::Program& program, const execution::Setup& setup,
+                                         std::uint64_t first, std::uint64_t last) {
+  last = std::min(last, program.line_count() - 1);
+  if (first > last) return std::nullopt;
+  if (how != Rewrite::ArcByRadius && how != Rewrite::ArcByCenter)
+    return Dimensions(how, program, setup, first, last).rewrite();
+  std::vector<Edit> edits = rewrite_arcs(how, program, setup, first, last);
+  return edits.empty() ? std::nullopt : std::optional(std::move(edits));
+}
+
+}  // namespace isocnc::fixing

@@ -1,0 +1,54 @@
+#include "analyzer/fixing/trails.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace isocnc::fixing {
+
+/// Lines between two marks, at the same places in all trails; and those below the change that are too near for one.
+static constexpr std::uint64_t kBetweenMarks = 8;
+static constexpr std::uint64_t kNear = 16;
+/// Lines that a trail must have seen from where it is met.
+static constexpr std::uint64_t kFewest = 5'000;
+/// What would take much room is not kept.
+static constexpr std::size_t kMostGroups = 4;
+static constexpr std::size_t kMostLabels = 8;
+
+static bool is_small(const check::Frontier& frontier) {
+  return frontier.live.size() <= kMostGroups && frontier.waiting.size() <= kMostLabels &&
+         std::all_of(frontier.waiting.begin(), frontier.waiting.end(),
+                     [](const auto& waiting) { return waiting.second.size() <= kMostGroups; });
+}
+
+void Trail::pass(std::uint64_t next_line, const check::Frontier& frontier, const Balance& so_far) {
+  if (++passed_ < kNear || next_line % kBetweenMarks != 0 || !is_small(frontier)) return;
+  marks_.push_back({next_line, frontier, so_far});
+}
+
+void Trail::end(const Balance& so_far, const Rest& rest) {
+  all_ = rest;
+  all_.balance += so_far;
+}
+
+std::optional<Trail::Rest> Trail::rest_from(std::uint64_t line, const check::Frontier& frontier) const {
+  if (line % kBetweenMarks != 0 || (all_.has_more && all_.next_line < line + kFewest)) return std::nullopt;
+  const auto mark = std::lower_bound(marks_.begin(), marks_.end(), line,
+                                     [](const Mark& each, std::uint64_t wanted) { return each.next_line < wanted; });
+  if (mark == marks_.end() || mark->next_line != line || mark->frontier != frontier) return std::nullopt;
+  Rest rest = all_;
+  rest.balance -= mark->so_far;
+  return rest;
+}
+
+void Trails::keep(Trail trail) {
+  if (trails_.size() == kMost) trails_.pop_front();
+  trails_.push_back(std::move(trail));
+}
+
+std::optional<Trail::Rest> Trails::rest_from(std::uint64_t line, const check::Frontier& frontier) const {
+  for (const Trail& trail : trails_)
+    if (std::optional<Trail::Rest> rest = trail.rest_from(line, frontier)) return rest;
+  return std::nullopt;
+}
+
+}  // namespace isocnc::fixing

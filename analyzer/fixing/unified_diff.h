@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace isocnc::fixing {
+
+/// Writes a unified diff of two texts whose lines come along side by side: what is kept is a few lines. For diff and
+/// patch only LF ends a line: lines that end with CR alone are shown together with the next one that ends with LF.
+class UnifiedDiff {
+ public:
+  /// Parts of the diff go to `write`. Behind a byte-order mark the first line begins with it in both texts.
+  UnifiedDiff(std::string name, bool has_byte_order_mark, std::function<void(std::string_view)> write)
+      : name_(std::move(name)), has_byte_order_mark_(has_byte_order_mark), write_(std::move(write)) {}
+
+  /// The next lines, whole ones with their ends, as many before as after.
+  void add(std::string_view before, std::string_view after);
+  /// A line with its end that only one of the texts has.
+  void remove(std::string_view line) { take(line, {}); }
+  void insert(std::string_view line) { take({}, line); }
+  /// Behind the last line.
+  void finish();
+  bool has_changes() const { return has_changes_; }
+
+ private:
+  std::string marked(std::string_view line, bool is_first) const;
+  void write_names();
+  void take(std::string_view before, std::string_view after);
+  void compare(std::string_view before, std::string_view after);
+  void begin_change();
+  void keep(std::string_view line);
+  void take_away(std::string_view line);
+  void put_in(std::string_view line);
+  void write_hunk();
+
+  static constexpr std::size_t kContext = 3;
+
+  std::string name_;  // Empty once it has been written.
+  const bool has_byte_order_mark_;
+  std::function<void(std::string_view)> write_;
+  bool has_changes_ = false;
+  /// Lines of one of the texts.
+  struct Side {
+    std::uint64_t line = 0;  // From 0: the next one.
+    std::uint64_t hunk_first = 0;
+    std::uint64_t hunk_lines = 0;
+
+    std::string range() const;
+  };
+  Side before_;
+  Side after_;
+
+  // What has come since both texts last stood behind an LF.
+  std::string open_before_;
+  std::string open_after_;
+
+  // The hunk that is being gathered, and the unchanged lines before or behind it.
+  std::vector<std::string> context_;
+  std::string hunk_;
+  std::string removed_;  // A run of changed lines: all old ones are shown before the new ones.
+  std::string added_;
+  bool in_hunk_ = false;
+};
+
+}  // namespace isocnc::fixing

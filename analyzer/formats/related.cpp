@@ -1,0 +1,94 @@
+#include "analyzer/formats/related.h"
+
+#include <algorithm>
+
+#include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/tree_store.h"
+
+namespace isocnc::formats {
+
+using namespace dialect::literals;
+using syntax::Instruction;
+using syntax::LineTree;
+using syntax::Word;
+
+/// How far up one finding's related place is looked for, in bytes.
+static constexpr std::size_t kReach = 1'000'000;
+
+static constexpr dialect::Text kMounted = {"the face frame was mounted here",
+                                           "il s.d.r. di faccia è stato messo in presa qui"};
+static constexpr dialect::Text kSet = {"in force since here", "in presa da qui"};
+static constexpr dialect::Text kFirstLabel = {"the label stands here already", "l'etichetta c'è già qui"};
+
+namespace {
+
+/// What to look for.
+struct Wanted {
+  dialect::Text note;
+  bool mounts_face = false;
+  std::uint8_t code_row = dialect::kUnknownGCode;  ///< This very G.
+  bool is_label = false;
+  std::uint64_t label = 0;
+
+  /// The place on the line, or null.
+  const Word* on(const LineTree& line) const {
+    if (is_label) return line.has_label() && line.label == label ? line.label_word() : nullptr;
+    for (const Instruction& instruction : line.instructions) {
+      const dialect::GCode* const code = instruction.kind == syntax::InstructionKind::G ? instruction.g() : nullptr;
+      if (!code) continue;
+      if (mounts_face ? code->mounts_face() : instruction.row == code_row) return &line.command(instruction);
+    }
+    return nullptr;
+  }
+};
+
+std::optional<Wanted> wanted_by(const check::LocatedFinding& located, std::string_view line_text) {
+  const dialect::DiagnosticId id = located.finding.id;
+  if (id == "face-already-mounted"_diag || id == "workpiece-frame-under-face"_diag)
+    return Wanted{.note = kMounted, .mounts_face = true};
+  const bool is_label = id == "duplicate-label"_diag;
+  if (!is_label && id != "redundant-modal"_diag) return std::nullopt;
+  // The marked word alone: the line may be huge.
+  const syntax::Span span = located.finding.span;
+  const syntax::ParsedLine parsed(line_text.substr(span.begin, span.end - span.begin));
+  const LineTree word = parsed.tree();
+  if (is_label) return Wanted{.note = kFirstLabel, .is_label = true, .label = word.label};
+  if (word.instructions.empty()) return std::nullopt;
+  return Wanted{.note = kSet, .code_row = word.instructions.front().row};
+}
+
+/// The line above the one that starts at `begin`; `begin` must not be the start of the text.
+std::string_view line_above(std::string_view text, std::size_t begin) {
+  std::size_t end = begin - 1;
+  if (end > 0 && text[end] == '\n' && text[end - 1] == '\r') --end;
+  std::size_t start = end;
+  while (start > 0 && !syntax::is_line_end(text[start - 1])) --start;
+  return text.substr(start, end - start);
+}
+
+}  // namespace
+
+std::optional<RelatedPlace> RelatedPlaces::of(const check::LocatedFinding& located, std::string_view line_text) {
+  const std::optional<Wanted> wanted = wanted_by(located, line_text);
+  if (!wanted) return std::nullopt;
+  syntax::TreeStore store;
+  std::string_view line = line_text;
+  const std::size_t reach = std::min(kReach, bytes_left_);
+  std::size_t walked = 0;
+  std::optional<RelatedPlace> place;
+  for (std::uint64_t number = located.line; number > 0 && walked < reach; --number) {
+    line = line_above(text_, static_cast<std::size_t>(line.data() - text_.data()));
+    walked += line.size() + 1;
+    store.clear();
+    store.append_line(line.data(), line.data() + line.size());
+    const LineTree tree = store.tree(0, line.data());
+    if (const Word* word = wanted->on(tree)) {
+      place = {number - 1, line, word->span(), wanted->note};
+      break;
+    }
+  }
+  bytes_left_ -= std::min(bytes_left_, walked);
+  return place;
+}
+
+}  // namespace isocnc::formats

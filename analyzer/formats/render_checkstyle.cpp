@@ -1,0 +1,41 @@
+#include <fmt/format.h>
+
+#include "analyzer/formats/renderers.h"
+#include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/syntax/xml.h"
+
+namespace isocnc::formats {
+
+/// Checkstyle's XML, which Jenkins, reviewdog and editors read.
+class CheckstyleRenderer final : public Renderer {
+ public:
+  explicit CheckstyleRenderer(const Style& style) : style_(style) {}
+
+  void begin(std::string& output) override {
+    output += "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<checkstyle version=\"4.3\">\n";
+  }
+  void end(std::string& output) override { output += "</checkstyle>\n"; }
+
+  void file(const CheckedProgram& program, Output& output) override {
+    syntax::LineFinder lines(program.text);
+    output.buffer() += fmt::format("  <file name=\"{}\">\n", syntax::xml_escaped(plain_path(program.name)));
+    for (const check::LocatedFinding& located : program.report.findings) {
+      const ShownFinding shown = show(located, lines, style_);
+      fmt::format_to(std::back_inserter(output.buffer()),
+                     "    <error line=\"{}\" column=\"{}\" severity=\"{}\" message=\"{}\" source=\"isolint.{}\"/>\n",
+                     shown.line, shown.column, dialect::severity_name(shown.severity, dialect::Language::English),
+                     syntax::xml_escaped(shown.message), shown.def.code);
+      output.relieve();
+    }
+    output.buffer() += "  </file>\n";
+  }
+
+ private:
+  Style style_;
+};
+
+std::unique_ptr<Renderer> make_checkstyle_renderer(const Style& style) {
+  return std::make_unique<CheckstyleRenderer>(style);
+}
+
+}  // namespace isocnc::formats

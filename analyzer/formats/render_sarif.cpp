@@ -1,0 +1,148 @@
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "analyzer/fixing/finding_fixes.h"
+#include "analyzer/formats/renderers.h"
+#include "analyzer/selection/fingerprint.h"
+#include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/dialect/locale.h"
+
+namespace isocnc::formats {
+
+using dialect::DiagnosticId;
+using dialect::Severity;
+using Json = nlohmann::ordered_json;
+
+static std::string dumped(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+static std::string_view level(Severity severity) {
+  static constexpr std::string_view kLevels[] = {"error", "warning", "note"};
+  return kLevels[static_cast<std::size_t>(severity)];
+}
+
+/// SARIF 2.1.0, which code scanning services and editors read. The log is written as it grows: results first, then the
+/// files that they refer to.
+class SarifRenderer final : public Renderer {
+ public:
+  explicit SarifRenderer(const Style& style) : style_(style) {}
+
+  void begin(std::string& output) override {
+    output +=
+        "{\n"
+        "\"$schema\":\"https://json.schemastore.org/sarif-2.1.0.json\",\n"
+        "\"version\":\"2.1.0\",\n"
+        "\"runs\":[{\n"
+        "\"tool\":{\"driver\":{\"name\":\"isolint\",\"version\":\"" ISOCNC_VERSION "\",\"rules\":[";
+    for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
+      output += i == 0 ? "\n" : ",\n";
+      output += dumped(rule(DiagnosticId{static_cast<std::uint8_t>(i)}));
+    }
+    output += "\n]}},\n\"language\":\"";
+    output += dialect::name_of(style_.language);
+    output += "\",\n\"columnKind\":\"unicodeCodePoints\",\n\"results\":[";
+  }
+
+  void file(const CheckedProgram& program, Output& output) override {
+    const Json artifact = {{"uri", uri_of(program.name)}, {"index", artifacts_.size()}};
+    artifacts_.push_back({{"location", {{"uri", uri_of(program.name)}}}, {"roles", {"analysisTarget"}}});
+    syntax::LineFinder lines(program.text);
+    const StepTexts steps(program.text, program.report, style_.language);
+    selection::Fingerprints fingerprints;
+    fixing::FindingFixes fixes(program.text, program.report, program.setup);
+    for (const check::LocatedFinding& located : program.report.findings) {
+      output.buffer() += first_ ? "\n" : ",\n";
+      first_ = false;
+      const ShownFinding shown = show(located, lines, style_);
+      Json object = result(shown, located.finding.id, artifact);
+      const selection::Fingerprint print = fingerprints.next(located.finding.id, shown.line_text);
+      object["partialFingerprints"]["primaryLocationLineHash"] =
+          fmt::format("{:016x}:{}", print.line_hash, print.occurrence);
+      if (located.path >= 0) object["codeFlows"] = code_flows(located, program.report, steps, shown, artifact);
+      if (const std::optional<fixes::Fix> fix = fixes.offered_in_full(located))
+        object["fixes"] = Json::array({fix_of(*fix, fixes, artifact)});
+      output.buffer() += dumped(object);
+      output.relieve();
+    }
+  }
+
+  void end(std::string& output) override {
+    output += first_ ? "],\n\"artifacts\":[" : "\n],\n\"artifacts\":[";
+    for (std::size_t i = 0; i < artifacts_.size(); ++i) {
+      output += i == 0 ? "\n" : ",\n";
+      output += dumped(artifacts_[i]);
+    }
+    output += artifacts_.empty() ? "]\n}]\n}\n" : "\n]\n}]\n}\n";
+  }
+
+ private:
+  Json rule(DiagnosticId id) const {
+    const dialect::DiagnosticDef& def = dialect::definition(id);
+    Json rule = {{"id", def.code},
+                 {"name", def.name},
+                 {"shortDescription", {{"text", def.title.in(style_.language)}}},
+                 {"fullDescription", {{"text", def.explanation.in(style_.language)}}}};
+    // SARIF wants an absolute URI; the pages of a build that knows none lie beside the sources.
+    if (const std::string url = rule_url(id); url.find("://") != std::string::npos) rule["helpUri"] = url;
+    rule["help"] = {{"text", def.explanation.in(style_.language)}};
+    rule["defaultConfiguration"] = {{"level", level(def.severity)}};
+    if (def.is_off) rule["defaultConfiguration"]["enabled"] = false;
+    return rule;
+  }
+
+  static Json location(const ShownFinding& shown, const Json& artifact) {
+    return {{"artifactLocation", artifact},
+            {"region",
+             {{"startLine", shown.line},
+              {"startColumn", shown.column},
+              {"endLine", shown.line},
+              {"endColumn", shown.end_column}}}};
+  }
+
+  static Json result(const ShownFinding& shown, DiagnosticId id, const Json& artifact) {
+    Json locations = Json::array();
+    locations.push_back({{"physicalLocation", location(shown, artifact)}});
+    return {{"ruleId", shown.def.code},
+            {"ruleIndex", static_cast<std::size_t>(id)},
+            {"level", level(shown.severity)},
+            {"message", {{"text", shown.message}}},
+            {"locations", locations}};
+  }
+
+  /// The jumps that lead to the finding, and the finding.
+  static Json code_flows(const check::LocatedFinding& located, const check::Report& report, const StepTexts& steps,
+                         const ShownFinding& shown, const Json& artifact) {
+    Json places = Json::array();
+    const auto add = [&](const Json& place, std::string_view text) {
+      places.push_back({{"location", {{"physicalLocation", place}, {"message", {{"text", text}}}}}});
+    };
+    for (const check::PathStep& step : report.paths[static_cast<std::size_t>(located.path)])
+      add({{"artifactLocation", artifact}, {"region", {{"startLine", step.line + 1}}}}, steps.of(step));
+    add(location(shown, artifact), shown.message);
+    Json thread_flows = Json::array();
+    thread_flows.push_back({{"locations", places}});
+    Json flows = Json::array();
+    flows.push_back({{"threadFlows", thread_flows}});
+    return flows;
+  }
+
+  Json fix_of(const fixes::Fix& fix, fixing::FindingFixes& fixes, const Json& artifact) const {
+    Json replacements = Json::array();
+    for (const fixing::ShownEdit& edit : fixes.shown(fix))
+      replacements.push_back({{"deletedRegion",
+                               {{"startLine", edit.line},
+                                {"startColumn", edit.column},
+                                {"endLine", edit.end_line},
+                                {"endColumn", edit.end_column}}},
+                              {"insertedContent", {{"text", edit.text}}}});
+    const Json change = {{"artifactLocation", artifact}, {"replacements", replacements}};
+    return {{"description", {{"text", fix.title_in(style_.language)}}}, {"artifactChanges", Json::array({change})}};
+  }
+
+  Style style_;
+  bool first_ = true;
+  std::vector<Json> artifacts_;
+};
+
+std::unique_ptr<Renderer> make_sarif_renderer(const Style& style) { return std::make_unique<SarifRenderer>(style); }
+
+}  // namespace isocnc::formats

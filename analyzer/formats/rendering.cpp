@@ -1,0 +1,87 @@
+#include "analyzer/formats/rendering.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/tree_store.h"
+
+namespace isocnc::formats {
+
+ShownFinding show(const check::LocatedFinding& located, syntax::LineFinder& lines, const Style& style) {
+  const syntax::Finding& finding = located.finding;
+  const std::string_view line = lines.line(located.line);
+  const std::string_view marked = line.substr(finding.span.begin, finding.span.end - finding.span.begin);
+  const std::size_t column = lines.column(finding.span.begin);
+  return {.def = dialect::definition(finding.id),
+          .severity = located.severity(),
+          .line_text = line,
+          .line = located.line + 1,
+          .column = column,
+          .end_column = column + column_of(marked, marked.size()) - 1,
+          .message = dialect::message(finding.id, style.language, marked, finding.values)};
+}
+
+StepTexts::StepTexts(std::string_view text, const check::Report& report, dialect::Language language)
+    : language_(language) {
+  for (const check::LocatedFinding& located : report.findings)  // Not all paths belong to findings that are told of.
+    if (located.path >= 0)
+      for (const check::PathStep& step : report.paths[static_cast<std::size_t>(located.path)])
+        texts_[{step.line, step.taken}];
+  if (texts_.empty()) return;
+  syntax::LineFinder lines(text);
+  for (auto& [step, words] : texts_) words = describe_step({step.first, step.second}, lines.line(step.first), language);
+}
+
+std::string StepTexts::note(const check::LocatedFinding& located, const check::Report& report) const {
+  if (located.path < 0) return {};
+  std::string note = fmt::format("\n{}", kReachedThrough.in(language_));
+  for (const check::PathStep& step : report.paths[static_cast<std::size_t>(located.path)])
+    fmt::format_to(std::back_inserter(note), "\n{}: {}", step.line + 1, of(step));
+  return note;
+}
+
+std::string plain_path(std::string_view name) {
+  return std::filesystem::path(name).lexically_normal().generic_string();
+}
+
+std::string uri_of(std::string_view name) {
+  const std::string path = plain_path(name);
+  std::string uri = path.starts_with('/') ? "file://" : "";
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain =
+        byte < 0x80 && (std::isalnum(byte) != 0 || std::string_view("-._~/").find(c) != std::string_view::npos);
+    if (plain) {
+      uri += c;
+    } else {
+      fmt::format_to(std::back_inserter(uri), "%{:02X}", byte);
+    }
+  }
+  return uri;
+}
+
+std::string rule_url(dialect::DiagnosticId id) {
+  const dialect::DiagnosticDef& def = dialect::definition(id);
+  std::string code(def.code);
+  std::transform(code.begin(), code.end(), code.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return fmt::format("{}#{}-{}", ISOCNC_DOCS_URL, code, def.name);
+}
+
+std::string describe_step(const check::PathStep& step, std::string_view line_text, dialect::Language language) {
+  syntax::ParsedLine parsed(line_text);
+  const syntax::LineTree tree = parsed.tree();
+  std::string condition = "IF";
+  if (tree.jump && tree.jump->has_target)
+    condition = printable(tree.text_of({tree.jump->if_span.begin, tree.jump->target_span.end}));
+  static constexpr dialect::Text kJumps = {"jumps", "salta"};
+  static constexpr dialect::Text kGoesOn = {"does not jump", "non salta"};
+  return fmt::format("{}: {}", condition, (step.taken ? kJumps : kGoesOn).in(language));
+}
+
+}  // namespace isocnc::formats

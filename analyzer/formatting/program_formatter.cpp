@@ -1,0 +1,100 @@
+#include "analyzer/formatting/program_formatter.h"
+
+#include <algorithm>
+
+#include "interpreter/syntax/characters.h"
+
+namespace isocnc::formatting {
+
+using syntax::Instruction;
+using syntax::InstructionKind;
+using syntax::LineChange;
+using syntax::LineTree;
+
+/// Large enough to be written in one go, small enough to stay in the cache.
+static constexpr std::ptrdiff_t kPieceBytes = 64 * 1024;
+
+ProgramStyle style_by(const configuration::Format& format) {
+  ProgramStyle style;
+  style.line.most_decimals = format.decimals;
+  style.line.word_order = format.word_order;
+  if (format.g_digits) style.line.g_digits = *format.g_digits == 1 ? syntax::GDigits::One : syntax::GDigits::Two;
+  if (format.modal == "write") style.motions = MotionStyle::Write;
+  if (format.modal == "fold") style.motions = MotionStyle::Fold;
+  if (const auto& renumber = format.renumber)
+    style.numbers = {static_cast<std::uint64_t>(renumber->start), static_cast<std::uint64_t>(renumber->step),
+                     renumber->all_lines};
+  return style;
+}
+
+LinesFormatter::LinesFormatter(const ProgramStyle& style, const EachLine& each_line)
+    : motions_(style.motions), formatter_(style.line) {
+  if (!style.numbers) return;
+  numbers_.emplace(each_line, *style.numbers);
+  obstacle_ = numbers_->obstacle();
+}
+
+LineChange LinesFormatter::next(const LineTree& line) {
+  LineChange change;
+  if (numbers_) numbers_->change(line, change);
+  if (motions_ == MotionStyle::Keep) return change;
+  motion_.enter(line);
+  change.motion = motion_change(line);
+  change.motion_in_force = motion_.in_force();
+  motion_.leave(line);
+  return change;
+}
+
+/// Only where all ways to the line agree on the motion, and where it can take what stands there: anything else has a
+/// finding whose place would change.
+LineChange::Motion LinesFormatter::motion_change(const LineTree& line) const {
+  if (!motion_.is_known() || !line.findings.empty()) return LineChange::Motion::Keep;
+  const dialect::GCode& in_force = dialect::kGCodes[dialect::kGCodeRows[motion_.in_force()]];
+  const bool writes = motions_ == MotionStyle::Write;
+  const auto fits = [&](const Instruction& instruction) {
+    if (writes) return instruction.kind == InstructionKind::Continuation;
+    return instruction.kind == InstructionKind::G && instruction.g() == &in_force;
+  };
+  const auto motion = std::find_if(line.instructions.begin(), line.instructions.end(), fits);
+  if (motion == line.instructions.end()) return LineChange::Motion::Keep;
+  dialect::LetterSet given = 0;
+  for (std::size_t i = motion->begin; i < motion->end; ++i)
+    if (const syntax::Word& word = line.words[i]; word.owner == motion->number && word.letter != 'G')
+      given |= dialect::letter_bit(word.letter);
+  const bool is_sound = (given & dialect::kCoordinateLetters) != 0 && (given & ~in_force.arguments) == 0;
+  if (!is_sound) return LineChange::Motion::Keep;
+  return writes ? LineChange::Motion::Write : LineChange::Motion::Drop;
+}
+
+ProgramFormatter::ProgramFormatter(std::string_view text, const ProgramStyle& style)
+    : lines_(style, each_line_of(text)), next_(text.data()), end_(text.data() + text.size()) {
+  if (lines_.obstacle()) next_ = end_;
+}
+
+std::optional<FormattedPiece> ProgramFormatter::next() {
+  if (next_ == end_) return std::nullopt;
+  const char* const begin = next_;
+  after_.clear();
+  copied_ = begin;
+  while (next_ != end_ && next_ - begin < kPieceBytes) {
+    store_.clear();
+    const char* const line_end = store_.append_line(next_, end_);
+    add_line(store_.tree(0, next_));
+    next_ = syntax::skip_line_end(line_end, end_);
+  }
+  const std::string_view before(begin, static_cast<std::size_t>(next_ - begin));
+  if (copied_ == begin) return FormattedPiece{before, before};
+  after_.append(copied_, next_);
+  return FormattedPiece{before, after_};
+}
+
+/// Lines that stay as they are, and all line ends, are taken over together when one comes that does not.
+void ProgramFormatter::add_line(const LineTree& line) {
+  const std::string_view formatted = lines_.written(line, lines_.next(line));
+  if (formatted == line.text) return;
+  after_.append(copied_, line.text.data());
+  after_.append(formatted);
+  copied_ = line.text.data() + line.text.size();
+}
+
+}  // namespace isocnc::formatting

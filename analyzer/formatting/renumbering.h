@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "interpreter/dialect/diagnostic.h"
+#include "interpreter/syntax/formatter.h"
+
+namespace isocnc::formatting {
+
+/// Line numbers as they should be.
+struct NumberStyle {
+  std::uint64_t start = 10;
+  std::uint64_t step = 10;  ///< At least 1.
+  bool all_lines = false;   ///< Also blocks that have none.
+};
+
+/// Shows somebody all lines of a program, in order.
+using EachLine = std::function<void(const std::function<void(const syntax::LineTree&)>& look)>;
+
+/// The lines of a text, which must outlive this.
+EachLine each_line_of(std::string_view text);
+
+/// The new line numbers of a program, and with them the labels of its jumps.
+class Renumbering {
+ public:
+  /// Why a program keeps its numbers.
+  struct Obstacle {
+    enum class Kind : std::uint8_t { Error, LabelMissing, LabelTwice, TooManyDigits };
+
+    Kind kind = Kind::Error;
+    std::uint64_t line = 0;  ///< From 0.
+    std::string label;       ///< As the GOTO writes it.
+
+    std::string message(dialect::Language language) const;
+  };
+
+  /// Looks at the whole program to see where its jumps lead.
+  Renumbering(const EachLine& each_line, const NumberStyle& style);
+
+  const std::optional<Obstacle>& obstacle() const { return obstacle_; }
+  /// What becomes of the next line; is shown all lines, in order, and only where there is no obstacle.
+  void change(const syntax::LineTree& line, syntax::LineChange& change);
+
+ private:
+  struct Label {
+    std::string text;
+    std::uint64_t jump_line = 0;
+    std::uint64_t number = 0;  // The new one.
+    bool is_defined = false;
+  };
+
+  void read_jump(std::uint64_t number, const syntax::LineTree& line);
+  void number_label(std::uint64_t number, const syntax::LineTree& line);
+  bool is_numbered(const syntax::LineTree& line) const;
+  void refuse(Obstacle::Kind kind, std::uint64_t line, std::string label = {});
+
+  NumberStyle style_;
+  std::uint64_t next_;
+  std::unordered_map<std::uint64_t, Label> labels_;  // That jumps name.
+  std::optional<Obstacle> obstacle_;
+};
+
+}  // namespace isocnc::formatting

@@ -1,0 +1,214 @@
+#include "analyzer/input/files.h"
+
+#include <algorithm>
+#include <string_view>
+#include <system_error>
+#include <unordered_set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analyzer/input/gitignore.h"
+#include "interpreter/dialect/any_case.h"
+#include "interpreter/system/system_texts.h"
+
+namespace isocnc::input {
+
+namespace fs = std::filesystem;
+
+/// A path as the user knows it and as the system does, without symlinks.
+struct Place {
+  fs::path shown;
+  fs::path real;
+
+  Place operator/(const fs::path& name) const { return {shown / name, real / name}; }
+};
+
+/// Pipes and other things that have no path of their own keep the one they were given.
+static Place place_of(const fs::path& path) {
+  std::error_code error;
+  fs::path real = fs::canonical(path, error);
+  if (error) real = path;
+  return {path, std::move(real)};
+}
+
+/// So that a file found there is `part.iso`, not `./part.iso` or `parts//part.iso`.
+static fs::path as_prefix(std::string directory) {
+  if (fs::path(directory).lexically_normal() == ".") return {};
+  while (directory.size() > 1 && directory.ends_with('/')) directory.pop_back();
+  return directory;
+}
+
+static bool has_extension(std::string_view name, std::string_view extension) {
+  return name.size() > extension.size() && dialect::ends_with(name, extension);
+}
+
+static std::string problem(const fs::path& path, const std::error_code& error, dialect::Language language) {
+  return path.native() + ": " + system::cannot_read(error.value(), language);
+}
+
+namespace {
+
+/// The search of one directory that the user named.
+class Search {
+ public:
+  Search(const RulesOfFolder& rules, dialect::Language language) : rules_(rules), language_(language) {}
+
+  /// A symlink is passed over: in a tree that comes from elsewhere it may lead to any file, which would then be shown,
+  /// or written over, without anybody having named it.
+  void search(const Place& directory, const GitIgnore& ignored) {
+    const SearchRules rules = rules_(directory.real);
+    // The directory is closed before those in it are opened, however deep they go.
+    for (const fs::directory_entry& entry : entries(directory)) {
+      const fs::path name = entry.path().filename();
+      std::error_code error;
+      if (entry.is_symlink(error)) continue;
+      const bool is_folder = entry.is_directory(error);
+      if (rules.excluded != nullptr && rules.excluded->name(directory.real / name, is_folder)) continue;
+      if (is_folder) {
+        enter(directory / name, ignored);
+      } else if (is_program(entry, rules.extensions) && !ignored.ignores(directory.real / name, false)) {
+        programs_.push_back(directory / name);
+      }
+    }
+  }
+
+  /// Sorted by path.
+  std::vector<Place> take_programs() {
+    std::sort(programs_.begin(), programs_.end(),
+              [](const Place& a, const Place& b) { return a.shown.native() < b.shown.native(); });
+    return std::move(programs_);
+  }
+  /// Sorted by path.
+  std::vector<std::string> take_problems() {
+    std::sort(problems_.begin(), problems_.end());
+    return std::move(problems_);
+  }
+
+ private:
+  std::vector<fs::directory_entry> entries(const Place& directory) {
+    std::vector<fs::directory_entry> result;
+    std::error_code error;
+    for (fs::directory_iterator at(directory.real, error); !error && at != fs::end(at); at.increment(error))
+      result.push_back(*at);
+    if (error) problems_.push_back(problem(directory.shown.empty() ? "." : directory.shown, error, language_));
+    return result;
+  }
+
+  void enter(const Place& directory, const GitIgnore& ignored) {
+    if (directory.real.filename().native().starts_with(".git") || ignored.ignores(directory.real, true)) return;
+    search(directory, ignored.entering(directory.real));
+  }
+
+  /// Not a pipe, which would be waited for.
+  static bool is_program(const fs::directory_entry& entry, std::span<const std::string> extensions) {
+    const std::string name = entry.path().filename();
+    if (std::none_of(extensions.begin(), extensions.end(),
+                     [&](const std::string& extension) { return has_extension(name, extension); })) {
+      return false;
+    }
+    std::error_code error;
+    return entry.is_regular_file(error);
+  }
+
+  const RulesOfFolder& rules_;
+  dialect::Language language_;
+  std::vector<Place> programs_;
+  std::vector<std::string> problems_;
+};
+
+/// Takes paths one after another, each file once.
+class Selector {
+ public:
+  Selector(const RulesOfFolder& rules, dialect::Language language) : rules_(rules), language_(language) {}
+
+  void select(const std::string& path) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (error) {
+      selection_.problems.push_back(problem(path, error, language_));
+    } else if (fs::is_directory(status)) {
+      select_directory(path);
+    } else {
+      add(place_of(path));
+    }
+  }
+
+  FileSelection take() { return std::move(selection_); }
+
+ private:
+  void select_directory(const std::string& path) {
+    const Place directory{as_prefix(path), place_of(path).real};
+    Search search(rules_, language_);
+    search.search(directory, GitIgnore::at(directory.real));
+    for (Place& program : search.take_programs()) add(std::move(program));
+    for (std::string& text : search.take_problems()) selection_.problems.push_back(std::move(text));
+  }
+
+  void add(Place file) {
+    if (taken_.insert(file.real.native()).second) selection_.files.push_back(std::move(file.shown));
+  }
+
+  const RulesOfFolder& rules_;
+  dialect::Language language_;
+  std::unordered_set<std::string> taken_;
+  FileSelection selection_;
+};
+
+}  // namespace
+
+FileSelection select_files(std::span<const std::string> paths, const RulesOfFolder& rules, dialect::Language language) {
+  Selector selector(rules, language);
+  for (const std::string& path : paths) selector.select(path);
+  return selector.take();
+}
+
+FileSelection select_files(std::span<const std::string> paths, std::span<const std::string> extensions,
+                           dialect::Language language) {
+  return select_files(
+      paths,
+      [&](const fs::path&) {
+        return SearchRules{extensions, nullptr};
+      },
+      language);
+}
+
+static constexpr dialect::Text kDashNotAlone{"- (standard input) must be given alone",
+                                             "- (lo standard input) va indicato da solo"};
+static constexpr dialect::Text kNothingFound{"no programs found", "nessun programma trovato"};
+
+FileSelection select_programs(std::span<const std::string> paths, configuration::Configurations& configurations,
+                              dialect::Language language) {
+  if (std::find(paths.begin(), paths.end(), "-") != paths.end()) {
+    if (paths.size() == 1) return {.files = {"-"}, .problems = {}, .is_refused = false};
+    return {.files = {}, .problems = {std::string(kDashNotAlone.in(language))}, .is_refused = true};
+  }
+  const auto rules = [&](const fs::path& folder) -> SearchRules {
+    const configuration::Lint& lint = configurations.in_folder(folder).lint;
+    return {lint.extensions, &lint.excluded};
+  };
+  FileSelection selection = select_files(paths, rules, language);
+  if (selection.files.empty() && selection.problems.empty()) {
+    const auto& extensions = configurations.of(paths.front()).lint.extensions;
+    selection.problems.push_back(fmt::format("{} ({})", kNothingFound.in(language), fmt::join(extensions, " ")));
+    selection.is_refused = true;
+  }
+  return selection;
+}
+
+fs::path place_of_program(const fs::path& path, const std::string& stdin_name) {
+  return path == "-" ? fs::path(stdin_name) : path;
+}
+
+std::uint64_t bytes_of(const std::vector<fs::path>& files) {
+  std::uint64_t bytes = 0;
+  for (const fs::path& file : files) {
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(file, error);
+    if (!error) bytes += size;
+  }
+  return bytes;
+}
+
+}  // namespace isocnc::input

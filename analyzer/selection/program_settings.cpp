@@ -1,0 +1,47 @@
+#include "analyzer/selection/program_settings.h"
+
+#include <fmt/format.h>
+
+namespace isocnc::selection {
+
+using namespace dialect::literals;
+using configuration::CodeWishes;
+using configuration::Configuration;
+using configuration::FileWishes;
+
+static Wishes wishes_of(const CodeWishes& wishes) {
+  Wishes result{.select = wishes.select, .ignore = wishes.ignore, .severities = {}};
+  for (const auto& [code, severity] : wishes.severity)
+    result.severities.push_back(fmt::format("{}={}", code, severity));
+  return result;
+}
+
+static Selection selection_of(const Configuration& configuration, const std::vector<bool>& holds,
+                              const Wishes& command_line) {
+  static constexpr auto kLanguage = dialect::Language::English;  // Of complaints, which have been made before.
+  Selection selection;
+  selection.follow(wishes_of(configuration.lint.wishes), kLanguage);
+  for (std::size_t i = 0; i < holds.size(); ++i)
+    if (holds[i]) selection.follow(wishes_of(configuration.lint.files[i].wishes), kLanguage);
+  selection.follow(command_line, kLanguage);
+  return selection;
+}
+
+const ProgramSettings& SettingsFinder::of(const std::filesystem::path& program) {
+  const Configuration& configuration = configurations_.in_folder(program.parent_path());
+  std::vector<bool> holds;
+  if (!configuration.lint.files.empty()) {
+    const std::filesystem::path real = configuration::real_path(program.parent_path()) / program.filename();
+    for (const FileWishes& files : configuration.lint.files) holds.push_back(files.patterns.match(real));
+  }
+  std::unique_ptr<const ProgramSettings>& settings = settings_[{&configuration, holds}];
+  if (!settings) {
+    const Selection selection = selection_of(configuration, holds, command_line_);
+    execution::Setup setup = configuration.machine.setup;
+    setup.every_motion = selection.shows("motion-goes-nowhere"_diag);
+    settings = std::make_unique<const ProgramSettings>(ProgramSettings{std::move(setup), selection});
+  }
+  return *settings;
+}
+
+}  // namespace isocnc::selection

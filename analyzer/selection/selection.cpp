@@ -1,0 +1,143 @@
+#include "analyzer/selection/selection.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "interpreter/dialect/any_case.h"
+#include "interpreter/dialect/code_set.h"
+#include "interpreter/dialect/format.h"
+#include "interpreter/dialect/near_names.h"
+#include "interpreter/syntax/characters.h"
+
+namespace isocnc::selection {
+
+using dialect::CodeSet;
+using dialect::equal_words;
+using dialect::kDiagnosticCount;
+using dialect::Language;
+using dialect::Severity;
+using dialect::Text;
+
+struct SeverityWish {
+  CodeSet set;
+  std::optional<Severity> severity;
+};
+
+static std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && syntax::is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && syntax::is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+/// The words between the commas; empty ones are left out.
+static std::vector<std::string_view> words_of(const std::vector<std::string>& lists) {
+  std::vector<std::string_view> words;
+  for (const std::string_view list : lists)
+    for (std::size_t at = 0; at <= list.size();) {
+      const std::size_t comma = std::min(list.find(',', at), list.size());
+      const std::string_view word = trimmed(list.substr(at, comma - at));
+      if (!word.empty()) words.push_back(word);
+      at = comma + 1;
+    }
+  return words;
+}
+
+std::string unknown_code(std::string_view code, Language language) {
+  static constexpr Text kUnknown = {"unknown code:", "codice sconosciuto:"};
+  return fmt::format("{} {}{} (--list-rules)", kUnknown.in(language), code,
+                     dialect::did_you_mean(dialect::nearest_code(code), language));
+}
+
+static std::vector<CodeSet> code_sets(const std::vector<std::string>& lists, Language language,
+                                      std::vector<std::string>& problems) {
+  std::vector<CodeSet> sets;
+  for (const std::string_view word : words_of(lists)) {
+    if (const std::optional<CodeSet> set = dialect::find_codes(word)) {
+      sets.push_back(*set);
+    } else {
+      problems.push_back(unknown_code(word, language));
+    }
+  }
+  return sets;
+}
+
+/// Reads `W001=error`; a problem is told and gives nothing.
+static std::optional<SeverityWish> severity_wish(std::string_view word, Language language,
+                                                 std::vector<std::string>& problems) {
+  static constexpr Text kForm = {"{}: write CODE=error, warning, info or off",
+                                 "{}: scrivere CODICE=error, warning, info oppure off"};
+  const std::size_t equals = std::min(word.find('='), word.size());
+  const std::string_view code = trimmed(word.substr(0, equals));
+  const std::string_view level = trimmed(word.substr(std::min(equals + 1, word.size())));
+  SeverityWish wish;
+  bool known = equal_words(level, "off");
+  for (const Severity severity : {Severity::Error, Severity::Warning, Severity::Info}) {
+    if (!equal_words(level, dialect::severity_name(severity, Language::English))) continue;
+    wish.severity = severity;
+    known = true;
+  }
+  const std::optional<CodeSet> set = dialect::find_codes(code);
+  if (!known) {
+    problems.push_back(dialect::format(kForm, language, word));
+  } else if (!set) {
+    problems.push_back(unknown_code(code, language));
+  } else {
+    wish.set = *set;
+    return wish;
+  }
+  return std::nullopt;
+}
+
+/// How exactly the sets name a code; -1 when they do not.
+static int exactness_for(std::size_t code, const std::vector<CodeSet>& sets) {
+  int most = -1;
+  for (const CodeSet& set : sets)
+    if (set.codes[code]) most = std::max(most, static_cast<int>(set.exactness));
+  return most;
+}
+
+Selection::Selection() {
+  for (std::size_t i = 0; i < kDiagnosticCount; ++i)
+    if (!dialect::kDiagnostics[i].is_off) severities_[i] = dialect::kDiagnostics[i].severity;
+}
+
+std::vector<std::string> Selection::follow(const Wishes& wishes, Language language) {
+  static constexpr Text kSelectsNothing = {"select names no code; ALL names them all",
+                                           "select non indica alcun codice; ALL li indica tutti"};
+  std::vector<std::string> problems;
+  const std::vector<CodeSet> select = code_sets(wishes.select, language, problems);
+  if (!wishes.select.empty() && select.empty() && problems.empty()) problems.emplace_back(kSelectsNothing.in(language));
+  const std::vector<CodeSet> ignore = code_sets(wishes.ignore, language, problems);
+  std::vector<SeverityWish> severities;
+  for (const std::string_view word : words_of(wishes.severities))
+    if (const auto wish = severity_wish(word, language, problems)) severities.push_back(*wish);
+  if (!problems.empty()) return problems;
+
+  const std::array<std::optional<Severity>, kDiagnosticCount> before = severities_;
+  for (std::size_t i = 0; i < kDiagnosticCount; ++i) {
+    const int selected = exactness_for(i, select);
+    const int ignored = exactness_for(i, ignore);
+    const bool on = selected > ignored || (ignored < 0 && select.empty() && before[i]);
+    int decided = -1;
+    std::optional<Severity> severity = before[i] ? before[i] : dialect::kDiagnostics[i].severity;
+    // What was off before and is given a weight now is wanted again, unless these very wishes leave it out.
+    bool wanted = on;
+    for (const SeverityWish& wish : severities) {
+      if (!wish.set.codes[i] || static_cast<int>(wish.set.exactness) < decided) continue;
+      decided = static_cast<int>(wish.set.exactness);
+      severity = wish.severity;
+      wanted = on || (ignored < 0 && select.empty());
+    }
+    severities_[i] = wanted ? severity : std::nullopt;
+  }
+  return {};
+}
+
+check::Report Selection::shown(check::Report report) const {
+  std::erase_if(report.findings, [&](const check::LocatedFinding& located) { return !shows(located.finding.id); });
+  for (check::LocatedFinding& located : report.findings) located.selected = severity(located.finding.id);
+  return report;
+}
+
+}  // namespace isocnc::selection

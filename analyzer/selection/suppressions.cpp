@@ -1,0 +1,208 @@
+#include "analyzer/selection/suppressions.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "interpreter/dialect/any_case.h"
+#include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/tree_store.h"
+
+namespace isocnc::selection {
+
+using dialect::DiagnosticId;
+using namespace dialect::literals;
+
+static constexpr std::string_view kCall = "isolint:";
+static constexpr DiagnosticId kUseless = "useless-suppression"_diag;
+
+/// Where the next `isolint:` begins at or behind `at`. Colons are rare in programs, so that looking for them is cheap.
+static std::size_t find_call(std::string_view text, std::size_t at) {
+  for (std::size_t colon = text.find(':', at); colon != std::string_view::npos; colon = text.find(':', colon + 1)) {
+    if (colon + 1 < at + kCall.size()) continue;
+    const std::size_t begin = colon + 1 - kCall.size();
+    if (dialect::begins_with(text.substr(begin), kCall)) return begin;
+  }
+  return std::string_view::npos;
+}
+
+Suppressions::Suppressions(std::string_view text) {
+  const char* const end = text.data() + text.size();
+  const char* line = text.data();
+  std::uint64_t number = 0;
+  for (std::size_t call = find_call(text, 0); call != std::string_view::npos;) {
+    const char* line_end = syntax::find_line_end(line, end);
+    while (line_end < text.data() + call) {
+      line = syntax::skip_line_end(line_end, end);
+      line_end = syntax::find_line_end(line, end);
+      ++number;
+    }
+    read_line(number, {line, static_cast<std::size_t>(line_end - line)});
+    call = find_call(text, static_cast<std::size_t>(line_end - text.data()));
+  }
+}
+
+bool Suppressions::may_speak(std::string_view text) { return find_call(text, 0) != std::string_view::npos; }
+
+void Suppressions::read_line(std::uint64_t number, std::string_view line) {
+  if (find_call(line, 0) == std::string_view::npos) return;
+  const syntax::ParsedLine parsed(line);
+  const syntax::LineTree tree = parsed.tree();
+  std::vector<syntax::Span> comments(tree.comments.begin(), tree.comments.end());
+  std::sort(comments.begin(), comments.end());
+  for (const syntax::Span comment : comments) {
+    const std::string_view text = line.substr(0, comment.end);
+    for (std::size_t call = find_call(text, comment.begin); call != std::string_view::npos;) {
+      const std::size_t next = find_call(text, call + 1);
+      read_directive(number, line, static_cast<std::uint32_t>(call),
+                     static_cast<std::uint32_t>(std::min(next, text.size())));
+      call = next;
+    }
+  }
+}
+
+/// The next word in [begin, end) of the line, between blanks, commas and parentheses; empty at the end.
+static syntax::Span next_word(std::string_view line, std::uint32_t begin, std::uint32_t end) {
+  const auto separates = [](char c) { return syntax::is_blank(c) || c == ','; };
+  while (begin < end && separates(line[begin])) ++begin;
+  std::uint32_t behind = begin;
+  while (behind < end && !separates(line[behind]) && line[behind] != '(' && line[behind] != ')') ++behind;
+  return {begin, behind};
+}
+
+void Suppressions::read_directive(std::uint64_t number, std::string_view line, std::uint32_t begin, std::uint32_t end) {
+  const auto text_of = [&](syntax::Span span) { return line.substr(span.begin, span.end - span.begin); };
+  static constexpr std::pair<std::string_view, Kind> kKinds[] = {{"ignore", Kind::Ignore},
+                                                                 {"disable", Kind::Disable},
+                                                                 {"enable", Kind::Enable},
+                                                                 {"ignore-file", Kind::IgnoreFile}};
+  const std::uint32_t behind_call = begin + static_cast<std::uint32_t>(kCall.size());
+  const syntax::Span verb = next_word(line, behind_call, end);
+  Directive directive{.line = number, .span = {begin, std::max(verb.end, behind_call)}};
+  if (verb.empty()) directive.span = {begin, behind_call};
+  for (const auto& [name, kind] : kKinds)
+    if (dialect::equal_words(text_of(verb), name)) directive.kind = kind;
+  if (directive.kind != Kind::Unknown) {
+    for (syntax::Span word = next_word(line, verb.end, end); !word.empty(); word = next_word(line, word.end, end)) {
+      if (line[word.begin] == '-') break;  // A reason follows.
+      directive.codes.push_back({.id = dialect::find_diagnostic(text_of(word)), .span = word});
+      directive.span.end = word.end;
+    }
+  }
+  directives_.push_back(std::move(directive));
+}
+
+/// The comment nearest to a finding is the one that silences it; of two that reach as far, the first.
+void Suppressions::silence(Directive& directive, Silencers& silencers) {
+  if (directive.codes.empty()) {
+    for (std::size_t i = 0; i < silencers.size(); ++i)
+      if (!silencers[i] && (DiagnosticId{static_cast<std::uint8_t>(i)} != kUseless)) silencers[i] = &directive.useful;
+    // Whoever silences a whole program wants no word about it; else the comment would silence its own W190.
+    bool*& useless = silencers[static_cast<std::size_t>(kUseless)];
+    if (directive.kind == Kind::IgnoreFile && !useless) useless = &directive.useful;
+  }
+  for (Code& code : directive.codes) {
+    if (!code.id) continue;
+    bool*& silencer = silencers[static_cast<std::size_t>(*code.id)];
+    if (!silencer) silencer = &code.useful;
+  }
+}
+
+void Suppressions::unsilence(Directive& directive, Silencers& silencers) {
+  if (directive.codes.empty()) {
+    directive.useful =
+        std::any_of(silencers.begin(), silencers.end(), [](const bool* each) { return each != nullptr; });
+    silencers.fill(nullptr);
+  }
+  for (Code& code : directive.codes) {
+    if (!code.id) continue;
+    bool*& silencer = silencers[static_cast<std::size_t>(*code.id)];
+    code.useful = code.useful || silencer != nullptr;
+    silencer = nullptr;
+  }
+}
+
+void Suppressions::drop_silenced(std::vector<check::LocatedFinding>& findings) {
+  Silencers of_file{};
+  Silencers of_stretch{};
+  Silencers of_line{};
+  for (Directive& directive : directives_)
+    if (directive.kind == Kind::IgnoreFile) silence(directive, of_file);
+  auto next = directives_.begin();
+  std::uint64_t line_of_ignores = 0;
+  const auto read_up_to = [&](std::uint64_t line) {
+    for (; next != directives_.end() && next->line <= line; ++next) {
+      if (next->kind == Kind::Disable) silence(*next, of_stretch);
+      if (next->kind == Kind::Enable) unsilence(*next, of_stretch);
+      if (next->kind != Kind::Ignore) continue;
+      if (next->line != line_of_ignores) of_line.fill(nullptr);
+      line_of_ignores = next->line;
+      silence(*next, of_line);
+    }
+  };
+  std::erase_if(findings, [&](const check::LocatedFinding& located) {
+    read_up_to(located.line);
+    const auto id = static_cast<std::size_t>(located.finding.id);
+    bool* const ignored = located.line == line_of_ignores ? of_line[id] : nullptr;
+    bool* const silencer = ignored ? ignored : of_stretch[id] ? of_stretch[id] : of_file[id];
+    if (silencer) *silencer = true;
+    return silencer != nullptr;
+  });
+  if (!directives_.empty()) read_up_to(directives_.back().line);
+}
+
+void Suppressions::spare_codes_that_are_off(const Selection& selection) {
+  const auto is_looked_for = [&](DiagnosticId id) {
+    return selection.shows(id) && !dialect::definition(id).is_told_by_runs;
+  };
+  for (Directive& directive : directives_)
+    for (Code& code : directive.codes) code.useful = code.useful || (code.id && !is_looked_for(*code.id));
+}
+
+/// What changes nothing, but for what might silence W190 itself; or that alone, when all else has been judged.
+std::vector<check::LocatedFinding> Suppressions::useless(bool about_w190) const {
+  std::vector<check::LocatedFinding> findings;
+  const auto report = [&](std::uint64_t line, syntax::Span span) {
+    findings.push_back({.line = line, .finding = {.id = kUseless, .span = span}});
+  };
+  for (const Directive& directive : directives_) {
+    const auto is_useless = [](const Code& code) { return !code.useful; };
+    const bool silences_w190 = directive.codes.empty()
+                                   ? directive.kind == Kind::IgnoreFile
+                                   : std::any_of(directive.codes.begin(), directive.codes.end(),
+                                                 [](const Code& code) { return code.id == kUseless; });
+    const bool all_known = std::all_of(directive.codes.begin(), directive.codes.end(),
+                                       [](const Code& code) { return code.id.has_value(); });
+    const bool whole = !directive.useful && all_known && (!silences_w190 || directive.codes.size() <= 1) &&
+                       std::all_of(directive.codes.begin(), directive.codes.end(), is_useless);
+    if (whole) {
+      if (silences_w190 == about_w190) report(directive.line, directive.span);
+      continue;
+    }
+    for (const Code& code : directive.codes)
+      if (is_useless(code) && (code.id == kUseless) == about_w190) report(directive.line, code.span);
+  }
+  return findings;
+}
+
+check::Report Suppressions::apply(check::Report report, const Selection& selection) {
+  if (empty()) return report;
+  drop_silenced(report.findings);
+  spare_codes_that_are_off(selection);
+  std::vector<check::LocatedFinding> complaints = useless(false);
+  drop_silenced(complaints);
+  const auto middle = static_cast<std::ptrdiff_t>(report.findings.size());
+  for (const std::vector<check::LocatedFinding>& each : {complaints, useless(true)})
+    report.findings.insert(report.findings.end(), each.begin(), each.end());
+  const auto by_place = [](const check::LocatedFinding& a, const check::LocatedFinding& b) {
+    return a.line != b.line ? a.line < b.line : a.finding.span.begin < b.finding.span.begin;
+  };
+  std::stable_sort(report.findings.begin() + middle, report.findings.end(), by_place);
+  std::inplace_merge(report.findings.begin(), report.findings.begin() + middle, report.findings.end(), by_place);
+  return report;
+}
+
+check::Report suppress(check::Report report, std::string_view text, const Selection& selection) {
+  return Suppressions(text).apply(std::move(report), selection);
+}
+
+}  // namespace isocnc::selection

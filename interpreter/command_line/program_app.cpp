@@ -1,0 +1,283 @@
+#include "interpreter/command_line/program_app.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <iterator>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
+
+#include "interpreter/command_line/program_main.h"
+#include "interpreter/dialect/any_case.h"
+#include "interpreter/dialect/format.h"
+#include "interpreter/dialect/locale.h"
+#include "interpreter/dialect/near_names.h"
+
+namespace isocnc::command_line {
+
+using dialect::Language;
+using dialect::Text;
+
+static bool is_hidden(const CLI::Option& option) { return option.get_group().empty(); }
+static bool takes_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
+
+ProgramOption ProgramOption::required() const { return ProgramOption(option_->required()); }
+
+ProgramOption ProgramOption::excludes(ProgramOption other) const {
+  return ProgramOption(option_->excludes(other.option_));
+}
+
+ProgramOption ProgramOption::needs(ProgramOption other) const { return ProgramOption(option_->needs(other.option_)); }
+
+ProgramOption ProgramOption::tells_no_exclusions() const { return ProgramOption(option_->option_text(" ")); }
+
+ProgramOption ProgramOption::takes_one() const { return ProgramOption(option_->allow_extra_args(false)); }
+
+ProgramOption ProgramOption::in_range(int least, int most) const {
+  return ProgramOption(option_->check(CLI::Range(least, most)));
+}
+
+ProgramOption ProgramOption::check(std::function<std::string(const std::string&)> complaint_about) const {
+  return ProgramOption(option_->check(std::move(complaint_about)));
+}
+
+ProgramOption ProgramOption::hidden() const { return ProgramOption(option_->group("")); }
+
+/// By `--lang`, else by the environment. What follows -- is no option.
+static Language language_of_command(int argc, const char* const* argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "--manual-page") return Language::English;
+  for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i) {
+    const std::string_view argument = argv[i];
+    const std::string_view next = i + 1 < argc ? argv[i + 1] : "";
+    const std::string_view value = argument == "--lang"              ? next
+                                   : argument.starts_with("--lang=") ? argument.substr(argument.find('=') + 1)
+                                                                     : "";
+    if (const auto language = dialect::language_named(value)) return *language;
+  }
+  return dialect::language_of_environment();
+}
+
+ProgramApp::ProgramApp(int argc, const char* const* argv, const Text& description, ManualTexts texts)
+    : language_(language_of_command(argc, argv)),
+      app_(std::make_unique<CLI::App>(text(description), texts.program)),
+      texts_(std::move(texts)) {
+  static constexpr Text kHelp = {"Print this help message and exit", "Mostra questo aiuto"};
+  static constexpr Text kVersion = {"Display program version information and exit", "Mostra la versione del programma"};
+  app_->set_help_flag("-h,--help", text(kHelp));
+  app_->set_version_flag("--version", fmt::format("{} {}", texts_.program, texts_.version), text(kVersion));
+  app_->get_formatter()->column_width(27);
+  if (language_ == Language::Italian) speak_italian();
+}
+
+ProgramApp::~ProgramApp() = default;
+
+/// The library's own words in --help.
+void ProgramApp::speak_italian() {
+  static constexpr std::pair<const char*, const char*> kLabels[] = {
+      {"Usage", "Uso"}, {"Positionals", "Argomenti"}, {"OPTIONS", "OPZIONI"}, {"Options", "Opzioni"}};
+  for (const auto& [english, italian] : kLabels) app_->get_formatter()->label(english, italian);
+  app_->option_defaults()->group("Opzioni");
+  for (CLI::Option* const option : app_->get_options()) option->group("Opzioni");
+}
+
+void ProgramApp::begin_group(const Text& heading) { app_->option_defaults()->group(text(heading)); }
+
+template <class Value>
+ProgramOption ProgramApp::add_option(const std::string& names, Value& value, const Text& value_name,
+                                     const Text& description) {
+  return ProgramOption(app_->add_option(names, value, text(description))->option_text(text(value_name)));
+}
+
+// All kinds of values that the programs take.
+template ProgramOption ProgramApp::add_option(const std::string&, std::string&, const Text&, const Text&);
+template ProgramOption ProgramApp::add_option(const std::string&, std::optional<std::string>&, const Text&,
+                                              const Text&);
+template ProgramOption ProgramApp::add_option(const std::string&, std::vector<std::string>&, const Text&, const Text&);
+template ProgramOption ProgramApp::add_option(const std::string&, int&, const Text&, const Text&);
+template ProgramOption ProgramApp::add_option(const std::string&, std::optional<std::size_t>&, const Text&,
+                                              const Text&);
+template ProgramOption ProgramApp::add_option(const std::string&, std::optional<std::uint16_t>&, const Text&,
+                                              const Text&);
+
+ProgramOption ProgramApp::add_flag(const std::string& names, bool& value, const Text& description) {
+  return ProgramOption(app_->add_flag(names, value, text(description)));
+}
+
+static std::string no_such_choice(const std::string& given, const std::vector<std::string>& choices,
+                                  Language language) {
+  static constexpr Text kOnly = {"there is no {}, only {}{}", "{} non c'è, solo {}{}"};
+  const bool is_number = !given.empty() && given.find_first_not_of("0123456789") == std::string::npos;
+  const auto meant = is_number ? std::nullopt : dialect::nearest_name(given, choices);  // 99 is as near to 9 as to 19.
+  return dialect::format(kOnly, language, given, fmt::join(choices, ", "), dialect::did_you_mean(meant, language));
+}
+
+ProgramOption ProgramApp::add_choice(const std::string& name, std::string& value, std::vector<std::string> choices,
+                                     const Text& value_name, const Text& description) {
+  suggest(name, choices);
+  return add_option(name, value, value_name, description)
+      .check([choices = std::move(choices)](const std::string& given) -> std::string {
+        if (std::find(choices.begin(), choices.end(), given) != choices.end()) return {};
+        return no_such_choice(given, choices, Language::English);
+      });
+}
+
+ProgramOption ProgramApp::add_language(std::string& value, const Text& description) {
+  return add_choice("--lang", value, {std::begin(dialect::kLanguageNames), std::end(dialect::kLanguageNames)},
+                    {"LANG", "LINGUA"}, description);
+}
+
+ProgramApp::Said ProgramApp::read(int argc, const char* const* argv) {
+  const std::string_view request = argc > 1 ? argv[1] : "";
+  if (request == "--manual-page") return {.answer = manual_page(), .complaint = {}};
+  if (request == "--complete")
+    return {.answer = completions(argc > 3 ? argv[3] : "", argc > 4 ? argv[4] : ""), .complaint = {}};
+  try {
+    app_->parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    std::ostringstream said;
+    app_->exit(success, said, said);
+    std::string answer = said.str();
+    // The library separates groups by two empty lines: screens are short.
+    for (std::size_t at = 0; (at = answer.find("\n\n\n", at)) != std::string::npos;) answer.erase(at, 1);
+    return {.answer = std::move(answer), .complaint = {}};
+  } catch (const CLI::ParseError& error) {
+    return {.answer = {}, .complaint = complaint_about(error)};
+  }
+  return {};
+}
+
+std::optional<int> ProgramApp::answer(int argc, const char* const* argv) {
+  const Said said = read(argc, argv);
+  if (said.answer) return say(texts_.program, *said.answer, language_);
+  if (said.complaint) return complain_of_command(texts_.program, *said.complaint);
+  return std::nullopt;
+}
+
+/// What a complaint of the library is about: `--fix excludes --baseline`, `--jobs: 1 required INT missing`.
+static std::string first_name(std::string_view complaint) {
+  const std::size_t begin = complaint.find('-');
+  if (begin == std::string_view::npos) return {};
+  return std::string(complaint.substr(begin, complaint.find_first_of(": ", begin) - begin));
+}
+
+static std::string last_name(std::string_view complaint) {
+  return std::string(complaint.substr(complaint.find_last_of(' ') + 1));
+}
+
+/// What the library says in English, for who reads Italian.
+std::string ProgramApp::italian_complaint(const CLI::ParseError& error) const {
+  const std::string_view complaint = error.what();
+  const std::string name = first_name(complaint);
+  const CLI::Option* const option = name.empty() ? nullptr : app_->get_option_no_throw(name);
+  if (dynamic_cast<const CLI::ExcludesError*>(&error) != nullptr)
+    return fmt::format("{} e {} si escludono", name, last_name(complaint));
+  if (dynamic_cast<const CLI::RequiresError*>(&error) != nullptr)
+    return fmt::format("{} richiede {}", name, last_name(complaint));
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
+    return fmt::format("manca un argomento obbligatorio: {}", complaint.substr(0, complaint.find(' ')));
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
+    return fmt::format("argomento di troppo: {}", app_->remaining().empty() ? name : app_->remaining().front());
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
+    return option != nullptr && !takes_value(*option) ? fmt::format("{} non prende un valore", name)
+                                                      : fmt::format("{}: manca il valore", name);
+  if (option == nullptr || option->results().empty()) return std::string(complaint);
+  const auto choices = words_.find("--" + option->get_lnames().front());
+  if (choices == words_.end()) return fmt::format("{}: valore non ammesso: {}", name, option->results().back());
+  return fmt::format("{}: {}", name, no_such_choice(option->results().back(), choices->second, Language::Italian));
+}
+
+std::string ProgramApp::complaint_about(const CLI::ParseError& error) const {
+  static constexpr Text kNoSuchOption = {"no such option", "opzione sconosciuta"};
+  static constexpr Text kGivenTwice = {"{}: given more than once", "{}: dato più di una volta"};
+  const std::vector<std::string> unexpected = app_->remaining();
+  if (unexpected.empty() || !unexpected.front().starts_with('-')) {
+    const std::string name = first_name(error.what());
+    const CLI::Option* const option = name.empty() ? nullptr : app_->get_option_no_throw(name);
+    if (option != nullptr && takes_value(*option) && dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr &&
+        option->results().size() > 1)
+      return dialect::format(kGivenTwice, language_, name);
+    return language_ == Language::Italian ? italian_complaint(error) : error.what();
+  }
+  std::vector<std::string> names;
+  for (const CLI::Option* const option : app_->get_options()) {
+    if (is_hidden(*option)) continue;
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  const std::string given = unexpected.front().substr(0, unexpected.front().find('='));
+  return fmt::format("{}: {}{}", kNoSuchOption.in(language_), given,
+                     dialect::did_you_mean(dialect::nearest_name(given, names), language_));
+}
+
+std::string ProgramApp::completions(std::string_view word, std::string_view previous) const {
+  std::string lines;
+  const CLI::Option* const before =
+      previous.starts_with('-') ? app_->get_option_no_throw(std::string(previous)) : nullptr;
+  if (before != nullptr && takes_value(*before)) {
+    const auto words = words_.find("--" + before->get_lnames().front());
+    if (words == words_.end()) return lines;
+    const std::size_t last = word.find_last_of(',') + 1;  // 0 where there is no comma.
+    for (const std::string_view each : words->second)
+      if (dialect::begins_with(each, word.substr(last))) lines += fmt::format("{}{}\n", word.substr(0, last), each);
+    return lines;
+  }
+  if (!word.starts_with('-')) return lines;
+  for (const CLI::Option* const option : app_->get_options()) {
+    if (is_hidden(*option)) continue;
+    for (const std::string& name : option->get_lnames())
+      if (("--" + name).starts_with(word)) lines += fmt::format("--{}\n", name);
+  }
+  return lines;
+}
+
+/// Dashes as they are typed, and no line that begins as a request would.
+static std::string roff(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (escaped.empty() && (c == '.' || c == '\'')) escaped += "\\&";
+    if (c == '\\' || c == '-') escaped += '\\';
+    escaped += c == '\n' ? ' ' : c;
+  }
+  return escaped;
+}
+
+static std::string roff_names(const CLI::Option& option) {
+  std::string names;
+  const auto add = [&](std::string_view dashes, const std::vector<std::string>& all) {
+    for (const std::string& name : all)
+      names += fmt::format("{}\\fB{}\\fR", names.empty() ? "" : ", ", roff(fmt::format("{}{}", dashes, name)));
+  };
+  add("-", option.get_snames());
+  add("--", option.get_lnames());
+  if (names.empty()) return fmt::format("\\fI{}\\fR", roff(option.get_name(true)));
+  const std::string value_name = option.get_option_text().empty() ? option.get_type_name() : option.get_option_text();
+  return takes_value(option) ? fmt::format("{} \\fI{}\\fR", names, roff(value_name)) : names;
+}
+
+std::string ProgramApp::manual_page() const {
+  std::string capitals = texts_.program;
+  std::transform(capitals.begin(), capitals.end(), capitals.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::string page = fmt::format(".TH {} 1 \"\" \"isocnc {}\" \"ISOCNC programs\"\n", capitals, texts_.version);
+  page += fmt::format(".SH NAME\n{} \\- {}\n.SH SYNOPSIS\n", texts_.program, roff(texts_.purpose));
+  page += fmt::format("\\fB{}\\fR [\\fIoptions\\fR] {}\n.SH DESCRIPTION\n", texts_.program, roff(texts_.operands));
+  for (const std::string_view paragraph : texts_.paragraphs) page += fmt::format(".PP\n{}\n", roff(paragraph));
+  page += ".SH OPTIONS\n";
+  for (const std::string& group : app_->get_groups()) {
+    if (group.empty()) continue;
+    page += fmt::format(".SS {}\n", roff(group));
+    for (const CLI::Option* const option : app_->get_options())
+      if (option->get_group() == group)
+        page += fmt::format(".TP\n{}\n{}\n", roff_names(*option), roff(option->get_description()));
+  }
+  page += ".SH EXIT STATUS\n";
+  for (const auto& [status, meaning] : texts_.exit) page += fmt::format(".TP\n{}\n{}\n", status, roff(meaning));
+  page += ".SH SEE ALSO\n";
+  for (std::size_t i = 0; i < texts_.see_also.size(); ++i)
+    page += fmt::format("\\fB{}\\fR(1){}\n", texts_.see_also[i], i + 1 < texts_.see_also.size() ? "," : "");
+  return page;
+}
+
+}  // namespace isocnc::command_line

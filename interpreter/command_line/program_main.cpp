@@ -1,0 +1,73 @@
+#include "interpreter/command_line/program_main.h"
+
+#include <csignal>
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include <unistd.h>
+
+#include "interpreter/syntax/unicode.h"
+#include "interpreter/system/mapped_file.h"
+#include "interpreter/system/output_file.h"
+#include "interpreter/system/temporary_file.h"
+
+namespace isocnc::command_line {
+
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): an exception that nobody handles brings none.
+static std::string_view running_program;
+
+/// Tells of the exception that is being handled, or of the one that nobody handles; asks for no memory.
+static void tell_of_failure() {
+  try {
+    if (const std::exception_ptr failure = std::current_exception()) std::rethrow_exception(failure);
+    std::cerr << running_program << ": internal error\n";
+  } catch (const std::bad_alloc&) {
+    std::cerr << running_program << ": out of memory; memoria esaurita\n";
+  } catch (const std::exception& error) {
+    std::cerr << running_program << ": internal error: " << error.what() << '\n';
+  }
+}
+
+/// Of a thread among several, whose exception cannot come to the others.
+[[noreturn]] static void end_in_trouble() {
+  tell_of_failure();
+  system::remove_temporary_files();
+  ::_exit(kTroubleStatus);
+}
+
+int program_main(std::string_view program, int (*run)(int argc, char** argv), int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  system::tell_of_lost_bytes(program);
+  system::leave_no_temporary_files();
+  running_program = program;
+  std::set_terminate(end_in_trouble);
+  try {
+    return run(argc, argv);
+  } catch (const std::exception&) {
+    tell_of_failure();
+    return kTroubleStatus;
+  }
+}
+
+void complain(std::string_view program, std::string_view what) {
+  std::cerr << program << ": " << syntax::printable(what) << '\n';
+}
+
+int complain_of_command(std::string_view program, std::string_view what) {
+  complain(program, what);
+  std::cerr << program << " --help\n";
+  return kTroubleStatus;
+}
+
+int say(std::string_view program, std::string_view text, dialect::Language language) {
+  system::OutputFile output(STDOUT_FILENO);
+  output.write(text);
+  const auto problem = system::commit(output, "<stdout>", language);
+  if (!problem) return 0;
+  complain(program, *problem);
+  return kTroubleStatus;
+}
+
+}  // namespace isocnc::command_line

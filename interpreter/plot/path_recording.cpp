@@ -1,0 +1,116 @@
+#include "interpreter/plot/path_recording.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "interpreter/dialect/locale.h"
+#include "interpreter/running/vector_json.h"
+
+namespace isocnc::plot {
+
+using Json = nlohmann::ordered_json;
+
+/// What the first byte of a step says beside its kind. A number follows for each bit that is set, in this order.
+enum StepBits : std::uint8_t {
+  kOtherLine = 0x04,   ///< How many lines further on, if not one.
+  kOtherTool = 0x08,   ///< Which.
+  kOtherFeed = 0x10,   ///< By how much it differs, signed.
+  kPause = 0x20,       ///< Time since the last point.
+  kPointCount = 0x40,  ///< How many points, if not one.
+};
+
+PathRecording::PathRecording(const PlotSubject& subject, const simulation::TimedMachine& machine)
+    : subject_(subject), machine_(machine), home_(place({.pose = subject.home})), last_(home_) {}
+
+PathRecording::Place PathRecording::place(const ToolpathPoint& point) {
+  const geometry::Pose& pose = point.pose;
+  Place result;
+  for (int axis = 0; axis < 3; ++axis) result.tip[static_cast<std::size_t>(axis)] = in_units(pose.tip[axis], 1e-3);
+  result.b = in_units(pose.b, 1e-4);
+  result.c = in_units(pose.c, 1e-4);
+  result.speed = in_units(point.speed, 1e-3);
+  return result;
+}
+
+void PathRecording::add(const ToolpathStep& step) {
+  const std::size_t count = step.points.size() - 1;
+  const std::int64_t pause = in_units(step.points.front().time - last_time_, 1e-8);
+  const std::int64_t feed = in_units(step.feed, 1e-3);
+  const std::pair<StepBits, bool> flags[] = {{kOtherLine, step.line != last_line_ + 1},
+                                             {kOtherTool, step.tool != last_tool_},
+                                             {kOtherFeed, feed != last_feed_},
+                                             {kPause, pause > 0},
+                                             {kPointCount, count != 1}};
+  auto head = static_cast<std::uint64_t>(step.kind);
+  for (const auto& [bit, is_set] : flags)
+    if (is_set) head |= bit;
+  steps_.put(head);
+  if (head & kOtherLine) steps_.put(step.line - last_line_);
+  if (head & kOtherTool) steps_.put(step.tool);
+  if (head & kOtherFeed) steps_.put_signed(feed - last_feed_);
+  if (head & kPause) steps_.put(static_cast<std::uint64_t>(pause));
+  if (head & kPointCount) steps_.put(count);
+  last_line_ = step.line;
+  last_tool_ = step.tool;
+  last_feed_ = feed;
+  if (pause > 0) last_time_ = step.points.front().time;
+  for (const ToolpathPoint& point : step.points.subspan(1)) add(place(point), point.time);
+}
+
+/// By how much it differs from the last one.
+void PathRecording::add(const Place& place, double time) {
+  for (std::size_t axis = 0; axis < 3; ++axis) points_.put_signed(place.tip[axis] - last_.tip[axis]);
+  points_.put(static_cast<std::uint64_t>(std::max<std::int64_t>(0, in_units(time - last_time_, 1e-8))));
+  points_.put_signed(place.speed - last_.speed);
+  ++points_since_turn_;
+  if (place.b != last_.b || place.c != last_.c) {
+    turns_.put(std::exchange(points_since_turn_, 0));
+    turns_.put_signed(place.b - last_.b);
+    turns_.put_signed(place.c - last_.c);
+  }
+  last_ = place;
+  last_time_ = std::max(time, last_time_);
+}
+
+/// Infinite ends become null.
+static Json range(const motion::AxisLimits& axis) { return Json::array({axis.least, axis.most}); }
+
+static Json tool_of(const std::optional<execution::ToolCode>& tool, const std::vector<PlotTool>& known) {
+  Json json = {{"name", nullptr}, {"length", nullptr}, {"radius", nullptr}};
+  if (!tool) return json;
+  json["name"] = shown_tool(*tool, known);
+  for (const PlotTool& each : known) {
+    if (each.code != *tool) continue;
+    if (each.length) json["length"] = *each.length;
+    if (each.radius) json["radius"] = *each.radius;
+  }
+  return json;
+}
+
+std::string PathRecording::facts(const Toolpath& path, const running::RunResult& result) const {
+  static constexpr std::string_view kEndings[] = {"end", "error", "until"};
+  const bool is_three_axis = machine_.motion.kinematics.kind == motion::MachineKind::ThreeAxis;
+  Json json = {{"version", 1},
+               {"name", subject_.name},
+               {"language", dialect::name_of(subject_.language)},
+               {"ending", kEndings[static_cast<std::size_t>(result.ending)]},
+               {"endLine", result.line},
+               {"turnsTool", !is_three_axis},
+               {"home", Json::array({home_.tip[0], home_.tip[1], home_.tip[2], home_.b, home_.c})},
+               {"tools", Json::array()},
+               {"frames", Json::array()},
+               {"travel", Json::array()}};
+  for (const auto& tool : path.tools()) json["tools"].push_back(tool_of(tool, subject_.tools));
+  for (const ToolpathFrame& each : path.frames())
+    json["frames"].push_back({{"line", each.line},
+                              {"origin", running::array(each.frame.origin)},
+                              {"i", running::array(geometry::Vec3(each.frame.axes.col(0)))},
+                              {"j", running::array(geometry::Vec3(each.frame.axes.col(1)))},
+                              {"k", running::array(geometry::Vec3(each.frame.axes.col(2)))}});
+  for (const motion::AxisLimits& axis : machine_.motion.axes) json["travel"].push_back(range(axis));
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace isocnc::plot

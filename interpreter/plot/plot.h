@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/dialect/diagnostic.h"
+#include "interpreter/plot/picture.h"
+#include "interpreter/plot/toolpath.h"
+#include "interpreter/running/runner.h"
+#include "interpreter/system/output_file.h"
+
+namespace isocnc::plot {
+
+enum class PlotFormat : std::uint8_t { Svg, Html };
+
+/// By how the name of a file ends: .svg, .html or .htm, in capitals, too.
+std::optional<PlotFormat> plot_format(std::string_view file_name);
+
+/// Listens to a run and draws the way of the tool tip.
+class Plot {
+ public:
+  Plot(PlotFormat format, const PlotSubject& subject, const simulation::TimedMachine& machine);
+
+  void add(const motion::Stretch& stretch) { path_.add(stretch); }
+  void add(const simulation::TimedEvent& timed) { path_.add(timed); }
+  void write(system::OutputFile& output, const running::RunResult& result) { picture_->write(output, path_, result); }
+
+ private:
+  std::unique_ptr<Picture> picture_;
+  Toolpath path_;
+};
+
+}  // namespace isocnc::plot

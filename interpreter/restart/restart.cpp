@@ -1,0 +1,382 @@
+#include "interpreter/restart/restart.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <utility>
+
+#include "interpreter/dialect/format.h"
+#include "interpreter/geometry/arc.h"
+#include "interpreter/syntax/characters.h"
+
+namespace isocnc::restart {
+
+using dialect::Language;
+using dialect::ModalGroup;
+using dialect::Text;
+using execution::State;
+
+static constexpr Text kNoSuchLine{"there is no line {}: the last one is {}", "la riga {} non esiste: l'ultima è la {}"};
+static constexpr Text kBehindEnd{"line {} is not run: the program ends at line {}",
+                                 "la riga {} non viene eseguita: il programma termina alla riga {}"};
+static constexpr Text kJumpedOver{"line {} is not run: the IF of line {} jumps over it",
+                                  "la riga {} non viene eseguita: la scavalca l'IF della riga {}"};
+static constexpr Text kChoice{" (--vgpl and --set choose the way)", " (--vgpl e --set scelgono il percorso)"};
+static constexpr Text kUnsafe{"no safe restart before line {}: {}", "nessuna ripresa sicura dalla riga {}: {}"};
+static constexpr Text kCompensation{"cutter compensation (G{}) is in force",
+                                    "è in presa la correzione raggio fresa (G{})"};
+static constexpr Text kOnContour{
+    "after G40 the tool still stands beside the contour, and from there the program would not go on as it does",
+    "dopo la G40 l'utensile è ancora accanto al profilo, e da lì il programma non proseguirebbe allo stesso modo"};
+static constexpr Text kRadiusUnknown{
+    "after G40 the tool still stands beside the contour, and how far is not known without its radius (machine.tools)",
+    "dopo la G40 l'utensile è ancora accanto al profilo, e senza il suo raggio (machine.tools) non si sa quanto"};
+static constexpr Text kOffProgram{
+    "the tool change has left the tip off the programmed place, and from there the program would not go on as it does",
+    "il cambio utensile ha lasciato la punta fuori dalla quota programmata, e da lì il programma non proseguirebbe "
+    "allo "
+    "stesso modo"};
+static constexpr Text kChangedLow{
+    "the frame has changed with the tool in the cut, and no rapid has followed",
+    "il sistema di riferimento è cambiato con l'utensile nel pezzo, senza un rapido dopo"};
+static constexpr Text kLooksDown{"the face in force looks down and cannot be reached from above",
+                                 "la faccia in presa guarda in basso e non si raggiunge dall'alto"};
+static constexpr Text kPointsUp{"the tool points up and cannot be brought there from above",
+                                "l'utensile punta in alto e non ci si arriva dall'alto"};
+static constexpr Text kExactStop{"the G09 that comes next belongs to the motion above",
+                                 "la G09 che segue appartiene al movimento che precede"};
+static constexpr Text kArcContinues{"it goes on with the G{:02} above it, which only an arc can bring into force",
+                                    "prosegue con la G{:02} che precede, che solo un arco può mettere in presa"};
+static constexpr Text kBeyondTravel{"on the way there {} would go to {:.3f} (limit {:.3f})",
+                                    "sul percorso {} arriverebbe a {:.3f} (limite {:.3f})"};
+static constexpr Text kNotProved{"a trial of the restart program does not come to the same state",
+                                 "la prova del programma di ripresa non arriva allo stesso stato"};
+static constexpr Text kNearest{"nearest safe line: {}", "riga sicura più vicina: {}"};
+static constexpr Text kNearestTwo{"nearest safe lines: {} before it, {} after it",
+                                  "righe sicure più vicine: {} prima, {} dopo"};
+
+namespace {
+
+/// Where a line begins, and how many there are before it.
+struct LineStart {
+  std::size_t offset = 0;
+  std::uint64_t line = 0;
+  bool is_there = false;
+};
+
+LineStart find_line(std::string_view text, std::uint64_t line) {
+  const char* p = text.data();
+  const char* const end = text.data() + text.size();
+  std::uint64_t count = 0;
+  for (; count < line && p != end; ++count) p = syntax::skip_line_end(syntax::find_line_end(p, end), end);
+  return {static_cast<std::size_t>(p - text.data()), count, p != end};
+}
+
+/// As the program's first line ends.
+std::string_view line_end_of(std::string_view text) {
+  const char* const end = text.data() + text.size();
+  const char* const p = syntax::find_line_end(text.data(), end);
+  if (p == end) return "\n";
+  return {p, static_cast<std::size_t>(syntax::skip_line_end(p, end) - p)};
+}
+
+std::uint64_t count_lines(std::string_view text) {
+  return find_line(text, std::numeric_limits<std::uint64_t>::max()).line;
+}
+
+bool is_near(const geometry::Vec3& a, const geometry::Vec3& b) {
+  return (a - b).cwiseAbs().maxCoeff() <= geometry::kEqualCoordinate;
+}
+
+bool has_same_frames(const State& a, const State& b) {
+  return is_near(a.workpiece_origin, b.workpiece_origin) && a.face_mounted == b.face_mounted &&
+         is_near(a.face.origin, b.face.origin) && (a.face.axes - b.face.axes).cwiseAbs().maxCoeff() < 1e-9;
+}
+
+/// G28 is written as G24, and a motion G that is written again before it is needed is left out.
+bool has_same_modes(const State& a, const State& b, bool needs_motion) {
+  for (std::size_t i = 0; i < dialect::kModalGroupCount; ++i) {
+    const auto group = static_cast<ModalGroup>(i);
+    const bool matters = group != ModalGroup::Face && (group != ModalGroup::Motion || needs_motion);
+    if (matters && a.mode(group) != b.mode(group)) return false;
+  }
+  return true;
+}
+
+/// Whether all that follows is the same after `a` as after `b`, where the tip is in the same place.
+bool is_same_but_for_tip(const State& a, const State& b, bool needs_motion) {
+  constexpr State::Knowledge kTurns = State::kClockwise | State::kCounterclockwise;
+  return std::abs(a.position.b - b.position.b) <= geometry::kEqualCoordinate &&
+         std::abs(a.position.c - b.position.c) <= geometry::kEqualCoordinate && has_same_frames(a, b) &&
+         has_same_modes(a, b, needs_motion) && a.tool == b.tool && a.tool_selected == b.tool_selected &&
+         a.feed_per_minute == b.feed_per_minute && feed_in_force(a) == feed_in_force(b) &&
+         a.spindle_speed == b.spindle_speed && (a.knowledge & kTurns) == (b.knowledge & kTurns);
+}
+
+/// What a restart program does when it is tried.
+struct Trial {
+  bool is_proved = false;                        ///< It comes to the line in the same state, and ends as the original.
+  std::optional<motion::Overtravel> overtravel;  ///< The first on the way to the line.
+};
+
+/// Runs the restart program as the control would, from home.
+Trial try_program(std::string_view program, std::uint64_t preamble_lines, const RestartSurvey& survey,
+                  const RestartOptions& options) {
+  const RestartPoint& point = survey.point();
+  // Off the program the restart begins with another programmed place, and goes on as the original: runs_alike().
+  const auto is_same = [&](const State& a, const State& b) {
+    return is_same_but_for_tip(a, b, point.continues_motion) &&
+           (point.is_off_program || is_near(a.position.tip, b.position.tip));
+  };
+  Trial trial;
+  simulation::MachineCourse course(options.machine, options.run.setup.home);
+  bool comes_to_state = false;
+  running::RunOptions run_options = options.run;
+  run_options.before_block = [&](const running::Block& block) {
+    if (block.line == preamble_lines)
+      comes_to_state = is_same(block.state, point.state) && block.registers == point.registers &&
+                       is_near(course.tip().tip, point.machine_tip.tip);
+  };
+  const simulation::MachineCourse::Listeners approach = {.move =
+                                                             [&](const running::Event&, const motion::Move& move) {
+                                                               if (trial.overtravel) return;
+                                                               const auto found =
+                                                                   motion::overtravels(options.machine.motion, move);
+                                                               if (!found.empty()) trial.overtravel = found.front();
+                                                             },
+                                                         .frame = {}};
+  const running::RunResult result = run(program, run_options, [&](const running::Event& event) {
+    if (event.line < preamble_lines) course.take(event, approach);
+  });
+  trial.is_proved =
+      comes_to_state && result.ending == running::Ending::ProgramEnd && is_same(result.state, survey.run().state);
+  return trial;
+}
+
+/// The motions of the machine from a line on.
+class Rest {
+ public:
+  struct Motion {
+    std::uint64_t line = 0;  // From the line on.
+    execution::MoveKind kind = execution::MoveKind::Rapid;
+    motion::Move move;
+  };
+
+  Rest(std::string_view text, const RestartOptions& options, std::uint64_t line)
+      : line_(line), program_(text), runner_(program_, options.run), course_(options.machine, options.run.setup.home) {
+    while (!runner_.has_ended() && runner_.place().line < line) step();
+  }
+  Rest(const Rest&) = delete;
+  Rest& operator=(const Rest&) = delete;
+
+  /// The next that goes anywhere.
+  std::optional<Motion> next() {
+    while (motions_.empty() && !runner_.has_ended()) step();
+    if (motions_.empty()) return std::nullopt;
+    const Motion first = motions_.front();
+    motions_.pop_front();
+    return first;
+  }
+
+ private:
+  void step() {
+    runner_.step();
+    for (const running::Event& event : runner_.events()) course_.take(event, listeners_);
+    if (runner_.has_ended()) course_.finish(listeners_);
+  }
+  void add(const running::Event& event, const motion::Move& move) {
+    const bool goes =
+        move.is_arc || !is_near(move.from.tip, move.to.tip) || move.from.b != move.to.b || move.from.c != move.to.c;
+    if (event.line >= line_ && goes)
+      motions_.push_back({event.line - line_, std::get<running::MoveEvent>(event.what).kind, move});
+  }
+
+  const std::uint64_t line_;
+  const running::Program program_;
+  running::Runner runner_;
+  simulation::MachineCourse course_;
+  const simulation::MachineCourse::Listeners listeners_{
+      .move = [this](const running::Event& event, const motion::Move& move) { add(event, move); }, .frame = {}};
+  std::deque<Motion> motions_;
+};
+
+bool is_near(const motion::Feed& a, const motion::Feed& b) {
+  constexpr double kRounding = 1e-6;
+  return a.kind == b.kind && std::abs(a.value - b.value) <= kRounding * std::abs(a.value);
+}
+
+bool is_near(const geometry::Pose& a, const geometry::Pose& b) {
+  return is_near(a.tip, b.tip) && std::abs(a.b - b.b) <= geometry::kEqualCoordinate &&
+         std::abs(a.c - b.c) <= geometry::kEqualCoordinate;
+}
+
+bool is_same(const Rest::Motion& a, const Rest::Motion& b) {
+  if (a.line != b.line || a.kind != b.kind || a.move.is_arc != b.move.is_arc) return false;
+  if (!is_near(a.move.from, b.move.from) || !is_near(a.move.to, b.move.to)) return false;
+  if (!is_near(a.move.feed, b.move.feed) || a.move.splits_arcs != b.move.splits_arcs) return false;
+  return !a.move.is_arc || (is_near(a.move.center, b.move.center) && is_near(a.move.normal, b.move.normal) &&
+                            std::abs(a.move.sweep_deg - b.move.sweep_deg) <= geometry::kEqualCoordinate);
+}
+
+/// Whether the machine goes on in a restart program exactly as in the original.
+bool runs_alike(std::string_view text, std::string_view program, std::uint64_t preamble_lines,
+                const RestartOptions& options) {
+  Rest original(text, options, options.line);
+  Rest restarted(program, options, preamble_lines);
+  for (;;) {
+    const auto wanted = original.next();
+    const auto found = restarted.next();
+    if (!wanted || !found) return !wanted && !found;
+    if (!is_same(*wanted, *found)) return false;
+  }
+}
+
+/// A restart program, or what stands in its way.
+struct Attempt {
+  std::string program;
+  Obstacle obstacle = Obstacle::None;
+  std::optional<motion::Overtravel> overtravel;
+};
+
+Attempt attempt(std::string_view text, const RestartOptions& options, const RestartSurvey& survey) {
+  Attempt made{.program = {}, .obstacle = survey.obstacle(options.line), .overtravel = {}};
+  if (made.obstacle != Obstacle::None) return made;
+  const RestartPoint& point = survey.point();
+  made.program = restart_preamble(point, options, line_end_of(text));
+  const std::uint64_t preamble_lines = count_lines(made.program);
+  made.program += text.substr(find_line(text, options.line).offset);
+  const Trial trial = try_program(made.program, preamble_lines, survey, options);
+  if (point.is_off_program && !(trial.is_proved && runs_alike(text, made.program, preamble_lines, options))) {
+    made.obstacle = point.is_beside_contour ? Obstacle::OnContour : Obstacle::OffProgram;
+  } else if (!trial.is_proved) {
+    made.obstacle = Obstacle::NotProved;
+  } else if (trial.overtravel) {
+    made.obstacle = Obstacle::BeyondTravel;
+    made.overtravel = trial.overtravel;
+  }
+  return made;
+}
+
+/// Looks for a line from which there is a restart, from the first candidate to the next. Where the machine is off the
+/// program only a restart program shows it, and no more than a few are made.
+class Proposals {
+ public:
+  Proposals(std::string_view text, const RestartOptions& options, const RestartSurvey& survey)
+      : text_(text), options_(options), survey_(survey) {}
+
+  bool fits(std::uint64_t line) {
+    if (!survey_.is_safe(line)) return false;
+    if (!survey_.is_off_program(line)) return true;
+    constexpr int kMaxTrials = 4;
+    if (trials_ == kMaxTrials) return false;
+    ++trials_;
+    RestartOptions there = options_;
+    there.line = line;
+    const RestartSurvey survey(text_, there.run, there.machine, line);
+    return attempt(text_, there, survey).obstacle == Obstacle::None;
+  }
+
+ private:
+  const std::string_view text_;
+  const RestartOptions& options_;
+  const RestartSurvey& survey_;
+  int trials_ = 0;
+};
+
+void propose_lines(std::string_view text, const RestartOptions& options, const RestartSurvey& survey,
+                   RestartRefusal& refusal) {
+  Proposals above(text, options, survey);
+  for (std::uint64_t line = std::min(refusal.line, survey.end()); line-- > 0 && !refusal.before;)
+    if (above.fits(line)) refusal.before = line;
+  Proposals below(text, options, survey);
+  for (std::uint64_t line = refusal.line + 1; line < survey.end() && !refusal.behind; ++line)
+    if (below.fits(line)) refusal.behind = line;
+}
+
+RestartRefusal refuse(const Attempt& made, std::string_view text, const RestartOptions& options,
+                      const RestartSurvey& survey) {
+  const Obstacle obstacle = made.obstacle;
+  RestartRefusal refusal{.obstacle = obstacle, .line = options.line};
+  refusal.cause = survey.line_of_cause(options.line);
+  refusal.run = survey.run();
+  refusal.has_choices = survey.has_choices();
+  const State& state = survey.point().state;
+  refusal.g = state.mode(obstacle == Obstacle::Compensation ? ModalGroup::CutterCompensation : ModalGroup::Motion);
+  if (made.overtravel) refusal.overtravel = *made.overtravel;
+  // Whether the travel suffices for other lines, only a trial of each would tell.
+  if (obstacle != Obstacle::ProgramError && obstacle != Obstacle::BeyondTravel)
+    propose_lines(text, options, survey, refusal);
+  return refusal;
+}
+
+const Text& reason(Obstacle obstacle) {
+  switch (obstacle) {
+    case Obstacle::Compensation:
+      return kCompensation;
+    case Obstacle::OnContour:
+      return kOnContour;
+    case Obstacle::RadiusUnknown:
+      return kRadiusUnknown;
+    case Obstacle::OffProgram:
+      return kOffProgram;
+    case Obstacle::FrameChangedLow:
+      return kChangedLow;
+    case Obstacle::FaceLooksDown:
+      return kLooksDown;
+    case Obstacle::ToolPointsUp:
+      return kPointsUp;
+    case Obstacle::ExactStop:
+      return kExactStop;
+    case Obstacle::ArcContinues:
+      return kArcContinues;
+    default:
+      return kNotProved;
+  }
+}
+
+std::string what_is_wrong(const RestartRefusal& refusal, Language language) {
+  const auto say = [&](const Text& text, auto... values) { return dialect::format(text, language, values...); };
+  switch (refusal.obstacle) {
+    case Obstacle::NoSuchLine:
+      return say(kNoSuchLine, refusal.line + 1, refusal.cause);
+    case Obstacle::BehindEnd:
+      return say(kBehindEnd, refusal.line + 1, refusal.cause + 1);
+    case Obstacle::JumpedOver:
+      return say(kJumpedOver, refusal.line + 1, refusal.cause + 1);
+    case Obstacle::BeyondTravel:
+      return say(kUnsafe, refusal.line + 1,
+                 say(kBeyondTravel, dialect::kAxisLetters[refusal.overtravel.axis], refusal.overtravel.position,
+                     refusal.overtravel.limit));
+    default:
+      return say(kUnsafe, refusal.line + 1, say(reason(refusal.obstacle), refusal.g));
+  }
+}
+
+}  // namespace
+
+std::variant<std::string, RestartRefusal> restart_program(std::string_view text, const RestartOptions& options) {
+  if (!find_line(text, options.line).is_there)
+    return RestartRefusal{.obstacle = Obstacle::NoSuchLine, .line = options.line, .cause = count_lines(text)};
+  const RestartSurvey survey(text, options.run, options.machine, options.line);
+  Attempt made = attempt(text, options, survey);
+  if (made.obstacle != Obstacle::None) return refuse(made, text, options, survey);
+  return std::move(made.program);
+}
+
+std::string message(const RestartRefusal& refusal, Language language) {
+  std::string text = what_is_wrong(refusal, language);
+  const bool is_not_run = refusal.obstacle == Obstacle::BehindEnd || refusal.obstacle == Obstacle::JumpedOver;
+  if (is_not_run && refusal.has_choices) text += kChoice.in(language);
+  const auto add = [&](const Text& nearest, auto... lines) {
+    text += "; " + dialect::format(nearest, language, (lines + 1)...);
+  };
+  if (refusal.before && refusal.behind) {
+    add(kNearestTwo, *refusal.before, *refusal.behind);
+  } else if (refusal.before || refusal.behind) {
+    add(kNearest, refusal.before ? *refusal.before : *refusal.behind);
+  }
+  return text;
+}
+
+}  // namespace isocnc::restart

@@ -1,0 +1,122 @@
+#include "interpreter/run_report.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "interpreter/system/system_texts.h"
+
+namespace isocnc::interpreter {
+
+RunReport::RunReport(const RunOutputs& outputs, const simulation::TimedMachine& machine)
+    : outputs_(outputs),
+      machine_(machine),
+      standard_output_(STDOUT_FILENO),
+      trace_(open(outputs.trace, trace_file_)),
+      samples_(open(outputs.samples, samples_file_)),
+      summary_(machine),
+      timing_(machine,
+              {.event = [this](const simulation::TimedEvent& timed) { take(timed); },
+               .stretch = [this](const motion::Stretch& stretch, const simulation::TimedEvent&) { take(stretch); }}),
+      compensation_(machine),
+      compensated_{.event = [this](const running::Event& event) { timing_.take(event); },
+                   .warning = [this](const simulation::RunWarning& warning) { warnings_.push_back(warning); }} {
+  open(outputs.plot, plot_file_);
+  if (const auto format = plot::plot_format(outputs.plot)) plot_.emplace(*format, outputs.subject, machine);
+  last_sample_.tip = timing_.tip();
+  last_sample_.joints = timing_.joints();
+}
+
+system::OutputFile* RunReport::open(const std::string& name, std::optional<system::OutputFile>& file) {
+  if (name.empty()) return nullptr;
+  if (name == "-") return &standard_output_;
+  file.emplace(std::filesystem::path(name));
+  if (const int error = file->error())
+    problems_.push_back(fmt::format("{}: {}", name, system::cannot_write(error, outputs_.language)));
+  return &*file;
+}
+
+void RunReport::close(system::OutputFile& output, const std::string& name) {
+  if (const std::optional<std::string> problem = system::commit(output, name, outputs_.language))
+    problems_.push_back(*problem);
+}
+
+void RunReport::take(const simulation::TimedEvent& timed) {
+  summary_.add(timed);
+  if (plot_) plot_->add(timed);
+  if (trace_ != nullptr) trace_->write(to_json(timed, machine_) + '\n');
+  if (samples_ == nullptr || !std::holds_alternative<running::ToolEvent>(timed.event.what)) return;
+  // The joints stand still; what ends elsewhere from now on is the tool.
+  sample_rest(timed.start + timed.duration);
+  last_sample_.tip = timing_.tip();
+}
+
+void RunReport::take(const motion::Stretch& stretch) {
+  if (plot_) plot_->add(stretch);
+  if (samples_ == nullptr) return;
+  sample_rest(stretch.start);
+  const double end = stretch.start + stretch.duration;
+  for (; static_cast<double>(next_sample_) * outputs_.sample_seconds < end; ++next_sample_)
+    write(stretch.at(machine_.motion.kinematics, static_cast<double>(next_sample_) * outputs_.sample_seconds));
+  last_sample_ = stretch.at(machine_.motion.kinematics, end);
+}
+
+void RunReport::sort_warnings() {
+  const auto place = [](const simulation::RunWarning& warning) { return std::pair(warning.line, warning.id); };
+  std::stable_sort(
+      warnings_.begin(), warnings_.end(),
+      [&](const simulation::RunWarning& a, const simulation::RunWarning& b) { return place(a) < place(b); });
+  const auto is_same = [&](const simulation::RunWarning& a, const simulation::RunWarning& b) {
+    return place(a) == place(b);
+  };
+  warnings_.erase(std::unique(warnings_.begin(), warnings_.end(), is_same), warnings_.end());
+}
+
+/// The machine stands where the last motion ended.
+void RunReport::sample_rest(double until) {
+  motion::Sample resting = last_sample_;
+  resting.speed = 0;
+  for (; static_cast<double>(next_sample_) * outputs_.sample_seconds < until; ++next_sample_) {
+    resting.time = static_cast<double>(next_sample_) * outputs_.sample_seconds;
+    write(resting);
+  }
+}
+
+void RunReport::write(const motion::Sample& sample) {
+  const motion::Coordinates& joints = sample.joints;
+  const geometry::Pose& tip = sample.tip;
+  samples_->write(fmt::format(
+      "{{\"t\":{:.6f},\"tip\":[{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}],\"joints\":[{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}],"
+      "\"speed\":{:.6f}}}\n",
+      sample.time, tip.tip.x(), tip.tip.y(), tip.tip.z(), tip.b, tip.c, joints[0], joints[1], joints[2], joints[3],
+      joints[4], sample.speed));
+}
+
+void RunReport::finish(const running::RunResult& result) {
+  compensation_.finish(compensated_);
+  timing_.finish();
+  sort_warnings();
+  if (samples_ != nullptr) {
+    sample_rest(timing_.time());
+    last_sample_.time = timing_.time();
+    last_sample_.speed = 0;
+    write(last_sample_);
+  }
+  summary_.finish(result, timing_.time(), timing_.joints(), warnings_);
+  if (!has_standard_output_to_itself())
+    standard_output_.write(outputs_.json ? summary_.json(outputs_.program_name, outputs_.language)
+                                         : summary_.text(outputs_.language));
+  if (trace_file_) close(*trace_file_, outputs_.trace);
+  if (samples_file_) close(*samples_file_, outputs_.samples);
+  if (plot_) {
+    plot_->write(*plot_file_, result);
+    close(*plot_file_, outputs_.plot);
+  }
+  close(standard_output_, "<stdout>");
+}
+
+}  // namespace isocnc::interpreter

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpreter/dialect/diagnostic.h"
+#include "interpreter/plot/plot.h"
+#include "interpreter/simulation/compensation.h"
+#include "interpreter/simulation/summary.h"
+#include "interpreter/system/output_file.h"
+
+namespace isocnc::interpreter {
+
+/// What is written of a run, and where: names of files, `-` for standard output, or nothing.
+struct RunOutputs {
+  std::string trace;
+  std::string samples;
+  double sample_seconds = 0.01;
+  std::string plot;
+  plot::PlotSubject subject;  ///< Of the plot.
+  bool json = false;          ///< The summary.
+  std::string program_name;
+  dialect::Language language = dialect::Language::English;
+};
+
+/// Listens to a run on a machine, and writes what is wanted of it.
+class RunReport {
+ public:
+  RunReport(const RunOutputs& outputs, const simulation::TimedMachine& machine);
+
+  /// Whether all files could be made; problems() tells else.
+  bool is_ready() const { return problems_.empty(); }
+  void take(const running::Event& event) { compensation_.take(event, compensated_); }
+  /// Writes the rest. Whatever could not be written stands in problems().
+  void finish(const running::RunResult& result);
+  const std::vector<std::string>& problems() const { return problems_; }
+  /// By line, each once; complete when all is finished.
+  const std::vector<simulation::RunWarning>& warnings() const { return warnings_; }
+
+ private:
+  bool has_standard_output_to_itself() const { return outputs_.trace == "-" || outputs_.samples == "-"; }
+  system::OutputFile* open(const std::string& name, std::optional<system::OutputFile>& file);
+  void close(system::OutputFile& output, const std::string& name);
+  void take(const simulation::TimedEvent& timed);
+  void take(const motion::Stretch& stretch);
+  void sort_warnings();
+  void sample_rest(double until);
+  void write(const motion::Sample& sample);
+
+  const RunOutputs& outputs_;
+  const simulation::TimedMachine& machine_;
+  std::vector<std::string> problems_;
+  system::OutputFile standard_output_;
+  std::optional<system::OutputFile> trace_file_;
+  std::optional<system::OutputFile> samples_file_;
+  system::OutputFile* trace_;
+  system::OutputFile* samples_;
+  simulation::Summary summary_;
+  std::optional<system::OutputFile> plot_file_;
+  std::optional<plot::Plot> plot_;
+  std::uint64_t next_sample_ = 0;  ///< In units of sample_seconds.
+  motion::Sample last_sample_;
+  simulation::Timing timing_;
+  std::vector<simulation::RunWarning> warnings_;
+  simulation::Compensation compensation_;
+  simulation::Compensation::Listeners compensated_;
+};
+
+}  // namespace isocnc::interpreter

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "interpreter/geometry/range.h"
+#include "interpreter/motion/machine.h"
+#include "interpreter/motion/move.h"
+#include "interpreter/running/event.h"
+
+namespace isocnc::simulation {
+
+/// From where to where the tip has gone while a frame was in force, in its coordinates; mm.
+struct FrameExtents {
+  std::uint64_t line = 0;  ///< From 0: the G92 of a workpiece frame, or the G24, G28 or G29 of a face frame.
+  bool is_face = false;
+  geometry::Frame frame;  ///< In the machine frame.
+  std::array<geometry::Range, 3> extents;
+};
+
+/// Follows the frames of a run, and how far the tip goes in each. A workpiece frame that comes back at a G27 is the one
+/// that it was. The machine frame, which is in force before any G92, is none of them.
+class FrameLog {
+ public:
+  void take(const running::FrameEvent& event, std::uint64_t line);
+  /// `extents`: in the machine frame.
+  void take(const motion::Machine& machine, const motion::Move& move, const std::array<geometry::Range, 3>& extents);
+
+  /// In the order of the first motion in each. A part has a few; of programs with more the first ones are kept.
+  const std::vector<FrameExtents>& frames() const { return frames_; }
+  /// How many more frames there were with motions.
+  std::size_t left_out() const { return left_out_; }
+
+ private:
+  struct InForce {
+    std::optional<std::uint64_t> line;  ///< None: the machine frame.
+    geometry::Frame frame;
+    std::optional<std::size_t> place;  ///< In frames_; behind its end: left out.
+  };
+
+  std::vector<FrameExtents> frames_;
+  std::size_t left_out_ = 0;
+  InForce workpiece_;
+  std::optional<InForce> face_;
+};
+
+}  // namespace isocnc::simulation

@@ -1,0 +1,301 @@
+#include "interpreter/simulation/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace isocnc::simulation {
+
+static constexpr double kForever = std::numeric_limits<double>::infinity();
+
+Simulation::Simulation(const running::Program& program, const running::RunOptions& options, const TimedMachine& machine)
+    : machine_(&machine),
+      present_(program, options),
+      ahead_(present_),
+      compensation_(machine),
+      timing_(machine, Timing::Listeners{}),
+      begin_(machine.home) {
+  present_.pass_empty_lines();
+  ahead_ = present_;
+}
+
+/// A machine that rounds a corner stops on it: it is where the program has it, but for the length of the tool.
+static geometry::Pose at_rest(const geometry::Pose& tip, const geometry::Pose& programmed,
+                              const motion::Machine& machine) {
+  constexpr double kRounding = 1 + 1e-6;
+  const bool rounds = (tip.tip - programmed.tip).norm() <= machine.corner_tolerance * kRounding;
+  return {rounds ? programmed.tip : tip.tip, programmed.b, programmed.c};
+}
+
+static geometry::Pose programmed_pose(const execution::State& state) {
+  return {state.to_machine(state.position.tip), state.position.b, state.position.c};
+}
+
+/// The motion that has ended beside a contour, if it is the last one: elsewhere than the program.
+static const running::MoveEvent* motion_beside(const TimedEvent* last, const execution::State& state) {
+  if (last == nullptr) return nullptr;
+  const auto& move = std::get<running::MoveEvent>(last->event.what);
+  const bool is_beside = (move.to.tip - programmed_pose(state).tip).norm() > geometry::kEqualCoordinate;
+  return is_beside && move.normal != geometry::Vec3::Zero() ? &move : nullptr;
+}
+
+static Timing::Standing standing(const Simulation& before, const running::Runner& run, const TimedMachine& machine,
+                                 const running::MoveEvent* beside) {
+  const execution::State& state = run.result().state;
+  const geometry::Pose programmed = beside != nullptr ? beside->to : programmed_pose(state);
+  const bool turns = state.knows(execution::State::kClockwise | execution::State::kCounterclockwise);
+  return {
+      .time = before.time(),
+      .tip = at_rest(before.sample().tip, programmed, machine.motion),
+      .programmed = programmed,
+      .tool_length = before.tool_length(),
+      .frame_axes = state.face_mounted ? state.face.axes : geometry::Mat3(geometry::Mat3::Identity()),
+      .spindle = turns ? Timing::Spindle{.function = state.spindle, .speed = state.spindle_speed} : Timing::Spindle{},
+      .spindle_speed = state.spindle_speed};
+}
+
+Simulation::Simulation(const Simulation& before, const running::Runner& run, const TimedMachine& machine)
+    : Simulation(before, run, machine, motion_beside(before.last_motion_.get(), run.result().state)) {}
+
+Simulation::Simulation(const Simulation& before, const running::Runner& run, const TimedMachine& machine,
+                       const running::MoveEvent* beside)
+    : machine_(&machine),
+      present_(run),
+      ahead_(present_),
+      compensation_(machine, run.result().state.tool, beside),
+      timing_(machine, standing(before, run, machine, beside)),
+      last_motion_(before.last_motion_),
+      begin_(timing_.tip()),
+      begin_tool_length_(before.tool_length_),
+      tool_length_(before.tool_length_),
+      time_(before.time_) {
+  present_.pass_empty_lines();
+  ahead_ = present_;
+}
+
+void Simulation::step_block(const BeforeReading& before_reading) { advance_in_block(kForever, before_reading); }
+
+void Simulation::advance_to(double seconds, const BeforeReading& before_reading) {
+  while (!has_ended() && seconds > time_) advance_in_block(seconds, before_reading);
+}
+
+void Simulation::advance_in_block(double seconds, const BeforeReading& before_reading) {
+  if (has_ended() || !(seconds > time_)) return;
+  if (!in_block_) begin_block();
+  carry_on(seconds, before_reading);
+}
+
+void Simulation::advance_along(double way, const BeforeReading& before_reading) {
+  if (has_ended() || !(way > 0)) return;
+  if (!in_block_) begin_block();
+  while (in_block_ && read_on(before_reading) && is_of_block(piece())) {
+    const double end = piece()->end;
+    if (const auto& stretch = piece()->stretch) {
+      const double from = stretch->parameter_at(time_);
+      const double left = stretch->parameter_at(end) - from;
+      if (way < left) return carry_on(stretch->time_at(from + way), before_reading);
+      way -= left;
+    }
+    carry_on(end, before_reading);
+  }
+  carry_on(time_, before_reading);  // The block is over, unless the machine has to wait.
+}
+
+void Simulation::step_instruction(const BeforeReading& before_reading) {
+  if (has_ended()) return;
+  if (!in_block_) {
+    begin_block();
+    return carry_on(time_, before_reading);
+  }
+  if (!read_on(before_reading) || !is_of_block(piece())) return carry_on(kForever, before_reading);
+  const auto cause = piece()->cause;
+  while (in_block_ && read_on(before_reading) && is_of_block(piece()) && piece()->cause == cause)
+    carry_on(piece()->end, before_reading);
+}
+
+/// The next block, with all that it brings about but what takes time. The control has read it already, unless the
+/// machine had to get there first.
+void Simulation::begin_block() {
+  const bool is_news = !ahead_.has_ended() && ahead_.place() == present_.place();
+  const std::uint64_t blocks_before = blocks();
+  line_ = present_.place().line;
+  present_.step();
+  in_block_ = blocks() > blocks_before;
+  if (is_news) {
+    timing_.listen(listeners());
+    plan(present_.events());
+    timing_.listen({});
+  }
+  present_.pass_empty_lines();
+  if (is_news) ahead_ = present_;
+}
+
+/// To the end of the block in progress, or to `seconds`. The block ends where the next thing begins.
+void Simulation::carry_on(double seconds, const BeforeReading& before_reading) {
+  while (in_block_) {
+    const bool is_known = read_on(before_reading);
+    const bool is_over = !is_known || !is_of_block(piece());
+    const double end = !is_over ? piece()->end : is_known ? piece()->start : timing_.time();
+    if (end > seconds) {
+      time_ = std::max(time_, seconds);
+      return;
+    }
+    time_ = std::max(time_, end);
+    if (is_over) {
+      in_block_ = false;
+    } else {
+      pass_piece();
+    }
+  }
+}
+
+void Simulation::pass_piece() {
+  const running::Event& event = pieces_[passed_].cause->event;
+  if (const auto* const change = std::get_if<running::ToolEvent>(&event.what))
+    tool_length_ = machine_->tool_length(change->tool);
+  if (const auto& stretch = pieces_[passed_].stretch) {
+    if (!last_stretch_ || last_stretch_->tag != stretch->tag) gone_ = 0;
+    // Behind the last of a move nobody asks.
+    if (!stretch->ends_move)
+      gone_ += stretch->parameter_at(stretch->start + stretch->duration) - stretch->parameter_at(stretch->start);
+    last_stretch_ = stretch;
+    last_motion_ = pieces_[passed_].cause;
+  }
+  ++passed_;
+}
+
+/// Until it is known what the machine does next. False where it comes to rest before anything more is read, or at all.
+bool Simulation::read_on(const BeforeReading& before_reading) {
+  if (piece() != nullptr) return true;
+  pieces_.clear();
+  passed_ = 0;
+  if (before_reading) before_reading(*this);
+  timing_.listen(listeners());
+  while (pieces_.empty() && may_read_on()) {
+    ahead_.step();
+    plan(ahead_.events());
+    ahead_.pass_empty_lines();
+  }
+  if (pieces_.empty()) come_to_rest();
+  timing_.listen({});  // A copy must not tell us.
+  return !pieces_.empty();
+}
+
+/// The control reads an IF when the machine has got there (I.5).
+bool Simulation::may_read_on() {
+  if (ahead_.has_ended()) return false;
+  const auto block = ahead_.next();
+  return !block || block->tree.jump == nullptr || !block->tree.jump->has_target;
+}
+
+/// What the control has read goes to the planner, as motions of the tool and with their times.
+void Simulation::plan(std::span<const running::Event> events) {
+  const Compensation::Listeners to_timing = compensated();
+  for (const running::Event& event : events) compensation_.take(event, to_timing);
+}
+
+void Simulation::come_to_rest() {
+  compensation_.pause(compensated());
+  timing_.finish();
+}
+
+Compensation::Listeners Simulation::compensated() {
+  return {.event = [this](const running::Event& event) { timing_.take(event); }, .warning = [](const RunWarning&) {}};
+}
+
+/// Whatever takes time becomes a piece, and a tool change in any case.
+Timing::Listeners Simulation::listeners() {
+  return {.event =
+              [this](const TimedEvent& timed) {
+                if (std::holds_alternative<running::MoveEvent>(timed.event.what)) return;
+                if (!(timed.duration > 0) && !std::holds_alternative<running::ToolEvent>(timed.event.what)) return;
+                pieces_.push_back({.start = timed.start,
+                                   .end = timed.start + timed.duration,
+                                   .cause = std::make_shared<const TimedEvent>(timed)});
+              },
+          .stretch =
+              [this](const motion::Stretch& stretch, const TimedEvent& timed) {
+                ++stretches_;
+                const bool goes_on = !pieces_.empty() && pieces_.back().stretch.has_value() &&
+                                     pieces_.back().stretch->tag == stretch.tag;
+                pieces_.push_back({.start = stretch.start,
+                                   .end = stretch.start + stretch.duration,
+                                   .cause = goes_on ? pieces_.back().cause : std::make_shared<const TimedEvent>(timed),
+                                   .stretch = stretch});
+              }};
+}
+
+std::uint64_t Simulation::line() const {
+  if (in_block_) return line_;
+  return present_.has_ended() ? run().line : present_.place().line;
+}
+
+const running::Event* Simulation::event() const {
+  const bool is_at_it = in_block_ && is_of_block(piece()) && piece()->start <= time_;
+  return is_at_it ? &piece()->cause->event : nullptr;
+}
+
+const motion::Stretch* Simulation::stretch() const {
+  const bool moves = piece() != nullptr && piece()->stretch.has_value() && piece()->start <= time_;
+  return moves ? &*piece()->stretch : nullptr;
+}
+
+motion::Sample Simulation::sample() const {
+  const motion::Kinematics& kinematics = machine_->motion.kinematics;
+  if (const motion::Stretch* const moving = stretch()) return moving->at(kinematics, time_);
+  motion::Sample standing{.time = time_, .tip = begin_};
+  double length = begin_tool_length_;  // Of the tool that it has come here with.
+  if (last_stretch_) {
+    const motion::Sample last = last_stretch_->at(kinematics, kForever);
+    standing.tip = last.tip;
+    standing.joints = last.joints;
+    length = last_stretch_->path.tool_length;
+  } else {
+    standing.joints = motion::inverse(kinematics, motion::coordinates(standing.tip), length);
+  }
+  if (length != tool_length_) standing.tip = motion::pose(motion::forward(kinematics, standing.joints, tool_length_));
+  return standing;
+}
+
+/// As the planner measures it.
+static double path_of(const motion::Machine& machine, const motion::Move& move) {
+  return (move.is_arc ? programmed_circle(move) : programmed_line(machine, move, move.from, move.to)).length;
+}
+
+DistanceToGo Simulation::to_go() const {
+  const motion::Stretch* const moving = stretch();
+  if (moving == nullptr || event() == nullptr) return {};
+  const motion::Move& move = *piece()->cause->move;
+  const double here = moving->parameter_at(time_);
+  const double gone = last_stretch_ && last_stretch_->tag == moving->tag ? gone_ : 0;
+  const double left = path_of(machine_->motion, move) - gone - (here - moving->parameter_at(moving->start));
+  return {.axes = motion::coordinates(move.to) - motion::coordinates(sample().tip),
+          .path = moving->ends_move ? moving->parameter_at(kForever) - here : std::max(0.0, left)};
+}
+
+std::optional<ArcSegment> Simulation::segment() const {
+  const motion::Stretch* const moving = stretch();
+  if (moving == nullptr || event() == nullptr) return std::nullopt;
+  const motion::Move& move = *piece()->cause->move;
+  const int count = motion::segment_count(machine_->motion, move);
+  if (count < 2) return std::nullopt;
+  // Rounded corners make the way a little shorter: a place this near to an end counts as there.
+  constexpr double kNear = 1e-3;
+  const double length = path_of(machine_->motion, move) / count;
+  const double gone = path_of(machine_->motion, move) - to_go().path;
+  const int number = std::clamp(static_cast<int>(std::floor(gone / length + kNear)), 0, count - 1);
+  return ArcSegment{.number = number, .count = count, .left = (number + 1) * length - gone};
+}
+
+void Simulation::forget_past() {
+  pieces_.erase(pieces_.begin(), pieces_.begin() + static_cast<std::ptrdiff_t>(passed_));
+  passed_ = 0;
+  timing_.forget_told();
+}
+
+std::size_t Simulation::memory() const {
+  return sizeof(*this) + compensation_.memory() + timing_.memory() +
+         pieces_.size() * (sizeof(Piece) + sizeof(TimedEvent));
+}
+
+}  // namespace isocnc::simulation

@@ -1,0 +1,135 @@
+#include "interpreter/simulation/summary.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "interpreter/geometry/arc.h"
+#include "interpreter/motion/numbers.h"
+#include "interpreter/motion/travel.h"
+
+namespace isocnc::simulation {
+
+using execution::MoveKind;
+
+Summary::Summary(const TimedMachine& machine)
+    : machine_(machine),
+      checks_travel_(std::any_of(machine.motion.axes.begin(), machine.motion.axes.end(), [](const auto& axis) {
+        return std::isfinite(axis.least) || std::isfinite(axis.most);
+      })) {}
+
+/// The share of the tool that is mounted; before the first M06 of none.
+ToolShare& Summary::share() {
+  if (share_ == kNoShare) mount(std::nullopt);
+  return tools_[share_];
+}
+
+void Summary::mount(std::optional<execution::ToolCode> tool) {
+  const auto known =
+      std::find_if(tools_.begin(), tools_.end(), [&](const ToolShare& share) { return share.tool == tool; });
+  share_ = static_cast<std::size_t>(known - tools_.begin());
+  if (known == tools_.end()) tools_.push_back({.tool = tool});
+}
+
+/// None for what takes no time.
+static std::optional<Work> work_of(const running::Event& event) {
+  if (const auto* const move = std::get_if<running::MoveEvent>(&event.what)) return static_cast<Work>(move->kind);
+  if (std::holds_alternative<running::DwellEvent>(event.what)) return Work::Dwell;
+  if (std::holds_alternative<running::ToolEvent>(event.what)) return Work::ToolChange;
+  if (const auto* const function = std::get_if<running::FunctionEvent>(&event.what))
+    return dialect::is_user_function(function->number) ? Work::Function : Work::Spindle;
+  return std::nullopt;
+}
+
+void Summary::add(const TimedEvent& timed) {
+  const running::Event& event = timed.event;
+  if (const auto* const tool = std::get_if<running::ToolEvent>(&event.what)) mount(tool->tool);
+  if (const std::optional<Work> work = work_of(event)) spend(*work, timed.duration);
+  spend(Work::Channel, timed.wait);
+  if (const auto* const frame = std::get_if<running::FrameEvent>(&event.what)) frames_.take(*frame, event.line);
+  if (const auto* const spindle = std::get_if<running::SpindleSpeedEvent>(&event.what))
+    ask_for(Limit::SpindleSpeed, spindle->speed, event.line);
+  if (timed.move) add_move(std::get<running::MoveEvent>(event.what), *timed.move, event.line);
+}
+
+void Summary::spend(Work work, double seconds) {
+  if (!(seconds > 0)) return;
+  times_[static_cast<std::size_t>(work)] += seconds;
+  share().times[static_cast<std::size_t>(work)] += seconds;
+}
+
+void Summary::add_move(const running::MoveEvent& move, const motion::Move& real, std::uint64_t line) {
+  const auto [length, linear] = motion::tip_travel(machine_.motion, real);
+  Travelled& travelled = moves_[static_cast<std::size_t>(move.kind)];
+  ++travelled.count;
+  travelled.mm += length;
+  (move.kind == MoveKind::Rapid ? share().rapid_mm : share().feed_mm) += length;
+  reached_ = move.to;
+  const auto between = [](double a, double b) { return geometry::Range{std::min(a, b), std::max(a, b)}; };
+  const std::array<geometry::Range, execution::kAxisCount> reached = {
+      linear[0], linear[1], linear[2], between(real.from.b, real.to.b), between(real.from.c, real.to.c)};
+  if (!extents_) extents_ = reached;
+  for (std::size_t axis = 0; axis < reached.size(); ++axis) (*extents_)[axis].include(reached[axis]);
+  frames_.take(machine_.motion, real, linear);
+  look_at_travel(real, line);
+  look_at_speeds(real, length, line);
+}
+
+void Summary::look_at_travel(const motion::Move& real, std::uint64_t line) {
+  if (!checks_travel_) return;
+  for (const motion::Overtravel& found : motion::overtravels(machine_.motion, real)) {
+    const std::size_t side = found.position > found.limit ? 1 : 0;
+    std::optional<TravelBreach>& breach = breaches_[2 * static_cast<std::size_t>(found.axis) + side];
+    if (!breach) breach = TravelBreach{.line = line, .farthest = found.position, .limit = found.limit};
+    if (std::abs(found.position - found.limit) > std::abs(breach->farthest - breach->limit))
+      breach->farthest = found.position;
+  }
+}
+
+/// What a feed move asks for, whether or not the machine follows.
+void Summary::look_at_speeds(const motion::Move& real, double length, std::uint64_t line) {
+  if (real.feed.kind == motion::FeedKind::Rapid) return;
+  const double b = std::abs(real.to.b - real.from.b);
+  const double c = std::abs(real.to.c - real.from.c);
+  const bool only_turns = length <= geometry::kEqualCoordinate;
+  const double way = only_turns ? std::hypot(b, c) : length;
+  if (way == 0) return;
+  const double seconds = real.feed.kind == motion::FeedKind::Duration ? real.feed.value : way / real.feed.value;
+  if (!only_turns) ask_for(Limit::Feed, motion::kSecondsPerMinute * way / seconds, line);
+  ask_for(Limit::RotarySpeed, motion::kSecondsPerMinute * std::max(b, c) / seconds, line);
+}
+
+double Summary::limit_of(Limit limit) const {
+  switch (limit) {
+    case Limit::Feed:
+      return motion::kSecondsPerMinute * machine_.motion.feed_speed;
+    case Limit::RotarySpeed:
+      return motion::kSecondsPerMinute * machine_.motion.feed_turn;
+    case Limit::SpindleSpeed:
+      break;
+  }
+  return machine_.spindle_speed;
+}
+
+void Summary::ask_for(Limit limit, double value, std::uint64_t line) {
+  constexpr double kRounding = 1 + 1e-9;
+  if (!(value > limit_of(limit) * kRounding)) return;
+  std::optional<Excess>& excess = excesses_[static_cast<std::size_t>(limit)];
+  if (!excess) excess = Excess{.line = line};
+  excess->most = std::max(excess->most, value);
+}
+
+void Summary::finish(const running::RunResult& result, double seconds, const motion::Coordinates& joints,
+                     const std::vector<RunWarning>& warnings) {
+  result_ = result;
+  seconds_ = seconds;
+  joints_ = joints;
+  warnings_ = warnings;
+}
+
+geometry::Pose Summary::final_pose() const {
+  if (reached_) return *reached_;
+  const execution::State& state = result_.state;
+  return {state.to_machine(state.position.tip), state.position.b, state.position.c};
+}
+
+}  // namespace isocnc::simulation

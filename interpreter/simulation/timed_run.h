@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string_view>
+
+#include "interpreter/running/runner.h"
+#include "interpreter/simulation/compensation.h"
+#include "interpreter/simulation/timing.h"
+
+namespace isocnc::simulation {
+
+/// Runs a program on the machine, with cutter compensation, and tells what happens when.
+running::RunResult run_timed(std::string_view text, const running::RunOptions& options, const TimedMachine& machine,
+                             Timing::Listeners listeners);
+
+}  // namespace isocnc::simulation

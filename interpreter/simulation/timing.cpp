@@ -1,0 +1,208 @@
+#include "interpreter/simulation/timing.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "interpreter/motion/numbers.h"
+#include "interpreter/motion/travel.h"
+
+namespace isocnc::simulation {
+
+using execution::MoveKind;
+
+motion::Machine unbounded_machine() {
+  motion::Machine machine = motion::default_machine();
+  for (motion::AxisLimits& axis : machine.axes) {
+    axis.least = -std::numeric_limits<double>::infinity();
+    axis.most = std::numeric_limits<double>::infinity();
+  }
+  return machine;
+}
+
+/// More events than any control looks ahead.
+static constexpr std::size_t kMostWaiting = 32768;
+/// Programs may hold any number. No move is slower (mm/s, deg/s), and nothing lasts longer (s).
+static constexpr double kSlowest = 1e-6;
+static constexpr double kLongest = 1e9;
+
+double TimedMachine::tool_length(const execution::ToolCode& tool) const {
+  const auto known = tool_lengths.find(tool);
+  return known == tool_lengths.end() ? 0 : known->second;
+}
+
+double tip_length(const TimedEvent& timed, const TimedMachine& machine) {
+  return timed.move ? motion::tip_travel(machine.motion, *timed.move).length : 0;
+}
+
+std::string to_json(const TimedEvent& timed, const TimedMachine& machine) {
+  std::array<std::pair<std::string_view, double>, 4> more;
+  std::size_t count = 0;
+  const auto* const move = std::get_if<running::MoveEvent>(&timed.event.what);
+  if (timed.move) more[count++] = {"lengthMm", tip_length(timed, machine)};
+  if (move != nullptr && move->kind != MoveKind::Rapid) more[count++] = {"feed", running::feed_of(*move)};
+  more[count++] = {"start", timed.start};
+  more[count++] = {"duration", timed.duration};
+  return to_json(timed.event, std::span(more).first(count));
+}
+
+static motion::Feed planner_feed(const running::MoveEvent& move, double feed_override) {
+  if (move.kind == MoveKind::Rapid || !(move.feed > 0)) return {};
+  const double feed = move.feed * feed_override;
+  if (move.inverse_time) return {motion::FeedKind::Duration, std::min(motion::kSecondsPerMinute / feed, kLongest)};
+  return {motion::FeedKind::Speed, std::max(feed / motion::kSecondsPerMinute, kSlowest)};
+}
+
+motion::Move planned_move(const running::MoveEvent& move, const TimedMachine& machine, double tool_length) {
+  motion::Move planned;
+  planned.from = move.from;
+  planned.to = move.to;
+  planned.is_arc = move.kind == MoveKind::Arc;
+  planned.center = move.center;
+  planned.normal = move.normal;
+  planned.sweep_deg = move.sweep_deg;
+  planned.feed = planner_feed(move, machine.feed_override);
+  planned.splits_arcs = move.five_axis;
+  planned.controls_tool_point = move.kind != MoveKind::Rapid;  // A rapid is a positioning of the axes (I.3.4.1).
+  planned.tool_length = tool_length;
+  return planned;
+}
+
+Timing::Timing(const TimedMachine& machine, Listeners listeners)
+    : machine_(&machine), listeners_(std::move(listeners)), planner_(machine.motion), position_(machine.home) {}
+
+Timing::Timing(const TimedMachine& machine, const Standing& standing) : Timing(machine, Listeners{}) {
+  planner_.rest(standing.time);
+  position_ = {standing.tip, standing.programmed, standing.tool_length, standing.frame_axes};
+  spindle_ = standing.spindle;
+  spindle_speed_ = standing.spindle_speed;
+}
+
+void Timing::take(const running::Event& event) {
+  if (std::holds_alternative<running::ExactStopEvent>(event.what)) {
+    stops_exactly_ = holds_motion_;
+    return;
+  }
+  push_motion();
+  if (std::holds_alternative<running::MoveEvent>(event.what)) {
+    enqueue(event).is_motion = true;
+    ++motions_;
+    holds_motion_ = true;
+    return;
+  }
+  if (const auto* const frame = std::get_if<running::FrameEvent>(&event.what)) position_.take(*frame);
+  const double seconds = seconds_of(event);
+  turn_spindle(event);
+  if (seconds >= 0) return rest(event, seconds);
+  enqueue(event);
+}
+
+Timing::Waiting& Timing::enqueue(const running::Event& event) {
+  if (waiting_.size() >= kMostWaiting) come_to_rest();
+  Waiting& waiting = waiting_.emplace_back();
+  waiting.timed.event = event;
+  waiting.motion = motions_;
+  return waiting;
+}
+
+/// The motion that waited for a G09.
+void Timing::push_motion() {
+  if (!std::exchange(holds_motion_, false)) return;
+  Waiting& waiting = waiting_.back();
+  const running::MoveEvent& move = std::get<running::MoveEvent>(waiting.timed.event.what);
+  motion::Move planned = planned_move(move, *machine_, position_.tool_length());
+  planned.tag = waiting.motion;
+  position_.follow(move, planned);
+  planned.exact_stop = std::exchange(stops_exactly_, false);
+  // In three-axis interpolation the channel runs empty; in five-axis the motion goes on at once (I.3.8).
+  if (planned.exact_stop && !move.five_axis) waiting.timed.wait = machine_->durations.channel;
+  waiting.timed.move = planned;
+  const double channel = waiting.timed.wait;
+  planner_.push(planned);
+  if (channel > 0) planner_.rest(channel);
+  take_stretches();
+}
+
+void Timing::take_stretches() {
+  while (const motion::Stretch* const stretch = planner_.next()) take_stretch(*stretch);
+}
+
+void Timing::take_stretch(const motion::Stretch& stretch) {
+  const auto goes_before = [&](const Waiting& waiting) {
+    return waiting.motion < stretch.tag || (waiting.motion == stretch.tag && !waiting.is_motion);
+  };
+  while (!waiting_.empty() && goes_before(waiting_.front())) {
+    Waiting& first = waiting_.front();
+    if (!first.has_begun) first.timed.start = stretch.start;
+    tell_first();
+  }
+  if (waiting_.empty()) return;
+  Waiting& moving = waiting_.front();
+  if (!std::exchange(moving.has_begun, true)) moving.timed.start = stretch.start;
+  if (listeners_.stretch) listeners_.stretch(stretch, moving.timed);
+  moving.timed.duration = stretch.start + stretch.duration - moving.timed.start;
+  if (stretch.ends_move) tell_first();
+}
+
+void Timing::tell_first() {
+  if (listeners_.event) listeners_.event(waiting_.front().timed);
+  waiting_.pop_front();
+}
+
+/// What has no motion behind it has its time now.
+void Timing::come_to_rest() {
+  planner_.rest();
+  take_stretches();
+  for (; !waiting_.empty(); tell_first())
+    if (!waiting_.front().has_begun) waiting_.front().timed.start = planner_.time();
+}
+
+/// The machine stands still before and after what happens now.
+void Timing::rest(const running::Event& event, double seconds) {
+  come_to_rest();
+  const double start = planner_.time();
+  planner_.rest(seconds);
+  if (const auto* const tool = std::get_if<running::ToolEvent>(&event.what))
+    position_.mount(machine_->motion.kinematics, machine_->tool_length(tool->tool));
+  if (listeners_.event) listeners_.event({.event = event, .start = start, .duration = seconds});
+}
+
+/// How long the machine stands still for it; negative when it does not.
+double Timing::seconds_of(const running::Event& event) const {
+  const Durations& durations = machine_->durations;
+  if (const auto* const dwell = std::get_if<running::DwellEvent>(&event.what))
+    return std::min(dwell->seconds, kLongest);
+  if (std::holds_alternative<running::ToolEvent>(event.what)) return durations.tool_change;
+  if (const auto* const function = std::get_if<running::FunctionEvent>(&event.what)) {
+    if (!dialect::is_user_function(function->number))
+      return spindle_after(function->number) == spindle_ ? 0 : durations.spindle;
+    const auto named = durations.functions.find(function->number);
+    return named == durations.functions.end() ? 0 : named->second;
+  }
+  const bool waits = std::holds_alternative<running::JumpEvent>(event.what) ||
+                     std::holds_alternative<running::UpdateEvent>(event.what) ||
+                     std::holds_alternative<running::EndEvent>(event.what);
+  return waits ? 0 : -1;
+}
+
+/// What an M03, M04 or M05 brings about.
+Timing::Spindle Timing::spindle_after(int function) const {
+  return function == 5 ? Spindle{} : Spindle{.function = function, .speed = spindle_speed_};
+}
+
+/// An S alone waits for the next M03 or M04 (I.4.2); a tool change stops the spindle.
+void Timing::turn_spindle(const running::Event& event) {
+  if (const auto* const given = std::get_if<running::SpindleSpeedEvent>(&event.what)) spindle_speed_ = given->speed;
+  if (std::holds_alternative<running::ToolEvent>(event.what)) spindle_ = {};
+  const auto* const function = std::get_if<running::FunctionEvent>(&event.what);
+  if (function != nullptr && !dialect::is_user_function(function->number)) spindle_ = spindle_after(function->number);
+}
+
+void Timing::finish() {
+  push_motion();
+  come_to_rest();
+}
+
+}  // namespace isocnc::simulation

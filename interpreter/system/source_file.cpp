@@ -1,0 +1,225 @@
+#include "interpreter/system/source_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <exception>
+#include <limits>
+#include <optional>
+
+#include "interpreter/system/system_texts.h"
+
+namespace isocnc::system {
+
+using dialect::Language;
+using dialect::Text;
+
+static constexpr Text kIsDirectory{"is a directory", "è una directory"};
+static constexpr Text kIsUtf16{"is UTF-16; save it as UTF-8 or ASCII", "è in UTF-16: va salvato in UTF-8 o ASCII"};
+static constexpr Text kIsUtf32{"is UTF-32; save it as UTF-8 or ASCII", "è in UTF-32: va salvato in UTF-8 o ASCII"};
+static constexpr Text kIsBinary{"looks like a binary file", "sembra un file binario"};
+static constexpr Text kHasEndlessLine{"has a line of 4 GiB or more", "ha una riga di 4 GiB o più"};
+
+/// What is looked at to tell a program from other things.
+static constexpr std::size_t kHeadBytes = 8 * 1024;
+static constexpr std::size_t kEncodingBytes = 4 * 1024;
+/// Larger files are mapped: they would take memory of their own that is worth sparing, and nobody saves them often.
+static constexpr std::size_t kMostReadBytes = 8 * 1024 * 1024;
+static constexpr std::size_t kLongestLine = std::numeric_limits<std::uint32_t>::max();
+
+static bool ends_line(char c) { return c == '\n' || c == '\r'; }
+
+/// From the start of a line the search runs backward from where the line would be too long, so that of many short lines
+/// only the last is looked at.
+bool has_line_longer_than(std::size_t limit, std::string_view text) {
+  while (text.size() > limit) {
+    std::size_t end = limit;
+    while (!ends_line(text[end]))
+      if (end-- == 0) return true;
+    text.remove_prefix(end + 1);
+  }
+  return false;
+}
+
+/// Which of four neighboring bytes are nearly always NUL where the others seldom are, as bits; 0 when they differ less.
+static unsigned null_columns(std::string_view text) {
+  std::array<std::size_t, 4> nulls{};
+  for (std::size_t i = 0; i < text.size(); ++i) nulls[i % 4] += text[i] == '\0' ? 1 : 0;
+  unsigned columns = 0;
+  for (std::size_t i = 0; i < nulls.size(); ++i) {
+    const std::size_t all = (text.size() + 3 - i) / 4;
+    if (10 * nulls[i] >= 9 * all) {
+      columns |= 1U << i;
+    } else if (10 * nulls[i] > all) {
+      return 0;
+    }
+  }
+  return columns;
+}
+
+/// UTF-16 or UTF-32 by its mark, else by where the NULs stand that fill up Latin letters.
+static std::optional<Text> wide_encoding(std::string_view text) {
+  using namespace std::string_view_literals;
+  if (text.starts_with("\xFF\xFE\0\0"sv) || text.starts_with("\0\0\xFE\xFF"sv)) return kIsUtf32;
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return kIsUtf16;
+  text = text.substr(0, kEncodingBytes);
+  if (text.size() < 4) return std::nullopt;
+  switch (null_columns(text)) {
+    case 0b0101:
+    case 0b1010:
+      return kIsUtf16;
+    case 0b0111:
+    case 0b1110:
+      return kIsUtf32;
+    default:
+      return std::nullopt;
+  }
+}
+
+static bool is_foreign_control(char c) {
+  static constexpr std::string_view kControlsOfText = "\t\r\n\f\x1A";
+  return (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) && kControlsOfText.find(c) == std::string_view::npos;
+}
+
+/// Compressed data has the controls of its 256 values, just above a tenth, and more NULs than ever stray into a text.
+static bool looks_binary(std::string_view head) {
+  const auto controls = static_cast<std::size_t>(std::count_if(head.begin(), head.end(), is_foreign_control));
+  const auto nulls = static_cast<std::size_t>(std::count(head.begin(), head.end(), '\0'));
+  const bool many_controls = controls > 1 && 10 * controls > head.size();
+  const bool many_nulls = nulls >= 8 && 512 * nulls > head.size();
+  return many_controls || many_nulls;
+}
+
+/// Why this cannot be a program, seen from its first bytes.
+static std::optional<Text> obstacle_in_head(std::string_view text) {
+  if (const std::optional<Text> encoding = wide_encoding(text)) return encoding;
+  if (looks_binary(text.substr(0, kHeadBytes))) return kIsBinary;
+  return std::nullopt;
+}
+
+static std::optional<Text> obstacle(std::string_view text) {
+  if (const std::optional<Text> in_head = obstacle_in_head(text)) return in_head;
+  if (has_line_longer_than(kLongestLine, text)) return kHasEndlessLine;
+  return std::nullopt;
+}
+
+static bool make_room(std::string& bytes, std::size_t size) {
+  try {
+    bytes.resize(size);
+  } catch (const std::exception&) {  // No memory, or more than any string has.
+    return false;
+  }
+  return true;
+}
+
+/// Appends what the stream gives until there are `limit` bytes or it ends, with room for as many as are `expected`;
+/// returns 0 or the errno.
+static int read_up_to(std::size_t limit, std::size_t expected, int descriptor, std::string& bytes) {
+  static constexpr std::size_t kFirstBytes = 64 * 1024;
+  std::size_t size = bytes.size();
+  int error = 0;
+  while (size < limit) {
+    const std::size_t wished = std::min(limit, size < expected ? expected + 1 : std::max(kFirstBytes, 2 * size));
+    if (size == bytes.size() && !make_room(bytes, wished)) return ENOMEM;
+    const ssize_t count = ::read(descriptor, bytes.data() + size, bytes.size() - size);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) error = errno;
+    if (count <= 0) break;
+    size += static_cast<std::size_t>(count);
+  }
+  bytes.resize(size);
+  return error;
+}
+
+namespace {
+
+/// An open file, closed at the end.
+class Descriptor {
+ public:
+  explicit Descriptor(const std::filesystem::path& path) {
+    do {
+      number_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    } while (number_ < 0 && errno == EINTR);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+
+  int number() const { return number_; }
+
+ private:
+  int number_ = -1;
+};
+
+}  // namespace
+
+std::variant<SourceFile, SourceFile::Problem> SourceFile::open(const std::filesystem::path& path, Language language) {
+  return open(path, kMostReadBytes, language);
+}
+
+std::variant<SourceFile, SourceFile::Problem> SourceFile::open_unmapped(const std::filesystem::path& path,
+                                                                        Language language) {
+  return open(path, std::numeric_limits<std::size_t>::max(), language);
+}
+
+std::variant<SourceFile, SourceFile::Problem> SourceFile::open(const std::filesystem::path& path, std::size_t most_read,
+                                                               Language language) {
+  const Descriptor file(path);
+  struct stat status;
+  if (file.number() < 0 || ::fstat(file.number(), &status) != 0) return Problem{cannot_read(errno, language)};
+  if (S_ISDIR(status.st_mode)) return Problem{std::string(kIsDirectory.in(language))};
+  const auto size = static_cast<std::size_t>(status.st_size);
+  if (!S_ISREG(status.st_mode) || size <= most_read) return read(file.number(), size, language);
+  return map(path, file.number(), size, language);
+}
+
+std::variant<SourceFile, SourceFile::Problem> SourceFile::map(const std::filesystem::path& path, int descriptor,
+                                                              std::size_t size, Language language) {
+  SourceFile file;
+  file.mapped_ = std::make_unique<MappedFile>(path, descriptor, size, language);
+  const int error = file.mapped_->error();
+  // Files that the kernel makes up as they are read (sysfs) have a size, but cannot be mapped.
+  if (error == ENODEV) return read_stream(descriptor, language);
+  if (error != 0) return Problem{cannot_read(error, language)};
+  std::variant<SourceFile, Problem> result = checked(std::move(file), language);
+  // Not before the check, which may run backward through a long line.
+  if (const auto* const good = std::get_if<SourceFile>(&result)) good->mapped_->will_be_read_in_order();
+  return result;
+}
+
+std::variant<SourceFile, SourceFile::Problem> SourceFile::read_stream(int descriptor, Language language) {
+  return read(descriptor, 0, language);
+}
+
+/// Looks at the head before it reads on, since a device may have no end.
+std::variant<SourceFile, SourceFile::Problem> SourceFile::read(int descriptor, std::size_t expected,
+                                                               Language language) {
+  static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+  SourceFile file;
+  if (const int error = read_up_to(kHeadBytes, 0, descriptor, file.read_)) return Problem{cannot_read(error, language)};
+  if (const std::optional<Text> text = obstacle_in_head(file.read_)) return Problem{std::string(text->in(language))};
+  if (const int error = read_up_to(kAll, expected, descriptor, file.read_))
+    return Problem{cannot_read(error, language)};
+  return checked(std::move(file), language);
+}
+
+std::variant<SourceFile, SourceFile::Problem> SourceFile::checked(SourceFile file, Language language) {
+  if (const std::optional<Text> text = obstacle(file.text())) return Problem{std::string(text->in(language))};
+  return file;
+}
+
+std::string_view SourceFile::bytes() const { return mapped_ ? mapped_->bytes() : std::string_view(read_); }
+
+std::string_view SourceFile::text() const {
+  const std::string_view all = bytes();
+  return all.starts_with(kByteOrderMark) ? all.substr(kByteOrderMark.size()) : all;
+}
+
+}  // namespace isocnc::system

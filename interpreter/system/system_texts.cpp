@@ -1,0 +1,53 @@
+#include "interpreter/system/system_texts.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <iterator>
+#include <system_error>
+
+namespace isocnc::system {
+
+using dialect::Language;
+using dialect::Text;
+
+static constexpr Text kCannotRead{"cannot read: ", "non si può leggere: "};
+static constexpr Text kCannotWrite{"cannot write: ", "non si può scrivere: "};
+
+/// The system speaks the locale's language, not the one asked for; what it says most often is said here.
+struct SystemText {
+  int error;
+  Text text;
+};
+static constexpr SystemText kSystemTexts[] = {
+    {ENOENT, {"No such file or directory", "file o directory non esistente"}},
+    {EACCES, {"Permission denied", "permesso negato"}},
+    {EPERM, {"Operation not permitted", "operazione non permessa"}},
+    {EISDIR, {"Is a directory", "è una directory"}},
+    {ENOTDIR, {"Not a directory", "non è una directory"}},
+    {ELOOP, {"Too many levels of symbolic links", "troppi livelli di collegamenti simbolici"}},
+    {ENAMETOOLONG, {"File name too long", "nome del file troppo lungo"}},
+    {ENOMEM, {"Cannot allocate memory", "memoria insufficiente"}},
+    {EMFILE, {"Too many open files", "troppi file aperti"}},
+    {EIO, {"Input/output error", "errore di input/output"}},
+    {ENXIO, {"No such device or address", "dispositivo o indirizzo non esistente"}},
+    {ENOSPC, {"No space left on device", "spazio su disco esaurito"}},
+    {EDQUOT, {"Disk quota exceeded", "quota di spazio su disco superata"}},
+    {EFBIG, {"File too large", "file troppo grande"}},
+    {EROFS, {"Read-only file system", "file system in sola lettura"}},
+    {EPIPE, {"Broken pipe", "nessuno legge più dalla pipe"}},
+    {EBADF, {"Bad file descriptor", "il file non è aperto"}},
+};
+
+static std::string with_reason(const Text& what, int error, Language language) {
+  const auto* const row =
+      std::find_if(std::begin(kSystemTexts), std::end(kSystemTexts), [&](const auto& r) { return r.error == error; });
+  std::string message{what.in(language)};
+  if (row == std::end(kSystemTexts)) return message + std::generic_category().message(error);
+  return message.append(row->text.in(language));
+}
+
+std::string cannot_read(int error, Language language) { return with_reason(kCannotRead, error, language); }
+
+std::string cannot_write(int error, Language language) { return with_reason(kCannotWrite, error, language); }
+
+}  // namespace isocnc::system

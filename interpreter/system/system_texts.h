@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "interpreter/dialect/diagnostic.h"
+
+namespace isocnc::system {
+
+/// `cannot read: Permission denied`, for an errno.
+std::string cannot_read(int error, dialect::Language language);
+
+/// `cannot write: No space left on device`, for an errno.
+std::string cannot_write(int error, dialect::Language language);
+
+}  // namespace isocnc::system

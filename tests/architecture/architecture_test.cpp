@@ -1,0 +1,171 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "source_files.h"
+
+/// That the sources stand as docs/architecture.md says: the test reads the page's own table of modules.
+namespace isocnc::architecture {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A row of the table: a folder, and the modules that it names as seen. What those see is seen, too.
+struct Module {
+  std::string folder;
+  std::vector<std::string> sees;
+};
+
+/// All words between backquotes, in their order.
+std::vector<std::string> quoted_in(const std::string& text) {
+  static const std::regex kQuoted("`([^`]*)`");
+  std::vector<std::string> words;
+  for (std::sregex_iterator it(text.begin(), text.end(), kQuoted); it != std::sregex_iterator(); ++it)
+    words.push_back((*it)[1]);
+  return words;
+}
+
+/// The rows of C++ modules: `| `folder` | what it holds | `folder`, `folder` |`.
+std::vector<Module> modules() {
+  static const std::regex kRow(R"(^\| `([a-z_/]+)` \|[^|]*\|([^|]*)\|$)");
+  std::vector<Module> rows;
+  std::istringstream lines(read("docs/architecture.md"));
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch match;
+    if (std::regex_match(line, match, kRow)) rows.push_back({match[1], quoted_in(match[2])});
+  }
+  return rows;
+}
+
+bool lies_in(const std::string& path, const std::string& folder) { return path.starts_with(folder + "/"); }
+
+std::string folder_of(const std::string& file) { return fs::path(file).parent_path(); }
+
+/// For each module, all that it sees: itself, what its row names, and what those see.
+std::map<std::string, std::set<std::string>> all_seen() {
+  std::map<std::string, std::set<std::string>> seen;
+  for (const Module& module : modules()) {
+    std::set<std::string>& own = seen[module.folder];
+    own.insert(module.folder);
+    for (const std::string& name : module.sees) own.insert(seen[name].begin(), seen[name].end());
+  }
+  return seen;
+}
+
+TEST(Architecture, EveryModuleSeesOnlyWhatIsListedAboveIt) {
+  std::set<std::string> above;
+  for (const Module& module : modules()) {
+    for (const std::string& name : module.sees)
+      EXPECT_TRUE(above.contains(name)) << module.folder << " sees " << name << ", which has no row above it";
+    EXPECT_TRUE(above.insert(module.folder).second) << module.folder << " has two rows";
+  }
+  EXPECT_GT(above.size(), 25U);
+}
+
+TEST(Architecture, EveryFolderOfSourcesHasARowAndEveryRowAFolder) {
+  std::set<std::string> folders;
+  for (const std::string& file : sources()) folders.insert(folder_of(file));
+  std::set<std::string> rows;
+  for (const Module& module : modules()) rows.insert(module.folder);
+  EXPECT_EQ(folders, rows);
+}
+
+TEST(Architecture, EveryIncludeIsOfAModuleThatTheTableNames) {
+  const auto seen = all_seen();
+  for (const std::string& file : sources()) {
+    const std::set<std::string>& allowed = seen.at(folder_of(file));
+    for (const Include& include : includes_of(file)) {
+      if (!include.is_ours) continue;
+      EXPECT_TRUE(fs::exists(kRoot / include.header))
+          << file << " includes " << include.header << ": write it from the root of the repository";
+      EXPECT_TRUE(allowed.contains(folder_of(include.header))) << file << " must not include " << include.header;
+    }
+  }
+}
+
+/// A module that the table names and nobody includes would be an arrow in the drawing that is not there.
+TEST(Architecture, EveryModuleThatTheTableNamesIsIncluded) {
+  const auto seen = all_seen();
+  std::map<std::string, std::set<std::string>> included;
+  for (const std::string& file : sources())
+    for (const Include& include : includes_of(file))
+      if (include.is_ours) included[folder_of(file)].insert(folder_of(include.header));
+  for (const Module& module : modules())
+    for (const std::string& name : module.sees) {
+      const std::set<std::string>& through = seen.at(name);
+      EXPECT_TRUE(std::any_of(through.begin(), through.end(),
+                              [&](const std::string& each) { return included[module.folder].contains(each); }))
+          << module.folder << " includes nothing of " << name;
+    }
+}
+
+/// The libraries are linked as the table says.
+TEST(Architecture, EveryLibraryLinksTheModulesOfItsRow) {
+  const std::string text = read("CMakeLists.txt");
+  for (const Module& module : modules()) {
+    const std::regex call("\nisocnc_library\\(" + module.folder + "[ \n]([^)]*)\\)");
+    std::smatch match;
+    if (!std::regex_search(text, match, call)) continue;  // The folder of a program without a library of its own.
+    std::set<std::string> linked;
+    static const std::regex kOurs("isocnc::([a-z_]+)");
+    const std::string links = match[1];
+    for (std::sregex_iterator it(links.begin(), links.end(), kOurs); it != std::sregex_iterator(); ++it)
+      if ((*it)[1] != "fmt") linked.insert((*it)[1]);
+    std::set<std::string> named;
+    for (const std::string& name : module.sees) named.insert(fs::path(name).filename());
+    EXPECT_EQ(linked, named) << module.folder;
+  }
+}
+
+/// The modules of a line of the list under "What is absent" that ends in these words.
+std::vector<std::string> modules_that(const std::string& words) {
+  std::istringstream lines(read("docs/architecture.md"));
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("- ") && line.ends_with(words)) return quoted_in(line);
+  return {};
+}
+
+TEST(Architecture, QuietModulesKnowNoFileScreenThreadOrProtocol) {
+  static const std::set<std::string> kLoudHeaders = {"iostream", "fstream", "filesystem", "thread", "cstdio"};
+  const std::vector<std::string> quiet = modules_that(" know no file, screen, thread or protocol, and no JSON.");
+  EXPECT_GT(quiet.size(), 5U);
+  for (const std::string& file : sources()) {
+    if (std::none_of(quiet.begin(), quiet.end(), [&](const std::string& folder) { return lies_in(file, folder); }))
+      continue;
+    for (const Include& include : includes_of(file)) {
+      EXPECT_FALSE(kLoudHeaders.contains(include.header)) << file << " includes " << include.header;
+      EXPECT_FALSE(include.header.starts_with("nlohmann/")) << file << " includes " << include.header;
+    }
+  }
+}
+
+/// So a clock that jumps cannot matter: durations are taken by the steady clock, and of files' times only whether they
+/// are the same.
+TEST(Architecture, NoSourceAsksForTheTimeOfDay) {
+  static const std::regex kTimeOfDay(
+      R"(system_clock|CLOCK_REALTIME|gettimeofday|localtime|gmtime|\btime\((NULL|nullptr|0|&)|std::time\b|file_clock|high_resolution_clock)");
+  ASSERT_TRUE(std::regex_search(std::string("const auto t = ::time(nullptr);"), kTimeOfDay));
+  for (const std::string& file : sources()) EXPECT_FALSE(std::regex_search(read(file), kTimeOfDay)) << file;
+}
+
+TEST(Architecture, OneFileKnowsTheLibraryOfCommandLines) {
+  for (const std::string& file : sources())
+    for (const Include& include : includes_of(file))
+      EXPECT_TRUE(!include.header.starts_with("CLI/") || file == "interpreter/command_line/program_app.cpp") << file;
+}
+
+TEST(Architecture, EveryHeaderIsReadOnce) {
+  for (const std::string& file : sources()) {
+    if (!file.ends_with(".h")) continue;
+    EXPECT_TRUE(read(file).starts_with("#pragma once\n")) << file;
+  }
+}
+
+}  // namespace
+}  // namespace isocnc::architecture

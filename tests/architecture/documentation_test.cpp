@@ -1,0 +1,139 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "source_files.h"
+
+/// That what is written down in documents and packages agrees with the sources.
+namespace isocnc::architecture {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a command prints.
+std::string output_of(const std::string& command) {
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(::popen(command.c_str(), "r"), &::pclose);
+  std::string text;
+  for (int c = std::fgetc(pipe.get()); c != EOF; c = std::fgetc(pipe.get())) text.push_back(static_cast<char>(c));
+  return text;
+}
+
+TEST(Documentation, RulesPageIsTheTable) {
+  const bool same = read("docs/rules.md") == output_of("'" ISOCNC_BIN_DIR "/isolint' --rules-page");
+  EXPECT_TRUE(same) << "isolint --rules-page > docs/rules.md";
+}
+
+/// The text of a file after the first `before`, up to the next quote, blank or bracket.
+std::string text_after(const std::string& before, const std::string& file) {
+  const std::string text = read(file);
+  const std::size_t found = text.find(before);
+  if (found == std::string::npos) return {};
+  const std::size_t at = found + before.size();
+  return text.substr(at, text.find_first_of("\" ]\n", at) - at);
+}
+
+TEST(Documentation, VersionIsThatOfTheBuild) {
+  const std::string version = text_after("project(isocnc VERSION ", "CMakeLists.txt");
+  ASSERT_FALSE(version.empty());
+  EXPECT_EQ(text_after("\"version\": \"", "vscode-extension/package.json"), version);
+  EXPECT_EQ(text_after("\n## [", "CHANGELOG.md"), version);
+  EXPECT_EQ(text_after("find_package(isocnc ", "examples/library/CMakeLists.txt"),
+            version.substr(0, version.rfind('.')));
+}
+
+TEST(Documentation, ProgramsHaveTheSameExtensionsEverywhere) {
+  static const std::regex kExtension(R"re("\.([a-z]+)")re");
+  const std::string list = read("interpreter/configuration/configuration.h");
+  const std::size_t begin = list.find("kProgramExtensions{");
+  ASSERT_NE(begin, std::string::npos);
+  const std::string extensions = list.substr(begin, list.find('}', begin) - begin);
+  std::string either;
+  for (std::sregex_iterator it(extensions.begin(), extensions.end(), kExtension); it != std::sregex_iterator(); ++it) {
+    for (const std::string file :
+         {"analyzer/command_line.cpp", "analyzer/isofmt.cpp", "docs/isolint.md", "docs/git.md"})
+      EXPECT_NE(read(file).find("." + (*it)[1].str()), std::string::npos) << file << ": " << (*it)[1];
+    either += (either.empty() ? "" : "|") + (*it)[1].str();
+  }
+  EXPECT_NE(read(".pre-commit-hooks.yaml").find("\\.(" + either + ")$"), std::string::npos) << either;
+}
+
+TEST(Documentation, NamesEveryMessageBeyondTheProtocols) {
+  static const std::regex kOwn(R"re("(isocnc[/.][A-Za-z]+)")re");
+  const std::string pages = read("docs/isols.md") + read(kRoot / "docs/isodap.md");
+  std::set<std::string> own;
+  for (const std::string& file : sources()) {
+    const std::string text = read(file);
+    for (std::sregex_iterator it(text.begin(), text.end(), kOwn); it != std::sregex_iterator(); ++it)
+      if (file.starts_with("lsp/") || file.starts_with("debugger/")) own.insert((*it)[1]);
+  }
+  EXPECT_GT(own.size(), 6U);
+  for (const std::string& name : own) EXPECT_NE(pages.find("`" + name + "`"), std::string::npos) << name;
+}
+
+std::vector<fs::path> documents() {
+  std::vector<fs::path> files;
+  for (const std::string folder : {".", "docs", "docs/it", "bench", "examples/ci"})
+    for (const auto& entry : fs::directory_iterator(kRoot / folder))
+      if (entry.path().extension() == ".md") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// The text of a document without its fenced code.
+std::string prose_of(const fs::path& document) {
+  std::istringstream lines(read(document));
+  std::string prose;
+  bool is_code = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("```")) is_code = !is_code;
+    if (!is_code) prose += line + "\n";
+  }
+  return prose;
+}
+
+/// The anchors of a document's headings, as GitHub makes them.
+std::set<std::string> anchors_of(const fs::path& document) {
+  std::set<std::string> anchors;
+  std::istringstream lines(prose_of(document));
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("#")) continue;
+    std::string anchor;
+    for (const char c : line.substr(line.find_first_not_of("# "))) {
+      const auto byte = static_cast<unsigned char>(c);
+      if (c == ' ') anchor += '-';
+      if (std::isalnum(byte) != 0 || c == '-' || c == '_' || byte >= 0x80)
+        anchor += static_cast<char>(std::tolower(byte));
+    }
+    anchors.insert(anchor);
+  }
+  return anchors;
+}
+
+TEST(Documentation, LinksLeadSomewhere) {
+  static const std::regex kLink(R"(\]\(([^)#\s]*)(?:#([^)\s]*))?\))");
+  for (const fs::path& document : documents()) {
+    const std::string prose = prose_of(document);
+    for (std::sregex_iterator it(prose.begin(), prose.end(), kLink); it != std::sregex_iterator(); ++it) {
+      const std::string path = (*it)[1];
+      const std::string anchor = (*it)[2];
+      if (path.find("://") != std::string::npos) continue;
+      const fs::path target = path.empty() ? document : document.parent_path() / path;
+      EXPECT_TRUE(fs::exists(target)) << document << " links to " << path;
+      if (anchor.empty() || target.extension() != ".md") continue;
+      EXPECT_TRUE(anchors_of(target).contains(anchor)) << document << " links to " << path << "#" << anchor;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace isocnc::architecture

@@ -1,0 +1,413 @@
+#include "analyzer/check/analysis.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "analyzer/check/check_text.h"
+#include "tests/support/random_program.h"
+#include "tests/support/report_text.h"
+
+namespace isocnc::check {
+namespace {
+
+using support::Random;
+using support::RandomProgram;
+using syntax::Document;
+
+const execution::Setup kSetup;
+
+std::string zigzag(int count) {
+  std::string text = "M06 T101001\nG90 G1 X0 Y0 Z0 F1000\n";
+  for (int i = 2; i + 1 < count; ++i) text += fmt::format("G1 X{} Y{} Z{}\n", i % 100, i % 70, i % 5);
+  return text + "M02\n";
+}
+
+TEST(Analysis, ChecksAllLinesOnce) {
+  const Document document(zigzag(20'000));
+  const Analysis analysis(document, kSetup);
+  EXPECT_EQ(analysis.lines_checked(), document.line_count());
+  EXPECT_TRUE(analysis.report().findings.empty());
+}
+
+TEST(Analysis, AnEditDoesNotRunTheLinesFarBehindItAgain) {
+  Document document(zigzag(20'000));
+  Analysis analysis(document, kSetup);
+  document.replace({5'000, 4}, {5'000, 5}, "7");
+  analysis.update();
+  EXPECT_LE(analysis.lines_checked(), 600u);
+  EXPECT_TRUE(analysis.report().findings.empty());
+}
+
+TEST(Analysis, FindingsBehindAnInsertedLineMoveWithoutBeingCheckedAgain) {
+  Document document(zigzag(20'000));
+  document.replace({15'000, 0}, {15'000, 0}, "G1 X1 X2\n");
+  Analysis analysis(document, kSetup);
+  document.replace({100, 0}, {100, 0}, "G1 X1\n");
+  analysis.update();
+  EXPECT_LE(analysis.lines_checked(), 600u);
+  ASSERT_EQ(analysis.report().findings.size(), 1u);
+  EXPECT_EQ(analysis.report().findings[0].line, 15'001u);
+}
+
+TEST(Analysis, NothingChangedCostsNothing) {
+  Document document(zigzag(2'000));
+  Analysis analysis(document, kSetup);
+  analysis.update();
+  EXPECT_EQ(analysis.lines_checked(), 0u);
+}
+
+TEST(Analysis, AModeWrittenAboveReachesTheEnd) {
+  Document document(zigzag(20'000));
+  document.replace({19'990, 0}, {19'990, 0}, "G2 X1 Y0 I0.5 J0 Z3\n");
+  Analysis analysis(document, kSetup);
+  const Report before = analysis.report();
+  document.replace({1, 0}, {1, 3}, "G91");
+  analysis.update();
+  EXPECT_NE(support::texts_of(analysis.report()), support::texts_of(before));
+  EXPECT_EQ(support::texts_of(analysis.report()), support::texts_of(check_text(document.text(), kSetup)));
+}
+
+/// The same, with parts that an IF may leave out.
+std::string optional_parts(int count) {
+  std::string text = "M06 T101001\nG90 G1 X0 Y0 Z0 F1000\nV1=1\n";
+  for (int part = 1; part <= count; ++part)
+    text += fmt::format("IF VGPL={} GOTO N{}\nG1 X{}\nY5\nN{} X7 Y7\n", part % 5, part, part % 9, part);
+  return text + "IF V1=1 GOTO N1000000\nX1\nN1000000 X2 Y2\nM02\n";
+}
+
+TEST(Analysis, WhatAnIfComparesIsCheckedAgainWhereItMatters) {
+  Document document(optional_parts(5'000));
+  Analysis analysis(document, kSetup);
+  const std::size_t line = 3 + 4 * 2'000;
+  ASSERT_EQ(document.text_of_line(line), "IF VGPL=1 GOTO N2001");
+  const auto expect_few = [&](std::uint64_t most) {
+    analysis.update();
+    EXPECT_LE(analysis.lines_checked(), most);
+    EXPECT_EQ(support::texts_of(analysis.report()), support::texts_of(check_text(document.text(), kSetup)));
+  };
+  document.replace({line, 8}, {line, 9}, "7");  // IF VGPL=7
+  expect_few(600);
+  document.replace({line, 0}, {line, 9}, "IF V1>=0.5");
+  expect_few(1'200);  // The assignment as well: 1 is told from other values now.
+  document.replace({line, 7}, {line, 10}, "2.5");
+  expect_few(1'200);
+  document.replace({line + 3, 1}, {line + 3, 2}, "8");  // The label is N8001 now, and nowhere is N2001.
+  expect_few(1'200);
+  EXPECT_EQ(analysis.report().findings.front().line, line);
+  document.replace({line + 3, 1}, {line + 3, 2}, "2");
+  expect_few(1'200);
+}
+
+TEST(Analysis, AJumpBelowLinesThatAreGoneStandsHigherUp) {
+  const std::string below = "IF V9=1 GOTO N5\nX1\nN5 X2\nM02\n";
+  const std::string text = zigzag(1'000);
+  for (std::size_t first = 60; first < 460; ++first) {  // Whole chunks, too.
+    Document document(text.substr(0, text.size() - 4) + below);
+    Analysis analysis(document, kSetup);
+    document.replace({first, 0}, {first + 128, 0}, "");
+    analysis.update();
+    const Report report = analysis.report();
+    ASSERT_EQ(report.findings.size(), 1u);  // Nothing gives V9 a value.
+    ASSERT_EQ(report.findings[0].line, document.line_count() - 5) << first;
+  }
+}
+
+TEST(Analysis, LabelsThatAreNamedFromNowOnAreFound) {
+  std::string moves;
+  for (int i = 0; i < 1'000; ++i) moves += fmt::format("G1 X{}\n", i % 100);
+  const std::string text = "M06 T101001\nG90 G1 X0 Y0 Z0 F1000\nIF VGPL=1 GOTO N5\n" + moves + "N7 X5\nN5 X6\n";
+  Document document(text + moves + "N7 X5\nM02\n");
+  Analysis analysis(document, kSetup);
+  EXPECT_TRUE(analysis.report().findings.empty());
+  document.replace({2, 16}, {2, 17}, "7");
+  analysis.update();
+  ASSERT_EQ(analysis.report().findings.size(), 1u);  // The second N7.
+  EXPECT_EQ(analysis.report().findings[0].line, document.line_count() - 3);
+  EXPECT_EQ(analysis.frontier_before(500), Analysis(document, kSetup).frontier_before(500));
+  document.replace({2, 16}, {2, 17}, "5");
+  analysis.update();
+  EXPECT_TRUE(analysis.report().findings.empty());
+}
+
+/// Mostly G91, with arcs, and now and then an absolute coordinate.
+std::string incremental_zigzag(int count) {
+  std::string text = "M06 T101001\nG90 G1 X0.1 Y0.2 Z0.3 F1000\nG91\n";
+  for (int i = 3; i + 2 < count; ++i) {
+    const int step = i % 7 - 3;
+    text += i % 50 == 0 ? "G2 X0.2 Y0 I0.1 J0\nG1 X0.1\n" : fmt::format("X0.{} Y{}.{}\n", i % 10, step, i % 3);
+  }
+  return text + "G90 X5 Y5\nM02\n";
+}
+
+TEST(Analysis, AShiftPassesOverIncrementalMoves) {
+  Document document(incremental_zigzag(20'000));
+  Analysis analysis(document, kSetup);
+  document.replace({2'000, 0}, {2'000, 0}, "X7.123\n");
+  analysis.update();
+  EXPECT_LE(analysis.lines_checked(), 1'000u);
+  EXPECT_TRUE(analysis.report().findings.empty());
+  const Analysis fresh(document, kSetup);
+  for (std::size_t line = 0; line < document.line_count(); line += 97)
+    ASSERT_EQ(analysis.frontier_before(line), fresh.frontier_before(line)) << line;
+  EXPECT_EQ(analysis.frontier_before(document.line_count()), fresh.frontier_before(document.line_count()));
+}
+
+TEST(Analysis, AShiftIsNotPassedOverByWhatDependsOnThePosition) {
+  Document document(incremental_zigzag(4'000));
+  Analysis analysis(document, kSetup);
+  // The arc is right from where the moves above lead to, and from nowhere else.
+  const double x = analysis.frontier_before(3'000).live[0].state.position.tip.x();
+  const double y = analysis.frontier_before(3'000).live[0].state.position.tip.y();
+  document.replace({3'000, 0}, {3'000, 0}, fmt::format("G90 G2 X{} Y{} I{} J{}\nG91 G1 X1\n", x + 2, y, x + 1, y));
+  analysis.update();
+  EXPECT_TRUE(analysis.report().findings.empty());
+  document.replace({100, 0}, {100, 0}, "X0.5\n");
+  analysis.update();
+  ASSERT_EQ(analysis.report().findings.size(), 1u);
+  EXPECT_EQ(dialect::definition(analysis.report().findings[0].finding.id).code, "ISO031");
+  EXPECT_LE(analysis.lines_checked(), 1'000u);
+}
+
+TEST(Analysis, GoesOnWhereItWasStopped) {
+  Document document(zigzag(60'000));
+  Analysis analysis(document, kSetup, Analysis::Unchecked{});
+  int pieces = 1;
+  while (!analysis.update([] { return true; })) {
+    ++pieces;
+    document.replace({30'000, 0}, {30'000, 0}, pieces % 2 == 0 ? "G1 X1 X2\n" : "G91\n");
+  }
+  EXPECT_GE(pieces, 3);
+  EXPECT_EQ(support::texts_of(analysis.report()), support::texts_of(check_text(document.text(), kSetup)));
+}
+
+TEST(Analysis, AnExcerptHasTheFirstFindingsAndCountsTheOthers) {
+  std::string text = "G1 X1\n";
+  for (int i = 0; i < 5'000; ++i) text += i % 3 == 0 ? "G1 X1 X2\n" : "G1 Q7\n";
+  const Document document(text + "IF V3=1 GOTO N9\nIF V3=2 GOTO N1\nN9 X7\n");
+  const Analysis analysis(document, kSetup);
+  const Report all = analysis.report();
+  for (const std::size_t most : {0u, 1u, 100u, 4'999u, 100'000u}) {
+    const auto is_even = [](dialect::DiagnosticId id) { return static_cast<int>(id) % 2 == 0; };
+    const FirstFindings excerpt = analysis.excerpt({.most = most, .counts = is_even});
+    const std::vector<std::string> texts = support::texts_of(excerpt.report);
+    const auto counted = [&](const Report& report) {
+      return std::count_if(report.findings.begin(), report.findings.end(),
+                           [&](const LocatedFinding& located) { return is_even(located.finding.id); });
+    };
+    const std::vector<std::string> expected = support::texts_of(all);
+    EXPECT_TRUE(std::equal(texts.begin(), texts.end(), expected.begin())) << most;
+    EXPECT_GE(static_cast<std::size_t>(counted(excerpt.report)),
+              std::min<std::size_t>(most, static_cast<std::size_t>(counted(all))));
+    EXPECT_EQ(static_cast<std::size_t>(counted(excerpt.report)) + excerpt.left_out,
+              static_cast<std::size_t>(counted(all)));
+  }
+}
+
+TEST(Analysis, KnowsWhereTheCheckStandsBeforeALine) {
+  const Document document("M06 T101001\nG1 X10 F100\nX20\nIF VGPL=1 GOTO N5\nX30\nN5 X40\nM02\n");
+  const Analysis analysis(document, kSetup);
+  const Frontier before_jump = analysis.frontier_before(3);
+  ASSERT_EQ(before_jump.live.size(), 1u);
+  EXPECT_EQ(before_jump.live[0].state.position.tip.x(), 20);
+  const Frontier skipped = analysis.frontier_before(5);
+  EXPECT_EQ(skipped.live.size(), 1u);
+  EXPECT_EQ(skipped.waiting.size(), 1u);
+  EXPECT_EQ(analysis.frontier_before(6).live.size(), 1u);
+  EXPECT_TRUE(analysis.frontier_before(7).finished());
+}
+
+void edit_once(Random& random, RandomProgram& program, Document& document) {
+  const std::size_t line = random.below(document.line_count());
+  switch (random.between(0, 5)) {
+    case 0:
+      document.replace({line, 0}, {line, document.text_of_line(line).size()}, program.line());
+      break;
+    case 1:
+      document.replace({line, 0}, {line, 0}, program.line() + "\n");
+      break;
+    case 2:
+      document.replace({line, 0}, {line + random.below(3) + 1, 0}, "");
+      break;
+    case 3:
+      document.replace({line, random.below(8)}, {line, random.below(8)},
+                       random.any_of({"1", "", "X", "(", " ", "\n", "N3"}));
+      break;
+    case 4:
+      document.replace({line, 0}, {line + random.below(200), 0},
+                       random.one_in(3) ? support::joined(program.lines(150)) : "");
+      break;
+    default:
+      document.replace({line, 0}, {line, 1}, "");
+      break;
+  }
+}
+
+/// Edits on moves alone, as a program with G91 has them.
+void edit_moves(Random& random, Document& document) {
+  const std::size_t line = random.below(document.line_count());
+  const std::string move =
+      fmt::format("X{}.{:03} Y{}\n", random.between(-9, 9), random.between(0, 999), random.between(-9, 9));
+  const std::string any = std::string(
+      random.any_of({"G90\n", "G91\n", "G90 X3\nG91\n", "G92 X1\n", "G70\n", "G71\n", "G2 X2 Y0 I1 J0\nG1 Y1\n",
+                     "G90 G3 X5 Y5 R50\nG91 G1 X1\n", "IF VGPL=1 GOTO N7\n", "N7\n", "G29 B90\n", "G27\n"}));
+  document.replace({line, 0}, {line + random.below(2), 0}, random.one_in(4) ? any : move);
+}
+
+/// Edits a program at random; the analysis that follows gives what a fresh one gives, and what a check of the text
+/// gives.
+void edit_and_compare(std::uint64_t seed, int lines, int edits, int jump_chances) {
+  Random random(seed);
+  RandomProgram program(random);
+  program.jump_chances = jump_chances;
+  if (lines > 200) program.end_chances = 2'000;
+  Document document(support::joined(program.lines(lines)));
+  Analysis analysis(document, kSetup);
+  for (int i = 0; i < edits; ++i) {
+    for (int k = random.between(1, 3); k > 0; --k) edit_once(random, program, document);
+    analysis.update();
+    const std::vector<std::string> report = support::texts_of(analysis.report());
+    const std::string which = fmt::format("seed {}, edit {}", seed, i);
+    const Analysis fresh(document, kSetup);
+    ASSERT_EQ(report, support::texts_of(fresh.report())) << which << ", fresh analysis";
+    const std::size_t line = random.below(document.line_count() + 1);
+    ASSERT_EQ(analysis.frontier_before(line), fresh.frontier_before(line)) << which << ", line " << line;
+    ASSERT_EQ(report, support::texts_of(check_text(document.text(), kSetup))) << which << ", check of the text";
+  }
+}
+
+TEST(AnalysisProperty, EditedEqualsFresh) {
+  for (const std::uint64_t seed : support::seeds(150)) {
+    edit_and_compare(seed, 30, 15, 8);
+    if (testing::Test::HasFatalFailure()) return;
+  }
+}
+
+TEST(AnalysisProperty, EditedEqualsFreshOverManyChunks) {
+  for (const std::uint64_t seed : support::seeds(30)) {
+    edit_and_compare(1'000 + seed, 900, 12, seed % 2 == 0 ? 15 : 200);
+    if (testing::Test::HasFatalFailure()) return;
+  }
+}
+
+/// A line of a program in which much depends on the values of a few registers.
+std::string line_with_registers(Random& random, int labels) {
+  static constexpr std::string_view kComparisons[] = {"=", "<>", "<", ">", "<=", ">="};
+  const auto number = [&] { return fmt::format("{}{}", random.between(-2, 3), random.one_in(3) ? ".5" : ""); };
+  const std::string label = random.one_in(6) ? fmt::format("N{} ", random.between(1, labels)) : "";
+  switch (random.between(0, 5)) {
+    case 0:
+      return label + fmt::format("V{}={}", random.between(1, 3), number());
+    case 1:
+      return label +
+             fmt::format("IF {} {} {} GOTO N{}", random.one_in(5) ? "VGPL" : fmt::format("V{}", random.between(1, 3)),
+                         kComparisons[random.below(std::size(kComparisons))], number(), random.between(1, labels));
+    case 2:
+      return label + std::string(random.any_of({"G90", "G91", "G70", "G71", "F500", "G1 X1 X2", "G92 X1", "N3 N4"}));
+    default:
+      return label + fmt::format("G1 X{} Y{}", random.between(0, 9), random.between(0, 9));
+  }
+}
+
+/// Changes what a line does to registers, or some digit in it, as fingers do.
+void edit_registers(Random& random, Document& document, int labels) {
+  const std::size_t line = random.below(document.line_count());
+  const std::string text(document.text_of_line(line));
+  const std::size_t digit = text.find_first_of("0123456789", random.below(text.size() + 1));
+  if (digit != std::string::npos && !random.one_in(3)) {
+    document.replace({line, digit}, {line, digit + 1}, fmt::format("{}", random.between(0, 9)));
+  } else if (random.one_in(4)) {
+    document.replace({line, 0}, {line + random.below(2), 0}, line_with_registers(random, labels) + "\n");
+  } else {
+    document.replace({line, 0}, {line, text.size()}, line_with_registers(random, labels));
+  }
+}
+
+TEST(AnalysisProperty, JumpsEditedEqualFresh) {
+  for (const std::uint64_t seed : support::seeds(100)) {
+    Random random(seed);
+    const int lines = random.one_in(2) ? 60 : 1'500;
+    const int labels = lines / 6;
+    std::string text = "M06 T101001\nG90 G1 X0 Y0 Z0 F1000\n";
+    for (int i = 0; i < lines; ++i) {
+      // Labels that mostly rise, so that many jumps find theirs below.
+      const bool is_plain = lines > 60 && !random.one_in(10);
+      if (i % 6 == 0) text += fmt::format("N{} ", 1 + i / 6);
+      text += (is_plain ? fmt::format("X{}", i % 10) : line_with_registers(random, labels)) + "\n";
+    }
+    Document document(text + "M02\n");
+    Analysis analysis(document, kSetup);
+    for (int i = 0; i < 25; ++i) {
+      for (int k = random.between(1, 3); k > 0; --k) edit_registers(random, document, labels);
+      if (random.one_in(4) && !analysis.update([] { return true; })) continue;  // And goes on with the next edit.
+      analysis.update();
+      const Analysis fresh(document, kSetup);
+      const std::string which = fmt::format("seed {}, edit {}\n{}", seed, i, lines > 60 ? "" : document.text());
+      ASSERT_EQ(support::texts_of(analysis.report()), support::texts_of(fresh.report())) << which;
+      ASSERT_EQ(support::texts_of(fresh.report()), support::texts_of(check_text(document.text(), kSetup))) << which;
+      ASSERT_EQ(analysis.finding_count(), fresh.finding_count()) << which;
+      for (std::size_t line = 0; line <= document.line_count(); line += 61)
+        ASSERT_EQ(analysis.frontier_before(line), fresh.frontier_before(line)) << which << ", line " << line;
+    }
+  }
+}
+
+/// Whether arcs are suspected depends on others, however far away (W142).
+TEST(AnalysisProperty, CentersEditedEqualFresh) {
+  std::size_t suspected = 0;
+  for (const std::uint64_t seed : support::seeds(60)) {
+    Random random(seed);
+    const auto line = [&] {
+      return std::string(random.any_of({"G00 X110 Y110", "G02 X110 Y110 I-5 J0", "G02 X110 Y110 I-5 J0", "X1 Y2",
+                                        "G90 G00 X100 Y100", "G91 G00 X1", "G03 X120 Y100 J10 I10", "G70", "G71",
+                                        "IF VGPL=1 GOTO N7", "N7 G00 X110", "G02 X100 Y100 I100 J90", "G01 X3 F500"}));
+    };
+    std::string text = "M06 T101001\nF1000\n";
+    for (int i = 0; i < 1'000; ++i)
+      text += (random.one_in(40) ? line() : fmt::format("G90 G71 G00 X110 Y{}", i % 7)) + "\n";
+    Document document(text + "M02\n");
+    Analysis analysis(document, kSetup);
+    for (int i = 0; i < 20; ++i) {
+      const std::size_t at = random.below(document.line_count());
+      // An arc that fits only with its center counted from the start comes, or one of them goes.
+      const std::string arc = random.one_in(3) ? "G90 G00 X110 Y110\nG02 X120 Y120 I10 J0\n" : line() + "\n";
+      document.replace({at, 0}, {at, 0}, arc);
+      const std::size_t found = document.text().find("G02 X120 Y120 I10 J0");
+      if (random.one_in(2) && found != std::string::npos) {
+        const std::string all = document.text();
+        const auto number =
+            static_cast<std::size_t>(std::count(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(found), '\n'));
+        document.replace({number, 0}, {number + 1, 0}, "");
+      }
+      if (random.one_in(4) && !analysis.update([] { return true; })) continue;  // And goes on with the next edit.
+      analysis.update();
+      const std::vector<std::string> report = support::texts_of(analysis.report());
+      const std::string which = fmt::format("seed {}, edit {}", seed, i);
+      ASSERT_EQ(report, support::texts_of(Analysis(document, kSetup).report())) << which;
+      ASSERT_EQ(report, support::texts_of(check_text(document.text(), kSetup))) << which;
+      suspected += analysis.suspects_centers() ? 1 : 0;
+    }
+  }
+  EXPECT_GT(suspected, support::often(200));
+  EXPECT_LT(suspected, support::often(1'000));
+}
+
+TEST(AnalysisProperty, ShiftedEqualsFresh) {
+  for (const std::uint64_t seed : support::seeds(25)) {
+    Random random(seed);
+    Document document(incremental_zigzag(2'500));
+    Analysis analysis(document, kSetup);
+    for (int i = 0; i < 20; ++i) {
+      edit_moves(random, document);
+      analysis.update();
+      const Analysis fresh(document, kSetup);
+      const std::string which = fmt::format("seed {}, edit {}", seed, i);
+      ASSERT_EQ(support::texts_of(analysis.report()), support::texts_of(fresh.report())) << which;
+      for (std::size_t line = 0; line < document.line_count(); line += 101)
+        ASSERT_EQ(analysis.frontier_before(line), fresh.frontier_before(line)) << which << ", line " << line;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace isocnc::check

@@ -1,0 +1,151 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "analyzer/check/check_text.h"
+#include "tests/support/random_program.h"
+#include "tests/support/report_text.h"
+
+namespace isocnc::check {
+namespace {
+
+using support::Random;
+using support::RandomProgram;
+
+Report check(const std::string& text, int jobs = 1) { return check_text(text, {}, jobs); }
+
+/// More than 100 KB, so that threads have something to share; about one in three ends early.
+std::string long_program(Random& random) {
+  RandomProgram program(random);
+  program.jump_chances = random.one_in(2) ? 40 : 400;
+  program.labels = random.one_in(2) ? 12 : 600;
+  program.end_chances = random.one_in(3) ? 3'000 : 1'000'000;
+  std::string text;
+  while (text.size() < 100'000) text += support::joined(program.lines(1'000 - random.between(0, 10)));
+  if (random.one_in(2)) std::replace(text.begin(), text.end(), '\n', '\r');
+  return text;
+}
+
+TEST(CheckTextProperty, AnyNumberOfJobsGivesTheSameReport) {
+  for (const std::uint64_t seed : support::seeds(10)) {
+    Random random(seed);
+    const std::string text = long_program(random);
+    const std::vector<std::string> expected = support::texts_of(check(text));
+    for (const int jobs : {2, 3, 8})
+      EXPECT_EQ(support::texts_of(check(text, jobs)), expected) << "seed " << seed << ", jobs " << jobs;
+  }
+}
+
+TEST(CheckTextProperty, JobsAgreeWhereTheProgramEndsEarly) {
+  std::string text = "M06 T101001\nIF VGPL=1 GOTO N5\nM02\n";
+  while (text.size() < 300'000) text += "G1 X1 X2\n";
+  text += "N5 G1 X1\nM02\n";
+  while (text.size() < 600'000) text += "G1 X1 X2\n";
+  const std::vector<std::string> expected = support::texts_of(check(text));
+  EXPECT_EQ(expected.size(), 3u);  // X1 X2 behind the label, and two stretches that never run.
+  for (const int jobs : {2, 3, 8}) EXPECT_EQ(support::texts_of(check(text, jobs)), expected) << "jobs " << jobs;
+}
+
+TEST(CheckTextProperty, LineEndsChangeNothing) {
+  for (const std::uint64_t seed : support::seeds(600)) {
+    Random random(seed);
+    const std::vector<std::string> lines = RandomProgram(random).lines(random.between(1, 80));
+    const std::vector<std::string> expected = support::texts_of(check(support::joined(lines, "\n")));
+    EXPECT_EQ(support::texts_of(check(support::joined(lines, "\r"))), expected) << "seed " << seed << ", CR";
+    EXPECT_EQ(support::texts_of(check(support::joined(lines, "\r\n"))), expected) << "seed " << seed << ", CRLF";
+  }
+}
+
+/// A line with blanks put in, and where each of its characters went.
+struct SpacedLine {
+  std::string text;
+  std::vector<std::uint32_t> places;
+
+  syntax::Span map(syntax::Span span) const {
+    if (span.empty()) return span;
+    return {places[span.begin], places[span.end - 1] + 1};
+  }
+};
+
+/// Whether a blank may be put before each character: outside comments, and not inside a UTF-8 sequence.
+std::vector<bool> free_places(const std::string& line) {
+  std::vector<bool> free(line.size());
+  char comment = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const bool is_continuation = (static_cast<unsigned char>(line[i]) & 0xC0) == 0x80;
+    free[i] = comment == 0 && !is_continuation;
+    if (comment == 0 && (line[i] == '(' || line[i] == ';')) {
+      comment = line[i];
+    } else if (comment == '(' && line[i] == ')') {
+      comment = 0;
+    }
+  }
+  return free;
+}
+
+SpacedLine spaced(Random& random, const std::string& line) {
+  const std::vector<bool> free = free_places(line);
+  SpacedLine result;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    while (free[i] && random.one_in(4)) result.text += random.any_of(" \t");
+    result.places.push_back(static_cast<std::uint32_t>(result.text.size()));
+    result.text += line[i];
+  }
+  return result;
+}
+
+TEST(CheckTextProperty, BlanksOutsideCommentsMoveColumnsAndNothingElse) {
+  for (const std::uint64_t seed : support::seeds(1'500)) {
+    Random random(seed);
+    const std::vector<std::string> lines = RandomProgram(random).lines(random.between(1, 40));
+    std::vector<SpacedLine> with_blanks;
+    std::string text;
+    for (const std::string& line : lines) text += with_blanks.emplace_back(spaced(random, line)).text + '\n';
+    Report expected = check(support::joined(lines));
+    for (LocatedFinding& located : expected.findings) {
+      const SpacedLine& line = with_blanks[located.line];
+      located.finding.span = line.map(located.finding.span);
+      located.finding.related = line.map(located.finding.related);
+    }
+    ASSERT_EQ(support::texts_of(check(text)), support::texts_of(expected)) << "seed " << seed << "\n" << text;
+  }
+}
+
+bool stands_before(const LocatedFinding& a, const LocatedFinding& b) {
+  return a.line != b.line ? a.line < b.line : a.finding.span.begin < b.finding.span.begin;
+}
+
+TEST(CheckTextProperty, FindingsAreSortedAndLieWithinTheirLine) {
+  for (const std::uint64_t seed : support::seeds(1'000)) {
+    Random random(seed);
+    const std::vector<std::string> lines = RandomProgram(random).lines(random.between(1, 80));
+    const Report report = check(support::joined(lines));
+    EXPECT_TRUE(std::is_sorted(report.findings.begin(), report.findings.end(), stands_before)) << "seed " << seed;
+    for (const LocatedFinding& located : report.findings) {
+      ASSERT_LT(located.line, lines.size()) << "seed " << seed;
+      const syntax::Span span = located.finding.span;
+      EXPECT_LE(span.begin, span.end) << "seed " << seed << ": " << lines[located.line];
+      EXPECT_LE(span.end, lines[located.line].size()) << "seed " << seed << ": " << lines[located.line];
+      EXPECT_LE(located.finding.related.end, lines[located.line].size()) << "seed " << seed;
+    }
+  }
+}
+
+TEST(CheckTextProperty, OneMistakeIsToldOncePerPlace) {
+  for (const std::uint64_t seed : support::seeds(1'000)) {
+    Random random(seed);
+    const std::vector<std::string> lines = RandomProgram(random).lines(random.between(1, 80));
+    const Report report = check(support::joined(lines));
+    std::vector<std::string> places;
+    for (const LocatedFinding& located : report.findings)
+      places.push_back(fmt::format("line {}: {} at {}: {}", located.line, dialect::definition(located.finding.id).code,
+                                   support::text_of(located.finding.span), lines[located.line]));
+    std::sort(places.begin(), places.end());
+    const auto twice = std::adjacent_find(places.begin(), places.end());
+    if (twice != places.end()) FAIL() << "seed " << seed << ": " << *twice;
+  }
+}
+
+}  // namespace
+}  // namespace isocnc::check

@@ -1,0 +1,163 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <regex>
+
+#include "analyzer/fixing/finding_fixes.h"
+#include "interpreter/syntax/tree_store.h"
+#include "tests/support/fixed_program.h"
+#include "tests/support/motions.h"
+#include "tests/support/random_program.h"
+
+namespace isocnc::fixing {
+namespace {
+
+using support::codes_of;
+using support::fixed;
+using support::motions_of;
+using support::Random;
+using support::RandomProgram;
+
+struct Sample {
+  std::string text;
+  std::string line_end;
+};
+
+/// Without the codes by which a program is judged once its units are those that were meant, where it has G20 or G21:
+/// these are rewritten all at once, whatever that brings to light.
+std::multiset<std::string> without_what_units_reveal(std::multiset<std::string> codes, std::string_view text) {
+  static const std::regex kForeignUnits("[Gg][ \\t]*2[ \\t]*[01](?![0-9.])");
+  if (!std::regex_search(text.begin(), text.end(), kForeignUnits)) return codes;
+  for (const char* const code : {"W001", "W111", "W112", "W119", "W120", "W190", "ISO029", "ISO030", "ISO031"})
+    codes.erase(code);
+  return codes;
+}
+
+/// What people write who have worked at other controls.
+std::string with_habits(Random& random, std::string line) {
+  switch (random.between(0, 40)) {
+    case 0:
+      return line + " M02";
+    case 1:
+      return line + " ;isolint: ignore W001, ISO003";
+    case 2:
+      return "(isolint: disable ISO011 W109) " + line;
+    case 3:
+      return "G21 " + line;
+    case 4:
+      return line + " G40";
+    case 5:
+      return line + " G71 G71";
+    case 6:
+      return line + " F500 F500";
+    case 7:
+      return "T101001 M06";
+    case 8:
+      return "%";
+    case 9:
+      return "G90 G91 " + line;
+    case 10:
+      return line + " (isolint: ignore) (isolint: enable)";
+    default:
+      return line;
+  }
+}
+
+/// Half of the programs have few mistakes, so that more than a few blocks run.
+Sample random_sample(Random& random) {
+  RandomProgram program(random);
+  program.labels = random.one_in(2) ? 12 : 100;
+  program.end_chances = random.one_in(2) ? 60 : 1'000;
+  std::vector<std::string> lines = program.lines(random.between(1, 40));
+  if (random.one_in(2))
+    std::erase_if(lines, [](const std::string& line) { return !syntax::ParsedLine(line).tree().findings.empty(); });
+  for (std::string& line : lines) line = with_habits(random, std::move(line));
+  const std::string line_end(random.any_of({"\n", "\r\n", "\r"}));
+  Sample sample{support::joined(lines, line_end), line_end};
+  if (random.one_in(4) && !sample.text.empty()) sample.text.resize(sample.text.size() - line_end.size());
+  return sample;
+}
+
+TEST(FixesProperty, AddNoFindingAndComeToAnEnd) {
+  std::size_t changed = 0;
+  for (const std::uint64_t seed : support::seeds(2'000)) {
+    Random random(seed);
+    const std::string text = random_sample(random).text;
+    const std::multiset<std::string> before = without_what_units_reveal(codes_of(text), text);
+    for (const bool unsafe : {false, true}) {
+      const std::string once = fixed(text, unsafe);
+      const std::multiset<std::string> after = without_what_units_reveal(codes_of(once), text);
+      ASSERT_TRUE(std::includes(before.begin(), before.end(), after.begin(), after.end()))
+          << "seed " << seed << (unsafe ? ", unsafe\n" : "\n") << testing::PrintToString(before) << " -> "
+          << testing::PrintToString(after) << "\n"
+          << text << "\n---\n"
+          << once;
+      ASSERT_EQ(fixed(once, unsafe), once) << "seed " << seed << "\n" << text;
+      changed += once != text ? 1 : 0;
+    }
+  }
+  EXPECT_GT(changed, support::often(2'000));
+}
+
+/// Alone, too: nobody makes all fixes of a program in an editor.
+TEST(FixesProperty, WhatIsOfferedBringsNothing) {
+  std::size_t offered = 0;
+  const execution::Setup setup;
+  for (const std::uint64_t seed : support::seeds(3'000)) {
+    Random random(seed);
+    const std::string text = random_sample(random).text;
+    if (text.find("isolint") != std::string::npos) continue;
+    const std::multiset<std::string> before = codes_of(text);
+    const check::Report report = support::found_in(text);
+    FindingFixes fixes(text, report, setup);
+    for (const check::LocatedFinding& located : report.findings) {
+      std::optional<fixes::Fix> fix = fixes.offered_in_full(located);
+      if (!fix) continue;
+      ++offered;
+      const std::string after_text = edited(text, fix->edits, fixes.program());
+      const std::multiset<std::string> after = codes_of(after_text);
+      if (fix->habit == fixes::Habit::ForeignUnits) {
+        ASSERT_LT(after.count("E001"), before.count("E001")) << "seed " << seed << "\n" << text;
+        continue;
+      }
+      ASSERT_TRUE(std::includes(before.begin(), before.end(), after.begin(), after.end()) &&
+                  after.size() < before.size())
+          << "seed " << seed << ": " << fix->title.en << "\n"
+          << text << "\n---\n"
+          << after_text;
+    }
+  }
+  EXPECT_GT(offered, support::often(100));
+}
+
+TEST(FixesProperty, KeepLineEndsAndTheLastOnesState) {
+  for (const std::uint64_t seed : support::seeds(4'000)) {
+    Random random(seed);
+    const auto [text, line_end] = random_sample(random);
+    if (text.find(line_end) == std::string::npos) continue;  // It has none to keep.
+    const std::string once = fixed(text, true);
+    const std::string without = std::regex_replace(once, std::regex(line_end), "");
+    ASSERT_EQ(without.find_first_of("\r\n"), std::string::npos) << "seed " << seed << "\n" << text;
+    // A program of nothing but a word that is removed has no line left to end.
+    if (once.empty()) continue;
+    ASSERT_EQ(once.ends_with(line_end), text.ends_with(line_end)) << "seed " << seed << "\n" << text;
+  }
+}
+
+TEST(FixesProperty, SafeOnesLeaveWhatTheProgramDoes) {
+  std::size_t compared = 0;
+  for (const std::uint64_t seed : support::seeds(10'000)) {
+    Random random(seed);
+    std::string text = random_sample(random).text;
+    const double vgpl = random.between(0, 4);
+    const std::string motions = motions_of(text, vgpl);
+    const std::string once = fixed(text, false);
+    if (motions.empty() || once == text) continue;
+    ++compared;
+    ASSERT_EQ(motions_of(once, vgpl), motions) << "seed " << seed << "\n" << text << "\n---\n" << once;
+  }
+  EXPECT_GT(compared, support::often(200));
+}
+
+}  // namespace
+}  // namespace isocnc::fixing

@@ -1,0 +1,491 @@
+#include "interpreter/simulation/simulation.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <numbers>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "random_run.h"
+#include "tests/support/random_program.h"
+
+namespace isocnc::simulation {
+namespace {
+
+using support::Random;
+using support::seeds;
+
+constexpr double kTiny = 1e-9;
+
+/// With what a simulation refers to.
+class Case {
+ public:
+  explicit Case(std::string text, double vgpl = 0, bool stop_at_errors = true, bool limits_jerk = false)
+      : text_(std::move(text)),
+        program_(text_),
+        machine_(machine_of_tests(limits_jerk)),
+        options_(options_for(machine_)) {
+    options_.vgpl = vgpl;
+    options_.stop_at_errors = stop_at_errors;
+  }
+  /// Of all that a program may hold, on machines of both kinds.
+  explicit Case(Random& random)
+      : Case(RandomRun(random).text(random.between(1, 3)), random.between(0, 2), true, random.one_in(4)) {}
+  Simulation start() const { return Simulation(program_, options_, machine_); }
+  std::string_view text() const { return text_; }
+  const running::RunOptions& options() const { return options_; }
+  const TimedMachine& machine() const { return machine_; }
+
+ private:
+  std::string text_;
+  running::Program program_;
+  TimedMachine machine_;
+  running::RunOptions options_;
+};
+
+/// A run from the begin to the moment at which another one is.
+Simulation fresh_at(const Case& of, const Simulation& other) {
+  Simulation fresh = of.start();
+  const std::uint64_t whole = other.blocks() - (other.is_in_block() ? 1 : 0);
+  while (fresh.blocks() < whole) fresh.step_block();
+  if (other.is_in_block()) fresh.advance_in_block(other.time());
+  if (other.has_ended()) fresh.step_block();
+  return fresh;
+}
+
+constexpr std::string_view kTwoLines =
+    "M06 T101001\n"
+    "G1 X100 F6000\n"
+    "V1=7\n"
+    "G91 X100 F3000\n"
+    "M02\n";
+
+TEST(Simulation, BeginsAtHomeBeforeTheFirstBlock) {
+  const Case two_lines{"; note\n" + std::string(kTwoLines)};
+  const Simulation simulation = two_lines.start();
+  EXPECT_EQ(simulation.time(), 0);
+  EXPECT_EQ(simulation.blocks(), 0u);
+  EXPECT_EQ(simulation.line(), 1u);
+  EXPECT_FALSE(simulation.is_in_block());
+  EXPECT_FALSE(simulation.has_ended());
+  EXPECT_EQ(simulation.event(), nullptr);
+  EXPECT_EQ(simulation.sample().tip.tip, geometry::Vec3(0, 0, 400));
+  EXPECT_EQ(simulation.sample().joints[motion::kZ], 400);
+}
+
+/// A tool change moves no joint, so a longer tool ends lower, once it is mounted; the next motions go on from there.
+TEST(Simulation, ShowsWhereTheToolEnds) {
+  const Case changes{
+      "M06 T101001\n"
+      "G1 X50 F6000\n"
+      "M06 T101002\n"
+      "X80\n"
+      "Z100\n"
+      "M06 T000000\n"
+      "M02\n"};
+  Simulation simulation = changes.start();
+  const auto expect = [&](double tip, double nose) {
+    EXPECT_NEAR(simulation.sample().tip.tip.z(), tip, kTiny) << "line " << simulation.line();
+    EXPECT_NEAR(simulation.sample().joints[motion::kZ], nose, kTiny) << "line " << simulation.line();
+  };
+  simulation.advance_to(4);
+  expect(400, 400);
+  simulation.step_block();
+  expect(320, 400);
+  simulation.advance_along(20);
+  expect(320, 400);
+  simulation.step_block();
+  simulation.advance_in_block(simulation.time() + 1);
+  expect(320, 400);
+  simulation.step_block();
+  expect(280, 400);
+  simulation.advance_along(10);
+  expect(280, 400);
+  EXPECT_NEAR(simulation.to_go().axes[motion::kZ], 0, kTiny) << "the motion leaves out Z";
+  EXPECT_NEAR(simulation.to_go().path, 20, kTiny);
+  simulation.step_block();
+  simulation.advance_along(30);
+  EXPECT_NEAR(simulation.to_go().axes[motion::kZ], 100 - simulation.sample().tip.tip.z(), kTiny);
+  simulation.step_block();
+  expect(100, 220);
+  simulation.step_block();
+  expect(220, 220);
+}
+
+TEST(Simulation, ShowsTheToolBesideTheContour) {
+  const Case contour{
+      "M06 T101001\n"
+      "G1 X-20 Y20 Z0 F6000\n"
+      "G41\n"
+      "X0 Y0\n"
+      "X40\n"
+      "Y-40 G40\n"
+      "M02\n"};
+  Simulation simulation = contour.start();
+  while (simulation.line() != 4) simulation.step_block();
+  EXPECT_NEAR(simulation.sample().tip.tip.x(), 0, 0.1);
+  EXPECT_NEAR(simulation.sample().tip.tip.y(), 3, 0.1);
+  simulation.advance_along(30);
+  EXPECT_NEAR(simulation.sample().tip.tip.y(), 3, kTiny);
+  EXPECT_NEAR(simulation.to_go().path, 10, 0.2);
+  EXPECT_EQ(simulation.blocks(), 5u);
+  simulation.step_block();
+  EXPECT_NEAR(simulation.sample().tip.tip.x(), 43, 0.1) << "round the corner";
+  EXPECT_NEAR(simulation.sample().tip.tip.y(), 0, 0.1);
+}
+
+/// Where the tip stands after each line of a program in which somebody takes the machine over before line `change`
+/// (from 0), and leaves it as it is.
+std::vector<geometry::Vec3> places_when_taken_over(const Case& of, std::uint64_t change) {
+  std::vector<geometry::Vec3> places;
+  auto simulation = std::make_unique<Simulation>(of.start());
+  while (!simulation->has_ended()) {
+    if (simulation->line() == change)
+      simulation = std::make_unique<Simulation>(*simulation, simulation->runner(), of.machine());
+    simulation->step_block();
+    places.push_back(simulation->sample().tip.tip);
+  }
+  return places;
+}
+
+/// The tool of 3 mm radius stands at X40 Y3 after the G40, and goes straight to X60 Y0; the second contour runs at Y17.
+TEST(Simulation, TakenOverByHandGoesTheSameWay) {
+  const Case contours{
+      "M06 T101001\n"
+      "G1 X-20 Y20 Z0 F6000\n"
+      "G41 X0 Y0\n"
+      "X40\n"
+      "G40\n"
+      "G0 Z9\n"
+      "G18 G0 Z4\n"
+      "G17\n"
+      "G1 X60\n"
+      "G42 X80 Y20\n"
+      "X120\n"
+      "X140 Y20 G40\n"
+      "G1 X150 Y40\n"
+      "M02\n"};
+  constexpr double kRoundedCorner = 0.05;  // mm
+  for (const std::uint64_t change : {1u, 2u, 5u, 6u, 7u, 8u, 9u, 12u}) {
+    const std::vector<geometry::Vec3> places = places_when_taken_over(contours, change);
+    ASSERT_EQ(places.size(), 14u) << change;
+    for (const std::size_t line : {4u, 5u, 6u, 7u})
+      EXPECT_NEAR((places[line].head<2>() - geometry::Vec2(40, 3)).norm(), 0, kRoundedCorner) << change << ' ' << line;
+    EXPECT_NEAR((places[8] - geometry::Vec3(60, 0, 4)).norm(), 0, kRoundedCorner) << change;
+    EXPECT_NEAR((places[10] - geometry::Vec3(120, 17, 4)).norm(), 0, kRoundedCorner) << change;
+    EXPECT_NEAR((places[12] - geometry::Vec3(150, 40, 4)).norm(), 0, kRoundedCorner) << change;
+  }
+}
+
+/// I.5: of what comes behind an IF the control knows nothing until the machine has come there.
+TEST(Simulation, StopsBesideTheContourAtAnIf) {
+  const Case fork{
+      "M06 T101001\n"
+      "G1 X-20 Y20 Z0 F6000\n"
+      "G41 X0 Y0\n"
+      "X40\n"
+      "IF VGPL=1 GOTO N5\n"
+      "Y-40\n"
+      "N5 X80\n"
+      "G40\n"
+      "M02\n"};
+  for (const double vgpl : {0, 1}) {
+    Simulation simulation = fork.start();
+    while (simulation.line() != 4) simulation.step_block();
+    EXPECT_NEAR(simulation.sample().tip.tip.x(), 40, kTiny);
+    EXPECT_NEAR(simulation.sample().tip.tip.y(), 3, kTiny);
+    EXPECT_EQ(simulation.sample().speed, 0);
+    simulation.set_vgpl(vgpl);
+    while (simulation.line() != 6) simulation.step_block();
+    simulation.step_block();
+    EXPECT_NEAR(simulation.sample().tip.tip.x(), 80, kTiny);
+    EXPECT_NEAR(simulation.sample().tip.tip.y(), vgpl == 1 ? 3 : -37, kTiny);
+  }
+}
+
+TEST(Simulation, MovesWithoutStepsOfTheAccelerationWhereJerkIsLimited) {
+  const Case line{"M06 T101001\nG1 X100 F6000\nM02\n", 0, true, true};
+  Simulation simulation = line.start();
+  simulation.step_block();
+  const double start = simulation.time();
+  simulation.advance_to(start + 0.005);
+  const double jerk = simulation.sample().acceleration / 0.005;
+  EXPECT_GT(jerk, 0);
+  EXPECT_LE(jerk, *line.machine().motion.axes[motion::kX].jerk * (1 + kTiny));
+  simulation.advance_along(30);
+  EXPECT_NEAR(simulation.to_go().path, 100 - simulation.sample().tip.tip.x(), kTiny);
+  simulation.step_block();
+  EXPECT_NEAR(simulation.sample().tip.tip.x(), 100, kTiny);
+}
+
+TEST(Simulation, StopsBetweenBlocks) {
+  const Case two_lines{std::string(kTwoLines)};
+  Simulation simulation = two_lines.start();
+  simulation.step_block();
+  EXPECT_EQ(simulation.time(), 5) << "the tool change";
+  EXPECT_EQ(simulation.line(), 1u);
+  simulation.step_block();
+  EXPECT_EQ(simulation.line(), 2u);
+  EXPECT_NEAR(simulation.sample().tip.tip.x(), 100, 0.1);
+  EXPECT_GT(simulation.sample().speed, 49) << "the machine goes on without a stop";
+  const double time = simulation.time();
+  simulation.step_block();
+  EXPECT_EQ(simulation.time(), time) << "V1=7 takes no time";
+  EXPECT_EQ(simulation.line(), 3u);
+  simulation.step_block();
+  simulation.step_block();
+  EXPECT_TRUE(simulation.has_ended());
+  EXPECT_EQ(simulation.run().ending, running::Ending::ProgramEnd);
+  EXPECT_EQ(simulation.sample().speed, 0);
+}
+
+/// The control has read the whole program while the machine is on its first motion.
+TEST(Simulation, ShowsTheMachinesPresent) {
+  const Case two_lines{std::string(kTwoLines)};
+  Simulation simulation = two_lines.start();
+  simulation.step_block();
+  simulation.advance_in_block(5.5);
+  EXPECT_EQ(simulation.time(), 5.5);
+  EXPECT_TRUE(simulation.is_in_block());
+  EXPECT_EQ(simulation.line(), 1u);
+  EXPECT_EQ(simulation.blocks(), 2u);
+  EXPECT_EQ(simulation.run().registers[1], 0);
+  EXPECT_FALSE(simulation.run().state.incremental());
+  EXPECT_EQ(simulation.run().state.last_feed.number, 6000);
+  ASSERT_NE(simulation.event(), nullptr);
+  EXPECT_EQ(simulation.event()->line, 1u);
+  EXPECT_NEAR(simulation.sample().speed, 100, kTiny);
+}
+
+TEST(Simulation, StopsAtAnyPointOfThePath) {
+  const Case two_lines{std::string(kTwoLines)};
+  Simulation simulation = two_lines.start();
+  simulation.step_block();
+  simulation.advance_along(30);
+  EXPECT_NEAR(simulation.sample().tip.tip.x(), 30, kTiny);
+  EXPECT_NEAR(simulation.sample().joints[motion::kZ], simulation.sample().tip.tip.z() + 80, kTiny)
+      << "the tool's length above the tip";
+  EXPECT_NEAR(simulation.to_go().path, 70, kTiny);
+  EXPECT_NEAR(simulation.to_go().axes[motion::kX], 70, kTiny);
+  simulation.advance_along(30);
+  EXPECT_NEAR(simulation.sample().tip.tip.x(), 60, kTiny);
+  simulation.advance_along(1000);
+  EXPECT_FALSE(simulation.is_in_block()) << "no further than the block's end";
+  EXPECT_NEAR(simulation.sample().tip.tip.x(), 100, 0.1);
+}
+
+TEST(Simulation, StopsAtAnyPointOfAnArc) {
+  const Case circle{"M06 T101001\nG2 X0 Y0 I10 J0 F600\nM02\n"};
+  Simulation simulation = circle.start();
+  simulation.step_block();
+  const double whole = 20 * std::numbers::pi;
+  simulation.advance_along(whole / 8);
+  const double side = 10 * std::numbers::sqrt2 / 2;
+  EXPECT_NEAR(simulation.sample().tip.tip.x(), 10 - side, kTiny);
+  EXPECT_NEAR(simulation.sample().tip.tip.y(), side, kTiny);
+  EXPECT_NEAR(simulation.to_go().path, whole * 7 / 8, 1e-6);
+  EXPECT_NEAR(simulation.to_go().axes[motion::kY], -side, kTiny);
+  simulation.advance_along(whole / 2);
+  EXPECT_NEAR(simulation.to_go().path, whole * 3 / 8, 1e-6);
+}
+
+TEST(Simulation, StopsInsideADwell) {
+  const Case dwell{"M06 T101001\nG4 P2\nG1 X1 F100\nM02\n"};
+  Simulation simulation = dwell.start();
+  simulation.advance_to(6.5);
+  ASSERT_NE(simulation.event(), nullptr);
+  EXPECT_EQ(running::kind_of(*simulation.event()), "dwell");
+  EXPECT_EQ(simulation.to_go().path, 0);
+  simulation.step_block();
+  EXPECT_EQ(simulation.time(), 7);
+  EXPECT_EQ(simulation.line(), 2u);
+}
+
+/// A G09 in G48 makes the machine wait until the channel is full again: that is part of its block.
+TEST(Simulation, WaitsForTheChannelInTheBlockOfTheExactStop) {
+  const Case stop{"M06 T101001\nG1 X10 F6000 G09\nX20\nM02\n"};
+  Simulation simulation = stop.start();
+  simulation.step_block();
+  simulation.step_block();
+  const double end = simulation.time();
+  Simulation waiting = stop.start();
+  waiting.advance_to(end - 0.1);
+  EXPECT_TRUE(waiting.is_in_block());
+  EXPECT_EQ(waiting.line(), 1u);
+  EXPECT_EQ(waiting.event(), nullptr);
+  EXPECT_NEAR(waiting.sample().tip.tip.x(), 10, kTiny);
+  EXPECT_EQ(waiting.sample().speed, 0);
+}
+
+/// I.5: the control evaluates the condition when the machine has got there.
+TEST(Simulation, DecidesJumpsWhenTheMachineGetsThere) {
+  const Case fork{"M06 T101001\nV1=1\nG1 X100 F6000\nIF V1=2 GOTO N5\nX50\nN5 Y10\nM02\n"};
+  Simulation simulation = fork.start();
+  simulation.step_block();
+  simulation.step_block();
+  simulation.advance_along(50);
+  Simulation other = simulation;
+  other.set_register(1, 2);
+  simulation.step_block();
+  EXPECT_EQ(simulation.line(), 3u);
+  EXPECT_NEAR(simulation.sample().tip.tip.x(), 100, kTiny) << "it stops there";
+  simulation.step_block();
+  EXPECT_EQ(simulation.line(), 4u);
+  other.step_block();
+  other.step_block();
+  EXPECT_EQ(other.line(), 5u);
+  other.step_block();
+  EXPECT_NEAR(other.sample().tip.tip.x(), 100, kTiny) << "nothing has been read of the other way";
+  EXPECT_NEAR(other.sample().tip.tip.y(), 10, kTiny);
+}
+
+TEST(Simulation, EndsAtAnErrorWhenTheMachineGetsThere) {
+  const Case error{"M06 T101001\nG1 X100 F6000\nG02 X5\nM02\n"};
+  Simulation simulation = error.start();
+  simulation.step_block();
+  simulation.advance_along(50);
+  EXPECT_FALSE(simulation.has_ended());
+  simulation.step_block();
+  EXPECT_FALSE(simulation.has_ended());
+  EXPECT_EQ(simulation.line(), 2u);
+  simulation.step_block();
+  EXPECT_TRUE(simulation.has_ended());
+  EXPECT_EQ(simulation.run().ending, running::Ending::Error);
+  EXPECT_EQ(simulation.line(), 2u);
+  EXPECT_EQ(simulation.blocks(), 2u);
+  EXPECT_NEAR(simulation.sample().tip.tip.x(), 100, kTiny);
+}
+
+/// Of a run in one go: what isorun makes of a program.
+struct Trip {
+  explicit Trip(const Case& of)
+      : timing(of.machine(), {.event = {}, .stretch = [this](const motion::Stretch& stretch, const TimedEvent& timed) {
+                                stretches.emplace_back(stretch, timed.event.line);
+                              }}) {
+    Compensation compensation(of.machine());
+    const Compensation::Listeners to_timing{.event = [this](const running::Event& event) { timing.take(event); },
+                                            .warning = [](const RunWarning&) {}};
+    result = running::run(of.text(), of.options(),
+                          [&](const running::Event& event) { compensation.take(event, to_timing); });
+    compensation.finish(to_timing);
+    timing.finish();
+  }
+
+  std::vector<std::pair<motion::Stretch, std::uint64_t>> stretches;  ///< With their lines.
+  Timing timing;
+  running::RunResult result;
+};
+
+TEST(SimulationProperty, GoesTheWayOfARunInOneGo) {
+  for (const std::uint64_t seed : seeds(40)) {
+    Random random(seed);
+    const Case some{random};
+    const Trip trip(some);
+    Simulation simulation = some.start();
+    for (const auto& [stretch, line] : trip.stretches) {
+      const double middle = stretch.start + stretch.duration / 2;
+      if (middle <= stretch.start || middle >= stretch.start + stretch.duration) continue;  // As good as none.
+      simulation.advance_to(middle);
+      const motion::Sample expected = stretch.at(some.machine().motion.kinematics, middle);
+      ASSERT_EQ(simulation.sample().joints, expected.joints) << seed << " at " << middle;
+      ASSERT_EQ(simulation.sample().tip.tip, expected.tip.tip) << seed << " at " << middle;
+      ASSERT_EQ(simulation.sample().speed, expected.speed) << seed << " at " << middle;
+      ASSERT_EQ(simulation.line(), line) << seed << " at " << middle;
+    }
+  }
+}
+
+TEST(SimulationProperty, EndsAsARunInOneGo) {
+  for (const std::uint64_t seed : seeds(40)) {
+    Random random(seed);
+    const Case some{random};
+    const Trip trip(some);
+    const Timing& timing = trip.timing;
+    const running::RunResult& result = trip.result;
+    Simulation simulation = some.start();
+    simulation.advance_to(1e9);
+    EXPECT_TRUE(simulation.has_ended());
+    EXPECT_EQ(simulation.time(), timing.time()) << seed;
+    EXPECT_EQ(simulation.run().state, result.state) << seed;
+    EXPECT_EQ(simulation.run().ending, result.ending) << seed;
+    EXPECT_EQ(simulation.blocks(), result.blocks) << seed;
+    EXPECT_NEAR((simulation.sample().tip.tip - timing.tip().tip).norm(), 0, kTiny) << seed;
+    EXPECT_NEAR((simulation.sample().joints - timing.joints()).norm(), 0, kTiny) << seed;
+  }
+}
+
+/// Stopped anywhere, a copy goes on by itself to the last bit as the original, and both are where a fresh run would be.
+TEST(SimulationProperty, GoesOnAsTheOriginalAndAsAFreshRun) {
+  for (const std::uint64_t seed : seeds(40)) {
+    Random random(seed);
+    const Case some{random};
+    auto simulation = std::make_unique<Simulation>(some.start());
+    while (!simulation->has_ended()) {
+      go_on(*simulation, random, simulation->time());
+      ASSERT_EQ(shown(*simulation), shown(fresh_at(some, *simulation))) << seed;
+      if (!random.one_in(3)) continue;
+      auto copy = std::make_unique<Simulation>(*simulation);
+      ASSERT_EQ(shown(*copy), shown(*simulation)) << seed;
+      Random same = random;
+      for (int i = random.between(1, 4); i > 0; --i) {
+        Random twin = same;
+        go_on(*copy, same, copy->time());
+        go_on(*simulation, twin, simulation->time());
+        ASSERT_EQ(shown(*copy), shown(*simulation)) << seed;
+      }
+      simulation = std::move(copy);
+    }
+    const double end = simulation->time();
+    simulation->step_block();
+    simulation->advance_to(2 * end + 1);
+    EXPECT_EQ(simulation->time(), end) << seed;
+  }
+}
+
+/// Whatever is wrong with a program, it comes to the end that it has in a run in one go.
+TEST(SimulationProperty, RunsAnyProgram) {
+  for (const std::uint64_t seed : seeds(60)) {
+    Random random(seed);
+    const Case some{fmt::format("{}\n", fmt::join(support::RandomProgram(random).lines(40), "\n")), 1,
+                    random.one_in(2)};
+    const running::RunResult result = running::run(some.text(), some.options(), [](const running::Event&) {});
+    Simulation simulation = some.start();
+    for (int i = 0; i < 100 && !simulation.has_ended(); ++i) simulation.step_block();
+    ASSERT_TRUE(simulation.has_ended()) << seed;
+    EXPECT_EQ(simulation.run().state, result.state) << seed;
+    EXPECT_EQ(simulation.run().ending, result.ending) << seed;
+    EXPECT_EQ(simulation.line(), result.line) << seed;
+  }
+}
+
+/// Where the machine is told to be, and how fast, agree: no leaps. Those of the tip are tool changes.
+TEST(SimulationProperty, MovesAtTheSpeedThatItShows) {
+  constexpr double kStep = 0.002;
+  constexpr double kMostAcceleration = 30'000;  // Of a tip that B and C swing as well, mm/s^2.
+  for (const std::uint64_t seed : seeds(8)) {
+    Random random(seed);
+    const Case some{RandomRun(random).text(2), 1};
+    Simulation simulation = some.start();
+    motion::Sample last = simulation.sample();
+    for (int step = 1; !simulation.has_ended(); ++step) {
+      simulation.advance_to(step * kStep);
+      const motion::Sample now = simulation.sample();
+      const double slack = kMostAcceleration * kStep * kStep + kTiny;
+      const motion::Coordinates expected = kStep * (last.joint_speeds + now.joint_speeds) / 2;
+      ASSERT_LE((now.joints - last.joints - expected).cwiseAbs().maxCoeff(), slack)
+          << seed << " at " << simulation.time();
+      if (last.speed > 0) {
+        ASSERT_LE((now.tip.tip - last.tip.tip).norm(), kStep * (last.speed + now.speed) / 2 + slack)
+            << seed << " at " << simulation.time();
+      }
+      last = now;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace isocnc::simulation
