@@ -30,7 +30,7 @@ using dialect::Language;
 using dialect::Text;
 using system::SourceFile;
 
-enum ExitStatus { kDone = 0, kWouldChange = 1, kTrouble = command_line::kTroubleStatus };
+using system::ExitStatus;
 
 enum class Mode { Check, Diff, Stdout, InPlace };
 
@@ -142,7 +142,7 @@ class Run {
         progress_(shares_terminal() ? nullptr : command_line::terminal_writer(), input::bytes_of(selection.files)) {}
 
   /// `styles` has one for each file.
-  int run(const std::vector<formatting::ProgramStyle>& styles) {
+  ExitStatus run(const std::vector<formatting::ProgramStyle>& styles) {
     trouble_ = !selection_.problems.empty();
     for (std::size_t i = 0; i < selection_.files.size(); ++i) {
       format_file(selection_.files[i], styles[i]);
@@ -151,14 +151,14 @@ class Run {
     progress_.clear();
     if (output_.flush() != 0) {
       complain(fmt::format("<stdout>: {}", system::cannot_write(output_.error(), language_)));
-      return kTrouble;
+      return ExitStatus::Failure;
     }
     if (mode_ != Mode::Stdout) {
       const Text& summary = mode_ == Mode::InPlace ? kWereChanged : kWouldBeChanged;
       std::cerr << dialect::format(summary, language_, changed_, read_) << '\n';
     }
-    if (trouble_) return kTrouble;
-    return changed_ > 0 && (mode_ == Mode::Check || mode_ == Mode::Diff) ? kWouldChange : kDone;
+    if (trouble_) return ExitStatus::Failure;
+    return changed_ > 0 && (mode_ == Mode::Check || mode_ == Mode::Diff) ? ExitStatus::Findings : ExitStatus::Success;
   }
 
  private:
@@ -263,12 +263,12 @@ class Run {
 };
 
 /// Takes the first path's configuration for the language, too: one command speaks one.
-int format(Options options) {
+ExitStatus format(Options options) {
   configuration::Configurations configurations(options.source, options.reader_language());
   const auto& first = configurations.of(input::place_of_program(options.paths.front(), options.stdin_name));
   if (options.language.empty() && first.language) options.language = dialect::name_of(*first.language);
   const Language language = options.reader_language();
-  if (!check_options(options)) return kTrouble;
+  if (!check_options(options)) return ExitStatus::Failure;
   const input::FileSelection selection = input::select_programs(options.paths, configurations, language);
   std::vector<formatting::ProgramStyle> styles;
   for (const std::filesystem::path& file : selection.files)
@@ -276,16 +276,16 @@ int format(Options options) {
         configurations.in_folder(input::place_of_program(file, options.stdin_name).parent_path()).format, options));
   const std::vector<std::string> mistakes = configurations.mistakes(language);
   for (const std::string& mistake : mistakes) std::cerr << mistake << '\n';
-  if (!mistakes.empty()) return kTrouble;
+  if (!mistakes.empty()) return ExitStatus::Failure;
   for (const std::string& problem : selection.problems) complain(problem);
-  if (selection.is_refused) return kTrouble;
+  if (selection.is_refused) return ExitStatus::Failure;
   if (options.mode() == Mode::Stdout && selection.files.size() > 1) {
     complain(dialect::format(kOneProgram, language, selection.files.size()));
-    return kTrouble;
+    return ExitStatus::Failure;
   }
   if (options.mode() == Mode::InPlace && options.paths.front() == "-") {
     complain(kStandardInputInPlace.in(language));
-    return kTrouble;
+    return ExitStatus::Failure;
   }
   return Run(options, selection).run(styles);
 }
@@ -347,7 +347,7 @@ void add_options(command_line::ProgramApp& program, Options& options) {
       {"Read this, not the isocnc.json above each program", "Legge questo, non l'isocnc.json sopra ogni programma"});
 }
 
-int run_main(int argc, char** argv) {
+ExitStatus run_main(int argc, char** argv) {
   Options options;
   command_line::ProgramApp program(
       argc, argv,

@@ -39,7 +39,7 @@ using namespace dialect::literals;
 using dialect::Language;
 using system::SourceFile;
 
-enum ExitStatus { kClean = 0, kFindings = 1, kTrouble = command_line::kTroubleStatus };
+using system::ExitStatus;
 
 void complain(std::string_view what) { command_line::complain("isolint", what); }
 
@@ -83,7 +83,7 @@ class Answer final : public formats::Output {
 ExitStatus say(std::string_view text, const Options& options) {
   Answer answer(options);
   answer.buffer() += text;
-  return answer.finish() ? kClean : kTrouble;
+  return answer.finish() ? ExitStatus::Success : ExitStatus::Failure;
 }
 
 /// What is to be checked, and how: one for each file.
@@ -107,29 +107,29 @@ class Run {
         progress_(command_line::terminal_writer(), input::bytes_of(files_)),
         output_(options) {}
 
-  int run(bool trouble) {
+  ExitStatus run(bool trouble) {
     trouble_ = trouble;
     if (output_.has_failed()) {
       output_.finish();
-      return kTrouble;
+      return ExitStatus::Failure;
     }
     renderer_->begin(output_.buffer());
     const auto workers = std::min<std::size_t>(static_cast<std::size_t>(jobs_), files_.size());
     check::side_by_side(static_cast<int>(workers), [this] { work(); });
     progress_.clear();
     renderer_->end(output_.buffer());
-    if (!output_.finish()) return kTrouble;
+    if (!output_.finish()) return ExitStatus::Failure;
     if (program_.flush() != 0) {
       complain(fmt::format("<stdout>: {}", system::cannot_write(program_.error(), style_.language)));
-      return kTrouble;
+      return ExitStatus::Failure;
     }
     if (options_.format == "text") {
       summarize();
     } else if (options_.fix) {
       std::cerr << fixed_in_words() << '\n';
     }
-    if (trouble_) return kTrouble;
-    return options_.exit_zero || is_good_enough() ? kClean : kFindings;
+    if (trouble_) return ExitStatus::Failure;
+    return options_.exit_zero || is_good_enough() ? ExitStatus::Success : ExitStatus::Findings;
   }
 
  private:
@@ -309,20 +309,21 @@ class Recorder final : public formats::Renderer {
 };
 
 /// Checks, and writes all that is found as a baseline, unless programs would be missing in it.
-int record(Options options, const formats::Style& style, Programs programs, bool trouble) {
+ExitStatus record(Options options, const formats::Style& style, Programs programs, bool trouble) {
   const bool italian = style.language == Language::Italian;
   const std::string& file = options.write_baseline;
   options.exit_zero = true;  // What is recorded is nobody's failure.
   selection::Baseline baseline(file);
-  if (Run(options, style, std::make_unique<Recorder>(baseline), {}, std::move(programs)).run(trouble) != kClean) {
+  if (Run(options, style, std::make_unique<Recorder>(baseline), {}, std::move(programs)).run(trouble) !=
+      ExitStatus::Success) {
     complain(fmt::format("{}: {}", file, italian ? "non scritto" : "not written"));
-    return kTrouble;
+    return ExitStatus::Failure;
   }
   system::OutputFile output{std::filesystem::path(file)};
   output.write(baseline.to_json());
   const std::optional<std::string> problem = system::commit(output, file, style.language);
   if (problem) complain(*problem);
-  return problem ? kTrouble : kClean;
+  return problem ? ExitStatus::Failure : ExitStatus::Success;
 }
 
 /// The programs to be checked; none, after a complaint, when the check cannot begin.
@@ -366,7 +367,7 @@ const dialect::Text* what_it_overwrites(const std::string& written, const Progra
 }
 
 /// Takes the first path's configuration for the language, too: one command speaks one.
-int check(Options options) {
+ExitStatus check(Options options) {
   if (options.paths.empty()) options.paths = {"."};
   configuration::Configurations configurations(options.source, options.reader_language());
   options.follow(configurations.of(input::place_of_program(options.paths.front(), options.stdin_name)));
@@ -374,24 +375,24 @@ int check(Options options) {
       .language = options.reader_language(), .color = options.wants_color(), .unsafe_fixes = options.unsafe_fixes};
   const std::vector<std::string> problems = selection::Selection().follow(options.wishes, style.language);
   for (const std::string& problem : problems) complain(problem);
-  if (!problems.empty()) return kTrouble;
+  if (!problems.empty()) return ExitStatus::Failure;
   std::unique_ptr<formats::Renderer> renderer = options.statistics
                                                     ? formats::make_statistics_renderer(options.format, style)
                                                     : formats::make_renderer(options.format, style);
   if (!renderer) {
     complain(fmt::format("--statistics: {} text, concise, json",
                          style.language == Language::Italian ? "solo con --format" : "only with --format"));
-    return kTrouble;
+    return ExitStatus::Failure;
   }
   bool trouble = false;
   selection::SettingsFinder settings(configurations, options.wishes);
   auto programs = find_programs(options, configurations, settings, trouble);
-  if (!programs) return kTrouble;
+  if (!programs) return ExitStatus::Failure;
   for (const std::string* written : {&options.output, &options.write_baseline}) {
     const dialect::Text* const what = what_it_overwrites(*written, *programs, options, configurations);
     if (!what) continue;
     complain(fmt::format("{}: {}", *written, what->in(style.language)));
-    return kTrouble;
+    return ExitStatus::Failure;
   }
   if (!options.write_baseline.empty()) return record(options, style, *std::move(programs), trouble);
   std::optional<selection::Baseline> baseline;
@@ -399,18 +400,18 @@ int check(Options options) {
     auto read = selection::Baseline::read(options.baseline, style.language);
     if (const auto* mistake = std::get_if<std::string>(&read)) {
       complain(*mistake);
-      return kTrouble;
+      return ExitStatus::Failure;
     }
     baseline = std::get<selection::Baseline>(std::move(read));
   }
   return Run(options, style, std::move(renderer), std::move(baseline), *std::move(programs)).run(trouble);
 }
 
-int explain_code(const Options& options) {
+ExitStatus explain_code(const Options& options) {
   const Language language = options.reader_language();
   if (const auto id = dialect::find_diagnostic(options.explain)) return say(explain(*id, language), options);
   complain(selection::unknown_code(options.explain, language));
-  return kTrouble;
+  return ExitStatus::Failure;
 }
 
 /// Of what holds for some programs alone, what holds for this one.
@@ -422,7 +423,7 @@ configuration::Configuration without_other_files(configuration::Configuration sh
 }
 
 /// Prints a configuration as its file could say it, and tells where it comes from.
-int show_config(Options options) {
+ExitStatus show_config(Options options) {
   static constexpr dialect::Text kFrom = {"configuration: {}", "configurazione: {}"};
   static constexpr dialect::Text kDefaults = {"no isocnc.json: these are the defaults",
                                               "nessun isocnc.json: valgono questi valori predefiniti"};
@@ -433,10 +434,10 @@ int show_config(Options options) {
   const configuration::Configuration& shown = configurations.of(place);
   options.follow(shown);
   const Language language = options.reader_language();
-  if (complain_of(configurations, language)) return kTrouble;
+  if (complain_of(configurations, language)) return ExitStatus::Failure;
   if (options.paths.size() > 1) {
     complain(kOnePath.in(language));
-    return kTrouble;
+    return ExitStatus::Failure;
   }
   complain(shown.file.empty() ? std::string(kDefaults.in(language))
                               : dialect::format(kFrom, language, shown.file.string()));
@@ -445,11 +446,14 @@ int show_config(Options options) {
   return say(configuration::to_json(is_folder ? shown : without_other_files(shown, place)), options);
 }
 
-int run_main(int argc, char** argv) {
+ExitStatus run_main(int argc, char** argv) {
   const CommandLine command = read_command_line(argc, argv);
   const Options& options = command.options;
   if (command.answer) return say(*command.answer, options);
-  if (command.complaint) return command_line::complain_of_command("isolint", *command.complaint);
+  if (command.complaint) {
+    command_line::complain_of_command("isolint", *command.complaint);
+    return ExitStatus::Failure;
+  }
   if (options.rules_page) return say(rules_page(), options);
   if (options.config_schema) return say(configuration::json_schema(), options);
   if (options.config_keys) return say(configuration::key_page(), options);

@@ -34,7 +34,7 @@ namespace {
 using dialect::Language;
 using dialect::Text;
 
-enum ExitStatus { kRan = 0, kStopped = 1, kTrouble = command_line::kTroubleStatus };
+using system::ExitStatus;
 
 /// As they stand on the command line. Numbers are read later, when the language to complain in is known.
 struct Options {
@@ -256,8 +256,8 @@ running::RunResult run_with_progress(std::string_view program, running::RunOptio
   return run(program, options, on_event);
 }
 
-int run_program(std::string_view program, const Options& options, const running::RunOptions& run_options,
-                const RunOutputs& outputs, const simulation::TimedMachine& machine) {
+ExitStatus run_program(std::string_view program, const Options& options, const running::RunOptions& run_options,
+                       const RunOutputs& outputs, const simulation::TimedMachine& machine) {
   RunReport report(outputs, machine);
   std::optional<running::RunResult> result;
   if (report.is_ready()) {
@@ -267,8 +267,8 @@ int run_program(std::string_view program, const Options& options, const running:
     if (result->ending == running::Ending::Error) print_error(options, *result);
   }
   for (const std::string& problem : report.problems()) complain(problem);
-  if (!report.problems().empty()) return kTrouble;
-  return result->ending == running::Ending::Error ? kStopped : kRan;
+  if (!report.problems().empty()) return ExitStatus::Failure;
+  return result->ending == running::Ending::Error ? ExitStatus::Findings : ExitStatus::Success;
 }
 
 bool write_restart(std::string_view program, const Options& options) {
@@ -286,19 +286,20 @@ bool write_restart(std::string_view program, const Options& options) {
   return !problem;
 }
 
-int restart(const system::SourceFile& source, const Options& options, const restart::RestartOptions& restart_options) {
+ExitStatus restart(const system::SourceFile& source, const Options& options,
+                   const restart::RestartOptions& restart_options) {
   const auto made = restart::restart_program(source.text(), restart_options);
   if (const auto* const program = std::get_if<std::string>(&made)) {
     const std::string_view mark = source.has_byte_order_mark() ? system::kByteOrderMark : "";
-    return write_restart(std::string(mark) + *program, options) ? kRan : kTrouble;
+    return write_restart(std::string(mark) + *program, options) ? ExitStatus::Success : ExitStatus::Failure;
   }
   const auto& refusal = std::get<restart::RestartRefusal>(made);
   if (refusal.obstacle == restart::Obstacle::ProgramError) {
     print_error(options, refusal.run);
-    return kStopped;
+    return ExitStatus::Findings;
   }
   complain(fmt::format("{}: {}", options.shown_file(), message(refusal, options.reader_language())));
-  return refusal.obstacle == restart::Obstacle::NoSuchLine ? kTrouble : kStopped;
+  return refusal.obstacle == restart::Obstacle::NoSuchLine ? ExitStatus::Failure : ExitStatus::Findings;
 }
 
 /// A machine, and the isocnc.json that has been read for the program.
@@ -338,28 +339,28 @@ plot::PlotSubject plot_subject(std::string_view program, const configuration::Ma
           .language = options.reader_language()};
 }
 
-int run_file(Options options) {
+ExitStatus run_file(Options options) {
   const std::optional<FoundMachine> found = find_machine(options);
-  if (!found) return kTrouble;
+  if (!found) return ExitStatus::Failure;
   const configuration::Machine& machine = found->machine;
   const Language language = options.reader_language();
   std::optional<running::RunOptions> run_options = read_run_options(options);
-  if (!run_options) return kTrouble;
+  if (!run_options) return ExitStatus::Failure;
   run_options->setup = machine.setup;
   std::optional<RunOutputs> outputs = read_outputs(options);
-  if (!outputs) return kTrouble;
+  if (!outputs) return ExitStatus::Failure;
   std::optional<restart::RestartOptions> restart_options;
   if (options.restart_at) {
     restart_options = read_restart_options(options, *run_options);
-    if (!restart_options) return kTrouble;
+    if (!restart_options) return ExitStatus::Failure;
     restart_options->machine = machine.timed;
   }
-  if (!files_are_apart(options, found->configuration)) return kTrouble;
+  if (!files_are_apart(options, found->configuration)) return ExitStatus::Failure;
   const auto opened = options.reads_stdin() ? system::SourceFile::read_stream(STDIN_FILENO, language)
                                             : system::SourceFile::open(options.file, language);
   if (const auto* problem = std::get_if<system::SourceFile::Problem>(&opened)) {
     complain(fmt::format("{}: {}", options.shown_file(), problem->message));
-    return kTrouble;
+    return ExitStatus::Failure;
   }
   const auto& source = std::get<system::SourceFile>(opened);
   if (restart_options) return restart(source, options, *restart_options);
@@ -367,7 +368,7 @@ int run_file(Options options) {
   return run_program(source.text(), options, *run_options, *outputs, machine.timed);
 }
 
-int run_main(int argc, char** argv) {
+ExitStatus run_main(int argc, char** argv) {
   Options options;
   command_line::ProgramApp program(
       argc, argv, {"Runs an ISOCNC program and tells what it does.", "Esegue un programma ISOCNC e dice che cosa fa."},

@@ -22,15 +22,15 @@ struct Options {
 
 void complain(std::string_view what) { command_line::complain("isols", what); }
 
-int run(const Options& options) {
+system::ExitStatus run(const Options& options) {
   const auto make = [&](rpc::Loop& loop, rpc::Send send) {
     return std::make_unique<Server>(loop, std::move(send), dialect::language_named(options.language));
   };
   rpc::serve(options.port, make, complain);
-  return command_line::kTroubleStatus;  // The port cannot be had.
+  return system::ExitStatus::Failure;  // The port cannot be had.
 }
 
-int run_main(int argc, char** argv) {
+system::ExitStatus run_main(int argc, char** argv) {
   Options options;
   command_line::ProgramApp program(
       argc, argv,

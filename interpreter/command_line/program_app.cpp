@@ -149,10 +149,13 @@ ProgramApp::Said ProgramApp::read(int argc, const char* const* argv) {
   return {};
 }
 
-std::optional<int> ProgramApp::answer(int argc, const char* const* argv) {
+std::optional<system::ExitStatus> ProgramApp::answer(int argc, const char* const* argv) {
   const Said said = read(argc, argv);
   if (said.answer) return say(texts_.program, *said.answer, language_);
-  if (said.complaint) return complain_of_command(texts_.program, *said.complaint);
+  if (said.complaint) {
+    complain_of_command(texts_.program, *said.complaint);
+    return system::ExitStatus::Failure;
+  }
   return std::nullopt;
 }
 

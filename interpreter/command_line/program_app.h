@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "interpreter/dialect/diagnostic.h"
+#include "interpreter/system/exit_status.h"
 
 // The library that reads command lines takes long to compile: program_app.cpp alone does.
 namespace CLI {
@@ -91,7 +92,7 @@ class ProgramApp {
   };
   Said read(int argc, const char* const* argv);
   /// Reads the command, and says what is to be said: then the exit status. Nothing where the program is to run.
-  std::optional<int> answer(int argc, const char* const* argv);
+  std::optional<system::ExitStatus> answer(int argc, const char* const* argv);
 
  private:
   std::string text(const dialect::Text& text) const { return std::string(text.in(language_)); }

@@ -14,6 +14,8 @@
 
 namespace isocnc::command_line {
 
+using system::ExitStatus;
+
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): an exception that nobody handles brings none.
 static std::string_view running_program;
 
@@ -33,10 +35,10 @@ static void tell_of_failure() {
 [[noreturn]] static void end_in_trouble() {
   tell_of_failure();
   system::remove_temporary_files();
-  ::_exit(kTroubleStatus);
+  ::_exit(static_cast<int>(ExitStatus::Failure));
 }
 
-int program_main(std::string_view program, int (*run)(int argc, char** argv), int argc, char** argv) {
+int program_main(std::string_view program, ExitStatus (*run)(int argc, char** argv), int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   system::tell_of_lost_bytes(program);
@@ -44,10 +46,10 @@ int program_main(std::string_view program, int (*run)(int argc, char** argv), in
   running_program = program;
   std::set_terminate(end_in_trouble);
   try {
-    return run(argc, argv);
+    return static_cast<int>(run(argc, argv));
   } catch (const std::exception&) {
     tell_of_failure();
-    return kTroubleStatus;
+    return static_cast<int>(ExitStatus::Failure);
   }
 }
 
@@ -55,19 +57,18 @@ void complain(std::string_view program, std::string_view what) {
   std::cerr << program << ": " << syntax::printable(what) << '\n';
 }
 
-int complain_of_command(std::string_view program, std::string_view what) {
+void complain_of_command(std::string_view program, std::string_view what) {
   complain(program, what);
   std::cerr << program << " --help\n";
-  return kTroubleStatus;
 }
 
-int say(std::string_view program, std::string_view text, dialect::Language language) {
+ExitStatus say(std::string_view program, std::string_view text, dialect::Language language) {
   system::OutputFile output(STDOUT_FILENO);
   output.write(text);
   const auto problem = system::commit(output, "<stdout>", language);
-  if (!problem) return 0;
+  if (!problem) return ExitStatus::Success;
   complain(program, *problem);
-  return kTroubleStatus;
+  return ExitStatus::Failure;
 }
 
 }  // namespace isocnc::command_line

@@ -8,7 +8,7 @@
 #include <functional>
 #include <utility>
 
-#include "interpreter/command_line/program_main.h"
+#include "interpreter/system/exit_status.h"
 #include "interpreter/syntax/unicode.h"
 #include "interpreter/system/handler_table.h"
 #include "interpreter/system/temporary_file.h"
@@ -67,7 +67,7 @@ static void on_lost_bytes(int signal, siginfo_t* info, void*) {
     for (const std::string* const part : {&std::as_const(complaint_prefix), complaint})
       if (::write(STDERR_FILENO, part->data(), part->size()) < 0) break;
     remove_temporary_files();
-    ::_exit(command_line::kTroubleStatus);
+    ::_exit(static_cast<int>(ExitStatus::Failure));
   });
   std::signal(signal, SIG_DFL);  // Not of our making: the access is tried again, and ends the program.
 }
