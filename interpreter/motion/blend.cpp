@@ -13,12 +13,12 @@ using geometry::Mat3;
 /// Directions that differ by less are one: what is left of decimals, mm or degrees per mm.
 static constexpr double kSameDirection = 1e-9;
 /// Of an arc no more than this is cut, radians: the bound of the deviation is for small angles.
-static constexpr double kMostCut = 0.25;
+static constexpr double kMaxCut = 0.25;
 /// From each end of an element no more is cut than this part of it: what is left between two corners, where the speed
 /// is constant, is where a chain of short lines can gather speed and lose it.
-static constexpr double kMostOfElement = 0.25;
+static constexpr double kMaxElementPart = 0.25;
 /// Corners are not rounded by less for the feed's sake, mm.
-static constexpr double kLeastCut = 1e-6;
+static constexpr double kMinCut = 1e-6;
 
 /// An element's path as it is seen in the space where the corner is rounded.
 static Jet seen_in(const Machine& machine, Space space, const Element& element, double s) {
@@ -40,9 +40,9 @@ static bool can_be_rounded(const Element& before, const Element& after) {
 struct Shape {
   double by_change;
   double by_bend;
-  double most_of_element;
+  double max_element_part;
 };
-static constexpr Shape kParabola = {1.0 / 4, 1.3, kMostOfElement};
+static constexpr Shape kParabola = {1.0 / 4, 1.3, kMaxElementPart};
 static constexpr Shape kSmooth = {13.0 / 72, 0.06, 0.5};
 
 /// How far to cut into both sides.
@@ -57,11 +57,11 @@ static double cut(const Machine& machine, const Shape& shape, Space space, const
   const double bend = shape.by_bend * (before.curvature + after.curvature);
   const double tolerance = machine.corner_tolerance;
   const double turn = linear * shape.by_change;
-  double most = shape.most_of_element * std::min(before.length, after.length);
-  most = std::min(most, 2 * tolerance / (turn + std::sqrt(square(turn) + 4 * bend * tolerance)));
-  if (bend > 0) most = std::min(most, kMostCut / std::max(before.curvature, after.curvature));
-  if (rotary > 0) most = std::min(most, machine.corner_tolerance_deg / shape.by_change / rotary);
-  return most;
+  double depth = shape.max_element_part * std::min(before.length, after.length);
+  depth = std::min(depth, 2 * tolerance / (turn + std::sqrt(square(turn) + 4 * bend * tolerance)));
+  if (bend > 0) depth = std::min(depth, kMaxCut / std::max(before.curvature, after.curvature));
+  if (rotary > 0) depth = std::min(depth, machine.corner_tolerance_deg / shape.by_change / rotary);
+  return depth;
 }
 
 /// The cubic of Hermite over [0, length], with unit parameter speed at both ends; between lines its cube vanishes.
@@ -141,14 +141,14 @@ static double feed_cap(const Machine& machine, Space space, const Element& befor
   const double feed = std::min(before.feed, after.feed);
   if (std::isinf(feed)) return feed;
   const double swing = space == Space::Joints ? kRadians * swing_radius(machine, blend) : 0;
-  const auto steepness = [&](const Coordinates& slope) {
+  const auto tip_rate = [&](const Coordinates& slope) {
     if (before.only_turns) return slope.tail<2>().norm();
     return slope.head<3>().norm() + swing * (std::abs(slope[kB]) + std::abs(slope[kC]));
   };
   const Coordinates middle = blend.path.c[1] + blend.length * blend.path.c[2];
-  const double steepest = std::max({before.steepest, after.steepest, steepness(middle)});
+  const double max_tip_rate = std::max({before.max_tip_rate, after.max_tip_rate, tip_rate(middle)});
   const double turn = std::max(std::abs(middle[kB]), std::abs(middle[kC]));
-  return square(std::min(feed / steepest, machine.feed_turn / turn));
+  return square(std::min(feed / max_tip_rate, machine.feed_turn / turn));
 }
 
 /// Where two elements meet, in the space in which both are seen.
@@ -189,7 +189,7 @@ Corner corner(const Machine& machine, const Element& before, const Element& afte
   // The acceleration in a parabola is inverse to its length: no longer than the speed on both sides asks for.
   const double wanted = std::min(caps.by_speed, by_feed);
   if (between_lines && caps.by_acceleration > wanted) {
-    caps = round(std::max(depth * wanted / caps.by_acceleration, std::min(depth, kLeastCut)));
+    caps = round(std::max(depth * wanted / caps.by_acceleration, std::min(depth, kMinCut)));
     by_feed = feed_cap(machine, space, before, after, blend);
   }
   blend.cap = std::min({caps.by_speed, caps.by_acceleration, by_feed});

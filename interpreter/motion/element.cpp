@@ -14,8 +14,8 @@ using geometry::Vec3;
 /// Shorter ways lead nowhere, mm or degrees.
 static constexpr double kNowhere = 1e-9;
 /// No machine's arcs take so many parts: circles of 20 km do.
-static constexpr int kMostChords = 100'000;
-static constexpr int kMostTurns = 1'000'000;
+static constexpr int kMaxChords = 100'000;
+static constexpr int kMaxTurns = 1'000'000;
 
 static double turning(const Pose& from, const Pose& to) { return std::hypot(to.b - from.b, to.c - from.c); }
 
@@ -58,15 +58,15 @@ ProgrammedPath programmed_line(const Machine& machine, const Move& move, const P
   return result;
 }
 
-int part_count(double parts, int most) {
+int part_count(double parts, int max) {
   if (!(parts > 1)) return 1;
-  return parts < most ? static_cast<int>(std::ceil(parts)) : most;
+  return parts < max ? static_cast<int>(std::ceil(parts)) : max;
 }
 
 /// A chord over the angle t is off the arc by r (1 - cos(t/2)).
 static int chord_count(double radius, double sweep, double tolerance) {
   const double half = std::acos(std::clamp(1 - tolerance / radius, 0.0, 1.0));
-  return part_count(std::abs(sweep) / (2 * half) - 1e-9, kMostChords);
+  return part_count(std::abs(sweep) / (2 * half) - 1e-9, kMaxChords);
 }
 
 static bool splits(const Move& move) { return move.is_arc && (move.splits_arcs || turns(move)); }
@@ -85,7 +85,7 @@ void Splitter::take(const Machine& machine, const Move& move) {
   if (splits(move))
     count_ = segment_count(machine, move);
   else if (move.is_arc)
-    count_ = part_count(std::abs(move.sweep_deg) / 360 - 1e-9, kMostTurns);
+    count_ = part_count(std::abs(move.sweep_deg) / 360 - 1e-9, kMaxTurns);
   if (!(whole_.length > 0)) count_ = 0;
 }
 
@@ -102,17 +102,17 @@ static double feed_speed(const Feed& feed, double length) {
 }
 
 /// Most speed of s on feed moves, by what the machine allows the tip, B and C there.
-static double most_feed(const Machine& machine, const Element& element) {
+static double max_feed(const Machine& machine, const Element& element) {
   const Coordinates& slope = element.path.c[1];  // Of circles B and C rest.
   const double turn = std::max(std::abs(slope[kB]), std::abs(slope[kC]));
-  const double most = element.only_turns ? std::numeric_limits<double>::infinity() : machine.feed_speed;
-  return turn > 0 ? std::min(most, machine.feed_turn / turn) : most;
+  const double max = element.only_turns ? std::numeric_limits<double>::infinity() : machine.feed_speed;
+  return turn > 0 ? std::min(max, machine.feed_turn / turn) : max;
 }
 
 Element Splitter::next(const Machine& machine) {
   Element element = !move_.is_arc ? line(machine, whole_) : splits(move_) ? chord(machine) : arc();
   element.feed = feed_speed(move_.feed, whole_.length);
-  if (move_.feed.kind != FeedKind::Rapid) element.feed = std::min(element.feed, most_feed(machine, element));
+  if (move_.feed.kind != FeedKind::Rapid) element.feed = std::min(element.feed, max_feed(machine, element));
   element.tag = move_.tag;
   ++index_;
   element.ends_move = index_ == count_;
@@ -157,7 +157,7 @@ Element Splitter::arc() const {
   element.length = element.end - element.begin;
   element.curvature = radius * whole_.path.omega * whole_.path.omega;
   element.joints_are_straight = false;
-  element.steepest = std::sqrt(square(radius * std::abs(whole_.path.omega) + across) + square(along));
+  element.max_tip_rate = std::sqrt(square(radius * std::abs(whole_.path.omega) + across) + square(along));
   return element;
 }
 

@@ -28,7 +28,7 @@ struct Element {
   bool joints_are_straight = true;
   bool only_turns = false;                                ///< s counts degrees.
   double feed = std::numeric_limits<double>::infinity();  ///< Most speed of the tip, or of B and C; per second.
-  double steepest = 1;                                    ///< Most length of the tip's way per unit of s.
+  double max_tip_rate = 1;                                ///< Most length of the tip's way per unit of s.
   /// The path's first derivative at an end that is rounded, as the corner knows it; of arcs.
   std::optional<Coordinates> slope_at_begin;
   std::optional<Coordinates> slope_at_end;
@@ -55,7 +55,7 @@ ProgrammedPath programmed_line(const Machine& machine, const Move& move, const g
 ProgrammedPath programmed_circle(const Move& move);
 
 /// Into so many parts, at least 1 and at most `most`, whatever the number: programs may hold any coordinates.
-int part_count(double parts, int most);
+int part_count(double parts, int max);
 
 /// Into how many lines an arc becomes, where it becomes lines (Move::splits_arcs); 1 for all other moves.
 int segment_count(const Machine& machine, const Move& move);

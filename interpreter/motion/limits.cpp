@@ -43,15 +43,15 @@ static Coordinates largest(const Coordinates& begin, const Coordinates& end, con
   return begin.cwiseAbs().cwiseMax(end.cwiseAbs()) + bulge;
 }
 
-Slopes slopes(const Kinematics& kinematics, const Path& path, double from, double to) {
+DerivativeBounds derivative_bounds(const Kinematics& kinematics, const Path& path, double from, double to) {
   const Jet begin = path.joints_at(kinematics, from);
   const Jet end = path.joints_at(kinematics, to);
-  const Wiggle most = wiggle(kinematics, path, from, to);
+  const HigherDerivativeBounds higher = higher_derivative_bounds(kinematics, path, from, to);
   Coordinates third = Coordinates::Zero();
   Coordinates fourth = Coordinates::Zero();
   if (path.kind == PathKind::Polynomial) third = 6 * path.c[3].cwiseAbs();
-  third.head<3>() = most.third;
-  fourth.head<3>() = most.fourth;
+  third.head<3>() = higher.third;
+  fourth.head<3>() = higher.fourth;
   const double bulge = square(to - from) / 8;
   return {largest(begin.first, end.first, bulge * third), largest(begin.second, end.second, bulge * fourth), third};
 }
@@ -65,41 +65,43 @@ double smoothing_window(const Machine& machine) {
 }
 
 /// x at which the acceleration falls to nothing, over the most that occurs: more leaves less for the acceleration.
-static constexpr double kRoom = 9;
+static constexpr double kMaxFallRatio = 9;
 
 /// One axis on a curve: |a| <= acceleration (1 - fall x). With z^2 = fall x, the terms of the jerk that come with the
 /// second and the third derivative are no more than part jerk (z^3 + 1.5 (z - z^3)), hence no more than part jerk.
 static LineLimits smoothed_curve(const AxisLimits& axis, const Smoothing& smoothing, double first, double second,
                                  double third, double cap) {
-  double most = std::min(axis.acceleration / second, kRoom * cap);
-  if (!axis.jerk) return {cap, axis.acceleration / first, 1 / most};
+  double zero_x = std::min(axis.acceleration / second, kMaxFallRatio * cap);
+  if (!axis.jerk) return {cap, axis.acceleration / first, 1 / zero_x};
   const double jerk = *axis.jerk;
-  if (third > 0) most = std::min(most, std::pow(smoothing.curves_part * jerk / third, 2.0 / 3));
-  const double speed = std::sqrt(most);
+  if (third > 0) zero_x = std::min(zero_x, std::pow(smoothing.curves_part * jerk / third, 2.0 / 3));
+  const double speed = std::sqrt(zero_x);
   // As much for both terms that limit the acceleration, if the third derivative leaves that.
   const double swing = 2 * second * speed * smoothing.window;
-  const double part = std::clamp(third * most * speed / jerk, std::min(swing / (first + swing), smoothing.curves_part),
-                                 smoothing.curves_part);
+  const double part = std::clamp(third * zero_x * speed / jerk,
+                                 std::min(swing / (first + swing), smoothing.curves_part), smoothing.curves_part);
   const double along = std::min(axis.acceleration, (1 - part) * jerk * smoothing.window) / first;
-  return {cap, std::min(along, part * jerk / (2 * second * speed)), 1 / most};
+  return {cap, std::min(along, part * jerk / (2 * second * speed)), 1 / zero_x};
 }
 
 static LineLimits smoothed_line(const AxisLimits& axis, const Smoothing& smoothing, double first, double cap) {
   return {cap, std::min(axis.acceleration, axis.jerk ? *axis.jerk * smoothing.window : kInfinity) / first, 0};
 }
 
-LineLimits smoothed_limits(const Machine& machine, const Smoothing& smoothing, const Slopes& slopes, double cap) {
+LineLimits smoothed_limits(const Machine& machine, const Smoothing& smoothing, const DerivativeBounds& bounds,
+                           double cap) {
   LineLimits result{cap, kInfinity, 0};
   for (int i = 0; i < kAxisCount; ++i)
-    result.cap = std::min(result.cap, square(machine.axes[static_cast<std::size_t>(i)].speed / slopes.first[i]));
-  const double most = result.cap;
+    result.cap = std::min(result.cap, square(machine.axes[static_cast<std::size_t>(i)].speed / bounds.first[i]));
+  const double cap_by_speed = result.cap;
   for (int i = 0; i < kAxisCount; ++i) {
     const AxisLimits& axis = machine.axes[static_cast<std::size_t>(i)];
-    const bool is_curved = slopes.second[i] > kStraight || slopes.third[i] > kStraight;
-    if (!is_curved && !(slopes.first[i] > 0)) continue;
-    const LineLimits limits = is_curved ? smoothed_curve(axis, smoothing, slopes.first[i],
-                                                         std::max(slopes.second[i], kStraight), slopes.third[i], most)
-                                        : smoothed_line(axis, smoothing, slopes.first[i], most);
+    const bool is_curved = bounds.second[i] > kStraight || bounds.third[i] > kStraight;
+    if (!is_curved && !(bounds.first[i] > 0)) continue;
+    const LineLimits limits = is_curved
+                                  ? smoothed_curve(axis, smoothing, bounds.first[i],
+                                                   std::max(bounds.second[i], kStraight), bounds.third[i], cap_by_speed)
+                                  : smoothed_line(axis, smoothing, bounds.first[i], cap_by_speed);
     result.acceleration = std::min(result.acceleration, limits.acceleration);
     result.fall = std::max(result.fall, limits.fall);
   }
@@ -107,15 +109,16 @@ LineLimits smoothed_limits(const Machine& machine, const Smoothing& smoothing, c
   return result;
 }
 
-CurveLimits::CurveLimits(const Machine& machine, const Jet& begin, const Jet& end, const Wiggle& most, double length)
+CurveLimits::CurveLimits(const Machine& machine, const Jet& begin, const Jet& end, const HigherDerivativeBounds& higher,
+                         double length)
     : length_(length) {
   const double bulge = square(length_) / 8;
   double by_speed = 0;  // Of the most x: the inverse of its root, and of itself.
   double by_acceleration = 0;
   for (int axis = 0; axis < kAxisCount; ++axis) {
     const AxisLimits& limits = machine.axes[static_cast<std::size_t>(axis)];
-    const double first_slack = axis < kB ? bulge * most.third[axis] : 0;
-    const double second_slack = axis < kB ? bulge * most.fourth[axis] : 0;
+    const double first_slack = axis < kB ? bulge * higher.third[axis] : 0;
+    const double second_slack = axis < kB ? bulge * higher.fourth[axis] : 0;
     const auto rests = [&](const Jet& jet) { return jet.first[axis] == 0 && jet.second[axis] == 0; };
     if (rests(begin) && rests(end) && first_slack == 0) continue;
     const double part = 1 / limits.acceleration;
@@ -141,20 +144,20 @@ void CurveLimits::add(Bounds& bounds, double m, double n) const {
 
 CurveLimits curve_limits(const Machine& machine, const Path& path, double from, double to) {
   return {machine, path.joints_at(machine.kinematics, from), path.joints_at(machine.kinematics, to),
-          wiggle(machine.kinematics, path, from, to), to - from};
+          higher_derivative_bounds(machine.kinematics, path, from, to), to - from};
 }
 
 /// With a constant a, both ends must be within the bounds, then all between is: they are linear in x and a.
 double reach(std::span<const CurveBound> bounds, double length, double x) {
-  double most = kInfinity;
-  for (const CurveBound& bound : bounds) most = std::min(most, (1 - bound.m * x) * bound.by_length);
-  return x + 2 * length * std::max(most, 0.0);
+  double min = kInfinity;
+  for (const CurveBound& bound : bounds) min = std::min(min, (1 - bound.m * x) * bound.by_length);
+  return x + 2 * length * std::max(min, 0.0);
 }
 
 double acceleration(std::span<const CurveBound> bounds, double x, double peak) {
-  double most = kInfinity;
-  for (const CurveBound& bound : bounds) most = std::min(most, (1 - bound.m * (bound.m > 0 ? peak : x)) / bound.n);
-  return std::max(most, 0.0);
+  double min = kInfinity;
+  for (const CurveBound& bound : bounds) min = std::min(min, (1 - bound.m * (bound.m > 0 ? peak : x)) / bound.n);
+  return std::max(min, 0.0);
 }
 
 }  // namespace isocnc::motion

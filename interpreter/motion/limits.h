@@ -25,7 +25,8 @@ struct CurveBound {
 class CurveLimits {
  public:
   /// The joints at both ends of the piece, and how much they wiggle between.
-  CurveLimits(const Machine& machine, const Jet& begin, const Jet& end, const Wiggle& most, double length);
+  CurveLimits(const Machine& machine, const Jet& begin, const Jet& end, const HigherDerivativeBounds& higher,
+              double length);
 
   /// Most x by the limits of the axes.
   double cap() const { return cap_; }
@@ -71,13 +72,13 @@ LineLimits line_limits(const Machine& machine, const Coordinates& joint_slope);
 LineLimits circle_limits(const Machine& machine, const Path& circle);
 
 /// Most of the absolute values of the joints' derivatives anywhere on a piece of a path.
-struct Slopes {
+struct DerivativeBounds {
   Coordinates first = Coordinates::Zero();
   Coordinates second = Coordinates::Zero();
   Coordinates third = Coordinates::Zero();
 };
 
-Slopes slopes(const Kinematics& kinematics, const Path& path, double from, double to);
+DerivativeBounds derivative_bounds(const Kinematics& kinematics, const Path& path, double from, double to);
 
 /// The time over which the mean of a motion is taken on a machine whose jerk is limited: so long that each axis can use
 /// its acceleration where its speed leaves room for that. 0 where no jerk is limited.
@@ -92,6 +93,7 @@ struct Smoothing {
 /// Limits of a motion whose mean over the window is within those of the axes on a piece of a path, jerk included, if it
 /// keeps them all the time, no two of its accelerations within a window are of different signs, and x is `cap` at most
 /// (docs/motion.md).
-LineLimits smoothed_limits(const Machine& machine, const Smoothing& smoothing, const Slopes& slopes, double cap);
+LineLimits smoothed_limits(const Machine& machine, const Smoothing& smoothing, const DerivativeBounds& bounds,
+                           double cap);
 
 }  // namespace isocnc::motion

@@ -17,14 +17,14 @@ void MovingAverage::begin(double from) {
 void MovingAverage::append(const Phase& phase, std::vector<Phase>& out) {
   if (lag_.empty()) begin(phase.from);
   lag_.push_back(phase);
-  for (double gone = 0; phase.duration - gone > kNoTime;) {
+  for (double elapsed = 0; phase.duration - elapsed > kNoTime;) {
     while (lag_.front().duration - lag_time_ <= kNoTime) {
       lag_time_ -= lag_.front().duration;
       lag_.pop_front();
     }
-    const double duration = std::min(phase.duration - gone, lag_.front().duration - lag_time_);
-    step(phase.after(gone), duration, out);
-    gone += duration;
+    const double duration = std::min(phase.duration - elapsed, lag_.front().duration - lag_time_);
+    step(phase.after(elapsed), duration, out);
+    elapsed += duration;
     lag_time_ += duration;
   }
 }

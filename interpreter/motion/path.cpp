@@ -75,20 +75,21 @@ static double table_derivative(const Norms& reach, const Norms& turning, int ord
   return sum;
 }
 
-static Wiggle everywhere(double third, double fourth) {
+static HigherDerivativeBounds everywhere(double third, double fourth) {
   return {geometry::Vec3::Constant(third), geometry::Vec3::Constant(fourth)};
 }
 
 /// A circle in a space whose axes are those of the joints.
-static Wiggle circle_wiggle(const Path& path) {
+static HigherDerivativeBounds circle_derivative_bounds(const Path& path) {
   const geometry::Vec3 radii = (path.c[1].head<3>().cwiseAbs2() + path.c[2].head<3>().cwiseAbs2()).cwiseSqrt();
   const double cube = std::abs(path.omega * path.omega * path.omega);
   return {radii * cube, radii * cube * std::abs(path.omega)};
 }
 
-Wiggle wiggle(const Kinematics& kinematics, const Path& path, double from, double to) {
+HigherDerivativeBounds higher_derivative_bounds(const Kinematics& kinematics, const Path& path, double from,
+                                                double to) {
   if (path.kind == PathKind::Circle && (path.is_of_joints || kinematics.kind != MachineKind::Table))
-    return circle_wiggle(path);
+    return circle_derivative_bounds(path);
   if (path.is_of_joints) return everywhere(6 * linear_norm(path.c[3]), 0);
   const double farthest = std::max(std::abs(from), std::abs(to));
   Norms tip = tip_norms(path, farthest);

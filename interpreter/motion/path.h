@@ -30,12 +30,12 @@ struct Path {
 };
 
 /// Upper bounds of the third and fourth derivatives of each linear joint along a path.
-struct Wiggle {
+struct HigherDerivativeBounds {
   geometry::Vec3 third = geometry::Vec3::Zero();
   geometry::Vec3 fourth = geometry::Vec3::Zero();
 };
 
 /// For s from `from` to `to`. B and C may change up to cubically.
-Wiggle wiggle(const Kinematics& kinematics, const Path& path, double from, double to);
+HigherDerivativeBounds higher_derivative_bounds(const Kinematics& kinematics, const Path& path, double from, double to);
 
 }  // namespace isocnc::motion

@@ -20,7 +20,7 @@ static constexpr double kBriefPart = 1.0 / 64;
 /// Tracks are forgotten so many at a time.
 static constexpr std::size_t kForgotten = 256;
 /// Of one element: more than rotary axes turn in one move.
-static constexpr int kMostPieces = 5'000;
+static constexpr int kMaxPieces = 5'000;
 /// A move that begins elsewhere than where the machine is does not follow smoothly, mm or degrees.
 static constexpr double kSamePlace = 1e-6;
 
@@ -29,7 +29,7 @@ static bool limits_jerk(const Machine& machine) {
 }
 
 Planner::Planner(Machine machine) : machine_(std::move(machine)) {
-  if (limits_jerk(machine_)) softener_.emplace();
+  if (limits_jerk(machine_)) jerk_limiter_.emplace();
 }
 
 static bool differ(const geometry::Pose& a, const geometry::Pose& b) {
@@ -49,7 +49,7 @@ void Planner::rest(double seconds) {
   take_elements();
   come_to_rest();
   profile_.wait(seconds);
-  if (softener_) softener_->wait(seconds);
+  if (jerk_limiter_) jerk_limiter_->wait(seconds);
 }
 
 void Planner::take_elements() {
@@ -60,8 +60,8 @@ void Planner::take_elements() {
 void Planner::take(Element element) {
   if (profile_.holds_much_past()) profile_.forget_handed_out();
   if (handed_out_ >= kForgotten || handed_out_ == tracks_.size()) forget_tracks();
-  if (has_last_ && softener_) join_softly(element);
-  if (has_last_ && !softener_) join(element);
+  if (has_last_ && jerk_limiter_) join_smoothly(element);
+  if (has_last_ && !jerk_limiter_) join(element);
   last_ = element;
   has_last_ = true;
   if (last_.stops) {
@@ -74,7 +74,7 @@ void Planner::take(Element element) {
 void Planner::forget_handed_out() {
   profile_.forget_handed_out();
   forget_tracks();
-  if (softener_) softener_->forget_handed_out();
+  if (jerk_limiter_) jerk_limiter_->forget_handed_out();
 }
 
 void Planner::forget_tracks() {
@@ -101,7 +101,7 @@ void Planner::join(Element& next) {
 }
 
 /// The same with a corner that has no steps in the second derivative.
-void Planner::join_softly(Element& next) {
+void Planner::join_smoothly(Element& next) {
   const SmoothCorner corner = smooth_corner(machine_, last_, next);
   if (corner.junction == Junction::Stop) return come_to_rest();
   const double depth = corner.blend.length / 2;
@@ -118,7 +118,7 @@ void Planner::come_to_rest() {
   if (has_last_) append(last_);
   has_last_ = false;
   profile_.come_to_rest();
-  if (softener_) softener_->come_to_rest(machine_);
+  if (jerk_limiter_) jerk_limiter_->come_to_rest(machine_);
 }
 
 static Piece whole_piece(const Element& element) {
@@ -129,8 +129,8 @@ void Planner::append(const Element& element) {
   if (element.end - element.begin <= kNoLength) return;
   if (!element.joints_are_straight) {
     append_curve(element);
-  } else if (softener_) {
-    softener_->append(machine_, whole_piece(element), square(element.feed));
+  } else if (jerk_limiter_) {
+    jerk_limiter_->append(machine_, whole_piece(element), square(element.feed));
   } else {
     append_line(element);
   }
@@ -154,7 +154,7 @@ static double turning(const Path& path) {
 }
 
 /// Most x by the feed.
-static double feed_cap(const Element& element) { return square(element.feed / element.steepest); }
+static double feed_cap(const Element& element) { return square(element.feed / element.max_tip_rate); }
 
 /// Into how many pieces a curve is cut, by how much the linear joints bend.
 static int piece_count(const Machine& machine, const Element& element) {
@@ -167,11 +167,11 @@ static int piece_count(const Machine& machine, const Element& element) {
   double weakest = machine.axes[kX].acceleration;
   for (const Axis axis : {kY, kZ}) weakest = std::min(weakest, machine.axes[axis].acceleration);
   const bool is_fine = radius * square(rate) * feed_cap(element) > kSmallPart * weakest;
-  return part_count(length * rate / (is_fine ? kFineTurn : kCoarseTurn), kMostPieces);
+  return part_count(length * rate / (is_fine ? kFineTurn : kCoarseTurn), kMaxPieces);
 }
 
 void Planner::append_curve(const Element& element) {
-  if (softener_) return soften_curve(element);
+  if (jerk_limiter_) return append_smooth_curve(element);
   if (element.path.kind == PathKind::Circle) return append_arc(element);
   const double length = element.end - element.begin;
   const int count = piece_count(machine_, element);
@@ -180,22 +180,22 @@ void Planner::append_curve(const Element& element) {
   for (int i = 1; i <= count; ++i) {
     const double to = element.begin + length * i / count;
     const Jet at_to = element.path.joints_at(machine_.kinematics, to);
-    const Wiggle most = wiggle(machine_.kinematics, element.path, from, to);
-    profile_.append_curve(from, to - from, feed_cap(element), CurveLimits(machine_, at_from, at_to, most, to - from));
+    const HigherDerivativeBounds higher = higher_derivative_bounds(machine_.kinematics, element.path, from, to);
+    profile_.append_curve(from, to - from, feed_cap(element), CurveLimits(machine_, at_from, at_to, higher, to - from));
     from = to;
     at_from = at_to;
   }
   tracks_.push_back({whole_piece(element), count});
 }
 
-void Planner::soften_curve(const Element& element) {
+void Planner::append_smooth_curve(const Element& element) {
   const double length = element.end - element.begin;
   const int count = piece_count(machine_, element);
   for (int i = 0; i < count; ++i) {
     const double begin = element.begin + length * i / count;
     const double end = element.begin + length * (i + 1) / count;
     const bool ends_move = element.ends_move && i + 1 == count;
-    softener_->append(machine_, {element.path, begin, end - begin, element.tag, ends_move}, feed_cap(element));
+    jerk_limiter_->append(machine_, {element.path, begin, end - begin, element.tag, ends_move}, feed_cap(element));
   }
 }
 
@@ -225,15 +225,15 @@ static Jet turned_on(const Path& circle, const Jet& jet, double cosine, double s
 
 /// In fine pieces; tells how many.
 int Planner::append_fine(const Path& circle, double begin, double end, double cap) {
-  const int count = part_count((end - begin) * turning(circle) / kFineTurn, kMostPieces);
+  const int count = part_count((end - begin) * turning(circle) / kFineTurn, kMaxPieces);
   const double length = (end - begin) / count;
   const double cosine = std::cos(circle.omega * length);
   const double sine = std::sin(circle.omega * length);
-  const Wiggle most = wiggle(machine_.kinematics, circle, begin, end);
+  const HigherDerivativeBounds higher = higher_derivative_bounds(machine_.kinematics, circle, begin, end);
   Jet from = circle.at(begin);
   for (int i = 0; i < count; ++i) {
     const Jet to = turned_on(circle, from, cosine, sine);
-    profile_.append_curve(begin + i * length, length, cap, CurveLimits(machine_, from, to, most, length));
+    profile_.append_curve(begin + i * length, length, cap, CurveLimits(machine_, from, to, higher, length));
     from = to;
   }
   return count;
@@ -277,25 +277,25 @@ void Planner::append_corner(const Blend& blend, const Element& before, const Ele
 }
 
 /// Most of the tip's speed for ds/dt = 1, on a part of a rounded corner.
-static double steepness(const Machine& machine, const Piece& piece, bool only_turns) {
-  double most = 0;
+static double tip_rate(const Machine& machine, const Piece& piece, bool only_turns) {
+  double max = 0;
   for (const double part : {0.0, 0.5, 1.0}) {
     const Coordinates slope = piece.path.tip_at(machine.kinematics, piece.begin + part * piece.length).first;
-    most = std::max(most, only_turns ? slope.tail<2>().norm() : slope.head<3>().norm());
+    max = std::max(max, only_turns ? slope.tail<2>().norm() : slope.head<3>().norm());
   }
   // Between them the slope, a parabola, is off the straight line by length^2/8 times its second derivative at most.
   const Coordinates bulge = 6 * square(piece.length / 2) / 8 * piece.path.c[3];
-  return most + (only_turns ? bulge.tail<2>().norm() : bulge.head<3>().norm());
+  return max + (only_turns ? bulge.tail<2>().norm() : bulge.head<3>().norm());
 }
 
 /// Most of how fast B or C turns for ds/dt = 1, on a part of a rounded corner.
 static double turning_rate(const Machine& machine, const Piece& piece) {
-  double most = 0;
+  double max = 0;
   for (const double part : {0.0, 0.5, 1.0})
-    most = std::max(
-        most,
+    max = std::max(
+        max,
         piece.path.tip_at(machine.kinematics, piece.begin + part * piece.length).first.tail<2>().cwiseAbs().maxCoeff());
-  return most + (6 * square(piece.length / 2) / 8 * piece.path.c[3]).tail<2>().cwiseAbs().maxCoeff();
+  return max + (6 * square(piece.length / 2) / 8 * piece.path.c[3]).tail<2>().cwiseAbs().maxCoeff();
 }
 
 /// In four parts: the middle one of the three cubics belongs to both moves.
@@ -307,9 +307,10 @@ void Planner::append_corner(const SmoothBlend& blend, const Element& before, con
                          {blend.paths[2], 0, third, after.tag}};
   const double feed = std::min(before.feed, after.feed);
   for (const Piece& part : parts) {
-    const double steepest = std::max({before.steepest, after.steepest, steepness(machine_, part, before.only_turns)});
+    const double max_tip_rate =
+        std::max({before.max_tip_rate, after.max_tip_rate, tip_rate(machine_, part, before.only_turns)});
     const double by_turn = std::isinf(feed) ? feed : machine_.feed_turn / turning_rate(machine_, part);
-    softener_->append(machine_, part, square(std::min(feed / steepest, by_turn)));
+    jerk_limiter_->append(machine_, part, square(std::min(feed / max_tip_rate, by_turn)));
   }
 }
 
@@ -346,7 +347,7 @@ static bool extend(Stretch& stretch, const Profile::Span& span) {
 
 /// As many spans of a track as there is room for: which they are must not depend on how many are determined yet.
 const Stretch* Planner::next_determined() {
-  if (softener_) return softener_->next();
+  if (jerk_limiter_) return jerk_limiter_->next();
   const Profile::Span* span = profile_.front();
   if (!span) return nullptr;
   const Track& track = tracks_[handed_out_];

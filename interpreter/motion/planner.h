@@ -7,12 +7,12 @@
 
 #include "interpreter/motion/blend.h"
 #include "interpreter/motion/element.h"
+#include "interpreter/motion/jerk_limiter.h"
 #include "interpreter/motion/machine.h"
 #include "interpreter/motion/memory.h"
 #include "interpreter/motion/move.h"
 #include "interpreter/motion/piece.h"
 #include "interpreter/motion/profile.h"
-#include "interpreter/motion/softener.h"
 #include "interpreter/motion/stretch.h"
 
 namespace isocnc::motion {
@@ -47,10 +47,12 @@ class Planner {
   void forget_handed_out();
 
   /// Bytes that it holds, beside itself.
-  std::size_t memory() const { return profile_.memory() + bytes_of(tracks_) + (softener_ ? softener_->memory() : 0); }
+  std::size_t memory() const {
+    return profile_.memory() + bytes_of(tracks_) + (jerk_limiter_ ? jerk_limiter_->memory() : 0);
+  }
 
   /// Seconds until the end of all stretches that are determined, rests included.
-  double time() const { return softener_ ? softener_->time() : profile_.time(); }
+  double time() const { return jerk_limiter_ ? jerk_limiter_->time() : profile_.time(); }
 
  private:
   /// What spans of the profile lead along.
@@ -64,14 +66,14 @@ class Planner {
   void take_elements();
   void take(Element element);
   void join(Element& next);
-  void join_softly(Element& next);
+  void join_smoothly(Element& next);
   void come_to_rest();
   void plan_ahead();
   void append(const Element& element);
   void append_line(const Element& element);
   void append_curve(const Element& element);
   void append_arc(const Element& element);
-  void soften_curve(const Element& element);
+  void append_smooth_curve(const Element& element);
   int append_fine(const Path& circle, double begin, double end, double cap);
   void append_corner(const Blend& blend, const Element& before, const Element& after);
   void append_corner(const SmoothBlend& blend, const Element& before, const Element& after);
@@ -86,12 +88,12 @@ class Planner {
   geometry::Pose end_;  ///< Of the last move.
   bool has_end_ = false;
 
-  Profile profile_;                   ///< Where jerk is not limited.
-  std::vector<Track> tracks_;         ///< Of its spans.
-  std::size_t handed_out_ = 0;        ///< Tracks before it.
-  int spans_out_ = 0;                 ///< Of the next one.
-  bool half_out_ = false;             ///< The first half of a corner is handed out.
-  std::optional<Softener> softener_;  ///< Where it is.
+  Profile profile_;                          ///< Where jerk is not limited.
+  std::vector<Track> tracks_;                ///< Of its spans.
+  std::size_t handed_out_ = 0;               ///< Tracks before it.
+  int spans_out_ = 0;                        ///< Of the next one.
+  bool half_out_ = false;                    ///< The first half of a corner is handed out.
+  std::optional<JerkLimiter> jerk_limiter_;  ///< Where it is.
   Stretch stretch_;
 };
 

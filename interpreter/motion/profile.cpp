@@ -9,7 +9,7 @@ namespace isocnc::motion {
 /// Planning looks back over all that is not planned yet: it pays to let some gather.
 static constexpr std::size_t kPlanningBatch = 256;
 /// Look-ahead ends here, even if the machine cannot stop within so many spans.
-static constexpr std::size_t kMostSpans = 16384;
+static constexpr std::size_t kMaxSpans = 16384;
 /// Phases over a smaller part of their span are rounding errors.
 static constexpr double kNoPart = 1e-14;
 /// What is longer than a span by no more fits in it.
@@ -61,8 +61,8 @@ void Profile::come_to_rest() {
 /// With one acceleration all the way, which the limits allow at the larger x and hence everywhere.
 static double reach_on_line(const Profile::Span& span, double x) {
   if (span.fall == 0) return x + 2 * span.acceleration * span.length;
-  const double way = 2 * span.acceleration * span.length;
-  return x + way * std::max(1 - x * span.fall, 0.0) / (1 + way * span.fall);
+  const double gain = 2 * span.acceleration * span.length;
+  return x + gain * std::max(1 - x * span.fall, 0.0) / (1 + gain * span.fall);
 }
 
 std::span<const CurveBound> Profile::bounds(const Span& span, Direction direction) const {
@@ -109,7 +109,7 @@ std::size_t Profile::look_back() {
 
 void Profile::plan_ahead() {
   std::size_t end = look_back();
-  if (spans_.size() - end > kMostSpans / 2) end = spans_.size() - kMostSpans / 2;
+  if (spans_.size() - end > kMaxSpans / 2) end = spans_.size() - kMaxSpans / 2;
   if (end > planned_) plan_until(end, spans_[end].entry);
   batch_ = std::max(kPlanningBatch, 2 * (spans_.size() - planned_));
 }
@@ -117,12 +117,12 @@ void Profile::plan_ahead() {
 void Profile::plan_until(std::size_t end, double exit) {
   for (; planned_ < end; ++planned_) {
     Span& span = spans_[planned_];
-    const double most = planned_ + 1 < end ? spans_[planned_ + 1].entry : exit;
+    const double max_exit = planned_ + 1 < end ? spans_[planned_ + 1].entry : exit;
     const double entry = speed_square_;
     const double reached = reach(span, entry, Direction::Forward);
-    speed_square_ = std::min(most, reached);
-    const bool is_reach = reached <= most || (entry == span.entry && entry < span.entry_cap);
-    give_time(span, entry, speed_square_, is_reach);
+    speed_square_ = std::min(max_exit, reached);
+    const bool is_reach = reached <= max_exit || (entry == span.entry && entry < span.entry_cap);
+    assign_times(span, entry, speed_square_, is_reach);
   }
 }
 
@@ -135,12 +135,12 @@ struct Course {
   double down_acceleration = 0;  ///< Not positive.
 };
 
-static double way(double from, double to, double acceleration) {
+static double ramp_length(double from, double to, double acceleration) {
   return to > from ? (to - from) / (2 * acceleration) : 0;
 }
 
 static Course over_peak(double peak, double entry, double exit, double up, double down) {
-  return {way(entry, peak, up), up, peak, way(exit, peak, down), -down};
+  return {ramp_length(entry, peak, up), up, peak, ramp_length(exit, peak, down), -down};
 }
 
 /// At one acceleration all the way: what reach() found possible.
@@ -166,23 +166,23 @@ static Course on_curve(std::span<const CurveBound> forward, std::span<const Curv
     return over_peak(peak, entry, exit, acceleration(forward, entry, peak), acceleration(backward, exit, peak));
   };
   const auto fits = [&](const Course& course) { return course.up + course.down <= length; };
-  double least = std::max(entry, exit);
+  double low = std::max(entry, exit);
   Course best = over(cap);
   if (fits(best)) return best;
   best = straight(length, entry, exit);
-  double most = cap;
-  for (int i = 0; i < kBisections && most - least > kPeakPrecision * most; ++i) {
-    const double middle = (least + most) / 2;
+  double high = cap;
+  for (int i = 0; i < kBisections && high - low > kPeakPrecision * high; ++i) {
+    const double middle = (low + high) / 2;
     const Course course = over(middle);
     const bool is_better = fits(course);
     if (is_better) best = course;
-    (is_better ? least : most) = middle;
+    (is_better ? low : high) = middle;
   }
   return best;
 }
 
 /// `is_reach`: the span changes the speed by as much as it can, which leaves nothing to choose.
-void Profile::give_time(Span& span, double entry, double exit, bool is_reach) {
+void Profile::assign_times(Span& span, double entry, double exit, bool is_reach) {
   Course course{.peak = entry};
   if (span.kind == SpanKind::Line) course = on_line(span, entry, exit);
   if (span.kind == SpanKind::Curve)

@@ -80,7 +80,7 @@ class Profile {
   std::size_t look_back();
   void look_back_from_rest();
   void plan_until(std::size_t end, double exit);
-  void give_time(Span& span, double entry, double exit, bool is_reach);
+  void assign_times(Span& span, double entry, double exit, bool is_reach);
 
   std::vector<Span> spans_;
   std::vector<CurveBound> bounds_;

@@ -8,12 +8,12 @@ namespace isocnc::motion {
 /// A cell may hold many pieces: so many of them call for planning, too.
 static constexpr std::size_t kCellBatch = 256;
 /// If the machine cannot stop within so many cells, it stops now.
-static constexpr std::size_t kMostUnplanned = 2048;
+static constexpr std::size_t kMaxUnplanned = 2048;
 /// To find when a place is passed: halvings of the time, if Newton's steps do not find it sooner.
-static constexpr int kMostSteps = 60;
+static constexpr int kMaxSteps = 60;
 
 /// Of all joints together.
-static double most_speed(const Machine& machine) {
+static double max_speed(const Machine& machine) {
   double sum = 0;
   for (const AxisLimits& axis : machine.axes) sum += axis.speed * axis.speed;
   return std::sqrt(sum);
@@ -21,27 +21,27 @@ static double most_speed(const Machine& machine) {
 
 SmoothMotion::SmoothMotion(const Machine& machine, const Smoothing& smoothing, double start)
     : smoothing_(smoothing),
-      most_speed_(most_speed(machine)),
-      erosion_(smoothing.window, most_speed_),
-      plateaus_(smoothing.window),
+      max_speed_(max_speed(machine)),
+      window_minimum_(smoothing.window, max_speed_),
+      peak_trimmer_(smoothing.window),
       average_(smoothing.window),
       batch_(kCellBatch),
       time_(start) {}
 
-void SmoothMotion::append(const Machine& machine, const Piece& piece, const Slopes& slopes, double feed_cap) {
+void SmoothMotion::append(const Machine& machine, const Piece& piece, const DerivativeBounds& bounds, double feed_cap) {
   pieces_.push_back({piece, end_});
   end_ += piece.length;
-  erosion_.append(piece.length,
-                  smoothed_limits(machine, smoothing_, slopes, std::min(feed_cap, most_speed_ * most_speed_)));
+  window_minimum_.append(piece.length,
+                         smoothed_limits(machine, smoothing_, bounds, std::min(feed_cap, max_speed_ * max_speed_)));
   take_cells();
 }
 
 void SmoothMotion::take_cells() {
-  while (const Cell* const cell = erosion_.next()) {
+  while (const Cell* const cell = window_minimum_.next()) {
     profile_.append_line(cell->begin, cell->length, cell->limits);
     if (!profile_.wants_planning() && pieces_.size() < batch_) continue;
     profile_.plan_ahead();
-    if (profile_.unplanned() > kMostUnplanned) {
+    if (profile_.unplanned() > kMaxUnplanned) {
       pause();
     } else {
       take_phases();
@@ -52,16 +52,16 @@ void SmoothMotion::take_cells() {
 
 void SmoothMotion::take_phases() {
   while (const Profile::Span* const span = profile_.front()) {
-    for (std::size_t i = 0; i < span->phase_count; ++i) plateaus_.append(span->phases[i]);
+    for (std::size_t i = 0; i < span->phase_count; ++i) peak_trimmer_.append(span->phases[i]);
     profile_.pop();
-    take_plateaus();
+    take_trimmed_phases();
   }
   if (profile_.holds_much_past()) profile_.forget_handed_out();
 }
 
-void SmoothMotion::take_plateaus() {
-  while (plateaus_.has_next()) average_.append(plateaus_.next(), smooth_);
-  for (const Phase& phase : smooth_) lay(phase);
+void SmoothMotion::take_trimmed_phases() {
+  while (peak_trimmer_.has_next()) average_.append(peak_trimmer_.next(), smooth_);
+  for (const Phase& phase : smooth_) place_on_pieces(phase);
   smooth_.clear();
 }
 
@@ -69,14 +69,14 @@ void SmoothMotion::take_plateaus() {
 void SmoothMotion::pause() {
   profile_.come_to_rest();
   take_phases();
-  plateaus_.come_to_rest();
-  take_plateaus();
+  peak_trimmer_.come_to_rest();
+  take_trimmed_phases();
   average_.come_to_rest(smooth_);
-  take_plateaus();
+  take_trimmed_phases();
 }
 
 void SmoothMotion::come_to_rest() {
-  erosion_.come_to_rest();
+  window_minimum_.come_to_rest();
   take_cells();
   pause();
   while (!pieces_.empty()) finish_piece();
@@ -85,16 +85,16 @@ void SmoothMotion::come_to_rest() {
 
 /// When a phase, which moves on, is at a place within it.
 static double time_at(const Phase& phase, double place) {
-  double least = 0;
-  double most = phase.duration;
-  double time = most / 2;
-  for (int i = 0; i < kMostSteps; ++i) {
+  double early = 0;
+  double late = phase.duration;
+  double time = late / 2;
+  for (int i = 0; i < kMaxSteps; ++i) {
     const Phase now = phase.after(time);
     const double off = place - now.from;
     if (off == 0) break;
-    (off > 0 ? least : most) = time;
-    const double step = now.speed > 0 ? time + off / now.speed : least;
-    const double next = step > least && step < most ? step : (least + most) / 2;
+    (off > 0 ? early : late) = time;
+    const double step = now.speed > 0 ? time + off / now.speed : early;
+    const double next = step > early && step < late ? step : (early + late) / 2;
     if (next == time || std::abs(next - time) < 1e-16 * phase.duration) break;
     time = next;
   }
@@ -102,7 +102,7 @@ static double time_at(const Phase& phase, double place) {
 }
 
 /// A phase of the motion, cut where pieces meet.
-void SmoothMotion::lay(Phase phase) {
+void SmoothMotion::place_on_pieces(Phase phase) {
   while (pieces_.size() > 1 && phase.after(phase.duration).from > pieces_.front().end()) {
     const double place = pieces_.front().end();
     const double time = phase.from < place ? time_at(phase, place) : 0;

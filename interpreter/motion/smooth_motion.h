@@ -4,15 +4,15 @@
 #include <deque>
 #include <vector>
 
-#include "interpreter/motion/erosion.h"
 #include "interpreter/motion/limits.h"
 #include "interpreter/motion/machine.h"
 #include "interpreter/motion/memory.h"
 #include "interpreter/motion/moving_average.h"
+#include "interpreter/motion/peak_trimmer.h"
 #include "interpreter/motion/piece.h"
-#include "interpreter/motion/plateaus.h"
 #include "interpreter/motion/profile.h"
 #include "interpreter/motion/stretch.h"
+#include "interpreter/motion/window_minimum.h"
 
 namespace isocnc::motion {
 
@@ -25,18 +25,18 @@ class SmoothMotion {
   SmoothMotion(const Machine& machine, const Smoothing& smoothing, double start);
 
   /// `feed_cap`: most x.
-  void append(const Machine& machine, const Piece& piece, const Slopes& slopes, double feed_cap);
+  void append(const Machine& machine, const Piece& piece, const DerivativeBounds& bounds, double feed_cap);
   void come_to_rest();
 
-  /// The next stretch that is determined, or null. Valid until the softener is used again.
+  /// The next stretch that is determined, or null. Valid until the motion is used again.
   const Stretch* next();
 
   void forget_handed_out() { profile_.forget_handed_out(); }
 
   /// Bytes that it holds, beside itself.
   std::size_t memory() const {
-    return erosion_.memory() + profile_.memory() + plateaus_.memory() + average_.memory() + bytes_of(smooth_) +
-           bytes_of(pieces_) + bytes_of(stretches_);
+    return window_minimum_.memory() + profile_.memory() + peak_trimmer_.memory() + average_.memory() +
+           bytes_of(smooth_) + bytes_of(pieces_) + bytes_of(stretches_);
   }
 
   /// Seconds until the end of all that is determined.
@@ -51,18 +51,18 @@ class SmoothMotion {
 
   void take_cells();
   void take_phases();
-  void take_plateaus();
+  void take_trimmed_phases();
   void pause();
-  void lay(Phase phase);
+  void place_on_pieces(Phase phase);
   void add(Phase phase);
   void finish_piece();
   void emit(bool ends_move);
 
   Smoothing smoothing_;
-  double most_speed_;
-  Erosion erosion_;
+  double max_speed_;
+  WindowMinimum window_minimum_;
   Profile profile_;
-  Plateaus plateaus_;
+  PeakTrimmer peak_trimmer_;
   MovingAverage average_;
   std::vector<Phase> smooth_;  ///< What is being laid on the pieces.
   std::deque<PlacedPiece> pieces_;

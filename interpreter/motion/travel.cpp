@@ -18,12 +18,12 @@ using geometry::Vec3;
 static constexpr double kGridTurn = 3 * std::numbers::pi / 180;
 static constexpr int kPeakSteps = 60;
 /// More than rotary axes turn in one move.
-static constexpr int kMostGridPoints = 10'000;
+static constexpr int kMaxGridPoints = 10'000;
 
 /// A move's path, by the part of the way gone.
-class Way {
+class MovePath {
  public:
-  Way(const Machine& machine, const Move& move)
+  MovePath(const Machine& machine, const Move& move)
       : machine_(machine),
         path_(move.is_arc ? programmed_circle(move) : programmed_line(machine, move, move.from, move.to)) {
     turned_[kB] = move.to.b - move.from.b;
@@ -52,7 +52,7 @@ class Way {
   /// Into how many parts it is cut so that there is one peak at most beside each end of a part.
   int grid() const {
     const double turn = std::abs(path().omega) * path_.length + turned_.cwiseAbs().sum() * std::numbers::pi / 180;
-    return std::max(2, part_count(turn / kGridTurn, kMostGridPoints));
+    return std::max(2, part_count(turn / kGridTurn, kMaxGridPoints));
   }
 
  private:
@@ -103,7 +103,7 @@ static double farthest(At&& at, const std::vector<Point>& grid, int axis, double
 
 /// Reports what passes a limit, where `find(axis, sign)` says that a joint goes farthest.
 template <typename Find>
-static std::vector<Overtravel> beyond(const Machine& machine, const Way& way, Find&& find) {
+static std::vector<Overtravel> beyond(const Machine& machine, const MovePath& path, Find&& find) {
   std::vector<Overtravel> found;
   for (int axis = 0; axis < kAxisCount; ++axis) {
     const AxisLimits& limits = machine.axes[static_cast<std::size_t>(axis)];
@@ -111,7 +111,7 @@ static std::vector<Overtravel> beyond(const Machine& machine, const Way& way, Fi
       const double limit = sign < 0 ? limits.least : limits.most;
       if (std::isinf(limit)) continue;
       const double part = find(axis, sign);
-      const double position = way.joints(part)[axis];
+      const double position = path.joints(part)[axis];
       if (sign * (position - limit) > 0) found.push_back({static_cast<Axis>(axis), part, position, limit});
     }
   }
@@ -119,29 +119,29 @@ static std::vector<Overtravel> beyond(const Machine& machine, const Way& way, Fi
 }
 
 std::vector<Overtravel> overtravels(const Machine& machine, const Move& move) {
-  const Way way(machine, move);
-  if (way.has_straight_joints()) {
-    const Coordinates change = way.joints(1) - way.joints(0);
-    return beyond(machine, way, [&](int axis, double sign) { return sign * change[axis] > 0 ? 1.0 : 0.0; });
+  const MovePath path(machine, move);
+  if (path.has_straight_joints()) {
+    const Coordinates change = path.joints(1) - path.joints(0);
+    return beyond(machine, path, [&](int axis, double sign) { return sign * change[axis] > 0 ? 1.0 : 0.0; });
   }
-  const auto at = [&](double part) { return way.joints(part); };
-  const std::vector<Coordinates> grid = on_grid(way.grid(), at);
-  return beyond(machine, way, [&](int axis, double sign) { return farthest(at, grid, axis, sign); });
+  const auto at = [&](double part) { return path.joints(part); };
+  const std::vector<Coordinates> grid = on_grid(path.grid(), at);
+  return beyond(machine, path, [&](int axis, double sign) { return farthest(at, grid, axis, sign); });
 }
 
 /// Simpson's rule on a speed that is smooth, but where the tip turns back on a way of joints.
-static double integrated_length(const Way& way) {
+static double integrated_length(const MovePath& path) {
   constexpr int kPanelsPerPoint = 4;
-  const int panels = std::max(64, kPanelsPerPoint * way.grid());
-  double sum = way.tip_speed(0) + way.tip_speed(1);
-  for (int i = 1; i < panels; ++i) sum += (i % 2 == 1 ? 4 : 2) * way.tip_speed(static_cast<double>(i) / panels);
+  const int panels = std::max(64, kPanelsPerPoint * path.grid());
+  double sum = path.tip_speed(0) + path.tip_speed(1);
+  for (int i = 1; i < panels; ++i) sum += (i % 2 == 1 ? 4 : 2) * path.tip_speed(static_cast<double>(i) / panels);
   return sum / (3 * panels);
 }
 
 static std::array<Range, 3> extents(const Vec3& from, const Vec3& to) {
-  const Vec3 least = from.cwiseMin(to);
-  const Vec3 most = from.cwiseMax(to);
-  return {Range{least.x(), most.x()}, Range{least.y(), most.y()}, Range{least.z(), most.z()}};
+  const Vec3 low = from.cwiseMin(to);
+  const Vec3 high = from.cwiseMax(to);
+  return {Range{low.x(), high.x()}, Range{low.y(), high.y()}, Range{low.z(), high.z()}};
 }
 
 static geometry::Helix helix_of(const Move& arc) {
@@ -158,29 +158,29 @@ static TipTravel arc_travel(const Machine& machine, const Move& arc) {
   const geometry::Helix helix = helix_of(arc);
   const double length = helix.length();
   const bool leans = helix.rise.cross(arc.normal).norm() > 1e-9 * length;
-  return {leans ? integrated_length(Way(machine, arc)) : length, helix.extents()};
+  return {leans ? integrated_length(MovePath(machine, arc)) : length, helix.extents()};
 }
 
-static std::array<Range, 3> swing_extents(const Way& way, const geometry::Frame& frame) {
-  const auto at = [&](double part) { return frame.to_inner(way.tip(part)); };
-  const std::vector<Vec3> grid = on_grid(way.grid(), at);
+static std::array<Range, 3> swing_extents(const MovePath& path, const geometry::Frame& frame) {
+  const auto at = [&](double part) { return frame.to_inner(path.tip(part)); };
+  const std::vector<Vec3> grid = on_grid(path.grid(), at);
   const auto end = [&](int axis, double sign) { return at(farthest(at, grid, axis, sign))[axis]; };
   return {Range{end(0, -1), end(0, 1)}, Range{end(1, -1), end(1, 1)}, Range{end(2, -1), end(2, 1)}};
 }
 
-/// Most moves, and it takes no Way to tell.
+/// Most moves, and it takes no path to tell.
 static bool goes_straight(const Machine& machine, const Move& move) { return !move.is_arc && !swings(machine, move); }
 
 TipTravel tip_travel(const Machine& machine, const Move& move) {
   if (goes_straight(machine, move)) return {(move.to.tip - move.from.tip).norm(), extents(move.from.tip, move.to.tip)};
   if (move.is_arc) return arc_travel(machine, move);
-  const Way way(machine, move);
-  return {integrated_length(way), swing_extents(way, {})};
+  const MovePath path(machine, move);
+  return {integrated_length(path), swing_extents(path, {})};
 }
 
 std::array<Range, 3> tip_extents(const Machine& machine, const Move& move, const geometry::Frame& frame) {
   if (goes_straight(machine, move)) return extents(frame.to_inner(move.from.tip), frame.to_inner(move.to.tip));
-  return move.is_arc ? arc_extents(helix_of(move), frame) : swing_extents(Way(machine, move), frame);
+  return move.is_arc ? arc_extents(helix_of(move), frame) : swing_extents(MovePath(machine, move), frame);
 }
 
 }  // namespace isocnc::motion

@@ -215,9 +215,9 @@ TEST_P(RandomMoves, HaveTheirStretchesInOrderAndEndWhereProgrammed) {
 INSTANTIATE_TEST_SUITE_P(Machines, RandomMoves,
                          testing::Values(Case{"ThreeAxis", three_axis_router()}, Case{"Head", head_router()},
                                          Case{"Table", table_router()},
-                                         Case{"SoftThreeAxis", with_jerk(three_axis_router(), 30000)},
-                                         Case{"SoftHead", with_jerk(head_router(), 60000)},
-                                         Case{"SoftTable", with_jerk(table_router(), 20000)}),
+                                         Case{"JerkLimitedThreeAxis", with_jerk(three_axis_router(), 30000)},
+                                         Case{"JerkLimitedHead", with_jerk(head_router(), 60000)},
+                                         Case{"JerkLimitedTable", with_jerk(table_router(), 20000)}),
                          [](const auto& each) { return each.param.name; });
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "tests/motion/jerk_limited_reference.h"
 #include "tests/motion/programs.h"
 #include "tests/motion/reference.h"
-#include "tests/motion/soft_reference.h"
 #include "tests/support/random.h"
 
 namespace isocnc::motion {
@@ -83,22 +83,22 @@ TEST(Optimality, SwingingPivotsAreWithinAPercent) {
 }
 
 /// The planner's time over that of the ascent, where jerk is limited. The path is the planner's.
-double soft_ratio(const Machine& machine, const std::vector<Move>& moves) {
+double jerk_limited_ratio(const Machine& machine, const std::vector<Move>& moves) {
   const auto stretches = plan(machine, moves);
-  return cycle_time(stretches) / soft_reference_time(machine, moves[0].feed.value, stretches, 400);
+  return cycle_time(stretches) / jerk_limited_reference_time(machine, moves[0].feed.value, stretches, 400);
 }
 
-TEST(Optimality, SoftLinesAreTheOptimum) {
+TEST(Optimality, JerkLimitedLinesAreTheOptimum) {
   const Machine machine = with_jerk(uniform_machine(1000, 2000), 20000);
   for (const double feed : {50.0, 150.0, 400.0}) {
-    const double found = soft_ratio(machine, {line({0, 0, 0}, {60, 0, 0}, speed(feed))});
+    const double found = jerk_limited_ratio(machine, {line({0, 0, 0}, {60, 0, 0}, speed(feed))});
     EXPECT_LE(found, 1.03) << feed;
     EXPECT_GE(found, 0.94) << feed << ": the grid is too coarse";
   }
 }
 
 /// What the planner loses; docs/motion.md says why. On a circle it has to leave a good part of the jerk unused.
-TEST(Optimality, SoftCornersAndArcsLoseNoMoreThanIsSaid) {
+TEST(Optimality, JerkLimitedCornersAndArcsLoseNoMoreThanIsSaid) {
   const Machine machine = with_jerk(uniform_machine(1000, 2000), 20000);
   const std::pair<std::vector<Move>, double> programs[] = {
       {{line({0, 0, 0}, {20, 0, 0}, speed(100)), line({20, 0, 0}, {20, 20, 0}, speed(100))}, 1.08},
@@ -107,7 +107,7 @@ TEST(Optimality, SoftCornersAndArcsLoseNoMoreThanIsSaid) {
        1.16},
       {{arc_xy({-20, 0, 0}, {0, 0, 0}, 360, 0, speed(300))}, 1.42}};
   for (const auto& [moves, most] : programs) {
-    const double found = soft_ratio(machine, moves);
+    const double found = jerk_limited_ratio(machine, moves);
     EXPECT_LE(found, most) << moves.size();
     EXPECT_GE(found, 0.97) << moves.size();
   }

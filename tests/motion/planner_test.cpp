@@ -431,7 +431,7 @@ TEST(Planner, OneMoveIsAnSCurve) {
     }
 }
 
-TEST(Planner, TheSoftestAxisLimitsALine) {
+TEST(Planner, TheWeakestAxisLimitsALine) {
   Machine machine = uniform_machine(1000, 2000);
   machine.axes[kY].jerk = 5000;
   // Along (3, 4, 0) / 5: Y allows 5000 / 0.8, and 2000 / 0.8 of acceleration.

@@ -1,4 +1,4 @@
-#include "tests/motion/soft_reference.h"
+#include "tests/motion/jerk_limited_reference.h"
 
 #include <algorithm>
 #include <cmath>
@@ -93,7 +93,8 @@ class Ascent {
 
 }  // namespace
 
-double soft_reference_time(const Machine& machine, double feed, const std::vector<Stretch>& stretches, int nodes) {
+double jerk_limited_reference_time(const Machine& machine, double feed, const std::vector<Stretch>& stretches,
+                                   int nodes) {
   constexpr double kSlower = 0.1;  // Than the planner, squared: a motion in slow motion is within all limits.
   Ascent ascent(machine, feed);
   const double step = (stretches.back().start + stretches.back().duration) / nodes;

@@ -1,4 +1,4 @@
-#include "interpreter/motion/plateaus.h"
+#include "interpreter/motion/peak_trimmer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +10,9 @@ static double end_speed(const Phase& phase) { return std::max(phase.after(phase.
 
 static double length(const Phase& phase) { return phase.after(phase.duration).from - phase.from; }
 
-void Plateaus::append(const Phase& phase) {
+void PeakTrimmer::append(const Phase& phase) {
   if (phase.acceleration > 0) {
-    if (has_peak_) cut_peak();
+    if (has_peak_) trim_peak();
     is_rising_ = true;
   } else if (phase.acceleration < 0 && std::exchange(is_rising_, false)) {
     has_peak_ = true;
@@ -22,18 +22,18 @@ void Plateaus::append(const Phase& phase) {
   phases_.push_back(phase);
   unsettled_time_ += phase.duration;
   fallen_time_ += phase.duration;
-  if (has_peak_ && fallen_time_ >= least_duration_) cut_peak();
+  if (has_peak_ && fallen_time_ >= min_duration_) trim_peak();
   if (!has_peak_) settle();
 }
 
-void Plateaus::come_to_rest() {
-  if (has_peak_) cut_peak();
+void PeakTrimmer::come_to_rest() {
+  if (has_peak_) trim_peak();
   settled_ = phases_.size();
   unsettled_time_ = 0;
   is_rising_ = false;
 }
 
-Phase Plateaus::next() {
+Phase PeakTrimmer::next() {
   const Phase phase = phases_.front();
   phases_.pop_front();
   --settled_;
@@ -42,24 +42,24 @@ Phase Plateaus::next() {
 }
 
 /// A plateau takes less than its duration from what was there before, on either side.
-void Plateaus::settle() {
-  while (settled_ < phases_.size() && unsettled_time_ - phases_[settled_].duration >= least_duration_)
+void PeakTrimmer::settle() {
+  while (settled_ < phases_.size() && unsettled_time_ - phases_[settled_].duration >= min_duration_)
     unsettled_time_ -= phases_[settled_++].duration;
 }
 
 /// Lowers the peak until the way over it takes long enough.
-void Plateaus::cut_peak() {
+void PeakTrimmer::trim_peak() {
   has_peak_ = false;
   std::size_t up = peak_;  // The phases before it gather the speed.
   std::size_t down = peak_;
   double speed = phases_[peak_].speed;
-  double way = 0;
+  double distance = 0;
   while (true) {
-    while (up > settled_ && phases_[up - 1].acceleration == 0) way += length(phases_[--up]);
-    while (down < phases_.size() && phases_[down].acceleration == 0) way += length(phases_[down++]);
+    while (up > settled_ && phases_[up - 1].acceleration == 0) distance += length(phases_[--up]);
+    while (down < phases_.size() && phases_[down].acceleration == 0) distance += length(phases_[down++]);
     const bool is_valley =
         up == settled_ || down == phases_.size() || phases_[up - 1].acceleration < 0 || phases_[down].acceleration > 0;
-    if (is_valley || way >= speed * least_duration_) break;
+    if (is_valley || distance >= speed * min_duration_) break;
     const Phase& rise = phases_[up - 1];
     const Phase& fall = phases_[down];
     const double rise_begin = rise.speed;
@@ -67,14 +67,14 @@ void Plateaus::cut_peak() {
     const double lower = std::max(rise_begin, fall_end);
     const double slopes = 1 / (2 * rise.acceleration) - 1 / (2 * fall.acceleration);
     // The way at a speed w is `way` + slopes (speed^2 - w^2), and takes the time from w on.
-    const double most = way + slopes * speed * speed;
+    const double reachable = distance + slopes * speed * speed;
     const double level =
-        2 * most / (least_duration_ + std::sqrt(least_duration_ * least_duration_ + 4 * slopes * most));
+        2 * reachable / (min_duration_ + std::sqrt(min_duration_ * min_duration_ + 4 * slopes * reachable));
     if (level >= lower) {
       speed = level;
       break;
     }
-    way += slopes * (speed - lower) * (speed + lower);
+    distance += slopes * (speed - lower) * (speed + lower);
     speed = lower;
     if (rise_begin >= lower) --up;
     if (fall_end >= lower) ++down;
@@ -83,7 +83,7 @@ void Plateaus::cut_peak() {
 }
 
 /// By a plateau: the phases from `first` to before `last`, and what the one before and the one after have above it.
-void Plateaus::replace(std::size_t first, std::size_t last, double speed) {
+void PeakTrimmer::replace(std::size_t first, std::size_t last, double speed) {
   Phase plateau{.speed = speed};
   if (first > settled_ && phases_[first - 1].acceleration > 0) {
     Phase& rise = phases_[first - 1];

@@ -10,9 +10,9 @@ namespace isocnc::motion {
 
 /// Makes a motion keep its speed for a time wherever it turns from gathering to losing it, by cutting its peaks. Phases
 /// of constant acceleration go in and come out, one after another; a valley lasts as long already. A value.
-class Plateaus {
+class PeakTrimmer {
  public:
-  explicit Plateaus(double least_duration) : least_duration_(least_duration) {}
+  explicit PeakTrimmer(double min_duration) : min_duration_(min_duration) {}
 
   void append(const Phase& phase);
 
@@ -28,10 +28,10 @@ class Plateaus {
 
  private:
   void settle();
-  void cut_peak();
+  void trim_peak();
   void replace(std::size_t first, std::size_t last, double speed);
 
-  double least_duration_;
+  double min_duration_;
   std::deque<Phase> phases_;
   std::size_t settled_ = 0;    ///< So many phases can go.
   double unsettled_time_ = 0;  ///< Of the others.

@@ -15,14 +15,14 @@ namespace isocnc::motion {
 
 /// Gives pieces of path their time on a machine whose jerk is limited: a SmoothMotion from each rest to the next, each
 /// smoothed as makes its beginning shortest. A value.
-class Softener {
+class JerkLimiter {
  public:
   /// `feed_cap`: most x.
   void append(const Machine& machine, const Piece& piece, double feed_cap);
   void come_to_rest(const Machine& machine);
   void wait(double seconds) { time_ += seconds; }
 
-  /// The next stretch that is determined, or null. Valid until the softener is used again.
+  /// The next stretch that is determined, or null. Valid until the jerk limiter is used again.
   const Stretch* next();
 
   void forget_handed_out() {
@@ -30,15 +30,17 @@ class Softener {
   }
 
   /// Bytes that it holds, beside itself.
-  std::size_t memory() const { return bytes_of(opening_) + bytes_of(finished_) + (motion_ ? motion_->memory() : 0); }
+  std::size_t memory() const {
+    return bytes_of(first_pieces_) + bytes_of(finished_) + (motion_ ? motion_->memory() : 0);
+  }
 
   /// Seconds until the end of all that is determined.
   double time() const { return motion_ ? motion_->time() : time_; }
 
  private:
-  struct Waiting {
+  struct PendingPiece {
     Piece piece;
-    Slopes slopes;
+    DerivativeBounds bounds;
     double feed_cap;
   };
 
@@ -46,7 +48,7 @@ class Softener {
   Smoothing best_smoothing(const Machine& machine) const;
   double time_with(const Machine& machine, const Smoothing& smoothing) const;
 
-  std::vector<Waiting> opening_;  ///< After a rest, until they are enough to choose the smoothing.
+  std::vector<PendingPiece> first_pieces_;  ///< After a rest, until they are enough to choose the smoothing.
   std::optional<SmoothMotion> motion_;
   std::vector<Stretch> finished_;  ///< Of motions that have come to rest.
   std::size_t handed_out_ = 0;
