@@ -10,17 +10,17 @@ namespace isocnc::motion {
 
 using geometry::Mat3;
 
-/// Directions that differ by less are one: what is left of decimals, mm or degrees per mm.
+/// Maximum difference of directions that count as equal: rounding of decimals, mm or degrees per mm.
 static constexpr double kSameDirection = 1e-9;
-/// Of an arc no more than this is cut, radians: the bound of the deviation is for small angles.
+/// Maximum angle cut off from an arc, radians. The bound of the deviation holds for small angles only.
 static constexpr double kMaxCut = 0.25;
-/// From each end of an element no more is cut than this part of it: what is left between two corners, where the speed
-/// is constant, is where a chain of short lines can gather speed and lose it.
+/// Maximum part of an element cut off from each end. The speed is constant in corners, so on a chain of short lines it
+/// can change only on what is left between two corners.
 static constexpr double kMaxElementPart = 0.25;
-/// Corners are not rounded by less for the feed's sake, mm.
+/// Minimum length cut off where a blend is shortened because of the feed, mm.
 static constexpr double kMinCut = 1e-6;
 
-/// An element's path as it is seen in the space where the corner is rounded.
+/// Evaluates an element's path in the space where the corner is rounded.
 static Jet seen_in(const Machine& machine, Space space, const Element& element, double s) {
   const bool turned = space == Space::Joints && element.space == Space::Either;
   return turned ? element.path.joints_at(machine.kinematics, s) : element.path.at(s);
@@ -31,21 +31,22 @@ static bool is_arc(const Element& element) { return element.path.kind == PathKin
 static bool can_be_rounded(const Element& before, const Element& after) {
   if (before.only_turns != after.only_turns || before.path.tool_length != after.path.tool_length) return false;
   if (before.space == after.space) return true;
-  // One turns B or C. The other keeps them, and must be a line; or both turn them, in different spaces.
+  // If one element turns B or C, the other must be a line that keeps them. If both turn them in different spaces, they
+  // cannot be rounded.
   return (before.space == Space::Either || after.space == Space::Either) && !is_arc(before) && !is_arc(after);
 }
 
-/// How a kind of curve strays from the corner when it cuts d: d |e2 - e1| times `by_change` between lines, at arcs more
-/// by d^2 times the curvature of both times `by_bend` (docs/motion.md).
+/// The deviation of a kind of blend from the corner, if the length d is cut off from both elements whose directions are
+/// e1 and e2: `by_change` d |e2 - e1| + `by_bend` (sum of both curvatures) d^2 (docs/motion.md).
 struct Shape {
   double by_change;
   double by_bend;
-  double max_element_part;
+  double max_element_part;  ///< Maximum part of an element cut off from each end.
 };
 static constexpr Shape kParabola = {1.0 / 4, 1.3, kMaxElementPart};
 static constexpr Shape kSmooth = {13.0 / 72, 0.06, 0.5};
 
-/// How far to cut into both sides.
+/// Returns the length d to cut off from both elements, mm or degrees.
 static double cut(const Machine& machine, const Shape& shape, Space space, const Element& before, const Element& after,
                   const Jet& corner, const Coordinates& change) {
   const double rotary = std::abs(change[kB]) + std::abs(change[kC]);
@@ -64,7 +65,7 @@ static double cut(const Machine& machine, const Shape& shape, Space space, const
   return depth;
 }
 
-/// The cubic of Hermite over [0, length], with unit parameter speed at both ends; between lines its cube vanishes.
+/// Returns the Hermite cubic over [0, length] through the values and slopes of both ends.
 static Path hermite(const Jet& from, const Jet& to, double length) {
   const double part = 1 / length;
   const Coordinates chord = part * (to.value - from.value);
@@ -74,7 +75,7 @@ static Path hermite(const Jet& from, const Jet& to, double length) {
   return path;
 }
 
-/// The parabola into which it turns between two lines, given at their corner.
+/// Returns the parabola to which that cubic reduces between two lines, given both lines at their corner.
 static Path parabola(const Jet& arriving, const Jet& leaving, double length) {
   Path path;
   path.c = {arriving.value - length / 2 * arriving.first, arriving.first,
@@ -82,13 +83,14 @@ static Path parabola(const Jet& arriving, const Jet& leaving, double length) {
   return path;
 }
 
-/// Bounds of the square of ds/dt.
+/// Maxima of (ds/dt)^2, mm^2/s^2.
 struct Caps {
   double by_speed = std::numeric_limits<double>::infinity();
   double by_acceleration = std::numeric_limits<double>::infinity();
 };
 
-/// Bounds of what is within the hull of its ends.
+/// Returns the caps for a path whose first derivatives lie within the hull of `slopes`, and second derivatives within
+/// that of `bends`.
 static Caps axes_caps(const Machine& machine, const Coordinates (&slopes)[3], const Coordinates (&bends)[2]) {
   Caps caps;
   for (int axis = 0; axis < kAxisCount; ++axis) {
@@ -101,7 +103,7 @@ static Caps axes_caps(const Machine& machine, const Coordinates (&slopes)[3], co
   return caps;
 }
 
-/// Joints that follow the tip in a curve: bounded piece by piece.
+/// Returns the cap of a blend of the tip, whose joints follow curves: the minimum of the caps of its parts.
 static double following_cap(const Machine& machine, const Blend& blend) {
   constexpr int kPieces = 4;
   double cap = std::numeric_limits<double>::infinity();
@@ -125,7 +127,7 @@ static Caps caps_of(const Machine& machine, Space space, const Blend& blend) {
   return axes_caps(machine, slopes, bends);
 }
 
-/// How far from the rotary axes a corner of joints takes the tip at most, mm.
+/// Returns an upper bound of the tip's distance from the rotary axes in a blend of joints, mm.
 static double swing_radius(const Machine& machine, const Blend& blend) {
   const auto at = [&](double s) {
     const Coordinates tip = blend.path.tip_at(machine.kinematics, s).value;
@@ -134,8 +136,9 @@ static double swing_radius(const Machine& machine, const Blend& blend) {
   return std::max(at(0), at(blend.length)) + machine.corner_tolerance;
 }
 
-/// The tip's speed for ds/dt = 1 is within the hull of the slopes at the ends and the one between; in a corner of
-/// joints, which leads to a rapid or away from one, what B and C swing adds to it. There the feed holds for one half.
+/// Returns the maximum of (ds/dt)^2 by the feeds of both elements. The tip's speed at ds/dt = 1 is bounded by the
+/// slopes at both ends and in the middle. In a blend of joints, where one of the elements is a rapid, the swing of B
+/// and C adds to it; the feed of the other element then applies.
 static double feed_cap(const Machine& machine, Space space, const Element& before, const Element& after,
                        const Blend& blend) {
   const double feed = std::min(before.feed, after.feed);
@@ -151,7 +154,7 @@ static double feed_cap(const Machine& machine, Space space, const Element& befor
   return square(std::min(feed / max_tip_rate, machine.feed_turn / turn));
 }
 
-/// Where two elements meet, in the space in which both are seen.
+/// The place where two elements meet, in the space where the corner is rounded.
 struct Meeting {
   Space space = Space::Either;
   Jet arriving;
@@ -186,7 +189,8 @@ Corner corner(const Machine& machine, const Element& before, const Element& afte
   const double depth = cut(machine, kParabola, space, before, after, arriving, change);
   Caps caps = round(depth);
   double by_feed = feed_cap(machine, space, before, after, blend);
-  // The acceleration in a parabola is inverse to its length: no longer than the speed on both sides asks for.
+  // The acceleration in a parabola is inversely proportional to its length. So the parabola is shortened where its
+  // acceleration would permit more speed than the feed and the speeds of the axes do.
   const double wanted = std::min(caps.by_speed, by_feed);
   if (between_lines && caps.by_acceleration > wanted) {
     caps = round(std::max(depth * wanted / caps.by_acceleration, std::min(depth, kMinCut)));
@@ -196,8 +200,8 @@ Corner corner(const Machine& machine, const Element& before, const Element& afte
   return result;
 }
 
-/// Three cubics that join with equal second derivatives have exactly as many coefficients as values, slopes and second
-/// derivatives at both ends ask for.
+/// Returns three cubics of equal length with continuous second derivatives. The values, slopes and second derivatives
+/// at both ends determine them uniquely.
 static SmoothBlend spline(const Jet& from, const Jet& to, double length) {
   const double third = length / 3;
   const Coordinates turn = (to.first - from.first) / third;

@@ -6,44 +6,45 @@
 
 namespace isocnc::motion {
 
-/// A corner rounded: leaves one element along its tangent and joins the next along the other's, at a constant rate of
-/// the parameter, so that the acceleration runs from one bound to the other in proportion (on two lines it is constant,
-/// and the curve a parabola).
+/// The curve that replaces a corner on machines whose jerk is not limited. It leaves one element and joins the next
+/// along their tangents, and is passed at a constant ds/dt. Between two lines it is a parabola, whose acceleration is
+/// constant; at an arc it is a cubic, whose acceleration changes linearly from end to end.
 struct Blend {
-  Path path;          ///< s from 0 to `length`.
-  double length = 0;  ///< Twice what is cut from each side.
-  double cap = 0;     ///< Most square of ds/dt, by the axes and both feeds.
+  Path path;          ///< The curve; s runs from 0 to `length`.
+  double length = 0;  ///< Range of s, mm or degrees: twice the length cut off from each element.
+  double cap = 0;     ///< Maximum of (ds/dt)^2 by the axes and both feeds, mm^2/s^2.
 };
 
+/// How two elements meet.
 enum class Junction : std::uint8_t {
-  Stop,    ///< The two have no common space to be rounded in.
-  Smooth,  ///< They go on in the same direction.
-  Rounded,
+  Stop,     ///< The machine stops: the elements share no space in which a blend could be computed.
+  Smooth,   ///< The second element continues the first: no blend is needed.
+  Rounded,  ///< A blend joins the elements.
 };
 
 struct Corner {
   Junction junction = Junction::Stop;
-  Blend blend;  ///< Of Junction::Rounded.
+  Blend blend;  ///< The curve of a Junction::Rounded; unused otherwise.
 };
 
-/// The corner between two elements where one ends and the other begins, within the machine's corner tolerance, and
-/// with no more than half of each cut off, a quarter from each end.
+/// Computes the corner between two consecutive elements. The blend stays within the machine's corner tolerance, and
+/// cuts off at most a quarter of either element (a quarter from each end, so half remains).
 Corner corner(const Machine& machine, const Element& before, const Element& after);
 
-/// A corner rounded so that the second derivative has no steps: within the curve, and where it leaves the one element
-/// and joins the other. Three cubics of equal length.
+/// The curve that replaces a corner on machines whose jerk is limited: three cubics of equal length. The second
+/// derivative has no step within the curve, nor where it leaves one element and joins the next.
 struct SmoothBlend {
-  std::array<Path, 3> paths;  ///< s of each from 0 to a third of `length`.
-  double length = 0;          ///< Twice what is cut from each side.
+  std::array<Path, 3> paths;  ///< The three cubics; s of each runs from 0 to `length` / 3.
+  double length = 0;          ///< Range of s of all three, mm or degrees: twice the length cut off from each element.
 };
 
 struct SmoothCorner {
-  Junction junction = Junction::Stop;  ///< Smooth: in curvature, too.
-  SmoothBlend blend;
+  Junction junction = Junction::Stop;  ///< Junction::Smooth requires equal curvature as well as equal direction.
+  SmoothBlend blend;                   ///< The curve of a Junction::Rounded; unused otherwise.
 };
 
-/// The same for machines whose jerk is limited, which may gather speed in corners: no more than all of each element is
-/// cut off, half from each end.
+/// Computes the corner for machines whose jerk is limited. The speed may change within such a corner, so the blend may
+/// cut off up to half of either element (half from each end, so nothing need remain).
 SmoothCorner smooth_corner(const Machine& machine, const Element& before, const Element& after);
 
 }  // namespace isocnc::motion

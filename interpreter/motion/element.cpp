@@ -11,9 +11,9 @@ namespace isocnc::motion {
 using geometry::Pose;
 using geometry::Vec3;
 
-/// Shorter ways lead nowhere, mm or degrees.
+/// Maximum length of a move that counts as no motion, mm or degrees.
 static constexpr double kNowhere = 1e-9;
-/// No machine's arcs take so many parts: circles of 20 km do.
+/// Maximum number of chords of an arc. Only circles with a radius of about 20 km would need more.
 static constexpr int kMaxChords = 100'000;
 static constexpr int kMaxTurns = 1'000'000;
 
@@ -63,7 +63,7 @@ int part_count(double parts, int max) {
   return parts < max ? static_cast<int>(std::ceil(parts)) : max;
 }
 
-/// A chord over the angle t is off the arc by r (1 - cos(t/2)).
+/// Returns the number of chords of an arc. A chord over the angle t deviates from the arc by r (1 - cos(t/2)).
 static int chord_count(double radius, double sweep, double tolerance) {
   const double half = std::acos(std::clamp(1 - tolerance / radius, 0.0, 1.0));
   return part_count(std::abs(sweep) / (2 * half) - 1e-9, kMaxChords);
@@ -101,9 +101,9 @@ static double feed_speed(const Feed& feed, double length) {
   return 0;
 }
 
-/// Most speed of s on feed moves, by what the machine allows the tip, B and C there.
+/// Returns the maximum of ds/dt on feed moves by the machine's limits for the tip, B and C, mm/s or degrees/s.
 static double max_feed(const Machine& machine, const Element& element) {
-  const Coordinates& slope = element.path.c[1];  // Of circles B and C rest.
+  const Coordinates& slope = element.path.c[1];  // On circles B and C rest.
   const double turn = std::max(std::abs(slope[kB]), std::abs(slope[kC]));
   const double max = element.only_turns ? std::numeric_limits<double>::infinity() : machine.feed_speed;
   return turn > 0 ? std::min(max, machine.feed_turn / turn) : max;

@@ -5,14 +5,16 @@
 
 namespace isocnc::motion {
 
-/// By so many pieces after a rest the smoothing is chosen.
+/// Number of pieces after a rest with which candidates for the smoothing are tried.
 static constexpr std::size_t kTrialPieces = 256;
+/// Candidates for Smoothing::curves_part, the first as default.
 static constexpr double kCurvesParts[] = {0.8, 0.6, 0.4, 0.2};
-/// How the window is sought: halvings of the longest one, and then steps between those around the best.
+/// Search for the window: number of halvings of the longest one, then of golden-section steps around the best.
 static constexpr int kHalvings = 8;
 static constexpr int kSteps = 8;
-/// In shorter ones rounding shows, s.
+/// Minimum length of a window, s. Rounding errors would show with shorter windows.
 static constexpr double kMinWindow = 1e-4;
+/// Golden ratio minus 1.
 static constexpr double kGolden = 0.6180339887498949;
 
 void JerkLimiter::append(const Machine& machine, const Piece& piece, double feed_cap) {
@@ -39,6 +41,7 @@ void JerkLimiter::come_to_rest(const Machine& machine) {
   motion_.reset();
 }
 
+/// Returns the time that the first pieces take with this smoothing, from rest to rest, s.
 double JerkLimiter::time_with(const Machine& machine, const Smoothing& smoothing) const {
   SmoothMotion trial(machine, smoothing, 0);
   for (const PendingPiece& pending : first_pieces_)
@@ -47,8 +50,9 @@ double JerkLimiter::time_with(const Machine& machine, const Smoothing& smoothing
   return trial.time();
 }
 
-/// A long window lets the axes use their accelerations, a short one loses little time at each change of the speed. So
-/// it is with what the speed in curves may take of the jerk.
+/// Returns the smoothing with which the first pieces take the shortest time. A long window lets the axes use their full
+/// accelerations, a short one loses less time at each change of speed. The part of the jerk for curves is a compromise
+/// of the same kind.
 Smoothing JerkLimiter::best_smoothing(const Machine& machine) const {
   const double longest = smoothing_window(machine);
   Smoothing best{longest, kCurvesParts[0]};

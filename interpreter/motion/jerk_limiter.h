@@ -13,46 +13,51 @@
 
 namespace isocnc::motion {
 
-/// Gives pieces of path their time on a machine whose jerk is limited: a SmoothMotion from each rest to the next, each
-/// smoothed as makes its beginning shortest. A value.
+/// Computes the times of pieces of path on a machine whose jerk is limited. From each rest to the next it runs one
+/// SmoothMotion, with the Smoothing that makes the first pieces after the rest take the shortest time. The class has
+/// value semantics: a copy is independent.
 class JerkLimiter {
  public:
-  /// `feed_cap`: most x.
+  /// Appends a piece. `feed_cap`: maximum of (ds/dt)^2 by the feed, mm^2/s^2.
   void append(const Machine& machine, const Piece& piece, double feed_cap);
+  /// Ends the motion at rest after the pieces appended so far.
   void come_to_rest(const Machine& machine);
+  /// Stays at rest for a time, s. Requires that the machine is at rest.
   void wait(double seconds) { time_ += seconds; }
 
-  /// The next stretch that is determined, or null. Valid until the jerk limiter is used again.
+  /// Returns the next stretch whose times are final, or null. The pointer is valid until the next call of any other
+  /// member function, or of this one.
   const Stretch* next();
 
+  /// Frees the memory of stretches that next() has returned.
   void forget_handed_out() {
     if (motion_) motion_->forget_handed_out();
   }
 
-  /// Bytes that it holds, beside itself.
+  /// Returns the number of bytes held outside the object itself.
   std::size_t memory() const {
     return bytes_of(first_pieces_) + bytes_of(finished_) + (motion_ ? motion_->memory() : 0);
   }
 
-  /// Seconds until the end of all that is determined.
+  /// Returns the time at the end of all that is final, s.
   double time() const { return motion_ ? motion_->time() : time_; }
 
  private:
   struct PendingPiece {
     Piece piece;
-    DerivativeBounds bounds;
-    double feed_cap;
+    DerivativeBounds bounds;  ///< Bounds of the joints' derivatives on the piece.
+    double feed_cap;          ///< Maximum of (ds/dt)^2 by the feed, mm^2/s^2.
   };
 
   void begin(const Machine& machine);
   Smoothing best_smoothing(const Machine& machine) const;
   double time_with(const Machine& machine, const Smoothing& smoothing) const;
 
-  std::vector<PendingPiece> first_pieces_;  ///< After a rest, until they are enough to choose the smoothing.
-  std::optional<SmoothMotion> motion_;
-  std::vector<Stretch> finished_;  ///< Of motions that have come to rest.
-  std::size_t handed_out_ = 0;
-  double time_ = 0;  ///< At rest.
+  std::vector<PendingPiece> first_pieces_;  ///< Pieces after a rest, until they suffice to choose the smoothing.
+  std::optional<SmoothMotion> motion_;      ///< Motion since the last rest; absent until the smoothing is chosen.
+  std::vector<Stretch> finished_;           ///< Stretches of motions that have come to rest.
+  std::size_t handed_out_ = 0;              ///< Number of `finished_` that next() has returned.
+  double time_ = 0;                         ///< Time at the last rest, s.
 };
 
 }  // namespace isocnc::motion

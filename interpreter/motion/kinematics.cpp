@@ -25,7 +25,7 @@ struct VectorJet {
   Vec3 second = Vec3::Zero();
 };
 
-/// An angle in degrees; its derivatives in radians.
+/// An angle in degrees with its first two derivatives in radians.
 struct AngleJet {
   double degrees = 0;
   double first = 0;
@@ -38,8 +38,8 @@ static AngleJet angle(const Jet& jet, Axis axis, double sense) {
 
 static VectorJet linear(const Jet& jet) { return {jet.value.head<3>(), jet.first.head<3>(), jet.second.head<3>()}; }
 
-/// A vector that changes while a turn about `axis` carries it: with w = angle' x, the derivative is that of a turning
-/// frame, (R v)' = w (axis x R v) + R v'.
+/// Rotates a vector that itself changes, about `axis`. The derivative is that in a rotating frame:
+/// (R v)' = angle' (axis x R v) + R v'.
 static VectorJet turn(const Mat3& rotation, const Vec3& axis, const AngleJet& angle, const VectorJet& v) {
   const Vec3 value = rotation * v.value;
   const Vec3 slope = rotation * v.first;
@@ -64,11 +64,12 @@ static VectorJet shifted(VectorJet v, const Vec3& by) {
 
 static Vec3 tool(double length) { return {0, 0, length}; }
 
-/// Head: from the spindle nose back to the B axis, at B = C = 0.
+/// Returns the vector from the spindle nose to the B axis of a head at B = C = 0, mm.
 static Vec3 arm(const Kinematics& k) { return tool(k.pivot) - k.spindle_from_b; }
 
-/// From the tip to the spindle nose's place at B = C = 0; depends on B and C alone. Goes up from the tip to the B axis
-/// and on to the C axis, as B and C have turned them, and back down as they are at 0.
+/// Returns the vector of a head from the tip to the position of the spindle nose at B = C = 0, mm. It depends on B and
+/// C alone: from the tip up to the B axis and on to the C axis as B and C have turned them, and back down as at B = C =
+/// 0.
 static VectorJet head_reach(const Kinematics& k, const Jet& jet, double tool_length) {
   const VectorJet to_b = turn_about_y(angle(jet, kB, 1), {.value = arm(k) + tool(tool_length)});
   return shifted(turn_about_z(angle(jet, kC, 1), shifted(to_b, -k.b_from_c)), k.b_from_c - arm(k));

@@ -7,7 +7,7 @@
 
 namespace isocnc::motion {
 
-/// Curves that bend by less are lines, 1/mm and 1/mm^2.
+/// Maximum second and third derivative that count as straight, 1/mm and 1/mm^2.
 static constexpr double kStraight = 1e-15;
 
 LineLimits line_limits(const Machine& machine, const Coordinates& joint_slope) {
@@ -38,7 +38,7 @@ LineLimits circle_limits(const Machine& machine, const Path& circle) {
   return result;
 }
 
-/// What is linear from end to end but for a bulge.
+/// Returns the maximum of a function that deviates from the straight line between its ends by at most `bulge`.
 static Coordinates largest(const Coordinates& begin, const Coordinates& end, const Coordinates& bulge) {
   return begin.cwiseAbs().cwiseMax(end.cwiseAbs()) + bulge;
 }
@@ -64,11 +64,13 @@ double smoothing_window(const Machine& machine) {
   return window;
 }
 
-/// x at which the acceleration falls to nothing, over the most that occurs: more leaves less for the acceleration.
+/// Maximum ratio of the x at which the permitted acceleration becomes 0 to the cap of x. A greater ratio would leave
+/// less for the acceleration.
 static constexpr double kMaxFallRatio = 9;
 
-/// One axis on a curve: |a| <= acceleration (1 - fall x). With z^2 = fall x, the terms of the jerk that come with the
-/// second and the third derivative are no more than part jerk (z^3 + 1.5 (z - z^3)), hence no more than part jerk.
+/// Returns the limits by one axis on a curve: |a| <= acceleration (1 - fall x). `first`, `second`, `third`: bounds of
+/// the axis's derivatives by s. With z^2 = fall x, the jerk from the second and the third derivative is at most part
+/// jerk (z^3 + 1.5 (z - z^3)), which is at most part jerk.
 static LineLimits smoothed_curve(const AxisLimits& axis, const Smoothing& smoothing, double first, double second,
                                  double third, double cap) {
   double zero_x = std::min(axis.acceleration / second, kMaxFallRatio * cap);
@@ -76,7 +78,7 @@ static LineLimits smoothed_curve(const AxisLimits& axis, const Smoothing& smooth
   const double jerk = *axis.jerk;
   if (third > 0) zero_x = std::min(zero_x, std::pow(smoothing.curves_part * jerk / third, 2.0 / 3));
   const double speed = std::sqrt(zero_x);
-  // As much for both terms that limit the acceleration, if the third derivative leaves that.
+  // The part that makes both limits of the acceleration equal, if the third derivative permits it.
   const double swing = 2 * second * speed * smoothing.window;
   const double part = std::clamp(third * zero_x * speed / jerk,
                                  std::min(swing / (first + swing), smoothing.curves_part), smoothing.curves_part);
@@ -84,6 +86,7 @@ static LineLimits smoothed_curve(const AxisLimits& axis, const Smoothing& smooth
   return {cap, std::min(along, part * jerk / (2 * second * speed)), 1 / zero_x};
 }
 
+/// Returns the limits by one axis on a line.
 static LineLimits smoothed_line(const AxisLimits& axis, const Smoothing& smoothing, double first, double cap) {
   return {cap, std::min(axis.acceleration, axis.jerk ? *axis.jerk * smoothing.window : kInfinity) / first, 0};
 }
@@ -113,8 +116,8 @@ CurveLimits::CurveLimits(const Machine& machine, const Jet& begin, const Jet& en
                          double length)
     : length_(length) {
   const double bulge = square(length_) / 8;
-  double by_speed = 0;  // Of the most x: the inverse of its root, and of itself.
-  double by_acceleration = 0;
+  double by_speed = 0;         // Inverse of the maximum of ds/dt.
+  double by_acceleration = 0;  // Inverse of the maximum of x.
   for (int axis = 0; axis < kAxisCount; ++axis) {
     const AxisLimits& limits = machine.axes[static_cast<std::size_t>(axis)];
     const double first_slack = axis < kB ? bulge * higher.third[axis] : 0;
@@ -137,7 +140,7 @@ CurveLimits::CurveLimits(const Machine& machine, const Jet& begin, const Jet& en
   cap_ = 1 / std::max(square(by_speed), by_acceleration);
 }
 
-/// Below the cap, bounds with n <= 0 hold by themselves.
+/// Adds a bound. Bounds with n <= 0 are omitted, since they hold for every x within the cap.
 void CurveLimits::add(Bounds& bounds, double m, double n) const {
   if (n > 0) bounds.bounds[bounds.count++] = {m, n, 1 / (n + 2 * length_ * std::max(m, 0.0))};
 }
@@ -147,7 +150,7 @@ CurveLimits curve_limits(const Machine& machine, const Path& path, double from, 
           higher_derivative_bounds(machine.kinematics, path, from, to), to - from};
 }
 
-/// With a constant a, both ends must be within the bounds, then all between is: they are linear in x and a.
+/// With a constant a, the piece keeps the bounds if both of its ends do: the bounds are linear in x and a.
 double reach(std::span<const CurveBound> bounds, double length, double x) {
   double min = kInfinity;
   for (const CurveBound& bound : bounds) min = std::min(min, (1 - bound.m * x) * bound.by_length);

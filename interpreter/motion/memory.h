@@ -4,7 +4,7 @@
 
 namespace isocnc::motion {
 
-/// Bytes of a container's elements, about.
+/// Returns the size of a container's elements in bytes, without the container's own overhead.
 template <class Container>
 std::size_t bytes_of(const Container& container) {
   return container.size() * sizeof(typename Container::value_type);

@@ -4,10 +4,10 @@
 
 namespace isocnc::motion {
 
-/// Shorter times are rounding errors, s.
+/// Maximum duration that is a rounding error, s.
 static constexpr double kNoTime = 1e-13;
 
-/// The window lies all before the motion.
+/// Starts a motion, with the whole window before its start.
 void MovingAverage::begin(double from) {
   lag_ = {Phase{.duration = window_, .from = from}};
   lag_time_ = 0;
@@ -29,7 +29,7 @@ void MovingAverage::append(const Phase& phase, std::vector<Phase>& out) {
   }
 }
 
-/// `lead`: the window's end as it is now.
+/// Advances the window by `duration`. `lead`: motion at the window's leading edge.
 void MovingAverage::step(const Phase& lead, double duration, std::vector<Phase>& out) {
   const Phase lag = lag_.front().after(lag_time_);
   const Phase mean{duration, s_, std::max((lead.from - lag.from) / window_, 0.0), (lead.speed - lag.speed) / window_,

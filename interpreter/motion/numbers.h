@@ -5,9 +5,9 @@
 
 namespace isocnc::motion {
 
-inline constexpr double kRadians = std::numbers::pi / 180;  ///< In a degree.
+inline constexpr double kRadians = std::numbers::pi / 180;  ///< Radians per degree.
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
-inline constexpr double kNoLength = 1e-12;  ///< mm or degrees: what is shorter is a rounding error.
+inline constexpr double kNoLength = 1e-12;  ///< Lengths below this are rounding errors, mm or degrees.
 inline constexpr double kSecondsPerMinute = 60;
 
 constexpr double square(double value) { return value * value; }

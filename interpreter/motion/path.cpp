@@ -37,7 +37,7 @@ Jet Path::joints_at(const Kinematics& kinematics, double s) const {
   return is_of_joints ? at(s) : inverse(kinematics, at(s), tool_length);
 }
 
-/// Bounds of the norms of a vector and its first four derivatives.
+/// Upper bounds of the norms of a vector and of its first four derivatives.
 using Norms = std::array<double, 5>;
 
 static double linear_norm(const Coordinates& c) { return c.head<3>().norm(); }
@@ -54,7 +54,8 @@ static Norms tip_norms(const Path& path, double length) {
           2 * linear_norm(c[2]) + 6 * length * linear_norm(c[3]), 6 * linear_norm(c[3]), 0};
 }
 
-/// Of a unit vector that B and C turn: derivatives of cos f(s), where f is at most a cubic.
+/// Returns bounds for a unit vector that B and C turn: those of cos f(s), where f is a polynomial up to the third
+/// degree.
 static Norms turning_norms(const Path& path, double length) {
   if (path.kind == PathKind::Circle) return {1, 0, 0, 0, 0};
   const auto turn = [&](std::size_t i) { return (std::abs(path.c[i][kB]) + std::abs(path.c[i][kC])) * kRadians; };
@@ -66,7 +67,7 @@ static Norms turning_norms(const Path& path, double length) {
           square * square + 6 * square * acceleration + 3 * acceleration * acceleration + 4 * speed * jerk};
 }
 
-/// The workpiece's reach from the table's axes, which turn it: the rule of Leibniz.
+/// Returns a bound of a derivative of a vector of bounds `reach` that a table turns, by the Leibniz rule.
 static double table_derivative(const Norms& reach, const Norms& turning, int order) {
   static constexpr double kBinomials[5][5] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}, {1, 4, 6, 4, 1}};
   double sum = 0;
@@ -79,7 +80,7 @@ static HigherDerivativeBounds everywhere(double third, double fourth) {
   return {geometry::Vec3::Constant(third), geometry::Vec3::Constant(fourth)};
 }
 
-/// A circle in a space whose axes are those of the joints.
+/// Returns the bounds for a circle in a space whose axes are those of the joints.
 static HigherDerivativeBounds circle_derivative_bounds(const Path& path) {
   const geometry::Vec3 radii = (path.c[1].head<3>().cwiseAbs2() + path.c[2].head<3>().cwiseAbs2()).cwiseSqrt();
   const double cube = std::abs(path.omega * path.omega * path.omega);

@@ -41,16 +41,16 @@ Phase PeakTrimmer::next() {
   return phase;
 }
 
-/// A plateau takes less than its duration from what was there before, on either side.
+/// Settles the phases that no later plateau can reach. A plateau replaces less than its own duration on either side.
 void PeakTrimmer::settle() {
   while (settled_ < phases_.size() && unsettled_time_ - phases_[settled_].duration >= min_duration_)
     unsettled_time_ -= phases_[settled_++].duration;
 }
 
-/// Lowers the peak until the way over it takes long enough.
+/// Lowers the peak until it is a plateau of the minimum duration, or until it meets a valley.
 void PeakTrimmer::trim_peak() {
   has_peak_ = false;
-  std::size_t up = peak_;  // The phases before it gather the speed.
+  std::size_t up = peak_;  // Index after the phases that accelerate to the peak.
   std::size_t down = peak_;
   double speed = phases_[peak_].speed;
   double distance = 0;
@@ -66,7 +66,8 @@ void PeakTrimmer::trim_peak() {
     const double fall_end = end_speed(fall);
     const double lower = std::max(rise_begin, fall_end);
     const double slopes = 1 / (2 * rise.acceleration) - 1 / (2 * fall.acceleration);
-    // The way at a speed w is `way` + slopes (speed^2 - w^2), and takes the time from w on.
+    // A plateau of speed w has the length `distance` + slopes (speed^2 - w^2), and that must equal w times its
+    // duration.
     const double reachable = distance + slopes * speed * speed;
     const double level =
         2 * reachable / (min_duration_ + std::sqrt(min_duration_ * min_duration_ + 4 * slopes * reachable));
@@ -82,7 +83,7 @@ void PeakTrimmer::trim_peak() {
   replace(up, down, speed);
 }
 
-/// By a plateau: the phases from `first` to before `last`, and what the one before and the one after have above it.
+/// Replaces the phases [first, last), and the parts of their neighbors that are faster than `speed`, by a plateau.
 void PeakTrimmer::replace(std::size_t first, std::size_t last, double speed) {
   Phase plateau{.speed = speed};
   if (first > settled_ && phases_[first - 1].acceleration > 0) {

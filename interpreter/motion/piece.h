@@ -6,13 +6,14 @@
 
 namespace isocnc::motion {
 
-/// A part of a move's path, as the machine goes it.
+/// A part of the machine's path that belongs to one move: an element after rounding, a part of a curved element, or a
+/// part of a blend.
 struct Piece {
   Path path;
-  double begin = 0;  ///< Of the path's parameter.
-  double length = 0;
-  std::uint64_t tag = 0;
-  bool ends_move = false;
+  double begin = 0;        ///< Path parameter s at the start of the piece, mm or degrees.
+  double length = 0;       ///< Range of s, mm or degrees.
+  std::uint64_t tag = 0;   ///< Move::tag of the move.
+  bool ends_move = false;  ///< Whether this is the last piece of its move.
 };
 
 }  // namespace isocnc::motion

@@ -9,19 +9,20 @@
 
 namespace isocnc::motion {
 
-/// A curve's limits are taken over pieces that turn by no more than this, radians: fine where the curve takes more
-/// than a part of the acceleration at the programmed feed, else coarse, for then the feed decides nearly everywhere.
-/// Without jerk it decides all over an arc but for where the arc gathers speed and loses it; there they are fine.
+/// Maximum angle of the pieces of a curve over which limits are taken, radians. Fine pieces are used where the curve
+/// needs more than `kSmallPart` of the acceleration at the programmed feed, coarse pieces elsewhere, since there the
+/// feed determines the speed nearly everywhere. Where jerk is not limited, arcs have fine pieces only at their ends,
+/// where the speed changes.
 static constexpr double kFineTurn = 2.5 * std::numbers::pi / 180;
 static constexpr double kCoarseTurn = 10 * std::numbers::pi / 180;
 static constexpr double kSmallPart = 0.1;
-/// Where gathering speed takes no more than this part of an arc's length, its limits are rough.
+/// Maximum part of an arc's length on which the speed changes at one end, for that end to be a single span.
 static constexpr double kBriefPart = 1.0 / 64;
-/// Tracks are forgotten so many at a time.
+/// Number of returned tracks that triggers their removal.
 static constexpr std::size_t kForgotten = 256;
-/// Of one element: more than rotary axes turn in one move.
+/// Maximum number of pieces of one element. Rotary axes do not turn far enough in one move to need more.
 static constexpr int kMaxPieces = 5'000;
-/// A move that begins elsewhere than where the machine is does not follow smoothly, mm or degrees.
+/// Maximum distance between the end of a move and the start of the next that counts as none, mm or degrees.
 static constexpr double kSamePlace = 1e-6;
 
 static bool limits_jerk(const Machine& machine) {
@@ -56,7 +57,7 @@ void Planner::take_elements() {
   while (splitter_.has_more()) take(splitter_.next(machine_));
 }
 
-/// Elements enter in order; each is appended when the next one, or a stop, tells how it ends.
+/// Takes the next element. An element is appended to the profile when the next element or a stop determines its end.
 void Planner::take(Element element) {
   if (profile_.holds_much_past()) profile_.forget_handed_out();
   if (handed_out_ >= kForgotten || handed_out_ == tracks_.size()) forget_tracks();
@@ -82,7 +83,7 @@ void Planner::forget_tracks() {
   handed_out_ = 0;
 }
 
-/// Appends the last element, now that its end is known, and the corner to the next one, whose begin it moves.
+/// Appends the last element, whose end is now known, and the blend with the next one, whose start the blend moves.
 void Planner::join(Element& next) {
   const Corner corner = motion::corner(machine_, last_, next);
   if (corner.junction == Junction::Stop) return come_to_rest();
@@ -100,7 +101,7 @@ void Planner::join(Element& next) {
   append_corner(corner.blend, last_, next);
 }
 
-/// The same with a corner that has no steps in the second derivative.
+/// Does the same as join() for machines whose jerk is limited, with a blend without steps of the second derivative.
 void Planner::join_smoothly(Element& next) {
   const SmoothCorner corner = smooth_corner(machine_, last_, next);
   if (corner.junction == Junction::Stop) return come_to_rest();
@@ -147,16 +148,16 @@ void Planner::append_line(const Element& element) {
   tracks_.push_back({whole_piece(element), 1});
 }
 
-/// How much a curve turns for each unit of s, radians.
+/// Returns the angle by which a curve turns per unit of s, radians.
 static double turning(const Path& path) {
   if (path.kind == PathKind::Circle) return std::abs(path.omega);
   return (std::abs(path.c[1][kB]) + std::abs(path.c[1][kC])) * std::numbers::pi / 180;
 }
 
-/// Most x by the feed.
+/// Returns the maximum of (ds/dt)^2 by the feed, mm^2/s^2.
 static double feed_cap(const Element& element) { return square(element.feed / element.max_tip_rate); }
 
-/// Into how many pieces a curve is cut, by how much the linear joints bend.
+/// Returns the number of pieces into which a curve is cut, by the curvature of the path of the linear joints.
 static int piece_count(const Machine& machine, const Element& element) {
   const double length = element.end - element.begin;
   const double rate = turning(element.path);
@@ -199,7 +200,7 @@ void Planner::append_smooth_curve(const Element& element) {
   }
 }
 
-/// A circle with the derivatives of that on which the joints go while B and C rest, wherever it lies.
+/// Returns a circle with the derivatives of the one along which the joints move while B and C rest. Its center differs.
 static Path joint_circle(const Kinematics& kinematics, const Path& circle) {
   Path result = circle;
   result.is_of_joints = true;
@@ -209,21 +210,21 @@ static Path joint_circle(const Kinematics& kinematics, const Path& circle) {
   return result;
 }
 
-/// The limits of a circle from where it has this slope for as far as `ramp`, on or back: no joint's slope changes by
-/// more there than the most of its second derivative allows.
+/// Returns the limits of a circle within the length `ramp` of the place where it has this slope. There each joint's
+/// slope changes by at most `ramp` times the maximum of its second derivative.
 static LineLimits ramp_limits(const Machine& machine, const Path& circle, const Coordinates& slope, double ramp) {
   const Coordinates bend = square(circle.omega) * (circle.c[1].cwiseAbs2() + circle.c[2].cwiseAbs2()).cwiseSqrt();
   return line_limits(machine, slope.cwiseAbs() + ramp * bend);
 }
 
-/// The derivatives at a place of a circle, turned on by an angle of this cosine and sine.
+/// Returns the derivatives of a circle at the place that follows that of `jet` by an angle of this cosine and sine.
 static Jet turned_on(const Path& circle, const Jet& jet, double cosine, double sine) {
   const Coordinates along = jet.first - circle.c[3];
   return {.first = cosine * along + sine / circle.omega * jet.second + circle.c[3],
           .second = cosine * jet.second - sine * circle.omega * along};
 }
 
-/// In fine pieces; tells how many.
+/// Appends a part of a circle in fine pieces. Returns their number.
 int Planner::append_fine(const Path& circle, double begin, double end, double cap) {
   const int count = part_count((end - begin) * turning(circle) / kFineTurn, kMaxPieces);
   const double length = (end - begin) / count;
@@ -239,9 +240,10 @@ int Planner::append_fine(const Path& circle, double begin, double end, double ca
   return count;
 }
 
-/// Where the axes can hold the feed all along, what they can do at any one place matters at both ends alone: as far as
-/// the machine goes until it has the feed. From a standstill that is the integral of dx / 2a up to the feed's x, with
-/// a = acceleration (1 - fall x); and -ln(1 - p) <= p / sqrt(1 - p).
+/// Appends an arc: in fine pieces all along, or, if the axes can hold the feed everywhere, with fine pieces only at
+/// both ends, where the speed reaches the feed and leaves it. From a standstill the feed is reached after the integral
+/// of dx / 2a up to the feed's x, with a = acceleration (1 - fall x). The ends are at least as long as that, because
+/// -ln(1 - p) <= p / sqrt(1 - p).
 void Planner::append_arc(const Element& element) {
   const Path circle = joint_circle(machine_.kinematics, element.path);
   const double length = element.end - element.begin;
@@ -254,7 +256,7 @@ void Planner::append_arc(const Element& element) {
     return;
   }
   const bool is_brief = ramp <= kBriefPart * length && ramp * turning(circle) <= kFineTurn;
-  const bool as_tip = machine_.kinematics.kind != MachineKind::Table;  // The slopes of tip and joints are the same.
+  const bool as_tip = machine_.kinematics.kind != MachineKind::Table;  // Tip and joints have equal slopes.
   const auto append_ramp = [&](double begin, double end, double s, const std::optional<Coordinates>& known) {
     if (!is_brief) return append_fine(circle, begin, end, cap);
     const Coordinates slope = known && as_tip ? *known : circle.at(s).first;
@@ -276,19 +278,20 @@ void Planner::append_corner(const Blend& blend, const Element& before, const Ele
       {{blend.path, 0, blend.length, before.tag, before.ends_move}, 1, before.tag != after.tag, after.tag});
 }
 
-/// Most of the tip's speed for ds/dt = 1, on a part of a rounded corner.
+/// Returns the maximum of the tip's speed at ds/dt = 1 on a part of a blend, mm/s or degrees/s.
 static double tip_rate(const Machine& machine, const Piece& piece, bool only_turns) {
   double max = 0;
   for (const double part : {0.0, 0.5, 1.0}) {
     const Coordinates slope = piece.path.tip_at(machine.kinematics, piece.begin + part * piece.length).first;
     max = std::max(max, only_turns ? slope.tail<2>().norm() : slope.head<3>().norm());
   }
-  // Between them the slope, a parabola, is off the straight line by length^2/8 times its second derivative at most.
+  // Between these places the slope is a parabola, which deviates from the straight line by at most length^2/8 times its
+  // second derivative.
   const Coordinates bulge = 6 * square(piece.length / 2) / 8 * piece.path.c[3];
   return max + (only_turns ? bulge.tail<2>().norm() : bulge.head<3>().norm());
 }
 
-/// Most of how fast B or C turns for ds/dt = 1, on a part of a rounded corner.
+/// Returns the maximum of the speeds of B and C at ds/dt = 1 on a part of a blend, degrees/s.
 static double turning_rate(const Machine& machine, const Piece& piece) {
   double max = 0;
   for (const double part : {0.0, 0.5, 1.0})
@@ -298,7 +301,7 @@ static double turning_rate(const Machine& machine, const Piece& piece) {
   return max + (6 * square(piece.length / 2) / 8 * piece.path.c[3]).tail<2>().cwiseAbs().maxCoeff();
 }
 
-/// In four parts: the middle one of the three cubics belongs to both moves.
+/// Appends a blend in four parts: the second of its three cubics belongs to both moves, half to each.
 void Planner::append_corner(const SmoothBlend& blend, const Element& before, const Element& after) {
   const double third = blend.length / 3;
   const Piece parts[] = {{blend.paths[0], 0, third, before.tag},
@@ -314,7 +317,8 @@ void Planner::append_corner(const SmoothBlend& blend, const Element& before, con
   }
 }
 
-/// Half of a corner belongs to the move before it, half to the next.
+/// Reduces the stretch of a blend to the half of one move: the first half belongs to the move before, the second to the
+/// next.
 static void keep_half(Stretch& stretch, bool second) {
   Phase& phase = stretch.phases[0];
   stretch.duration = phase.duration /= 2;
@@ -332,7 +336,7 @@ const Stretch* Planner::next() {
   return stretch;
 }
 
-/// Makes a stretch go on with the next span, if it has room for that. A speed that is kept goes on in one phase.
+/// Appends a span's phases to a stretch, if the stretch can hold them. Two phases of constant speed are merged.
 static bool extend(Stretch& stretch, const Profile::Span& span) {
   const auto count = static_cast<std::size_t>(stretch.phase_count);
   const bool goes_on = count > 0 && span.phase_count > 0 && stretch.phases[count - 1].acceleration == 0 &&
@@ -345,7 +349,8 @@ static bool extend(Stretch& stretch, const Profile::Span& span) {
   return true;
 }
 
-/// As many spans of a track as there is room for: which they are must not depend on how many are determined yet.
+/// Returns a stretch with as many spans of a track as it can hold, or null while any of these is not planned. So the
+/// choice of spans does not depend on when next() is called.
 const Stretch* Planner::next_determined() {
   if (jerk_limiter_) return jerk_limiter_->next();
   const Profile::Span* span = profile_.front();

@@ -17,8 +17,8 @@
 
 namespace isocnc::motion {
 
-/// Gives moves their time. Moves go in one by one, and come out as stretches in the same order, as soon as nothing that
-/// may still follow can change them:
+/// Computes the times of moves. Moves go in one by one. Stretches come out in the same order, each as soon as no later
+/// move can change it:
 ///
 ///     planner.push(move);
 ///     while (const Stretch* stretch = planner.next()) use(*stretch);
@@ -26,41 +26,43 @@ namespace isocnc::motion {
 ///     planner.rest();
 ///     while (const Stretch* stretch = planner.next()) use(*stretch);
 ///
-/// The times are the shortest under the constraints of docs/motion.md, or as near to that as it says. Memory is
-/// bounded, however long the program, if next() is called as above. What comes out depends on what went in, not on when
-/// next() was called. A planner is a value: a copy goes on by itself.
+/// The times are the shortest under the constraints of docs/motion.md, within the margins that the page states. The
+/// stretches depend on the moves alone, not on when next() is called. Memory is bounded for programs of any length if
+/// next() is called as above. The class has value semantics: a copy is independent.
 class Planner {
  public:
   explicit Planner(Machine machine);
 
-  /// A move that goes nowhere has no stretch; its exact stop holds.
+  /// Appends a move. A move without length yields no stretch, but its exact stop takes effect.
   void push(const Move& move);
 
-  /// The machine comes to rest after all that was pushed, and stays so for a time: at dwells, tool changes, and
-  /// wherever the control waits.
+  /// Brings the machine to rest after all moves pushed so far, and keeps it at rest for `seconds`: for dwells, tool
+  /// changes, and other waits of the control.
   void rest(double seconds = 0);
 
-  /// The next stretch, or null where what was pushed does not determine it yet. Valid until the planner is used again.
+  /// Returns the next stretch, or null if the moves pushed so far do not determine it yet. The pointer is valid until
+  /// the next call of a non-const member function.
   const Stretch* next();
 
-  /// Lets go of what has been handed out, which is done now and then anyway: a copy is then as small as it can be.
+  /// Frees the memory of stretches that next() has returned, so that a copy is as small as possible. The planner also
+  /// does so by itself from time to time.
   void forget_handed_out();
 
-  /// Bytes that it holds, beside itself.
+  /// Returns the number of bytes held outside the object itself.
   std::size_t memory() const {
     return profile_.memory() + bytes_of(tracks_) + (jerk_limiter_ ? jerk_limiter_->memory() : 0);
   }
 
-  /// Seconds until the end of all stretches that are determined, rests included.
+  /// Returns the time at the end of all stretches that are determined, rests included, s.
   double time() const { return jerk_limiter_ ? jerk_limiter_->time() : profile_.time(); }
 
  private:
-  /// What spans of the profile lead along.
+  /// A piece of path, with the number of the profile's spans that run along it.
   struct Track {
     Piece piece;
     int span_count = 1;
-    bool is_shared = false;      ///< A corner, whose second half belongs to the next move.
-    std::uint64_t next_tag = 0;  ///< Of that.
+    bool is_shared = false;      ///< Whether the piece is a blend whose second half belongs to the next move.
+    std::uint64_t next_tag = 0;  ///< Move::tag of the next move, if `is_shared`.
   };
 
   void take_elements();
@@ -83,18 +85,18 @@ class Planner {
 
   Machine machine_;
   Splitter splitter_;
-  Element last_;  ///< Its end waits for what comes next.
+  Element last_;  ///< Last element; its end is final when the next element or a rest is known.
   bool has_last_ = false;
-  geometry::Pose end_;  ///< Of the last move.
+  geometry::Pose end_;  ///< End of the last move pushed.
   bool has_end_ = false;
 
-  Profile profile_;                          ///< Where jerk is not limited.
-  std::vector<Track> tracks_;                ///< Of its spans.
-  std::size_t handed_out_ = 0;               ///< Tracks before it.
-  int spans_out_ = 0;                        ///< Of the next one.
-  bool half_out_ = false;                    ///< The first half of a corner is handed out.
-  std::optional<JerkLimiter> jerk_limiter_;  ///< Where it is.
-  Stretch stretch_;
+  Profile profile_;                          ///< Profile of machines whose jerk is not limited.
+  std::vector<Track> tracks_;                ///< Tracks of the profile's spans.
+  std::size_t handed_out_ = 0;               ///< Number of tracks whose stretches are all returned.
+  int spans_out_ = 0;                        ///< Number of returned spans of the next track.
+  bool half_out_ = false;                    ///< Whether the first half of a shared blend is returned.
+  std::optional<JerkLimiter> jerk_limiter_;  ///< Profile of machines whose jerk is limited; absent on others.
+  Stretch stretch_;                          ///< Stretch to which next() returns a pointer.
 };
 
 }  // namespace isocnc::motion

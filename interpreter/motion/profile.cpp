@@ -6,16 +6,17 @@
 
 namespace isocnc::motion {
 
-/// Planning looks back over all that is not planned yet: it pays to let some gather.
+/// Minimum number of unplanned spans that triggers planning. Each planning passes over all unplanned spans, so it is
+/// done for many at once.
 static constexpr std::size_t kPlanningBatch = 256;
-/// Look-ahead ends here, even if the machine cannot stop within so many spans.
+/// Maximum number of unplanned spans. Look-ahead is limited to half of it, even if the machine cannot stop within that.
 static constexpr std::size_t kMaxSpans = 16384;
-/// Phases over a smaller part of their span are rounding errors.
+/// Maximum length of a phase that is a rounding error, as a part of its span.
 static constexpr double kNoPart = 1e-14;
-/// What is longer than a span by no more fits in it.
+/// Maximum ratio of lengths that counts as 1.
 static constexpr double kRounding = 1 + 1e-9;
-/// How the peak of the speed within a piece of a curve is sought: bisections, and the relative precision that ends
-/// them.
+/// Search for the peak of the speed on a span of a curve: maximum number of bisections, and the relative precision that
+/// ends them.
 static constexpr int kBisections = 16;
 static constexpr double kPeakPrecision = 1e-4;
 
@@ -58,7 +59,8 @@ void Profile::come_to_rest() {
   last_cap_ = 0;
 }
 
-/// With one acceleration all the way, which the limits allow at the larger x and hence everywhere.
+/// Returns the maximum of x at one end of a line with x at the other. The acceleration is constant on the line, and the
+/// limits permit it at the larger x, hence everywhere.
 static double reach_on_line(const Profile::Span& span, double x) {
   if (span.fall == 0) return x + 2 * span.acceleration * span.length;
   const double gain = 2 * span.acceleration * span.length;
@@ -71,8 +73,8 @@ std::span<const CurveBound> Profile::bounds(const Span& span, Direction directio
   return {first + span.forward_count, span.backward_count};
 }
 
-/// Most x at one end of a span with x at the other: at its end in Direction::Forward, at its begin in
-/// Direction::Backward.
+/// Returns the maximum of x at one end of a span with x at the other: at the end for Direction::Forward, at the start
+/// for Direction::Backward.
 double Profile::reach(const Span& span, double x, Direction direction) const {
   switch (span.kind) {
     case SpanKind::Line:
@@ -93,8 +95,8 @@ void Profile::look_back_from_rest() {
   }
 }
 
-/// Looks back twice, from a stop at the end and from going on there as fast as may be. Where both agree, and before, x
-/// is what it will be whatever follows. Returns the last span whose `entry` is such.
+/// Passes backward twice: from a stop at the end of the known path, and from the maximum speed there. Where both passes
+/// give the same x, and before, no later span can change x. Returns the last span whose `entry` is final in this sense.
 std::size_t Profile::look_back() {
   look_back_from_rest();
   double exit = last_cap_;
@@ -126,13 +128,13 @@ void Profile::plan_until(std::size_t end, double exit) {
   }
 }
 
-/// How x goes through a span: up, level, and down again.
+/// The course of x on a span: acceleration, constant speed, deceleration.
 struct Course {
-  double up = 0;  ///< Length, and acceleration.
-  double up_acceleration = 0;
-  double peak = 0;  ///< x between.
-  double down = 0;
-  double down_acceleration = 0;  ///< Not positive.
+  double up = 0;                 ///< Length of the acceleration, mm.
+  double up_acceleration = 0;    ///< Acceleration, mm/s^2.
+  double peak = 0;               ///< x at constant speed, mm^2/s^2.
+  double down = 0;               ///< Length of the deceleration, mm.
+  double down_acceleration = 0;  ///< Acceleration while slowing down, mm/s^2; not positive.
 };
 
 static double ramp_length(double from, double to, double acceleration) {
@@ -143,7 +145,7 @@ static Course over_peak(double peak, double entry, double exit, double up, doubl
   return {ramp_length(entry, peak, up), up, peak, ramp_length(exit, peak, down), -down};
 }
 
-/// At one acceleration all the way: what reach() found possible.
+/// Returns the course with one acceleration on the whole span, which reach() has found possible.
 static Course straight(double length, double entry, double exit) {
   const double acceleration = (exit - entry) / (2 * length);
   return exit > entry ? Course{length, acceleration, exit, 0, 0} : Course{0, 0, entry, length, acceleration};
@@ -155,7 +157,7 @@ static Course on_line(const Profile::Span& span, double entry, double exit) {
   peak = std::max({std::min(span.cap, peak), entry, exit});
   const double acceleration = span.acceleration * (1 - span.fall * peak);
   const Course course = over_peak(peak, entry, exit, acceleration, acceleration);
-  // Where the acceleration has fallen to nothing, what is left of it is rounding.
+  // Near the x where the permitted acceleration becomes 0, rounding can make the course longer than the span.
   const bool fits = span.fall == 0 || course.up + course.down <= span.length * kRounding;
   return fits ? course : straight(span.length, entry, exit);
 }
@@ -181,7 +183,7 @@ static Course on_curve(std::span<const CurveBound> forward, std::span<const Curv
   return best;
 }
 
-/// `is_reach`: the span changes the speed by as much as it can, which leaves nothing to choose.
+/// Computes the phases of a span. `is_reach`: the span changes the speed by its maximum, so its course is determined.
 void Profile::assign_times(Span& span, double entry, double exit, bool is_reach) {
   Course course{.peak = entry};
   if (span.kind == SpanKind::Line) course = on_line(span, entry, exit);

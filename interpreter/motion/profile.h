@@ -12,65 +12,69 @@
 
 namespace isocnc::motion {
 
-/// The fastest motion along a way, whatever it leads along, under limits of speed and acceleration that change from
-/// span to span. Spans go in one by one, and are planned as soon as nothing that may still follow can change them. A
-/// value.
+/// The fastest motion along a path under limits of speed and acceleration that change from span to span. The profile
+/// knows lengths and limits only, not the shape of the path. Spans go in one by one, and each is planned as soon as no
+/// later span can change it. s is the path parameter, x the square of ds/dt in mm^2/s^2. The class has value semantics.
 class Profile {
  public:
   enum class SpanKind : std::uint8_t {
-    Line,   ///< Limits as in LineLimits.
-    Curve,  ///< Limits as in CurveLimits.
-    Level,  ///< The speed stays as it is.
+    Line,   ///< Span under LineLimits.
+    Curve,  ///< Span under CurveLimits.
+    Level,  ///< Span on which the speed is constant.
   };
 
+  /// An interval of the path with its own limits, and after planning, its phases.
   struct Span {
     SpanKind kind = SpanKind::Line;
-    std::uint8_t phase_count = 0;
-    double begin = 0;  ///< s.
-    double length = 0;
-    double cap = 0;           ///< Most x = (ds/dt)^2.
-    double acceleration = 0;  ///< Line: as in LineLimits.
-    double fall = 0;          ///< The same.
-    double entry_cap = 0;     ///< Most x at the begin, by the span before and this one.
-    double entry = 0;         ///< Most x at the begin, from which what follows can be kept.
-    std::size_t bounds = 0;   ///< Curve: number of the first of its bounds, those forward before those backward.
+    std::uint8_t phase_count = 0;  ///< Number of `phases` in use.
+    double begin = 0;              ///< Path parameter s at the start, mm or degrees.
+    double length = 0;             ///< Range of s, mm or degrees.
+    double cap = 0;                ///< Maximum of x on the span.
+    double acceleration = 0;       ///< LineLimits::acceleration of a line.
+    double fall = 0;               ///< LineLimits::fall of a line.
+    double entry_cap = 0;          ///< Maximum of x at the start, by the caps of the previous span and this one.
+    double entry = 0;              ///< Maximum of x at the start from which the limits of all later spans can be kept.
+    std::size_t bounds = 0;  ///< Number of the first bound of a curve; the forward bounds precede the backward ones.
     std::uint8_t forward_count = 0;
     std::uint8_t backward_count = 0;
-    double start = 0;  ///< When planned.
-    double duration = 0;
+    double start = 0;     ///< Start time, s; set by planning.
+    double duration = 0;  ///< Duration, s; set by planning.
     std::array<Phase, 3> phases;
   };
 
   Profile();
 
   void append_line(double begin, double length, const LineLimits& limits);
-  /// `cap`: most x, in addition to the limits' own.
+  /// Appends a span of a curve. `cap`: maximum of x, in addition to the cap of the limits.
   void append_curve(double begin, double length, double cap, const CurveLimits& limits);
+  /// Appends a span on which the speed is constant. `cap`: maximum of x.
   void append_level(double length, double cap);
 
-  /// Plans all that was appended; it ends at rest, which lasts some time.
+  /// Plans all spans appended so far, with rest at their end.
   void come_to_rest();
+  /// Stays at rest for a time, s. Requires that the machine is at rest.
   void wait(double seconds) { time_ += seconds; }
 
-  /// Whether enough has gathered to look for what is determined.
+  /// Returns whether enough unplanned spans have accumulated for plan_ahead().
   bool wants_planning() const { return unplanned() >= batch_; }
+  /// Plans all spans that no later span can change.
   void plan_ahead();
   std::size_t unplanned() const { return spans_.size() - planned_; }
 
-  /// The next span that is planned, or one of those after it, or null.
+  /// Returns the planned span `after` places after the next one, or null.
   const Span* front(std::size_t after = 0) const {
     return handed_out_ + after < planned_ ? &spans_[handed_out_ + after] : nullptr;
   }
   void pop(std::size_t count = 1) { handed_out_ += count; }
 
-  /// Gives back the memory of what was popped. Pointers to spans are lost.
+  /// Frees the memory of popped spans. Invalidates pointers to spans.
   void forget_handed_out();
-  /// Whether that is worth it.
+  /// Returns whether enough spans are popped to make forget_handed_out() worth its cost.
   bool holds_much_past() const;
-  /// Bytes that it holds, beside itself.
+  /// Returns the number of bytes held outside the object itself.
   std::size_t memory() const { return bytes_of(spans_) + bytes_of(bounds_); }
 
-  /// Seconds until the end of all that is planned.
+  /// Returns the time at the end of all planned spans, s.
   double time() const { return time_; }
 
  private:
@@ -84,13 +88,13 @@ class Profile {
 
   std::vector<Span> spans_;
   std::vector<CurveBound> bounds_;
-  std::size_t first_bound_ = 0;  ///< Number of the first in bounds_.
-  std::size_t handed_out_ = 0;   ///< Spans before it.
-  std::size_t planned_ = 0;      ///< Spans before it have their times.
-  std::size_t batch_;            ///< So many unplanned spans call for planning.
-  double speed_square_ = 0;      ///< x at the begin of the first unplanned span.
-  double last_cap_ = 0;          ///< Of the last span; 0 at rest.
-  double time_ = 0;
+  std::size_t first_bound_ = 0;  ///< Number of the first element of `bounds_`.
+  std::size_t handed_out_ = 0;   ///< Number of popped spans in `spans_`.
+  std::size_t planned_ = 0;      ///< Number of planned spans in `spans_`.
+  std::size_t batch_;            ///< Number of unplanned spans that triggers planning.
+  double speed_square_ = 0;      ///< x at the start of the first unplanned span, mm^2/s^2.
+  double last_cap_ = 0;          ///< Maximum of x on the last span; 0 at rest.
+  double time_ = 0;              ///< Time at the end of all planned spans, s.
 };
 
 }  // namespace isocnc::motion

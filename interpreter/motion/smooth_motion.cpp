@@ -5,14 +5,14 @@
 
 namespace isocnc::motion {
 
-/// A cell may hold many pieces: so many of them call for planning, too.
+/// Minimum number of pieces that triggers planning, since one cell may hold many pieces.
 static constexpr std::size_t kCellBatch = 256;
-/// If the machine cannot stop within so many cells, it stops now.
+/// Maximum number of unplanned cells. If the machine cannot stop within more, it comes to rest at the end of them.
 static constexpr std::size_t kMaxUnplanned = 2048;
-/// To find when a place is passed: halvings of the time, if Newton's steps do not find it sooner.
+/// Maximum number of steps of the search for the time of a place: Newton steps, replaced by bisection where they fail.
 static constexpr int kMaxSteps = 60;
 
-/// Of all joints together.
+/// Returns the norm of the maximum speeds of all joints, an upper bound of the speed along any path.
 static double max_speed(const Machine& machine) {
   double sum = 0;
   for (const AxisLimits& axis : machine.axes) sum += axis.speed * axis.speed;
@@ -65,7 +65,7 @@ void SmoothMotion::take_trimmed_phases() {
   smooth_.clear();
 }
 
-/// The machine stops where all that is planned ends.
+/// Brings the machine to rest at the end of all cells taken so far.
 void SmoothMotion::pause() {
   profile_.come_to_rest();
   take_phases();
@@ -83,7 +83,7 @@ void SmoothMotion::come_to_rest() {
   end_ = 0;
 }
 
-/// When a phase, which moves on, is at a place within it.
+/// Returns the time, from the start of a phase, at which s reaches `place`, s. The place must be within the phase.
 static double time_at(const Phase& phase, double place) {
   double early = 0;
   double late = phase.duration;
@@ -101,7 +101,7 @@ static double time_at(const Phase& phase, double place) {
   return time;
 }
 
-/// A phase of the motion, cut where pieces meet.
+/// Adds a phase of the mean to the stretches of the pieces that it runs along, cut where pieces meet.
 void SmoothMotion::place_on_pieces(Phase phase) {
   while (pieces_.size() > 1 && phase.after(phase.duration).from > pieces_.front().end()) {
     const double place = pieces_.front().end();

@@ -16,36 +16,41 @@
 
 namespace isocnc::motion {
 
-/// Gives pieces of path their time on a machine whose jerk is limited: a Profile under limits that are spread over
-/// their surroundings, and its mean over a window of time (docs/motion.md). Pieces follow one another with continuous
-/// second derivatives of all joints; they go in one by one, and come out as stretches. A value.
+/// Computes the times of pieces of path on a machine whose jerk is limited, with a given Smoothing. It runs these steps
+/// one after another: smoothed_limits(), WindowMinimum, Profile, PeakTrimmer, MovingAverage; and cuts the resulting
+/// phases into stretches where pieces meet (docs/motion.md, "Jerk"). The pieces must follow one another with continuous
+/// second derivatives of all joints. The class has value semantics.
 class SmoothMotion {
  public:
-  /// From `start` on.
+  /// `start`: time at which the motion starts, s.
   SmoothMotion(const Machine& machine, const Smoothing& smoothing, double start);
 
-  /// `feed_cap`: most x.
+  /// Appends a piece. `bounds`: bounds of the joints' derivatives on it. `feed_cap`: maximum of (ds/dt)^2 by the feed,
+  /// mm^2/s^2.
   void append(const Machine& machine, const Piece& piece, const DerivativeBounds& bounds, double feed_cap);
+  /// Ends the motion at rest after the pieces appended so far.
   void come_to_rest();
 
-  /// The next stretch that is determined, or null. Valid until the motion is used again.
+  /// Returns the next stretch whose times are final, or null. The pointer is valid until the next call of a non-const
+  /// member function.
   const Stretch* next();
 
+  /// Frees the memory of spans whose phases have been taken.
   void forget_handed_out() { profile_.forget_handed_out(); }
 
-  /// Bytes that it holds, beside itself.
+  /// Returns the number of bytes held outside the object itself.
   std::size_t memory() const {
     return window_minimum_.memory() + profile_.memory() + peak_trimmer_.memory() + average_.memory() +
            bytes_of(smooth_) + bytes_of(pieces_) + bytes_of(stretches_);
   }
 
-  /// Seconds until the end of all that is determined.
+  /// Returns the time at the end of all that is final, s.
   double time() const { return time_; }
 
  private:
   struct PlacedPiece {
     Piece piece;
-    double begin = 0;  ///< From the last rest on.
+    double begin = 0;  ///< Distance along the path from the last rest, mm or degrees.
     double end() const { return begin + piece.length; }
   };
 
@@ -59,19 +64,19 @@ class SmoothMotion {
   void emit(bool ends_move);
 
   Smoothing smoothing_;
-  double max_speed_;
+  double max_speed_;  ///< Upper bound of the speed along any path, mm/s.
   WindowMinimum window_minimum_;
   Profile profile_;
   PeakTrimmer peak_trimmer_;
   MovingAverage average_;
-  std::vector<Phase> smooth_;  ///< What is being laid on the pieces.
-  std::deque<PlacedPiece> pieces_;
-  double end_ = 0;     ///< Of the last piece.
-  std::size_t batch_;  ///< So many pieces call for planning.
-  double time_;
-  Stretch stretch_;  ///< Of the first piece, as far as it is known.
-  std::vector<Stretch> stretches_;
-  std::size_t handed_out_ = 0;
+  std::vector<Phase> smooth_;       ///< Phases of the mean that are not yet cut into stretches.
+  std::deque<PlacedPiece> pieces_;  ///< Pieces that have no complete stretches yet.
+  double end_ = 0;                  ///< End of the last piece, as a distance from the last rest.
+  std::size_t batch_;               ///< Number of pieces that triggers planning.
+  double time_;                     ///< Time at the end of the last finished stretch, s.
+  Stretch stretch_;                 ///< Stretch of the first of `pieces_`, still growing.
+  std::vector<Stretch> stretches_;  ///< Finished stretches.
+  std::size_t handed_out_ = 0;      ///< Number of `stretches_` that next() has returned.
 };
 
 }  // namespace isocnc::motion

@@ -10,7 +10,7 @@ Phase Phase::after(double time) const {
           speed + time * (acceleration + time * jerk / 2), acceleration + time * jerk, jerk};
 }
 
-/// Derivatives in time of what a jet says in s.
+/// Converts derivatives by s to derivatives by time.
 static Jet in_time(const Jet& jet, double speed, double acceleration) {
   return {jet.value, speed * jet.first, speed * speed * jet.second + acceleration * jet.first};
 }
@@ -26,7 +26,7 @@ static Sample sample(const Jet& tip, const Jet& joints, double time) {
   return result;
 }
 
-/// What is left of the phase at a time, held to the stretch.
+/// Returns the rest of the phase in progress at a time, clamped to the stretch.
 static Phase phase_at(const Stretch& stretch, double time) {
   double t = std::clamp(time - stretch.start, 0.0, stretch.duration);
   std::size_t i = 0;

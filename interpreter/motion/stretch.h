@@ -8,45 +8,47 @@
 
 namespace isocnc::motion {
 
-/// A time of constant jerk along a path's parameter.
+/// A time interval in which the path parameter s changes with constant jerk. s is in mm, or in degrees where B and C
+/// alone move; the members below name mm only.
 struct Phase {
-  double duration = 0;
-  double from = 0;          ///< s at its begin.
-  double speed = 0;         ///< ds/dt at its begin.
-  double acceleration = 0;  ///< Of s, at its begin.
-  double jerk = 0;          ///< Of s; 0 where jerk is not limited.
+  double duration = 0;      ///< Length of the interval, s.
+  double from = 0;          ///< Path parameter s at the start, mm.
+  double speed = 0;         ///< ds/dt at the start, mm/s.
+  double acceleration = 0;  ///< Second derivative of s at the start, mm/s^2.
+  double jerk = 0;          ///< Third derivative of s, mm/s^3; 0 where jerk is not limited.
 
-  /// After `time` from its begin.
+  /// Returns the rest of the phase, from `time` seconds after its start.
   Phase after(double time) const;
 };
 
-/// Where the machine is, and how it moves.
+/// Position and motion of the machine at one moment.
 struct Sample {
-  double time = 0;
-  geometry::Pose tip;  ///< Machine frame.
-  Coordinates joints = Coordinates::Zero();
-  Coordinates joint_speeds = Coordinates::Zero();
-  Coordinates joint_accelerations = Coordinates::Zero();
-  double speed = 0;         ///< Of the tip, mm/s; 0 where B and C alone turn.
-  double acceleration = 0;  ///< Along the tip's path, mm/s^2.
+  double time = 0;                                        ///< Time since the planner's start, s.
+  geometry::Pose tip;                                     ///< Pose of the tip, machine frame.
+  Coordinates joints = Coordinates::Zero();               ///< Positions of the joints, mm and degrees.
+  Coordinates joint_speeds = Coordinates::Zero();         ///< First derivatives in time, mm/s and degrees/s.
+  Coordinates joint_accelerations = Coordinates::Zero();  ///< Second derivatives in time, mm/s^2 and degrees/s^2.
+  double speed = 0;                                       ///< Speed of the tip, mm/s; 0 where B and C alone move.
+  double acceleration = 0;                                ///< Acceleration along the tip's path, mm/s^2.
 };
 
-/// A piece of a move with its motion in time. A value: it refers to nothing, and any moment of it can be asked for at
-/// any time. The stretches of a program follow one another without gap, but for rests, in time and in place.
+/// A piece of path, or a part of one, with its motion in time. The class has value semantics and refers to no other
+/// object, so it can be evaluated at any time. The stretches of a program follow one another without gaps in place, and
+/// without gaps in time except for rests.
 struct Stretch {
-  std::uint64_t tag = 0;   ///< Of the move.
-  bool ends_move = false;  ///< The last of its move.
-  double start = 0;        ///< Seconds from the planner's beginning.
-  double duration = 0;
-  Path path;
-  std::array<Phase, 3> phases;
+  std::uint64_t tag = 0;        ///< Move::tag of the move.
+  bool ends_move = false;       ///< Whether this is the last stretch of its move.
+  double start = 0;             ///< Time since the planner's start, s.
+  double duration = 0;          ///< Sum of the durations of the phases, s.
+  Path path;                    ///< Curve that the phases run along.
+  std::array<Phase, 3> phases;  ///< Motion of the path parameter; the first `phase_count` are used.
   int phase_count = 0;
 
-  /// At `time` since the planner's beginning, held to the stretch.
+  /// Returns the sample at `time` seconds since the planner's start. Times outside the stretch are clamped to it.
   Sample at(const Kinematics& kinematics, double time) const;
-  /// The path's parameter at that time; it never falls.
+  /// Returns the path parameter at that time. It never decreases as time grows.
   double parameter_at(double time) const;
-  /// When the path's parameter comes to `s`, held to the stretch.
+  /// Returns the time at which the path parameter reaches `s`, clamped to the stretch.
   double time_at(double s) const;
 };
 

@@ -14,13 +14,13 @@ namespace isocnc::motion {
 using geometry::Range;
 using geometry::Vec3;
 
-/// Between grid points this far apart a joint has one peak at most, radians of B, C and the arc together.
+/// Distance of grid points between which a joint has at most one peak, radians of B, C and the arc together.
 static constexpr double kGridTurn = 3 * std::numbers::pi / 180;
 static constexpr int kPeakSteps = 60;
-/// More than rotary axes turn in one move.
+/// Maximum number of grid points. Rotary axes do not turn far enough in one move to need more.
 static constexpr int kMaxGridPoints = 10'000;
 
-/// A move's path, by the part of the way gone.
+/// The path of a move as a function of the part of it that is traveled, 0 to 1.
 class MovePath {
  public:
   MovePath(const Machine& machine, const Move& move)
@@ -37,7 +37,7 @@ class MovePath {
   }
 
   Vec3 tip(double part) const { return path().tip_at(machine_.kinematics, part * path_.length).value.head<3>(); }
-  /// How fast the tip goes where the whole way takes a second, mm/s.
+  /// Returns the speed of the tip if the whole path takes one second, mm/s.
   double tip_speed(double part) const {
     return path_.length * path().tip_at(machine_.kinematics, part * path_.length).first.head<3>().norm();
   }
@@ -49,7 +49,7 @@ class MovePath {
     return !is_arc() && (path().is_of_joints || !turns);
   }
 
-  /// Into how many parts it is cut so that there is one peak at most beside each end of a part.
+  /// Returns the number of parts of a grid that is fine enough to have at most one peak between neighboring points.
   int grid() const {
     const double turn = std::abs(path().omega) * path_.length + turned_.cwiseAbs().sum() * std::numbers::pi / 180;
     return std::max(2, part_count(turn / kGridTurn, kMaxGridPoints));
@@ -61,7 +61,7 @@ class MovePath {
   Coordinates turned_ = Coordinates::Zero();
 };
 
-/// What `at` gives for each point of a grid from 0 to 1.
+/// Returns the values of `at` at the points of a grid from 0 to 1.
 template <typename At>
 static auto on_grid(int count, At&& at) {
   std::vector<decltype(at(0.0))> grid;
@@ -69,7 +69,7 @@ static auto on_grid(int count, At&& at) {
   return grid;
 }
 
-/// Where between two parts of the way a coordinate goes farthest in the direction of `sign`.
+/// Returns the place between two parts of the path where a coordinate is farthest in the direction of `sign`.
 template <typename At>
 static double farthest_between(At&& at, int axis, double sign, double low, double high) {
   for (int i = 0; i < kPeakSteps; ++i) {
@@ -83,7 +83,7 @@ static double farthest_between(At&& at, int axis, double sign, double low, doubl
   return (low + high) / 2;
 }
 
-/// Where a coordinate goes farthest: beside the grid's peaks, its ends included.
+/// Returns the place where a coordinate is farthest: next to one of the grid's peaks, or at an end of the path.
 template <typename At, typename Point>
 static double farthest(At&& at, const std::vector<Point>& grid, int axis, double sign) {
   const std::size_t last = grid.size() - 1;
@@ -101,7 +101,8 @@ static double farthest(At&& at, const std::vector<Point>& grid, int axis, double
   return best;
 }
 
-/// Reports what passes a limit, where `find(axis, sign)` says that a joint goes farthest.
+/// Returns the joints that leave their range. `find(axis, sign)` returns the place where a joint is farthest in that
+/// direction.
 template <typename Find>
 static std::vector<Overtravel> beyond(const Machine& machine, const MovePath& path, Find&& find) {
   std::vector<Overtravel> found;
@@ -129,7 +130,7 @@ std::vector<Overtravel> overtravels(const Machine& machine, const Move& move) {
   return beyond(machine, path, [&](int axis, double sign) { return farthest(at, grid, axis, sign); });
 }
 
-/// Simpson's rule on a speed that is smooth, but where the tip turns back on a way of joints.
+/// Integrates the tip's speed by Simpson's rule. The speed is smooth except where the tip reverses on a path of joints.
 static double integrated_length(const MovePath& path) {
   constexpr int kPanelsPerPoint = 4;
   const int panels = std::max(64, kPanelsPerPoint * path.grid());
@@ -168,7 +169,7 @@ static std::array<Range, 3> swing_extents(const MovePath& path, const geometry::
   return {Range{end(0, -1), end(0, 1)}, Range{end(1, -1), end(1, 1)}, Range{end(2, -1), end(2, 1)}};
 }
 
-/// Most moves, and it takes no path to tell.
+/// Returns whether the tip moves along a line. This holds for most moves, and is decided without a MovePath.
 static bool goes_straight(const Machine& machine, const Move& move) { return !move.is_arc && !swings(machine, move); }
 
 TipTravel tip_travel(const Machine& machine, const Move& move) {

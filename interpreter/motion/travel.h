@@ -10,27 +10,29 @@
 
 namespace isocnc::motion {
 
-/// A joint that leaves its range: where on the move's path it is farthest out.
+/// A joint that leaves its range, at the place of the move's path where it is farthest outside.
 struct Overtravel {
   Axis axis = kX;
-  double part = 0;      ///< Of the way from the move's begin to its end, 0 to 1.
-  double position = 0;  ///< Of the joint, mm or degrees.
-  double limit = 0;     ///< Which it should not pass.
+  double part = 0;      ///< Part of the path from the move's start, 0 to 1.
+  double position = 0;  ///< Position of the joint, mm or degrees.
+  double limit = 0;     ///< End of the range that the joint passes, mm or degrees.
 };
 
-/// Joints that leave their range on the programmed path, by axis, each at most once below and once above: all the way,
-/// the bulges of arcs and the swings of the pivot included.
+/// Returns the joints that leave their range on the programmed path, in order of axes; each at most once below its
+/// range and once above. The whole path is checked, with the bulges of arcs and the swings of the pivot.
 std::vector<Overtravel> overtravels(const Machine& machine, const Move& move);
 
-/// The tip's way on the programmed path, and where the joints of a rapid take it.
+/// Length and extents of the tip's path: of the programmed path, or for a rapid that turns B or C, of the path on which
+/// the joints carry the tip.
 struct TipTravel {
-  double length = 0;                       ///< mm
-  std::array<geometry::Range, 3> extents;  ///< From where to where it goes, machine frame.
+  double length = 0;                       ///< Length of the tip's path, mm.
+  std::array<geometry::Range, 3> extents;  ///< Ranges of X, Y and Z of the tip, machine frame, mm.
 };
 
 TipTravel tip_travel(const Machine& machine, const Move& move);
 
-/// From where to where the tip goes on that way, in coordinates of a frame that is given in the machine frame.
+/// Returns the ranges of X, Y and Z of the tip on that path, in coordinates of `frame`, which is given in the machine
+/// frame.
 std::array<geometry::Range, 3> tip_extents(const Machine& machine, const Move& move, const geometry::Frame& frame);
 
 }  // namespace isocnc::motion

@@ -8,11 +8,13 @@
 
 namespace isocnc::motion {
 
-/// Spreading looks at all that is not spread yet: it pays to let some gather.
+/// Minimum number of sources that triggers widening. Each widening passes over all sources, so it is done for many at
+/// once.
 static constexpr std::size_t kWidenBatch = 256;
-/// No piece reaches over more: so many are held at most, and the machine takes half a window for them at least.
+/// Maximum number of sources that the limits of one piece reach back over, and so of sources held. A piece that would
+/// reach over more is slowed down, so that these sources take at least half a window.
 static constexpr std::size_t kMaxSources = 16384;
-/// A cell goes on for no longer, lest it never be known.
+/// Maximum number of intervals merged into one cell, so that every cell is finished at some time.
 static constexpr int kMaxParts = 64;
 
 void WindowMinimum::RunningMinimum::insert(double value, double until) {
@@ -54,6 +56,7 @@ double WindowMinimum::RunningLimits::until() const {
   return std::min({cap_.until(kInfinity), acceleration_.until(kInfinity), fall_.until(kInfinity)});
 }
 
+/// Returns the stricter of both limits.
 static LineLimits both(const LineLimits& a, const LineLimits& b) {
   return {std::min(a.cap, b.cap), std::min(a.acceleration, b.acceleration), std::max(a.fall, b.fall)};
 }
@@ -92,7 +95,7 @@ const Cell* WindowMinimum::next() {
   return nullptr;
 }
 
-/// How many sources nothing that follows reaches back to.
+/// Returns the number of sources that the limits of no later piece can reach.
 std::size_t WindowMinimum::settled() const {
   const double reached = sources_.back().end - max_speed_ * window_ / 2;
   const auto first = std::partition_point(sources_.begin(), sources_.end(),
@@ -108,7 +111,8 @@ void WindowMinimum::widen(std::size_t count) {
   sources_.erase(sources_.begin(), sources_.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
-/// Places count against the way here.
+/// Computes the limits that reach each place from its own and later sources. Places are negated here, since the pass
+/// runs backward and RunningMinimum requires increasing places.
 void WindowMinimum::widen_backward(std::size_t count) {
   RunningLimits from_later;
   intervals_.clear();
@@ -124,6 +128,7 @@ void WindowMinimum::widen_backward(std::size_t count) {
   }
 }
 
+/// Adds the limits from earlier sources, and emits the intervals in order.
 void WindowMinimum::widen_forward(std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const Source& source = sources_[i];
@@ -139,6 +144,7 @@ void WindowMinimum::widen_forward(std::size_t count) {
   }
 }
 
+/// Adds an interval to the open cell if its limits are equal or it has no length; otherwise starts a new cell.
 void WindowMinimum::emit(double begin, double end, const LineLimits& limits) {
   const bool is_first = open_.length == 0;
   const bool goes_on = are_equal(limits, open_.limits) && open_parts_ < kMaxParts;

@@ -8,75 +8,84 @@
 
 namespace isocnc::motion {
 
-/// A part of the way with limits of its own.
+/// An interval of the path with constant limits, as the window minimum returns it.
 struct Cell {
-  double begin = 0;  ///< From the last rest on.
-  double length = 0;
+  double begin = 0;   ///< Distance along the path from the last rest, mm or degrees.
+  double length = 0;  ///< Length along the path, mm or degrees.
   LineLimits limits;
 };
 
-/// Spreads limits over their surroundings: what holds on a piece shall hold as well half a window before the machine
-/// gets there, and half a window after it has left, at the piece's own speed. Then the mean over a window, centered
-/// where the machine is on the piece, is a mean of motions within the piece's limits (docs/motion.md).
+/// Widens the limits of each piece by half a window of time on both sides, and takes the strictest at each place. Half
+/// a window is converted to a length by the piece's own maximum speed. A motion within the widened limits has a mean
+/// over the window that keeps the limits of the pieces (docs/motion.md, "Jerk").
 ///
-/// Pieces go in one by one, cells come out, each as soon as nothing that follows reaches back to it. A value.
+/// Pieces go in one by one. Cells come out in order, each as soon as no later piece can change it. The class has value
+/// semantics.
 class WindowMinimum {
  public:
-  /// `window`: seconds. No piece is faster than `max_speed`.
+  /// `window`: length of the window, s. `max_speed`: upper bound of the speed on any piece, mm/s.
   WindowMinimum(double window, double max_speed);
 
+  /// Appends a piece of `length` mm or degrees.
   void append(double length, LineLimits limits);
 
-  /// The way ends; what follows is another one, from 0.
+  /// Ends the path at rest. The next piece starts a new path at 0.
   void come_to_rest();
 
-  /// Next in order, or null. Valid until the window minimum is used again.
+  /// Returns the next cell, or null. The pointer is valid until the next call of a member function.
   const Cell* next();
 
-  /// Bytes that it holds, beside itself.
+  /// Returns the number of bytes held outside the object itself.
   std::size_t memory() const {
     return bytes_of(sources_) + bytes_of(intervals_) + bytes_of(cells_) + from_earlier_.memory();
   }
 
  private:
-  /// The least of values, each of which holds up to a place, while places pass in order.
+  /// The minimum of all values that apply at the current place. Each value applies up to a place of its own, and the
+  /// current place only increases.
   class RunningMinimum {
    public:
     void insert(double value, double until);
+    /// Moves the current place forward, and removes values that end there or before.
     void pass(double place);
     double minimum(double otherwise) const { return entries_.empty() ? otherwise : entries_.back().value; }
+    /// Returns the place up to which the minimum applies.
     double until(double otherwise) const { return entries_.empty() ? otherwise : entries_.back().until; }
     std::size_t memory() const { return bytes_of(entries_); }
 
    private:
     struct Entry {
       double value;
-      double until;
+      double until;  ///< Place up to which the value applies.
     };
-    std::vector<Entry> entries_;  ///< The least last, which ends first.
+    std::vector<Entry> entries_;  ///< Values that can still become the minimum, in descending order of value and place.
   };
 
-  /// Limits that reach a place from one side.
+  /// The strictest limits that reach the current place from pieces on one side of it.
   class RunningLimits {
    public:
     void insert(const LineLimits& limits, double until);
+    /// Moves the current place forward.
     void pass(double place);
     LineLimits limits() const;
-    double until() const;  ///< Where they change.
+    /// Returns the place up to which limits() stays as it is.
+    double until() const;
     std::size_t memory() const { return cap_.memory() + acceleration_.memory() + fall_.memory(); }
 
    private:
     RunningMinimum cap_;
     RunningMinimum acceleration_;
-    RunningMinimum fall_;  ///< Negative: the most falls counts.
+    RunningMinimum fall_;  ///< Minimum of the negated falls, since the greatest fall is the strictest.
   };
 
+  /// A piece whose limits are to be widened.
   struct Source {
-    double begin = 0;
-    double end = 0;
-    double radius = 0;
+    double begin = 0;   ///< Start of the piece, as a distance from the last rest.
+    double end = 0;     ///< End of the piece, as a distance from the last rest.
+    double radius = 0;  ///< Distance by which its limits are widened on both sides.
     LineLimits limits;
   };
+  /// An interval of the path with the limits that reach it from its own and later pieces.
   struct Interval {
     double begin = 0;
     double end = 0;
@@ -89,17 +98,17 @@ class WindowMinimum {
   void widen_forward(std::size_t count);
   void emit(double begin, double end, const LineLimits& limits);
 
-  double window_;
-  double max_speed_;
-  std::vector<Source> sources_;
-  std::vector<Interval> intervals_;  ///< Of the sources that are spread now, the last first.
-  RunningLimits from_earlier_;       ///< Of the sources that are spread.
-  std::size_t batch_;                ///< So many sources call for spreading.
-  Cell open_;                        ///< The last, which may still grow.
-  int open_parts_ = 0;               ///< So many it has grown from.
-  double end_ = 0;                   ///< Of the last source.
-  std::vector<Cell> cells_;
-  std::size_t handed_out_ = 0;
+  double window_;                    ///< Length of the window, s.
+  double max_speed_;                 ///< Upper bound of the speed on any piece, mm/s.
+  std::vector<Source> sources_;      ///< Pieces whose cells are not determined yet.
+  std::vector<Interval> intervals_;  ///< Intervals of the sources being widened, from the last to the first.
+  RunningLimits from_earlier_;       ///< Limits that reach forward from sources already widened.
+  std::size_t batch_;                ///< Number of sources that triggers the next widening.
+  Cell open_;                        ///< Last cell, which may still grow.
+  int open_parts_ = 0;               ///< Number of intervals merged into `open_`.
+  double end_ = 0;                   ///< End of the last source, as a distance from the last rest.
+  std::vector<Cell> cells_;          ///< Finished cells.
+  std::size_t handed_out_ = 0;       ///< Number of `cells_` that next() has returned.
 };
 
 }  // namespace isocnc::motion
