@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <span>
 #include <utility>
 
 #include "analyzer/rules/rule.h"
@@ -193,8 +194,11 @@ void Checker::check_any(const LineTree& line, std::uint64_t line_number, Outcome
     const auto is_told = [&](const Group& group) { return is_told_above(finding, group.state); };
     if (!std::all_of(live.begin(), live.end(), is_told)) outcome.findings.push_back({line_number, finding});
   }
-  execute_in_all_groups(line, line_number, outcome);
-  if (line.jump && line.jump->has_target) branch(line, line_number, outcome);
+  if (line.jump && line.jump->has_target) {
+    execute_around_jump(line, line_number, outcome);
+  } else {
+    execute_in_all_groups(line, line_number, outcome);
+  }
   sort_by_column(outcome.findings, first);
   if (live.empty() || !live[0].state.ended) return;
   live.clear();  // M02 ends every path through it. On a line with another mistake it may not be meant as the end.
@@ -239,6 +243,34 @@ void Checker::assign(Group& group, int reg, double value, Outcome& outcome) cons
   } else {
     group.registers.keep_only(~register_bit(reg));
   }
+}
+
+/// Some of a line's instructions, with the F and S that stand among its words in [first, last).
+static LineTree part_of(const LineTree& line, std::span<const syntax::Instruction> instructions, std::size_t first,
+                        std::size_t last) {
+  LineTree part = line;
+  part.instructions = instructions;
+  const auto is_inside = [&](std::int32_t word) {
+    return word >= static_cast<std::int32_t>(first) && word < static_cast<std::int32_t>(last);
+  };
+  if (!is_inside(line.feed)) part.feed = -1;
+  if (!is_inside(line.spindle)) part.spindle = -1;
+  return part;
+}
+
+/// What stands after an IF on its line (E002) is executed only where the IF does not jump (D56).
+void Checker::execute_around_jump(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+  if (line.findings.empty()) {  // It is alone.
+    execute_in_all_groups(line, line_number, outcome);
+    return branch(line, line_number, outcome);
+  }
+  const auto is_jump = [](const syntax::Instruction& each) { return each.kind == syntax::InstructionKind::Jump; };
+  const auto jump = std::find_if(line.instructions.begin(), line.instructions.end(), is_jump);
+  const auto count = static_cast<std::size_t>(jump - line.instructions.begin()) + 1;
+  execute_in_all_groups(part_of(line, line.instructions.first(count), 0, jump->end), line_number, outcome);
+  branch(line, line_number, outcome);
+  const LineTree rest = part_of(line, line.instructions.subspan(count), jump->end, line.words.size());
+  if (!rest.is_empty() && !frontier.live.empty()) execute_in_all_groups(rest, line_number, outcome);
 }
 
 void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {

@@ -49,6 +49,7 @@ class Checker {
   void relieve(std::size_t lines);
   void tell_of_dead_code(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void arrive(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
+  void execute_around_jump(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void execute_in_all_groups(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void assign(Group& group, int reg, double value, Outcome& outcome) const;
   void report_common_findings(std::uint64_t line_number, Outcome& outcome);
