@@ -71,12 +71,13 @@ static syntax::Span without_blanks(std::string_view text) {
   return {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
 }
 
-/// Whether an M02 may be meant on a line that has a finding for it: (M02 and M, MO2, or M0.
+/// Whether an M02 may be meant on a line that has a finding for it: (M02 and M, MO2, or M0, or 02 alone (D58).
 static bool may_hide_end(std::string_view text) {
   const syntax::ParsedLine parsed(text);
   const LineTree tree = parsed.tree();
   if (tree.has(LineTree::kUnclosed)) return true;
-  return std::any_of(tree.words.begin(), tree.words.end(), [](const syntax::Word& word) {
+  return std::any_of(tree.words.begin(), tree.words.end(), [&](const syntax::Word& word) {
+    if (word.letter == syntax::kNumber) return word.value == dialect::kProgramEnd && tree.instructions.empty();
     return word.letter == 'M' && (!word.known() || word.has(syntax::Word::kMalformed));
   });
 }

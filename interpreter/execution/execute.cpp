@@ -51,7 +51,43 @@ void take_spindle_speed(double number, State& state) {
   if (state.knows(State::kCutNotStarted)) state.learn(State::kNotStarted);
 }
 
+/// What a number whose letter is lost may have been (D58): 01 a motion, 06 a tool change, 49 a mode, else the
+/// coordinate of some axis, a feed or a speed. What depends on it is unknown, so that no second finding follows from
+/// it.
+void Executor::allow_for_lost_letter() {
+  const Word* const number = line_.number_without_letter();
+  if (!number) return;
+  state_.forget(State::kClockwise | State::kCounterclockwise | State::kStopped | State::kUncut | State::kNotStarted |
+                State::kCutNotStarted | State::kNoSpeed);
+  const double value = number->is_plain_integer() ? number->value : -1;
+  if (value >= 0 && value <= 3) return make_motion_illegible();
+  if (value == dialect::kToolChange) {
+    state_.tool_selected = true;
+  } else if (value == 48 || value == 49) {
+    state_.set_mode(dialect::ModalGroup::Interpolation, 49);  // The one that allows more.
+    state_.written &= static_cast<std::uint16_t>(~(1u << static_cast<unsigned>(dialect::ModalGroup::Interpolation)));
+  } else {
+    blur_axes_not_named();
+    state_.feed_reported = true;
+  }
+}
+
+void Executor::make_motion_illegible() {
+  state_.set_mode(dialect::ModalGroup::Motion, dialect::kNoMotion);
+  state_.motion_illegible = true;
+}
+
+void Executor::blur_axes_not_named() {
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    const char letter = letter_of(static_cast<Axis>(axis));
+    const auto names_it = [&](const Word& word) { return word.letter == letter; };
+    if (std::none_of(line_.words.begin(), line_.words.end(), names_it))
+      state_.unknown |= axis_bit(static_cast<Axis>(axis));
+  }
+}
+
 void Executor::run() {
+  if (!line_.findings.empty()) allow_for_lost_letter();
   // S comes before the line's motion wherever it stands (I.4.2).
   if (line_.spindle >= 0) {
     const double speed = line_.words[static_cast<std::size_t>(line_.spindle)].value;
@@ -111,13 +147,16 @@ void Executor::execute_g(const Instruction& instruction) {
   if (!code) {
     // What an unknown G does with its arguments is unknown, and so are the axes it names.
     const Arguments arguments(line_, instruction);
-    if (may_be_motion(line_.command(instruction), arguments)) {
-      state_.set_mode(dialect::ModalGroup::Motion, dialect::kNoMotion);
-      state_.motion_illegible = true;
-    }
+    const Word& g = line_.command(instruction);
+    if (may_be_motion(g, arguments)) make_motion_illegible();
+    if (g.has(Word::kMalformed)) blur_axes_not_named();  // G01 -20: the letter of some axis is lost.
     return move_illegibly(arguments);
   }
-  if (code->is_motion()) return motion(instruction);
+  if (code->is_motion()) {
+    motion(instruction);
+    if (!line_.command(instruction).is_plain_integer()) make_motion_illegible();  // G-1 may be no G1 (D57).
+    return;
+  }
   switch (code->number) {
     case 4:
       return dwell(instruction);
@@ -138,12 +177,10 @@ void Executor::execute_g(const Instruction& instruction) {
   }
 }
 
-/// Whether a G that is none of this control, or has no number, was meant as a motion that stays in force: GO3 X5 I2
-/// J0, G011 X5 F900, a drilling cycle.
-bool Executor::may_be_motion(const Word& g, const Arguments& arguments) const {
-  if ((arguments.present() & dialect::kCoordinateLetters) == 0) return false;
-  const bool has_circle = (arguments.present() & (dialect::kCenterLetters | dialect::letter_bit('R'))) != 0;
-  return g.has(Word::kMissing) || has_circle || line_.feed >= 0 || !motion_is_legible();
+/// Whether a G that is none of this control, or cannot be read, may have been meant as a motion that stays in force
+/// (D57): one on a line with coordinates, or one that has swallowed a coordinate whose letter is lost (G01 -20).
+bool Executor::may_be_motion(const Word& g, const Arguments& arguments) {
+  return (arguments.present() & dialect::kCoordinateLetters) != 0 || g.has(Word::kMalformed);
 }
 
 /// G27 G27, G49 G49: what is wrong has been said of the first, which should stand alone.
@@ -233,7 +270,9 @@ void Executor::tool_change(const Instruction& instruction) {
 
 void Executor::stray_tool(const Instruction& instruction) {
   const Word& word = line_.command(instruction);
-  const bool follows_change = state_.tool_awaited && instruction.has(Instruction::kFirst);
+  const Word* const number = line_.number_without_letter();
+  const bool is_lost_change = number && number->value == dialect::kToolChange;  // 06 T101001 (D58)
+  const bool follows_change = is_lost_change || (state_.tool_awaited && instruction.has(Instruction::kFirst));
   const bool is_legible = word.is_plain_integer() && word.digits == 6;  // Else reported, and one mistake is enough.
   if (!follows_change && is_legible) report("tool-without-m06"_diag, word.span());
   state_.tool_prepared = !follows_change && instruction.has(Instruction::kFirst);

@@ -72,7 +72,10 @@ class Executor {
   bool read_point(const Arguments& arguments, geometry::Vec3& point) const;
   AxisSet read_origin(const Arguments& arguments, geometry::Vec3& origin) const;
   bool motion_is_legible() const { return state_.mode(dialect::ModalGroup::Motion) != dialect::kNoMotion; }
-  bool may_be_motion(const syntax::Word& g, const Arguments& arguments) const;
+  static bool may_be_motion(const syntax::Word& g, const Arguments& arguments);
+  void allow_for_lost_letter();
+  void make_motion_illegible();
+  void blur_axes_not_named();
   void move_illegibly(const Arguments& arguments);
   void blur_linear_axes() { state_.unknown |= kLinearAxes; }
 

@@ -170,7 +170,8 @@ void Executor::check_first_motion(Span place) {
 void Executor::check_feed(Span place) {
   if (line_.feed >= 0) return take_feed();
   if (state_.inverse_time()) {
-    report("inverse-time-feed-missing"_diag, place);
+    // A number without its letter may be the F (D58).
+    if (line_.findings.empty() || !line_.number_without_letter()) report("inverse-time-feed-missing"_diag, place);
   } else if (!state_.feed_given && !state_.feed_reported) {
     report("feed-missing"_diag, place);
     state_.feed_reported = true;

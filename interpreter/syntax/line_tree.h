@@ -143,8 +143,13 @@ struct LineTree {
 
   constexpr bool has(std::uint8_t flag) const { return (flags & flag) != 0; }
   constexpr bool has_label() const { return has(kHasLabel); }
+  /// The number that the line starts with, where its letter is lost (ISO005); else null. After an N there is none: the
+  /// digits are the N's.
+  const Word* number_without_letter() const {
+    return !words.empty() && words.front().letter == kNumber ? &words.front() : nullptr;
+  }
   /// Nothing but blanks, comments and N: a block that does nothing (D13).
-  bool is_empty() const { return instructions.empty() && feed < 0 && spindle < 0; }
+  bool is_empty() const { return instructions.empty() && feed < 0 && spindle < 0 && !number_without_letter(); }
   const Word& command(const Instruction& instruction) const { return words[instruction.command]; }
   /// The first motion, or null.
   const Instruction* motion() const {

@@ -358,6 +358,17 @@ void LineParser::take_earlier_words(Instruction& g) {
   earlier.flags |= Instruction::kSettled;
 }
 
+/// M06 101001: a tool change whose T is lost, so that the tool's number continues the M's (D59). `text` is the word's.
+static bool swallows_tool(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(" \t0", 1), text.size()));
+  if (!text.starts_with('6')) return false;
+  text.remove_prefix(1);
+  const auto digits = std::count_if(text.begin(), text.end(), is_digit);
+  const auto blanks = std::count_if(text.begin(), text.end(), is_blank);
+  if (static_cast<std::size_t>(digits + blanks) != text.size()) return false;
+  return digits == 6 || (digits > 0 && is_blank(text.front()));
+}
+
 void LineParser::add_m(std::uint16_t index) {
   Word& written = word(index);
   function_open_ = false;
@@ -371,6 +382,10 @@ void LineParser::add_m(std::uint16_t index) {
   while (next < word_count() && word(next).letter == kError) ++next;
   const bool before_tool = next < word_count() && word(next).letter == 'T';
   if (meant == dialect::kToolChange || (!is_function && before_tool)) return add_tool_change(index);
+  if (!is_function && swallows_tool({begin_ + written.begin, written.end - written.begin})) {
+    add_instruction(InstructionKind::ToolChange, index).flags |= Instruction::kSettled;
+    return;
+  }
   Instruction& added = add_instruction(InstructionKind::Function, index);
   if (!is_function) {  // It keeps its parameters, so that nothing is said of them.
     added.flags |= Instruction::kSettled;
