@@ -86,6 +86,18 @@ void Executor::blur_axes_not_named() {
   }
 }
 
+/// G70, G71, G90 or G91 after the coordinates, which may have been meant under the mode before or this one (D60).
+void Executor::blur_axes_of_late_mode() {
+  std::uint32_t mode = 0;
+  for (const syntax::Finding& finding : line_.findings)
+    if (finding.id == "units-after-dimensions"_diag || finding.id == "distance-mode-after-dimensions"_diag)
+      mode = finding.span.begin;
+  for (const Word& word : line_.words)
+    for (int axis = 0; axis < kAxisCount; ++axis)
+      if (word.letter == letter_of(static_cast<Axis>(axis)) && word.begin < mode)
+        state_.unknown |= axis_bit(static_cast<Axis>(axis));
+}
+
 void Executor::run() {
   if (!line_.findings.empty()) allow_for_lost_letter();
   // S comes before the line's motion wherever it stands (I.4.2).
@@ -119,6 +131,7 @@ void Executor::run() {
     }
     if (state_.ended) return;
   }
+  if (!line_.findings.empty()) blur_axes_of_late_mode();
   if (line_.feed >= 0 && !feed_move_) apply_feed_without_motion();
   state_.exact_stop_fits = feed_move_;
   if (state_.knows(State::kCompensationWaits) && (feed_move_ || rapid_move_) && moves_in_plane())

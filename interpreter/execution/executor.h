@@ -76,6 +76,8 @@ class Executor {
   void allow_for_lost_letter();
   void make_motion_illegible();
   void blur_axes_not_named();
+  void blur_axes_of_late_mode();
+  bool has_illegible_equals() const;
   void move_illegibly(const Arguments& arguments);
   void blur_linear_axes() { state_.unknown |= kLinearAxes; }
 

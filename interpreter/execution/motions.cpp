@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -86,7 +87,7 @@ void Executor::motion(const Instruction& instruction) {
   if ((arguments.present() & ~code.arguments) != 0) report_strays(arguments, code);
   if ((arguments.present() & dialect::kCoordinateLetters) == 0) {
     const bool only_center = is_continuation && (arguments.present() & ~code.arguments) == 0;
-    if (only_center) report("missing-coordinate"_diag, place);
+    if (only_center && !has_illegible_equals()) report("missing-coordinate"_diag, place);
     if (line_.feed >= 0 && code.number != 0) take_feed();
     return;
   }
@@ -226,6 +227,14 @@ void Executor::move_to(const Arguments& arguments) {
   if (arguments.has('C')) move_axis(Axis::C, state_.position.c, arguments['C']);
 }
 
+/// R1=10: a word that cannot be read, which may be what the line lacks (D61). X=20 can be read, as X20.
+bool Executor::has_illegible_equals() const {
+  const auto is_stray = [](const syntax::Finding& finding) { return finding.id == "assignment-without-register"_diag; };
+  const auto is_illegible = [](const syntax::Word& word) { return word.has(syntax::Word::kReported) && !word.known(); };
+  return std::any_of(line_.findings.begin(), line_.findings.end(), is_stray) &&
+         std::any_of(line_.words.begin(), line_.words.end(), is_illegible);
+}
+
 /// What an arc must say before its geometry can be looked at, in the order of D45.
 bool Executor::arc_is_described(const Arguments& arguments, const Plane& plane, Span place) {
   if (!arguments.has(plane.u_letter) && !arguments.has(plane.v_letter)) {
@@ -238,7 +247,7 @@ bool Executor::arc_is_described(const Arguments& arguments, const Plane& plane, 
     return false;
   }
   if (!arguments.has(plane.u_center) && !arguments.has(plane.v_center) && !arguments.has('R')) {
-    if (!line_.has(syntax::LineTree::kUnclosed)) report("circle-not-given"_diag, place);
+    if (!line_.has(syntax::LineTree::kUnclosed) && !has_illegible_equals()) report("circle-not-given"_diag, place);
     return false;
   }
   if (state_.face_mounted && !state_.face_undefined) {

@@ -62,6 +62,7 @@ class LineParser {
   std::uint16_t add_assignment(std::uint16_t index);
   void own_in_place_of_value(Instruction& owner, std::uint16_t index);
   bool is_equals_said_before(std::uint16_t index) const;
+  bool is_between_coordinates(std::uint16_t assign) const;
   std::uint16_t add_equals(std::uint16_t index);
   std::uint16_t add_jump(std::uint16_t index);
   std::uint16_t end_jump(std::uint16_t last);

@@ -524,9 +524,18 @@ bool LineParser::is_equals_said_before(std::uint16_t index) const {
   return index > 1 && word(index - 2u).has(Word::kMissing);            // CR=5, VI=5: at the C or V.
 }
 
+/// G92 Y20= Z146: both letters have their numbers, so that the second is no value of the first (D61).
+bool LineParser::is_between_coordinates(std::uint16_t assign) const {
+  const auto is_complete = [](const Word& it) {
+    return contains(dialect::kCoordinateLetters, it.letter) && !it.has(Word::kMissing);
+  };
+  return assign > 0 && assign + 1 < word_count() && word(assign).has(Word::kMissing) &&
+         is_complete(word(assign - 1u)) && is_complete(word(assign + 1u));
+}
+
 /// A `=` that no V, and no M's P, stands before (ISO058). Returns the last word that belongs to it.
 std::uint16_t LineParser::add_equals(std::uint16_t index) {
-  auto last = static_cast<std::uint16_t>(index + (lacks_value(index) ? 1 : 0));
+  auto last = static_cast<std::uint16_t>(index + (lacks_value(index) && !is_between_coordinates(index) ? 1 : 0));
   if (index > 0) {
     Word& before = word(index - 1u);
     if (is_equals_said_before(index)) return last;
@@ -546,6 +555,8 @@ std::uint16_t LineParser::add_equals(std::uint16_t index) {
     if (before.has(Word::kMissing)) {
       before.value = word(index).value;
       before.flags = word(index).flags;
+    } else if (!word(index).has(Word::kMissing)) {
+      before.value = std::numeric_limits<double>::quiet_NaN();  // R1=10: which of the two numbers counts? (D61)
     }
     before.flags |= Word::kReported;
   }
