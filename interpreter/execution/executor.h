@@ -53,7 +53,7 @@ class Executor {
   void report_strays(const Arguments& arguments, const dialect::GCode& code);
   void check_first_motion(syntax::Span place);
   void check_feed(syntax::Span place);
-  void check_rotary_axes(const Arguments& arguments, const dialect::GCode& code, syntax::Span place);
+  bool check_rotary_axes(const Arguments& arguments, const dialect::GCode& code, syntax::Span place);
   void take_feed();
   Feed feed_in_force() const;
   void move_to(const Arguments& arguments);

@@ -114,7 +114,7 @@ void Executor::mount_face(const Instruction& instruction, const dialect::GCode& 
   const syntax::Span place = line_.command(instruction).span();
   const Arguments arguments(line_, instruction);
   if (code.number == 28 && (arguments.present() & dialect::letters("IJKPQR")) == 0) return go_home(arguments);
-  if (state_.face_mounted) report("face-already-mounted"_diag, place);
+  if (state_.face_mounted && !is_its_own_company(code)) report("face-already-mounted"_diag, place);
   leave_face();
   state_.dismount_forgiven = false;
   const bool knows_tip = (state_.unknown & kLinearAxes) == 0;

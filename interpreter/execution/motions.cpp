@@ -95,8 +95,11 @@ void Executor::motion(const Instruction& instruction) {
   if (code.number != 0) {
     check_feed(place);
     const bool has_only_linear = (arguments.present() & dialect::kRotaryLetters) == 0;
-    if (!state_.five_axis() && (!has_only_linear || (arguments.present() & dialect::kLinearLetters) == 0))
-      check_rotary_axes(arguments, code, place);
+    if (!state_.five_axis() && (!has_only_linear || (arguments.present() & dialect::kLinearLetters) == 0)) {
+      const bool is_right = check_rotary_axes(arguments, code, place);
+      // B and C alone: that they may not turn says it all (D64).
+      if (!is_right && (arguments.present() & dialect::kLinearLetters) == 0) return move_to(arguments);
+    }
   }
   if (sink_.wants_effects()) return move_with_effects(arguments, code, place);
   if (code.is_arc()) arc(arguments, code, place, nullptr);
@@ -186,10 +189,13 @@ Feed Executor::feed_in_force() const {
   return execution::feed_in_force(state_);
 }
 
-/// Three-axis interpolation moves no rotary axis, and a G01 under it needs a linear one (I.3.4.2, I.3.5, D41).
-void Executor::check_rotary_axes(const Arguments& arguments, const GCode& code, Span place) {
-  if (code.number == 1 && (arguments.present() & dialect::kLinearLetters) == 0)
-    return report("linear-coordinate-missing"_diag, place);
+/// Whether the motion keeps to three-axis interpolation, which moves no rotary axis; a G01 under it needs a linear one
+/// (I.3.4.2, I.3.5, D41).
+bool Executor::check_rotary_axes(const Arguments& arguments, const GCode& code, Span place) {
+  if (code.number == 1 && (arguments.present() & dialect::kLinearLetters) == 0) {
+    report("linear-coordinate-missing"_diag, place);
+    return false;
+  }
   Span changed;
   for (const char letter : {'B', 'C'}) {
     if (!arguments.has(letter)) continue;
@@ -202,6 +208,7 @@ void Executor::check_rotary_axes(const Arguments& arguments, const GCode& code, 
     changed = changed.empty() ? span : syntax::hull(changed, span);
   }
   if (!changed.empty()) report("five-axis-not-enabled"_diag, changed);
+  return changed.empty();
 }
 
 void Executor::move_to(const Arguments& arguments) {

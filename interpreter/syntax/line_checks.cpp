@@ -272,22 +272,39 @@ void LineParser::check_parameters(const Instruction& function) {
   }
 }
 
-/// Nothing else on the line but N; what is no word at all has been reported for itself.
+/// Whether a word is a G48 or G49.
+bool LineParser::is_interpolation_mode(const Word& checked) const {
+  if (checked.letter != 'G' || checked.owner == Word::kNobody) return false;
+  const dialect::GCode* const code = instruction(checked.owner).g();
+  return code && code->group == dialect::ModalGroup::Interpolation;
+}
+
+/// Nothing else on the line but N; what is no word at all has been reported for itself, and a G48 or G49 that should
+/// have a line of its own leaves this one alone.
 bool LineParser::stands_alone(const Instruction& alone) const {
   for (std::uint16_t i = 0; i < word_count(); ++i) {
     const Word& other = word(i);
-    const bool counts =
-        other.letter != 'N' && other.letter != kError && other.letter != kNumber && !other.has(Word::kMissing);
+    const bool counts = other.letter != 'N' && other.letter != kError && other.letter != kNumber &&
+                        !other.has(Word::kMissing) && !is_interpolation_mode(other);
     if (counts && i != alone.command) return false;
   }
   return true;
+}
+
+/// Whether the line has a finding that an instruction is not alone, other than a G48 or G49 (D65): what the company
+/// does has been said.
+bool LineParser::has_reported_company() const {
+  const auto is_interpolation = [](const Finding& finding) { return finding.id == "g48-g49-not-alone"_diag; };
+  return (line_.flags & LineTree::kAloneViolated) != 0 &&
+         std::none_of(store_.findings_.begin() + line_.first_finding, store_.findings_.end(), is_interpolation);
 }
 
 /// G41/G42: alone or before a motion. G40: alone or behind the last motion (D24).
 void LineParser::check_compensation(const Instruction& checked) {
   const dialect::GCode* const code = checked.g();
   if (!code || code->group != dialect::ModalGroup::CutterCompensation || stands_alone(checked)) return;
-  if ((line_.flags & LineTree::kAloneViolated) != 0 || compensation_reported_) return;
+  if (has_reported_company() || compensation_reported_) return;
+  const bool is_end = code->number == 40;
   bool before_motion = false;
   bool behind_motion = false;
   for (std::size_t i = 0; i < instruction_count(); ++i) {
@@ -295,13 +312,18 @@ void LineParser::check_compensation(const Instruction& checked) {
     const bool is_motion = other.kind == InstructionKind::Continuation
                                ? !other.has(Instruction::kSettled)
                                : other.kind == InstructionKind::G && other.g() && other.g()->is_motion();
+    // A G that is unknown may be the motion that is wanted: any after a G41 (D62), one with coordinates before a G40.
+    const bool may_be_motion = other.kind == InstructionKind::G && !other.g();
+    if (may_be_motion) {
+      before_motion |= !is_end && other.command > checked.command;
+      behind_motion |= other.command < checked.command && owns_any(other, dialect::kCoordinateLetters);
+    }
     if (!is_motion) continue;
     // Where a motion G begins is its G: words before it count as its own, but have been reported.
     const std::uint16_t begin = other.kind == InstructionKind::G ? other.command : other.begin;
-    before_motion |= (code->number == 40 ? other.end : begin) > checked.command;
+    before_motion |= (is_end ? other.end : begin) > checked.command;
     behind_motion |= begin < checked.command;
   }
-  const bool is_end = code->number == 40;
   compensation_reported_ = is_end ? before_motion || !behind_motion : !before_motion;
   if (compensation_reported_)
     report(is_end ? "misplaced-g40"_diag : "misplaced-g41-g42"_diag, word(checked.command).span());

@@ -90,7 +90,9 @@ class LineParser {
   void check_parameters(const Instruction& function);
   void check_compensation(const Instruction& checked);
   bool breaker_is_reported(const Instruction& motion, std::uint16_t broken) const;
+  bool is_interpolation_mode(const Word& checked) const;
   bool stands_alone(const Instruction& alone) const;
+  bool has_reported_company() const;
   bool owns_any(const Instruction& owner, dialect::LetterSet set, bool unbroken = false) const;
   void check_arguments(const Instruction& checked, dialect::DiagnosticId when_missing);
   void check_unbroken(const Instruction& checked);
