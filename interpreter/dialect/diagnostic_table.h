@@ -349,14 +349,16 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .section = "I.3.2",
      .arguments = {},
      .title = {.en = "Axis vector of length zero", .it = "Versore a modulo nullo"},
-     .message = {.en = "{text}: an axis vector of length 0 has no direction",
-                 .it = "{text}: un versore a modulo nullo non ha direzione"},
+     .message = {.en = "{text}: an axis vector of length 0 has no direction; G24 and G28 mount a face frame here",
+                 .it = "{text}: un versore a modulo nullo non ha direzione; qui G24 e G28 mettono in presa una faccia"},
      .explanation = {.en = "An axis of the face must point somewhere, so at least one of its components must differ "
                            "from 0. Correct the components. Their size does not matter, only the direction that they "
-                           "give.",
+                           "give. G28 X0 Y0, with which other controls return to their reference point, moves nothing "
+                           "here: write a G00 to where the tool should go.",
                      .it = "Un asse della faccia deve avere una direzione: almeno una componente deve essere diversa "
                            "da 0. Correggere le componenti. La loro grandezza non conta, conta solo la direzione che "
-                           "danno."},
+                           "danno. G28 X0 Y0, con cui altri controlli tornano al punto di riferimento, qui non muove "
+                           "nulla: scrivere un G00 verso la posizione voluta."},
      .wrong = "G28 [!X0 Y0 Z0!] I-1 R1\nM02\n",
      .right = "G28 X0 Y1 Z0 I-1 R1\nM02\n"},
     {.code = "ISO023",

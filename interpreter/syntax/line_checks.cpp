@@ -218,6 +218,14 @@ void LineParser::check_motion(const Instruction& motion) {
   report_missing("missing-coordinate"_diag, motion);
 }
 
+/// G28 X0 Y0: the zero return of other controls (D71), of which one thing is said: that these are no axis vectors.
+bool LineParser::is_zero_return(const Instruction& frame) const {
+  if (frame.g()->number != 28 || owns_any(frame, letters("IJKPQR")) || !owns_any(frame, letters("XYZ"))) return false;
+  for (std::uint16_t i = frame.begin; i < frame.end; ++i)
+    if (word(i).owner == frame.number && i != frame.command && word(i).value != 0) return false;
+  return true;
+}
+
 /// G24 and G28 want at least one component of each axis (D4, D27).
 void LineParser::check_vectors(const Instruction& frame, std::string_view i_letters) {
   check_unbroken(frame);
@@ -225,6 +233,7 @@ void LineParser::check_vectors(const Instruction& frame, std::string_view i_lett
   // G91 G28 Z0: as other controls go home. The line has been reported; what it lacks for a face says nothing more.
   const bool has_company = (line_.flags & LineTree::kAloneViolated) != 0;
   if (has_company && frame.g()->number == 28 && !owns_any(frame, letters("IJKPQR"))) return;
+  if (is_zero_return(frame)) return;
   if (!owns_any(frame, letters(i_letters))) report_missing("missing-i-vector"_diag, frame);
   if (!owns_any(frame, letters("IJK"))) report_missing("missing-j-vector"_diag, frame);
   if (!owns_any(frame, letters("PQR"))) report_missing("missing-k-vector"_diag, frame);
