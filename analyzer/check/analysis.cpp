@@ -1,7 +1,11 @@
 #include "analyzer/check/analysis.h"
 
 #include <algorithm>
+#include <iterator>
+#include <set>
 #include <utility>
+
+#include "analyzer/check/jump_collector.h"
 
 namespace isocnc::check {
 
@@ -63,10 +67,34 @@ bool Analysis::read_labels(std::size_t chunk, const std::vector<std::uint64_t>& 
   return static_cast<std::ptrdiff_t>(row.jumps.size()) > others;
 }
 
-/// Finds the labels that these jumps name, where they are not those that were named before.
-void Analysis::follow_labels(const JumpMap& jumps) {
-  const std::vector<std::uint64_t> added = jumps.named_beyond(jumps_);
-  const std::vector<std::uint64_t> removed = jumps_.named_beyond(jumps);
+/// Calls `take` with what concerns jumps in all chunks, and its line.
+template <class Take>
+void Analysis::each_jump_event(Take take) const {
+  for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk)
+    for (const JumpEvent& event : rows_[chunk].jumps) take(document_.first_line_of_chunk(chunk) + event.line, event);
+}
+
+/// The labels that the jumps in all chunks name, ascending.
+std::vector<std::uint64_t> Analysis::labels_named() const {
+  std::set<std::uint64_t> labels;
+  each_jump_event([&](std::uint64_t, const JumpEvent& event) {
+    if (event.kind == JumpEvent::Kind::Jump) labels.insert(event.jump.target);
+  });
+  return {labels.begin(), labels.end()};
+}
+
+/// What is in `a` and not in `b`, both ascending.
+static std::vector<std::uint64_t> difference(const std::vector<std::uint64_t>& a, const std::vector<std::uint64_t>& b) {
+  std::vector<std::uint64_t> result;
+  std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(result));
+  return result;
+}
+
+/// Finds the labels that are named now, ascending, where they are not those that were named before.
+void Analysis::follow_labels(const std::vector<std::uint64_t>& named) {
+  const std::vector<std::uint64_t> named_before = jumps_.labels();
+  const std::vector<std::uint64_t> added = difference(named, named_before);
+  const std::vector<std::uint64_t> removed = difference(named_before, named);
   if (added.empty() && removed.empty()) return;
   const auto is_removed = [&](const JumpEvent& event) {
     return event.kind == JumpEvent::Kind::Label && std::binary_search(removed.begin(), removed.end(), event.label);
@@ -79,25 +107,13 @@ void Analysis::follow_labels(const JumpMap& jumps) {
 
 /// The jumps of the program, from what is known of its chunks.
 JumpMap Analysis::find_jumps() {
-  JumpMap jumps;
-  const auto each = [&](auto take) {
-    for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk)
-      for (const JumpEvent& event : rows_[chunk].jumps) take(document_.first_line_of_chunk(chunk) + event.line, event);
-  };
-  each([&](std::uint64_t line, const JumpEvent& event) {
-    if (event.kind == JumpEvent::Kind::Jump) jumps.add(line, event.jump);
-  });
-  follow_labels(jumps);
-  each([&](std::uint64_t line, const JumpEvent& event) {
-    if (event.kind == JumpEvent::Kind::Label) jumps.note_label(event.label, line);
-    if (jumps.compares_registers()) jumps.note_registers(event.kind, event.reg, event.label);
-  });
-  jumps.complete();
-  if (!jumps.empty()) jumps.resolve();
-  return jumps;
+  follow_labels(labels_named());
+  JumpCollector collector;
+  each_jump_event([&](std::uint64_t line, const JumpEvent& event) { collector.add(line, event); });
+  return std::move(collector).finish();
 }
 
-/// Tells the jumps where they stand now, which mean what they meant.
+/// Notes where the jumps stand now, which mean what they meant.
 void Analysis::move_jumps(const Change& change) {
   std::vector<JumpMap::Site> sites;
   for (std::size_t chunk = change.first; chunk < change.first + change.inserted; ++chunk)
@@ -106,8 +122,9 @@ void Analysis::move_jumps(const Change& change) {
         sites.push_back({document_.first_line_of_chunk(chunk) + event.line, event.jump});
   const std::size_t first_line =
       change.first < rows_.size() ? document_.first_line_of_chunk(change.first) : document_.line_count();
-  jumps_.move(jumps_.first_from(first_line), sites,
-              static_cast<std::int64_t>(document_.line_count()) - static_cast<std::int64_t>(line_count_));
+  const std::size_t first = jumps_.first_from(first_line);
+  jumps_ = std::move(jumps_).moved(
+      first, sites, static_cast<std::int64_t>(document_.line_count()) - static_cast<std::int64_t>(line_count_));
 }
 
 /// Where jumps do something else now, or values that are assigned mean something else to them, the chunk is to be

@@ -82,8 +82,11 @@ class Analysis {
   void read_jumps(std::size_t chunk, Row& row) const;
   bool follow_jumps(const Change& change, const std::vector<JumpEvent>& old_events);
   void move_jumps(const Change& change);
+  template <class Take>
+  void each_jump_event(Take take) const;
   JumpMap find_jumps();
-  void follow_labels(const JumpMap& jumps);
+  std::vector<std::uint64_t> labels_named() const;
+  void follow_labels(const std::vector<std::uint64_t>& named);
   bool read_labels(std::size_t chunk, const std::vector<std::uint64_t>& wanted);
   void check_changed_jumps_again(const JumpMap& old_jumps);
   bool check_from(std::size_t chunk, Frontier frontier, const std::function<bool()>& stop);

@@ -163,8 +163,8 @@ Report check_text(std::string_view text, const execution::Setup& setup, int jobs
     // Rare, each at most once: a jump whose label is not below it (E004, E005), or not among the lines that had to be
     // read: once more with all labels known. Centers that count from the start in some arcs, and may do so in others:
     // once more to tell of these.
-    if (!jumps.is_resolved() && !all_jumps_land(outcome, jumps)) {
-      jumps.resolve(text);
+    if (!jumps.knows_labels() && !all_jumps_land(outcome, jumps)) {
+      jumps = JumpMap::with_labels(text);
     } else if (!suspects_centers && outcome.centers.from_start && outcome.centers.open) {
       suspects_centers = true;
     } else {

@@ -448,7 +448,7 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
     if (on_register) group.registers = group.registers.where(jump, false);
     if (jumps_.compares_registers()) {
       where_true.keep_only(jumps_.read_at_target(ordinal));
-      group.registers.keep_only(jumps_.read_behind(ordinal));
+      group.registers.keep_only(jumps_.read_after(ordinal));
     }
     const bool jumps_on = where_true.possible();
     const bool stays = group.registers.possible();

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <unordered_map>
+#include <utility>
 
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif
 
 #include "interpreter/syntax/characters.h"
-#include "interpreter/syntax/each_tree.h"
 #include "interpreter/syntax/tree_store.h"
 
 namespace isocnc::check {
@@ -17,10 +18,10 @@ namespace isocnc::check {
 /// How many line feeds there are. In blocks whose count fits a byte, so that the compiler counts sixteen bytes at once.
 static std::uint64_t count_line_feeds(std::string_view text) {
   constexpr std::size_t kRow = 16;
-  constexpr std::size_t kMostRows = 255;
+  constexpr std::size_t kMaxRows = 255;
   std::uint64_t count = 0;
   while (text.size() >= kRow) {
-    const std::size_t rows = std::min(kMostRows, text.size() / kRow);
+    const std::size_t rows = std::min(kMaxRows, text.size() / kRow);
     std::array<std::uint8_t, kRow> counts{};
     for (std::size_t row = 0; row < rows; ++row)
       for (std::size_t i = 0; i < kRow; ++i) counts[i] += text[kRow * row + i] == '\n';
@@ -70,7 +71,7 @@ bool may_hold_jumps(std::string_view text) {
 /// A line number at the start of a line, as most of those that have one write it.
 struct PlainLabel {
   std::uint64_t number = 0;
-  const char* end = nullptr;  ///< Behind it; null where there is none, or where it takes a closer look.
+  const char* end = nullptr;  ///< The place after it; null without one, or where it takes a closer look.
 };
 
 static PlainLabel plain_label(const char* p, const char* end) {
@@ -82,7 +83,7 @@ static PlainLabel plain_label(const char* p, const char* end) {
   return {label, is_plain ? at + 1 : nullptr};
 }
 
-/// The first O at or behind `p`, of either case, or `end`. Sixty-four bytes at a time: this is all that most programs
+/// The first O at or after `p`, of either case, or `end`. Sixty-four bytes at a time: this is all that most programs
 /// take before they are read.
 static const char* next_o(const char* p, const char* end) {
   const auto is_o = [](char c) { return (c | 0x20) == 'o'; };
@@ -99,8 +100,8 @@ static const char* next_o(const char* p, const char* end) {
   return std::find_if(p, end, is_o);
 }
 
-/// The first letter at or behind `p` that may make its line an event for registers, or `end`.
-static const char* next_telling_letter(const char* p, const char* end) {
+/// The first letter at or after `p` that may make its line hold an event, or `end`.
+static const char* next_event_letter(const char* p, const char* end) {
 #ifdef __SSE2__
   for (; end - p >= 16; p += 16) {
     const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
@@ -114,15 +115,15 @@ static const char* next_telling_letter(const char* p, const char* end) {
   return p;
 }
 
-/// Calls `take` with the events of a text and the beginnings of their lines. Most lines with a telling letter have a
-/// plain line number and nothing else that tells, which shows where the next such letter stands on another line.
+/// Calls `take` with the events of a text and the starts of their lines. Most lines with such a letter have a plain
+/// line number and no other event, which shows where the next such letter stands on another line.
 template <class Take>
 static void scan_events(std::string_view text, Take take) {
   syntax::TreeStore store;
   const char* const end = text.data() + text.size();
-  const char* labelled = nullptr;  // The beginning of a line with a plain label, not yet told.
+  const char* labelled = nullptr;  // The start of a line with a plain label that has not been taken yet.
   PlainLabel label;
-  for (const char* p = next_telling_letter(text.data(), end);;) {
+  for (const char* p = next_event_letter(text.data(), end);;) {
     const char* begin = p;
     while (begin != text.data() && !syntax::is_line_end(begin[-1])) --begin;
     if (labelled && (p == end || begin != labelled))
@@ -135,7 +136,7 @@ static void scan_events(std::string_view text, Take take) {
       label.end = store.append_line(begin, end);
       each_event(store.tree(0, begin), [&](const JumpEvent& event) { take(event, begin); });
     }
-    p = next_telling_letter(label.end, end);
+    p = next_event_letter(label.end, end);
   }
 }
 
@@ -147,11 +148,13 @@ void each_event_in(std::string_view text, const std::function<void(const JumpEve
   });
 }
 
-JumpMap::JumpMap(std::string_view text) {
+/// The jumps of a text, found without parsing the lines that hold none.
+static std::vector<JumpMap::Site> sites_in(std::string_view text) {
+  std::vector<JumpMap::Site> sites;
   LineCounter counter(text);
   syntax::TreeStore store;
   const char* const end = text.data() + text.size();
-  for (const char* p = next_o(text.data(), end); p != end; p = next_o(p, end)) {
+  for (const char* p = text.data(); (p = next_o(p, end)) != end;) {
     if (!may_belong_to_goto(text, static_cast<std::size_t>(p - text.data()))) {
       ++p;
       continue;
@@ -162,54 +165,71 @@ JumpMap::JumpMap(std::string_view text) {
     p = store.append_line(begin, end);
     const syntax::LineTree tree = store.tree(0, begin);
     if (tree.jump && tree.jump->has_target)
-      add(counter.line_of(static_cast<std::size_t>(begin - text.data())), *tree.jump);
+      sites.push_back({counter.line_of(static_cast<std::size_t>(begin - text.data())), *tree.jump});
   }
-  if (compares_registers()) note_all_registers(text);
-  complete();
+  return sites;
 }
 
-/// Gathers the assignments, labels and jumps of the program.
-void JumpMap::note_all_registers(std::string_view text) {
-  scan_events(text, [&](const JumpEvent& event, const char*) { note_registers(event.kind, event.reg, event.label); });
+JumpMap::JumpMap(std::string_view text) : JumpMap(sites_in(text)) {
+  if (compares_registers()) read_labels(text);
 }
 
-void JumpMap::add(std::uint64_t line, const syntax::Jump& jump) {
-  sites_.push_back({line, jump});
-  targets_.insert(jump.target);
+JumpMap JumpMap::with_labels(std::string_view text) {
+  JumpMap map(sites_in(text));
+  if (!map.empty()) map.read_labels(text);
+  return map;
+}
+
+JumpMap::JumpMap(std::vector<Site> sites) : sites_(std::move(sites)), knows_labels_(sites_.empty()) {
+  if (sites_.empty()) return;
   filter_.resize(16384);
-  const std::size_t bit = filter_bit(jump.target);
-  filter_[bit / 64] |= std::uint64_t{1} << (bit % 64);
-  if (jump.variable <= 0 || !jump.condition_is_known()) return;
-  constants_[static_cast<std::size_t>(jump.variable)].push_back(jump.value);
-  compared_ |= register_bit(jump.variable);
-}
-
-void JumpMap::note_registers(JumpEvent::Kind kind, std::uint8_t reg, std::uint64_t label) {
-  if (kind != JumpEvent::Kind::Label || names(label)) events_.push_back({kind, reg, label});
-}
-
-void JumpMap::complete() {
+  for (const Site& site : sites_) {
+    const syntax::Jump& jump = site.jump;
+    targets_.insert(jump.target);
+    const std::size_t bit = filter_bit(jump.target);
+    filter_[bit / 64] |= std::uint64_t{1} << (bit % 64);
+    if (jump.variable <= 0 || !jump.condition_is_known()) continue;
+    constants_[static_cast<std::size_t>(jump.variable)].push_back(jump.value);
+    compared_ |= register_bit(jump.variable);
+  }
   for (std::vector<double>& values : constants_) {
     std::sort(values.begin(), values.end());
     values.erase(std::unique(values.begin(), values.end()), values.end());
   }
-  // From the end of the program to its start: all jumps go forward, so one pass tells what is still read where.
-  reads_.assign(sites_.size(), {});
+  reads_.resize(sites_.size());
+}
+
+void JumpMap::read_labels(std::string_view text) {
+  std::vector<Step> steps;
+  scan_events(text, [&](const JumpEvent& event, const char*) {
+    if (event.kind != JumpEvent::Kind::Label || names(event.label)) steps.emplace_back(event);
+  });
+  follow(steps);
+}
+
+/// Finds what depends on the order of jumps, labels and assignments.
+void JumpMap::follow(const std::vector<Step>& steps) {
+  if (compares_registers()) find_reads(steps);
+  find_targets(steps);
+}
+
+/// From the end of the program to its start: all jumps go forward, so one pass shows what is still read where.
+void JumpMap::find_reads(const std::vector<Step>& steps) {
   std::unordered_map<std::uint64_t, RegisterSet> read_at_label;
   RegisterSet read = 0;
   std::size_t jump = sites_.size();
-  for (auto event = events_.rbegin(); event != events_.rend(); ++event) {
-    switch (event->kind) {
+  for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
+    switch (step->kind) {
       case JumpEvent::Kind::Assignment:
-        read &= ~register_bit(event->reg);
+        read &= ~register_bit(step->reg);
         break;
       case JumpEvent::Kind::Label:
-        read_at_label[event->label] = read;
+        read_at_label[step->label] = read;
         break;
       case JumpEvent::Kind::Jump: {
         const syntax::Jump& condition = sites_[--jump].jump;
         const auto target = read_at_label.find(condition.target);
-        reads_[jump].behind = read;
+        reads_[jump].after = read;
         reads_[jump].at_target = target == read_at_label.end() ? 0 : target->second;
         read |= reads_[jump].at_target;
         if (condition.variable > 0) read |= register_bit(condition.variable);
@@ -218,33 +238,24 @@ void JumpMap::complete() {
       }
     }
   }
-  events_ = {};
 }
 
-void JumpMap::note_label(std::uint64_t label, std::uint64_t line) {
-  const auto [last, is_first] = last_lines_.insert_or_assign(label, line);
-  if (!is_first) repeated_.insert(label);
-}
-
-void JumpMap::resolve() {
-  targets_of_jumps_.clear();
-  for (const Site& site : sites_) {
-    const auto last = last_lines_.find(site.jump.target);
+/// A line's label counts before its jump: the IF's own line is no target (D51).
+void JumpMap::find_targets(const std::vector<Step>& steps) {
+  std::unordered_map<std::uint64_t, std::size_t> last_definitions;
+  std::vector<std::size_t> jumps;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (steps[i].kind == JumpEvent::Kind::Jump) jumps.push_back(i);
+    if (steps[i].kind != JumpEvent::Kind::Label) continue;
+    if (!last_definitions.insert_or_assign(steps[i].label, i).second) repeated_.insert(steps[i].label);
+  }
+  for (std::size_t jump = 0; jump < jumps.size(); ++jump) {
+    const auto last = last_definitions.find(sites_[jump].jump.target);
     Target target = Target::NotFound;
-    if (last != last_lines_.end()) target = last->second > site.line ? Target::Below : Target::Above;
+    if (last != last_definitions.end()) target = last->second > jumps[jump] ? Target::Below : Target::Above;
     targets_of_jumps_.push_back(target);
   }
-  last_lines_ = {};
-  resolved_ = true;
-}
-
-void JumpMap::resolve(std::string_view text) {
-  std::uint64_t line = 0;
-  syntax::each_tree(text, [&](const syntax::LineTree& tree, std::string_view) {
-    if (tree.has_label() && names(tree.label)) note_label(tree.label, line);
-    ++line;
-  });
-  resolve();
+  knows_labels_ = true;
 }
 
 std::size_t JumpMap::first_from(std::uint64_t line) const {
@@ -252,15 +263,14 @@ std::size_t JumpMap::first_from(std::uint64_t line) const {
   return static_cast<std::size_t>(std::partition_point(sites_.begin(), sites_.end(), is_above) - sites_.begin());
 }
 
-void JumpMap::move(std::size_t first, const std::vector<Site>& sites, std::int64_t lines) {
-  const auto behind = std::copy(sites.begin(), sites.end(), sites_.begin() + static_cast<std::ptrdiff_t>(first));
-  for (auto site = behind; site != sites_.end(); ++site) site->line += static_cast<std::uint64_t>(lines);
+JumpMap JumpMap::moved(std::size_t first, const std::vector<Site>& sites, std::int64_t lines) && {
+  const auto others = std::copy(sites.begin(), sites.end(), sites_.begin() + static_cast<std::ptrdiff_t>(first));
+  for (auto site = others; site != sites_.end(); ++site) site->line += static_cast<std::uint64_t>(lines);
+  return std::move(*this);
 }
 
-std::vector<std::uint64_t> JumpMap::named_beyond(const JumpMap& other) const {
-  std::vector<std::uint64_t> labels;
-  for (const std::uint64_t label : targets_)
-    if (!other.names(label)) labels.push_back(label);
+std::vector<std::uint64_t> JumpMap::labels() const {
+  std::vector<std::uint64_t> labels(targets_.begin(), targets_.end());
   std::sort(labels.begin(), labels.end());
   return labels;
 }

@@ -64,10 +64,7 @@ LineTree TextProgram::line(std::uint64_t line) {
 }
 
 const check::JumpMap& TextProgram::jumps() {
-  if (!jumps_) {
-    jumps_.emplace(text_);
-    if (!jumps_->empty()) jumps_->resolve(text_);
-  }
+  if (!jumps_) jumps_ = check::JumpMap::with_labels(text_);
   return *jumps_;
 }
 

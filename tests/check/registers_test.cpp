@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "analyzer/check/jump_collector.h"
 #include "tests/support/random.h"
 
 namespace isocnc::check {
@@ -145,10 +146,11 @@ struct Both {
 class RegisterWalk {
  public:
   explicit RegisterWalk(std::uint64_t seed) : random_(seed) {
+    JumpCollector collector;
     for (const int reg : kRegisters)
       for (int i = random_.between(0, 3); i > 0; --i)
-        jumps_.add(0, jump_on(reg, Comparison::Equal, random_.between(-2, 2)));
-    jumps_.complete();
+        collector.add(0, {.jump = jump_on(reg, Comparison::Equal, random_.between(-2, 2))});
+    jumps_ = std::move(collector).finish();
     for (int i = 0; i < 3; ++i) all_.push_back({Valuations::unknown(), everything(jumps_)});
   }
 

@@ -1,0 +1,18 @@
+#include "analyzer/check/jump_collector.h"
+
+#include <utility>
+
+namespace isocnc::check {
+
+void JumpCollector::add(std::uint64_t line, const JumpEvent& event) {
+  if (event.kind == JumpEvent::Kind::Jump) sites_.push_back({line, event.jump});
+  steps_.emplace_back(event);
+}
+
+JumpMap JumpCollector::finish() && {
+  JumpMap map(std::move(sites_));
+  if (!map.empty()) map.follow(steps_);
+  return map;
+}
+
+}  // namespace isocnc::check

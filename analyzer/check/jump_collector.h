@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "analyzer/check/jump_map.h"
+
+namespace isocnc::check {
+
+/// Takes in the jumps, labels and assignments of a program as its lines are read, and makes a JumpMap of them.
+class JumpCollector {
+ public:
+  /// Adds the next event; `line` counts from the start of the program. Labels that no jump names may be left out.
+  void add(std::uint64_t line, const JumpEvent& event);
+
+  /// The map of all that has been added. It knows the labels.
+  JumpMap finish() &&;
+
+ private:
+  std::vector<JumpMap::Site> sites_;
+  std::vector<JumpMap::Step> steps_;
+};
+
+}  // namespace isocnc::check
