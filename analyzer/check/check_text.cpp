@@ -24,7 +24,7 @@ static constexpr std::ptrdiff_t kSharedBatchBytes = 64 * 1024;
 namespace {
 
 /// Nothing below is executed, and nothing is left to say of that.
-bool is_over(const Frontier& frontier) { return frontier.finished() && frontier.dead_told; }
+bool is_over(const Frontier& frontier) { return frontier.finished() && frontier.dead_reported; }
 
 /// Lines that have been parsed, not yet executed.
 class Batch {

@@ -127,7 +127,7 @@ std::size_t Checker::check_plain(std::size_t count, std::uint64_t line_number, O
   if (done == 0) return 0;
   outcome.has_text = true;
   outcome.last_text_line = line_number + done - 1;
-  use.by_several |= !frontier.waiting.empty();
+  use.by_several |= !frontier.waiting().empty();
   outcome.positions = use;
   relieve(done);
   return done;
@@ -172,7 +172,7 @@ void Checker::check_straight(const LineTree& line, std::uint64_t line_number, Ou
   if (!state.ended) return;
   frontier.live.clear();
   // M02 on a line with another mistake may not be meant as the end.
-  frontier.dead_told = has_error(outcome.findings, first);
+  frontier.dead_reported = has_error(outcome.findings, first);
 }
 
 void Checker::check_any(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
@@ -187,8 +187,8 @@ void Checker::check_any(const LineTree& line, std::uint64_t line_number, Outcome
     if (line.jump && line.jump->has_target) ++frontier.next_jump;
     return tell_of_dead_code(line, line_number, outcome);
   }
-  frontier.dead_told = false;
-  outcome.positions.by_several |= live.size() > 1 || !frontier.waiting.empty();
+  frontier.dead_reported = false;
+  outcome.positions.by_several |= live.size() > 1 || !frontier.waiting().empty();
   const std::size_t first = outcome.findings.size();
   for (const Finding& finding : line.findings) {
     const auto is_told = [&](const Group& group) { return is_told_above(finding, group.state); };
@@ -202,7 +202,7 @@ void Checker::check_any(const LineTree& line, std::uint64_t line_number, Outcome
   sort_by_column(outcome.findings, first);
   if (live.empty() || !live[0].state.ended) return;
   live.clear();  // M02 ends every path through it. On a line with another mistake it may not be meant as the end.
-  frontier.dead_told = has_error(outcome.findings, first);
+  frontier.dead_reported = has_error(outcome.findings, first);
 }
 
 void Checker::relieve(std::size_t lines) {
@@ -211,8 +211,8 @@ void Checker::relieve(std::size_t lines) {
 
 /// Lines on no feasible path are never read, and nothing is said of them but that, at the first (D51).
 void Checker::tell_of_dead_code(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
-  if (frontier.dead_told || line.is_empty()) return;
-  frontier.dead_told = true;
+  if (frontier.dead_reported || line.is_empty()) return;
+  frontier.dead_reported = true;
   if (frontier.reduced) return;  // A path that is not followed may lead here.
   syntax::Span span;
   for (const syntax::Word& word : line.words)
@@ -223,11 +223,7 @@ void Checker::tell_of_dead_code(const LineTree& line, std::uint64_t line_number,
 /// A label: paths that jumped here go on from here, on every feasible path or not.
 void Checker::arrive(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   if (!jumps_.names(line.label)) return;
-  if (const auto waiting = frontier.waiting.find(line.label); waiting != frontier.waiting.end()) {
-    frontier.live.add_all(std::move(waiting->second));
-    frontier.waiting.erase(waiting);
-    bound_states(line, line_number, outcome);
-  }
+  if (frontier.arrive(line)) bound_states(line, line_number, outcome);
   for (const syntax::Word& word : line.words) {
     if (word.letter != 'N' || word.owner != syntax::Word::kNobody) continue;
     outcome.labels.push_back({line.label, line_number, word.span(), !frontier.live.empty()});
@@ -462,16 +458,15 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
   }
   frontier.live.keep_first(staying);
   if (!jumping.empty()) {
-    Groups& waiting = frontier.waiting[jump.target];
-    waiting.add_all(std::move(jumping));
+    Groups& waiting = frontier.jump(jump.target, std::move(jumping));
     if (reduce(waiting)) admit_reduction(line, line_number, outcome);
   }
   if (may_jump != may_stay && !frontier.reduced) {
     outcome.findings.push_back({line_number, {.id = "condition-decided"_diag, .span = jump.if_span}});
-    frontier.dead_told = !may_stay;  // That the lines below do not run is what a switch is for.
+    frontier.dead_reported = !may_stay;  // That the lines below do not run is what a switch is for.
   }
-  if (frontier.waiting.size() > kMostWaiting) {
-    frontier.waiting.erase(std::prev(frontier.waiting.end()));
+  if (frontier.waiting().size() > kMostWaiting) {
+    frontier.drop_highest_label();
     admit_reduction(line, line_number, outcome);
   }
 }

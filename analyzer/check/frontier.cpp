@@ -26,7 +26,7 @@ static Path common_decisions(const Path& a, const Path& b) {
   return common;
 }
 
-static void join(Group& into, Group&& other) {
+static void merge(Group& into, Group&& other) {
   into.registers.unite(std::move(other.registers));
   into.state.knowledge &= other.state.knowledge;
   if (into.state.tool != other.state.tool) into.state.forget(execution::State::kToolKnown);
@@ -35,11 +35,11 @@ static void join(Group& into, Group&& other) {
 
 void Groups::add(Group group) {
   for (Group& present : all_)
-    if (execution::judged_alike(present.state, group.state)) return join(present, std::move(group));
+    if (execution::judged_alike(present.state, group.state)) return merge(present, std::move(group));
   all_.push_back(std::move(group));
 }
 
-void Groups::add_all(Groups&& groups) {
+void Groups::join(Groups&& groups) {
   all_.insert(all_.end(), std::make_move_iterator(groups.begin()), std::make_move_iterator(groups.end()));
   if (all_.size() > groups.size()) converge();
   groups.clear();
@@ -67,7 +67,7 @@ static void converge_few(std::vector<Group>& groups) {
   for (std::size_t i = 0; i < groups.size(); ++i)
     for (std::size_t j = i + 1; j < groups.size();) {
       if (execution::judged_alike(groups[i].state, groups[j].state)) {
-        join(groups[i], std::move(groups[j]));
+        merge(groups[i], std::move(groups[j]));
         groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(j));
       } else {
         ++j;
@@ -88,7 +88,7 @@ void Groups::converge() {
       const std::size_t other = order[j].second;
       if (!is_gone.empty() && (is_gone[into] || is_gone[other])) continue;
       if (!execution::judged_alike(all_[into].state, all_[other].state)) continue;
-      join(all_[into], std::move(all_[other]));
+      merge(all_[into], std::move(all_[other]));
       is_gone.resize(all_.size());
       is_gone[other] = true;
     }
@@ -124,22 +124,14 @@ void Groups::reduce_to(std::size_t limit) {
   for (std::size_t i = 0; i < all_.size(); ++i)
     for (std::size_t j = all_.size() - 1; j > i && all_.size() > limit; --j) {
       if (!blur_positions(all_[i].state, all_[j].state)) continue;
-      join(all_[i], std::move(all_[j]));
+      merge(all_[i], std::move(all_[j]));
       all_.erase(all_.begin() + static_cast<std::ptrdiff_t>(j));
     }
   if (all_.size() > limit) all_.resize(limit);
 }
 
-Groups Frontier::running_through(const syntax::LineTree& next) const {
-  Groups groups = live;
-  const auto jumped = next.has_label() ? waiting.find(next.label) : waiting.end();
-  if (jumped != waiting.end())
-    for (const Group& group : jumped->second) groups.add(group);
-  return groups;
-}
-
 std::optional<execution::State> Frontier::state_at(const syntax::LineTree& next) const {
-  const Groups groups = running_through(next);
+  const Groups groups = live_at(next);
   if (groups.size() != 1 || reduced) return std::nullopt;
   return groups[0].state;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -9,7 +8,7 @@
 #include "analyzer/check/registers.h"
 #include "analyzer/check/report.h"
 #include "interpreter/execution/state.h"
-#include "interpreter/syntax/line_tree.h"
+#include "interpreter/syntax/forward_paths.h"
 
 namespace isocnc::check {
 
@@ -39,7 +38,8 @@ class Groups {
   void add(Group group);
   /// Adds one whose state is none of the others'.
   void append(Group group) { all_.push_back(std::move(group)); }
-  void add_all(Groups&& groups);
+  /// Adds all of another, which is empty then.
+  void join(Groups&& groups);
   /// Joins groups whose states have met.
   void converge();
   /// Joins groups until at most `limit` are left: first those that differ in position alone, whose position then counts
@@ -54,19 +54,14 @@ class Groups {
 
 /// Where a check stands between two lines: all that the rest of the program's findings depend on. Knows jumps by their
 /// number and labels by their name, never a line, so that text inserted elsewhere leaves it as it is.
-struct Frontier {
-  Groups live;                              ///< Running through the next line.
-  std::map<std::uint64_t, Groups> waiting;  ///< Jumped ahead, by label.
-  std::uint32_t next_jump = 0;              ///< How many IFs with a label have been passed.
-  std::uint32_t spread = 0;                 ///< How much work more than one live group has cost lately.
-  bool dead_told = false;                   ///< No path leads here, which has been said (W116).
-  bool reduced = false;                     ///< Too many states once: some are not followed (W191).
+struct Frontier : syntax::ForwardPaths<Groups> {
+  std::uint32_t next_jump = 0;  ///< IFs with a label that have been passed.
+  std::uint32_t spread = 0;     ///< Recent cost of more than one live group, in lines executed.
+  bool dead_reported = false;   ///< W116 has been reported for the lines from here on, where no path leads.
+  bool reduced = false;         ///< Some states are not followed, as there were too many (W191).
 
-  /// The whole program has been checked: no path goes on.
-  bool finished() const { return live.empty() && waiting.empty(); }
-  /// What runs through the next line, where that is this one: besides what comes from above, all that has jumped to it.
-  Groups running_through(const syntax::LineTree& next) const;
-  /// The one state of all that does. Nothing where there are several, or not all are known.
+  /// The one state on all paths through the next line, where that is this one. Nothing where there are several, or not
+  /// all are known.
   std::optional<execution::State> state_at(const syntax::LineTree& next) const;
 
   friend bool operator==(const Frontier&, const Frontier&) = default;

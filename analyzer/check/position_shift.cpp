@@ -48,9 +48,9 @@ static void apply_to(Pose& pose, const PositionShift& shift) {
 
 void PositionShift::apply(Frontier& frontier) const {
   if (empty()) return;
-  for (Group& group : frontier.live) apply_to(group.state.position, *this);
-  for (auto& [label, groups] : frontier.waiting)
+  frontier.change_each([&](Groups& groups) {
     for (Group& group : groups) apply_to(group.state.position, *this);
+  });
 }
 
 /// The shift from one position to another, if it can be undone to the bit.
@@ -72,7 +72,7 @@ static std::optional<PositionShift> shift_between(const Pose& from, const Pose& 
 /// Any group of the frontier; null where there is none.
 static const Group* any_group(const Frontier& frontier) {
   if (!frontier.live.empty()) return &frontier.live[0];
-  return frontier.waiting.empty() ? nullptr : &frontier.waiting.begin()->second[0];
+  return frontier.waiting().empty() ? nullptr : &frontier.waiting().begin()->second[0];
 }
 
 std::optional<PositionShift> shift_between(const Frontier& from, const Frontier& to) {

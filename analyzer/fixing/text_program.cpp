@@ -70,7 +70,7 @@ const check::JumpMap& TextProgram::jumps() {
 
 bool TextProgram::is_read(std::uint64_t line) {
   const check::Frontier& frontier = frontier_before(line);
-  return !frontier.live.empty() || !frontier.running_through(syntax::ParsedLine(text(line)).tree()).empty();
+  return !frontier.live.empty() || !frontier.live_at(syntax::ParsedLine(text(line)).tree()).empty();
 }
 
 bool TextProgram::is_jumped_to(std::uint64_t label) { return jumps().names(label); }
@@ -84,7 +84,7 @@ const check::Frontier& TextProgram::frontier_before(std::uint64_t line) {
 
 std::optional<execution::State> TextProgram::state_before(std::uint64_t line) {
   const check::Frontier& frontier = frontier_before(line);
-  const bool has_label = line < line_count() && !frontier.waiting.empty();
+  const bool has_label = line < line_count() && !frontier.waiting().empty();
   const syntax::ParsedLine next(has_label ? text(line) : std::string_view());
   return frontier.state_at(next.tree());
 }

@@ -15,8 +15,8 @@ static constexpr std::size_t kMostGroups = 4;
 static constexpr std::size_t kMostLabels = 8;
 
 static bool is_small(const check::Frontier& frontier) {
-  return frontier.live.size() <= kMostGroups && frontier.waiting.size() <= kMostLabels &&
-         std::all_of(frontier.waiting.begin(), frontier.waiting.end(),
+  return frontier.live.size() <= kMostGroups && frontier.waiting().size() <= kMostLabels &&
+         std::all_of(frontier.waiting().begin(), frontier.waiting().end(),
                      [](const auto& waiting) { return waiting.second.size() <= kMostGroups; });
 }
 

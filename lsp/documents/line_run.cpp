@@ -44,7 +44,7 @@ std::vector<LineRun> run_line_on_all_paths(const Snapshot& snapshot, std::size_t
   if (frontier.reduced) return {};
   const syntax::DocumentLine read = snapshot.document().line(line);
   std::vector<LineRun> runs;
-  const check::Groups groups = frontier.running_through(*read);
+  const check::Groups groups = frontier.live_at(*read);
   for (const check::Group& group : groups) runs.push_back(run_from(snapshot, group.state, *read));
   return runs;
 }

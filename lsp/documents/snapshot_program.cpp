@@ -56,7 +56,7 @@ syntax::LineTree SnapshotProgram::line(std::uint64_t line) {
 
 bool SnapshotProgram::is_read(std::uint64_t line) {
   const syntax::DocumentLine next = snapshot_.document().line(line);
-  return !snapshot_.frontier_before(line).running_through(*next).empty();
+  return !snapshot_.frontier_before(line).live_at(*next).empty();
 }
 
 bool SnapshotProgram::is_jumped_to(std::uint64_t label) {

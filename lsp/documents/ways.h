@@ -9,7 +9,8 @@
 
 namespace isocnc::lsp::documents {
 
-/// The ways that a program's jumps leave it, whatever their conditions say.
+/// The paths that a program's jumps leave it, whatever their conditions say. They are followed upward, from one line,
+/// over the jumps and ends of the index alone: syntax::ForwardPaths would have to read every line from the top.
 class Ways {
  public:
   struct Jump {

@@ -39,7 +39,8 @@ void to_json(Json& json, const Hint& hint) {
 }
 
 /// The state before each line of a stretch, where it is the same on all paths. Lines are executed once; the snapshot is
-/// asked again only where paths may part or meet.
+/// asked again only where paths may part or meet. It has followed all paths from the top, with their conditions, which
+/// a syntax::ForwardPaths that starts in the middle cannot do.
 class StateWalk {
  public:
   StateWalk(const Snapshot& snapshot, std::size_t line)

@@ -212,7 +212,7 @@ TEST(Analysis, KnowsWhereTheCheckStandsBeforeALine) {
   EXPECT_EQ(before_jump.live[0].state.position.tip.x(), 20);
   const Frontier skipped = analysis.frontier_before(5);
   EXPECT_EQ(skipped.live.size(), 1u);
-  EXPECT_EQ(skipped.waiting.size(), 1u);
+  EXPECT_EQ(skipped.waiting().size(), 1u);
   EXPECT_EQ(analysis.frontier_before(6).live.size(), 1u);
   EXPECT_TRUE(analysis.frontier_before(7).finished());
 }

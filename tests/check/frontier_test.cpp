@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace isocnc::check {
 namespace {
 
@@ -50,13 +52,13 @@ TEST(Groups, ConvergeJoinsStatesThatHaveMet) {
   EXPECT_TRUE(groups[0].path.empty());
 }
 
-TEST(Groups, AddAllEmptiesTheOther) {
+TEST(Groups, JoiningEmptiesTheOther) {
   Groups groups;
   Groups others;
   groups.add(group_at(1));
   others.add(group_at(1));
   others.add(group_at(2));
-  groups.add_all(std::move(others));
+  groups.join(std::move(others));
   EXPECT_EQ(groups.size(), 2u);
 }
 
@@ -90,11 +92,12 @@ TEST(Groups, ReducingKeepsToItsLimitWhateverDiffers) {
 TEST(Frontier, IsFinishedWhenNoPathGoesOn) {
   Frontier frontier;
   EXPECT_TRUE(frontier.finished());
-  frontier.waiting[5].add(group_at(1));
-  EXPECT_FALSE(frontier.finished());
-  frontier.waiting.clear();
   frontier.live.add(group_at(1));
   EXPECT_FALSE(frontier.finished());
+  frontier.jump(5, std::exchange(frontier.live, {}));
+  EXPECT_FALSE(frontier.finished());
+  frontier.drop_highest_label();
+  EXPECT_TRUE(frontier.finished());
 }
 
 }  // namespace
