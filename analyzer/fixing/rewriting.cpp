@@ -6,7 +6,7 @@
 #include <string>
 
 #include "analyzer/fixes/line_edits.h"
-#include "interpreter/execution/execute.h"
+#include "interpreter/execution/block_recorder.h"
 #include "interpreter/execution/executor.h"
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
@@ -14,6 +14,7 @@
 namespace isocnc::fixing {
 
 using dialect::ModalGroup;
+using execution::BlockRecorder;
 using execution::Feed;
 using execution::Move;
 using execution::MoveKind;
@@ -26,34 +27,6 @@ using syntax::Span;
 using syntax::Word;
 
 namespace {
-
-/// What a line does, as far as another way to write it must do the same.
-class Deed final : public execution::Sink {
- public:
-  Deed(const LineTree& line, State& state, const execution::Setup& setup) : Sink(true) {
-    for (const syntax::Finding& finding : line.findings) report(finding);
-    execution::execute(line, state, setup, *this);
-    if (!motion_) modes_ = state;
-  }
-
-  void report(const syntax::Finding& finding) override {
-    has_error_ |= dialect::definition(finding.id).severity == dialect::Severity::Error;
-  }
-  void move(const Move& move, const State& state) override {
-    motion_ = move;
-    modes_ = state;
-  }
-
-  bool has_error() const { return has_error_; }
-  const std::optional<Move>& motion() const { return motion_; }
-  /// In which the motion runs; without one, behind the line.
-  const State& modes() const { return modes_; }
-
- private:
-  bool has_error_ = false;
-  std::optional<Move> motion_;
-  State modes_;
-};
 
 bool is_near(double a, double b, double tolerance) { return std::abs(a - b) <= tolerance; }
 bool is_near(const geometry::Vec3& a, const geometry::Vec3& b, double tolerance) {
@@ -168,11 +141,12 @@ std::vector<const Word*> words_of(const LineTree& line, const Instruction& motio
 }
 
 /// The center's words, `I10 J0`, as G90 or G91 wants them.
-std::string center_text(const Deed& deed, double rounding) {
-  const State& modes = deed.modes();
+std::string center_text(const BlockRecorder& done, double rounding) {
+  const State& modes = done.modes();
+  const Move& arc = done.motion()->move;
   const execution::Plane& plane = execution::plane_in_force(modes);
   const auto word = [&](char letter, int axis) {
-    const double center = deed.motion()->center[axis] - (modes.incremental() ? deed.motion()->from.tip[axis] : 0);
+    const double center = arc.center[axis] - (modes.incremental() ? arc.from.tip[axis] : 0);
     return letter + number_text(center / modes.mm_per_unit(), rounding / modes.mm_per_unit());
   };
   const std::string u = word(plane.u_center, plane.u);
@@ -188,15 +162,16 @@ constexpr dialect::LetterSet old_letters(Rewrite how) {
 }
 
 /// The arc's line with its circle given the other way. Where it is given both ways, the old words only go.
-void give_circle(LineRewrite& rewrite, Rewrite how, const LineTree& line, const Instruction& motion, const Deed& deed,
-                 double rounding) {
+void give_circle(LineRewrite& rewrite, Rewrite how, const LineTree& line, const Instruction& motion,
+                 const BlockRecorder& done, double rounding) {
   const bool by_radius = how == Rewrite::ArcByRadius;
   const std::vector<const Word*> old = words_of(line, motion, old_letters(how));
   const std::vector<const Word*> there = words_of(line, motion, by_radius ? kRadiusLetters : dialect::kCenterLetters);
   const bool is_there = there.size() == (by_radius ? 1 : 2);
-  const double mm_per_unit = deed.modes().mm_per_unit();
-  const std::string fresh = by_radius ? "R" + number_text(deed.motion()->radius / mm_per_unit, rounding / mm_per_unit)
-                                      : center_text(deed, rounding);
+  const double mm_per_unit = done.modes().mm_per_unit();
+  const std::string fresh = by_radius
+                                ? "R" + number_text(done.motion()->move.radius / mm_per_unit, rounding / mm_per_unit)
+                                : center_text(done, rounding);
   if (!is_there) {
     for (const Word* const word : there) rewrite.remove(word->span());
     rewrite.replace(old.front()->span(), fresh);
@@ -211,19 +186,17 @@ std::vector<Edit> rewrite_arc(Rewrite how, fixes::Program& program, const execut
   if (!motion || words_of(line, *motion, old_letters(how)).empty()) return {};
   const std::optional<State> before = program.state_before(number);
   if (!before || before->unknown != 0 || before->ended) return {};
-  State after = *before;
-  const Deed deed(line, after, setup);
-  if (deed.has_error() || !deed.motion() || deed.motion()->kind != MoveKind::Arc) return {};
-  if (how == Rewrite::ArcByRadius && std::abs(deed.motion()->sweep_deg) > 180 + 1e-6) return {};
+  const BlockRecorder done(line, *before, setup);
+  if (done.has_error() || !done.motion() || done.motion()->move.kind != MoveKind::Arc) return {};
+  if (how == Rewrite::ArcByRadius && std::abs(done.motion()->move.sweep_deg) > 180 + 1e-6) return {};
   for (const double rounding : kRadiusRoundings) {
     LineRewrite rewrite(number, line);
-    give_circle(rewrite, how, line, *motion, deed, rounding);
+    give_circle(rewrite, how, line, *motion, done, rounding);
     if (rewrite.has_comment()) return {};
     const syntax::ParsedLine parsed(rewrite.text());
-    State trial_after = *before;
-    const Deed trial(parsed.tree(), trial_after, setup);
-    if (!trial.has_error() && trial.motion() && is_same(*deed.motion(), *trial.motion()) &&
-        is_same(after, trial_after, {}))
+    const BlockRecorder trial(parsed.tree(), *before, setup);
+    if (!trial.has_error() && trial.motion() && is_same(done.motion()->move, trial.motion()->move) &&
+        is_same(done.state(), trial.state(), {}))
       return rewrite.edits();
   }
   return {};
@@ -307,7 +280,9 @@ class Dimensions {
 
   bool execute_mode(std::uint8_t number) {
     const syntax::ParsedLine parsed(mode_text(number));
-    return !Deed(parsed.tree(), new_, setup_).has_error();
+    const BlockRecorder done(parsed.tree(), new_, setup_);
+    new_ = done.state();
+    return !done.has_error();
   }
 
   bool exact_stop_follows() {
@@ -337,21 +312,21 @@ class Dimensions {
     const LineTree line = program_.line(number);
     if (line.jump != nullptr || (line.has_label() && program_.is_jumped_to(line.label))) return false;
     const State before = old_;
-    const Deed deed(line, old_, setup_);
-    if (deed.has_error() || old_.unknown != 0) return false;
+    const BlockRecorder done(line, before, setup_);
+    old_ = done.state();
+    if (done.has_error() || old_.unknown != 0) return false;
     for (const double rounding : kRoundings) {
       LineRewrite rewrite(number, line);
-      State after = new_;
-      const bool has_changed = set_numbers(rewrite, line, deed, before, rounding);
+      const bool has_changed = set_numbers(rewrite, line, done, before, rounding);
       remove_modes(rewrite, line);
       if (rewrite.has_comment()) return false;
       const std::string text = rewrite.text();
       const syntax::ParsedLine parsed(text);
-      const Deed trial(parsed.tree(), after, setup_);
-      if (trial.has_error() || trial.motion().has_value() != deed.motion().has_value()) continue;
-      if (deed.motion() && !is_same(*deed.motion(), *trial.motion())) continue;
-      if (!is_same(old_, after, {mode_.group})) continue;
-      new_ = after;
+      const BlockRecorder trial(parsed.tree(), new_, setup_);
+      if (trial.has_error() || trial.motions().size() != done.motions().size()) continue;
+      if (done.motion() && !is_same(done.motion()->move, trial.motion()->move)) continue;
+      if (!is_same(old_, trial.state(), {mode_.group})) continue;
+      new_ = trial.state();
       has_changed_numbers_ |= has_changed;
       take(number, line, rewrite, text);
       return true;
@@ -375,22 +350,22 @@ class Dimensions {
         rewrite.remove(line.command(instruction).span());
   }
 
-  bool set_numbers(LineRewrite& rewrite, const LineTree& line, const Deed& deed, const State& before,
+  bool set_numbers(LineRewrite& rewrite, const LineTree& line, const BlockRecorder& done, const State& before,
                    double rounding) const {
-    const State& modes = deed.modes();
+    const State& modes = done.modes();
     const double old_scale = modes.mm_per_unit();
     State wanted = modes;
     wanted.set_mode(mode_.group, mode_.number);
     const double scale = wanted.mm_per_unit();
     const bool incremental = wanted.incremental();
     for (const Instruction& instruction : line.instructions) {
-      if (instruction.is_motion() && deed.motion()) {
-        set_motion(rewrite, line, instruction, *deed.motion(), scale, old_scale, incremental, rounding);
+      if (instruction.is_motion() && done.motion()) {
+        set_motion(rewrite, line, instruction, done.motion()->move, scale, old_scale, incremental, rounding);
       } else if (instruction.kind == InstructionKind::G && instruction.g() != nullptr && old_scale != scale) {
         set_origin(rewrite, line, instruction, before.mm_per_unit(), scale, rounding);
       }
     }
-    if (line.feed >= 0 && old_scale != scale) set_feed(rewrite, line, deed, old_scale / scale);
+    if (line.feed >= 0 && old_scale != scale) set_feed(rewrite, line, done, old_scale / scale);
     return !rewrite.edits().empty();
   }
 
@@ -425,8 +400,8 @@ class Dimensions {
   }
 
   /// Per minute and along a way: inverse time and degrees know no units.
-  static void set_feed(LineRewrite& rewrite, const LineTree& line, const Deed& deed, double factor) {
-    if (deed.modes().inverse_time()) return;
+  static void set_feed(LineRewrite& rewrite, const LineTree& line, const BlockRecorder& done, double factor) {
+    if (done.modes().inverse_time()) return;
     const Instruction* const motion = line.motion();
     if (motion && words_of(line, *motion, dialect::kLinearLetters).empty()) return;
     const Word& feed = line.words[static_cast<std::size_t>(line.feed)];

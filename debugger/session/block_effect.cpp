@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "interpreter/execution/execute.h"
+#include "interpreter/execution/block_recorder.h"
 #include "interpreter/geometry/helix.h"
 
 namespace isocnc::debugger::session {
@@ -30,25 +30,6 @@ std::vector<geometry::Pose> points_on(const execution::Move& arc) {
   return points;
 }
 
-class Scout final : public execution::Sink {
- public:
-  explicit Scout(BlockEffect& effect) : Sink(true), effect_(effect) {}
-
-  void report(const syntax::Finding& finding) override {
-    effect_.has_error |= dialect::definition(finding.id).severity == dialect::Severity::Error;
-  }
-  void move(const execution::Move& move, const execution::State& state) override {
-    effect_.moves.push_back(execution::in_machine(move, state));
-    if (move.kind == execution::MoveKind::Arc && move.sweep_deg != 0) effect_.on_arc = points_on(move);
-  }
-  void assign(int number, double value) override {
-    if (!std::isnan(value)) effect_.registers[static_cast<std::size_t>(number)] = value;
-  }
-
- private:
-  BlockEffect& effect_;
-};
-
 }  // namespace
 
 bool may_be_arc(const running::Block& block) {
@@ -64,10 +45,15 @@ bool changes_tool(const running::Block& block) {
 }
 
 BlockEffect effect_of(const running::Block& block, const execution::Setup& setup) {
-  BlockEffect effect{.state = block.state, .registers = block.registers, .moves = {}, .on_arc = {}};
-  Scout scout(effect);
-  for (const syntax::Finding& finding : block.tree.findings) scout.report(finding);
-  execution::execute(block.tree, effect.state, setup, scout);
+  const execution::BlockRecorder done(block.tree, block.state, setup);
+  BlockEffect effect{
+      .state = done.state(), .registers = block.registers, .moves = {}, .on_arc = {}, .has_error = done.has_error()};
+  for (const auto& [move, state] : done.motions()) {
+    effect.moves.push_back(execution::in_machine(move, state));
+    if (move.kind == execution::MoveKind::Arc && move.sweep_deg != 0) effect.on_arc = points_on(move);
+  }
+  for (const auto& [reg, value] : done.assignments())
+    if (!std::isnan(value)) effect.registers[static_cast<std::size_t>(reg)] = value;
   return effect;
 }
 

@@ -7,13 +7,13 @@
 
 namespace isocnc::debugger::session {
 
-/// What a block would bring about.
+/// The effects of a block.
 struct BlockEffect {
-  execution::State state;        ///< Behind it.
-  running::Registers registers;  ///< Behind it.
+  execution::State state;        ///< The state after it.
+  running::Registers registers;  ///< The registers after it.
   std::vector<execution::MachineMove> moves;
-  std::vector<geometry::Pose> on_arc;  ///< Points on the way along an arc, the extreme ones, too; frame in force.
-  bool has_error = false;              ///< Then it does nothing of that.
+  std::vector<geometry::Pose> on_arc;  ///< Points along an arc, the extreme ones among them; frame in force.
+  bool has_error = false;              ///< Whether the block is wrong, so that it does nothing of the above.
 };
 
 /// Whether the block drives an arc, unless it is wrong.

@@ -1,32 +1,16 @@
 #include "lsp/documents/line_run.h"
 
-#include "interpreter/execution/execute.h"
+#include "interpreter/execution/block_recorder.h"
 
 namespace isocnc::lsp::documents {
 
-namespace {
-
-/// Keeps the motion of a line.
-class MoveKeeper final : public execution::Sink {
- public:
-  explicit MoveKeeper(LineRun& run) : Sink(true), run_(run) {}
-  void report(const syntax::Finding&) override {}
-  void move(const execution::Move& move, const execution::State& state) override {
-    run_.move = move;
-    run_.moved_in = state;
-  }
-  void dwell(double seconds) override { run_.dwell = seconds; }
-
- private:
-  LineRun& run_;
-};
-
-}  // namespace
-
 static LineRun run_from(const Snapshot& snapshot, const execution::State& before, const syntax::LineTree& line) {
-  LineRun run{.before = before, .after = before, .move = {}, .moved_in = {}};
-  MoveKeeper keeper(run);
-  execution::execute(line, run.after, snapshot.setup(), keeper);
+  const execution::BlockRecorder done(line, before, snapshot.setup());
+  LineRun run{.before = before, .after = done.state(), .move = {}, .moved_in = {}, .dwell = done.dwell()};
+  if (done.motion()) {
+    run.move = done.motion()->move;
+    run.moved_in = done.motion()->state;
+  }
   return run;
 }
 

@@ -12,7 +12,7 @@
 #include "interpreter/dialect/codes.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/letters.h"
-#include "interpreter/execution/execute.h"
+#include "interpreter/execution/block_recorder.h"
 #include "interpreter/running/event.h"
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
@@ -66,28 +66,23 @@ std::string plain(std::string_view snippet) {
   return text;
 }
 
-/// Gathers the findings of a line by their kinds.
-class FindingCounter final : public execution::Sink {
- public:
-  FindingCounter() : Sink(false) {}
-  void report(const syntax::Finding& finding) override { ids.push_back(finding.id); }
-  std::vector<dialect::DiagnosticId> ids;
-};
-
 /// What is wrong with a line as it would be written, by kinds in order.
 std::vector<dialect::DiagnosticId> wrong_with(const std::string& text, const execution::State* state,
                                               const Snapshot& snapshot) {
   syntax::TreeStore store;
   store.append_line(text.data(), text.data() + text.size());
   const LineTree tree = store.tree(0, text.data());
-  FindingCounter counter;
-  for (const syntax::Finding& finding : tree.findings) counter.report(finding);
+  std::vector<dialect::DiagnosticId> ids;
+  const auto add = [&](const auto& findings) {
+    for (const syntax::Finding& finding : findings) ids.push_back(finding.id);
+  };
   if (state) {
-    execution::State after = *state;
-    execution::execute(tree, after, snapshot.setup(), counter);
+    add(execution::BlockRecorder(tree, *state, snapshot.setup()).findings());
+  } else {
+    add(tree.findings);
   }
-  std::sort(counter.ids.begin(), counter.ids.end());
-  return std::move(counter.ids);
+  std::sort(ids.begin(), ids.end());
+  return ids;
 }
 
 /// The state in which a line is tried: what may still be written before it (a feed, a tool) counts as written.
