@@ -9,7 +9,7 @@
 
 namespace isocnc::check {
 
-/// Chunks that are checked before somebody is asked whether to go on: a millisecond or so.
+/// Chunks that are checked between two calls of `stop`: a millisecond or so.
 static constexpr std::size_t kChunksAtOnce = 64;
 
 Analysis::Analysis(const syntax::Document& document, const execution::Setup& setup)
@@ -49,8 +49,8 @@ void Analysis::read_jumps(std::size_t chunk, Row& row) const {
 /// Finds labels, in ascending order, in a chunk that may define some of them. Whether it does.
 bool Analysis::read_labels(std::size_t chunk, const std::vector<std::uint64_t>& wanted) {
   Row& row = rows_[chunk];
-  const auto first = std::lower_bound(wanted.begin(), wanted.end(), row.labels.least);
-  if (first == wanted.end() || *first > row.labels.most) return false;
+  const auto first = std::lower_bound(wanted.begin(), wanted.end(), row.labels.min);
+  if (first == wanted.end() || *first > row.labels.max) return false;
   row.labels = {};
   const auto others = static_cast<std::ptrdiff_t>(row.jumps.size());
   each_event_in(document_.chunk_text(chunk), [&](const JumpEvent& event) {
@@ -281,7 +281,7 @@ void Analysis::check_chunk(std::size_t chunk, const syntax::ChunkTrees& trees, C
   *row.checked = {std::move(before), std::move(outcome)};
 }
 
-FirstFindings Analysis::excerpt(const FirstFindingsWishes& wishes) const {
+FirstFindings Analysis::excerpt(const FirstFindingsOptions& options) const {
   std::size_t last_text = rows_.size();
   while (last_text > 0 && !rows_[last_text - 1].has_text) --last_text;
   std::vector<PlacedOutcome> outcomes;
@@ -290,7 +290,7 @@ FirstFindings Analysis::excerpt(const FirstFindingsWishes& wishes) const {
       outcomes.push_back({&rows_[i].checked->outcome, document_.first_line_of_chunk(i)});
   return conclude(
       outcomes, counts_, end_, jumps_,
-      [&](std::uint64_t line) { return document_.text_of_line(static_cast<std::size_t>(line)); }, wishes);
+      [&](std::uint64_t line) { return document_.text_of_line(static_cast<std::size_t>(line)); }, options);
 }
 
 std::vector<LocatedFinding> Analysis::findings_on(std::size_t line) const {

@@ -15,7 +15,7 @@
 namespace isocnc::check {
 
 /// The check of a document that is being edited. It remembers where the check stood before each chunk of lines; after
-/// an edit it checks the chunks that changed, and those behind them until it stands where it stood before, or all is as
+/// an edit it checks the chunks that changed, and those after them until it stands where it stood before, or all is as
 /// before but shifted: over chunks that do not mind a shift it passes without looking at their lines. The report is the
 /// one that a fresh check would give.
 class Analysis {
@@ -27,12 +27,12 @@ class Analysis {
   Analysis(const syntax::Document& document, const execution::Setup& setup, Unchecked);
 
   /// Brings the analysis up to date with the document, whatever has been edited. Asked now and then whether to `stop`,
-  /// it may leave the rest for the next time: false, and until then nothing may be asked of it.
+  /// it may leave the rest for the next call: then it returns false, and nothing may be asked of it before that.
   bool update(const std::function<bool()>& stop = {});
   Report report() const { return excerpt({}).report; }
-  /// The first findings, for who does not want all of many.
-  FirstFindings excerpt(const FirstFindingsWishes& wishes) const;
-  /// How many findings there are, but for those that only the whole program shows.
+  /// The first findings of many.
+  FirstFindings excerpt(const FirstFindingsOptions& options) const;
+  /// The number of findings, without those that only the whole program shows.
   std::size_t finding_count() const { return counts_.all(); }
   /// The findings on a line of the document, without their paths and those that only the whole program shows.
   std::vector<LocatedFinding> findings_on(std::size_t line) const;
@@ -46,30 +46,30 @@ class Analysis {
  private:
   /// Where the check stood when it came to a chunk, and what it found there.
   struct Checked {
-    Frontier before;  ///< But for Row::shift.
-    Outcome outcome;  ///< Lines counted from the start of the chunk.
+    Frontier before;  ///< The frontier before the chunk, without Row::shift.
+    Outcome outcome;  ///< What was found, with lines counted from the start of the chunk.
   };
-  /// Between which labels all in a chunk are.
-  struct Labels {
-    std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
-    std::uint64_t most = 0;
+  /// The range of the labels in a chunk.
+  struct LabelRange {
+    std::uint64_t min = std::numeric_limits<std::uint64_t>::max();
+    std::uint64_t max = 0;
 
-    /// As long as nobody has read them.
-    static Labels any() { return {0, std::numeric_limits<std::uint64_t>::max()}; }
+    /// The range before they are read.
+    static LabelRange any() { return {0, std::numeric_limits<std::uint64_t>::max()}; }
     void add(std::uint64_t label) {
-      least = std::min(least, label);
-      most = std::max(most, label);
+      min = std::min(min, label);
+      max = std::max(max, label);
     }
   };
   struct Row {
-    PositionShift shift;    ///< Of all positions before the chunk, since it was checked.
-    PositionUse positions;  ///< Of the outcome.
-    bool is_stale = true;   ///< To be checked.
-    CenterUse centers;      ///< Of the outcome.
+    PositionShift shift;    ///< The shift of all positions before the chunk since it was checked.
+    PositionUse positions;  ///< A copy from the outcome.
+    bool is_stale = true;   ///< Whether the chunk must be checked.
+    CenterUse centers;      ///< A copy from the outcome.
     bool has_text = false;
-    bool has_more = false;         ///< Findings, labels, jumps or assignments.
-    std::vector<JumpEvent> jumps;  ///< What concerns jumps; of labels those alone that some jump names.
-    Labels labels = Labels::any();
+    bool has_more = false;         ///< Whether the outcome has findings, labels, jumps or assignments.
+    std::vector<JumpEvent> jumps;  ///< What concerns jumps; of the labels those that some jump names.
+    LabelRange labels = LabelRange::any();
     std::unique_ptr<Checked> checked = std::make_unique<Checked>();
   };
 
@@ -97,7 +97,7 @@ class Analysis {
   const execution::Setup& setup_;
   JumpMap jumps_;
   syntax::PerChunk<Row> rows_;
-  std::size_t line_count_ = 0;  // When the jumps were last seen to.
+  std::size_t line_count_ = 0;  // Lines of the document at the last update of the jumps.
   bool suspects_centers_ = false;
   Frontier end_;
   FindingCounts counts_;

@@ -18,12 +18,12 @@ using syntax::TreeStore;
 
 /// Text that is parsed in one go: its trees should stay in the cache until they are executed.
 static constexpr std::ptrdiff_t kBatchBytes = 16 * 1024;
-/// With several threads: so much that handing it over costs nothing beside it.
+/// With several threads: large enough that handing it over costs nothing in comparison.
 static constexpr std::ptrdiff_t kSharedBatchBytes = 64 * 1024;
 
 namespace {
 
-/// Nothing below is executed, and nothing is left to say of that.
+/// Whether nothing below is executed, and that has been reported.
 bool is_over(const Frontier& frontier) { return frontier.finished() && frontier.dead_reported; }
 
 /// Lines that have been parsed, not yet executed.
@@ -47,25 +47,24 @@ class Batch {
     for (std::size_t i = 0; i < trees.size();) {
       const std::size_t plain = checker.check_plain_lines(trees, i, line, outcome);
       line += plain;
-      for (const std::size_t behind = i + plain; i < behind; ++i) p = behind_line(i, p);
+      for (const std::size_t end = i + plain; i < end; ++i) p = after_line(i, p);
       if (i == trees.size()) break;
       checker.check_any(trees.tree(i, p), line++, outcome);
       if (is_over(checker.frontier)) return line;
-      p = behind_line(i++, p);
+      p = after_line(i++, p);
     }
     return line;
   }
 
  private:
-  /// Behind a line that begins at `p`, and its terminator.
-  const char* behind_line(std::size_t index, const char* p) const {
+  /// The place after a line that starts at `p`, and its terminator.
+  const char* after_line(std::size_t index, const char* p) const {
     return syntax::skip_line_end(p + trees.length(index), text + size);
   }
 };
 
-/// One pass over the text. Threads parse batches side by side. Whoever has parsed the batch that is next to be
-/// executed, while nobody executes, does so, and goes on as long as the next one is there; the others parse ahead
-/// meanwhile.
+/// One pass over the text. Threads parse batches side by side. The thread that has parsed the batch that is next to
+/// be executed, while none executes, does so, and goes on as long as the next one is there; the others parse ahead.
 class Pass {
  public:
   Pass(std::string_view text, const execution::Setup& setup, const JumpMap& jumps, bool suspects_centers, int jobs,
@@ -162,7 +161,7 @@ Report check_text(std::string_view text, const execution::Setup& setup, int jobs
     Outcome outcome = pass.take_outcome();
     // Rare, each at most once: a jump whose label is not below it (E004, E005), or not among the lines that had to be
     // read: once more with all labels known. Centers that count from the start in some arcs, and may do so in others:
-    // once more to tell of these.
+    // once more to report these.
     if (!jumps.knows_labels() && !all_jumps_land(outcome, jumps)) {
       jumps = JumpMap::with_labels(text);
     } else if (!suspects_centers && outcome.centers.from_start && outcome.centers.open) {

@@ -46,7 +46,7 @@ static void add_duplicate_labels(const std::vector<PlacedOutcome>& outcomes, con
     if (is_named[label]) findings.push_back(finding);
 }
 
-/// Registers that an IF compares and nothing assigns: said at the first such IF.
+/// Registers that an IF compares and nothing assigns: reported at the first such IF.
 static void add_unassigned_registers(const std::vector<PlacedOutcome>& outcomes, const JumpMap& jumps,
                                      std::vector<LocatedFinding>& findings) {
   RegisterSet unassigned = jumps.compared();
@@ -82,7 +82,7 @@ static bool may_hide_end(std::string_view text) {
   });
 }
 
-/// A path that reaches the end of the file without an M02: said on the last line with any text (D47).
+/// A path that reaches the end of the file without an M02: reported on the last line with any text (D47).
 static void add_missing_end(const std::vector<PlacedOutcome>& outcomes, const Frontier& end,
                             const std::function<std::string_view(std::uint64_t)>& text_of_line,
                             std::vector<Path>& paths, std::vector<LocatedFinding>& findings) {
@@ -108,12 +108,12 @@ static void add_missing_end(const std::vector<PlacedOutcome>& outcomes, const Fr
   findings.push_back(located);
 }
 
-/// Said once per program: one mistake, however many paths show it (D44).
-static constexpr dialect::DiagnosticId kSaidOnce[] = {"initial-tool-missing"_diag, "feed-missing"_diag,
-                                                      "too-many-paths"_diag};
+/// Findings reported once per program: one mistake, however many paths show it (D44).
+static constexpr dialect::DiagnosticId kReportedOnce[] = {"initial-tool-missing"_diag, "feed-missing"_diag,
+                                                          "too-many-paths"_diag};
 
 static void keep_first_of_each(std::vector<LocatedFinding>& findings) {
-  for (const dialect::DiagnosticId id : kSaidOnce) {
+  for (const dialect::DiagnosticId id : kReportedOnce) {
     bool seen = false;
     std::erase_if(findings, [&](const LocatedFinding& located) {
       if (located.finding.id != id) return false;
@@ -135,7 +135,7 @@ static void add_findings_of_whole(const std::vector<PlacedOutcome>& outcomes, co
   add_missing_end(outcomes, end, text_of_line, paths, findings);
 }
 
-/// Brings findings into their order, and tells their paths as users read them.
+/// Brings findings into their order, and their paths into the form that users read.
 static Report ordered(std::vector<LocatedFinding> findings, const std::vector<Path>& paths, const JumpMap& jumps) {
   Report report{.findings = std::move(findings), .paths = {}};
   if (!std::is_sorted(report.findings.begin(), report.findings.end(), by_place))
@@ -160,12 +160,13 @@ Report conclude(Outcome outcome, const Frontier& end, const JumpMap& jumps,
 namespace {
 
 /// Takes findings until there are enough, and counts the others.
-class Gatherer {
+class ExcerptCollector {
  public:
-  Gatherer(const FirstFindingsWishes& wishes, FirstFindings& excerpt) : wishes_(wishes), excerpt_(excerpt) {}
+  ExcerptCollector(const FirstFindingsOptions& options, FirstFindings& excerpt)
+      : options_(options), excerpt_(excerpt) {}
 
-  bool has_enough() const { return taken_ >= wishes_.most; }
-  /// The line behind all that have been taken.
+  bool has_enough() const { return taken_ >= options_.max; }
+  /// The line after all that have been taken.
   std::uint64_t end() const { return end_; }
 
   void take(const PlacedOutcome& placed) {
@@ -184,7 +185,7 @@ class Gatherer {
     if (counts(located.finding.id)) ++taken_;
   }
   void count(dialect::DiagnosticId id, std::size_t number = 1) {
-    if (is_said_once(id)) number = 1;
+    if (is_reported_once(id)) number = 1;
     if (counts(id)) excerpt_.left_out += number;
   }
 
@@ -192,51 +193,51 @@ class Gatherer {
   std::vector<Path> paths;
 
  private:
-  static bool is_said_once(dialect::DiagnosticId id) {
-    return std::find(std::begin(kSaidOnce), std::end(kSaidOnce), id) != std::end(kSaidOnce);
+  static bool is_reported_once(dialect::DiagnosticId id) {
+    return std::find(std::begin(kReportedOnce), std::end(kReportedOnce), id) != std::end(kReportedOnce);
   }
   bool counts(dialect::DiagnosticId id) {
-    for (std::size_t i = 0; i < std::size(kSaidOnce); ++i)
-      if (kSaidOnce[i] == id && std::exchange(said_[i], true)) return false;
-    return !wishes_.counts || wishes_.counts(id);
+    for (std::size_t i = 0; i < std::size(kReportedOnce); ++i)
+      if (kReportedOnce[i] == id && std::exchange(reported_[i], true)) return false;
+    return !options_.counts || options_.counts(id);
   }
 
-  const FirstFindingsWishes& wishes_;
+  const FirstFindingsOptions& options_;
   FirstFindings& excerpt_;
   std::size_t taken_ = 0;
   std::uint64_t end_ = 0;
-  std::array<bool, std::size(kSaidOnce)> said_{};
+  std::array<bool, std::size(kReportedOnce)> reported_{};
 };
 
 }  // namespace
 
 FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const FindingCounts& counts, const Frontier& end,
                        const JumpMap& jumps, const std::function<std::string_view(std::uint64_t)>& text_of_line,
-                       const FirstFindingsWishes& wishes) {
+                       const FirstFindingsOptions& options) {
   FirstFindings excerpt;
-  Gatherer gatherer(wishes, excerpt);
+  ExcerptCollector collector(options, excerpt);
   auto next = outcomes.begin();
   FindingCounts left = counts;
-  for (; next != outcomes.end() && !gatherer.has_enough(); ++next) {
-    gatherer.take(*next);
+  for (; next != outcomes.end() && !collector.has_enough(); ++next) {
+    collector.take(*next);
     left.remove(*next->outcome);
   }
   const bool has_all = next == outcomes.end();
   for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
     const dialect::DiagnosticId id{static_cast<std::uint8_t>(i)};
-    if (left.of(id) > 0) gatherer.count(id, left.of(id));
+    if (left.of(id) > 0) collector.count(id, left.of(id));
   }
   std::vector<LocatedFinding> of_whole;
-  add_findings_of_whole(outcomes, end, jumps, text_of_line, gatherer.paths, of_whole);
-  const std::uint64_t behind = gatherer.end();
+  add_findings_of_whole(outcomes, end, jumps, text_of_line, collector.paths, of_whole);
+  const std::uint64_t next_line = collector.end();
   for (const LocatedFinding& located : of_whole) {
-    if (has_all || located.line < behind) {
-      gatherer.take(located);
+    if (has_all || located.line < next_line) {
+      collector.take(located);
     } else {
-      gatherer.count(located.finding.id);
+      collector.count(located.finding.id);
     }
   }
-  excerpt.report = ordered(std::move(gatherer.findings), gatherer.paths, jumps);
+  excerpt.report = ordered(std::move(collector.findings), collector.paths, jumps);
   return excerpt;
 }
 

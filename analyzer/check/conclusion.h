@@ -16,29 +16,29 @@ struct PlacedOutcome {
   std::uint64_t first_line = 0;
 };
 
-/// The first findings of a program, and how many there are behind them.
+/// The first findings of a program, and how many follow them.
 struct FirstFindings {
   Report report;
-  std::size_t left_out = 0;  ///< Those that count.
+  std::size_t left_out = 0;  ///< Findings that count and are not in the report.
 };
 
-/// What an excerpt is to hold.
-struct FirstFindingsWishes {
-  std::size_t most = static_cast<std::size_t>(-1);         ///< So many findings that count, or a few more.
-  std::function<bool(dialect::DiagnosticId)> counts = {};  ///< Without it all do.
+/// What an excerpt holds.
+struct FirstFindingsOptions {
+  std::size_t max = static_cast<std::size_t>(-1);  ///< Findings that count; a few more where they come together.
+  std::function<bool(dialect::DiagnosticId)> counts = {};  ///< Which findings count; without it all do.
 };
 
-/// Puts together what was found: sorts, adds what only the whole program shows (E006, ISO045), and leaves of the
-/// findings that are said once per program the first (D44). `text_of_line` gives a line's text.
+/// Puts together what was found: sorts, adds what only the whole program shows (E006, ISO045), and keeps the first of
+/// the findings that are reported once per program (D44). `text_of_line` gives a line's text.
 Report conclude(Outcome outcome, const Frontier& end, const JumpMap& jumps,
                 const std::function<std::string_view(std::uint64_t)>& text_of_line);
 /// The same of several outcomes, in the order of the program, and of the `counts` of them all. Those that have nothing
-/// but `has_text` may be left out, but the last that has.
+/// but `has_text` may be left out, except the last of these.
 FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const FindingCounts& counts, const Frontier& end,
                        const JumpMap& jumps, const std::function<std::string_view(std::uint64_t)>& text_of_line,
-                       const FirstFindingsWishes& wishes = {});
+                       const FirstFindingsOptions& options = {});
 
-/// Whether the labels seen tell where each jump on a feasible path goes.
+/// Whether each jump on a feasible path leads to one of the labels seen.
 bool all_jumps_land(const Outcome& outcome, const JumpMap& jumps);
 
 }  // namespace isocnc::check

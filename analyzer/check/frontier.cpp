@@ -81,21 +81,21 @@ void Groups::converge() {
   order.reserve(all_.size());
   for (std::size_t i = 0; i < all_.size(); ++i) order.emplace_back(hash_of(all_[i].state), i);
   std::sort(order.begin(), order.end());
-  std::vector<bool> is_gone;
+  std::vector<bool> is_merged;
   for (std::size_t i = 0; i < order.size(); ++i)
     for (std::size_t j = i + 1; j < order.size() && order[j].first == order[i].first; ++j) {
       const std::size_t into = order[i].second;
       const std::size_t other = order[j].second;
-      if (!is_gone.empty() && (is_gone[into] || is_gone[other])) continue;
+      if (!is_merged.empty() && (is_merged[into] || is_merged[other])) continue;
       if (!execution::judged_alike(all_[into].state, all_[other].state)) continue;
       merge(all_[into], std::move(all_[other]));
-      is_gone.resize(all_.size());
-      is_gone[other] = true;
+      is_merged.resize(all_.size());
+      is_merged[other] = true;
     }
-  if (is_gone.empty()) return;
+  if (is_merged.empty()) return;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < all_.size(); ++i)
-    if (!is_gone[i]) {
+    if (!is_merged[i]) {
       if (kept != i) all_[kept] = std::move(all_[i]);
       ++kept;
     }

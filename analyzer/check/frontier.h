@@ -42,8 +42,8 @@ class Groups {
   void join(Groups&& groups);
   /// Joins groups whose states have met.
   void converge();
-  /// Joins groups until at most `limit` are left: first those that differ in position alone, whose position then counts
-  /// as unknown; then it drops the last. Gives up completeness, never correctness.
+  /// Joins groups until `limit` or fewer are left: first those that differ in position alone, whose position then
+  /// counts as unknown; then it drops the last. Gives up completeness, never correctness.
   void reduce_to(std::size_t limit);
 
   friend bool operator==(const Groups&, const Groups&) = default;

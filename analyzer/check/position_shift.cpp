@@ -30,11 +30,11 @@ bool PositionShift::add(const PositionShift& other) {
   PositionShift sum = *this;
   for (int axis = 0; axis < kAxisCount; ++axis) {
     if (!has(other.axes, axis)) continue;
-    double& way = coordinate(sum.by, axis);
-    way = geometry::advanced(way, coordinate(other.by, axis));
-    if (std::abs(way) > kFarthestShift) return false;
+    double& distance = coordinate(sum.by, axis);
+    distance = geometry::advanced(distance, coordinate(other.by, axis));
+    if (std::abs(distance) > kFarthestShift) return false;
     const execution::AxisSet bit = execution::axis_bit(static_cast<Axis>(axis));
-    sum.axes = static_cast<execution::AxisSet>(way == 0 ? sum.axes & ~bit : sum.axes | bit);
+    sum.axes = static_cast<execution::AxisSet>(distance == 0 ? sum.axes & ~bit : sum.axes | bit);
   }
   *this = sum;
   return true;
@@ -61,9 +61,9 @@ static std::optional<PositionShift> shift_between(const Pose& from, const Pose& 
     const double after = coordinate(to, axis);
     if (before == after) continue;
     if (!geometry::is_on_step(before) || !geometry::is_on_step(after)) return std::nullopt;
-    const double way = geometry::advanced(after, -before);
-    if (std::abs(way) > kFarthestShift || geometry::advanced(before, way) != after) return std::nullopt;
-    coordinate(shift.by, axis) = way;
+    const double distance = geometry::advanced(after, -before);
+    if (std::abs(distance) > kFarthestShift || geometry::advanced(before, distance) != after) return std::nullopt;
+    coordinate(shift.by, axis) = distance;
     shift.axes |= execution::axis_bit(static_cast<Axis>(axis));
   }
   return shift;

@@ -6,21 +6,21 @@
 
 namespace isocnc::check {
 
-/// A move of all positions by the same way, in whole steps (geometry::advanced). Where moves are incremental, what is
-/// executed behind it is shifted as well, and otherwise the same.
+/// A move of all positions by the same distance, in whole steps (geometry::advanced). Where moves are incremental, what
+/// is executed after it is shifted as well, and otherwise the same.
 struct PositionShift {
   geometry::Pose by;
-  execution::AxisSet axes = 0;  ///< Those that it moves.
+  execution::AxisSet axes = 0;  ///< The axes that it moves.
 
   bool empty() const { return axes == 0; }
   /// Ends the shift of these axes.
   void drop(execution::AxisSet dropped);
-  /// Adds a shift behind this one; false, with nothing done, when they lead too far to add up exactly.
+  /// Adds a shift after this one; false, with nothing done, when they lead too far to add up exactly.
   bool add(const PositionShift& other);
   void apply(Frontier& frontier) const;
 };
 
-/// The shift that makes one frontier of another, where nothing else tells them apart. Nothing when there is none.
+/// The shift that makes one frontier of another, where they differ in nothing else. Nothing where there is none.
 std::optional<PositionShift> shift_between(const Frontier& from, const Frontier& to);
 
 }  // namespace isocnc::check

@@ -84,20 +84,20 @@ bool operator==(const Valuations& a, const Valuations& b) {
   if (a.known_ == b.known_) return a.all_ == b.all_;
   Valuations less_of_a = a;
   Valuations less_of_b = b;
-  less_of_a.forget(a.known_ & ~a.telling());
-  less_of_b.forget(b.known_ & ~b.telling());
+  less_of_a.forget(a.known_ & ~a.restricted());
+  less_of_b.forget(b.known_ & ~b.restricted());
   return less_of_a.known_ == less_of_b.known_ && less_of_a.all_ == less_of_b.all_;
 }
 
-RegisterSet Valuations::telling() const {
-  RegisterSet telling = 0;
+RegisterSet Valuations::restricted() const {
+  RegisterSet restricted = 0;
   for (RegisterSet left = known_; left != 0; left &= left - 1) {
     const int reg = std::countr_zero(left);
     const auto place = static_cast<std::size_t>(place_of(reg, known_));
-    const auto tells = [&](const Valuation& valuation) { return !valuation[place].is_everything(); };
-    if (std::any_of(all_.begin(), all_.end(), tells)) telling |= register_bit(reg);
+    const auto restricts = [&](const Valuation& valuation) { return !valuation[place].is_everything(); };
+    if (std::any_of(all_.begin(), all_.end(), restricts)) restricted |= register_bit(reg);
   }
-  return telling;
+  return restricted;
 }
 
 void Valuations::know(RegisterSet registers) {

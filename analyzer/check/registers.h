@@ -42,7 +42,7 @@ class ValueSet {
 
   std::size_t count() const { return empty() ? 0 : 1 + tail_.size(); }
   const Range& range(std::size_t index) const { return index == 0 ? head_ : tail_[index - 1]; }
-  /// Adds a range behind all others, joined to the last when nothing lies between them.
+  /// Adds a range above all others, joined to the last when nothing lies between them.
   void append(Range range);
 
   /// Further ranges. Nearly always there are none, and then copying them costs nothing.
@@ -93,7 +93,7 @@ class Valuations {
   /// What remains of it where the condition of a jump on a register holds, or does not.
   Valuations where(const syntax::Jump& jump, bool holds) const;
   void unite(Valuations other);
-  /// Forgets the registers that are not in `read`: no IF will see their values, so they tell no two states apart.
+  /// Forgets the registers that are not in `read`: no IF will see their values, so no two states differ in them.
   void keep_only(RegisterSet read);
   bool possible() const { return !all_.empty(); }
   std::size_t size() const { return all_.size(); }
@@ -108,11 +108,11 @@ class Valuations {
   void add_all_again();
   void know(RegisterSet registers);
   void forget(RegisterSet registers);
-  /// Of what is known, the registers of which some valuation tells something.
-  RegisterSet telling() const;
+  /// Of the registers that are known, those that some valuation restricts.
+  RegisterSet restricted() const;
 
   std::vector<Valuation> all_;
-  RegisterSet known_ = 0;  ///< The registers of each valuation.
+  RegisterSet known_ = 0;  ///< The registers that each valuation holds.
 };
 
 }  // namespace isocnc::check

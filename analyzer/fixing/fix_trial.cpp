@@ -16,16 +16,15 @@ using fixes::Edit;
 using fixes::Fix;
 
 /// Lines of the finding and its edits, and lines below them.
-static constexpr std::uint64_t kMostEdited = 6'000;
-static constexpr std::uint64_t kFarthest = 10'000;
-/// Lines, times the states in which each is executed, for all fixes of a program; and so many more for each of its
-/// lines.
-static constexpr std::uint64_t kLeastWork = 400'000;
+static constexpr std::uint64_t kMaxEdited = 6'000;
+static constexpr std::uint64_t kMaxFollowed = 10'000;
+/// Lines, times the states in which each is executed, for all fixes of a program; and the same for each of its lines.
+static constexpr std::uint64_t kMinWork = 400'000;
 static constexpr std::uint64_t kWorkPerLine = 20;
 /// Lines that are tried when all that has been spent: what most fixes could do wrong shows where they are made.
 static constexpr std::uint64_t kNearest = 8;
 /// Lines below the edits that are looked over for whether the program ends there.
-static constexpr std::uint64_t kMostBlank = 8;
+static constexpr std::uint64_t kMaxBlank = 8;
 
 namespace {
 
@@ -132,7 +131,8 @@ struct FixTrial::Comparison {
   bool has_met() const { return without.frontier() == with.frontier(); }
 };
 
-/// Whether nothing that is told by default is found more often, and the finding's own code, where it was found, less.
+/// Whether nothing that is reported by default is found more often, and the finding's own code, where it was found,
+/// less.
 static bool is_better(const Balance& balance, bool found_own, const check::LocatedFinding& located) {
   for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
     const dialect::DiagnosticId id{static_cast<std::uint8_t>(i)};
@@ -146,7 +146,7 @@ FixTrial::FixTrial(fixes::Program& program, const execution::Setup& setup, const
       setup_(setup),
       jumps_(jumps),
       lines_(program),
-      work_left_(kLeastWork + kWorkPerLine * program.line_count()) {}
+      work_left_(kMinWork + kWorkPerLine * program.line_count()) {}
 
 /// Jumps are known by their number in the program, and labels by where they stand.
 bool FixTrial::is_concerned_by_jumps(const syntax::LineTree& line) const {
@@ -253,7 +253,7 @@ bool FixTrial::mends(const Fix& fix, const check::LocatedFinding& located, const
     if (edit.begin.line < first) return mends_in_whole(fix, located);
     last = std::max(last, edit.end.line);
   }
-  if (last - first > (work_left_ > 0 ? kMostEdited : kNearest)) return true;
+  if (last - first > (work_left_ > 0 ? kMaxEdited : kNearest)) return true;
 
   const std::string text = edited_lines(program_, first, last, fix.edits);
   const TextLines edited(text);
@@ -280,8 +280,8 @@ void FixTrial::spend(const check::Frontier& frontier) {
 bool FixTrial::follow(Comparison& compared, std::uint64_t next, const check::LocatedFinding& located) {
   const std::uint64_t end = program_.line_count();
   const std::uint64_t nearest = next + kNearest;
-  const std::uint64_t farthest = std::min(end, next + kFarthest);
-  const auto is_near_end = [&] { return end - next <= kMostBlank; };
+  const std::uint64_t farthest = std::min(end, next + kMaxFollowed);
+  const auto is_near_end = [&] { return end - next <= kMaxBlank; };
   Trail trail;
   std::optional<Trail::Rest> rest;
   while (next < farthest && (work_left_ > 0 || next < nearest) && (!compared.has_met() || is_near_end())) {

@@ -19,8 +19,8 @@ bool reads_better(const check::Report& before, const check::Report& after, fixes
 /// Tries fixes out, one at a time, on the part of a program that they concern: from the finding's line on, until the
 /// check stands where it would stand without them, or where an earlier fix has led it (of twenty that put the same
 /// mode in force, only the first is followed to its end). Those that edit jumps, labels or lines above the finding are
-/// tried on the whole program. A fix that leaves its finding, or brings another one that is told by default, is none.
-/// What cannot be seen there counts as fine: effects more than a few thousand lines below, or, once the trials of
+/// tried on the whole program. A fix that leaves its finding, or brings another one that is reported by default, is
+/// none. What cannot be seen there counts as fine: effects more than a few thousand lines below, or, once the trials of
 /// a program have cost too much, more than a few.
 class FixTrial {
  public:
@@ -50,7 +50,7 @@ class FixTrial {
   RecentTrees lines_;
   Trails trails_;
   std::uint64_t work_left_;
-  std::optional<check::Report> found_in_whole_;  // Once it is asked for.
+  std::optional<check::Report> found_in_whole_;  // The report on the whole program, once it has been asked for.
   std::array<std::optional<bool>, fixes::kHabitCount> mended_habits_;
 };
 

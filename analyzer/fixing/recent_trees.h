@@ -9,7 +9,7 @@
 
 namespace isocnc::fixing {
 
-/// Trees of a program's lines, for who goes over the same lines again and again: each is parsed once, or nearly so.
+/// Trees of a program's lines, to go over the same lines again and again: each is parsed once, or nearly so.
 class RecentTrees {
  public:
   explicit RecentTrees(fixes::Program& program) : program_(program) {}
@@ -18,7 +18,7 @@ class RecentTrees {
   syntax::LineTree operator[](std::uint64_t line);
 
  private:
-  static constexpr std::size_t kMost = 256;
+  static constexpr std::size_t kMaxTrees = 256;
 
   struct Parsed {
     std::optional<std::uint64_t> line;
@@ -26,7 +26,7 @@ class RecentTrees {
   };
 
   fixes::Program& program_;
-  std::array<Parsed, kMost> parsed_;  ///< Where the line's number leads.
+  std::array<Parsed, kMaxTrees> parsed_;  ///< The trees, each at the number of its line modulo kMaxTrees.
 };
 
 }  // namespace isocnc::fixing

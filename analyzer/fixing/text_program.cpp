@@ -12,9 +12,9 @@ using syntax::LineTree;
 /// A check on its way down the text.
 struct TextProgram::Walk {
   check::Checker checker;
-  check::Outcome outcome;  // Nobody asks for it.
+  check::Outcome outcome;  // The findings, which are not used.
   syntax::TreeStore store;
-  std::uint64_t line = 0;  // The next one.
+  std::uint64_t line = 0;  // The next line.
 
   void step(std::string_view text) {
     store.clear();
@@ -116,9 +116,9 @@ std::size_t TextProgram::offset(const syntax::Position& position) const {
 std::string_view TextProgram::line_end(std::uint64_t line) const {
   const std::vector<std::size_t>& all = starts();
   if (all.size() == 1) return "\n";
-  const std::size_t behind = all[std::min<std::size_t>(line + 1, all.size() - 1)];
-  const bool is_pair = text_[behind - 1] == '\n' && behind > 1 && text_[behind - 2] == '\r';
-  return text_.substr(behind - (is_pair ? 2 : 1), is_pair ? 2 : 1);
+  const std::size_t end = all[std::min<std::size_t>(line + 1, all.size() - 1)];
+  const bool is_pair = text_[end - 1] == '\n' && end > 1 && text_[end - 2] == '\r';
+  return text_.substr(end - (is_pair ? 2 : 1), is_pair ? 2 : 1);
 }
 
 }  // namespace isocnc::fixing

@@ -48,11 +48,11 @@ class TextProgram final : public fixes::Program {
   std::string_view text_;
   const execution::Setup& setup_;
   std::function<void()> on_line_;
-  mutable std::vector<std::size_t> starts_;  // Of the lines; found when first asked for.
-  syntax::TreeStore tree_;                   // Of line `parsed_`.
+  mutable std::vector<std::size_t> starts_;  // Where lines start; found when first asked for.
+  syntax::TreeStore tree_;                   // The tree of line `parsed_`.
   std::optional<std::uint64_t> parsed_;
   std::optional<check::JumpMap> jumps_;
-  std::unique_ptr<Walk> walk_;  // The check, as far as it has come.
+  std::unique_ptr<Walk> walk_;  // The check, up to the last line asked for.
   std::optional<std::uint64_t> last_line_number_;
 };
 

@@ -5,19 +5,19 @@
 
 namespace isocnc::fixing {
 
-/// Lines between two marks, at the same places in all trails; and those below the change that are too near for one.
+/// Lines from one mark to the next, at the same places in all trails; and lines next to the change, which have none.
 static constexpr std::uint64_t kBetweenMarks = 8;
 static constexpr std::uint64_t kNear = 16;
-/// Lines that a trail must have seen from where it is met.
-static constexpr std::uint64_t kFewest = 5'000;
-/// What would take much room is not kept.
-static constexpr std::size_t kMostGroups = 4;
-static constexpr std::size_t kMostLabels = 8;
+/// Lines that a trail must have passed after the place where it is met.
+static constexpr std::uint64_t kMinLines = 5'000;
+/// Larger frontiers are not kept: they would take much memory.
+static constexpr std::size_t kMaxGroups = 4;
+static constexpr std::size_t kMaxLabels = 8;
 
 static bool is_small(const check::Frontier& frontier) {
-  return frontier.live.size() <= kMostGroups && frontier.waiting().size() <= kMostLabels &&
+  return frontier.live.size() <= kMaxGroups && frontier.waiting().size() <= kMaxLabels &&
          std::all_of(frontier.waiting().begin(), frontier.waiting().end(),
-                     [](const auto& waiting) { return waiting.second.size() <= kMostGroups; });
+                     [](const auto& waiting) { return waiting.second.size() <= kMaxGroups; });
 }
 
 void Trail::pass(std::uint64_t next_line, const check::Frontier& frontier, const Balance& so_far) {
@@ -31,7 +31,7 @@ void Trail::end(const Balance& so_far, const Rest& rest) {
 }
 
 std::optional<Trail::Rest> Trail::rest_from(std::uint64_t line, const check::Frontier& frontier) const {
-  if (line % kBetweenMarks != 0 || (all_.has_more && all_.next_line < line + kFewest)) return std::nullopt;
+  if (line % kBetweenMarks != 0 || (all_.has_more && all_.next_line < line + kMinLines)) return std::nullopt;
   const auto mark = std::lower_bound(marks_.begin(), marks_.end(), line,
                                      [](const Mark& each, std::uint64_t wanted) { return each.next_line < wanted; });
   if (mark == marks_.end() || mark->next_line != line || mark->frontier != frontier) return std::nullopt;
@@ -41,7 +41,7 @@ std::optional<Trail::Rest> Trail::rest_from(std::uint64_t line, const check::Fro
 }
 
 void Trails::keep(Trail trail) {
-  if (trails_.size() == kMost) trails_.pop_front();
+  if (trails_.size() == kMaxTrails) trails_.pop_front();
   trails_.push_back(std::move(trail));
 }
 

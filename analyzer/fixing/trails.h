@@ -35,25 +35,25 @@ class Balance {
   std::array<int, dialect::kDiagnosticCount> counts_{};
 };
 
-/// What a change has led to, line by line below it: where the check then stood, and what it had found so far.
+/// The effects of a change, line by line below it: where the check then stood, and what it had found so far.
 class Trail {
  public:
   /// The last part of one.
   struct Rest {
-    Balance balance;              ///< Of what is found there.
-    std::uint64_t next_line = 0;  ///< Behind it.
-    bool has_more = false;        ///< Below that the change may still count.
+    Balance balance;              ///< The balance of what is found there.
+    std::uint64_t next_line = 0;  ///< The line after it.
+    bool has_more = false;        ///< Whether the change may still count from that line on.
   };
 
-  /// To be told every line below the change, in their order.
+  /// Notes the check after each line below the change, in their order.
   void pass(std::uint64_t next_line, const check::Frontier& frontier, const Balance& so_far);
-  /// How it went on behind what it has passed.
+  /// Ends with what followed the lines that it has passed.
   void end(const Balance& so_far, const Rest& rest);
 
-  /// Shorter ones are as soon followed once more.
+  /// Whether it is worth keeping: shorter ones are followed again in the same time.
   bool is_long() const { return passed_ >= kLong; }
-  /// What it found from this line on, where the check stood as it does; nothing when it did not, or when too few lines
-  /// followed.
+  /// What it found from this line on, where the check stood as it does here; nothing when it did not, or when too few
+  /// lines followed.
   std::optional<Rest> rest_from(std::uint64_t line, const check::Frontier& frontier) const;
 
  private:
@@ -77,7 +77,7 @@ class Trails {
   std::optional<Trail::Rest> rest_from(std::uint64_t line, const check::Frontier& frontier) const;
 
  private:
-  static constexpr std::size_t kMost = 4;
+  static constexpr std::size_t kMaxTrails = 4;
 
   std::deque<Trail> trails_;
 };

@@ -31,7 +31,7 @@ EachLine each_line_of(std::string_view text) {
   };
 }
 
-/// Blanks and letter case in a label are nobody's business.
+/// The label without blanks and letter case, which mean nothing.
 static std::string label_text(std::string_view written) {
   std::string text;
   for (const char c : written)
@@ -58,10 +58,8 @@ void Renumbering::refuse(Obstacle::Kind kind, std::uint64_t line, std::string la
 }
 
 void Renumbering::read_jump(std::uint64_t number, const LineTree& line) {
-  const auto speaks_of_lines = [](const syntax::Word& word) {
-    return word.letter == 'N' || word.letter == syntax::kGoto;
-  };
-  if (!line.findings.empty() && std::any_of(line.words.begin(), line.words.end(), speaks_of_lines))
+  const auto names_a_line = [](const syntax::Word& word) { return word.letter == 'N' || word.letter == syntax::kGoto; };
+  if (!line.findings.empty() && std::any_of(line.words.begin(), line.words.end(), names_a_line))
     return refuse(Obstacle::Kind::Error, number);
   if (line.jump == nullptr || !line.jump->has_target) return;
   labels_.try_emplace(line.jump->target, Label{label_text(line.text_of(line.jump->target_span)), number});

@@ -15,11 +15,11 @@ namespace isocnc::formatting {
 /// Line numbers as they should be.
 struct NumberStyle {
   std::uint64_t start = 10;
-  std::uint64_t step = 10;  ///< At least 1.
-  bool all_lines = false;   ///< Also blocks that have none.
+  std::uint64_t step = 10;  ///< 1 or more.
+  bool all_lines = false;   ///< Whether blocks without a number get one.
 };
 
-/// Shows somebody all lines of a program, in order.
+/// Calls `look` with all lines of a program, in order.
 using EachLine = std::function<void(const std::function<void(const syntax::LineTree&)>& look)>;
 
 /// The lines of a text, which must outlive this.
@@ -33,8 +33,8 @@ class Renumbering {
     enum class Kind : std::uint8_t { Error, LabelMissing, LabelTwice, TooManyDigits };
 
     Kind kind = Kind::Error;
-    std::uint64_t line = 0;  ///< From 0.
-    std::string label;       ///< As the GOTO writes it.
+    std::uint64_t line = 0;  ///< The line, counted from 0.
+    std::string label;       ///< The label as the GOTO writes it.
 
     std::string message(dialect::Language language) const;
   };
@@ -50,7 +50,7 @@ class Renumbering {
   struct Label {
     std::string text;
     std::uint64_t jump_line = 0;
-    std::uint64_t number = 0;  // The new one.
+    std::uint64_t number = 0;  // The new number.
     bool is_defined = false;
   };
 
@@ -61,7 +61,7 @@ class Renumbering {
 
   NumberStyle style_;
   std::uint64_t next_;
-  std::unordered_map<std::uint64_t, Label> labels_;  // That jumps name.
+  std::unordered_map<std::uint64_t, Label> labels_;  // The labels that jumps name.
   std::optional<Obstacle> obstacle_;
 };
 

@@ -4,16 +4,16 @@
 #include <iterator>
 #include <optional>
 
-#include "lsp/documents/ways.h"
+#include "lsp/documents/jump_paths.h"
 
 namespace isocnc::lsp::documents {
 
 std::vector<Occurrence> assignments_reaching(const Snapshot& snapshot, const Occurrence& read) {
   std::vector<Occurrence> all = occurrences(snapshot, read.name);
   std::erase_if(all, [](const Occurrence& each) { return !each.is_definition; });
-  const std::vector<std::size_t> lines =
-      Ways(snapshot).nearest_above(read.line, [&](std::size_t first, std::size_t behind) -> std::optional<std::size_t> {
-        const auto below = std::lower_bound(all.begin(), all.end(), behind,
+  const std::vector<std::size_t> lines = JumpPaths(snapshot).nearest_above(
+      read.line, [&](std::size_t first, std::size_t end) -> std::optional<std::size_t> {
+        const auto below = std::lower_bound(all.begin(), all.end(), end,
                                             [](const Occurrence& each, std::size_t line) { return each.line < line; });
         return below == all.begin() || std::prev(below)->line < first ? std::nullopt
                                                                       : std::optional(std::prev(below)->line);

@@ -7,7 +7,7 @@
 namespace isocnc::lsp::documents {
 
 /// The assignments whose value may be in the register when it is read there, in the order of the program. None where
-/// no way leads from one to it.
+/// no path leads from one to it.
 std::vector<Occurrence> assignments_reaching(const Snapshot& snapshot, const Occurrence& read);
 
 }  // namespace isocnc::lsp::documents

@@ -113,7 +113,7 @@ check::FirstFindings OpenDocument::excerpt(std::size_t most) {
   if (!is_long()) return {report(), 0};
   const selection::Selection& selection = settings_.program->selection;
   check::FirstFindings first =
-      analysis_->excerpt({.most = most, .counts = [&](dialect::DiagnosticId id) { return selection.shows(id); }});
+      analysis_->excerpt({.max = most, .counts = [&](dialect::DiagnosticId id) { return selection.shows(id); }});
   first.report = selection.shown(std::move(first.report));
   return first;
 }

@@ -4,17 +4,17 @@
 #include <vector>
 
 #include "lsp/documents/assignments.h"
-#include "lsp/documents/ways.h"
+#include "lsp/documents/jump_paths.h"
 #include "lsp/features/feature.h"
 
 /// From a GOTO to its label, from a register to where it got its value, from coordinates alone to the G that they go on
 /// with.
 namespace isocnc::lsp::features {
 
+using documents::JumpPaths;
 using documents::Location;
 using documents::NameKind;
 using documents::Occurrence;
-using documents::Ways;
 using syntax::Span;
 
 namespace {
@@ -62,8 +62,8 @@ bool is_continuation(const syntax::LineTree& line, std::uint32_t column) {
 
 /// The motion Gs that may be in force before a line.
 std::vector<Spot> motions_before(const Snapshot& snapshot, std::size_t line) {
-  return Ways(snapshot).nearest_above(line, [&](std::size_t first, std::size_t behind) -> std::optional<Spot> {
-    for (std::size_t at = behind; at-- > first;) {
+  return JumpPaths(snapshot).nearest_above(line, [&](std::size_t first, std::size_t end) -> std::optional<Spot> {
+    for (std::size_t at = end; at-- > first;) {
       if (at % 1024 == 0) snapshot.give_way();
       const syntax::DocumentLine line = snapshot.document().line(at);
       if (const auto span = motion_span(*line)) return Spot{at, *span};

@@ -3,11 +3,11 @@
 #include <utility>
 #include <vector>
 
+#include "lsp/documents/jump_paths.h"
 #include "lsp/documents/outline.h"
-#include "lsp/documents/ways.h"
 #include "lsp/features/feature.h"
 
-/// What can be folded away: sections, what an IF passes over, comments, and what stands behind the end.
+/// What can be folded away: sections, what an IF passes over, comments, and what stands after the end.
 namespace isocnc::lsp::features {
 namespace {
 
@@ -53,8 +53,8 @@ class FoldFinder {
       if (is_long) add(section.first_line, section.last_line, "region");
     }
     find_tail();
-    const documents::Ways ways(snapshot_);
-    for (const documents::Ways::Jump& jump : ways.jumps())
+    const documents::JumpPaths paths(snapshot_);
+    for (const documents::JumpPaths::Jump& jump : paths.jumps())
       if (jump.target) add(jump.landmark.line, *jump.target - 1);
     for (const documents::CommentBlock& block : documents::comment_blocks(snapshot_))
       add(block.first_line, block.last_line, "comment");
@@ -62,7 +62,7 @@ class FoldFinder {
   }
 
  private:
-  /// From the M02 behind which nothing runs any more.
+  /// From the M02 after which nothing runs any more.
   void find_tail() {
     for (const documents::Landmark& end : snapshot_.index().landmarks(documents::LandmarkKind::ProgramEnd)) {
       snapshot_.give_way();

@@ -10,8 +10,8 @@
 
 #include "interpreter/execution/execute.h"
 #include "interpreter/execution/silent_sink.h"
+#include "lsp/documents/jump_paths.h"
 #include "lsp/documents/section_times.h"
-#include "lsp/documents/ways.h"
 #include "lsp/features/feature.h"
 
 /// What a line leaves unsaid: where incremental motions lead, the G that coordinates alone go on with, and when a tool
@@ -44,15 +44,15 @@ void to_json(Json& json, const Hint& hint) {
 class StateWalk {
  public:
   StateWalk(const Snapshot& snapshot, std::size_t line)
-      : snapshot_(snapshot), ways_(snapshot), state_(snapshot.state_before(line)) {}
+      : snapshot_(snapshot), paths_(snapshot), state_(snapshot.state_before(line)) {}
 
   const std::optional<State>& state() const { return state_; }
 
-  /// Comes to a line, where other ways may lead, too.
+  /// Comes to a line, to which jumps may lead, too.
   void arrive(std::size_t line) {
-    if (ways_.lands_on(line)) state_ = snapshot_.state_before(line);
+    if (paths_.lands_on(line)) state_ = snapshot_.state_before(line);
   }
-  /// Goes over the line to the next, but for the other ways there.
+  /// Goes over the line to the next, without the jumps that lead there.
   void step(std::size_t line, const LineTree& tree) {
     if (!state_ || tree.jump) {
       state_ = snapshot_.state_before(line + 1);
@@ -65,7 +65,7 @@ class StateWalk {
 
  private:
   const Snapshot& snapshot_;
-  const documents::Ways ways_;
+  const documents::JumpPaths paths_;
   std::optional<State> state_;
 };
 

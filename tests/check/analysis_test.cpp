@@ -189,7 +189,7 @@ TEST(Analysis, AnExcerptHasTheFirstFindingsAndCountsTheOthers) {
   const Report all = analysis.report();
   for (const std::size_t most : {0u, 1u, 100u, 4'999u, 100'000u}) {
     const auto is_even = [](dialect::DiagnosticId id) { return static_cast<int>(id) % 2 == 0; };
-    const FirstFindings excerpt = analysis.excerpt({.most = most, .counts = is_even});
+    const FirstFindings excerpt = analysis.excerpt({.max = most, .counts = is_even});
     const std::vector<std::string> texts = support::texts_of(excerpt.report);
     const auto counted = [&](const Report& report) {
       return std::count_if(report.findings.begin(), report.findings.end(),

@@ -1,8 +1,8 @@
-#include "lsp/documents/ways.h"
+#include "lsp/documents/jump_paths.h"
 
 namespace isocnc::lsp::documents {
 
-Ways::Ways(const Snapshot& snapshot) {
+JumpPaths::JumpPaths(const Snapshot& snapshot) {
   const ProgramIndex& index = snapshot.index();
   std::map<std::uint64_t, std::vector<std::size_t>> lines_by_label;
   for (const Landmark& landmark : index.landmarks(LandmarkKind::Jump)) {
@@ -18,14 +18,14 @@ Ways::Ways(const Snapshot& snapshot) {
     }
     jumps_.push_back(jump);
   }
-  for (const Landmark& end : index.landmarks(LandmarkKind::ProgramEnd)) behind_ends_.insert(end.line + 1);
+  for (const Landmark& end : index.landmarks(LandmarkKind::ProgramEnd)) after_ends_.insert(end.line + 1);
 }
 
 /// The first line of those above that can only be left downward, into this one.
-std::size_t Ways::stretch_start(std::size_t line) const {
+std::size_t JumpPaths::stretch_start(std::size_t line) const {
   std::size_t start = 0;
   if (const auto landing = landings_.lower_bound(line); landing != landings_.begin()) start = std::prev(landing)->first;
-  if (const auto end = behind_ends_.lower_bound(line); end != behind_ends_.begin())
+  if (const auto end = after_ends_.lower_bound(line); end != after_ends_.begin())
     start = std::max(start, *std::prev(end));
   return start;
 }

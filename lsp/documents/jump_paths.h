@@ -11,22 +11,22 @@ namespace isocnc::lsp::documents {
 
 /// The paths that a program's jumps leave it, whatever their conditions say. They are followed upward, from one line,
 /// over the jumps and ends of the index alone: syntax::ForwardPaths would have to read every line from the top.
-class Ways {
+class JumpPaths {
  public:
   struct Jump {
-    Landmark landmark;                  ///< The label behind the GOTO.
-    std::optional<std::size_t> target;  ///< The line that it leads to: the first of its label below it (D50).
+    Landmark landmark;                  ///< The label after the GOTO.
+    std::optional<std::size_t> target;  ///< The line it leads to: the first with its label below it (D50).
   };
 
-  explicit Ways(const Snapshot& snapshot);
+  explicit JumpPaths(const Snapshot& snapshot);
 
   /// In the order of the program.
   const std::vector<Jump>& jumps() const { return jumps_; }
   /// Whether a jump leads to this line.
   bool lands_on(std::size_t line) const { return landings_.contains(line); }
 
-  /// Goes back from a line on every way that leads there, until it finds something: `find(first, behind)` gives the
-  /// last of what it looks for in the lines [first, behind), if there is any. Each of them once, in their order.
+  /// Goes up from a line on every path that leads there, until it finds something: `find(first, end)` gives the last of
+  /// what it looks for in the lines [first, end), if there is any. Returns each of them once, in their order.
   template <class Find>
   auto nearest_above(std::size_t line, Find find) const {
     using Found = typename decltype(find(line, line))::value_type;
@@ -51,12 +51,12 @@ class Ways {
   }
 
  private:
-  bool ends_before(std::size_t line) const { return behind_ends_.contains(line); }
+  bool ends_before(std::size_t line) const { return after_ends_.contains(line); }
   std::size_t stretch_start(std::size_t line) const;
 
   std::vector<Jump> jumps_;
-  std::multimap<std::size_t, std::size_t> landings_;  // Line of a label that a jump leads to; line of the jump.
-  std::set<std::size_t> behind_ends_;                 // Lines below an M02: nothing goes on from above.
+  std::multimap<std::size_t, std::size_t> landings_;  // The line of a label that a jump leads to; the line of the jump.
+  std::set<std::size_t> after_ends_;                  // Lines below an M02: no path comes from above.
 };
 
 }  // namespace isocnc::lsp::documents
