@@ -18,35 +18,19 @@ using syntax::Finding;
 using syntax::LineTree;
 using syntax::PlainLine;
 
-/// Longer paths are told by their latest decisions.
+/// Longer paths are reported by their latest decisions.
 static constexpr std::size_t kLongestPath = 64;
 /// Valuations of the registers that are kept apart in one group.
-static constexpr std::size_t kMostValuations = 256;
+static constexpr std::size_t kMaxValuations = 256;
 /// More than a few live groups are paid from a bucket that fills by some extra executions a line and holds this many:
 /// long stretches may follow all paths, endless ones only those few.
 static constexpr std::uint32_t kSpreadLimit = 20'000'000;
 /// Groups that are followed once some have been given up: the rest of a program must not take long, whatever it does.
-static constexpr std::size_t kMostStatesReduced = 16;
-/// How much of it a line makes up for.
+static constexpr std::size_t kMaxStatesReduced = 16;
+/// The part of it that a line makes up for.
 static constexpr std::uint32_t kSpreadRelief = 32;
 /// Labels that may be waited for at once.
-static constexpr std::size_t kMostWaiting = 16'384;
-
-/// Listens to one execution: findings to a place, assignments to the group's registers.
-class Checker::Listener final : public execution::Sink {
- public:
-  Listener(std::uint64_t line, Checker& checker, Outcome& outcome)
-      : Sink(checker.watches_moves_), line_(line), checker_(checker), outcome_(outcome) {}
-
-  void report(const Finding& finding) override { outcome_.findings.push_back({line_, finding}); }
-  void centered_arc(const execution::CenteredArc& arc) override { checker_.judge_arc(arc, outcome_, *this); }
-  void move(const execution::Move& move, const execution::State&) override { checker_.move_ = move; }
-
- private:
-  std::uint64_t line_;
-  Checker& checker_;
-  Outcome& outcome_;
-};
+static constexpr std::size_t kMaxWaiting = 16'384;
 
 Checker::Checker(const execution::Setup& setup, const JumpMap& jumps, bool suspects_centers)
     : frontier(start(setup)),
@@ -68,7 +52,7 @@ static void sort_by_column(std::vector<LocatedFinding>& findings, std::size_t fi
         [](const LocatedFinding& a, const LocatedFinding& b) { return a.finding.span.begin < b.finding.span.begin; });
 }
 
-/// Opinions on a line are asked for unless something is an error there: a remark does not make it unclear, nor does an
+/// Rules are asked about a line unless something is an error there: a remark does not make it unclear, nor does an
 /// M02 that has company, which ends the program all the same (D22).
 static bool is_error(const Finding& finding) {
   return dialect::definition(finding.id).severity == dialect::Severity::Error && finding.id != "m02-not-alone"_diag;
@@ -80,9 +64,10 @@ static bool has_error(const std::vector<LocatedFinding>& findings, std::size_t f
                      [](const LocatedFinding& located) { return is_error(located.finding); });
 }
 
-/// T101001 on one line and M06 on a later one are one mistake, told at the T.
-static bool is_told_above(const Finding& finding, const execution::State& before) {
-  return finding.id == "tool-change-without-tool"_diag && before.tool_prepared;
+/// T101001 on one line and M06 on a later one are one mistake, reported at the T.
+static bool is_reported_above(const Finding& finding, const Groups& before) {
+  return finding.id == "tool-change-without-tool"_diag &&
+         std::all_of(before.begin(), before.end(), [](const Group& group) { return group.state.tool_prepared; });
 }
 
 /// The axes among some letters.
@@ -151,49 +136,22 @@ void Checker::check(const LineTree& line, std::uint64_t line_number, Outcome& ou
     check_any(line, line_number, outcome);
 }
 
-/// A program without jumps has one path and one state.
-void Checker::check_straight(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
-  if (frontier.live.empty()) return tell_of_dead_code(line, line_number, outcome);
-  execution::State& state = frontier.live[0].state;
-  Listener listener(line_number, *this, outcome);
-  const std::size_t first = outcome.findings.size();
-  for (const Finding& finding : line.findings)
-    if (!is_told_above(finding, state)) outcome.findings.push_back({line_number, finding});
-  if (line.is_empty()) return;
-  const execution::State before = state;
-  execution::execute(line, state, setup_, listener);
-  if (!has_error(outcome.findings, first)) {
-    rules::ask_all({line, before, state, setup_}, listener);
-    judge_move(line, before, state, listener);
-  }
-  move_.reset();
-  note_line(line, before, state, outcome.findings.size() > first, outcome.positions);
-  if (outcome.findings.size() > first + 1) sort_by_column(outcome.findings, first);
-  if (!state.ended) return;
-  frontier.live.clear();
-  // M02 on a line with another mistake may not be meant as the end.
-  frontier.dead_reported = has_error(outcome.findings, first);
-}
-
 void Checker::check_any(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   if (!line.words.empty() || !line.comments.empty() || !line.findings.empty()) {
     outcome.has_text = true;
     outcome.last_text_line = line_number;
   }
-  if (jumps_.empty()) return check_straight(line, line_number, outcome);
   if (line.has_label()) arrive(line, line_number, outcome);
   Groups& live = frontier.live;
   if (live.empty()) {
     if (line.jump && line.jump->has_target) ++frontier.next_jump;
-    return tell_of_dead_code(line, line_number, outcome);
+    return report_dead_code(line, line_number, outcome);
   }
   frontier.dead_reported = false;
   outcome.positions.by_several |= live.size() > 1 || !frontier.waiting().empty();
   const std::size_t first = outcome.findings.size();
-  for (const Finding& finding : line.findings) {
-    const auto is_told = [&](const Group& group) { return is_told_above(finding, group.state); };
-    if (!std::all_of(live.begin(), live.end(), is_told)) outcome.findings.push_back({line_number, finding});
-  }
+  for (const Finding& finding : line.findings)
+    if (!is_reported_above(finding, live)) outcome.findings.push_back({line_number, finding});
   if (line.jump && line.jump->has_target) {
     execute_around_jump(line, line_number, outcome);
   } else {
@@ -209,8 +167,8 @@ void Checker::relieve(std::size_t lines) {
   frontier.spread -= static_cast<std::uint32_t>(std::min<std::size_t>(frontier.spread, kSpreadRelief * lines));
 }
 
-/// Lines on no feasible path are never read, and nothing is said of them but that, at the first (D51).
-void Checker::tell_of_dead_code(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+/// Lines on no feasible path are never read, and only that is reported of them, at the first (D51).
+void Checker::report_dead_code(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   if (frontier.dead_reported || line.is_empty()) return;
   frontier.dead_reported = true;
   if (frontier.reduced) return;  // A path that is not followed may lead here.
@@ -233,6 +191,7 @@ void Checker::arrive(const LineTree& line, std::uint64_t line_number, Outcome& o
 
 /// Most values are never compared: where no IF will see this one, that of before is forgotten, and no more is done.
 void Checker::assign(Group& group, int reg, double value, Outcome& outcome) const {
+  if (!jumps_.compares_registers()) return;
   outcome.assigned |= register_bit(reg);
   if ((jumps_.read_before(frontier.next_jump) & register_bit(reg)) != 0) {
     group.registers.assign(reg, value, jumps_);
@@ -269,6 +228,66 @@ void Checker::execute_around_jump(const LineTree& line, std::uint64_t line_numbe
   if (!rest.is_empty() && !frontier.live.empty()) execute_in_all_groups(rest, line_number, outcome);
 }
 
+/// Executes one line in each live group, and takes what it reports and does there.
+class Checker::LineExecution final : public execution::Sink {
+ public:
+  LineExecution(Checker& checker, const LineTree& line, Outcome& outcome)
+      : Sink(checker.watches_moves_), checker_(checker), line_(line), outcome_(outcome) {}
+
+  void run() {
+    const bool is_wrong = has_error_in_text();
+    Groups& live = checker_.frontier.live;
+    // For one group check_plain() has tried it already.
+    const bool may_be_plain = live.size() > 1 && !checker_.watches_moves_;
+    for (group_ = 0; group_ < live.size(); ++group_) {
+      execution::State& state = live[group_].state;
+      if (!may_be_plain || !run_plainly(state)) execute(state, is_wrong);
+    }
+  }
+
+  void report(const Finding& finding) override { checker_.group_findings_.push_back({finding, group_}); }
+  void centered_arc(const execution::CenteredArc& arc) override { checker_.judge_arc(arc, outcome_, *this); }
+  void move(const execution::Move& move, const execution::State&) override { move_ = move; }
+  void assign(int reg, double value) override { checker_.assign(checker_.frontier.live[group_], reg, value, outcome_); }
+
+ private:
+  bool has_error_in_text() const {
+    return std::any_of(line_.findings.begin(), line_.findings.end(), [&](const Finding& finding) {
+      return is_error(finding) && !is_reported_above(finding, checker_.frontier.live);
+    });
+  }
+
+  bool run_plainly(execution::State& state) {
+    execution::PlainRun run(state, checker_.setup_, checker_.suspects_centers_);
+    if (!run.run(line_.plain())) return false;
+    outcome_.centers.open |= run.met_open_center();
+    note_plain_move(line_.plain(), run, state, outcome_.positions);
+    return true;
+  }
+
+  /// Asks the rules as well, unless the line is wrong, by its text or in this group.
+  void execute(execution::State& state, bool is_wrong) {
+    const std::vector<GroupFinding>& findings = checker_.group_findings_;
+    const auto first = static_cast<std::ptrdiff_t>(findings.size());
+    const execution::State before = state;
+    move_.reset();
+    execution::execute(line_, state, checker_.setup_, *this);
+    const auto is_error_here = [](const GroupFinding& found) { return is_error(found.finding); };
+    if (!is_wrong && std::none_of(findings.begin() + first, findings.end(), is_error_here)) {
+      rules::ask_all({line_, before, state, checker_.setup_}, *this);
+      if (move_) rules::ask_about_move({line_, before, state, checker_.setup_}, *move_, *this);
+    }
+    const bool has_findings = !line_.findings.empty() || static_cast<std::ptrdiff_t>(findings.size()) > first;
+    checker_.note_line(line_, before, state, has_findings, outcome_.positions);
+  }
+
+  Checker& checker_;
+  const LineTree& line_;
+  Outcome& outcome_;
+  std::size_t group_ = 0;                // The group in which the line is executed.
+  std::optional<execution::Move> move_;  // The motion there, where moves are watched.
+};
+
 void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   Groups& live = frontier.live;
   if (const auto assignment = execution::lone_assignment(line)) {
@@ -279,47 +298,8 @@ void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_num
   } else if (execution::is_lone_jump(line)) {
     for (Group& group : live) execution::pass_by(group.state);
   } else if (!line.is_empty()) {
-    class GroupListener final : public execution::Sink {
-     public:
-      GroupListener(Checker& checker, std::size_t group, Outcome& outcome)
-          : Sink(checker.watches_moves_), checker_(checker), group_(group), outcome_(outcome) {}
-      void report(const Finding& finding) override { checker_.group_findings_.push_back({finding, group_}); }
-      void centered_arc(const execution::CenteredArc& arc) override { checker_.judge_arc(arc, outcome_, *this); }
-      void move(const execution::Move& move, const execution::State&) override { checker_.move_ = move; }
-      void assign(int reg, double value) override {
-        checker_.assign(checker_.frontier.live[group_], reg, value, outcome_);
-      }
-
-     private:
-      Checker& checker_;
-      std::size_t group_;
-      Outcome& outcome_;
-    };
-    const auto is_error_here = [](const GroupFinding& found) { return is_error(found.finding); };
-    const bool is_wrong = std::any_of(line.findings.begin(), line.findings.end(), is_error);
     group_findings_.clear();
-    for (std::size_t i = 0; i < live.size(); ++i) {
-      GroupListener listener(*this, i, outcome);
-      execution::State& state = live[i].state;
-      if (!watches_moves_) {
-        execution::PlainRun run(state, setup_, suspects_centers_);
-        if (run.run(line.plain())) {
-          outcome.centers.open |= run.met_open_center();
-          note_plain_move(line.plain(), run, state, outcome.positions);
-          continue;
-        }
-      }
-      const auto first = static_cast<std::ptrdiff_t>(group_findings_.size());
-      const execution::State before = state;
-      execution::execute(line, state, setup_, listener);
-      if (!is_wrong && std::none_of(group_findings_.begin() + first, group_findings_.end(), is_error_here)) {
-        rules::ask_all({line, before, state, setup_}, listener);
-        judge_move(line, before, state, listener);
-      }
-      move_.reset();
-      const bool has_findings = !line.findings.empty() || static_cast<std::ptrdiff_t>(group_findings_.size()) > first;
-      note_line(line, before, state, has_findings, outcome.positions);
-    }
+    LineExecution(*this, line, outcome).run();
     if (!group_findings_.empty()) report_common_findings(line_number, outcome);
   }
   if (live.size() == 1) return relieve(1);
@@ -359,12 +339,6 @@ void Checker::note_line(const LineTree& line, const execution::State& before, co
   if (is_clear) use.set |= axes_of(letters);
 }
 
-/// What the rules think of the line's motion, if it has one and somebody wants to know.
-void Checker::judge_move(const LineTree& line, const execution::State& before, const execution::State& after,
-                         execution::Sink& sink) {
-  if (move_) rules::ask_about_move({line, before, after, setup_}, *move_, sink);
-}
-
 /// What an arc whose circle is given by its center says of itself, and of how centers are meant (D70).
 void Checker::judge_arc(const execution::CenteredArc& arc, Outcome& outcome, execution::Sink& sink) const {
   const double tolerance = setup_.arc_tolerance;
@@ -400,7 +374,7 @@ void Checker::report_common_findings(std::uint64_t line_number, Outcome& outcome
         return std::find(theirs.begin(), theirs.end(), decision) == theirs.end();
       });
     }
-    // On every path that comes here only jumps are worth telling: that no IF skipped the line goes without saying.
+    // On every path that comes here only jumps are worth reporting: that no IF skipped the line is clear.
     if (count == live.size()) std::erase_if(path, [](const Decision& decision) { return !decision.taken; });
     if (!path.empty()) {
       located.path = static_cast<std::int32_t>(outcome.paths.size());
@@ -465,7 +439,7 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
     outcome.findings.push_back({line_number, {.id = "condition-decided"_diag, .span = jump.if_span}});
     frontier.dead_reported = !may_stay;  // That the lines below do not run is what a switch is for.
   }
-  if (frontier.waiting().size() > kMostWaiting) {
+  if (frontier.waiting().size() > kMaxWaiting) {
     frontier.drop_highest_label();
     admit_reduction(line, line_number, outcome);
   }
@@ -473,9 +447,9 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
 
 /// Whether there were too many.
 bool Checker::reduce(Groups& groups) const {
-  const std::size_t most = frontier.reduced ? kMostStatesReduced : kMostStates;
-  if (groups.size() <= most) return false;
-  groups.reduce_to(most / 2);
+  const std::size_t max = frontier.reduced ? kMaxStatesReduced : kMaxStates;
+  if (groups.size() <= max) return false;
+  groups.reduce_to(max / 2);
   return true;
 }
 
@@ -491,21 +465,21 @@ void Checker::bound_states(const LineTree& line, std::uint64_t line_number, Outc
     reduced = true;
   }
   for (Group& group : live) {
-    if (group.registers.size() <= kMostValuations) continue;
-    group.registers.reduce_to(kMostValuations / 2);
+    if (group.registers.size() <= kMaxValuations) continue;
+    group.registers.reduce_to(kMaxValuations / 2);
     reduced = true;
   }
   if (reduced) admit_reduction(line, line_number, outcome);
 }
 
-/// Says, once, that not all is followed from here on.
+/// Reports, once, that not all is followed from here on.
 void Checker::admit_reduction(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   if (frontier.reduced) return;
   frontier.reduced = true;
   syntax::Span span;
   if (!line.words.empty()) span = line.words.front().span();
   outcome.findings.push_back(
-      {line_number, {.id = "too-many-paths"_diag, .span = span, .values = {static_cast<double>(kMostStates)}}});
+      {line_number, {.id = "too-many-paths"_diag, .span = span, .values = {static_cast<double>(kMaxStates)}}});
 }
 
 }  // namespace isocnc::check

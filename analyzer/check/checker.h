@@ -12,15 +12,15 @@
 
 namespace isocnc::check {
 
-/// Most machine states that are followed at once (W191).
-inline constexpr std::size_t kMostStates = 512;
+/// Machine states that are followed at once; with more, some are given up (W191).
+inline constexpr std::size_t kMaxStates = 512;
 
 /// Checks a program line by line on every feasible path. It holds where it stands (`frontier`) and nothing else, so
 /// that a check can go on from any earlier frontier.
 class Checker {
  public:
-  /// With `suspects_centers` arcs under G90 that are legal with their center counted from the start, too, are told of
-  /// (W142): for who has seen in the outcome that others fit only so.
+  /// With `suspects_centers` arcs under G90 that are also legal with their center counted from the start are reported
+  /// (W142). That is for programs in whose outcome others fit only so.
   Checker(const execution::Setup& setup, const JumpMap& jumps, bool suspects_centers = false);
 
   /// The frontier before the first line.
@@ -30,8 +30,8 @@ class Checker {
   void check(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   /// Checks the lines of a chunk, counted from its first.
   void check_all(const syntax::ChunkTrees& trees, Outcome& outcome);
-  /// check() for most lines of most programs, in one go: plain ones with which nothing is wrong, and that no jump leads
-  /// to. Stops before the first other line; returns how many there were from `first` on.
+  /// check() for most lines of most programs, in one go: plain ones with which nothing is wrong, and to which no jump
+  /// leads. Stops before the first other line; returns the number of lines from `first` on that it has checked.
   std::size_t check_plain_lines(const syntax::TreeStore& trees, std::size_t first, std::uint64_t line_number,
                                 Outcome& outcome);
   /// check() for the line where check_plain_lines() has stopped.
@@ -40,14 +40,13 @@ class Checker {
   Frontier frontier;
 
  private:
-  class Listener;
+  class LineExecution;
 
-  void check_straight(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   template <class PlainLineAt>
   std::size_t check_plain(std::size_t count, std::uint64_t line_number, Outcome& outcome, PlainLineAt plain_line_at);
   /// Lines that one state alone runs through make up for some of those that more have.
   void relieve(std::size_t lines);
-  void tell_of_dead_code(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
+  void report_dead_code(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void arrive(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void execute_around_jump(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void execute_in_all_groups(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
@@ -65,16 +64,13 @@ class Checker {
 
   void note_line(const syntax::LineTree& line, const execution::State& before, const execution::State& after,
                  bool has_findings, PositionUse& use) const;
-  void judge_move(const syntax::LineTree& line, const execution::State& before, const execution::State& after,
-                  execution::Sink& sink);
   void judge_arc(const execution::CenteredArc& arc, Outcome& outcome, execution::Sink& sink) const;
 
   const execution::Setup& setup_;
   const JumpMap& jumps_;
   const bool watches_moves_;
   const bool suspects_centers_;
-  std::optional<execution::Move> move_;       // Of the line, where moves are watched.
-  std::vector<GroupFinding> group_findings_;  // Of one line; kept for its memory.
+  std::vector<GroupFinding> group_findings_;  // The findings of one line; a member to keep its memory.
 };
 
 }  // namespace isocnc::check
