@@ -1,9 +1,7 @@
 #include "analyzer/style/rule.h"
 
-#include <algorithm>
-#include <unordered_set>
-
 #include "interpreter/syntax/each_tree.h"
+#include "interpreter/syntax/forward_paths.h"
 
 namespace isocnc::style {
 
@@ -17,21 +15,25 @@ static const RuleRow* const kRules[] = {
 #undef ISOCNC_RULE
 };
 
-/// Whether the control reads a line: behind M02 only from a label on that a GOTO above names (D47).
+/// Whether the control reads a line: after M02 only from a label on to which a jump above leads (D47).
 class Reader::Liveness {
  public:
   bool is_read(const syntax::LineTree& line) {
-    if (line.has_label() && targets_.contains(line.label)) ended_ = false;
-    if (ended_) return false;
-    if (line.jump && line.jump->has_target) targets_.insert(line.jump->target);
-    ended_ = std::any_of(line.instructions.begin(), line.instructions.end(),
-                         [&](const syntax::Instruction& each) { return line.ends_program(each); });
-    return true;
+    paths_.arrive(line);
+    const bool is_reached = paths_.live.is_reached;
+    paths_.pass(line, [](Reach&) {});
+    return is_reached;
   }
 
  private:
-  std::unordered_set<std::uint64_t> targets_;
-  bool ended_ = false;
+  struct Reach {
+    bool is_reached = false;
+
+    bool empty() const { return !is_reached; }
+    void join(Reach&&) {}
+  };
+
+  syntax::ForwardPaths<Reach> paths_{Reach{true}};
 };
 
 Reader::Reader(const IsWanted& is_wanted) : liveness_(std::make_unique<Liveness>()) {
