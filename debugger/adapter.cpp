@@ -74,24 +74,25 @@ void Adapter::answer(const Json& request) {
 /// What the adapter can do: its own part, and that of each request.
 Json Adapter::initialize(const Json& arguments) {
   if (is_initialized_) throw RequestError(std::string(session_.in_language(kInitialized)));
-  session::Client& client = session_.client;
+  session::Client& client = session_.client();
   client.lines_start_at_1 = find_flag(arguments, "linesStartAt1").value_or(true);
   client.columns_start_at_1 = find_flag(arguments, "columnsStartAt1").value_or(true);
-  client.takes_invalidated = find_flag(arguments, "supportsInvalidatedEvent").value_or(false);
-  client.takes_progress = find_flag(arguments, "supportsProgressReporting").value_or(false);
+  client.supports_invalidated = find_flag(arguments, "supportsInvalidatedEvent").value_or(false);
+  client.supports_progress = find_flag(arguments, "supportsProgressReporting").value_or(false);
   if (const auto locale = find_text(arguments, "locale")) client.locale = dialect::language_of_locale(*locale);
   is_initialized_ = true;
   Json capabilities = Json::object();
   for (const requests::Request* const request : requests::all_requests())
     if (request->capabilities != nullptr) capabilities.update(request->capabilities());
   Json filters = Json::array();
-  for (std::size_t i = 0; i < session::kWatchCount; ++i) {
-    const session::WatchDef& watch = session::definition(static_cast<session::Watch>(i));
-    filters.push_back({{"filter", watch.name},
-                       {"label", session_.in_language(watch.label)},
-                       {"description", session_.in_language(watch.description)},
-                       {"default", watch.is_default}});
-    session_.watchmen.on[i] = watch.is_default;
+  for (std::size_t i = 0; i < session::kExceptionFilterCount; ++i) {
+    const auto filter = static_cast<session::ExceptionFilter>(i);
+    const session::ExceptionFilterDef& def = session::definition(filter);
+    filters.push_back({{"filter", def.name},
+                       {"label", session_.in_language(def.label)},
+                       {"description", session_.in_language(def.description)},
+                       {"default", def.is_default}});
+    if (def.is_default) session_.exception_filters().turn_on(filter);
   }
   capabilities["exceptionBreakpointFilters"] = filters;
   return capabilities;

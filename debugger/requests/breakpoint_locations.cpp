@@ -15,7 +15,7 @@ static Json answer_breakpoint_locations(Session& session, const Json& arguments)
   if (!session.is_program(find_text(source, "path").value_or(""))) return {{"breakpoints", locations}};
   for (auto line = program.executable_line(first); line && *line <= last && locations.size() < kMost;
        line = program.executable_line(*line + 1))
-    locations.push_back({{"line", session.client.to_client_line(*line)}});
+    locations.push_back({{"line", session.client().to_client_line(*line)}});
   return {{"breakpoints", locations}};
 }
 

@@ -13,7 +13,7 @@ static bool is_name_character(char c) { return std::isalnum(static_cast<unsigned
 /// Names of quantities, and codes, for the word before the cursor.
 static Json answer_completions(Session& session, const Json& arguments) {
   const std::string typed = text(arguments, "text");
-  const std::int64_t column = integer(arguments, "column") - (session.client.columns_start_at_1 ? 1 : 0);
+  const std::int64_t column = integer(arguments, "column") - (session.client().columns_start_at_1 ? 1 : 0);
   const std::size_t end =
       std::min<std::size_t>(static_cast<std::size_t>(std::max<std::int64_t>(column, 0)), typed.size());
   std::size_t begin = end;
@@ -25,7 +25,7 @@ static Json answer_completions(Session& session, const Json& arguments) {
     targets.push_back({{"label", label},
                        {"detail", detail},
                        {"type", type},
-                       {"start", session.client.to_client_column(begin)},
+                       {"start", session.client().to_client_column(begin)},
                        {"length", end - begin}});
   };
   for (const session::Quantity& each : session::all_quantities())

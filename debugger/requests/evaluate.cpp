@@ -17,7 +17,7 @@ static Json answer_evaluate(Session& session, const Json& arguments) {
   const std::string expression = text(arguments, "expression");
   const std::string context = find_text(arguments, "context").value_or("watch");
   const session::ValueFormat format = format_of(session, arguments);
-  if (!session.is_launched()) session.standing();
+  if (!session.is_launched()) session.stopped_debuggee();
   const std::string result = context == "repl"    ? session::enter(session, expression)
                              : context == "hover" ? hovered(session, expression, format)
                                                   : session::evaluate(session, expression, format);

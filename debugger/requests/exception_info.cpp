@@ -7,10 +7,10 @@ static constexpr dialect::Text kNone{"nothing but breakpoints has stopped the pr
 
 /// Why the control would stop: code, message, and all that is known of the code.
 static Json answer_exception_info(Session& session, const Json&) {
-  session.standing();
+  session.stopped_debuggee();
   const auto& exception = session.exception();
   if (!exception) throw RequestError(std::string(session.in_language(kNone)));
-  const bool is_error = exception->watch == session::Watch::Errors;
+  const bool is_error = exception->filter == session::ExceptionFilter::Errors;
   Json details = {{"message", exception->message}, {"typeName", exception->code}};
   if (!exception->explanation.empty()) details["stackTrace"] = exception->explanation;
   return {{"exceptionId", exception->code},

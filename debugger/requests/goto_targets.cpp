@@ -10,8 +10,8 @@ static Json answer_goto_targets(Session& session, const Json& arguments) {
   const auto line = session.debuggee().text().executable_line(line_argument(session, arguments, "line"));
   if (line)
     targets.push_back({{"id", *line},
-                       {"label", session.in_language(kLine, session.client.to_client_line(*line))},
-                       {"line", session.client.to_client_line(*line)}});
+                       {"label", session.in_language(kLine, session.client().to_client_line(*line))},
+                       {"line", session.client().to_client_line(*line)}});
   return {{"targets", targets}};
 }
 

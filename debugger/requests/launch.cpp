@@ -4,7 +4,7 @@ namespace isocnc::debugger::requests {
 
 /// Reads the program; the run begins when the client has told its breakpoints.
 static Json answer_launch(Session& session, const Json& arguments) {
-  session.launch(session::read_wishes(arguments, session.language()));
+  session.launch(session::read_launch_options(arguments, session.language()));
   return nullptr;
 }
 

@@ -20,7 +20,7 @@ static constexpr dialect::Text kBadHits{"a hit condition is a number, or one beh
                                         "<, <= o %, non {}"};
 
 session::ValueFormat format_of(const Session& session, const Json& arguments) {
-  session::ValueFormat format = session.wishes().format;
+  session::ValueFormat format = session.launch_options().format;
   const Json wish = arguments.value("format", Json());
   if (session::find_flag(wish, "hex").value_or(false)) format.is_hexadecimal = true;
   return format;
@@ -28,7 +28,7 @@ session::ValueFormat format_of(const Session& session, const Json& arguments) {
 
 std::uint64_t line_argument(const Session& session, const Json& arguments, const char* key) {
   const std::int64_t number = integer(arguments, key);
-  const auto line = session.client.from_client_line(number);
+  const auto line = session.client().from_client_line(number);
   if (!line) throw RequestError(session.in_language(kNoLine, number));
   return *line;
 }
@@ -51,7 +51,7 @@ session::BreakpointRules rules_of(const Session& session, const Json& breakpoint
     if (!rules.hits) throw RequestError(session.in_language(kBadHits, *hits));
   }
   if (const auto message = find_text(breakpoint, "logMessage"); is_given(message)) {
-    auto compiled = session::LogMessage::compile(*message, session.wishes().format, session.language());
+    auto compiled = session::LogMessage::compile(*message, session.launch_options().format, session.language());
     if (const auto* const problem = std::get_if<session::ExpressionProblem>(&compiled))
       throw RequestError(problem->message);
     rules.message = std::get<session::LogMessage>(std::move(compiled));

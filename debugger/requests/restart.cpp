@@ -6,7 +6,7 @@ namespace isocnc::debugger::requests {
 static Json answer_restart(Session& session, const Json& arguments) {
   const Json launch_arguments = arguments.value("arguments", Json());
   if (launch_arguments.is_object()) {
-    session.restart(session::read_wishes(launch_arguments, session.language()));
+    session.restart(session::read_launch_options(launch_arguments, session.language()));
   } else {
     session.restart(std::nullopt);
   }

@@ -4,7 +4,7 @@ namespace isocnc::debugger::requests {
 
 /// Up to the next thing that stops the run.
 static Json answer_resume(Session& session, const Json&) {
-  session.go_on();
+  session.resume();
   return {{"allThreadsContinued", true}};
 }
 

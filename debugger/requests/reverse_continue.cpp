@@ -4,7 +4,7 @@ namespace isocnc::debugger::requests {
 
 /// Back to the last thing that would have stopped the run, or to its begin.
 static Json answer_reverse_continue(Session& session, const Json&) {
-  session.go_back();
+  session.reverse();
   return nullptr;
 }
 

@@ -5,7 +5,7 @@ namespace isocnc::debugger::requests {
 
 /// The same for each frame: there is one machine.
 static Json answer_scopes(Session& session, const Json&) {
-  session.standing();
+  session.stopped_debuggee();
   Json scopes = Json::array();
   for (const session::Scope& scope : session::all_scopes()) {
     Json json = {

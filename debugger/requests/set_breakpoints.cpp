@@ -15,8 +15,9 @@ static Json wanted_breakpoints(const Json& arguments) {
   return made;
 }
 
-static Session::LineWish read_wish(Session& session, const Json& breakpoint) {
-  Session::LineWish wish{.id = session.new_breakpoint_id(), .wanted = line_argument(session, breakpoint, "line")};
+static session::SourceBreakpoint read_wish(Session& session, const Json& breakpoint) {
+  session::SourceBreakpoint wish{.id = session.new_breakpoint_id(),
+                                 .wanted_line = line_argument(session, breakpoint, "line")};
   try {
     wish.rules = rules_of(session, breakpoint);
   } catch (const RequestError& error) {
@@ -25,9 +26,9 @@ static Session::LineWish read_wish(Session& session, const Json& breakpoint) {
   return wish;
 }
 
-static Json to_json(const Session& session, const Session::LineWish& wish) {
+static Json to_json(const Session& session, const session::SourceBreakpoint& wish) {
   Json json = {{"id", wish.id}, {"verified", wish.line.has_value()}, {"source", session.source()}};
-  json["line"] = session.client.to_client_line(wish.line.value_or(wish.wanted));
+  json["line"] = session.client().to_client_line(wish.line.value_or(wish.wanted_line));
   if (!wish.problem.empty()) json["message"] = wish.problem;
   if (wish.problem.empty() && !wish.line) json["message"] = session.in_language(kBehindEnd);
   return json;
@@ -44,9 +45,9 @@ static Json answer_set_breakpoints(Session& session, const Json& arguments) {
       breakpoints.push_back({{"verified", false}, {"message", session.in_language(kOtherFile)}});
     return {{"breakpoints", breakpoints}};
   }
-  std::vector<Session::LineWish> wishes;
+  std::vector<session::SourceBreakpoint> wishes;
   for (const Json& breakpoint : wanted) wishes.push_back(read_wish(session, breakpoint));
-  for (const Session::LineWish& wish : session.set_line_breakpoints(std::move(wishes)))
+  for (const session::SourceBreakpoint& wish : session.set_source_breakpoints(std::move(wishes)))
     breakpoints.push_back(to_json(session, wish));
   return {{"breakpoints", breakpoints}};
 }

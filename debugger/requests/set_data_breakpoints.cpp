@@ -12,7 +12,7 @@ static Json answer_set_data_breakpoints(Session& session, const Json& arguments)
     wanted.push_back(
         {{.id = id, .rules = rules_of(session, each), .counter = {}}, std::get<session::Watched>(std::move(watched))});
   });
-  session.breakpoints.set_data(std::move(wanted));
+  session.breakpoints().set_data(std::move(wanted));
   return told;
 }
 

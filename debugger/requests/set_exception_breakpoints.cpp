@@ -10,17 +10,17 @@ static Json answer_set_exception_breakpoints(Session& session, const Json& argum
   for (const Json& filter : list(arguments, "filters"))
     names.push_back(filter.is_string() ? filter.get<std::string>() : filter.dump());
   for (const Json& option : list(arguments, "filterOptions")) names.push_back(text(option, "filterId"));
-  session.watchmen.on = {};
+  session.exception_filters().turn_all_off();
   Json breakpoints = Json::array();
   for (const std::string& name : names) {
-    const auto watch = session::find_watch(name);
-    if (watch) session.watchmen.on[static_cast<std::size_t>(*watch)] = true;
-    Json breakpoint = {{"verified", watch.has_value()}};
-    if (!watch) breakpoint["message"] = session.in_language(kNoFilter, name);
+    const auto filter = session::find_exception_filter(name);
+    if (filter) session.exception_filters().turn_on(*filter);
+    Json breakpoint = {{"verified", filter.has_value()}};
+    if (!filter) breakpoint["message"] = session.in_language(kNoFilter, name);
     breakpoints.push_back(breakpoint);
   }
-  if (session.wishes().break_on_warnings)
-    session.watchmen.on[static_cast<std::size_t>(session::Watch::Warnings)] = true;
+  if (session.launch_options().break_on_warnings)
+    session.exception_filters().turn_on(session::ExceptionFilter::Warnings);
   return {{"breakpoints", breakpoints}};
 }
 

@@ -13,7 +13,7 @@ static Json answer_set_function_breakpoints(Session& session, const Json& argume
     if (!code) throw RequestError(std::string(session.in_language(kNoCode)));
     wanted.push_back({{.id = id, .rules = rules_of(session, each), .counter = {}}, *code});
   });
-  session.breakpoints.set_functions(std::move(wanted));
+  session.breakpoints().set_functions(std::move(wanted));
   return told;
 }
 

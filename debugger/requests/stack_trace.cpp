@@ -33,15 +33,15 @@ static Json frame(const Session& session, std::size_t id, const std::string& nam
   return {{"id", id},
           {"name", name},
           {"source", session.source()},
-          {"line", session.client.to_client_line(line)},
-          {"column", session.client.to_client_column(syntax::column_of(text, begin) - 1)},
-          {"endLine", session.client.to_client_line(line)},
-          {"endColumn", session.client.to_client_column(syntax::column_of(text, text.size()) - 1)}};
+          {"line", session.client().to_client_line(line)},
+          {"column", session.client().to_client_column(syntax::column_of(text, begin) - 1)},
+          {"endLine", session.client().to_client_line(line)},
+          {"endColumn", session.client().to_client_column(syntax::column_of(text, text.size()) - 1)}};
 }
 
 /// The segment of an arc, the block, and below it the jumps that have led there.
 static Json answer_stack_trace(Session& session, const Json& arguments) {
-  const simulation::Simulation& present = session.standing().present();
+  const simulation::Simulation& present = session.stopped_debuggee().present();
   Json frames = Json::array();
   if (const auto segment = present.segment())
     frames.push_back(
@@ -49,8 +49,8 @@ static Json answer_stack_trace(Session& session, const Json& arguments) {
   frames.push_back(frame(session, frames.size() + 1, name_of(session, present.line()), present.line()));
   for (const session::Journal::Jump& jump : session.journal().jumps(present.blocks())) {
     if (frames.size() > kMostJumps) break;
-    Json json = frame(session, frames.size() + 1, session.in_language(kJump, session.client.to_client_line(jump.from)),
-                      jump.from);
+    Json json = frame(session, frames.size() + 1,
+                      session.in_language(kJump, session.client().to_client_line(jump.from)), jump.from);
     json["presentationHint"] = "subtle";
     frames.push_back(json);
   }

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "debugger/session/block_effect.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/syntax/characters.h"
 
@@ -199,10 +200,11 @@ void Breakpoints::set_lines(std::vector<LineBreakpoint> breakpoints, std::uint64
   }
 }
 
-void Breakpoints::reach(Breakpoint& breakpoint, const Moment& moment, std::uint64_t block, Way way, Outcome& outcome) {
+void Breakpoints::reach(Breakpoint& breakpoint, const Moment& moment, std::uint64_t block, Direction direction,
+                        Outcome& outcome) {
   const BreakpointRules& rules = breakpoint.rules;
   if (rules.condition && !rules.condition->holds_at(moment)) return;
-  if (way == Way::Back && rules.message) return;
+  if (direction == Direction::Backward && rules.message) return;
   if (rules.hits && !rules.hits->admits(breakpoint.counter.count(block))) return;
   if (rules.message) {
     outcome.messages.push_back(rules.message->at(moment));
@@ -211,18 +213,18 @@ void Breakpoints::reach(Breakpoint& breakpoint, const Moment& moment, std::uint6
   }
 }
 
-void Breakpoints::look_at_line(const Moment& moment, std::uint64_t block, Way way, Outcome& outcome) {
+void Breakpoints::judge_line(const Moment& moment, std::uint64_t block, Direction direction, Outcome& outcome) {
   const auto [begin, end] = lines_.equal_range(moment.line);
-  for (auto each = begin; each != end; ++each) reach(each->second, moment, block, way, outcome);
+  for (auto each = begin; each != end; ++each) reach(each->second, moment, block, direction, outcome);
 }
 
-void Breakpoints::look_at_functions(const syntax::LineTree& tree, const Moment& moment, std::uint64_t block, Way way,
-                                    Outcome& outcome) {
+void Breakpoints::judge_functions(const syntax::LineTree& tree, const Moment& moment, std::uint64_t block,
+                                  Direction direction, Outcome& outcome) {
   for (FunctionBreakpoint& each : functions_)
-    if (each.code.is_in(tree)) reach(each, moment, block, way, outcome);
+    if (each.code.is_in(tree)) reach(each, moment, block, direction, outcome);
 }
 
-void Breakpoints::begin_trail(const Moment& moment, Trail& trail) const {
+void Breakpoints::start_trail(const Moment& moment, Trail& trail) const {
   trail.width = data_.size();
   trail.values.clear();
   read_data(moment, trail);
@@ -230,6 +232,21 @@ void Breakpoints::begin_trail(const Moment& moment, Trail& trail) const {
 
 void Breakpoints::read_data(const Moment& moment, Trail& trail) const {
   for (const DataBreakpoint& each : data_) trail.values.push_back(each.watched.value.at(moment));
+}
+
+void Breakpoints::read_arc(const BlockEffect& effect, const Moment& moment, Trail& trail) const {
+  if (effect.has_error) return;
+  execution::State state = effect.state;
+  for (const geometry::Pose& point : effect.on_arc) {
+    state.position = point;
+    read_data({.state = state,
+               .registers = effect.registers,
+               .vgpl = moment.vgpl,
+               .line = moment.line,
+               .override_percent = moment.override_percent,
+               .playback = moment.playback},
+              trail);
+  }
 }
 
 /// From what to what a value has come when it told. On the way only what is known counts.
@@ -252,12 +269,12 @@ std::optional<std::pair<double, double>> Breakpoints::find_change(const Watched&
   return std::nullopt;
 }
 
-void Breakpoints::look_at_data(const Trail& trail, const Moment& moment, std::uint64_t block, Way way,
-                               Outcome& outcome) {
+void Breakpoints::judge_data(const Trail& trail, const Moment& moment, std::uint64_t block, Direction direction,
+                             Outcome& outcome) {
   // Others may have been set meanwhile.
   if (data_.empty() || trail.width != data_.size() || trail.values.size() % trail.width != 0) return;
   for (std::size_t i = 0; i < data_.size(); ++i)
-    if (find_change(data_[i].watched, i, trail)) reach(data_[i], moment, block, way, outcome);
+    if (find_change(data_[i].watched, i, trail)) reach(data_[i], moment, block, direction, outcome);
 }
 
 std::string Breakpoints::description(std::int64_t id, const Trail& trail) const {

@@ -108,6 +108,11 @@ struct DataBreakpoint : Breakpoint {
   Watched watched;
 };
 
+/// In which direction a run comes to a block. Log points are silent on the way backward.
+enum class Direction : std::uint8_t { Forward, Backward };
+
+struct BlockEffect;
+
 /// All breakpoints of a session. A block without any costs the look at one bit.
 class Breakpoints {
  public:
@@ -129,17 +134,21 @@ class Breakpoints {
     std::vector<std::string> messages;  ///< Of log points.
   };
 
-  /// Whether hits are counted and log points speak, as they do on the way on; on the way back neither.
-  enum class Way : std::uint8_t { On, Back };
-
-  void look_at_line(const Moment& moment, std::uint64_t block, Way way, Outcome& outcome);
-  void look_at_functions(const syntax::LineTree& tree, const Moment& moment, std::uint64_t block, Way way,
-                         Outcome& outcome);
-  /// Appends the values of a moment; the first of a block begins the trail anew.
-  void begin_trail(const Moment& moment, Trail& trail) const;
-  void read_data(const Moment& moment, Trail& trail) const;
+  // Which breakpoints a block hits, in its line, by its codes, or by the values that it changes. They are added to
+  // `outcome`.
+  void judge_line(const Moment& moment, std::uint64_t block, Direction direction, Outcome& outcome);
+  void judge_functions(const syntax::LineTree& tree, const Moment& moment, std::uint64_t block, Direction direction,
+                       Outcome& outcome);
   /// `moment` is the last of the trail.
-  void look_at_data(const Trail& trail, const Moment& moment, std::uint64_t block, Way way, Outcome& outcome);
+  void judge_data(const Trail& trail, const Moment& moment, std::uint64_t block, Direction direction, Outcome& outcome);
+
+  /// Begins a trail with the values of the moment before a block.
+  void start_trail(const Moment& moment, Trail& trail) const;
+  /// Appends the values of a moment.
+  void read_data(const Moment& moment, Trail& trail) const;
+  /// Appends the values along the block's arc, if it has one, where a value may pass a threshold and come back.
+  /// `moment` is that before or after the block.
+  void read_arc(const BlockEffect& effect, const Moment& moment, Trail& trail) const;
   /// What is told of one that has stopped the run: `V3: 1 -> 2`; empty for others.
   std::string description(std::int64_t id, const Trail& trail) const;
 
@@ -148,7 +157,8 @@ class Breakpoints {
  private:
   static std::optional<std::pair<double, double>> find_change(const Watched& watched, std::size_t place,
                                                               const Trail& trail);
-  static void reach(Breakpoint& breakpoint, const Moment& moment, std::uint64_t block, Way way, Outcome& outcome);
+  static void reach(Breakpoint& breakpoint, const Moment& moment, std::uint64_t block, Direction direction,
+                    Outcome& outcome);
 
   std::multimap<std::uint64_t, LineBreakpoint> lines_;
   std::vector<std::uint64_t> bits_;  ///< Of lines with breakpoints.

@@ -10,12 +10,12 @@ namespace isocnc::debugger::session {
 
 using lsp::rpc::Json;
 
-/// The other side, as far as answers depend on it.
+/// The editor at the other end, as `initialize` describes it.
 struct Client {
   bool lines_start_at_1 = true;
   bool columns_start_at_1 = true;
-  bool takes_invalidated = false;
-  bool takes_progress = false;
+  bool supports_invalidated = false;
+  bool supports_progress = false;
   std::optional<dialect::Language> locale;
 
   std::int64_t to_client_line(std::uint64_t line) const {
@@ -24,7 +24,7 @@ struct Client {
   std::int64_t to_client_column(std::uint64_t column) const {
     return static_cast<std::int64_t>(column) + (columns_start_at_1 ? 1 : 0);
   }
-  /// From 0; nothing for lines that cannot be.
+  /// From 0; none for a line that cannot be.
   std::optional<std::uint64_t> from_client_line(std::int64_t line) const {
     const std::int64_t from_zero = line - (lines_start_at_1 ? 1 : 0);
     if (line < 0 || from_zero < 0) return std::nullopt;

@@ -83,16 +83,16 @@ bool is_expression(const Session& session, std::string_view text) {
 }  // namespace
 
 std::string enter(Session& session, std::string_view text) {
-  if (text.starts_with('=')) return evaluate(session, text.substr(1), session.wishes().format);
+  if (text.starts_with('=')) return evaluate(session, text.substr(1), session.launch_options().format);
   const Blocks blocks = read_blocks(text);
   const bool is_block = blocks.are_any && (blocks.are_sound || (blocks.look_like_it && !is_expression(session, text)));
-  if (!is_block) return evaluate(session, text, session.wishes().format);
-  session.standing();
-  std::string all = std::exchange(session.waiting_blocks, {}) + std::string(text) + "\n";
+  if (!is_block) return evaluate(session, text, session.launch_options().format);
+  session.stopped_debuggee();
+  std::string all = std::exchange(session.waiting_blocks(), {}) + std::string(text) + "\n";
   if (all.size() > kLongest) throw RequestError(std::string(session.in_language(kTooLong)));
   const bool are_first = all.size() == text.size() + 1;
   if (blocks.have_g909 || (are_first && !blocks.need_g909)) return session.run_by_hand(all);
-  session.waiting_blocks = std::move(all);
+  session.waiting_blocks() = std::move(all);
   return std::string(session.in_language(kWaits));
 }
 

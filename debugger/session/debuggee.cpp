@@ -23,11 +23,11 @@ Debuggee::Debuggee(ProgramText text, const RunOptions& options, const TimedMachi
   stretches_.push_back({.machine = std::move(own_machine), .history = History(begin)});
 }
 
-bool Debuggee::is_at_begin_of_stretch() const {
+bool Debuggee::is_at_start_of_part() const {
   return present().blocks() == stretches_.back().first_block && !present().is_in_block() && !present().has_ended();
 }
 
-bool Debuggee::is_at_begin() const { return stretches_.size() == 1 && is_at_begin_of_stretch(); }
+bool Debuggee::is_at_start() const { return stretches_.size() == 1 && is_at_start_of_part(); }
 
 /// Of a history, or of a simulation by itself.
 template <class Run>
@@ -43,7 +43,7 @@ static void step_instruction_of(Run& run, const Simulation& present) {
 void Debuggee::step_instruction() { step_instruction_of(history(), present()); }
 
 void Debuggee::step_back() {
-  if (is_at_begin_of_stretch()) {
+  if (is_at_start_of_part()) {
     if (stretches_.size() > 1) stretches_.pop_back();
     return;
   }
@@ -53,7 +53,7 @@ void Debuggee::step_back() {
 void Debuggee::step_instruction_back() {
   const double time = present().time();
   const bool was_in_block = present().is_in_block();
-  const bool is_undoing = is_at_begin_of_stretch();
+  const bool is_undoing = is_at_start_of_part();
   step_back();
   if (is_undoing) return;
   // As often as it comes to less than the way so far: a copy goes ahead to see.

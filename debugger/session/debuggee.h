@@ -42,7 +42,7 @@ class Debuggee {
   const execution::Setup& setup() const { return options_->setup; }
   const simulation::Simulation& present() const { return history().present(); }
   /// Seconds and blocks are those of the run; there is nothing before.
-  bool is_at_begin() const;
+  bool is_at_start() const;
 
   // As in History.
   std::optional<running::Block> next() { return history().next(); }
@@ -89,7 +89,7 @@ class Debuggee {
 
   simulation::History& history() { return stretches_.back().history; }
   const simulation::History& history() const { return stretches_.back().history; }
-  bool is_at_begin_of_stretch() const;
+  bool is_at_start_of_part() const;
   void begin_stretch(const simulation::Simulation& from, const running::Runner& runner,
                      const simulation::TimedMachine& machine);
 

@@ -234,7 +234,7 @@ class Listing {
   /// Who has set what is in force.
   std::string origin_of(ModalGroup group, std::uint8_t number) const {
     const auto at_line = [&](std::uint64_t line) {
-      return session_.in_language(kLine, session_.client.to_client_line(line));
+      return session_.in_language(kLine, session_.client().to_client_line(line));
     };
     const Journal& journal = session_.journal();
     if (const auto setting = journal.setting(group, present().blocks()))
@@ -302,7 +302,7 @@ constexpr Place kPlaces[] = {
 std::span<const Scope> all_scopes() { return kScopes; }
 
 std::vector<Variable> variables_of(const Session& session, std::int64_t reference, const ValueFormat& format) {
-  session.standing();
+  session.stopped_debuggee();
   Listing listing(session, format);
   if (reference > kFirstFunction && reference < kFirstFunction + 1000) {
     listing.list_function(static_cast<int>(reference - kFirstFunction));

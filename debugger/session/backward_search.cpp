@@ -1,0 +1,77 @@
+#include "debugger/session/backward_search.h"
+
+#include <algorithm>
+
+#include "debugger/session/block_effect.h"
+
+namespace isocnc::debugger::session {
+
+/// Blocks of a window.
+static constexpr std::uint64_t kWindow = 8192;
+
+/// Blocks before this one have begun. Where an error has ended the program, its block counts.
+static std::uint64_t end_of_past(const simulation::Simulation& present) {
+  const bool has_failed = present.has_ended() && present.run().ending == running::Ending::Error;
+  return present.blocks() + (has_failed ? 1 : 0);
+}
+
+BackwardSearch::BackwardSearch(SessionState& state)
+    : state_(state), start_(end_of_past(state.debuggee->present())), searched_from_(start_) {}
+
+std::optional<BackwardSearch::Hit> BackwardSearch::search_window() {
+  const std::uint64_t from = searched_from_ > kWindow ? searched_from_ - kWindow : 0;
+  std::optional<Hit> last;
+  state_.debuggee->find_back(from, searched_from_, [&](const running::Block& block) {
+    const auto hit = judge(block);
+    if (hit) last = hit;
+    return hit.has_value();
+  });
+  searched_from_ = from;
+  return last;
+}
+
+double BackwardSearch::part_searched() const {
+  return 1 - static_cast<double>(searched_from_) / static_cast<double>(std::max<std::uint64_t>(start_, 1));
+}
+
+/// A block counts by itself, or by what it changes. In the second case the run stops after it.
+std::optional<BackwardSearch::Hit> BackwardSearch::judge(const running::Block& block) {
+  const bool is_stop = stops_before(block);
+  if (changes_data(block)) return Hit{.block = block.number + 1, .is_change = true};
+  if (is_stop) return Hit{.block = block.number};
+  const Debuggee& debuggee = *state_.debuggee;
+  const ExceptionFilters& filters = state_.exception_filters;
+  if (filters.judge_blocks() && filters.find_exception(block, debuggee.setup(), debuggee.machine(), state_.language()))
+    return Hit{.block = block.number};
+  return std::nullopt;
+}
+
+static Moment moment_before(const running::Block& block) {
+  return {.state = block.state, .registers = block.registers, .vgpl = block.vgpl, .line = block.line};
+}
+
+/// Breakpoints in its line, or on its codes.
+bool BackwardSearch::stops_before(const running::Block& block) {
+  Breakpoints& breakpoints = state_.breakpoints;
+  Breakpoints::Outcome outcome;
+  if (breakpoints.has_line(block.line))
+    breakpoints.judge_line(moment_before(block), block.number, Direction::Backward, outcome);
+  if (breakpoints.has_functions())
+    breakpoints.judge_functions(block.tree, moment_before(block), block.number, Direction::Backward, outcome);
+  return !outcome.stopped.empty();
+}
+
+bool BackwardSearch::changes_data(const running::Block& block) {
+  Breakpoints& breakpoints = state_.breakpoints;
+  if (!breakpoints.has_data() || block.number + 1 >= start_) return false;
+  const BlockEffect effect = effect_of(block, state_.debuggee->setup());
+  const Moment after{.state = effect.state, .registers = effect.registers, .vgpl = block.vgpl, .line = block.line};
+  breakpoints.start_trail(moment_before(block), trail_);
+  breakpoints.read_arc(effect, after, trail_);
+  breakpoints.read_data(after, trail_);
+  Breakpoints::Outcome outcome;
+  breakpoints.judge_data(trail_, after, block.number, Direction::Backward, outcome);
+  return !effect.has_error && !outcome.stopped.empty();
+}
+
+}  // namespace isocnc::debugger::session

@@ -1,0 +1,79 @@
+#include "debugger/session/exception_filters.h"
+
+#include <algorithm>
+
+#include "analyzer/explain.h"
+#include "debugger/session/block_effect.h"
+#include "debugger/session/expression.h"
+#include "interpreter/dialect/format.h"
+#include "interpreter/motion/travel.h"
+
+namespace isocnc::debugger::session {
+
+using dialect::Language;
+using dialect::Text;
+
+bool ExceptionFilters::judge_blocks() const {
+  return is_on(ExceptionFilter::Limits) || is_on(ExceptionFilter::ToolChange) || is_on(ExceptionFilter::FirstCut) ||
+         (is_on(ExceptionFilter::Warnings) && !warnings.empty());
+}
+
+namespace {
+
+constexpr Text kBeyondTravel{"axis {} would go to {}, beyond its travel, which ends at {}",
+                             "l'asse {} andrebbe a {}, oltre la corsa, che finisce a {}"};
+constexpr Text kAnyToolChange{"tool change", "cambio utensile"};
+constexpr Text kFirstCut{"first feed move of this tool", "primo movimento in lavoro di questo utensile"};
+
+/// An exception whose code is the filter's name.
+Exception exception_of(ExceptionFilter filter, std::string message) {
+  return {
+      .filter = filter, .code = std::string(definition(filter).name), .message = std::move(message), .explanation = {}};
+}
+
+std::optional<Exception> find_overtravel(const std::vector<execution::MachineMove>& moves, double tool_length,
+                                         const simulation::TimedMachine& machine, Language language) {
+  for (const execution::MachineMove& move : moves)
+    for (const motion::Overtravel& found :
+         motion::overtravels(machine.motion, simulation::planned_move(move, machine, tool_length)))
+      return exception_of(ExceptionFilter::Limits,
+                          dialect::format(kBeyondTravel, language, dialect::kAxisLetters[found.axis],
+                                          show_value(found.position), show_value(found.limit)));
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Exception> ExceptionFilters::find_warning(const running::Block& block, Language language) const {
+  const auto warning = warnings.find(block.line);
+  if (warning == warnings.end()) return std::nullopt;
+  return Exception{.filter = ExceptionFilter::Warnings,
+                   .code = std::string(dialect::definition(warning->second.id).code),
+                   .message = warning->second.message,
+                   .explanation = analyzer::explain(warning->second.id, language)};
+}
+
+static bool is_first_cut(const running::Block& block, const BlockEffect& effect) {
+  return block.state.knows(execution::State::kUncut) &&
+         std::any_of(effect.moves.begin(), effect.moves.end(),
+                     [](const auto& move) { return move.kind != execution::MoveKind::Rapid; });
+}
+
+std::optional<Exception> ExceptionFilters::find_exception(const running::Block& block, const execution::Setup& setup,
+                                                          const simulation::TimedMachine& machine,
+                                                          Language language) const {
+  if (is_on(ExceptionFilter::Warnings))
+    if (auto warning = find_warning(block, language)) return warning;
+  if (is_on(ExceptionFilter::ToolChange) && changes_tool(block))
+    return exception_of(ExceptionFilter::ToolChange, std::string(kAnyToolChange.in(language)));
+  if (!is_on(ExceptionFilter::Limits) && !is_on(ExceptionFilter::FirstCut)) return std::nullopt;
+  const BlockEffect effect = effect_of(block, setup);
+  if (effect.has_error) return std::nullopt;
+  if (is_on(ExceptionFilter::FirstCut) && is_first_cut(block, effect))
+    return exception_of(ExceptionFilter::FirstCut, std::string(kFirstCut.in(language)));
+  if (is_on(ExceptionFilter::Limits))
+    return find_overtravel(effect.moves, machine.tool_length(block.state.tool), machine, language);
+  return std::nullopt;
+}
+
+}  // namespace isocnc::debugger::session

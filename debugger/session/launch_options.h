@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "debugger/session/client.h"
+#include "debugger/session/expression.h"
+
+namespace isocnc::debugger::session {
+
+/// The arguments of a launch.
+struct LaunchOptions {
+  std::filesystem::path program;
+  std::optional<std::string> machine;  ///< Machine file, in place of the isocnc.json above the program.
+  bool stop_on_entry = false;
+  bool no_debug = false;
+  bool break_on_warnings = false;
+  double speed = 0;  ///< 0: as fast as possible; 1: in real time.
+  double vgpl = 0;
+  std::vector<std::pair<int, double>> registers;
+  std::optional<std::uint64_t> start_line;  ///< Line from 0, to which the run goes without stopping.
+  ValueFormat format;                       ///< Format of all values that are shown.
+};
+
+/// Reads the arguments of a launch. Unknown members are ignored, as clients add members of their own. Throws
+/// RequestError.
+LaunchOptions read_launch_options(const Json& arguments, dialect::Language language);
+
+}  // namespace isocnc::debugger::session

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string_view>
+
+#include "debugger/session/backward_search.h"
+#include "debugger/session/file_watch.h"
+#include "debugger/session/notifier.h"
+#include "debugger/session/pace.h"
+#include "debugger/session/stop_check.h"
+#include "debugger/session/warning_check.h"
+#include "lsp/rpc/loop.h"
+
+namespace isocnc::debugger::session {
+
+/// How far a step goes.
+enum class Step : std::uint8_t { Block, Instruction };
+
+/// Runs the debuggee, forward and backward, and reports where it stops. A run is cut into slices of a few milliseconds,
+/// each a task of the loop, so that requests are answered in between. All members but reset(), finish() and abandon()
+/// take a debuggee that is launched.
+class RunLoop {
+ public:
+  /// Keeps references to all.
+  RunLoop(lsp::rpc::Loop& loop, SessionState& state, Notifier& notifier);
+
+  bool is_running() const { return activity_ != Activity::None; }
+
+  /// Another program has been launched: nothing of the run before is left.
+  void reset(const FileWatch& file);
+  /// Goes to where the launch wants the run to begin. Does nothing when the program has been started already.
+  void start_program();
+  bool has_started_program() const { return has_started_; }
+
+  // The debuggee stands. What comes of these is reported by events.
+  void resume();
+  /// Back to the last stop, or to the start.
+  void reverse();
+  void step(Step step);
+  void step_back(Step step);
+  /// To the end of the tool's section or of the frame, whichever comes first.
+  void step_out();
+  /// Forward or backward to a line, with the state that a run to it has. Nothing stops the run before.
+  void go_to_line(std::uint64_t line);
+
+  /// Stops a run where it is.
+  void pause();
+  /// Ends the run, with this exit status.
+  void end_later(int exit_code);
+  /// No event is sent any more.
+  void abandon();
+
+  /// The speed of the launch options has changed.
+  void restart_pace();
+  /// The program has been changed at the block that comes next: what is remembered of later blocks is void.
+  void forget_future();
+  /// Blocks run by hand have led to where the machine stands. The block that comes next is not judged again.
+  void skip_judgement() { stop_check_.skip_judgement(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  enum class Activity : std::uint8_t { None, Running, RunningBack, GoingToLine };
+
+  // Slices.
+  void post(const std::function<void()>& task);
+  void start(Activity activity);
+  void schedule(std::chrono::milliseconds delay = {});
+  void run_slice();
+  void run_forward(Clock::time_point deadline);
+  void run_backward(Clock::time_point deadline);
+  void run_to_line(Clock::time_point deadline);
+
+  // Parts of a run.
+  void begin_program();
+  std::optional<Stop> run_block(double until);
+  std::uint64_t advance(const std::function<void(Debuggee& debuggee)>& move);
+  std::optional<Stop> end_block(std::uint64_t block);
+  void end_at_error();
+  void step_now(Step step);
+  void go_forward_to_line(std::uint64_t line, std::string_view reason);
+  void go_backward_to_line(std::uint64_t line);
+  bool pass_block();
+  void arrive_at_line();
+  void report_missed_line(std::uint64_t line, std::optional<std::uint64_t> place = {});
+  void go_back_to(const BackwardSearch::Hit& hit);
+  void go_back_to_start();
+  void move_back(const std::function<void(Debuggee& debuggee)>& move);
+
+  // Stops.
+  void stop(const Stop& stop);
+  void settle(std::string_view reason);
+  void finish(int exit_code);
+  void report_on_the_way();
+
+  lsp::rpc::Loop& loop_;
+  SessionState& state_;
+  Notifier& notifier_;
+  StopCheck stop_check_;
+  WarningCheck warning_check_;
+  FileWatch file_watch_;
+  Pace pace_;
+
+  Activity activity_ = Activity::None;
+  std::uint64_t generation_ = 0;  ///< Tasks of an earlier one are void.
+  bool has_started_ = false;
+
+  std::optional<BackwardSearch> search_;
+  std::uint64_t target_line_ = 0;
+  std::string_view arrival_reason_ = "goto";
+  std::optional<simulation::Simulation> origin_;  ///< Where the run to target_line_ began.
+};
+
+}  // namespace isocnc::debugger::session

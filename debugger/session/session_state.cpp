@@ -1,0 +1,30 @@
+#include "debugger/session/session_state.h"
+
+#include "interpreter/dialect/locale.h"
+#include "interpreter/system/same_file.h"
+
+namespace isocnc::debugger::session {
+
+Moment SessionState::moment() const {
+  Moment moment = moment_of(debuggee->present());
+  moment.override_percent = 100 * debuggee->feed_override();
+  moment.playback = launch_options.speed;
+  return moment;
+}
+
+bool SessionState::is_program(const std::filesystem::path& file) const {
+  const std::filesystem::path& program = launch_options.program;
+  return file == program || system::is_same_file(file.string(), program.string());
+}
+
+Json SessionState::source() const {
+  return {{"name", launch_options.program.filename().string()}, {"path", launch_options.program.string()}};
+}
+
+dialect::Language SessionState::language() const {
+  if (commanded_language) return *commanded_language;
+  if (configuration.language) return *configuration.language;
+  return client.locale.value_or(dialect::language_of_environment());
+}
+
+}  // namespace isocnc::debugger::session

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "debugger/session/breakpoints.h"
+#include "debugger/session/client.h"
+#include "debugger/session/debuggee.h"
+#include "debugger/session/exception_filters.h"
+#include "debugger/session/journal.h"
+#include "debugger/session/launch_options.h"
+#include "interpreter/configuration/configuration.h"
+#include "interpreter/dialect/format.h"
+
+namespace isocnc::debugger::session {
+
+/// What the parts of a session share: the client, the program that is debugged, and what its run stops at.
+struct SessionState {
+  Client client;
+  std::optional<dialect::Language> commanded_language;  ///< Of the command line; overrules all others.
+  LaunchOptions launch_options;
+  configuration::Configuration configuration;
+  std::shared_ptr<Debuggee> debuggee;  ///< Null before a launch and after the end.
+  Journal journal;
+  Breakpoints breakpoints;
+  ExceptionFilters exception_filters;
+  std::optional<Exception> exception;  ///< Reason of the present stop, where it is one.
+
+  bool is_launched() const { return debuggee != nullptr; }
+  /// The present of the debuggee, which is launched.
+  Moment moment() const;
+  /// Whether the file is that of the program, even if it has been removed since.
+  bool is_program(const std::filesystem::path& file) const;
+  /// The program, as a `Source` of the protocol.
+  Json source() const;
+
+  dialect::Language language() const;
+  std::string_view in_language(const dialect::Text& text) const { return text.in(language()); }
+  template <class Value, class... Values>
+  std::string in_language(const dialect::Text& text, const Value& value, const Values&... values) const {
+    return dialect::format(text, language(), value, values...);
+  }
+};
+
+}  // namespace isocnc::debugger::session

@@ -1,0 +1,113 @@
+#include "debugger/session/stop_check.h"
+
+#include <utility>
+
+#include "analyzer/explain.h"
+#include "debugger/session/block_effect.h"
+#include "interpreter/running/error_message.h"
+
+namespace isocnc::debugger::session {
+
+std::optional<Stop> StopCheck::before_block() {
+  if (state_.debuggee->present().is_in_block() || std::exchange(is_judged_, false)) return std::nullopt;
+  auto due = judge_block();
+  if (due) is_judged_ = true;
+  return due;
+}
+
+std::optional<Stop> StopCheck::on_arrival() {
+  if (state_.debuggee->present().is_in_block() || std::exchange(is_judged_, true)) return std::nullopt;
+  return judge_block();
+}
+
+std::optional<Stop> StopCheck::judge_block() {
+  if (state_.launch_options.no_debug || state_.debuggee->present().has_ended()) return std::nullopt;
+  if (ends_step_out()) return Stop{.reason = "step"};
+  if (auto stop = judge_breakpoints()) return stop;
+  return judge_exceptions();
+}
+
+static bool has_same_frame(const execution::State& a, const execution::State& b) {
+  return a.workpiece_origin == b.workpiece_origin && a.face_mounted == b.face_mounted && a.face == b.face;
+}
+
+void StopCheck::step_out() { step_out_from_ = state_.debuggee->present().run().state; }
+
+bool StopCheck::ends_step_out() const {
+  if (!step_out_from_) return false;
+  const auto block = state_.debuggee->next();
+  return block && (changes_tool(*block) || !has_same_frame(block->state, *step_out_from_));
+}
+
+std::optional<Stop> StopCheck::judge_breakpoints() {
+  Breakpoints& breakpoints = state_.breakpoints;
+  const std::uint64_t line = state_.debuggee->present().line();
+  const std::uint64_t number = state_.debuggee->present().blocks();
+  if (!breakpoints.has_line(line) && !breakpoints.has_functions()) return std::nullopt;
+  Breakpoints::Outcome at_line;
+  Breakpoints::Outcome at_code;
+  if (breakpoints.has_line(line)) breakpoints.judge_line(state_.moment(), number, Direction::Forward, at_line);
+  if (breakpoints.has_functions())
+    if (const auto block = state_.debuggee->next())
+      breakpoints.judge_functions(block->tree, state_.moment(), number, Direction::Forward, at_code);
+  report_messages(at_line, line);
+  report_messages(at_code, line);
+  if (at_line.stopped.empty() && at_code.stopped.empty()) return std::nullopt;
+  const std::string_view reason = at_line.stopped.empty() ? "function breakpoint" : "breakpoint";
+  at_line.stopped.insert(at_line.stopped.end(), at_code.stopped.begin(), at_code.stopped.end());
+  return Stop{.reason = reason, .details = {{"hitBreakpointIds", at_line.stopped}}};
+}
+
+std::optional<Stop> StopCheck::judge_exceptions() {
+  if (!state_.exception_filters.judge_blocks()) return std::nullopt;
+  Debuggee& debuggee = *state_.debuggee;
+  const auto block = debuggee.next();
+  if (!block) return std::nullopt;
+  auto found = state_.exception_filters.find_exception(*block, debuggee.setup(), debuggee.machine(), state_.language());
+  if (!found) return std::nullopt;
+  state_.exception = std::move(found);
+  return Stop{.reason = "exception",
+              .details = {{"text", state_.exception->code}, {"description", state_.exception->message}}};
+}
+
+void StopCheck::start_block() {
+  const Breakpoints& breakpoints = state_.breakpoints;
+  if (!breakpoints.has_data()) return;
+  const Moment before = state_.moment();
+  breakpoints.start_trail(before, trail_);
+  if (!breakpoints.has_thresholds()) return;
+  const auto block = state_.debuggee->next();
+  if (block && may_be_arc(*block)) breakpoints.read_arc(effect_of(*block, state_.debuggee->setup()), before, trail_);
+}
+
+std::optional<Stop> StopCheck::after_block(std::uint64_t block) {
+  Breakpoints& breakpoints = state_.breakpoints;
+  if (!breakpoints.has_data() || state_.launch_options.no_debug) return std::nullopt;
+  const Moment now = state_.moment();
+  breakpoints.read_data(now, trail_);
+  Breakpoints::Outcome outcome;
+  breakpoints.judge_data(trail_, now, block, Direction::Forward, outcome);
+  report_messages(outcome, now.line);
+  if (outcome.stopped.empty()) return std::nullopt;
+  return Stop{.reason = "data breakpoint",
+              .details = {{"hitBreakpointIds", outcome.stopped},
+                          {"description", breakpoints.description(outcome.stopped.front(), trail_)}}};
+}
+
+Stop StopCheck::at_error() {
+  const running::RunResult& run = state_.debuggee->present().run();
+  const dialect::Language language = state_.language();
+  state_.exception = Exception{.filter = ExceptionFilter::Errors,
+                               .code = std::string(dialect::definition(run.error.id).code),
+                               .message = running::error_message(run, language),
+                               .explanation = analyzer::explain(run.error.id, language)};
+  return {.reason = "exception",
+          .details = {{"text", state_.exception->code}, {"description", state_.exception->message}}};
+}
+
+void StopCheck::report_messages(const Breakpoints::Outcome& outcome, std::uint64_t line) {
+  notifier_.report_messages(outcome, line);
+  message_count_ += outcome.messages.size();
+}
+
+}  // namespace isocnc::debugger::session

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "debugger/session/notifier.h"
+#include "debugger/session/session_state.h"
+
+namespace isocnc::debugger::session {
+
+/// A stop that is due.
+struct Stop {
+  std::string_view reason;        ///< In the protocol.
+  Json details = Json::object();  ///< Further members of the event.
+};
+
+/// Decides where a run forward stops: at breakpoints, at exceptions, and at the end of what is stepped out of. Each
+/// block is judged once, when the run comes to stand before it. Costly questions are asked only where a breakpoint or
+/// filter needs the answer.
+class StopCheck {
+ public:
+  /// Keeps references to both. Messages of log points go to the notifier.
+  StopCheck(SessionState& state, Notifier& notifier) : state_(state), notifier_(notifier) {}
+
+  /// The run is about to execute the next block. A block that has been judged on arrival is not judged again.
+  std::optional<Stop> before_block();
+  /// The run has come to stand before a block, or within one.
+  std::optional<Stop> on_arrival();
+  /// The next block counts as not judged, or as judged already.
+  void expect_judgement() { is_judged_ = false; }
+  void skip_judgement() { is_judged_ = true; }
+
+  /// A block begins: takes the values that data breakpoints watch.
+  void start_block();
+  /// The block with this number has ended, and not the program.
+  std::optional<Stop> after_block(std::uint64_t block);
+  /// An error has ended the program.
+  Stop at_error();
+
+  /// Stops where the tool or the frame is no longer that of now.
+  void step_out();
+  void forget_step_out() { step_out_from_.reset(); }
+
+  /// Messages of log points since the last reset.
+  std::size_t message_count() const { return message_count_; }
+  void reset_message_count() { message_count_ = 0; }
+
+ private:
+  std::optional<Stop> judge_block();
+  bool ends_step_out() const;
+  std::optional<Stop> judge_breakpoints();
+  std::optional<Stop> judge_exceptions();
+  void report_messages(const Breakpoints::Outcome& outcome, std::uint64_t line);
+
+  SessionState& state_;
+  Notifier& notifier_;
+  bool is_judged_ = false;                         ///< The block that comes next.
+  std::optional<execution::State> step_out_from_;  ///< State in which the step out began.
+  Trail trail_;                                    ///< Values of the block in progress.
+  std::size_t message_count_ = 0;
+};
+
+}  // namespace isocnc::debugger::session
