@@ -21,11 +21,10 @@ static std::vector<std::pair<int, double>> read_registers(const Json& registers,
   if (registers.is_null()) return read;
   if (!registers.is_object()) refuse("registers", registers.dump(), language);
   for (const auto& [name, value] : registers.items()) {
-    const Quantity* const quantity = find_quantity(name);
-    const bool is_register = quantity != nullptr && quantity->is_register;
-    if (!is_register || !value.is_number() || !std::isfinite(value.get<double>()))
+    const auto number = find_register(name);
+    if (!number || !value.is_number() || !std::isfinite(value.get<double>()))
       refuse("registers", Json{{name, value}}.dump(-1, ' ', false, Json::error_handler_t::replace), language);
-    read.emplace_back(quantity->index, value.get<double>());
+    read.emplace_back(*number, value.get<double>());
   }
   return read;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "debugger/session/session.h"
 #include "interpreter/dialect/any_case.h"
 #include "interpreter/motion/numbers.h"
 
@@ -93,6 +94,38 @@ static double read_tool(const Moment& moment, int index) {
   }
 }
 
+// What rows can set. Values are finite.
+
+static bool set_register(Session& session, int index, double value) {
+  session.change_variables([&](Debuggee& debuggee) { debuggee.set_register(index, value); });
+  return true;
+}
+static bool set_vgpl(Session& session, int, double value) {
+  session.change_variables([&](Debuggee& debuggee) { debuggee.set_vgpl(value); });
+  return true;
+}
+static bool set_spindle_speed(Session& session, int, double value) {
+  if (!(value > 0)) return false;
+  session.change_machine([&](Debuggee& debuggee) { debuggee.set_spindle_speed(value); });
+  return true;
+}
+static bool set_feed(Session& session, int, double value) {
+  if (!(value > 0)) return false;
+  session.change_machine([&](Debuggee& debuggee) { debuggee.set_feed(value); });
+  return true;
+}
+static bool set_override(Session& session, int, double value) {
+  constexpr double kMaxPercent = 1000;
+  if (!(value > 0) || value > kMaxPercent) return false;
+  session.change_machine([&](Debuggee& debuggee) { debuggee.set_feed_override(value / 100); });
+  return true;
+}
+static bool set_playback(Session& session, int, double value) {
+  if (value < 0) return false;
+  session.set_playback(value);
+  return true;
+}
+
 namespace {
 
 struct Group {
@@ -128,41 +161,73 @@ std::string_view register_name(int number) {
 void add_axes(std::vector<Quantity>& quantities, std::span<const std::string_view> names, dialect::Text meaning,
               Quantity::Read read) {
   for (std::size_t i = 0; i < names.size(); ++i)
-    quantities.push_back({names[i], meaning, kUnits[i], read, static_cast<int>(i)});
+    quantities.push_back(
+        {.name = names[i], .meaning = meaning, .unit = kUnits[i], .read = read, .index = static_cast<int>(i)});
 }
 
-std::vector<Quantity> make_quantities() {
-  std::vector<Quantity> all;
+void add_positions(std::vector<Quantity>& quantities) {
   static constexpr std::array<std::string_view, 5> kProgrammed{"X", "Y", "Z", "B", "C"};
   static constexpr std::array<std::string_view, 3> kWorkpiece{"XW", "YW", "ZW"};
   static constexpr std::array<std::string_view, 5> kMachine{"XM", "YM", "ZM", "BM", "CM"};
   static constexpr std::array<std::string_view, 5> kJoints{"XJ", "YJ", "ZJ", "BJ", "CJ"};
-  add_axes(all, kProgrammed, {"tool tip, frame in force", "punta utensile, s.d.r. in presa"}, read_programmed);
-  add_axes(all, kWorkpiece, {"tool tip, workpiece frame", "punta utensile, s.d.r. di pezzo"}, read_workpiece);
-  add_axes(all, kMachine, {"tool tip, machine frame", "punta utensile, s.d.r. di macchina"}, read_machine);
-  add_axes(all, kJoints, {"axis of the machine", "asse della macchina"}, read_joint);
-  all.push_back({"S", {"spindle speed", "velocità del mandrino"}, "1/min", read_spindle_speed, 0});
-  all.push_back({"F", {"feed rate as written", "feed come scritto"}, "", read_feed, 0});
-  all.push_back({"SPEED", {"present speed of the tip", "velocità attuale della punta"}, "mm/min", read_speed, 0});
-  all.push_back({"SPINDLE", {"M of the spindle: 3, 4 or 5", "M del mandrino: 3, 4 o 5"}, "", read_spindle, 0});
-  all.push_back({"T", {"tool in the spindle", "utensile nel mandrino"}, "", read_tool, 0});
-  all.push_back({"HEAD", {"head of the tool", "testa dell'utensile"}, "", read_tool, 1});
-  all.push_back({"HOLDER", {"holder of the tool", "portautensile"}, "", read_tool, 2});
-  all.push_back({"TOOL", {"number of the tool", "numero dell'utensile"}, "", read_tool, 3});
-  all.push_back({"VGPL", {"GPL variable that IF compares", "variabile GPL confrontata da IF"}, "", read_vgpl, 0});
-  all.push_back({"LINE", {"line of the program", "riga del programma"}, "", read_line, 0});
-  all.push_back({"TIME", {"time since the begin", "tempo dall'inizio"}, "s", read_time, 0});
-  all.push_back({"OVERRIDE", {"override of the feed", "override del feed"}, "%", read_override, 0});
-  all.push_back({"PLAYBACK",
-                 {"speed of the run: 0 as fast as possible, 1 in real time",
-                  "velocità di esecuzione: 0 la massima, 1 in tempo reale"},
-                 "",
-                 read_playback,
-                 0});
+  add_axes(quantities, kProgrammed, {"tool tip, frame in force", "punta utensile, s.d.r. in presa"}, read_programmed);
+  add_axes(quantities, kWorkpiece, {"tool tip, workpiece frame", "punta utensile, s.d.r. di pezzo"}, read_workpiece);
+  add_axes(quantities, kMachine, {"tool tip, machine frame", "punta utensile, s.d.r. di macchina"}, read_machine);
+  add_axes(quantities, kJoints, {"axis of the machine", "asse della macchina"}, read_joint);
+}
+
+/// Quantities that are none of a series.
+constexpr Quantity kSingle[] = {
+    {.name = "S",
+     .meaning = {"spindle speed", "velocità del mandrino"},
+     .unit = "1/min",
+     .read = read_spindle_speed,
+     .set = set_spindle_speed},
+    {.name = "F", .meaning = {"feed rate as written", "feed come scritto"}, .read = read_feed, .set = set_feed},
+    {.name = "SPEED",
+     .meaning = {"present speed of the tip", "velocità attuale della punta"},
+     .unit = "mm/min",
+     .read = read_speed},
+    {.name = "SPINDLE", .meaning = {"M of the spindle: 3, 4 or 5", "M del mandrino: 3, 4 o 5"}, .read = read_spindle},
+    {.name = "T", .meaning = {"tool in the spindle", "utensile nel mandrino"}, .read = read_tool},
+    {.name = "HEAD", .meaning = {"head of the tool", "testa dell'utensile"}, .read = read_tool, .index = 1},
+    {.name = "HOLDER", .meaning = {"holder of the tool", "portautensile"}, .read = read_tool, .index = 2},
+    {.name = "TOOL", .meaning = {"number of the tool", "numero dell'utensile"}, .read = read_tool, .index = 3},
+    {.name = "VGPL",
+     .meaning = {"GPL variable that IF compares", "variabile GPL confrontata da IF"},
+     .read = read_vgpl,
+     .set = set_vgpl},
+    {.name = "LINE", .meaning = {"line of the program", "riga del programma"}, .read = read_line},
+    {.name = "TIME", .meaning = {"time since the begin", "tempo dall'inizio"}, .unit = "s", .read = read_time},
+    {.name = "OVERRIDE",
+     .meaning = {"override of the feed", "override del feed"},
+     .unit = "%",
+     .read = read_override,
+     .set = set_override},
+    {.name = "PLAYBACK",
+     .meaning = {"speed of the run: 0 as fast as possible, 1 in real time",
+                 "velocità di esecuzione: 0 la massima, 1 in tempo reale"},
+     .read = read_playback,
+     .set = set_playback},
+};
+
+std::vector<Quantity> make_quantities() {
+  std::vector<Quantity> all;
+  add_positions(all);
+  all.insert(all.end(), std::begin(kSingle), std::end(kSingle));
   for (std::size_t i = 0; i < kGroups.size(); ++i)
-    all.push_back({kGroups[i].name, kGroups[i].meaning, "", read_mode, static_cast<int>(i)});
+    all.push_back({.name = kGroups[i].name,
+                   .meaning = kGroups[i].meaning,
+                   .unit = {},
+                   .read = read_mode,
+                   .index = static_cast<int>(i)});
   for (int i = 1; i <= dialect::kRegisterCount; ++i)
-    all.push_back({register_name(i), {"register", "registro"}, "", read_register, i, true});
+    all.push_back({.name = register_name(i),
+                   .meaning = {"register", "registro"},
+                   .unit = {},
+                   .read = read_register,
+                   .index = i,
+                   .set = set_register});
   return all;
 }
 
@@ -177,6 +242,12 @@ const Quantity* find_quantity(std::string_view name) {
   for (const Quantity& quantity : all_quantities())
     if (dialect::equal_words(name, quantity.name)) return &quantity;
   return nullptr;
+}
+
+std::optional<int> find_register(std::string_view name) {
+  const Quantity* const quantity = find_quantity(name);
+  if (quantity == nullptr || quantity->read != read_register) return std::nullopt;
+  return quantity->index;
 }
 
 std::string_view group_name(ModalGroup group) { return kGroups[static_cast<std::size_t>(group)].name; }

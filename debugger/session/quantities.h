@@ -26,16 +26,22 @@ struct Moment {
 /// The present of a simulation.
 Moment moment_of(const simulation::Simulation& simulation);
 
-/// Something that has a number at any moment, and its name: `X`, `ZM`, `V12`, `MOTION`.
+class Session;
+
+/// Something that has a number at any moment, and its name: `X`, `ZM`, `V12`, `MOTION`. Its row in the table is all
+/// that there is to it, also for what can be set.
 struct Quantity {
   using Read = double (*)(const Moment& moment, int index);
+  /// Sets it in a session whose program stands. False where it cannot have the value, which is finite. Throws
+  /// RequestError where the machine cannot take the change now.
+  using Set = bool (*)(Session& session, int index, double value);
 
   std::string_view name;
   dialect::Text meaning;
-  std::string_view unit;  ///< `mm`, `°`, ...; empty for plain numbers.
+  std::string_view unit = {};  ///< `mm`, `°`, ...; empty for plain numbers.
   Read read = nullptr;
-  int index = 0;  ///< Which one of its kind: of registers the number.
-  bool is_register = false;
+  int index = 0;      ///< Which one of its kind: of registers the number.
+  Set set = nullptr;  ///< Null for a quantity that cannot be set.
 
   double at(const Moment& moment) const { return read(moment, index); }
 };
@@ -43,7 +49,10 @@ struct Quantity {
 /// The quantity with this name, in any case; null when there is none.
 const Quantity* find_quantity(std::string_view name);
 
-/// All of them, in the order of the documentation.
+/// The number of the register with this name, `V1` to `V30` in any case; none for other names.
+std::optional<int> find_register(std::string_view name);
+
+/// All quantities, in the order of the documentation.
 std::span<const Quantity> all_quantities();
 
 /// The tool tip as the program counts it: in the frame in force, the workpiece frame, the machine frame.

@@ -152,43 +152,29 @@ void Session::require_change_by_hand() const {
   throw RequestError(std::string(in_language(why)));
 }
 
-void Session::set_speed(double speed) {
-  state_.launch_options.speed = speed;
-  run_loop_.restart_pace();
+void Session::change_variables(const std::function<void(Debuggee& debuggee)>& change) {
+  change(stopped_debuggee());
+  finish_change();
 }
 
-bool Session::can_set(const Quantity& quantity) {
-  const auto& name = quantity.name;
-  return quantity.is_register || name == "VGPL" || name == "S" || name == "F" || name == "OVERRIDE" ||
-         name == "PLAYBACK";
+void Session::change_machine(const std::function<void(Debuggee& debuggee)>& change) {
+  require_change_by_hand();
+  change_variables(change);
+}
+
+void Session::set_playback(double speed) {
+  stopped_debuggee();
+  state_.launch_options.speed = speed;
+  run_loop_.restart_pace();
 }
 
 void Session::refuse_to_set(std::string_view name) const { throw RequestError(in_language(kNotSettable, name)); }
 
 void Session::set_quantity(const Quantity& quantity, double value) {
-  Debuggee& debuggee = stopped_debuggee();
-  if (!can_set(quantity)) refuse_to_set(quantity.name);
-  const bool is_positive = value > 0 || (quantity.name == "PLAYBACK" && value == 0);
-  const bool takes_any = quantity.is_register || quantity.name == "VGPL";
-  if (!std::isfinite(value) || (!takes_any && !is_positive) || (quantity.name == "OVERRIDE" && value > 1000))
+  stopped_debuggee();
+  if (quantity.set == nullptr) refuse_to_set(quantity.name);
+  if (!std::isfinite(value) || !quantity.set(*this, quantity.index, value))
     throw RequestError(in_language(kBadValue, quantity.name, show_value(value)));
-  if (quantity.is_register) {
-    debuggee.set_register(quantity.index, value);
-  } else if (quantity.name == "VGPL") {
-    debuggee.set_vgpl(value);
-  } else if (quantity.name == "PLAYBACK") {
-    return set_speed(value);
-  } else {
-    require_change_by_hand();
-    if (quantity.name == "OVERRIDE") {
-      debuggee.set_feed_override(value / 100);
-    } else if (quantity.name == "S") {
-      debuggee.set_spindle_speed(value);
-    } else {
-      debuggee.set_feed(value);
-    }
-  }
-  finish_change();
 }
 
 /// What the blocks did, a line each, and where they have led the tip.

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -74,7 +75,12 @@ class Session {
 
   // --- Changing.
   void set_quantity(const Quantity& quantity, double value);
-  static bool can_set(const Quantity& quantity);
+  /// Changes what IFs compare, wherever the debuggee stands.
+  void change_variables(const std::function<void(Debuggee& debuggee)>& change);
+  /// Changes the machine itself, between two blocks and not under G41 or G42.
+  void change_machine(const std::function<void(Debuggee& debuggee)>& change);
+  /// 0: as fast as possible; 1: in real time.
+  void set_playback(double speed);
   /// Throws the refusal to set something of this name.
   [[noreturn]] void refuse_to_set(std::string_view name) const;
   /// Runs blocks by hand. Returns what they did, for the console.
@@ -95,7 +101,6 @@ class Session {
   void report_moved_breakpoints();
   void require_launch() const;
   void require_change_by_hand() const;
-  void set_speed(double speed);
   void finish_change();
 
   SessionState state_;

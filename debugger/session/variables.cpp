@@ -100,7 +100,7 @@ class Listing {
                          .value = show(quantity->at(moment_)),
                          .type = in_language(quantity->meaning) + unit,
                          .evaluate_name = std::string(quantity->name),
-                         .quantity = Session::can_set(*quantity) ? quantity : nullptr});
+                         .quantity = quantity->set != nullptr ? quantity : nullptr});
   }
 
   void list_position() {
