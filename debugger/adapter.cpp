@@ -4,14 +4,11 @@
 
 #include <fmt/format.h>
 
-#include "interpreter/dialect/locale.h"
 #include "lsp/rpc/message.h"
 
 namespace isocnc::debugger {
 
 using dialect::Text;
-using session::find_flag;
-using session::find_text;
 using session::RequestError;
 
 static constexpr Text kNoLength{"a header tells no Content-Length", "un'intestazione non riporta Content-Length"};
@@ -62,10 +59,8 @@ void Adapter::answer(const Json& request) {
     succeed(request, known->second(session_, arguments));
     // The breakpoints can be told now: it is known which lines there are.
     if (command == "launch") emit("initialized", Json::object());
-  } catch (const session::ArgumentError& error) {
-    fail(request, error.in(session_.language()));
   } catch (const RequestError& error) {
-    fail(request, error.what());
+    fail(request, error.in(session_.language()));
   } catch (const Json::exception& error) {
     fail(request, session_.in_language(kNotUnderstood, command, error.what()));
   }
@@ -74,16 +69,16 @@ void Adapter::answer(const Json& request) {
 /// What the adapter can do: its own part, and that of each request.
 Json Adapter::initialize(const Json& arguments) {
   if (is_initialized_) throw RequestError(std::string(session_.in_language(kInitialized)));
-  session::Client& client = session_.client();
-  client.lines_start_at_1 = find_flag(arguments, "linesStartAt1").value_or(true);
-  client.columns_start_at_1 = find_flag(arguments, "columnsStartAt1").value_or(true);
-  client.supports_invalidated = find_flag(arguments, "supportsInvalidatedEvent").value_or(false);
-  client.supports_progress = find_flag(arguments, "supportsProgressReporting").value_or(false);
-  if (const auto locale = find_text(arguments, "locale")) client.locale = dialect::language_of_locale(*locale);
+  session_.client() = arguments.get<session::Client>();
   is_initialized_ = true;
-  Json capabilities = Json::object();
+  Json capabilities = {{"exceptionBreakpointFilters", exception_filters()}};
   for (const requests::Request* const request : requests::all_requests())
     if (request->capabilities != nullptr) capabilities.update(request->capabilities());
+  return capabilities;
+}
+
+/// All filters, of which the default ones are turned on.
+Json Adapter::exception_filters() {
   Json filters = Json::array();
   for (std::size_t i = 0; i < session::kExceptionFilterCount; ++i) {
     const auto filter = static_cast<session::ExceptionFilter>(i);
@@ -94,8 +89,7 @@ Json Adapter::initialize(const Json& arguments) {
                        {"default", def.is_default}});
     if (def.is_default) session_.exception_filters().turn_on(filter);
   }
-  capabilities["exceptionBreakpointFilters"] = filters;
-  return capabilities;
+  return filters;
 }
 
 /// The debuggee ends with its debugger: there is nothing that it could go on as.

@@ -32,6 +32,7 @@ class Adapter final : public lsp::rpc::Party {
  private:
   void answer(const Json& request);
   Json initialize(const Json& arguments);
+  Json exception_filters();
   void disconnect(const Json& request);
   void succeed(const Json& request, const Json& body);
   void fail(const Json& request, const std::string& message);

@@ -2,27 +2,50 @@
 
 namespace isocnc::debugger::requests {
 
-/// Lines that a client is told of at once.
-static constexpr std::size_t kMost = 10000;
+/// Maximum number of lines in a response.
+static constexpr std::size_t kMaxLocations = 10000;
+
+namespace {
+
+struct LocationArguments {
+  session::SourceArguments source;
+  std::int64_t line = 0;
+  std::optional<std::int64_t> end_line;
+};
+
+struct LocationsBody {
+  std::vector<std::int64_t> lines;  ///< As the client counts.
+};
+
+void from_json(const Json& json, LocationArguments& arguments) {
+  arguments.line = required<std::int64_t>(json, "line");
+  arguments.end_line = member<std::int64_t>(json, "endLine");
+  arguments.source = json.get<session::SourceArguments>();
+}
+
+void to_json(Json& json, const LocationsBody& body) {
+  json = {{"breakpoints", Json::array()}};
+  for (const std::int64_t line : body.lines) json["breakpoints"].push_back({{"line", line}});
+}
+
+}  // namespace
 
 /// Lines that do something.
-static Json answer_breakpoint_locations(Session& session, const Json& arguments) {
+static LocationsBody answer_breakpoint_locations(Session& session, const LocationArguments& arguments) {
   const session::ProgramText& program = session.debuggee().text();
-  const std::uint64_t first = line_argument(session, arguments, "line");
-  const std::uint64_t last = find_integer(arguments, "endLine") ? line_argument(session, arguments, "endLine") : first;
-  Json locations = Json::array();
-  const Json source = arguments.value("source", Json::object());
-  if (!session.is_program(find_text(source, "path").value_or(""))) return {{"breakpoints", locations}};
-  for (auto line = program.executable_line(first); line && *line <= last && locations.size() < kMost;
+  const std::uint64_t first = to_line(session, arguments.line);
+  const std::uint64_t last = arguments.end_line ? to_line(session, *arguments.end_line) : first;
+  LocationsBody body;
+  if (!session.is_program(arguments.source.path)) return body;
+  for (auto line = program.executable_line(first); line && *line <= last && body.lines.size() < kMaxLocations;
        line = program.executable_line(*line + 1))
-    locations.push_back({{"line", session.client().to_client_line(*line)}});
-  return {{"breakpoints", locations}};
+    body.lines.push_back(session.client().to_client_line(*line));
+  return body;
 }
 
 static Json breakpoint_locations_capabilities() { return {{"supportsBreakpointLocationsRequest", true}}; }
 
-extern const Request breakpoint_locations = {.command = "breakpointLocations",
-                                             .answer = answer_breakpoint_locations,
-                                             .capabilities = breakpoint_locations_capabilities};
+extern const Request breakpoint_locations =
+    on<&answer_breakpoint_locations>("breakpointLocations", breakpoint_locations_capabilities);
 
 }  // namespace isocnc::debugger::requests

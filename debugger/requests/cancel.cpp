@@ -2,14 +2,25 @@
 
 namespace isocnc::debugger::requests {
 
-/// Of a search that has told its progress. Requests are answered at once: there is none to be cancelled.
-static Json answer_cancel(Session& session, const Json& arguments) {
-  if (find_text(arguments, "progressId") && session.is_running()) session.pause();
-  return nullptr;
+namespace {
+
+struct CancelArguments {
+  std::optional<std::string> progress_id;
+};
+
+void from_json(const Json& json, CancelArguments& arguments) {
+  arguments.progress_id = member<std::string>(json, "progressId");
+}
+
+}  // namespace
+
+/// Stops a search that has reported its progress. Requests are answered at once: there is none to be cancelled.
+static void answer_cancel(Session& session, const CancelArguments& arguments) {
+  if (arguments.progress_id && session.is_running()) session.pause();
 }
 
 static Json cancel_capabilities() { return {{"supportsCancelRequest", true}}; }
 
-extern const Request cancel = {.command = "cancel", .answer = answer_cancel, .capabilities = cancel_capabilities};
+extern const Request cancel = on<&answer_cancel>("cancel", cancel_capabilities);
 
 }  // namespace isocnc::debugger::requests

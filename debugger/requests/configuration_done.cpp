@@ -2,16 +2,12 @@
 
 namespace isocnc::debugger::requests {
 
-/// All breakpoints have been told: the run may begin.
-static Json answer_configuration_done(Session& session, const Json&) {
-  session.configuration_done();
-  return nullptr;
-}
+/// The client has set its breakpoints: the run may begin.
+static void answer_configuration_done(Session& session) { session.configuration_done(); }
 
 static Json configuration_done_capabilities() { return {{"supportsConfigurationDoneRequest", true}}; }
 
-extern const Request configuration_done = {.command = "configurationDone",
-                                           .answer = answer_configuration_done,
-                                           .capabilities = configuration_done_capabilities};
+extern const Request configuration_done =
+    on<&answer_configuration_done>("configurationDone", configuration_done_capabilities);
 
 }  // namespace isocnc::debugger::requests

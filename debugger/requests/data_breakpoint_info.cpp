@@ -5,7 +5,31 @@ namespace isocnc::debugger::requests {
 
 static constexpr dialect::Text kUnwatchable{"this cannot be watched", "non si può sorvegliare"};
 
-/// The expression that a variable of the client's is; empty where it is none.
+namespace {
+
+struct DataInfoArguments {
+  std::string name;
+  std::int64_t reference = 0;  ///< Of the scope or variable that holds the name; 0 where it is an expression.
+};
+
+struct DataInfoBody {
+  std::optional<std::string> id;  ///< None where it cannot be watched.
+  std::string description;
+};
+
+void from_json(const Json& json, DataInfoArguments& arguments) {
+  arguments.name = required<std::string>(json, "name");
+  arguments.reference = member<std::int64_t>(json, "variablesReference").value_or(0);
+}
+
+void to_json(Json& json, const DataInfoBody& body) {
+  json = {{"dataId", nullptr}, {"description", body.description}};
+  if (body.id) json.update({{"dataId", *body.id}, {"accessTypes", {"write"}}, {"canPersist", true}});
+}
+
+}  // namespace
+
+/// The expression of a variable that the client shows; empty where it is none.
 static std::string expression_of(const Session& session, const std::string& name, std::int64_t reference) {
   for (const session::Variable& variable : session::variables_of(session, reference, {}))
     if (variable.name == name) return variable.evaluate_name;
@@ -13,17 +37,15 @@ static std::string expression_of(const Session& session, const std::string& name
 }
 
 /// Whether something can be watched: a variable, or an expression such as `V3` or `Z = 0`, which is its own id.
-static Json answer_data_breakpoint_info(Session& session, const Json& arguments) {
-  std::string name = text(arguments, "name");
-  const std::int64_t reference = find_integer(arguments, "variablesReference").value_or(0);
-  if (reference > 0) name = expression_of(session, name, reference);
+static DataInfoBody answer_data_breakpoint_info(Session& session, const DataInfoArguments& arguments) {
+  const std::string name =
+      arguments.reference > 0 ? expression_of(session, arguments.name, arguments.reference) : arguments.name;
   const auto watched = session::Watched::compile(name, session.language());
-  if (const auto* const problem = std::get_if<session::ExpressionProblem>(&watched))
-    return {{"dataId", nullptr},
-            {"description", name.empty() ? std::string(session.in_language(kUnwatchable)) : problem->message}};
-  return {{"dataId", name}, {"description", name}, {"accessTypes", {"write"}}, {"canPersist", true}};
+  const auto* const problem = std::get_if<session::ExpressionProblem>(&watched);
+  if (problem == nullptr) return {.id = name, .description = name};
+  return {.id = {}, .description = name.empty() ? std::string(session.in_language(kUnwatchable)) : problem->message};
 }
 
-extern const Request data_breakpoint_info = {.command = "dataBreakpointInfo", .answer = answer_data_breakpoint_info};
+extern const Request data_breakpoint_info = on<&answer_data_breakpoint_info>("dataBreakpointInfo");
 
 }  // namespace isocnc::debugger::requests

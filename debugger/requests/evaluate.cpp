@@ -4,7 +4,29 @@
 
 namespace isocnc::debugger::requests {
 
-/// `X10.5` under the mouse: the X there is now.
+namespace {
+
+struct EvaluateArguments {
+  std::string expression;
+  std::string context;  ///< `repl`, `hover`, `watch`.
+  session::FormatArguments format;
+};
+
+struct EvaluateBody {
+  std::string result;
+};
+
+void from_json(const Json& json, EvaluateArguments& arguments) {
+  arguments.expression = required<std::string>(json, "expression");
+  arguments.context = member<std::string>(json, "context").value_or("watch");
+  arguments.format = json.get<session::FormatArguments>();
+}
+
+void to_json(Json& json, const EvaluateBody& body) { json = {{"result", body.result}, {"variablesReference", 0}}; }
+
+}  // namespace
+
+/// `X10.5` under the mouse: the present X.
 static std::string hovered(const Session& session, const std::string& word, const session::ValueFormat& format) {
   if (session::find_quantity(word) == nullptr && word.size() > 1 &&
       session::find_quantity(word.substr(0, 1)) != nullptr && syntax::is_number_char(word[1]))
@@ -13,22 +35,18 @@ static std::string hovered(const Session& session, const std::string& word, cons
 }
 
 /// An expression; in the console also blocks to be run by hand.
-static Json answer_evaluate(Session& session, const Json& arguments) {
-  const std::string expression = text(arguments, "expression");
-  const std::string context = find_text(arguments, "context").value_or("watch");
-  const session::ValueFormat format = format_of(session, arguments);
-  if (!session.is_launched()) session.stopped_debuggee();
-  const std::string result = context == "repl"    ? session::enter(session, expression)
-                             : context == "hover" ? hovered(session, expression, format)
-                                                  : session::evaluate(session, expression, format);
-  return {{"result", result}, {"variablesReference", 0}};
+static EvaluateBody answer_evaluate(Session& session, const EvaluateArguments& arguments) {
+  const session::ValueFormat format = format_of(session, arguments.format);
+  session.debuggee();
+  if (arguments.context == "repl") return {session::enter(session, arguments.expression)};
+  if (arguments.context == "hover") return {hovered(session, arguments.expression, format)};
+  return {session::evaluate(session, arguments.expression, format)};
 }
 
 static Json evaluate_capabilities() {
   return {{"supportsEvaluateForHovers", true}, {"supportsClipboardContext", true}};
 }
 
-extern const Request evaluate = {
-    .command = "evaluate", .answer = answer_evaluate, .capabilities = evaluate_capabilities};
+extern const Request evaluate = on<&answer_evaluate>("evaluate", evaluate_capabilities);
 
 }  // namespace isocnc::debugger::requests

@@ -5,23 +5,34 @@ namespace isocnc::debugger::requests {
 static constexpr dialect::Text kNone{"nothing but breakpoints has stopped the program",
                                      "a fermare il programma non è stata un'eccezione"};
 
-/// Why the control would stop: code, message, and all that is known of the code.
-static Json answer_exception_info(Session& session, const Json&) {
+namespace {
+
+struct ExceptionBody {
+  const session::Exception& exception;
+};
+
+void to_json(Json& json, const ExceptionBody& body) {
+  const session::Exception& exception = body.exception;
+  const bool is_error = exception.filter == session::ExceptionFilter::Errors;
+  json = {{"exceptionId", exception.code},
+          {"description", exception.message},
+          {"breakMode", is_error ? "unhandled" : "always"},
+          {"details", {{"message", exception.message}, {"typeName", exception.code}}}};
+  if (!exception.explanation.empty()) json["details"]["stackTrace"] = exception.explanation;
+}
+
+}  // namespace
+
+/// Why the control would stop: code, message, and the full explanation of the code.
+static ExceptionBody answer_exception_info(Session& session) {
   session.stopped_debuggee();
   const auto& exception = session.exception();
   if (!exception) throw RequestError(std::string(session.in_language(kNone)));
-  const bool is_error = exception->filter == session::ExceptionFilter::Errors;
-  Json details = {{"message", exception->message}, {"typeName", exception->code}};
-  if (!exception->explanation.empty()) details["stackTrace"] = exception->explanation;
-  return {{"exceptionId", exception->code},
-          {"description", exception->message},
-          {"breakMode", is_error ? "unhandled" : "always"},
-          {"details", details}};
+  return {*exception};
 }
 
 static Json exception_info_capabilities() { return {{"supportsExceptionInfoRequest", true}}; }
 
-extern const Request exception_info = {
-    .command = "exceptionInfo", .answer = answer_exception_info, .capabilities = exception_info_capabilities};
+extern const Request exception_info = on<&answer_exception_info>("exceptionInfo", exception_info_capabilities);
 
 }  // namespace isocnc::debugger::requests

@@ -4,15 +4,26 @@ namespace isocnc::debugger::requests {
 
 static constexpr dialect::Text kNoTarget{"there is no such target", "non c'è un tale punto di arrivo"};
 
-/// Back or on to a line, with the state that a run to it has.
-static Json answer_go_to(Session& session, const Json& arguments) {
-  const std::int64_t target = integer(arguments, "targetId");
-  const bool is_line = target >= 0 && static_cast<std::uint64_t>(target) < session.debuggee().text().line_count();
-  if (!is_line) throw RequestError(std::string(session.in_language(kNoTarget)));
-  session.go_to_line(static_cast<std::uint64_t>(target));
-  return nullptr;
+namespace {
+
+struct GotoArguments {
+  std::int64_t target = 0;  ///< The line, from 0.
+};
+
+void from_json(const Json& json, GotoArguments& arguments) {
+  arguments.target = required<std::int64_t>(json, "targetId");
 }
 
-extern const Request go_to = {.command = "goto", .answer = answer_go_to};
+}  // namespace
+
+/// Forward or backward to a line, with the state that a run to it has.
+static void answer_go_to(Session& session, const GotoArguments& arguments) {
+  const auto line = static_cast<std::uint64_t>(arguments.target);
+  if (arguments.target < 0 || line >= session.debuggee().text().line_count())
+    throw RequestError(std::string(session.in_language(kNoTarget)));
+  session.go_to_line(line);
+}
+
+extern const Request go_to = on<&answer_go_to>("goto");
 
 }  // namespace isocnc::debugger::requests

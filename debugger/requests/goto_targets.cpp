@@ -4,20 +4,45 @@ namespace isocnc::debugger::requests {
 
 static constexpr dialect::Text kLine{"line {}", "riga {}"};
 
-/// The block of a line, or the first one behind it. Its id is the line from 0.
-static Json answer_goto_targets(Session& session, const Json& arguments) {
-  Json targets = Json::array();
-  const auto line = session.debuggee().text().executable_line(line_argument(session, arguments, "line"));
-  if (line)
-    targets.push_back({{"id", *line},
-                       {"label", session.in_language(kLine, session.client().to_client_line(*line))},
-                       {"line", session.client().to_client_line(*line)}});
-  return {{"targets", targets}};
+namespace {
+
+struct GotoTargetsArguments {
+  std::int64_t line = 0;
+};
+
+struct GotoTarget {
+  std::uint64_t id = 0;  ///< The line, from 0.
+  std::string label;
+  std::int64_t line = 0;  ///< As the client counts.
+};
+
+struct GotoTargetsBody {
+  std::vector<GotoTarget> targets;
+};
+
+void from_json(const Json& json, GotoTargetsArguments& arguments) {
+  arguments.line = required<std::int64_t>(json, "line");
+}
+
+void to_json(Json& json, const GotoTargetsBody& body) {
+  json = {{"targets", Json::array()}};
+  for (const GotoTarget& each : body.targets)
+    json["targets"].push_back({{"id", each.id}, {"label", each.label}, {"line", each.line}});
+}
+
+}  // namespace
+
+/// The block of a line, or the first one after it.
+static GotoTargetsBody answer_goto_targets(Session& session, const GotoTargetsArguments& arguments) {
+  const session::ProgramText& program = session.debuggee().text();
+  const auto line = program.executable_line(to_line(session, arguments.line));
+  if (!line) return {};
+  const std::int64_t shown = session.client().to_client_line(*line);
+  return {{{.id = *line, .label = session.in_language(kLine, shown), .line = shown}}};
 }
 
 static Json goto_targets_capabilities() { return {{"supportsGotoTargetsRequest", true}}; }
 
-extern const Request goto_targets = {
-    .command = "gotoTargets", .answer = answer_goto_targets, .capabilities = goto_targets_capabilities};
+extern const Request goto_targets = on<&answer_goto_targets>("gotoTargets", goto_targets_capabilities);
 
 }  // namespace isocnc::debugger::requests

@@ -2,12 +2,9 @@
 
 namespace isocnc::debugger::requests {
 
-/// Reads the program; the run begins when the client has told its breakpoints.
-static Json answer_launch(Session& session, const Json& arguments) {
-  session.launch(session::read_launch_options(arguments, session.language()));
-  return nullptr;
-}
+/// Reads the program; the run begins when the client has set its breakpoints.
+static void answer_launch(Session& session, const session::LaunchOptions& options) { session.launch(options); }
 
-extern const Request launch = {.command = "launch", .answer = answer_launch};
+extern const Request launch = on<&answer_launch>("launch");
 
 }  // namespace isocnc::debugger::requests

@@ -2,12 +2,9 @@
 
 namespace isocnc::debugger::requests {
 
-/// Where the machine is just now.
-static Json answer_pause(Session& session, const Json&) {
-  session.pause();
-  return nullptr;
-}
+/// Stops the machine where it is.
+static void answer_pause(Session& session) { session.pause(); }
 
-extern const Request pause = {.command = "pause", .answer = answer_pause};
+extern const Request pause = on<&answer_pause>("pause");
 
 }  // namespace isocnc::debugger::requests

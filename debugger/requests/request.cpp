@@ -19,59 +19,45 @@ static constexpr dialect::Text kBadHits{"a hit condition is a number, or one beh
                                         "una condizione sul numero di passaggi è un numero, o un numero dopo =, >, >=, "
                                         "<, <= o %, non {}"};
 
-session::ValueFormat format_of(const Session& session, const Json& arguments) {
+session::ValueFormat format_of(const Session& session, const session::FormatArguments& arguments) {
   session::ValueFormat format = session.launch_options().format;
-  const Json wish = arguments.value("format", Json());
-  if (session::find_flag(wish, "hex").value_or(false)) format.is_hexadecimal = true;
+  if (arguments.is_hexadecimal) format.is_hexadecimal = true;
   return format;
 }
 
-std::uint64_t line_argument(const Session& session, const Json& arguments, const char* key) {
-  const std::int64_t number = integer(arguments, key);
-  const auto line = session.client().from_client_line(number);
-  if (!line) throw RequestError(session.in_language(kNoLine, number));
-  return *line;
+std::uint64_t to_line(const Session& session, std::int64_t line) {
+  const auto from_zero = session.client().from_client_line(line);
+  if (!from_zero) throw RequestError(session.in_language(kNoLine, line));
+  return *from_zero;
 }
 
-session::BreakpointRules rules_of(const Session& session, const Json& breakpoint) {
+/// What has been compiled. Throws RequestError for a mistake.
+template <class Compiled>
+static Compiled compiled_or_throw(std::variant<Compiled, session::ExpressionProblem> result) {
+  if (const auto* const problem = std::get_if<session::ExpressionProblem>(&result))
+    throw RequestError(problem->message);
+  return std::get<Compiled>(std::move(result));
+}
+
+/// A client may send a rule that has been left empty.
+static bool is_given(const std::optional<std::string>& rule) {
+  return rule && rule->find_first_not_of(" \t") != std::string::npos;
+}
+
+session::BreakpointRules compile_rules(const Session& session, const session::RuleArguments& arguments) {
+  const auto& [condition, hits, message] = arguments;
   session::BreakpointRules rules;
-  for (const char* const key : {"condition", "hitCondition", "logMessage"})
-    rules.text += find_text(breakpoint, key).value_or("") + "\n";
-  const auto is_given = [](const std::optional<std::string>& wish) {
-    return wish && wish->find_first_not_of(" \t") != std::string::npos;
-  };
-  if (const auto condition = find_text(breakpoint, "condition"); is_given(condition)) {
-    auto compiled = session::Expression::compile(*condition, session.language());
-    if (const auto* const problem = std::get_if<session::ExpressionProblem>(&compiled))
-      throw RequestError(problem->message);
-    rules.condition = std::get<session::Expression>(std::move(compiled));
-  }
-  if (const auto hits = find_text(breakpoint, "hitCondition"); is_given(hits)) {
+  rules.text = condition.value_or("") + "\n" + hits.value_or("") + "\n" + message.value_or("") + "\n";
+  if (is_given(condition))
+    rules.condition = compiled_or_throw(session::Expression::compile(*condition, session.language()));
+  if (is_given(hits)) {
     rules.hits = session::HitCondition::read(*hits);
     if (!rules.hits) throw RequestError(session.in_language(kBadHits, *hits));
   }
-  if (const auto message = find_text(breakpoint, "logMessage"); is_given(message)) {
-    auto compiled = session::LogMessage::compile(*message, session.launch_options().format, session.language());
-    if (const auto* const problem = std::get_if<session::ExpressionProblem>(&compiled))
-      throw RequestError(problem->message);
-    rules.message = std::get<session::LogMessage>(std::move(compiled));
-  }
+  if (is_given(message))
+    rules.message =
+        compiled_or_throw(session::LogMessage::compile(*message, session.launch_options().format, session.language()));
   return rules;
-}
-
-Json read_breakpoints(Session& session, const Json& arguments,
-                      const std::function<void(const Json& breakpoint, std::int64_t id)>& read) {
-  Json breakpoints = Json::array();
-  for (const Json& each : list(arguments, "breakpoints")) {
-    const std::int64_t id = session.new_breakpoint_id();
-    try {
-      read(each, id);
-      breakpoints.push_back({{"id", id}, {"verified", true}});
-    } catch (const RequestError& error) {
-      breakpoints.push_back({{"id", id}, {"verified", false}, {"message", error.what()}});
-    }
-  }
-  return {{"breakpoints", breakpoints}};
 }
 
 }  // namespace isocnc::debugger::requests

@@ -2,19 +2,24 @@
 
 namespace isocnc::debugger::requests {
 
-/// From the begin, or from the line that the launch asks for, with the program as the file says it now.
-static Json answer_restart(Session& session, const Json& arguments) {
-  const Json launch_arguments = arguments.value("arguments", Json());
-  if (launch_arguments.is_object()) {
-    session.restart(session::read_launch_options(launch_arguments, session.language()));
-  } else {
-    session.restart(std::nullopt);
-  }
-  return nullptr;
+namespace {
+
+struct RestartArguments {
+  std::optional<session::LaunchOptions> options;  ///< Those of the launch hold where there are none.
+};
+
+void from_json(const Json& json, RestartArguments& arguments) {
+  const Json* const options = session::find_member(json, "arguments");
+  if (options != nullptr && options->is_object()) arguments.options = options->get<session::LaunchOptions>();
 }
+
+}  // namespace
+
+/// From the start, or from the line that the launch asks for, with the program as the file says it now.
+static void answer_restart(Session& session, const RestartArguments& arguments) { session.restart(arguments.options); }
 
 static Json restart_capabilities() { return {{"supportsRestartRequest", true}}; }
 
-extern const Request restart = {.command = "restart", .answer = answer_restart, .capabilities = restart_capabilities};
+extern const Request restart = on<&answer_restart>("restart", restart_capabilities);
 
 }  // namespace isocnc::debugger::requests

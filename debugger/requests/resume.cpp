@@ -2,12 +2,12 @@
 
 namespace isocnc::debugger::requests {
 
-/// Up to the next thing that stops the run.
-static Json answer_resume(Session& session, const Json&) {
+/// Up to the next stop.
+static Json answer_resume(Session& session) {
   session.resume();
   return {{"allThreadsContinued", true}};
 }
 
-extern const Request resume = {.command = "continue", .answer = answer_resume};
+extern const Request resume = on<&answer_resume>("continue");
 
 }  // namespace isocnc::debugger::requests

@@ -2,12 +2,9 @@
 
 namespace isocnc::debugger::requests {
 
-/// Back to the last thing that would have stopped the run, or to its begin.
-static Json answer_reverse_continue(Session& session, const Json&) {
-  session.reverse();
-  return nullptr;
-}
+/// Back to the last place at which the run would have stopped, or to its start.
+static void answer_reverse_continue(Session& session) { session.reverse(); }
 
-extern const Request reverse_continue = {.command = "reverseContinue", .answer = answer_reverse_continue};
+extern const Request reverse_continue = on<&answer_reverse_continue>("reverseContinue");
 
 }  // namespace isocnc::debugger::requests

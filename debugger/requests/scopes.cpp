@@ -4,7 +4,7 @@
 namespace isocnc::debugger::requests {
 
 /// The same for each frame: there is one machine.
-static Json answer_scopes(Session& session, const Json&) {
+static Json answer_scopes(Session& session) {
   session.stopped_debuggee();
   Json scopes = Json::array();
   for (const session::Scope& scope : session::all_scopes()) {
@@ -16,6 +16,6 @@ static Json answer_scopes(Session& session, const Json&) {
   return {{"scopes", scopes}};
 }
 
-extern const Request scopes = {.command = "scopes", .answer = answer_scopes};
+extern const Request scopes = on<&answer_scopes>("scopes");
 
 }  // namespace isocnc::debugger::requests

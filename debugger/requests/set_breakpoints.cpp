@@ -4,52 +4,76 @@ namespace isocnc::debugger::requests {
 
 static constexpr dialect::Text kOtherFile{"this is not the program that is debugged",
                                           "non è il programma in esecuzione"};
-static constexpr dialect::Text kBehindEnd{"no block follows", "non segue nessun blocco"};
+static constexpr dialect::Text kNoBlockFollows{"no block follows", "non segue nessun blocco"};
+
+namespace {
+
+struct LineBreakpointArguments {
+  std::int64_t line = 0;
+  Item<session::RuleArguments> rules;  ///< Wrong ones leave the breakpoint in its line, unverified.
+};
+
+struct SetBreakpointsArguments {
+  session::SourceArguments source;
+  std::vector<Item<LineBreakpointArguments>> breakpoints;
+};
+
+void from_json(const Json& json, LineBreakpointArguments& arguments) {
+  arguments.line = required<std::int64_t>(json, "line");
+  arguments.rules = json.get<Item<session::RuleArguments>>();
+}
 
 /// Older clients send lines alone.
-static Json wanted_breakpoints(const Json& arguments) {
-  Json breakpoints = list(arguments, "breakpoints");
-  if (!breakpoints.empty() || arguments.contains("breakpoints")) return breakpoints;
-  Json made = Json::array();
-  for (const Json& line : list(arguments, "lines")) made.push_back({{"line", line}});
-  return made;
-}
-
-static session::SourceBreakpoint read_wish(Session& session, const Json& breakpoint) {
-  session::SourceBreakpoint wish{.id = session.new_breakpoint_id(),
-                                 .wanted_line = line_argument(session, breakpoint, "line")};
-  try {
-    wish.rules = rules_of(session, breakpoint);
-  } catch (const RequestError& error) {
-    wish.problem = error.what();
+void from_json(const Json& json, SetBreakpointsArguments& arguments) {
+  arguments.source = json.get<session::SourceArguments>();
+  auto breakpoints = member<std::vector<Item<LineBreakpointArguments>>>(json, "breakpoints");
+  if (breakpoints || json.contains("breakpoints")) {
+    arguments.breakpoints = std::move(breakpoints).value_or(std::vector<Item<LineBreakpointArguments>>());
+    return;
   }
-  return wish;
+  for (const Json& line : member<std::vector<Json>>(json, "lines").value_or(std::vector<Json>()))
+    arguments.breakpoints.push_back(Json{{"line", line}}.get<Item<LineBreakpointArguments>>());
 }
 
-static Json to_json(const Session& session, const session::SourceBreakpoint& wish) {
-  Json json = {{"id", wish.id}, {"verified", wish.line.has_value()}, {"source", session.source()}};
-  json["line"] = session.client().to_client_line(wish.line.value_or(wish.wanted_line));
-  if (!wish.problem.empty()) json["message"] = wish.problem;
-  if (wish.problem.empty() && !wish.line) json["message"] = session.in_language(kBehindEnd);
-  return json;
+}  // namespace
+
+static session::SourceBreakpoint make_source_breakpoint(Session& session, const Item<LineBreakpointArguments>& item) {
+  session::SourceBreakpoint breakpoint;
+  breakpoint.id = session.new_breakpoint_id();
+  const LineBreakpointArguments& arguments = item.get();
+  breakpoint.wanted_line = to_line(session, arguments.line);
+  try {
+    breakpoint.rules = compile_rules(session, arguments.rules.get());
+  } catch (const RequestError& error) {
+    breakpoint.problem = error.in(session.language());
+  }
+  return breakpoint;
+}
+
+static BreakpointBody body_of(const Session& session, const session::SourceBreakpoint& breakpoint) {
+  BreakpointBody body{.id = breakpoint.id,
+                      .is_verified = breakpoint.line.has_value(),
+                      .message = breakpoint.problem,
+                      .line = session.client().to_client_line(breakpoint.line.value_or(breakpoint.wanted_line)),
+                      .source = session.source()};
+  if (body.message.empty() && !body.is_verified) body.message = session.in_language(kNoBlockFollows);
+  return body;
 }
 
 /// All breakpoints of a file, in place of those it had.
-static Json answer_set_breakpoints(Session& session, const Json& arguments) {
+static BreakpointsBody answer_set_breakpoints(Session& session, const SetBreakpointsArguments& arguments) {
   session.debuggee();
-  const Json source = arguments.value("source", Json::object());
-  const Json wanted = wanted_breakpoints(arguments);
-  Json breakpoints = Json::array();
-  if (!session.is_program(find_text(source, "path").value_or(""))) {
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-      breakpoints.push_back({{"verified", false}, {"message", session.in_language(kOtherFile)}});
-    return {{"breakpoints", breakpoints}};
+  BreakpointsBody body;
+  if (!session.is_program(arguments.source.path)) {
+    const std::string message(session.in_language(kOtherFile));
+    body.breakpoints.assign(arguments.breakpoints.size(), {.id = {}, .message = message, .line = {}, .source = {}});
+    return body;
   }
-  std::vector<session::SourceBreakpoint> wishes;
-  for (const Json& breakpoint : wanted) wishes.push_back(read_wish(session, breakpoint));
-  for (const session::SourceBreakpoint& wish : session.set_source_breakpoints(std::move(wishes)))
-    breakpoints.push_back(to_json(session, wish));
-  return {{"breakpoints", breakpoints}};
+  std::vector<session::SourceBreakpoint> breakpoints;
+  for (const auto& each : arguments.breakpoints) breakpoints.push_back(make_source_breakpoint(session, each));
+  for (const session::SourceBreakpoint& each : session.set_source_breakpoints(std::move(breakpoints)))
+    body.breakpoints.push_back(body_of(session, each));
+  return body;
 }
 
 static Json set_breakpoints_capabilities() {
@@ -58,7 +82,6 @@ static Json set_breakpoints_capabilities() {
           {"supportsLogPoints", true}};
 }
 
-extern const Request set_breakpoints = {
-    .command = "setBreakpoints", .answer = answer_set_breakpoints, .capabilities = set_breakpoints_capabilities};
+extern const Request set_breakpoints = on<&answer_set_breakpoints>("setBreakpoints", set_breakpoints_capabilities);
 
 }  // namespace isocnc::debugger::requests

@@ -2,24 +2,50 @@
 
 namespace isocnc::debugger::requests {
 
+namespace {
+
+struct DataBreakpointArguments {
+  std::string expression;
+  session::RuleArguments rules;
+};
+
+struct SetDataBreakpointsArguments {
+  std::vector<Item<DataBreakpointArguments>> breakpoints;
+};
+
+void from_json(const Json& json, DataBreakpointArguments& arguments) {
+  arguments.expression = required<std::string>(json, "dataId");
+  arguments.rules = json.get<session::RuleArguments>();
+}
+
+void from_json(const Json& json, SetDataBreakpointsArguments& arguments) {
+  if (auto breakpoints = member<std::vector<Item<DataBreakpointArguments>>>(json, "breakpoints"))
+    arguments.breakpoints = *std::move(breakpoints);
+}
+
+}  // namespace
+
+static session::DataBreakpoint make_data_breakpoint(const Session& session, const DataBreakpointArguments& arguments,
+                                                    std::int64_t id) {
+  auto watched = session::Watched::compile(arguments.expression, session.language());
+  if (const auto* const problem = std::get_if<session::ExpressionProblem>(&watched))
+    throw RequestError(problem->message);
+  return {{.id = id, .rules = compile_rules(session, arguments.rules), .counter = {}},
+          std::get<session::Watched>(std::move(watched))};
+}
+
 /// Values that change (`V3`, `MOTION`, `F`), or that cross a threshold (`Z = 0`).
-static Json answer_set_data_breakpoints(Session& session, const Json& arguments) {
-  std::vector<session::DataBreakpoint> wanted;
-  Json told = read_breakpoints(session, arguments, [&](const Json& each, std::int64_t id) {
-    auto watched = session::Watched::compile(text(each, "dataId"), session.language());
-    if (const auto* const problem = std::get_if<session::ExpressionProblem>(&watched))
-      throw RequestError(problem->message);
-    wanted.push_back(
-        {{.id = id, .rules = rules_of(session, each), .counter = {}}, std::get<session::Watched>(std::move(watched))});
-  });
-  session.breakpoints().set_data(std::move(wanted));
-  return told;
+static BreakpointsBody answer_set_data_breakpoints(Session& session, const SetDataBreakpointsArguments& arguments) {
+  auto [breakpoints, body] = make_breakpoints<session::DataBreakpoint, DataBreakpointArguments>(
+      session, arguments.breakpoints,
+      [&](const DataBreakpointArguments& each, std::int64_t id) { return make_data_breakpoint(session, each, id); });
+  session.breakpoints().set_data(std::move(breakpoints));
+  return body;
 }
 
 static Json set_data_breakpoints_capabilities() { return {{"supportsDataBreakpoints", true}}; }
 
-extern const Request set_data_breakpoints = {.command = "setDataBreakpoints",
-                                             .answer = answer_set_data_breakpoints,
-                                             .capabilities = set_data_breakpoints_capabilities};
+extern const Request set_data_breakpoints =
+    on<&answer_set_data_breakpoints>("setDataBreakpoints", set_data_breakpoints_capabilities);
 
 }  // namespace isocnc::debugger::requests

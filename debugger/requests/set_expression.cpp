@@ -3,20 +3,34 @@
 
 namespace isocnc::debugger::requests {
 
+namespace {
+
+struct SetExpressionArguments {
+  std::string expression;
+  std::string value;
+  session::FormatArguments format;
+};
+
+void from_json(const Json& json, SetExpressionArguments& arguments) {
+  arguments.expression = required<std::string>(json, "expression");
+  arguments.value = required<std::string>(json, "value");
+  arguments.format = json.get<session::FormatArguments>();
+}
+
+}  // namespace
+
 /// What an expression names takes the value of another one.
-static Json answer_set_expression(Session& session, const Json& arguments) {
-  const std::string name = text(arguments, "expression");
-  const auto compiled = session::Expression::compile(name, session.language());
+static session::ValueBody answer_set_expression(Session& session, const SetExpressionArguments& arguments) {
+  const auto compiled = session::Expression::compile(arguments.expression, session.language());
   const auto* const expression = std::get_if<session::Expression>(&compiled);
   const session::Quantity* const quantity = expression != nullptr ? expression->sole_quantity() : nullptr;
-  if (quantity == nullptr) session.refuse_to_set(name);
-  session.set_quantity(*quantity, session::number_of(session, text(arguments, "value")));
-  return {{"value", session::show_value(quantity->at(session.moment()), format_of(session, arguments))}};
+  if (quantity == nullptr) session.refuse_to_set(arguments.expression);
+  session.set_quantity(*quantity, session::number_of(session, arguments.value));
+  return {session::show_value(quantity->at(session.moment()), format_of(session, arguments.format))};
 }
 
 static Json set_expression_capabilities() { return {{"supportsSetExpression", true}}; }
 
-extern const Request set_expression = {
-    .command = "setExpression", .answer = answer_set_expression, .capabilities = set_expression_capabilities};
+extern const Request set_expression = on<&answer_set_expression>("setExpression", set_expression_capabilities);
 
 }  // namespace isocnc::debugger::requests

@@ -4,22 +4,37 @@
 
 namespace isocnc::debugger::requests {
 
+namespace {
+
+struct SetVariableArguments {
+  std::string name;
+  std::string value;
+  std::int64_t reference = 0;  ///< Of the scope or variable that holds the name.
+  session::FormatArguments format;
+};
+
+void from_json(const Json& json, SetVariableArguments& arguments) {
+  arguments.name = required<std::string>(json, "name");
+  arguments.value = required<std::string>(json, "value");
+  arguments.reference = required<std::int64_t>(json, "variablesReference");
+  arguments.format = json.get<session::FormatArguments>();
+}
+
+}  // namespace
+
 /// A variable as the client shows it takes the value of an expression.
-static Json answer_set_variable(Session& session, const Json& arguments) {
-  const std::string name = text(arguments, "name");
-  const double value = session::number_of(session, text(arguments, "value"));
-  for (const session::Variable& variable :
-       session::variables_of(session, integer(arguments, "variablesReference"), {})) {
-    if (variable.name != name || variable.quantity == nullptr) continue;
+static session::ValueBody answer_set_variable(Session& session, const SetVariableArguments& arguments) {
+  const double value = session::number_of(session, arguments.value);
+  for (const session::Variable& variable : session::variables_of(session, arguments.reference, {})) {
+    if (variable.name != arguments.name || variable.quantity == nullptr) continue;
     session.set_quantity(*variable.quantity, value);
-    return {{"value", session::show_value(variable.quantity->at(session.moment()), format_of(session, arguments))}};
+    return {session::show_value(variable.quantity->at(session.moment()), format_of(session, arguments.format))};
   }
-  session.refuse_to_set(name);
+  session.refuse_to_set(arguments.name);
 }
 
 static Json set_variable_capabilities() { return {{"supportsSetVariable", true}}; }
 
-extern const Request set_variable = {
-    .command = "setVariable", .answer = answer_set_variable, .capabilities = set_variable_capabilities};
+extern const Request set_variable = on<&answer_set_variable>("setVariable", set_variable_capabilities);
 
 }  // namespace isocnc::debugger::requests

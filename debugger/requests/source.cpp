@@ -4,18 +4,26 @@ namespace isocnc::debugger::requests {
 
 static constexpr dialect::Text kOther{"there is no such source", "non c'è un tale sorgente"};
 static constexpr dialect::Text kTooLong{"the program is too long to be sent", "il programma è troppo lungo da inviare"};
-static constexpr std::size_t kLongest = std::size_t{64} << 20;
+static constexpr std::size_t kMaxLength = std::size_t{64} << 20;
 
-/// The program as it is being run, whatever has become of its file.
-static Json answer_source(Session& session, const Json& arguments) {
+namespace {
+
+struct SourceBody {
+  std::string_view content;
+};
+
+void to_json(Json& json, const SourceBody& body) { json = {{"content", body.content}, {"mimeType", "text/x-isocnc"}}; }
+
+}  // namespace
+
+/// The program as it is being run, even if its file has changed.
+static SourceBody answer_source(Session& session, const session::SourceArguments& arguments) {
   const std::string_view program = session.debuggee().text().text();
-  const Json source = arguments.value("source", Json::object());
-  if (!session.is_program(find_text(source, "path").value_or("")))
-    throw RequestError(std::string(session.in_language(kOther)));
-  if (program.size() > kLongest) throw RequestError(std::string(session.in_language(kTooLong)));
-  return {{"content", program}, {"mimeType", "text/x-isocnc"}};
+  if (!session.is_program(arguments.path)) throw RequestError(std::string(session.in_language(kOther)));
+  if (program.size() > kMaxLength) throw RequestError(std::string(session.in_language(kTooLong)));
+  return {program};
 }
 
-extern const Request source = {.command = "source", .answer = answer_source};
+extern const Request source = on<&answer_source>("source");
 
 }  // namespace isocnc::debugger::requests

@@ -3,11 +3,8 @@
 namespace isocnc::debugger::requests {
 
 /// One instruction of a block; on an arc in G49 one of the lines that it is driven as.
-static Json answer_step_in(Session& session, const Json&) {
-  session.step(session::Step::Instruction);
-  return nullptr;
-}
+static void answer_step_in(Session& session) { session.step(session::Step::Instruction); }
 
-extern const Request step_in = {.command = "stepIn", .answer = answer_step_in};
+extern const Request step_in = on<&answer_step_in>("stepIn");
 
 }  // namespace isocnc::debugger::requests

@@ -3,11 +3,8 @@
 namespace isocnc::debugger::requests {
 
 /// To the end of the tool's section, or of the frame.
-static Json answer_step_out(Session& session, const Json&) {
-  session.step_out();
-  return nullptr;
-}
+static void answer_step_out(Session& session) { session.step_out(); }
 
-extern const Request step_out = {.command = "stepOut", .answer = answer_step_out};
+extern const Request step_out = on<&answer_step_out>("stepOut");
 
 }  // namespace isocnc::debugger::requests

@@ -3,14 +3,10 @@
 namespace isocnc::debugger::requests {
 
 /// Ends the run.
-static Json answer_terminate(Session& session, const Json&) {
-  session.terminate();
-  return nullptr;
-}
+static void answer_terminate(Session& session) { session.terminate(); }
 
 static Json terminate_capabilities() { return {{"supportsTerminateRequest", true}}; }
 
-extern const Request terminate = {
-    .command = "terminate", .answer = answer_terminate, .capabilities = terminate_capabilities};
+extern const Request terminate = on<&answer_terminate>("terminate", terminate_capabilities);
 
 }  // namespace isocnc::debugger::requests

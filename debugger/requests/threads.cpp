@@ -2,12 +2,13 @@
 
 namespace isocnc::debugger::requests {
 
+static constexpr dialect::Text kMachine{"machine", "macchina"};
+
 /// The machine does one thing at a time.
-static Json answer_threads(Session& session, const Json&) {
-  static constexpr dialect::Text kMachine{"machine", "macchina"};
+static Json answer_threads(Session& session) {
   return {{"threads", {{{"id", 1}, {"name", session.in_language(kMachine)}}}}};
 }
 
-extern const Request threads = {.command = "threads", .answer = answer_threads};
+extern const Request threads = on<&answer_threads>("threads");
 
 }  // namespace isocnc::debugger::requests

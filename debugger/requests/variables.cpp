@@ -1,11 +1,30 @@
-#include <algorithm>
-
-#include "debugger/requests/request.h"
 #include "debugger/session/variables.h"
+#include "debugger/requests/request.h"
 
 namespace isocnc::debugger::requests {
 
-static Json to_json(const session::Variable& variable) {
+namespace {
+
+struct VariablesArguments {
+  std::int64_t reference = 0;
+  session::FormatArguments format;
+  bool wants_indexed = false;
+  session::PageArguments page;
+};
+
+struct VariablesBody {
+  std::vector<session::Variable> variables;
+};
+
+void from_json(const Json& json, VariablesArguments& arguments) {
+  arguments.reference = required<std::int64_t>(json, "variablesReference");
+  arguments.format = json.get<session::FormatArguments>();
+  arguments.wants_indexed = member<std::string>(json, "filter") == "indexed";
+  arguments.page.start = member<std::int64_t>(json, "start").value_or(0);
+  arguments.page.count = member<std::int64_t>(json, "count").value_or(0);
+}
+
+Json json_of(const session::Variable& variable) {
   Json json = {{"name", variable.name}, {"value", variable.value}, {"variablesReference", variable.reference}};
   if (!variable.type.empty()) json["type"] = variable.type;
   if (!variable.evaluate_name.empty()) json["evaluateName"] = variable.evaluate_name;
@@ -13,24 +32,23 @@ static Json to_json(const session::Variable& variable) {
   return json;
 }
 
-/// What a scope or a variable holds; a part of it where the client pages.
-static Json answer_variables(Session& session, const Json& arguments) {
-  const auto all =
-      session::variables_of(session, integer(arguments, "variablesReference"), format_of(session, arguments));
-  const auto size = static_cast<std::int64_t>(all.size());
-  const bool wants_indexed = find_text(arguments, "filter") == "indexed";
-  const std::int64_t begin = std::clamp<std::int64_t>(find_integer(arguments, "start").value_or(0), 0, size);
-  const std::int64_t count = find_integer(arguments, "count").value_or(0);
-  const std::int64_t end = count > 0 && count < size - begin ? begin + count : size;
-  Json variables = Json::array();
-  for (std::int64_t i = begin; i < end && !wants_indexed; ++i)
-    variables.push_back(to_json(all[static_cast<std::size_t>(i)]));
-  return {{"variables", variables}};
+void to_json(Json& json, const VariablesBody& body) {
+  json = {{"variables", Json::array()}};
+  for (const session::Variable& each : body.variables) json["variables"].push_back(json_of(each));
+}
+
+}  // namespace
+
+/// What a scope or a variable holds; a part of it where the client pages. No variable is indexed.
+static VariablesBody answer_variables(Session& session, const VariablesArguments& arguments) {
+  const auto all = session::variables_of(session, arguments.reference, format_of(session, arguments.format));
+  if (arguments.wants_indexed) return {};
+  const auto [begin, end] = arguments.page.of(all.size());
+  return {{all.begin() + static_cast<std::ptrdiff_t>(begin), all.begin() + static_cast<std::ptrdiff_t>(end)}};
 }
 
 static Json variables_capabilities() { return {{"supportsValueFormattingOptions", true}}; }
 
-extern const Request variables = {
-    .command = "variables", .answer = answer_variables, .capabilities = variables_capabilities};
+extern const Request variables = on<&answer_variables>("variables", variables_capabilities);
 
 }  // namespace isocnc::debugger::requests

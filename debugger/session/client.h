@@ -32,4 +32,7 @@ struct Client {
   }
 };
 
+/// Of the arguments of `initialize`. Throws ArgumentError.
+void from_json(const Json& json, Client& client);
+
 }  // namespace isocnc::debugger::session

@@ -26,8 +26,7 @@ struct LaunchOptions {
   ValueFormat format;                       ///< Format of all values that are shown.
 };
 
-/// Reads the arguments of a launch. Unknown members are ignored, as clients add members of their own. Throws
-/// RequestError.
-LaunchOptions read_launch_options(const Json& arguments, dialect::Language language);
+/// Unknown members are ignored, as clients add members of their own. Throws ArgumentError.
+void from_json(const Json& arguments, LaunchOptions& options);
 
 }  // namespace isocnc::debugger::session

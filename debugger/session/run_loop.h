@@ -10,14 +10,12 @@
 #include "debugger/session/file_watch.h"
 #include "debugger/session/notifier.h"
 #include "debugger/session/pace.h"
+#include "debugger/session/step.h"
 #include "debugger/session/stop_check.h"
 #include "debugger/session/warning_check.h"
 #include "lsp/rpc/loop.h"
 
 namespace isocnc::debugger::session {
-
-/// How far a step goes.
-enum class Step : std::uint8_t { Block, Instruction };
 
 /// Runs the debuggee, forward and backward, and reports where it stops. A run is cut into slices of a few milliseconds,
 /// each a task of the loop, so that requests are answered in between. All members but reset(), finish() and abandon()

@@ -142,6 +142,20 @@ TEST(Protocol, SpeaksTheLanguageOfTheClient) {
   EXPECT_THAT(refusal(Json::object()), HasSubstr("is wanted")) << "the configuration decides";
 }
 
+/// One breakpoint that cannot be read leaves the others alone.
+TEST(Protocol, AMistakeInAListConcernsItsElementAlone) {
+  DebugClient client(std::nullopt);
+  client.write("isocnc.json", R"({"language": "it"})");
+  client.launch(kPart);
+  const Json breakpoints =
+      client.request("setFunctionBreakpoints", {{"breakpoints", {{{"name", "M06"}}, {{"name", 7}}, Json::object()}}})
+          .at("breakpoints");
+  ASSERT_EQ(breakpoints.size(), 3u);
+  EXPECT_EQ(breakpoints.at(0).at("verified"), true);
+  EXPECT_EQ(breakpoints.at(1).at("message"), "name non è del tipo giusto");
+  EXPECT_EQ(breakpoints.at(2).at("message"), "manca name");
+}
+
 TEST(Protocol, ARequestThatTakesAStandingMachineIsRefusedWhileItRuns) {
   DebugClient client;
   client.launch("M06 T101001\nG00 X0\nG01 X90000 F1\nM02\n", {{"speed", 1}});
