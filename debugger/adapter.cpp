@@ -38,7 +38,7 @@ void Adapter::receive(lsp::rpc::Frame frame) {
   const Json message = lsp::rpc::parse(frame.body);
   if (!message.is_object()) return complain(kNoJson);
   const auto type = message.find("type");
-  if (type != message.end() && *type == "response") return;  // We ask for nothing.
+  if (type != message.end() && *type == "response") return;  // The adapter sends no requests.
   const auto seq = message.find("seq");
   const auto command = message.find("command");
   const bool is_request = type != message.end() && *type == "request" && seq != message.end() &&
@@ -57,7 +57,7 @@ void Adapter::answer(const Json& request) {
     const auto known = requests_.find(command);
     if (known == requests_.end()) throw RequestError(session_.in_language(kUnknown, command));
     succeed(request, known->second(session_, arguments));
-    // The breakpoints can be told now: it is known which lines there are.
+    // The client can set its breakpoints now, as the lines of the program are known.
     if (command == "launch") emit("initialized", Json::object());
   } catch (const RequestError& error) {
     fail(request, error.in(session_.language()));
@@ -66,7 +66,7 @@ void Adapter::answer(const Json& request) {
   }
 }
 
-/// What the adapter can do: its own part, and that of each request.
+/// The capabilities: the exception filters, and the part of each request.
 Json Adapter::initialize(const Json& arguments) {
   if (is_initialized_) throw RequestError(std::string(session_.in_language(kInitialized)));
   session_.client() = arguments.get<session::Client>();
@@ -92,7 +92,7 @@ Json Adapter::exception_filters() {
   return filters;
 }
 
-/// The debuggee ends with its debugger: there is nothing that it could go on as.
+/// The debuggee ends with its debugger.
 void Adapter::disconnect(const Json& request) {
   succeed(request, nullptr);
   exit_status_ = 0;
@@ -127,7 +127,7 @@ void Adapter::emit(std::string_view event, const Json& body) {
   send({{"type", "event"}, {"event", event}, {"body", body}});
 }
 
-/// Of what is no request there is nothing to answer.
+/// Reports a message that is not a request, and so has no response.
 void Adapter::complain(const Text& what) {
   emit("output", {{"category", "stderr"}, {"output", fmt::format("isodap: {}\n", session_.in_language(what))}});
 }

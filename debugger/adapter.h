@@ -13,11 +13,11 @@ namespace isocnc::debugger {
 
 using session::Json;
 
-/// The debug adapter: messages in and out, and what may be asked when. It lives on the loop's thread, as its Session
-/// does.
+/// The debug adapter: reads messages, lets requests answer them, and sends responses and events. It lives on the
+/// loop's thread, as its Session does.
 class Adapter final : public lsp::rpc::Party {
  public:
-  /// The language outweighs those of configurations and of the client.
+  /// `language` overrules those of configurations and of the client.
   Adapter(lsp::rpc::Loop& loop, lsp::rpc::Send send, std::optional<dialect::Language> language = {});
   Adapter(const Adapter&) = delete;
   Adapter& operator=(const Adapter&) = delete;

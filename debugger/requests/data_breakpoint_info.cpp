@@ -40,7 +40,7 @@ static std::string expression_of(const Session& session, const std::string& name
 static DataInfoBody answer_data_breakpoint_info(Session& session, const DataInfoArguments& arguments) {
   const std::string name =
       arguments.reference > 0 ? expression_of(session, arguments.name, arguments.reference) : arguments.name;
-  const auto watched = session::Watched::compile(name, session.language());
+  const auto watched = session::WatchedValue::compile(name, session.language());
   const auto* const problem = std::get_if<session::ExpressionProblem>(&watched);
   if (problem == nullptr) return {.id = name, .description = name};
   return {.id = {}, .description = name.empty() ? std::string(session.in_language(kUnwatchable)) : problem->message};

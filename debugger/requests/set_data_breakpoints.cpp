@@ -27,11 +27,11 @@ void from_json(const Json& json, SetDataBreakpointsArguments& arguments) {
 
 static session::DataBreakpoint make_data_breakpoint(const Session& session, const DataBreakpointArguments& arguments,
                                                     std::int64_t id) {
-  auto watched = session::Watched::compile(arguments.expression, session.language());
+  auto watched = session::WatchedValue::compile(arguments.expression, session.language());
   if (const auto* const problem = std::get_if<session::ExpressionProblem>(&watched))
     throw RequestError(problem->message);
   return {{.id = id, .rules = compile_rules(session, arguments.rules), .counter = {}},
-          std::get<session::Watched>(std::move(watched))};
+          std::get<session::WatchedValue>(std::move(watched))};
 }
 
 /// Values that change (`V3`, `MOTION`, `F`), or that cross a threshold (`Z = 0`).

@@ -33,7 +33,7 @@ class BackwardSearch {
   SessionState& state_;
   std::uint64_t start_ = 0;          ///< Blocks that had begun when the search did.
   std::uint64_t searched_from_ = 0;  ///< The blocks from this one on have been searched.
-  Trail trail_;
+  ValueTrail trail_;
 };
 
 }  // namespace isocnc::debugger::session

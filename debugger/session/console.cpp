@@ -10,13 +10,13 @@ namespace isocnc::debugger::session {
 using dialect::Text;
 using syntax::InstructionKind;
 
-/// Nobody types more.
-static constexpr std::size_t kLongest = 65536;
+/// Maximum length of the blocks that wait, in bytes.
+static constexpr std::size_t kMaxLength = 65536;
 
 static constexpr Text kWaits{"waits for G909", "in attesa di G909"};
 static constexpr Text kTooLong{"this is too long to be run by hand", "troppo lungo per essere eseguito a mano"};
 
-/// The value of a formula, or, where the text is that of none, of its format.
+/// Throws RequestError where the text is not an expression.
 static Expression::Formatted compile_or_throw(const Session& session, std::string_view text,
                                               const ValueFormat& format) {
   auto compiled = compile_formatted(text, format, session.language());
@@ -35,11 +35,11 @@ double number_of(const Session& session, std::string_view text) {
 
 namespace {
 
-/// What the lines of a text are, as blocks.
+/// What the lines of a text hold, read as blocks.
 struct Blocks {
-  bool are_any = false;       ///< Some line does something.
-  bool are_sound = true;      ///< None is wrong by itself.
-  bool look_like_it = false;  ///< A word begins the text.
+  bool are_any = false;       ///< At least one line does something.
+  bool are_sound = true;      ///< No line has a mistake of its own.
+  bool look_like_it = false;  ///< The text begins with a word, a letter and its number.
   bool need_g909 = false;
   bool have_g909 = false;
 };
@@ -89,7 +89,7 @@ std::string enter(Session& session, std::string_view text) {
   if (!is_block) return evaluate(session, text, session.launch_options().format);
   session.stopped_debuggee();
   std::string all = std::exchange(session.waiting_blocks(), {}) + std::string(text) + "\n";
-  if (all.size() > kLongest) throw RequestError(std::string(session.in_language(kTooLong)));
+  if (all.size() > kMaxLength) throw RequestError(std::string(session.in_language(kTooLong)));
   const bool are_first = all.size() == text.size() + 1;
   if (blocks.have_g909 || (are_first && !blocks.need_g909)) return session.run_by_hand(all);
   session.waiting_blocks() = std::move(all);

@@ -7,16 +7,14 @@
 
 namespace isocnc::debugger::session {
 
-/// What somebody types while the machine stands: expressions, which are answered, and blocks (MDI), which are run.
-/// Blocks wait for a G909, unless they hold M functions and motions alone (I.3.9). What could be either is a block; an
-/// = before it makes it an expression.
-///
-/// What is to be said to it. Throws RequestError.
+/// Answers what a user types while the machine stands: the value of an expression, or what a block (MDI) did. Blocks
+/// wait for a G909, unless they hold M functions and motions alone (I.3.9). What could be either is a block; an =
+/// before it makes it an expression. Throws RequestError.
 std::string enter(Session& session, std::string_view text);
 
-/// The value of an expression, as it is shown. Throws RequestError.
+/// The value of an expression, as text. Throws RequestError.
 std::string evaluate(const Session& session, std::string_view text, const ValueFormat& format);
-/// The number. Throws RequestError.
+/// The value of an expression, as a number. Throws RequestError.
 double number_of(const Session& session, std::string_view text);
 
 }  // namespace isocnc::debugger::session

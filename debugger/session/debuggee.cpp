@@ -20,16 +20,16 @@ Debuggee::Debuggee(ProgramText text, const RunOptions& options, const TimedMachi
       options_(std::make_unique<const RunOptions>(options)) {
   auto own_machine = std::make_unique<const TimedMachine>(machine);
   const Simulation begin(*program_, *options_, *own_machine);
-  stretches_.push_back({.machine = std::move(own_machine), .history = History(begin)});
+  parts_.push_back({.machine = std::move(own_machine), .history = History(begin)});
 }
 
 bool Debuggee::is_at_start_of_part() const {
-  return present().blocks() == stretches_.back().first_block && !present().is_in_block() && !present().has_ended();
+  return present().blocks() == parts_.back().first_block && !present().is_in_block() && !present().has_ended();
 }
 
-bool Debuggee::is_at_start() const { return stretches_.size() == 1 && is_at_start_of_part(); }
+bool Debuggee::is_at_start() const { return parts_.size() == 1 && is_at_start_of_part(); }
 
-/// Of a history, or of a simulation by itself.
+/// Steps a history, or a simulation by itself.
 template <class Run>
 static void step_instruction_of(Run& run, const Simulation& present) {
   const auto segment = present.segment();
@@ -44,7 +44,7 @@ void Debuggee::step_instruction() { step_instruction_of(history(), present()); }
 
 void Debuggee::step_back() {
   if (is_at_start_of_part()) {
-    if (stretches_.size() > 1) stretches_.pop_back();
+    if (parts_.size() > 1) parts_.pop_back();
     return;
   }
   history().step_back();
@@ -56,7 +56,7 @@ void Debuggee::step_instruction_back() {
   const bool is_undoing = is_at_start_of_part();
   step_back();
   if (is_undoing) return;
-  // As often as it comes to less than the way so far: a copy goes ahead to see.
+  // Steps as long as they lead to before where it was: a copy takes each step first.
   const std::uint64_t blocks = present().blocks() + 1;
   for (Simulation ahead = present();;) {
     step_instruction_of(ahead, ahead);
@@ -67,23 +67,23 @@ void Debuggee::step_instruction_back() {
 }
 
 void Debuggee::go_to_block(std::uint64_t blocks) {
-  while (stretches_.size() > 1 && blocks < stretches_.back().first_block) stretches_.pop_back();
+  while (parts_.size() > 1 && blocks < parts_.back().first_block) parts_.pop_back();
   history().go_to_block(blocks);
 }
 
-/// In the stretch that the line lies in: what an earlier one has done behind its change is undone.
+/// Searches the last part that begins at or before the line: what was executed after its end has been undone.
 std::optional<std::uint64_t> Debuggee::find_line(std::uint64_t line) const {
-  for (auto stretch = stretches_.rbegin(); stretch != stretches_.rend(); ++stretch)
-    if (line >= stretch->first_line) return stretch->history.find_line(line);
+  for (auto part = parts_.rbegin(); part != parts_.rend(); ++part)
+    if (line >= part->first_line) return part->history.find_line(line);
   return std::nullopt;
 }
 
 std::optional<std::uint64_t> Debuggee::find_back(std::uint64_t from, std::uint64_t blocks,
                                                  const std::function<bool(const running::Block&)>& is_it) const {
-  for (auto stretch = stretches_.rbegin(); stretch != stretches_.rend() && from < blocks; ++stretch) {
-    const std::uint64_t begin = std::max(from, stretch->first_block);
+  for (auto part = parts_.rbegin(); part != parts_.rend() && from < blocks; ++part) {
+    const std::uint64_t begin = std::max(from, part->first_block);
     if (begin >= blocks) continue;
-    if (const auto found = stretch->history.find_before(blocks, is_it, begin)) return found;
+    if (const auto found = part->history.find_before(blocks, is_it, begin)) return found;
     blocks = begin;
   }
   return std::nullopt;
@@ -96,19 +96,19 @@ std::optional<Hindrance> Debuggee::hindrance() const {
   return std::nullopt;
 }
 
-void Debuggee::begin_stretch(const Simulation& from, const Runner& runner, const TimedMachine& machine) {
+void Debuggee::begin_part(const Simulation& from, const Runner& runner, const TimedMachine& machine) {
   auto own_machine = std::make_unique<const TimedMachine>(machine);
   const Simulation begin(from, runner, *own_machine);
-  stretches_.push_back({.machine = std::move(own_machine),
-                        .history = History(begin),
-                        .first_block = begin.blocks(),
-                        .first_line = begin.line()});
+  parts_.push_back({.machine = std::move(own_machine),
+                    .history = History(begin),
+                    .first_block = begin.blocks(),
+                    .first_line = begin.line()});
 }
 
 void Debuggee::set_state(const execution::State& state) {
   Runner runner = present().runner();
   runner.set_state(state);
-  begin_stretch(present(), runner, machine());
+  begin_part(present(), runner, machine());
 }
 
 void Debuggee::set_feed(double number) {
@@ -126,39 +126,51 @@ void Debuggee::set_spindle_speed(double number) {
 void Debuggee::set_feed_override(double factor) {
   TimedMachine changed = machine();
   changed.feed_override = factor;
-  begin_stretch(present(), present().runner(), changed);
+  begin_part(present(), present().runner(), changed);
+}
+
+static void set_registers(Runner& runner, const running::Registers& registers) {
+  for (int number = 1; number <= dialect::kRegisterCount; ++number)
+    runner.set_register(number, registers[static_cast<std::size_t>(number)]);
+}
+
+/// The machine as it stands, about to run another program.
+Simulation Debuggee::simulation_of(const Program& program, const RunOptions& options) const {
+  Runner runner(program, options);
+  runner.set_state(present().run().state);
+  runner.set_vgpl(present().vgpl());
+  set_registers(runner, present().run().registers);
+  return {present(), runner, machine()};
+}
+
+/// The program goes on from where the other one has led.
+void Debuggee::take_over(const Simulation& by_hand) {
+  execution::State state = by_hand.run().state;
+  state.ended = false;  // An M02 ends what is done by hand, and not the program.
+  Runner runner = present().runner();
+  runner.set_state(state);
+  set_registers(runner, by_hand.run().registers);
+  begin_part(by_hand, runner, machine());
 }
 
 MdiOutcome Debuggee::run_by_hand(std::string_view text) {
-  // A last line to stop before: at the end of the text an M02 would be missing.
+  // The last line is one to stop before: without it the text would lack an M02.
   MdiOutcome outcome{.events = {}, .error = {}, .text = std::make_shared<const std::string>(std::string(text) + "\n;")};
   const Program program(*outcome.text);
   RunOptions options = *options_;
   options.until = ProgramText(*outcome.text).line_count() - 1;
-  Runner by_hand(program, options);
-  by_hand.set_state(present().run().state);
-  for (int number = 1; number <= dialect::kRegisterCount; ++number)
-    by_hand.set_register(number, present().run().registers[static_cast<std::size_t>(number)]);
-  by_hand.set_vgpl(present().vgpl());
-  Simulation simulation(present(), by_hand, machine());
+  Simulation simulation = simulation_of(program, options);
   while (!simulation.has_ended()) {
     simulation.step_block();
     const auto events = simulation.runner().events();
     outcome.events.insert(outcome.events.end(), events.begin(), events.end());
   }
-  const running::RunResult& result = simulation.run();
-  if (result.ending == running::Ending::Error) {
-    outcome.error = result;
+  if (simulation.run().ending == running::Ending::Error) {
+    outcome.error = simulation.run();
     outcome.events.clear();
-    return outcome;
+  } else {
+    take_over(simulation);
   }
-  execution::State state = result.state;
-  state.ended = false;  // An M02 ends what is done by hand, and not the program.
-  Runner runner = present().runner();
-  runner.set_state(state);
-  for (int number = 1; number <= dialect::kRegisterCount; ++number)
-    runner.set_register(number, result.registers[static_cast<std::size_t>(number)]);
-  begin_stretch(simulation, runner, machine());
   return outcome;
 }
 

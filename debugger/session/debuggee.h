@@ -15,41 +15,41 @@
 
 namespace isocnc::debugger::session {
 
-/// Why something cannot be done with the machine as it stands.
+/// Why the machine cannot be changed by hand where it stands.
 enum class Hindrance : std::uint8_t {
   InBlock,       ///< The machine is within a block.
   Compensation,  ///< G41 or G42 is in force: the tool is beside the contour.
   HasEnded,      ///< The program has ended.
 };
 
-/// What blocks written by hand have come to.
+/// The result of blocks run by hand.
 struct MdiOutcome {
   std::vector<running::Event> events;
-  std::optional<running::RunResult> error;  ///< Which has stopped them; then nothing has been done.
-  std::shared_ptr<const std::string> text;  ///< That the error's line lies in.
+  std::optional<running::RunResult> error;  ///< The error that has stopped them; then nothing has been done.
+  std::shared_ptr<const std::string> text;  ///< The blocks, which hold the line of the error.
 };
 
-/// A program on the simulated machine, which goes on and back, and which somebody may interfere with. Registers and
-/// VGPL are set where the run is, and set again when it comes there anew. What changes the machine itself (MDI blocks,
-/// S and F, the override of the feed) brings it to rest, and begins a new stretch of the history: who steps back over
-/// it undoes it.
+/// A program on the simulated machine, which runs forward and backward, and can be changed by hand. A register or VGPL
+/// that is set somewhere is set there again when the run comes by again. A change of the machine itself (MDI blocks, S
+/// and F, the override of the feed) brings it to rest, and begins a new part of the history: stepping back over the
+/// change undoes it.
 class Debuggee {
  public:
   Debuggee(ProgramText text, const running::RunOptions& options, const simulation::TimedMachine& machine);
 
   const ProgramText& text() const { return *text_; }
-  const simulation::TimedMachine& machine() const { return *stretches_.back().machine; }
+  const simulation::TimedMachine& machine() const { return *parts_.back().machine; }
   const execution::Setup& setup() const { return options_->setup; }
   const simulation::Simulation& present() const { return history().present(); }
-  /// Seconds and blocks are those of the run; there is nothing before.
+  /// Nothing has been executed yet.
   bool is_at_start() const;
 
   // As in History.
   std::optional<running::Block> next() { return history().next(); }
   void step_block() { history().step_block(); }
   void advance_in_block(double seconds) { history().advance_in_block(seconds); }
-  /// To the end of the instruction, or of the segment of an arc in G49, that the machine is at; between two blocks into
-  /// the next one.
+  /// To the end of the instruction, or of the segment of an arc in G49, that the machine is at; between two blocks to
+  /// the start of the next one.
   void step_instruction();
   void step_back();
   /// Undoes step_instruction().
@@ -59,45 +59,48 @@ class Debuggee {
   void return_to(const simulation::Simulation& before) { history().return_to(before); }
   /// As in History.
   std::optional<std::uint64_t> find_line(std::uint64_t line) const;
-  /// The last of the blocks [from, blocks) that is it.
+  /// The last of the blocks [from, blocks) for which `is_it` holds.
   std::optional<std::uint64_t> find_back(std::uint64_t from, std::uint64_t blocks,
                                          const std::function<bool(const running::Block&)>& is_it) const;
 
   void set_register(int number, double value) { history().set_register(number, value); }
   void set_vgpl(double value) { history().set_vgpl(value); }
 
-  /// Changes to the machine that the present has behind it: fewer when some have been undone.
-  std::size_t change_count() const { return stretches_.size() - 1; }
+  /// Changes of the machine by hand up to the present, without those that have been undone.
+  std::size_t change_count() const { return parts_.size() - 1; }
 
   std::optional<Hindrance> hindrance() const;
   // Only where nothing hinders it.
   void set_feed(double number);           ///< Does all that an F of the program does.
   void set_spindle_speed(double number);  ///< Does all that an S of the program does.
-  /// 1: feeds as they are written.
+  /// 1: feeds as written.
   void set_feed_override(double factor);
   double feed_override() const { return machine().feed_override; }
   MdiOutcome run_by_hand(std::string_view text);
 
  private:
   void set_state(const execution::State& state);
-  struct Stretch {
+  /// The history from a change of the machine by hand, or from the start, to the next change.
+  struct Part {
     std::unique_ptr<const simulation::TimedMachine> machine;
     simulation::History history;
     std::uint64_t first_block = 0;
     std::uint64_t first_line = 0;
   };
 
-  simulation::History& history() { return stretches_.back().history; }
-  const simulation::History& history() const { return stretches_.back().history; }
+  simulation::History& history() { return parts_.back().history; }
+  const simulation::History& history() const { return parts_.back().history; }
   bool is_at_start_of_part() const;
-  void begin_stretch(const simulation::Simulation& from, const running::Runner& runner,
-                     const simulation::TimedMachine& machine);
+  simulation::Simulation simulation_of(const running::Program& program, const running::RunOptions& options) const;
+  void take_over(const simulation::Simulation& by_hand);
+  void begin_part(const simulation::Simulation& from, const running::Runner& runner,
+                  const simulation::TimedMachine& machine);
 
-  // On the heap: what refers to them goes on doing so when this is moved.
+  // On the heap, so that references to them stay valid when the debuggee is moved.
   std::unique_ptr<const ProgramText> text_;
   std::unique_ptr<const running::Program> program_;
   std::unique_ptr<const running::RunOptions> options_;
-  std::deque<Stretch> stretches_;
+  std::deque<Part> parts_;
 };
 
 }  // namespace isocnc::debugger::session

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "debugger/session/text_parts.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/unicode.h"
@@ -16,8 +17,8 @@ namespace isocnc::debugger::session {
 using dialect::Language;
 using dialect::Text;
 
-/// Formulas nest no deeper, and their values wait in no more places.
-static constexpr std::size_t kDeepest = 64;
+/// Maximum depth of nesting, which bounds the stack of an evaluation, too.
+static constexpr std::size_t kMaxDepth = 64;
 
 static bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; }
 
@@ -32,7 +33,7 @@ static constexpr Text kTooDeep{"this nests too deeply", "troppi livelli di paren
 static constexpr Text kBadFormat{"a format is x (hexadecimal) or a number of decimals, 0 to {}, not {}",
                                  "un formato è x (esadecimale) o un numero di decimali, da 0 a {}, non {}"};
 
-/// Recursive descent. The first mistake ends it.
+/// Recursive descent, up to the first mistake.
 class ExpressionCompiler {
  public:
   ExpressionCompiler(std::string_view text, Language language) : text_(text), language_(language) {}
@@ -51,9 +52,9 @@ class ExpressionCompiler {
   struct Operator {
     std::string_view sign;
     Operation operation;
-    int rank;  ///< Of what binds more tightly it is greater.
+    int rank;  ///< Greater for an operator that binds more tightly.
   };
-  /// Longer signs before those that they begin with.
+  /// A sign that begins another one stands after it.
   static constexpr std::array<Operator, 14> kOperators{{{"||", Operation::Or, 1},
                                                         {"&&", Operation::And, 2},
                                                         {"==", Operation::Equal, 3},
@@ -73,12 +74,12 @@ class ExpressionCompiler {
     if (problem_) return;
     problem_ = ExpressionProblem{dialect::format(kColumn, language_, syntax::column_of(text_, at), message)};
   }
-  std::string tell(const Text& text, std::string_view what) const {
+  std::string message(const Text& text, std::string_view what) const {
     return dialect::format(text, language_, syntax::printable(what));
   }
   std::string no_sense() const {
     const std::string_view rest = text_.substr(at_);
-    return tell(kNoSense, rest.substr(0, std::max<std::size_t>(1, syntax::sequence_length(rest))));
+    return message(kNoSense, rest.substr(0, std::max<std::size_t>(1, syntax::sequence_length(rest))));
   }
 
   void skip_blanks() {
@@ -94,11 +95,11 @@ class ExpressionCompiler {
   }
 
   /// Operands and operators of at least this rank.
-  void parse(int least_rank, std::size_t depth) {
+  void parse(int min_rank, std::size_t depth) {
     parse_operand(depth);
     while (!problem_) {
       const Operator* const next = next_operator();
-      if (next == nullptr || next->rank < least_rank) return;
+      if (next == nullptr || next->rank < min_rank) return;
       at_ += next->sign.size();
       parse(next->rank + 1, depth + 1);
       add({.operation = next->operation});
@@ -107,7 +108,7 @@ class ExpressionCompiler {
 
   void parse_operand(std::size_t depth) {
     skip_blanks();
-    if (depth > kDeepest) return fail(at_, std::string(kTooDeep.in(language_)));
+    if (depth > kMaxDepth) return fail(at_, std::string(kTooDeep.in(language_)));
     if (at_ == text_.size()) return fail(at_, std::string(kNothing.in(language_)));
     const char c = text_[at_];
     if (c == '(') return parse_parenthesis(depth);
@@ -137,7 +138,7 @@ class ExpressionCompiler {
     while (at_ < text_.size() && (is_letter(text_[at_]) || syntax::is_digit(text_[at_]))) ++at_;
     const std::string_view name = text_.substr(begin, at_ - begin);
     const Quantity* const quantity = find_quantity(name);
-    if (quantity == nullptr) return fail(begin, tell(kNoSuchName, name));
+    if (quantity == nullptr) return fail(begin, message(kNoSuchName, name));
     add({.operation = Operation::Read, .quantity = quantity});
   }
 
@@ -146,8 +147,8 @@ class ExpressionCompiler {
     while (at_ < text_.size() && (syntax::is_digit(text_[at_]) || text_[at_] == '.')) ++at_;
     double value = 0;
     const char* const end = text_.data() + at_;
-    const auto [behind, error] = std::from_chars(text_.data() + begin, end, value, std::chars_format::fixed);
-    if (error != std::errc{} || behind != end) return fail(begin, tell(kNoSense, text_.substr(begin, at_ - begin)));
+    const auto [rest, error] = std::from_chars(text_.data() + begin, end, value, std::chars_format::fixed);
+    if (error != std::errc{} || rest != end) return fail(begin, message(kNoSense, text_.substr(begin, at_ - begin)));
     add({.operation = Operation::Number, .number = value});
   }
 
@@ -194,8 +195,8 @@ double Expression::apply(Operation operation, double left, double right) {
 }
 
 double Expression::at(const Moment& moment) const {
-  // An operand waits for each level of nesting and each rank of operators.
-  std::array<double, 2 * kDeepest + 16> stack{};
+  // At most one operand waits for each level of nesting and each rank of operators.
+  std::array<double, 2 * kMaxDepth + 16> stack{};
   std::size_t size = 0;
   for (const Instruction& each : code_) {
     switch (each.operation) {
@@ -223,6 +224,17 @@ bool Expression::holds_at(const Moment& moment) const { return is_true(at(moment
 
 const Quantity* Expression::sole_quantity() const { return code_.size() == 1 ? code_.front().quantity : nullptr; }
 
+/// What follows the comma: `x`, `2`. None where it is no format.
+static std::optional<ValueFormat> read_format(std::string_view text, ValueFormat format) {
+  if (text == "x" || text == "X" || text == "h") {
+    format.is_hexadecimal = true;
+    return format;
+  }
+  const auto decimals = read_number<int>(text);
+  if (!decimals || *decimals < 0 || *decimals > ValueFormat::kMaxDecimals) return std::nullopt;
+  return ValueFormat{.is_hexadecimal = false, .decimals = *decimals, .keeps_zeros = true};
+}
+
 std::variant<Expression::Formatted, ExpressionProblem> compile_formatted(std::string_view text,
                                                                          const ValueFormat& format, Language language) {
   const std::size_t comma = text.rfind(',');
@@ -230,29 +242,23 @@ std::variant<Expression::Formatted, ExpressionProblem> compile_formatted(std::st
   if (const auto* const problem = std::get_if<ExpressionProblem>(&compiled)) return *problem;
   Expression::Formatted result{std::get<Expression>(std::move(compiled)), format};
   if (comma == std::string_view::npos) return result;
-  std::string_view wish = text.substr(comma + 1);
-  while (wish.starts_with(' ')) wish.remove_prefix(1);
-  while (wish.ends_with(' ')) wish.remove_suffix(1);
-  if (wish == "x" || wish == "X" || wish == "h") {
-    result.format.is_hexadecimal = true;
-    return result;
-  }
-  int decimals = 0;
-  const auto [behind, error] = std::from_chars(wish.data(), wish.data() + wish.size(), decimals);
-  if (wish.empty() || error != std::errc{} || behind != wish.data() + wish.size() || decimals < 0 ||
-      decimals > ValueFormat::kMostDecimals)
+  std::string_view written = text.substr(comma + 1);
+  while (written.starts_with(' ')) written.remove_prefix(1);
+  while (written.ends_with(' ')) written.remove_suffix(1);
+  const auto read = read_format(written, format);
+  if (!read)
     return ExpressionProblem{
         dialect::format(kColumn, language, syntax::column_of(text, comma + 1),
-                        dialect::format(kBadFormat, language, ValueFormat::kMostDecimals, syntax::printable(wish)))};
-  result.format = {.is_hexadecimal = false, .decimals = decimals, .keeps_zeros = true};
+                        dialect::format(kBadFormat, language, ValueFormat::kMaxDecimals, syntax::printable(written)))};
+  result.format = *read;
   return result;
 }
 
 std::string show_value(double value, const ValueFormat& format) {
-  constexpr double kMostInteger = 9007199254740992.0;  // Beyond it a double skips integers.
+  constexpr double kMaxInteger = 9007199254740992.0;  // Larger doubles skip integers.
   if (std::isnan(value)) return "-";
   if (std::isinf(value)) return value < 0 ? "-∞" : "∞";
-  if (format.is_hexadecimal && value == std::floor(value) && std::abs(value) < kMostInteger)
+  if (format.is_hexadecimal && value == std::floor(value) && std::abs(value) < kMaxInteger)
     return fmt::format("{}0x{:X}", value < 0 ? "-" : "", static_cast<std::uint64_t>(std::abs(value)));
   std::string text = fmt::format("{:.{}f}", value, format.decimals);
   if (!format.keeps_zeros && text.find('.') != std::string::npos) {

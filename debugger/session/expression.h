@@ -12,7 +12,7 @@
 
 namespace isocnc::debugger::session {
 
-/// Why a text is no expression, for people: `column 5: there is nothing called W`. Columns count from 1, in code
+/// Why a text is not an expression, for people: `column 5: there is nothing called W`. Columns count from 1, in code
 /// points.
 struct ExpressionProblem {
   std::string message;
@@ -20,28 +20,29 @@ struct ExpressionProblem {
 
 /// How a value is to be shown: `V3,x` in hexadecimal, `Z,2` with two decimals.
 struct ValueFormat {
-  static constexpr int kMostDecimals = 12;
+  static constexpr int kMaxDecimals = 12;
 
   bool is_hexadecimal = false;
-  int decimals = 4;  ///< At most; trailing zeros are left out, unless they are asked for.
-  bool keeps_zeros = false;
+  int decimals = 4;          ///< Maximum number of decimals.
+  bool keeps_zeros = false;  ///< Shows zeros at the end of the decimals, too.
 };
 
 /// A value as people read it: `12.5`, `0x1F`, `-` where it is not known.
 std::string show_value(double value, const ValueFormat& format = {});
 
-/// A formula over the quantities of a run, compiled once and then asked at any moment: comparisons, `&&`, `||`, `!`,
-/// `+ - * /`, parentheses. What is true is 1, what is false 0, and 0 counts as false. Nothing compares with what is not
-/// known (NaN), and that counts as false, too.
+/// A formula over the quantities of a run, which is compiled once and evaluated at any moment: comparisons, `&&`, `||`,
+/// `!`,
+/// `+ - * /`, parentheses. True is 1, false is 0, and 0 counts as false. No comparison with an unknown value (NaN)
+/// holds, and an unknown value counts as false.
 class Expression {
  public:
   static std::variant<Expression, ExpressionProblem> compile(std::string_view text, dialect::Language language);
-  /// The same, with what the text says behind a comma of how its value is to be shown.
+  /// An expression with a format after a comma.
   struct Formatted;
 
   double at(const Moment& moment) const;
   bool holds_at(const Moment& moment) const;
-  /// The quantity that is all of it; null where it is more than a name.
+  /// The quantity whose name is the whole expression; null for any other expression.
   const Quantity* sole_quantity() const;
 
  private:
@@ -65,7 +66,7 @@ class Expression {
     And,
     Or,
   };
-  /// In the order of a stack machine.
+  /// An instruction of a stack machine.
   struct Instruction {
     Operation operation = Operation::Number;
     double number = 0;
@@ -82,7 +83,7 @@ struct Expression::Formatted {
   ValueFormat format;
 };
 
-/// An expression with a format behind a comma.
+/// Compiles an expression, whose format may follow after a comma. `format` is that of a text without one.
 std::variant<Expression::Formatted, ExpressionProblem> compile_formatted(std::string_view text,
                                                                          const ValueFormat& format,
                                                                          dialect::Language language);

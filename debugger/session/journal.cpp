@@ -4,20 +4,20 @@
 
 namespace isocnc::debugger::session {
 
-/// So many of each are kept.
-static constexpr std::size_t kMost = 16384;
+/// Maximum number of entries of each kind.
+static constexpr std::size_t kMaxEntries = 16384;
 static constexpr auto kWorkpiece = static_cast<std::size_t>(dialect::ModalGroup::Workpiece);
 
-/// Whether one had to go for it.
+/// Whether the oldest entry had to be dropped.
 template <class Entry>
 static bool note(std::deque<Entry>& entries, Entry entry) {
-  const bool is_full = entries.size() == kMost;
+  const bool is_full = entries.size() == kMaxEntries;
   if (is_full) entries.pop_front();
   entries.push_back(std::move(entry));
   return is_full;
 }
 
-/// Those of blocks before this one end here.
+/// The end of the entries of blocks before this one.
 template <class Entry>
 static auto end_before(const std::deque<Entry>& entries, std::uint64_t block) {
   return std::lower_bound(entries.begin(), entries.end(), block,
@@ -37,7 +37,7 @@ void Journal::take(std::uint64_t block, std::uint64_t line, const Modes& before,
     if (const auto* const jump = std::get_if<running::JumpEvent>(&event.what)) {
       if (jump->taken) note(jumps_, {block, event.line, jump->target_line});
     } else if (std::holds_alternative<running::FrameEvent>(event.what)) {
-      // A G92 behind another one.
+      // A G92 that follows another one.
       if (before == after) note(settings_[kWorkpiece], {block, line, after.in_force[kWorkpiece]});
     } else if (const auto* const call = std::get_if<running::FunctionEvent>(&event.what)) {
       if (!call->parameters.empty()) note(functions_, {block, *call});

@@ -11,12 +11,12 @@
 
 namespace isocnc::debugger::session {
 
-/// What a run has done on its way and its state does not show: where each mode was set, which jumps were taken, which
-/// parameters the M functions got. Of what has been longest ago some may be forgotten. It is written once for each
-/// block; who goes back reads the same again.
+/// What a run has done and its state does not show: where each mode was set, which jumps were taken, which parameters
+/// the M functions got. The oldest entries may be forgotten. It is written once for each block, so going back and
+/// forward again reads the same.
 class Journal {
  public:
-  /// What a state says of the modal groups.
+  /// The modal groups of a state.
   struct Modes {
     explicit Modes(const execution::State& state) : in_force(state.in_force), written(state.written) {}
     friend bool operator==(const Modes&, const Modes&) = default;
@@ -28,10 +28,10 @@ class Journal {
   struct Setting {
     std::uint64_t block = 0;
     std::uint64_t line = 0;
-    std::uint8_t number = 0;  ///< Of the G.
+    std::uint8_t number = 0;  ///< Number of the G.
   };
   struct Jump {
-    std::uint64_t block = 0;  ///< Of the IF: blocks executed before it.
+    std::uint64_t block = 0;  ///< Blocks executed before the IF.
     std::uint64_t from = 0;   ///< Lines, from 0.
     std::uint64_t to = 0;
   };
@@ -43,13 +43,13 @@ class Journal {
   /// Notes what a block has done. `block`: how many have been executed before it.
   void take(std::uint64_t block, std::uint64_t line, const Modes& before, const Modes& after,
             std::span<const running::Event> events);
-  /// The run goes another way from this block on.
+  /// The run has been changed at this block: what is noted from there on is void.
   void forget_from(std::uint64_t block);
 
-  // Each as it was before a block.
-  /// The last one; none where the program has set nothing, or it is forgotten.
+  // What had been noted before a block.
+  /// The last setting; none where the program has set nothing, or it is forgotten.
   std::optional<Setting> setting(dialect::ModalGroup group, std::uint64_t block) const;
-  /// Whether settings of the group have been forgotten: there are too many.
+  /// Whether settings of the group have been forgotten, as there were too many.
   bool has_forgotten(dialect::ModalGroup group) const { return has_forgotten_[static_cast<std::size_t>(group)]; }
   /// The latest first.
   std::vector<Jump> jumps(std::uint64_t block) const;

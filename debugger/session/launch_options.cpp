@@ -51,7 +51,7 @@ static std::optional<std::uint64_t> read_start_line(const Json& arguments) {
 
 static int read_decimals(const Json& arguments) {
   const std::int64_t decimals = member<std::int64_t>(arguments, "decimals").value_or(ValueFormat{}.decimals);
-  if (decimals < 0 || decimals > ValueFormat::kMostDecimals) refuse("decimals", std::to_string(decimals));
+  if (decimals < 0 || decimals > ValueFormat::kMaxDecimals) refuse("decimals", std::to_string(decimals));
   return static_cast<int>(decimals);
 }
 

@@ -13,22 +13,22 @@
 
 namespace isocnc::debugger::session {
 
-/// Behind the line that begins at `p`.
-static const char* line_behind(const char* p, const char* end) {
+/// The start of the line after the one at `p`.
+static const char* next_line(const char* p, const char* end) {
   return syntax::skip_line_end(syntax::find_line_end(p, end), end);
 }
 
 ProgramText::ProgramText(std::string text) : text_(std::move(text)) {
   const char* const begin = text_.data();
   const char* const end = begin + text_.size();
-  for (const char* p = begin; p != end; p = line_behind(p, end), ++line_count_)
+  for (const char* p = begin; p != end; p = next_line(p, end), ++line_count_)
     if (line_count_ % kStride == 0) offsets_.push_back(static_cast<std::size_t>(p - begin));
 }
 
-/// Read into memory and not mapped: a file that is cut short would take its bytes away.
+/// Reads the file into memory: if it were mapped, the text would be lost when the file is cut short.
 std::variant<ProgramText, ProgramText::Problem> ProgramText::read(const std::filesystem::path& file,
                                                                   dialect::Language language) {
-  // Not blocking, so that a pipe without a writer is told as what it is: empty.
+  // Not blocking, so that a pipe without a writer is read as an empty file.
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) return Problem{system::cannot_read(errno, language)};
   const auto opened = system::SourceFile::read_stream(descriptor, language);
@@ -42,7 +42,7 @@ std::size_t ProgramText::offset_of(std::uint64_t line) const {
   const char* const end = begin + text_.size();
   if (line >= line_count_) return text_.size();
   const char* p = begin + offsets_[line / kStride];
-  for (std::uint64_t i = 0; i < line % kStride; ++i) p = line_behind(p, end);
+  for (std::uint64_t i = 0; i < line % kStride; ++i) p = next_line(p, end);
   return static_cast<std::size_t>(p - begin);
 }
 

@@ -13,11 +13,11 @@
 
 namespace isocnc::debugger::session {
 
-/// The program that is debugged, as it was when it was launched: what somebody does to the file meanwhile changes
-/// nothing here. Lines from 0.
+/// The program that is debugged, as it was when it was launched: later changes of the file have no effect here. Lines
+/// count from 0.
 class ProgramText {
  public:
-  /// Why a file cannot be taken, for people.
+  /// Why a file cannot be read, for people.
   struct Problem {
     std::string message;
   };
@@ -27,20 +27,20 @@ class ProgramText {
 
   std::string_view text() const { return text_; }
   std::uint64_t line_count() const { return line_count_; }
-  /// Without its terminator; empty behind the last line.
+  /// The text of a line without its terminator; empty after the last line.
   std::string_view line(std::uint64_t number) const;
 
-  /// The first line from there on with a block that does something (D13); none behind the last one.
+  /// The first line from there on with a block that does something (D13); none after the last one.
   std::optional<std::uint64_t> executable_line(std::uint64_t from) const;
 
  private:
-  /// Where each of so many lines begins is known; the others are counted off.
+  /// The offset of every 64th line is known; the lines between are counted.
   static constexpr std::uint64_t kStride = 64;
 
   std::size_t offset_of(std::uint64_t line) const;
 
   std::string text_;
-  std::vector<std::size_t> offsets_;  ///< Of every kStride-th line.
+  std::vector<std::size_t> offsets_;  ///< Starts of every kStride-th line.
   std::uint64_t line_count_ = 0;
 };
 

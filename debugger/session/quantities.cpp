@@ -37,7 +37,7 @@ Pose workpiece_pose(const Moment& moment) {
   return pose;
 }
 
-/// Between two blocks what the program says, to the last digit; in a block where the tip is.
+/// Between two blocks the position as programmed, to the last digit; within a block the place of the tip.
 Pose programmed_pose(const Moment& moment) {
   const execution::State& state = moment.state;
   if (moment.machine == nullptr || !moment.machine->is_in_block()) return state.position;
@@ -50,7 +50,7 @@ static double component(const Pose& pose, int index) {
   return index < 3 ? pose.tip[index] : index == 3 ? pose.b : pose.c;
 }
 
-/// What an error has left open is not known.
+/// Unknown for an axis that an error has left open.
 static double read_programmed(const Moment& moment, int index) {
   const bool is_open = (moment.state.unknown & execution::axis_bit(static_cast<execution::Axis>(index))) != 0;
   return is_open ? kUnknown : component(programmed_pose(moment), index);

@@ -16,10 +16,10 @@ struct Moment {
   const running::Registers& registers;
   double vgpl = 0;
   std::uint64_t line = 0;         ///< From 0.
-  double override_percent = 100;  ///< Of the feed.
+  double override_percent = 100;  ///< Override of the feed.
   double playback = 0;            ///< 0: as fast as possible; 1: in real time.
-  /// Where the machine is. Without it, as where the way back is searched, it counts as standing where the program has
-  /// led it, and there is no time.
+  /// The machine at this moment. Without it, as in a search backward, the machine counts as standing where the program
+  /// has led it, and the time is not known.
   const simulation::Simulation* machine = nullptr;
 };
 

@@ -58,7 +58,7 @@ class StopCheck {
   Notifier& notifier_;
   bool is_judged_ = false;                         ///< The block that comes next.
   std::optional<execution::State> step_out_from_;  ///< State in which the step out began.
-  Trail trail_;                                    ///< Values of the block in progress.
+  ValueTrail trail_;                                    ///< Values of the block in progress.
   std::size_t message_count_ = 0;
 };
 

@@ -14,7 +14,7 @@ using dialect::Text;
 
 namespace {
 
-/// References of scopes, and of what lies in them.
+/// References of scopes, and of the groups in them.
 enum Reference : std::int64_t {
   kPosition = 1,
   kModes,
@@ -33,7 +33,7 @@ enum Reference : std::int64_t {
   kFaceFrame,
   kToolValues,
   kFunctionParameters,
-  kFirstFunction = 1000,  ///< Behind it the M's number.
+  kFunctions = 1000,  ///< The number of an M is added to it.
 };
 
 constexpr std::array<Scope, 8> kScopes{{
@@ -76,7 +76,7 @@ constexpr Text kInverse{"G93, inverse time", "G93, inverso del tempo"};
 constexpr Text kNoSuchVariables{"there are no variables with the reference {}",
                                 "non ci sono variabili con il riferimento {}"};
 
-/// Gathers the variables of one place.
+/// Lists the variables of one reference.
 class Listing {
  public:
   Listing(const Session& session, const ValueFormat& format)
@@ -178,7 +178,7 @@ class Listing {
     for (int number = 1; number <= dialect::kRegisterCount; ++number) add_quantity(fmt::format("V{}", number));
   }
 
-  /// As the GPL of the control calls them (I.4.2 to I.5).
+  /// Under the names that the GPL of the control gives them (I.4.2 to I.5).
   void list_gpl() {
     add_quantity("VGPL", "Var_IF[1]");
     add_quantity("S", "SValue");
@@ -200,7 +200,7 @@ class Listing {
         values += fmt::format("{}P{}={}", values.empty() ? "" : " ", each.number, show(each.value));
       variables.push_back({.name = fmt::format("[{}]", function.call.number),
                            .value = values,
-                           .reference = kFirstFunction + function.call.number});
+                           .reference = kFunctions + function.call.number});
     }
   }
   void list_function(int number) {
@@ -231,18 +231,25 @@ class Listing {
     for (int axis = 0; axis < 3; ++axis) add(std::string(1, "XYZ"[axis]), show(vector[axis]), "mm");
   }
 
-  /// Who has set what is in force.
+  std::string line_text(std::uint64_t line) const {
+    return session_.in_language(kLine, session_.client().to_client_line(line));
+  }
+
+  /// The line that has set the mode in force, or how else it was set.
   std::string origin_of(ModalGroup group, std::uint8_t number) const {
-    const auto at_line = [&](std::uint64_t line) {
-      return session_.in_language(kLine, session_.client().to_client_line(line));
-    };
     const Journal& journal = session_.journal();
     if (const auto setting = journal.setting(group, present().blocks()))
-      return setting->number == number ? at_line(setting->line) : in_language(kByHand);
+      return setting->number == number ? line_text(setting->line) : in_language(kByHand);
     const bool is_written = (moment_.state.written & (1u << static_cast<unsigned>(group))) != 0;
     if (dialect::kGCodes[dialect::kGCodeRows[number]].is_default && !is_written) return in_language(kDefault);
     if (!journal.has_forgotten(group)) return in_language(kByHand);
-    // Where so much has been set that it is forgotten it is not far.
+    const auto line = find_setting_line(group, number);
+    return line ? line_text(*line) : in_language(kLongAgo);
+  }
+
+  /// Searches the past for a setting that the journal has forgotten. Only a program that sets modes very often makes it
+  /// forget any, so the line is near.
+  std::optional<std::uint64_t> find_setting_line(ModalGroup group, std::uint8_t number) const {
     constexpr std::uint64_t kFar = 65536;
     const std::uint64_t blocks = present().blocks();
     std::uint64_t line = 0;
@@ -252,7 +259,7 @@ class Listing {
           line = block.line;
           return true;
         });
-    return found ? at_line(line) : in_language(kLongAgo);
+    return found ? std::optional(line) : std::nullopt;
   }
 
   void add_mode(ModalGroup group) {
@@ -271,7 +278,7 @@ class Listing {
   const ValueFormat format_;
 };
 
-/// What is listed under a reference.
+/// A reference, and the function that lists its variables.
 struct Place {
   std::int64_t reference = 0;
   void (Listing::*list)();
@@ -304,8 +311,8 @@ std::span<const Scope> all_scopes() { return kScopes; }
 std::vector<Variable> variables_of(const Session& session, std::int64_t reference, const ValueFormat& format) {
   session.stopped_debuggee();
   Listing listing(session, format);
-  if (reference > kFirstFunction && reference < kFirstFunction + 1000) {
-    listing.list_function(static_cast<int>(reference - kFirstFunction));
+  if (reference > kFunctions && reference < kFunctions + 1000) {
+    listing.list_function(static_cast<int>(reference - kFunctions));
     return listing.variables;
   }
   for (const Place& place : kPlaces) {

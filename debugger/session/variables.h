@@ -8,17 +8,17 @@
 
 namespace isocnc::debugger::session {
 
-/// A line of what the client shows of the machine.
+/// A value or group of values that the client shows.
 struct Variable {
   std::string name;
   std::string value;
-  std::string type;                    ///< What it is, and its unit.
-  std::string evaluate_name;           ///< The expression that it is; empty for none.
-  std::int64_t reference = 0;          ///< Of its own variables; 0: none.
-  const Quantity* quantity = nullptr;  ///< That can be set; null for none.
+  std::string type;                    ///< Its meaning and its unit.
+  std::string evaluate_name;           ///< An expression with this value; empty for none.
+  std::int64_t reference = 0;          ///< Reference of the variables that it holds; 0 for none.
+  const Quantity* quantity = nullptr;  ///< The quantity to set; null where it cannot be set.
 };
 
-/// A group of variables that a stack frame has.
+/// A group of variables of a stack frame.
 struct Scope {
   dialect::Text name;
   std::int64_t reference = 0;
@@ -27,7 +27,8 @@ struct Scope {
 
 std::span<const Scope> all_scopes();
 
-/// What a scope, or a variable, holds. The references are always the same. Throws RequestError where there is none.
+/// The variables that a scope or variable holds. The references are always the same. Throws RequestError for one that
+/// does not exist.
 std::vector<Variable> variables_of(const Session& session, std::int64_t reference, const ValueFormat& format);
 
 }  // namespace isocnc::debugger::session

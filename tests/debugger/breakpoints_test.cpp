@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "debug_client.h"
 #include "programs.h"
 
@@ -113,7 +115,7 @@ TEST(Breakpoints, CanBeLinesAlone) {
   EXPECT_EQ(client.line(), 7);
 }
 
-TEST(Breakpoints, TellTheColumnOfAConditionsMistake) {
+TEST(Breakpoints, ReportTheColumnOfAConditionsMistake) {
   DebugClient client;
   client.launch(kPart);
   const Json breakpoints = client.set_breakpoints({{{"line", 9}, {"condition", "Z < 0 && W > 1"}},
@@ -127,7 +129,7 @@ TEST(Breakpoints, TellTheColumnOfAConditionsMistake) {
   for (const Json& breakpoint : breakpoints) EXPECT_FALSE(breakpoint.at("verified"));
 }
 
-TEST(Breakpoints, LogPointsTellAndDoNotStop) {
+TEST(Breakpoints, LogPointsReportAndDoNotStop) {
   DebugClient client;
   client.launch("M06 T101001\nG00 X12.3456 Z5\nG01 Z-1 F100\nM02\n");
   client.set_breakpoints({{{"line", 3}, {"logMessage", "at {X,2} {{mm}}, T {T,x}"}}});
@@ -195,17 +197,17 @@ TEST(Breakpoints, FunctionBreakpointsWaitForCodes) {
 TEST(Breakpoints, ThatAreSetAnewAsTheyAreGoOnCounting) {
   DebugClient client;
   client.launch("M06 T101001\nG00 X1\nM100\nX2\nM100\nX3\nM100\nX4\nM100\nM02\n");
-  const auto wish = [&](const char* hits, const char* data_hits) {
+  const auto set_hits = [&](const char* hits, const char* data_hits) {
     client.request("setFunctionBreakpoints", {{"breakpoints", {{{"name", "M100"}, {"hitCondition", hits}}}}});
     client.request("setDataBreakpoints", {{"breakpoints", {{{"dataId", "X"}, {"hitCondition", data_hits}}}}});
   };
-  wish("2", "3");
+  set_hits("2", "3");
   client.run("configurationDone");
   EXPECT_EQ(client.line(), 5);
-  wish("2", "3");
+  set_hits("2", "3");
   client.run("continue");
   EXPECT_EQ(client.line(), 7) << "the third X";
-  wish("=2", "99");
+  set_hits("=2", "99");
   client.run("continue");
   EXPECT_EQ(client.line(), 9) << "another condition counts from line 7";
 }
@@ -291,7 +293,7 @@ TEST(Breakpoints, DataBreakpointsWorkBackwards) {
   EXPECT_THAT(lines, ElementsAre(15, 11, 9));
 }
 
-/// The block in error, too, is looked at on the way back: it changes nothing.
+/// A search backward judges the block in error, too, which changes nothing.
 TEST(Breakpoints, DataBreakpointsWorkBackwardsFromAnError) {
   DebugClient client;
   client.launch(kWrong);
@@ -335,7 +337,7 @@ TEST(Breakpoints, WarningsAreThoseThatIsolintShows) {
   EXPECT_EQ(with_w190.line(), 2);
 }
 
-/// The wish of the launch outlives what the client says of its own filters.
+/// The filters that the client sets do not turn off what the launch asks for.
 TEST(Breakpoints, WarningsStopTheRunBesideTheFiltersOfTheClient) {
   DebugClient client;
   client.launch("M06 T101001\nG00 X1\nG17\nG17\nM02\n", {{"breakOnWarnings", true}});

@@ -80,7 +80,7 @@ TEST(Changing, SpeedsThatAreSetDoAllThatTheProgramsDo) {
   }
 }
 
-/// The machine takes no hand on it where it is on its way, or has ended.
+/// The machine cannot be changed within a block, nor after the end.
 TEST(Changing, WaitsForAMachineThatStandsBetweenTwoBlocks) {
   DebugClient client;
   client.stand_at_begin("M06 T101001\nG01 X10 F600 M03\nM02\n");
@@ -98,7 +98,7 @@ struct Refused {
 
 class Refusals : public testing::TestWithParam<Refused> {};
 
-TEST_P(Refusals, TellWhy) {
+TEST_P(Refusals, SayWhy) {
   DebugClient client;
   client.stand_at_begin(kPart);
   EXPECT_THAT(client.refusal("setExpression", {{"expression", GetParam().expression}, {"value", GetParam().value}}),
@@ -239,7 +239,7 @@ TEST(Reading, ModesShowWhatHasSetThem) {
   EXPECT_THAT(client.variable("Modal groups", "absolute or incremental"), HasSubstr("(line 5)"));
 }
 
-/// Of so many only the latest are kept; the others are found again.
+/// The journal keeps the latest settings alone; the others are found again.
 TEST(Reading, ModesShowWhatHasSetThemInLongProgramsToo) {
   std::string program = "M06 T101001\nG01 X0 F6000\n";
   for (int i = 0; i < 20'000; ++i) program += "G00 X0\nX0\nG01 X0\n";

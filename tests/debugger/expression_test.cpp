@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 class Mistakes : public testing::TestWithParam<Formula> {};
 
-TEST_P(Mistakes, AreToldWithTheirColumn) {
+TEST_P(Mistakes, AreReportedWithTheirColumn) {
   const auto compiled = compile_formatted(GetParam().text, {}, dialect::Language::English);
   ASSERT_TRUE(std::holds_alternative<ExpressionProblem>(compiled));
   EXPECT_EQ(std::get<ExpressionProblem>(compiled).message, GetParam().value);

@@ -179,7 +179,7 @@ TEST(Protocol, AProgramThatChangesOnDiskIsDebuggedAsItWas) {
   EXPECT_THAT(client.refusal("restart"), HasSubstr("cannot read"));
 }
 
-TEST(Protocol, ARunThatGoesOnTellsOfAProgramThatChanges) {
+TEST(Protocol, ARunReportsAProgramThatChanges) {
   DebugClient client;
   client.launch("M06 T101001\nG00 X0\nG01 X90000 F1\nM02\n", {{"speed", 1}});
   client.request("configurationDone");

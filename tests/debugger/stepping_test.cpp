@@ -43,11 +43,10 @@ TEST(Stepping, RunsToTheEnd) {
   EXPECT_THAT(client.refusal("next"), HasSubstr("launched"));
 }
 
-TEST(Stepping, TellsWhatTheOperatorWouldSee) {
+TEST(Stepping, ReportsWhatTheOperatorWouldSee) {
   DebugClient client;
   client.launch(kPart);
   client.request("configurationDone");
-  std::string told;
   for (const char* const text :
        {"tool change: T101001", "spindle speed: S18000", "M03", "T101002", "M100 P1=2.5 P2=8"}) {
     const Json output = client.event("output");
@@ -86,17 +85,17 @@ TEST(Stepping, WithoutTheFilterAnErrorEndsTheRun) {
   EXPECT_EQ(client.event("exited").at("exitCode"), 1);
 }
 
-TEST(Stepping, WhatEndsTheRunIsToldBehindAnyAmountOfOutput) {
+TEST(Stepping, WhatEndsTheRunIsReportedAfterAnyAmountOfOutput) {
   std::string many = "M06 T101001\n";
   for (int i = 0; i < 1000; ++i) many += "M100\n";
   DebugClient client;
   client.launch(many + "G02\nM02\n", {{"noDebug", true}});
   client.request("configurationDone");
   EXPECT_EQ(client.event("exited").at("exitCode"), 1);
-  std::string told;
-  while (client.has_event("output")) told += client.event("output").at("output");
-  EXPECT_THAT(told, HasSubstr("ISO026: "));
-  EXPECT_THAT(told, HasSubstr("801 more messages are left out"));
+  std::string output;
+  while (client.has_event("output")) output += client.event("output").at("output");
+  EXPECT_THAT(output, HasSubstr("ISO026: "));
+  EXPECT_THAT(output, HasSubstr("801 more messages are left out"));
 }
 
 TEST(Stepping, StepsInByInstructions) {
@@ -205,22 +204,22 @@ TEST(Stepping, DoesNotGoBackToALineThatWasJumpedOver) {
   const Json targets = client.request("gotoTargets", {{"source", {}}, {"line", 13}}).at("targets");
   EXPECT_EQ(client.run("goto", {{"threadId", 1}, {"targetId", targets.at(0).at("id")}}).at("reason"), "goto");
   EXPECT_EQ(client.line(), 16);
-  std::string told;
-  while (client.has_event("output")) told += client.event("output").at("output");
-  EXPECT_THAT(told, HasSubstr("13"));
+  std::string output;
+  while (client.has_event("output")) output += client.event("output").at("output");
+  EXPECT_THAT(output, HasSubstr("13"));
 }
 
-TEST(Stepping, TellsWhatTheMachineFileCallsThem) {
+TEST(Stepping, ReportsTheNamesOfTheMachineFile) {
   DebugClient client;
   client.write("isocnc.json", R"({"machine": {"tools": [{"head": 1, "holder": 1, "tool": 1, "name": "ball nose"}],
                                                "functions": {"M100": {"name": "vacuum"}}}})");
   client.launch("M06 T101001\nM100 P1=2\nM02\n");
   client.request("configurationDone");
   client.event("terminated");
-  std::string told;
-  while (client.has_event("output")) told += client.event("output").at("output");
-  EXPECT_THAT(told, HasSubstr("(ball nose)"));
-  EXPECT_THAT(told, HasSubstr("M100 P1=2 (vacuum)"));
+  std::string output;
+  while (client.has_event("output")) output += client.event("output").at("output");
+  EXPECT_THAT(output, HasSubstr("(ball nose)"));
+  EXPECT_THAT(output, HasSubstr("M100 P1=2 (vacuum)"));
 }
 
 TEST(Stepping, PausesWithinAMoveAtTheVeryPlace) {

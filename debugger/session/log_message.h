@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "debugger/session/expression.h"
+
+namespace isocnc::debugger::session {
+
+/// A text with expressions in braces: `Z is {Z,2}`. `{{` and `}}` are braces.
+class LogMessage {
+ public:
+  static std::variant<LogMessage, ExpressionProblem> compile(std::string_view text, const ValueFormat& format,
+                                                             dialect::Language language);
+  std::string at(const Moment& moment) const;
+
+ private:
+  struct Piece {
+    std::string text;
+    std::optional<Expression::Formatted> value;  ///< Shown after the text.
+  };
+  std::vector<Piece> pieces_;
+};
+
+}  // namespace isocnc::debugger::session
