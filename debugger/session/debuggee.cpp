@@ -147,6 +147,7 @@ Simulation Debuggee::simulation_of(const Program& program, const RunOptions& opt
 void Debuggee::take_over(const Simulation& by_hand) {
   execution::State state = by_hand.run().state;
   state.ended = false;  // An M02 ends what is done by hand, and not the program.
+  state.exact_stop_fits = present().run().state.exact_stop_fits;  // A G09 follows a line of the program (D23).
   Runner runner = present().runner();
   runner.set_state(state);
   set_registers(runner, by_hand.run().registers);

@@ -109,8 +109,13 @@ static bool set_spindle_speed(Session& session, int, double value) {
   session.change_machine([&](Debuggee& debuggee) { debuggee.set_spindle_speed(value); });
   return true;
 }
+/// Under G93 no F outlives its line (I.3.7, D43), so there is nothing to be set.
 static bool set_feed(Session& session, int, double value) {
+  static constexpr dialect::Text kInverseTime{"G93 is in force: an F counts for its own line alone",
+                                              "G93 è in presa: una F vale solo per la sua linea"};
   if (!(value > 0)) return false;
+  if (session.stopped_debuggee().present().run().state.inverse_time())
+    throw RequestError(std::string(session.in_language(kInverseTime)));
   session.change_machine([&](Debuggee& debuggee) { debuggee.set_feed(value); });
   return true;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "interpreter/simulation/spindle_turn.h"
+
 namespace isocnc::simulation {
 
 static constexpr double kForever = std::numeric_limits<double>::infinity();
@@ -43,15 +45,13 @@ static Timing::Standing standing(const Simulation& before, const running::Runner
                                  const running::MoveEvent* beside) {
   const execution::State& state = run.result().state;
   const geometry::Pose programmed = beside != nullptr ? beside->to : programmed_pose(state);
-  const bool turns = state.knows(execution::State::kClockwise | execution::State::kCounterclockwise);
-  return {
-      .time = before.time(),
-      .tip = at_rest(before.sample().tip, programmed, machine.motion),
-      .programmed = programmed,
-      .tool_length = before.tool_length(),
-      .frame_axes = state.face_mounted ? state.face.axes : geometry::Mat3(geometry::Mat3::Identity()),
-      .spindle = turns ? Timing::Spindle{.function = state.spindle, .speed = state.spindle_speed} : Timing::Spindle{},
-      .spindle_speed = state.spindle_speed};
+  return {.time = before.time(),
+          .tip = at_rest(before.sample().tip, programmed, machine.motion),
+          .programmed = programmed,
+          .tool_length = before.tool_length(),
+          .frame_axes = state.face_mounted ? state.face.axes : geometry::Mat3(geometry::Mat3::Identity()),
+          .spindle = before.spindle(),
+          .spindle_speed = state.spindle_speed};
 }
 
 Simulation::Simulation(const Simulation& before, const running::Runner& run, const TimedMachine& machine)
@@ -68,6 +68,7 @@ Simulation::Simulation(const Simulation& before, const running::Runner& run, con
       begin_(timing_.tip()),
       begin_tool_length_(before.tool_length_),
       tool_length_(before.tool_length_),
+      spindle_(before.spindle_),
       time_(before.time_) {
   present_.pass_empty_lines();
   ahead_ = present_;
@@ -120,6 +121,8 @@ void Simulation::begin_block() {
   const std::uint64_t blocks_before = blocks();
   line_ = present_.place().line;
   present_.step();
+  for (const running::Event& event : present_.events())
+    spindle_ = spindle_after(event, spindle_, run().state.spindle_speed);
   in_block_ = blocks() > blocks_before;
   if (is_news) {
     timing_.listen(listeners());

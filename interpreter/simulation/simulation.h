@@ -81,6 +81,8 @@ class Simulation {
   const running::Event* event() const;
   motion::Sample sample() const;
   double tool_length() const { return tool_length_; }  ///< Of the tool that is mounted, mm.
+  /// What the spindle does after the block in progress. An S that no M03 or M04 has followed does not show.
+  const Timing::Spindle& spindle() const { return spindle_; }
   DistanceToGo to_go() const;
   /// Where the machine is on an arc that it drives as lines; none elsewhere.
   std::optional<ArcSegment> segment() const;
@@ -135,6 +137,7 @@ class Simulation {
   double begin_tool_length_ = 0;
   double gone_ = 0;         ///< Of the path of its motion.
   double tool_length_ = 0;  ///< Of the tool that is mounted.
+  Timing::Spindle spindle_;
   double time_ = 0;
   bool in_block_ = false;
   std::uint64_t line_ = 0;       ///< Of the block in progress.

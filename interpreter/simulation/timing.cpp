@@ -8,6 +8,7 @@
 
 #include "interpreter/motion/numbers.h"
 #include "interpreter/motion/travel.h"
+#include "interpreter/simulation/spindle_turn.h"
 
 namespace isocnc::simulation {
 
@@ -187,17 +188,13 @@ double Timing::seconds_of(const running::Event& event) const {
   return waits ? 0 : -1;
 }
 
-/// What an M03, M04 or M05 brings about.
 Timing::Spindle Timing::spindle_after(int function) const {
-  return function == 5 ? Spindle{} : Spindle{.function = function, .speed = spindle_speed_};
+  return simulation::spindle_after(function, spindle_speed_);
 }
 
-/// An S alone waits for the next M03 or M04 (I.4.2); a tool change stops the spindle.
 void Timing::turn_spindle(const running::Event& event) {
   if (const auto* const given = std::get_if<running::SpindleSpeedEvent>(&event.what)) spindle_speed_ = given->speed;
-  if (std::holds_alternative<running::ToolEvent>(event.what)) spindle_ = {};
-  const auto* const function = std::get_if<running::FunctionEvent>(&event.what);
-  if (function != nullptr && !dialect::is_user_function(function->number)) spindle_ = spindle_after(function->number);
+  spindle_ = simulation::spindle_after(event, spindle_, spindle_speed_);
 }
 
 void Timing::finish() {

@@ -54,29 +54,108 @@ TEST(Changing, VariablesThatAreShownCanBeSetWhereTheyMayBe) {
         std::string(name) + " cannot be set");
 }
 
-/// What the machine knows after an S or an F that is set is what it knows after a block with it.
+/// The state after an S or an F that is set is the state after a block with it.
 TEST(Changing, SpeedsThatAreSetDoAllThatTheProgramsDo) {
   const running::RunOptions options;
   const simulation::TimedMachine machine;
-  for (const std::string_view before : {"G94", "G93", "G70"}) {
-    const std::string text = "M06 T101001\n" + std::string(before) + "\nG01 X1 F2\nX2 F3\nX3 F3\nM05\nM02\n";
+  for (const std::string_view mode : {"G94", "G93", "G70"}) {
+    const std::string text = "M06 T101001\n" + std::string(mode) + "\nG01 X1 F2\nX2 F3\nX3 F3\nM05\nM02\n";
     for (const char letter : {'S', 'F'}) {
+      if (mode == "G93" && letter == 'F') continue;  // It cannot be set.
       session::Debuggee by_hand(session::ProgramText(text), options, machine);
       session::Debuggee set(session::ProgramText(text), options, machine);
       for (session::Debuggee* const each : {&by_hand, &set})
         while (each->present().line() < 3) each->step_block();
-      // A feed move that goes nowhere: under G93 an F counts for its own line alone.
-      by_hand.run_by_hand(letter == 'S' ? "S7" : "G01 X1 F7");
+      by_hand.run_by_hand(std::string(1, letter) + "7");
       if (letter == 'S') {
         set.set_spindle_speed(7);
       } else {
         set.set_feed(7);
       }
-      execution::State expected = by_hand.present().run().state;
-      execution::State found = set.present().run().state;
-      expected.exact_stop_fits = found.exact_stop_fits = false;  // Of the block, not of its speed.
-      EXPECT_EQ(found, expected) << before << " " << letter;
+      EXPECT_EQ(set.present().run().state, by_hand.present().run().state) << mode << " " << letter;
     }
+  }
+}
+
+/// All that is shown at once and at the end of the program, where the run comes to.
+std::vector<std::string> states_after(const std::string& program, const std::function<void(DebugClient&)>& change) {
+  DebugClient client;
+  client.write("isocnc.json", R"({"machine": {"times": {"spindle": 3}}})");
+  client.launch(program);
+  client.set_lines({5, 12});
+  client.run("configurationDone");
+  change(client);
+  std::vector<std::string> states{client.state()};
+  client.run("continue");
+  states.push_back(client.state());
+  return states;
+}
+
+/// Whatever follows, a value that is set is one that a block typed into the console gives.
+TEST(Changing, ASpeedThatIsSetLeadsToWhatABlockLeadsTo) {
+  for (const char* const mode : {"G94", "G70", "G94 F700"}) {
+    const std::string program = std::string("M06 T101001\nS5000 M03\n") + mode +
+                                "\nG01 X1 F600\n"
+                                "M03\n"  // 5: an S takes effect here.
+                                "G01 X2\nX3\nG93\nX4 F2\nG94\nX9\nM02\n";
+    for (const char* const name : {"F", "S"}) {
+      const auto by_block =
+          states_after(program, [&](DebugClient& client) { client.evaluate(std::string(name) + "300 G909", "repl"); });
+      const auto by_value = states_after(program, [&](DebugClient& client) {
+        client.request(
+            "setVariable",
+            {{"variablesReference", reference_of(client, "Feed and spindle")}, {"name", name}, {"value", "300"}});
+      });
+      const auto unchanged = states_after(program, [](DebugClient&) {});
+      EXPECT_EQ(by_value, by_block) << mode << " " << name;
+      EXPECT_NE(by_value.front(), unchanged.front()) << mode << " " << name;
+      EXPECT_NE(by_value.back(), unchanged.back()) << mode << " " << name;
+    }
+  }
+}
+
+/// An S waits for the next M03, which takes as long as with an S of the program.
+TEST(Changing, ASpindleSpeedThatIsSetWaitsForTheNextM03) {
+  const auto time_at_end = [](const std::string& speed, const std::string& value) {
+    DebugClient client;
+    client.write("isocnc.json", R"({"machine": {"times": {"spindle": 3}}})");
+    client.launch("M06 T101001\nS5000 M03\n" + speed + "\nM03\nM02\n");
+    client.set_lines({4, 5});
+    client.run("configurationDone");
+    if (!value.empty()) client.request("setExpression", {{"expression", "S"}, {"value", value}});
+    client.run("continue");
+    return client.evaluate("TIME");
+  };
+  EXPECT_EQ(time_at_end("G90", "300"), time_at_end("S300", ""));
+  EXPECT_NE(time_at_end("G90", "300"), time_at_end("G90", ""));
+}
+
+/// Under G93 a block with an F alone sets nothing (D43), and neither does the debugger.
+TEST(Changing, AFeedIsNotSetUnderG93) {
+  DebugClient client;
+  client.launch("M06 T101001\nG01 X1 F600\nG93\nX2 F3\nG94\nX3\nM02\n");
+  client.set_lines({4});
+  client.run("configurationDone");
+  const std::string state = client.state();
+  EXPECT_THAT(client.refusal("setExpression", {{"expression", "F"}, {"value", "300"}}), HasSubstr("G93"));
+  EXPECT_EQ(client.state(), state);
+  client.evaluate("F300 G909", "repl");
+  EXPECT_EQ(client.evaluate("F"), "600");
+}
+
+/// Blocks run by hand stand between no two lines of the program: a G09 after a feed move stays one (D23).
+TEST(Changing, LeavesAG09AfterAFeedMoveValid) {
+  for (const bool is_block : {false, true}) {
+    DebugClient client;
+    client.launch("M06 T101001\nG01 X1 F600\nG09\nM02\n");
+    client.set_lines({3, 4});
+    client.run("configurationDone");
+    if (is_block) {
+      client.evaluate("F300 G909", "repl");
+    } else {
+      client.request("setExpression", {{"expression", "F"}, {"value", "300"}});
+    }
+    EXPECT_EQ(client.run("continue").at("reason"), "breakpoint") << is_block;
   }
 }
 

@@ -181,6 +181,24 @@ TEST(Simulation, TakenOverByHandGoesTheSameWay) {
   }
 }
 
+/// I.4.2: an S waits for the next M03 or M04, which takes its time as the speed changes.
+TEST(Simulation, TakenOverByHandKeepsAnSThatWaits) {
+  const Case speeds{
+      "M06 T101001\n"
+      "S100 M03\n"
+      "S200\n"
+      "M03\n"
+      "M02\n"};
+  for (const std::uint64_t change : {2u, 3u}) {
+    Simulation simulation = speeds.start();
+    while (simulation.line() != change) simulation.step_block();
+    Simulation taken_over(simulation, simulation.runner(), speeds.machine());
+    for (Simulation* const each : {&simulation, &taken_over})
+      while (!each->has_ended()) each->step_block();
+    EXPECT_EQ(taken_over.time(), simulation.time()) << change;
+  }
+}
+
 /// I.5: of what comes behind an IF the control knows nothing until the machine has come there.
 TEST(Simulation, StopsBesideTheContourAtAnIf) {
   const Case fork{
