@@ -6,8 +6,9 @@
 
 namespace isocnc::debugger::session {
 
-/// Blocks of a window.
+/// Blocks of a window, and of one in which motions are planned.
 static constexpr std::uint64_t kWindow = 8192;
+static constexpr std::uint64_t kMotionWindow = 256;
 
 /// Blocks before this one have begun. Where an error has ended the program, its block counts.
 static std::uint64_t end_of_past(const simulation::Simulation& present) {
@@ -19,15 +20,27 @@ BackwardSearch::BackwardSearch(SessionState& state)
     : state_(state), start_(end_of_past(state.debuggee->present())), searched_from_(start_) {}
 
 std::optional<BackwardSearch::Hit> BackwardSearch::search_window() {
-  const std::uint64_t from = searched_from_ > kWindow ? searched_from_ - kWindow : 0;
+  const bool plans_motions = state_.exception_filters.judge_motions(state_.debuggee->machine());
+  const std::uint64_t window = plans_motions ? kMotionWindow : kWindow;
+  const std::uint64_t from = searched_from_ > window ? searched_from_ - window : 0;
   std::optional<Hit> last;
   state_.debuggee->find_back(from, searched_from_, [&](const running::Block& block) {
     const auto hit = judge(block);
     if (hit) last = hit;
     return hit.has_value();
   });
+  if (plans_motions)
+    if (const auto block = find_overtravel_from(from); block && (!last || *block >= last->block))
+      last = Hit{.block = *block};
   searched_from_ = from;
   return last;
+}
+
+std::optional<std::uint64_t> BackwardSearch::find_overtravel_from(std::uint64_t block) const {
+  const Debuggee& debuggee = *state_.debuggee;
+  return debuggee.find_motion_back(block, searched_from_, [&](const motion::Move& move) {
+    return find_overtravel(move, debuggee.machine(), state_.language()).has_value();
+  });
 }
 
 double BackwardSearch::part_searched() const {
@@ -41,7 +54,7 @@ std::optional<BackwardSearch::Hit> BackwardSearch::judge(const running::Block& b
   if (is_stop) return Hit{.block = block.number};
   const Debuggee& debuggee = *state_.debuggee;
   const ExceptionFilters& filters = state_.exception_filters;
-  if (filters.judge_blocks() && filters.find_exception(block, debuggee.setup(), debuggee.machine(), state_.language()))
+  if (filters.judge_blocks() && filters.find_exception(block, debuggee.setup(), state_.language()))
     return Hit{.block = block.number};
   return std::nullopt;
 }

@@ -27,6 +27,7 @@ class BackwardSearch {
 
  private:
   std::optional<Hit> judge(const running::Block& block);
+  std::optional<std::uint64_t> find_overtravel_from(std::uint64_t block) const;
   bool stops_before(const running::Block& block);
   bool changes_data(const running::Block& block);
 

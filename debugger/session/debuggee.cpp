@@ -78,15 +78,35 @@ std::optional<std::uint64_t> Debuggee::find_line(std::uint64_t line) const {
   return std::nullopt;
 }
 
-std::optional<std::uint64_t> Debuggee::find_back(std::uint64_t from, std::uint64_t blocks,
-                                                 const std::function<bool(const running::Block&)>& is_it) const {
+/// Searches the parts from the last one back. `find` searches the blocks [from, blocks) of a history.
+template <class Find>
+std::optional<std::uint64_t> Debuggee::find_in_parts(std::uint64_t from, std::uint64_t blocks, const Find& find) const {
   for (auto part = parts_.rbegin(); part != parts_.rend() && from < blocks; ++part) {
     const std::uint64_t begin = std::max(from, part->first_block);
     if (begin >= blocks) continue;
-    if (const auto found = part->history.find_before(blocks, is_it, begin)) return found;
+    if (const auto found = find(part->history, begin, blocks)) return found;
     blocks = begin;
   }
   return std::nullopt;
+}
+
+std::optional<std::uint64_t> Debuggee::find_back(std::uint64_t from, std::uint64_t blocks,
+                                                 const std::function<bool(const running::Block&)>& is_it) const {
+  return find_in_parts(from, blocks, [&](const History& history, std::uint64_t begin, std::uint64_t end) {
+    return history.find_before(end, is_it, begin);
+  });
+}
+
+std::optional<std::uint64_t> Debuggee::find_motion_back(std::uint64_t from, std::uint64_t blocks,
+                                                        const std::function<bool(const motion::Move&)>& is_it) const {
+  return find_in_parts(from, blocks, [&](const History& history, std::uint64_t begin, std::uint64_t end) {
+    return history.find_motion_before(end, is_it, begin);
+  });
+}
+
+void Debuggee::look_ahead(const std::function<void(const motion::Move&)>& on_move) const {
+  Simulation ahead = present();
+  ahead.trace_block(on_move);
 }
 
 std::optional<Hindrance> Debuggee::hindrance() const {

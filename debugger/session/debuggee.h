@@ -63,6 +63,12 @@ class Debuggee {
   std::optional<std::uint64_t> find_back(std::uint64_t from, std::uint64_t blocks,
                                          const std::function<bool(const running::Block&)>& is_it) const;
 
+  /// The last of the blocks [from, blocks) with a motion of the machine for which `is_it` holds.
+  std::optional<std::uint64_t> find_motion_back(std::uint64_t from, std::uint64_t blocks,
+                                                const std::function<bool(const motion::Move&)>& is_it) const;
+  /// Calls `on_move` with each motion that the machine will make in the block that comes next.
+  void look_ahead(const std::function<void(const motion::Move&)>& on_move) const;
+
   void set_register(int number, double value) { history().set_register(number, value); }
   void set_vgpl(double value) { history().set_vgpl(value); }
 
@@ -93,6 +99,8 @@ class Debuggee {
   bool is_at_start_of_part() const;
   simulation::Simulation simulation_of(const running::Program& program, const running::RunOptions& options) const;
   void take_over(const simulation::Simulation& by_hand);
+  template <class Find>
+  std::optional<std::uint64_t> find_in_parts(std::uint64_t from, std::uint64_t blocks, const Find& find) const;
   void begin_part(const simulation::Simulation& from, const running::Runner& runner,
                   const simulation::TimedMachine& machine);
 

@@ -1,6 +1,7 @@
 #include "debugger/session/exception_filters.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "analyzer/explain.h"
 #include "debugger/session/block_effect.h"
@@ -14,8 +15,15 @@ using dialect::Language;
 using dialect::Text;
 
 bool ExceptionFilters::judge_blocks() const {
-  return is_on(ExceptionFilter::Limits) || is_on(ExceptionFilter::ToolChange) || is_on(ExceptionFilter::FirstCut) ||
+  return is_on(ExceptionFilter::ToolChange) || is_on(ExceptionFilter::FirstCut) ||
          (is_on(ExceptionFilter::Warnings) && !warnings.empty());
+}
+
+bool ExceptionFilters::judge_motions(const simulation::TimedMachine& machine) const {
+  const auto& axes = machine.motion.axes;
+  return is_on(ExceptionFilter::Limits) && std::any_of(axes.begin(), axes.end(), [](const auto& axis) {
+           return std::isfinite(axis.least) || std::isfinite(axis.most);
+         });
 }
 
 namespace {
@@ -31,18 +39,17 @@ Exception exception_of(ExceptionFilter filter, std::string message) {
       .filter = filter, .code = std::string(definition(filter).name), .message = std::move(message), .explanation = {}};
 }
 
-std::optional<Exception> find_overtravel(const std::vector<execution::MachineMove>& moves, double tool_length,
-                                         const simulation::TimedMachine& machine, Language language) {
-  for (const execution::MachineMove& move : moves)
-    for (const motion::Overtravel& found :
-         motion::overtravels(machine.motion, simulation::planned_move(move, machine, tool_length)))
-      return exception_of(ExceptionFilter::Limits,
-                          dialect::format(kBeyondTravel, language, dialect::kAxisLetters[found.axis],
-                                          show_value(found.position), show_value(found.limit)));
-  return std::nullopt;
-}
-
 }  // namespace
+
+std::optional<Exception> find_overtravel(const motion::Move& move, const simulation::TimedMachine& machine,
+                                         Language language) {
+  const auto found = motion::overtravels(machine.motion, move);
+  if (found.empty()) return std::nullopt;
+  const motion::Overtravel& first = found.front();
+  return exception_of(ExceptionFilter::Limits,
+                      dialect::format(kBeyondTravel, language, dialect::kAxisLetters[first.axis],
+                                      show_value(first.position), show_value(first.limit)));
+}
 
 std::optional<Exception> ExceptionFilters::find_warning(const running::Block& block, Language language) const {
   const auto warning = warnings.find(block.line);
@@ -60,20 +67,15 @@ static bool is_first_cut(const running::Block& block, const BlockEffect& effect)
 }
 
 std::optional<Exception> ExceptionFilters::find_exception(const running::Block& block, const execution::Setup& setup,
-                                                          const simulation::TimedMachine& machine,
                                                           Language language) const {
   if (is_on(ExceptionFilter::Warnings))
     if (auto warning = find_warning(block, language)) return warning;
   if (is_on(ExceptionFilter::ToolChange) && changes_tool(block))
     return exception_of(ExceptionFilter::ToolChange, std::string(kAnyToolChange.in(language)));
-  if (!is_on(ExceptionFilter::Limits) && !is_on(ExceptionFilter::FirstCut)) return std::nullopt;
+  if (!is_on(ExceptionFilter::FirstCut)) return std::nullopt;
   const BlockEffect effect = effect_of(block, setup);
-  if (effect.has_error) return std::nullopt;
-  if (is_on(ExceptionFilter::FirstCut) && is_first_cut(block, effect))
-    return exception_of(ExceptionFilter::FirstCut, std::string(kFirstCut.in(language)));
-  if (is_on(ExceptionFilter::Limits))
-    return find_overtravel(effect.moves, machine.tool_length(block.state.tool), machine, language);
-  return std::nullopt;
+  if (effect.has_error || !is_first_cut(block, effect)) return std::nullopt;
+  return exception_of(ExceptionFilter::FirstCut, std::string(kFirstCut.in(language)));
 }
 
 }  // namespace isocnc::debugger::session

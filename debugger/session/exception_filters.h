@@ -39,14 +39,21 @@ class ExceptionFilters {
 
   /// Whether find_exception() can find anything. It need not be called otherwise.
   bool judge_blocks() const;
-  /// The first reason to stop before a block, in the order of the filters' table.
+  /// A reason to stop before a block, other than where the machine goes in it.
   std::optional<Exception> find_exception(const running::Block& block, const execution::Setup& setup,
-                                          const simulation::TimedMachine& machine, dialect::Language language) const;
+                                          dialect::Language language) const;
+
+  /// Whether find_overtravel() can find anything. It need not be called otherwise.
+  bool judge_motions(const simulation::TimedMachine& machine) const;
 
  private:
   std::optional<Exception> find_warning(const running::Block& block, dialect::Language language) const;
 
   std::array<bool, kExceptionFilterCount> on_{};
 };
+
+/// What the axis limits say about a motion as the machine makes it.
+std::optional<Exception> find_overtravel(const motion::Move& move, const simulation::TimedMachine& machine,
+                                         dialect::Language language);
 
 }  // namespace isocnc::debugger::session

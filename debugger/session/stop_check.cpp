@@ -59,15 +59,30 @@ std::optional<Stop> StopCheck::judge_breakpoints() {
 }
 
 std::optional<Stop> StopCheck::judge_exceptions() {
-  if (!state_.exception_filters.judge_blocks()) return std::nullopt;
-  Debuggee& debuggee = *state_.debuggee;
-  const auto block = debuggee.next();
-  if (!block) return std::nullopt;
-  auto found = state_.exception_filters.find_exception(*block, debuggee.setup(), debuggee.machine(), state_.language());
+  auto found = find_exception();
+  if (!found) found = find_coming_overtravel();
   if (!found) return std::nullopt;
   state_.exception = std::move(found);
   return Stop{.reason = "exception",
               .details = {{"text", state_.exception->code}, {"description", state_.exception->message}}};
+}
+
+std::optional<Exception> StopCheck::find_exception() const {
+  if (!state_.exception_filters.judge_blocks()) return std::nullopt;
+  const auto block = state_.debuggee->next();
+  if (!block) return std::nullopt;
+  return state_.exception_filters.find_exception(*block, state_.debuggee->setup(), state_.language());
+}
+
+/// Looks where the machine would really go, which the block alone does not tell.
+std::optional<Exception> StopCheck::find_coming_overtravel() const {
+  const Debuggee& debuggee = *state_.debuggee;
+  std::optional<Exception> found;
+  if (!state_.exception_filters.judge_motions(debuggee.machine())) return found;
+  debuggee.look_ahead([&](const motion::Move& move) {
+    if (!found) found = find_overtravel(move, debuggee.machine(), state_.language());
+  });
+  return found;
 }
 
 void StopCheck::start_block() {

@@ -52,13 +52,15 @@ class StopCheck {
   bool ends_step_out() const;
   std::optional<Stop> judge_breakpoints();
   std::optional<Stop> judge_exceptions();
+  std::optional<Exception> find_exception() const;
+  std::optional<Exception> find_coming_overtravel() const;
   void report_messages(const Breakpoints::Outcome& outcome, std::uint64_t line);
 
   SessionState& state_;
   Notifier& notifier_;
   bool is_judged_ = false;                         ///< The block that comes next.
   std::optional<execution::State> step_out_from_;  ///< State in which the step out began.
-  ValueTrail trail_;                                    ///< Values of the block in progress.
+  ValueTrail trail_;                               ///< Values of the block in progress.
   std::size_t message_count_ = 0;
 };
 

@@ -110,6 +110,24 @@ std::optional<std::uint64_t> History::find_before(std::uint64_t blocks,
   return found;
 }
 
+std::optional<std::uint64_t> History::find_motion_before(std::uint64_t blocks,
+                                                         const std::function<bool(const motion::Move&)>& is_it,
+                                                         std::uint64_t from) const {
+  const auto behind = std::partition_point(checkpoints_.begin() + 1, checkpoints_.end(),
+                                           [&](const Checkpoint& each) { return each.simulation->blocks() <= from; });
+  Simulation simulation = *std::prev(behind)->simulation;
+  if (simulation.is_in_block()) simulation.step_block();  // A block before `from`.
+  std::optional<std::uint64_t> found;
+  while (!simulation.has_ended() && simulation.blocks() < blocks) {
+    const std::uint64_t block = simulation.blocks();
+    apply_settings(simulation, block);
+    simulation.trace_block([&](const motion::Move& move) {
+      if (block >= from && is_it(move)) found = block;
+    });
+  }
+  return found;
+}
+
 /// Called before the control reads on: the present is as small then as it can be.
 void History::keep() {
   constexpr int kFreedAtOnce = 8;

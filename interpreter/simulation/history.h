@@ -61,6 +61,13 @@ class History {
                                            const std::function<bool(const running::Block&)>& is_it,
                                            std::uint64_t from = 0) const;
 
+  /// The last of the blocks [from, blocks) with a motion for which `is_it` holds, as the machine makes it
+  /// (Simulation::motion()): how many have been executed before it. It plans all motions on the way, so a search is to
+  /// take few blocks at once.
+  std::optional<std::uint64_t> find_motion_before(std::uint64_t blocks,
+                                                  const std::function<bool(const motion::Move&)>& is_it,
+                                                  std::uint64_t from = 0) const;
+
   /// As in Simulation, from the present on: what has been further on is forgotten. Whoever comes back finds it as it
   /// has been set, from the begin of the block in progress or the end of the one before.
   void set_register(int reg, double value);

@@ -114,6 +114,11 @@ void Simulation::step_instruction(const BeforeReading& before_reading) {
     carry_on(piece()->end, before_reading);
 }
 
+void Simulation::trace_block(const std::function<void(const motion::Move&)>& on_move) {
+  for (step_instruction(); in_block_; step_instruction())
+    if (const motion::Move* const move = motion()) on_move(*move);
+}
+
 /// The next block, with all that it brings about but what takes time. The control has read it already, unless the
 /// machine had to get there first.
 void Simulation::begin_block() {
@@ -236,6 +241,11 @@ std::uint64_t Simulation::line() const {
 const running::Event* Simulation::event() const {
   const bool is_at_it = in_block_ && is_of_block(piece()) && piece()->start <= time_;
   return is_at_it ? &piece()->cause->event : nullptr;
+}
+
+const motion::Move* Simulation::motion() const {
+  const bool is_at_it = in_block_ && is_of_block(piece()) && piece()->cause->move;
+  return is_at_it ? &*piece()->cause->move : nullptr;
 }
 
 const motion::Stretch* Simulation::stretch() const {

@@ -62,6 +62,9 @@ class Simulation {
   /// Between two blocks begins the next one; within one goes on to the end of what the machine is at (event()).
   void step_instruction(const BeforeReading& before_reading = {});
 
+  /// As step_block(), between two blocks: `on_move` gets each motion of the block before the machine makes it.
+  void trace_block(const std::function<void(const motion::Move&)>& on_move);
+
   /// The block that comes next, before it is executed; none where the program ends.
   std::optional<running::Block> next() { return present_.next(); }
   double time() const { return time_; }  ///< Seconds from the program's begin.
@@ -79,6 +82,10 @@ class Simulation {
   /// The motion, dwell or other thing that the machine is at; null between two blocks, and where nothing takes time.
   /// Valid until the simulation is used again.
   const running::Event* event() const;
+  /// The motion of the block in progress that the machine makes, or makes next, as it makes it: beside the contour
+  /// under G41 and G42, and off the program after a change to a tool of another length. Null for none. Valid until the
+  /// simulation is used again.
+  const motion::Move* motion() const;
   motion::Sample sample() const;
   double tool_length() const { return tool_length_; }  ///< Of the tool that is mounted, mm.
   /// What the spindle does after the block in progress. An S that no M03 or M04 has followed does not show.

@@ -1,8 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "debug_client.h"
 #include "programs.h"
 
@@ -354,6 +352,61 @@ TEST(Breakpoints, TravelStopsTheRunBeforeTheMoveThatExceedsIt) {
   EXPECT_EQ(client.line(), 3);
   EXPECT_THAT(client.request("exceptionInfo", {{"threadId", 1}}).at("description").get<std::string>(),
               HasSubstr("100.5"));
+}
+
+/// docs/motion.md, "Where the tip is": home is where the spindle nose stands, and M06 moves no joint.
+constexpr const char* kTallMachine = R"({"machine": {
+    "home": {"z": 450}, "axes": {"X": {"min": -100, "max": 100}, "Z": {"min": 0, "max": 460}},
+    "tools": [{"head": 1, "holder": 1, "tool": 1, "length": 100, "radius": 8},
+              {"head": 1, "holder": 2, "tool": 1, "length": 40}]}})";
+
+/// Lines at which the filter of axis limits stops a run, forward and then backward from the line `end`.
+Stops stops_at_limits(const std::string& program, int end) {
+  DebugClient client;
+  client.write("isocnc.json", kTallMachine);
+  client.launch(program);
+  client.request("setExceptionBreakpoints", {{"filters", {"limits"}}});
+  client.set_lines({end});
+  Stops stops;
+  for (Json stopped = client.run("configurationDone"); stopped.at("reason") == "exception";
+       stopped = client.run("continue"))
+    stops.on.push_back(client.line());
+  EXPECT_EQ(client.line(), end);
+  client.set_lines({});
+  while (client.run("reverseContinue").at("reason") != "entry") stops.back.push_back(client.line());
+  return stops;
+}
+
+TEST(Breakpoints, TravelIsThatOfTheMachineAfterAToolChange) {
+  const Stops stops = stops_at_limits(
+      "M06 T101001\n"
+      "G00 X50\n"       // 2: the nose stays at Z450, where the program has it at Z550.
+      "G00 Z400\n"      // 3: the nose would go to Z500.
+      "G00 Z350\n"      // 4: it comes back from there.
+      "M06 T102001\n"   // 5: the nose stays at Z450, and the tip of the shorter tool is at Z410.
+      "G00 X60\n"       // 6
+      "G91 G00 Z60\n"   // 7: the nose would go to Z510, where the program has it at Z450.
+      "G90 G00 Z350\n"  // 8: it comes back from there.
+      "M02\n",
+      9);
+  EXPECT_THAT(stops.on, ElementsAre(3, 4, 7, 8));
+  EXPECT_THAT(stops.back, ElementsAre(8, 7, 4, 3));
+}
+
+/// The tool of 8 mm radius goes to X103, where the contour is at X95.
+TEST(Breakpoints, TravelIsThatOfTheMachineBesideAContour) {
+  const Stops stops = stops_at_limits(
+      "M06 T101001\n"
+      "G00 X0 Y0 Z5\n"
+      "G42 G01 X50 Y10 F6000\n"
+      "X95\n"     // 4
+      "Y50\n"     // 5
+      "X50\n"     // 6
+      "X0 G40\n"  // 7
+      "M02\n",
+      8);
+  EXPECT_THAT(stops.on, ElementsAre(4, 5));
+  EXPECT_THAT(stops.back, ElementsAre(5, 4));
 }
 
 TEST(Breakpoints, LocationsAreLinesThatDoSomething) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -107,6 +108,26 @@ TEST_F(HistoryTest, FindsTheLastBlockBefore) {
   EXPECT_EQ(history.find_before(2, on_line(4)), std::nullopt) << "only blocks before";
   EXPECT_EQ(history.find_before(100, [](const running::Block& block) { return !block.tree.is_empty(); }), 4u);
   EXPECT_EQ(history.find_before(0, [](const running::Block&) { return true; }), std::nullopt);
+}
+
+TEST_F(HistoryTest, FindsTheLastMotionBefore) {
+  for (const std::uint64_t seed : seeds(25)) {
+    Random random(seed);
+    History history(begin(RandomRun(random).text(random.between(1, 4)), random.between(0, 2)), kFew);
+    history.go_to_block(static_cast<std::uint64_t>(random.between(0, 200)));
+    const auto leads_right = [](const motion::Move& move) { return move.to.tip.x() > move.from.tip.x() + 5; };
+    std::vector<bool> does_block;
+    for (Simulation fresh = fresh_before(0); !fresh.has_ended();) {
+      does_block.push_back(false);
+      fresh.trace_block([&](const motion::Move& move) { does_block.back() = does_block.back() || leads_right(move); });
+    }
+    const std::uint64_t end = std::min<std::uint64_t>(history.present().blocks(), does_block.size());
+    const auto from = static_cast<std::uint64_t>(random.between(0, static_cast<int>(end)));
+    std::optional<std::uint64_t> last;
+    for (std::uint64_t block = from; block < end; ++block)
+      if (does_block[block]) last = block;
+    EXPECT_EQ(history.find_motion_before(end, leads_right, from), last) << seed;
+  }
 }
 
 TEST_F(HistoryTest, FindsTheBlockOfALineThatLiesBehind) {

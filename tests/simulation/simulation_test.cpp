@@ -381,9 +381,13 @@ TEST(Simulation, EndsAtAnErrorWhenTheMachineGetsThere) {
 /// Of a run in one go: what isorun makes of a program.
 struct Trip {
   explicit Trip(const Case& of)
-      : timing(of.machine(), {.event = {}, .stretch = [this](const motion::Stretch& stretch, const TimedEvent& timed) {
-                                stretches.emplace_back(stretch, timed.event.line);
-                              }}) {
+      : timing(of.machine(),
+               {.event =
+                    [this](const TimedEvent& timed) {
+                      if (timed.move && timed.duration > 0) moves.push_back(*timed.move);
+                    },
+                .stretch = [this](const motion::Stretch& stretch,
+                                  const TimedEvent& timed) { stretches.emplace_back(stretch, timed.event.line); }}) {
     Compensation compensation(of.machine());
     const Compensation::Listeners to_timing{.event = [this](const running::Event& event) { timing.take(event); },
                                             .warning = [](const RunWarning&) {}};
@@ -394,6 +398,7 @@ struct Trip {
   }
 
   std::vector<std::pair<motion::Stretch, std::uint64_t>> stretches;  ///< With their lines.
+  std::vector<motion::Move> moves;                                   ///< Those that take time.
   Timing timing;
   running::RunResult result;
 };
@@ -413,6 +418,25 @@ TEST(SimulationProperty, GoesTheWayOfARunInOneGo) {
       ASSERT_EQ(simulation.sample().tip.tip, expected.tip.tip) << seed << " at " << middle;
       ASSERT_EQ(simulation.sample().speed, expected.speed) << seed << " at " << middle;
       ASSERT_EQ(simulation.line(), line) << seed << " at " << middle;
+    }
+  }
+}
+
+/// Traced by copies that each go through one block, as a debugger looks ahead.
+TEST(SimulationProperty, TracesTheMotionsOfARunInOneGo) {
+  for (const std::uint64_t seed : seeds(40)) {
+    Random random(seed);
+    const Case some{random};
+    std::vector<motion::Move> moves;
+    Simulation simulation = some.start();
+    for (; !simulation.has_ended(); simulation.step_block())
+      Simulation(simulation).trace_block([&](const motion::Move& move) { moves.push_back(move); });
+    const Trip trip(some);
+    ASSERT_EQ(moves.size(), trip.moves.size()) << seed;
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+      EXPECT_EQ(moves[i].from.tip, trip.moves[i].from.tip) << seed << " motion " << i;
+      EXPECT_EQ(moves[i].to.tip, trip.moves[i].to.tip) << seed << " motion " << i;
+      EXPECT_EQ(moves[i].tool_length, trip.moves[i].tool_length) << seed << " motion " << i;
     }
   }
 }
