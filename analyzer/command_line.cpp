@@ -60,13 +60,13 @@ static void add_options(command_line::ProgramApp& program, Options& options) {
   program.begin_group({"What is reported", "Che cosa segnalare"});
   // One word behind each, so that `--select ISO031 part.iso` leaves the path alone.
   program
-      .add_option("--select", options.wishes.select, kCodes,
+      .add_option("--select", options.selection.select, kCodes,
                   {"Only these: codes (ISO031), names, what codes\nbegin with (W1), ALL; commas between them",
                    "Solo questi: codici (ISO031), nomi, inizi di codici\n(W1), ALL; separati da virgole"})
       .takes_one();
-  program.add_option("--ignore", options.wishes.ignore, kCodes, {"Not these", "Questi no"}).takes_one();
+  program.add_option("--ignore", options.selection.ignore, kCodes, {"Not these", "Questi no"}).takes_one();
   program
-      .add_option("--severity", options.wishes.severities, {"CODE=LEVEL", "CODICE=LIVELLO"},
+      .add_option("--severity", options.selection.severities, {"CODE=LEVEL", "CODICE=LIVELLO"},
                   {"Weigh it as error, warning, info or off", "Gli dà il peso error, warning, info oppure off"})
       .takes_one();
   const command_line::ProgramOption baseline =
@@ -83,14 +83,14 @@ static void add_options(command_line::ProgramApp& program, Options& options) {
   program
       .add_flag("--fix", options.fix,
                 {"Rewrite programs with their safe fixes", "Riscrive i programmi con le correzioni sicure"})
-      .tells_no_exclusions()
+      .without_exclusions()
       .excludes(write_baseline);
   program.add_flag("--unsafe-fixes", options.unsafe_fixes,
                    {"Count fixes as well that are likely, not certain", "Anche le correzioni probabili ma non certe"});
   const command_line::ProgramOption diff = program.add_flag(
       "--diff", options.diff,
       {"Show what --fix would change, and change nothing", "Mostra che cosa cambierebbe --fix, senza cambiarlo"});
-  diff.tells_no_exclusions().excludes(write_baseline);
+  diff.without_exclusions().excludes(write_baseline);
 
   program.begin_group({"How it is shown", "Come mostrarlo"});
   const std::string formats = listed(formats::format_names());
@@ -103,7 +103,7 @@ static void add_options(command_line::ProgramApp& program, Options& options) {
   program
       .add_flag("--statistics", options.statistics,
                 {"Show how many findings each code has", "Mostra quante segnalazioni ha ogni codice"})
-      .tells_no_exclusions()
+      .without_exclusions()
       .excludes(diff);
   program.add_language(options.language,
                        {"en or it; else as the locale says", "en o it; altrimenti secondo il locale"});

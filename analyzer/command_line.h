@@ -20,7 +20,7 @@ struct Options {
   std::string stdin_name = "<stdin>";
   std::string baseline;        ///< Findings not to be reported.
   std::string write_baseline;  ///< Where to record findings in place of reporting them.
-  selection::Wishes wishes;
+  selection::SelectionOptions selection;
   std::optional<std::size_t> max_warnings;
   int jobs = 0;  ///< 0: one for each core.
   bool exit_zero = false;

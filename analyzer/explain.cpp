@@ -30,28 +30,28 @@ static std::string severity_text(const DiagnosticDef& def, Language language) {
   static constexpr Text kOff = {", off by default", ", disattivata di norma"};
   static constexpr Text kRuns = {", told by isorun", ", segnalato da isorun"};
   return fmt::format("{}{}{}", dialect::severity_name(def.severity, language), def.is_off ? kOff.in(language) : "",
-                     def.is_told_by_runs ? kRuns.in(language) : "");
+                     def.is_reported_by_runs ? kRuns.in(language) : "");
 }
 
 MarkedProgram read_marked(std::string_view program) {
   MarkedProgram marked;
   std::size_t line = 0;
-  std::size_t line_begin = 0;
+  std::size_t line_start = 0;
   for (std::size_t i = 0; i < program.size(); ++i) {
     const std::string_view rest = program.substr(i);
     if (rest.starts_with("[!")) {
       marked.has_mark = true;
       marked.line = line;
-      marked.begin = marked.text.size() - line_begin;
+      marked.begin = marked.text.size() - line_start;
       ++i;
     } else if (rest.starts_with("!]")) {
-      marked.end = marked.text.size() - line_begin;
+      marked.end = marked.text.size() - line_start;
       ++i;
     } else {
       marked.text.push_back(program[i]);
       if (program[i] != '\n') continue;
       ++line;
-      line_begin = marked.text.size();
+      line_start = marked.text.size();
     }
   }
   return marked;

@@ -83,23 +83,24 @@ std::optional<formatting::NumberStyle> read_numbers(std::string_view text) {
   const auto start = std::from_chars(text.data(), end, style.start);
   if (start.ec != std::errc{} || start.ptr == end || *start.ptr != ':') return std::nullopt;
   const auto step = std::from_chars(start.ptr + 1, end, style.step);
-  static constexpr std::uint64_t kMost = configuration::Renumber::kMost;
-  if (step.ec != std::errc{} || step.ptr != end || style.step < 1 || style.step > kMost || style.start > kMost)
+  static constexpr std::uint64_t kMaxNumber = configuration::Renumber::kMaxNumber;
+  if (step.ec != std::errc{} || step.ptr != end || style.step < 1 || style.step > kMaxNumber ||
+      style.start > kMaxNumber)
     return std::nullopt;
   return style;
 }
 
 /// Puts what an option says in the place of what the configuration does: a number, or `keep` for none.
-void outweigh(std::optional<int>& value, const std::string& option) {
+void override_value(std::optional<int>& value, const std::string& option) {
   if (option.empty()) return;
   value = option == "keep" ? std::nullopt : std::optional(std::stoi(option));
 }
 
 /// The configuration's style with what the command line says in its place. The options have been checked.
-formatting::ProgramStyle wished_style(configuration::Format format, const Options& options) {
+formatting::ProgramStyle style_from(configuration::Format format, const Options& options) {
   if (options.word_order || options.no_word_order) format.word_order = options.word_order;
-  outweigh(format.decimals, options.decimals);
-  outweigh(format.g_digits, options.g_digits);
+  override_value(format.decimals, options.decimals);
+  override_value(format.g_digits, options.g_digits);
   if (!options.modal.empty()) format.modal = options.modal;
   formatting::ProgramStyle style = formatting::style_by(format);
   if (!options.renumber.empty()) style.numbers = read_numbers(options.renumber);
@@ -126,7 +127,8 @@ bool check_options(const Options& options) {
 /// 0, 1, ..., and keep.
 std::vector<std::string> decimals_choices() {
   std::vector<std::string> choices;
-  for (int most = 0; most <= configuration::Format::kMostDecimals; ++most) choices.push_back(std::to_string(most));
+  for (int maximum = 0; maximum <= configuration::Format::kMaxDecimals; ++maximum)
+    choices.push_back(std::to_string(maximum));
   choices.emplace_back("keep");
   return choices;
 }
@@ -143,7 +145,7 @@ class Run {
 
   /// `styles` has one for each file.
   ExitStatus run(const std::vector<formatting::ProgramStyle>& styles) {
-    trouble_ = !selection_.problems.empty();
+    failed_ = !selection_.problems.empty();
     for (std::size_t i = 0; i < selection_.files.size(); ++i) {
       format_file(selection_.files[i], styles[i]);
       if (output_.error() != 0) break;
@@ -157,7 +159,7 @@ class Run {
       const Text& summary = mode_ == Mode::InPlace ? kWereChanged : kWouldBeChanged;
       std::cerr << dialect::format(summary, language_, changed_, read_) << '\n';
     }
-    if (trouble_) return ExitStatus::Failure;
+    if (failed_) return ExitStatus::Failure;
     return changed_ > 0 && (mode_ == Mode::Check || mode_ == Mode::Diff) ? ExitStatus::Findings : ExitStatus::Success;
   }
 
@@ -168,7 +170,7 @@ class Run {
   void fail(std::string_view name, std::string_view why) {
     progress_.clear();
     complain(fmt::format("{}: {}", name, why));
-    trouble_ = true;
+    failed_ = true;
   }
 
   void format_file(const std::filesystem::path& file, const formatting::ProgramStyle& style) {
@@ -184,7 +186,7 @@ class Run {
     formatting::ProgramFormatter formatter(source.text(), style);
     if (const auto& obstacle = formatter.obstacle())
       return fail(name, dialect::format(kNotRenumbered, language_, obstacle->message(language_)));
-    told_ = 0;
+    shown_bytes_ = 0;
     switch (mode_) {
       case Mode::Check:
         check(formatter, name);
@@ -199,13 +201,13 @@ class Run {
         replace(formatter, source, *replacement, name);
         break;
     }
-    progress_.add(source.text().size() - told_);
+    progress_.add(source.text().size() - shown_bytes_);
   }
 
   std::optional<formatting::FormattedPiece> next_piece(formatting::ProgramFormatter& formatter) {
     const std::optional<formatting::FormattedPiece> piece = formatter.next();
     if (piece) {
-      told_ += piece->before.size();
+      shown_bytes_ += piece->before.size();
       progress_.add(piece->before.size());
     }
     return piece;
@@ -255,11 +257,11 @@ class Run {
   const Mode mode_;
   const Language language_;
   command_line::Progress progress_;
-  std::size_t told_ = 0;  // Bytes of the file that the bar knows of.
+  std::size_t shown_bytes_ = 0;  // Bytes of the file that the bar knows of.
   system::OutputFile output_{STDOUT_FILENO};
   std::size_t read_ = 0;
   std::size_t changed_ = 0;
-  bool trouble_ = false;
+  bool failed_ = false;
 };
 
 /// Takes the first path's configuration for the language, too: one command speaks one.
@@ -272,7 +274,7 @@ ExitStatus format(Options options) {
   const input::FileSelection selection = input::select_programs(options.paths, configurations, language);
   std::vector<formatting::ProgramStyle> styles;
   for (const std::filesystem::path& file : selection.files)
-    styles.push_back(wished_style(
+    styles.push_back(style_from(
         configurations.in_folder(input::place_of_program(file, options.stdin_name).parent_path()).format, options));
   const std::vector<std::string> mistakes = configurations.mistakes(language);
   for (const std::string& mistake : mistakes) std::cerr << mistake << '\n';
@@ -309,7 +311,7 @@ void add_options(command_line::ProgramApp& program, Options& options) {
   };
   for (const command_line::ProgramOption& mode : modes)
     for (const command_line::ProgramOption& other : modes)
-      if (&mode != &other) mode.excludes(other).tells_no_exclusions();
+      if (&mode != &other) mode.excludes(other).without_exclusions();
 
   program.begin_group({"What programs are to look like", "Come scrivere i programmi"});
   const command_line::ProgramOption word_order =
@@ -317,12 +319,12 @@ void add_options(command_line::ProgramApp& program, Options& options) {
           .add_flag("--word-order", options.word_order,
                     {"N first, arguments as X Y Z A B C I J K P Q R,\nthen F",
                      "Prima N, argomenti come X Y Z A B C I J K P Q R,\npoi F"})
-          .tells_no_exclusions();
+          .without_exclusions();
   program
       .add_flag("--no-word-order", options.no_word_order,
                 {"Words in the order in which they stand", "Parole nell'ordine in cui si trovano"})
       .excludes(word_order)
-      .tells_no_exclusions();
+      .without_exclusions();
   program.add_choice("--decimals", options.decimals, decimals_choices(), {"MOST", "MAX"},
                      {"Zeros that mean nothing dropped, .5 as 0.5;\nnumbers are never rounded; or keep",
                       "Senza zeri superflui, .5 come 0.5; i numeri non\nvengono mai arrotondati; oppure keep"});

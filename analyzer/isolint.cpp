@@ -107,8 +107,8 @@ class Run {
         progress_(command_line::terminal_writer(), input::bytes_of(files_)),
         output_(options) {}
 
-  ExitStatus run(bool trouble) {
-    trouble_ = trouble;
+  ExitStatus run(bool failed) {
+    failed_ = failed;
     if (output_.has_failed()) {
       output_.finish();
       return ExitStatus::Failure;
@@ -128,7 +128,7 @@ class Run {
     } else if (options_.fix) {
       std::cerr << fixed_in_words() << '\n';
     }
-    if (trouble_) return ExitStatus::Failure;
+    if (failed_) return ExitStatus::Failure;
     return options_.exit_zero || is_good_enough() ? ExitStatus::Success : ExitStatus::Findings;
   }
 
@@ -171,16 +171,16 @@ class Run {
       fix(checked);
       if (fixing) checked.why_not_fixed = fixing->finish(*source, *checked.fixed, style_.language);
       if (!checked.why_not_fixed) {
-        known_ += checked.fixed->unconcerned;
+        known_ += checked.fixed->filtered_out;
         return checked;
       }
       checked.fixed.reset();
     }
     const std::string_view text = source->text();
-    std::size_t told = 0;
-    const auto tell = [&](std::size_t bytes) { progress_.add(bytes - std::exchange(told, bytes)); };
-    check::Report report = selection::shown_report(check::check_text(text, settings.setup, jobs_for(text), tell), text,
-                                                   settings.selection);
+    std::size_t progress_bytes = 0;
+    const auto advance_to = [&](std::size_t bytes) { progress_.add(bytes - std::exchange(progress_bytes, bytes)); };
+    check::Report report = selection::shown_report(check::check_text(text, settings.setup, jobs_for(text), advance_to),
+                                                   text, settings.selection);
     const std::size_t all = report.findings.size();
     checked.report = without_known(std::move(report), checked.name, text);
     known_ += all - checked.report.findings.size();
@@ -189,14 +189,14 @@ class Run {
 
   void fix(Checked& checked) {
     const std::string_view text = checked.original();
-    const fixing::FixWishes wishes{.selection = checked.settings.selection,
-                                   .setup = checked.settings.setup,
-                                   .unsafe = options_.unsafe_fixes,
-                                   .jobs = jobs_for(text),
-                                   .concern = [&](check::Report report, std::string_view version) {
-                                     return without_known(std::move(report), checked.name, version);
-                                   }};
-    checked.fixed = fixing::fix_text(text, wishes);
+    const fixing::FixOptions fix_options{.selection = checked.settings.selection,
+                                         .setup = checked.settings.setup,
+                                         .unsafe = options_.unsafe_fixes,
+                                         .jobs = jobs_for(text),
+                                         .finding_filter = [&](check::Report report, std::string_view version) {
+                                           return without_known(std::move(report), checked.name, version);
+                                         }};
+    checked.fixed = fixing::fix_text(text, fix_options);
     checked.report = checked.fixed->report;
   }
 
@@ -210,12 +210,12 @@ class Run {
     progress_.clear();
     if (const auto* problem = std::get_if<SourceFile::Problem>(&checked.opened)) {
       complain(fmt::format("{}: {}", checked.name, problem->message));
-      trouble_ = true;
+      failed_ = true;
       return;
     }
     if (checked.why_not_fixed) {
       complain(fmt::format("{}: {}", checked.name, *checked.why_not_fixed));
-      trouble_ = true;
+      failed_ = true;
     }
     tally_.add(checked.report);
     ++files_checked_;
@@ -232,7 +232,7 @@ class Run {
     const auto& source = std::get<SourceFile>(checked.opened);
     has_difference_ |= fixing::write_diff(checked.name, source, *checked.fixed, [&](std::string_view text) {
       output_.buffer() += text;
-      output_.relieve();
+      output_.drain();
     });
   }
 
@@ -293,7 +293,7 @@ class Run {
   std::size_t files_checked_ = 0;
   std::size_t fixed_ = 0;
   bool has_difference_ = false;
-  bool trouble_ = false;
+  bool failed_ = false;
 };
 
 /// Records findings in place of showing them.
@@ -309,12 +309,12 @@ class Recorder final : public formats::Renderer {
 };
 
 /// Checks, and writes all that is found as a baseline, unless programs would be missing in it.
-ExitStatus record(Options options, const formats::Style& style, Programs programs, bool trouble) {
+ExitStatus record(Options options, const formats::Style& style, Programs programs, bool failed) {
   const bool italian = style.language == Language::Italian;
   const std::string& file = options.write_baseline;
   options.exit_zero = true;  // What is recorded is nobody's failure.
   selection::Baseline baseline(file);
-  if (Run(options, style, std::make_unique<Recorder>(baseline), {}, std::move(programs)).run(trouble) !=
+  if (Run(options, style, std::make_unique<Recorder>(baseline), {}, std::move(programs)).run(failed) !=
       ExitStatus::Success) {
     complain(fmt::format("{}: {}", file, italian ? "non scritto" : "not written"));
     return ExitStatus::Failure;
@@ -328,7 +328,7 @@ ExitStatus record(Options options, const formats::Style& style, Programs program
 
 /// The programs to be checked; none, after a complaint, when the check cannot begin.
 std::optional<Programs> find_programs(const Options& options, configuration::Configurations& configurations,
-                                      selection::SettingsFinder& settings, bool& trouble) {
+                                      selection::SettingsFinder& settings, bool& failed) {
   const Language language = options.reader_language();
   input::FileSelection found = input::select_programs(options.paths, configurations, language);
   // Readers of JSON compare arrays, whatever order the files were named in.
@@ -340,15 +340,15 @@ std::optional<Programs> find_programs(const Options& options, configuration::Con
     programs.settings.emplace_back(settings.of(input::place_of_program(file, options.stdin_name)));
   if (complain_of(configurations, language)) return std::nullopt;
   for (const std::string& problem : found.problems) complain(problem);
-  trouble = !found.problems.empty();
+  failed = !found.problems.empty();
   if (found.is_refused) return std::nullopt;
   return programs;
 }
 
 /// What must not be written over: the programs, whose lines would be gone while they are checked, and their authors'
 /// work; and what else is read. None when `written` is nothing of that.
-const dialect::Text* what_it_overwrites(const std::string& written, const Programs& programs, const Options& options,
-                                        configuration::Configurations& configurations) {
+const dialect::Text* overwritten_input(const std::string& written, const Programs& programs, const Options& options,
+                                       configuration::Configurations& configurations) {
   static constexpr dialect::Text kProgram = {"is one of the programs to be checked",
                                              "è uno dei programmi da verificare"};
   static constexpr dialect::Text kConfiguration = {"is the configuration", "è la configurazione"};
@@ -373,7 +373,7 @@ ExitStatus check(Options options) {
   options.follow(configurations.of(input::place_of_program(options.paths.front(), options.stdin_name)));
   const formats::Style style{
       .language = options.reader_language(), .color = options.wants_color(), .unsafe_fixes = options.unsafe_fixes};
-  const std::vector<std::string> problems = selection::Selection().follow(options.wishes, style.language);
+  const std::vector<std::string> problems = selection::Selection().follow(options.selection, style.language);
   for (const std::string& problem : problems) complain(problem);
   if (!problems.empty()) return ExitStatus::Failure;
   std::unique_ptr<formats::Renderer> renderer = options.statistics
@@ -384,17 +384,17 @@ ExitStatus check(Options options) {
                          style.language == Language::Italian ? "solo con --format" : "only with --format"));
     return ExitStatus::Failure;
   }
-  bool trouble = false;
-  selection::SettingsFinder settings(configurations, options.wishes);
-  auto programs = find_programs(options, configurations, settings, trouble);
+  bool failed = false;
+  selection::SettingsFinder settings(configurations, options.selection);
+  auto programs = find_programs(options, configurations, settings, failed);
   if (!programs) return ExitStatus::Failure;
   for (const std::string* written : {&options.output, &options.write_baseline}) {
-    const dialect::Text* const what = what_it_overwrites(*written, *programs, options, configurations);
+    const dialect::Text* const what = overwritten_input(*written, *programs, options, configurations);
     if (!what) continue;
     complain(fmt::format("{}: {}", *written, what->in(style.language)));
     return ExitStatus::Failure;
   }
-  if (!options.write_baseline.empty()) return record(options, style, *std::move(programs), trouble);
+  if (!options.write_baseline.empty()) return record(options, style, *std::move(programs), failed);
   std::optional<selection::Baseline> baseline;
   if (!options.baseline.empty()) {
     auto read = selection::Baseline::read(options.baseline, style.language);
@@ -404,7 +404,7 @@ ExitStatus check(Options options) {
     }
     baseline = std::get<selection::Baseline>(std::move(read));
   }
-  return Run(options, style, std::move(renderer), std::move(baseline), *std::move(programs)).run(trouble);
+  return Run(options, style, std::move(renderer), std::move(baseline), *std::move(programs)).run(failed);
 }
 
 ExitStatus explain_code(const Options& options) {
@@ -418,7 +418,8 @@ ExitStatus explain_code(const Options& options) {
 configuration::Configuration without_other_files(configuration::Configuration shown,
                                                  const std::filesystem::path& program) {
   const std::filesystem::path real = configuration::real_path(program.parent_path()) / program.filename();
-  std::erase_if(shown.lint.files, [&](const configuration::FileWishes& files) { return !files.patterns.match(real); });
+  std::erase_if(shown.lint.files,
+                [&](const configuration::FileOverrides& files) { return !files.patterns.match(real); });
   return shown;
 }
 

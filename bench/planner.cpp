@@ -17,7 +17,7 @@ constexpr int kMoves = 100'000;
 
 /// A path that wanders about in steps of `step` made by `go_on`, which has a heading and a random number to go by.
 template <typename GoOn>
-std::vector<Move> wander(double feed, GoOn&& go_on) {
+std::vector<Move> random_walk(double feed, GoOn&& go_on) {
   std::mt19937 random(1);
   std::uniform_real_distribution<> between(-1, 1);
   std::vector<Move> moves;
@@ -37,11 +37,11 @@ std::vector<Move> wander(double feed, GoOn&& go_on) {
 }
 
 std::vector<Move> short_lines() {
-  return wander(200, [](Move& move, const geometry::Vec3& step, double) { move.to.tip += step; });
+  return random_walk(200, [](Move& move, const geometry::Vec3& step, double) { move.to.tip += step; });
 }
 
 std::vector<Move> five_axes() {
-  return wander(200, [](Move& move, const geometry::Vec3& step, double random) {
+  return random_walk(200, [](Move& move, const geometry::Vec3& step, double random) {
     move.to.tip += step;
     move.to.b = std::clamp(move.to.b + random, -100.0, 100.0);
     move.to.c = std::clamp(move.to.c + step.x(), -300.0, 300.0);
@@ -49,7 +49,7 @@ std::vector<Move> five_axes() {
 }
 
 std::vector<Move> arcs(double feed) {
-  return wander(feed, [](Move& move, const geometry::Vec3& step, double random) {
+  return random_walk(feed, [](Move& move, const geometry::Vec3& step, double random) {
     move.is_arc = true;
     move.normal = geometry::Vec3::UnitZ();
     move.sweep_deg = 70 + 60 * random;

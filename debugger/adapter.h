@@ -15,7 +15,7 @@ using session::Json;
 
 /// The debug adapter: reads messages, lets requests answer them, and sends responses and events. It lives on the
 /// loop's thread, as its Session does.
-class Adapter final : public lsp::rpc::Party {
+class Adapter final : public lsp::rpc::Peer {
  public:
   /// `language` overrules those of configurations and of the client.
   Adapter(lsp::rpc::Loop& loop, lsp::rpc::Send send, std::optional<dialect::Language> language = {});

@@ -75,11 +75,11 @@ std::optional<double> read_decimal(std::string_view text) {
 }
 
 /// A number from 1, of digits alone; none when it is more than `most`.
-std::optional<std::uint64_t> read_count(std::string_view text, std::uint64_t most) {
+std::optional<std::uint64_t> read_count(std::string_view text, std::uint64_t maximum) {
   std::uint64_t count = 0;
   const char* const end = text.data() + text.size();
   const auto [behind, error] = std::from_chars(text.data(), end, count);
-  if (error != std::errc{} || behind != end || count < 1 || count > most) return std::nullopt;
+  if (error != std::errc{} || behind != end || count < 1 || count > maximum) return std::nullopt;
   return count;
 }
 
@@ -248,10 +248,10 @@ running::RunResult run_with_progress(std::string_view program, running::RunOptio
   constexpr std::size_t kPace = 4096;  // Bytes: asking the clock on every line would cost more than the line.
   const bool shares_terminal = (outputs.trace == "-" || outputs.samples == "-") && isatty(STDOUT_FILENO) != 0;
   command_line::Progress progress(shares_terminal ? nullptr : command_line::terminal_writer(), program.size());
-  std::size_t told = 0;
+  std::size_t progress_bytes = 0;
   options.before_block = [&](const running::Block& block) {
     const auto reached = static_cast<std::size_t>(block.tree.text.data() - program.data());
-    if (reached >= told + kPace) progress.add(reached - std::exchange(told, reached));
+    if (reached >= progress_bytes + kPace) progress.add(reached - std::exchange(progress_bytes, reached));
   };
   return run(program, options, on_event);
 }
@@ -409,7 +409,7 @@ ExitStatus run_main(int argc, char** argv) {
       "--plot", options.plot, command_line::kFileValue,
       {"A picture of the path: FILE.svg or, in 3-D, .html", "Un disegno del percorso: FILE.svg o, in 3D, .html"});
   const command_line::ProgramOption json =
-      program.add_flag("--json", options.json, {"The summary as JSON", "Il riassunto in JSON"}).tells_no_exclusions();
+      program.add_flag("--json", options.json, {"The summary as JSON", "Il riassunto in JSON"}).without_exclusions();
   program.add_option("--vgpl", options.vgpl, {"VALUE", "VALORE"},
                      {"Value of VGPL (else 0)", "Valore di VGPL (altrimenti 0)"});
   program

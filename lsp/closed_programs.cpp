@@ -8,7 +8,7 @@
 #include "analyzer/input/files.h"
 #include "interpreter/configuration/configurations.h"
 #include "interpreter/system/source_file.h"
-#include "lsp/documents/open_document.h"
+#include "lsp/documents/analyzed_document.h"
 #include "lsp/documents/snapshot.h"
 #include "lsp/documents/uri.h"
 
@@ -42,7 +42,7 @@ std::optional<std::string> ClosedPrograms::answer_of(const std::filesystem::path
   const auto opened = system::SourceFile::open_unmapped(program, dialect::Language::English);
   const auto* const source = std::get_if<system::SourceFile>(&opened);
   if (source == nullptr) return std::nullopt;
-  documents::OpenDocument document(uri, settings_);
+  documents::AnalyzedDocument document(uri, settings_);
   document.open(kNoVersion, source->text());
   try {
     return answer(documents::Snapshot(document, client, documents::Interest{&cancelled, nullptr}));
@@ -53,20 +53,20 @@ std::optional<std::string> ClosedPrograms::answer_of(const std::filesystem::path
 
 /// Nothing where the file cannot be read, or the answer is not wanted any more.
 std::optional<std::string> ClosedPrograms::ask(const std::filesystem::path& program, const std::string& uri,
-                                               const Wish& wish) {
+                                               const WorkspaceQuery& query) {
   std::error_code error;
-  Cause cause{.written = std::filesystem::last_write_time(program, error),
-              .size = error ? 0 : std::filesystem::file_size(program, error),
-              .settings = settings_.of(program).owner,
-              .client = wish.client};
+  Cause key{.written = std::filesystem::last_write_time(program, error),
+            .size = error ? 0 : std::filesystem::file_size(program, error),
+            .settings = settings_.of(program).owner,
+            .client = query.client};
   if (error) return std::nullopt;
-  Known& known = known_[{std::string(wish.gathering.name), uri}];
-  if (known.cause == cause) return known.answer;
+  Known& known = cache_[{std::string(query.request.name), uri}];
+  if (known.key == key) return known.answer;
   known = {};
-  auto answer = answer_of(program, uri, *wish.client, *wish.cancelled, [&](const documents::Snapshot& snapshot) {
-    return wish.gathering.answer(snapshot, rpc::Json::object());
+  auto answer = answer_of(program, uri, *query.client, *query.cancelled, [&](const documents::Snapshot& snapshot) {
+    return query.request.answer(snapshot, rpc::Json::object());
   });
-  if (answer) known = {std::move(cause), *answer};
+  if (answer) known = {std::move(key), *answer};
   return answer;
 }
 
@@ -96,28 +96,28 @@ void ClosedPrograms::ask_one(const features::Method& method, rpc::Json params, c
 }
 
 /// What is known of programs that are gone, or open now.
-void ClosedPrograms::forget_all_but(const std::set<std::string>& asked, std::string_view gathering) {
-  std::erase_if(known_, [&](const auto& known) {
+void ClosedPrograms::forget_all_but(const std::set<std::string>& asked, std::string_view request) {
+  std::erase_if(cache_, [&](const auto& known) {
     const auto& [name, uri] = known.first;
-    return name == gathering && !asked.contains(uri);
+    return name == request && !asked.contains(uri);
   });
 }
 
-void ClosedPrograms::ask(Wish wish, std::function<void(std::vector<std::string> results)> done) {
-  strand_.post([this, wish = std::move(wish), done = std::move(done)] {
+void ClosedPrograms::ask(WorkspaceQuery query, std::function<void(std::vector<std::string> results)> done) {
+  strand_.post([this, query = std::move(query), done = std::move(done)] {
     std::vector<std::string> results;
     std::set<std::string> asked;
-    for (const std::filesystem::path& program : programs_in(wish.folders)) {
-      if (wish.cancelled->load()) return;
+    for (const std::filesystem::path& program : programs_in(query.folders)) {
+      if (query.cancelled->load()) return;
       const std::string uri = documents::uri_of(program);
-      if (wish.open.contains(uri)) continue;
+      if (query.open.contains(uri)) continue;
       asked.insert(uri);
-      auto answer = ask(program, uri, wish);
+      auto answer = ask(program, uri, query);
       if (!answer) continue;
-      if (wish.take_one) wish.take_one(*answer);
+      if (query.take_one) query.take_one(*answer);
       results.push_back(std::move(*answer));
     }
-    forget_all_but(asked, wish.gathering.name);
+    forget_all_but(asked, query.request.name);
     done(std::move(results));
   });
 }

@@ -26,8 +26,8 @@ namespace isocnc::lsp {
 class ClosedPrograms {
  public:
   using ClientPointer = std::shared_ptr<const documents::Client>;
-  struct Wish {
-    features::Gathering gathering;
+  struct WorkspaceQuery {
+    features::WorkspaceRequest request;
     /// Told of each answer as soon as it is there; may be empty.
     std::function<void(const std::string& result)> take_one;
     std::vector<std::filesystem::path> folders;
@@ -44,7 +44,7 @@ class ClosedPrograms {
                std::shared_ptr<const std::atomic<bool>> cancelled,
                std::function<void(std::optional<std::string> result)> done);
   /// Asks each program; `done` gets all answers, in the order of the paths. Files that cannot be read have none.
-  void ask(Wish wish, std::function<void(std::vector<std::string> results)> done);
+  void ask(WorkspaceQuery query, std::function<void(std::vector<std::string> results)> done);
 
  private:
   /// What an answer depends on.
@@ -57,7 +57,7 @@ class ClosedPrograms {
     friend bool operator==(const Cause&, const Cause&) = default;
   };
   struct Known {
-    Cause cause;
+    Cause key;
     std::string answer;
   };
 
@@ -67,11 +67,12 @@ class ClosedPrograms {
                                        const documents::Client& client, const std::atomic<bool>& cancelled,
                                        const Answer& answer);
   std::vector<std::filesystem::path> programs_in(const std::vector<std::filesystem::path>& folders);
-  std::optional<std::string> ask(const std::filesystem::path& program, const std::string& uri, const Wish& wish);
-  void forget_all_but(const std::set<std::string>& asked, std::string_view gathering);
+  std::optional<std::string> ask(const std::filesystem::path& program, const std::string& uri,
+                                 const WorkspaceQuery& query);
+  void forget_all_but(const std::set<std::string>& asked, std::string_view request);
 
   documents::SettingsStore& settings_;
-  std::map<std::pair<std::string, std::string>, Known> known_;  // By request and URI; of the strand.
+  std::map<std::pair<std::string, std::string>, Known> cache_;  // By request and URI; of the strand.
   rpc::Strand strand_;
 };
 

@@ -55,7 +55,7 @@ system::ExitStatus run_main(int argc, char** argv) {
                   {"Wait for one editor on this port of the loopback\ninterface; 0: any",
                    "Aspetta un editor su questa porta dell'interfaccia\nloopback; 0: una qualsiasi"})
       .excludes(stdio);
-  stdio.tells_no_exclusions();
+  stdio.without_exclusions();
   program.add_language(options.language, {"en or it; else as the editor, the configuration\nor the locale says",
                                           "en o it; altrimenti secondo l'editor, la\nconfigurazione o il locale"});
   // What some clients add by themselves.

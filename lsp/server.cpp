@@ -21,13 +21,14 @@ using rpc::ErrorCode;
 using rpc::Json;
 
 /// Threads for documents that are all busy at once; beyond that they take turns.
-static constexpr std::size_t kMostThreads = 32;
+static constexpr std::size_t kMaxThreads = 32;
 
 Server::Server(rpc::Loop& loop, rpc::Send send, std::optional<dialect::Language> language)
-    : loop_(loop), send_(std::move(send)), language_(language), pool_(kMostThreads) {
+    : loop_(loop), send_(std::move(send)), language_(language), pool_(kMaxThreads) {
   for (const features::Feature* const feature : features::all_features()) {
     for (const features::Method& method : feature->methods) methods_[method.name] = method;
-    for (const features::Gathering& gathering : feature->gatherings) gatherings_[gathering.name] = gathering;
+    for (const features::WorkspaceRequest& workspace_request : feature->workspace_requests)
+      workspace_requests_[workspace_request.name] = workspace_request;
     for (const features::Method& command : feature->commands) commands_[command.name] = command;
   }
 }
@@ -101,8 +102,9 @@ void Server::call_method(const CallPointer& call) {
   if (call->is_notification()) return;
   if (const auto method = methods_.find(call->method); method != methods_.end())
     return ask(method->second, call, call->params());
-  if (const auto gathering = gatherings_.find(call->method); gathering != gatherings_.end())
-    return gather(gathering->second, call);
+  if (const auto workspace_request = workspace_requests_.find(call->method);
+      workspace_request != workspace_requests_.end())
+    return ask_workspace(workspace_request->second, call);
   refuse(*call, ErrorCode::MethodNotFound, fmt::format("there is no method {}", call->method));
 }
 
@@ -165,7 +167,7 @@ void Server::end() {
   if (phase_ == Phase::Ended) return;
   exit_status_ = phase_ == Phase::ShutDown ? 0 : 1;
   phase_ = Phase::Ended;
-  for (const auto& [id, ongoing] : ongoing_) ongoing->store(true);
+  for (const auto& [id, cancel_flag] : cancel_flags_) cancel_flag->store(true);
   loop_.stop();
 }
 
@@ -175,10 +177,10 @@ void Server::idle() {
 
 void Server::cancel(const CallPointer& call) {
   const Json& id = call->params().at("id");
-  const auto found = ongoing_.find(rpc::write(id));
-  if (found == ongoing_.end()) return;
+  const auto found = cancel_flags_.find(rpc::write(id));
+  if (found == cancel_flags_.end()) return;
   found->second->store(true);
-  ongoing_.erase(found);
+  cancel_flags_.erase(found);
   send_(rpc::error_message(id, ErrorCode::RequestCancelled, "the request has been cancelled"));
 }
 
@@ -187,8 +189,8 @@ void Server::cancel(const CallPointer& call) {
 features::Notify Server::notifier_of(const std::string& uri, std::size_t generation) {
   return [this, uri, generation](std::string_view method, const std::string& params) {
     loop_.post([this, uri, generation, body = rpc::notification_message(method, params)]() mutable {
-      const auto found = tabs_.find(uri);
-      if (found != tabs_.end() && found->second.generation == generation) send_(std::move(body));
+      const auto found = open_documents_.find(uri);
+      if (found != open_documents_.end() && found->second.generation == generation) send_(std::move(body));
     });
   };
 }
@@ -199,60 +201,61 @@ void Server::open(const CallPointer& call) {
   if (!document.at("text").is_string()) throw Json::type_error::create(302, "the text is no string", &document);
   const std::size_t generation = ++generations_;
   const auto tell_configuration = [this](const std::string& file, const std::string& params) {
-    loop_.post([this, file, params] { tell_of_configuration(file, params); });
+    loop_.post([this, file, params] { report_configuration(file, params); });
   };
-  Opened& opened = tabs_[uri];
+  Opened& opened = open_documents_[uri];
   const auto tell_progress = [this, generation](const std::string& work, const std::optional<std::string>& title) {
-    loop_.post([this, token = fmt::format("{} of {}", work, generation), title] { tell_of_progress(token, title); });
+    loop_.post([this, token = fmt::format("{} of {}", work, generation), title] { report_progress(token, title); });
   };
-  opened = {std::make_shared<Tab>(pool_, settings_, uri,
-                                  Tab::Teller{notifier_of(uri, generation), tell_configuration, tell_progress}),
+  opened = {std::make_shared<OpenDocument>(
+                pool_, settings_, uri,
+                OpenDocument::Notifier{notifier_of(uri, generation), tell_configuration, tell_progress}),
             generation};
-  opened.tab->open(call, client_);
+  opened.document->open(call, client_);
 }
 
-void Server::tell_of_progress(const std::string& token, const std::optional<std::string>& title) {
+void Server::report_progress(const std::string& token, const std::optional<std::string>& title) {
   if (title) request("window/workDoneProgress/create", {{"token", token}});
   const Json value = title ? Json{{"kind", "begin"}, {"title", *title}, {"cancellable", false}} : Json{{"kind", "end"}};
   notify("$/progress", rpc::write({{"token", token}, {"value", value}}));
 }
 
 /// What the editor holds open is told by its tab.
-void Server::tell_of_configuration(const std::string& uri, const std::string& params) {
-  if (tabs_.contains(uri)) return;
-  told_configurations_.insert(uri);
+void Server::report_configuration(const std::string& uri, const std::string& params) {
+  if (open_documents_.contains(uri)) return;
+  reported_configurations_.insert(uri);
   notify("textDocument/publishDiagnostics", params);
 }
 
 /// In what clients give back to us: code lenses, completion items.
 static const Json::json_pointer kPlaceInData("/data/uri");
 
-Tab* Server::find_tab(const Json& params) const {
+OpenDocument* Server::find_document(const Json& params) const {
   if (!params.is_object()) return nullptr;
   static const Json::json_pointer kPlaces[] = {Json::json_pointer("/textDocument/uri"), kPlaceInData,
                                                Json::json_pointer("/item/data/uri"), Json::json_pointer("/uri")};
   for (const Json::json_pointer& place : kPlaces) {
     if (!params.contains(place) || !params.at(place).is_string()) continue;
-    const auto found = tabs_.find(params.at(place).get_ref<const std::string&>());
-    return found == tabs_.end() ? nullptr : found->second.tab.get();
+    const auto found = open_documents_.find(params.at(place).get_ref<const std::string&>());
+    return found == open_documents_.end() ? nullptr : found->second.document.get();
   }
   return nullptr;
 }
 
 void Server::edit(const CallPointer& call) {
-  if (Tab* const tab = find_tab(call->params())) tab->edit(call, client_);
+  if (OpenDocument* const document = find_document(call->params())) document->edit(call, client_);
 }
 
 void Server::close(const CallPointer& call) {
-  Tab* const tab = find_tab(call->params());
-  if (!tab) return;
-  const std::string uri = tab->uri();
-  const bool is_configuration = tab->is_configuration();
-  tab->close();
-  tabs_.erase(uri);
+  OpenDocument* const document = find_document(call->params());
+  if (!document) return;
+  const std::string uri = document->uri();
+  const bool is_configuration = document->is_configuration();
+  document->close();
+  open_documents_.erase(uri);
   if (is_configuration) {
     // From now on the file counts, not what was typed.
-    told_configurations_.insert(uri);
+    reported_configurations_.insert(uri);
     return reconfigure_all();
   }
   for (const features::Feature* const feature : features::all_features())
@@ -280,7 +283,7 @@ void Server::change_settings(const CallPointer& call) {
   const Json settings = params.is_object() && params.contains("settings") ? params["settings"] : Json();
   changed.settings = documents::read_settings(settings.is_object() ? settings.value("isocnc", settings) : settings);
   client_ = std::make_shared<const Client>(std::move(changed));
-  reconfigure_tabs();
+  reconfigure_documents();
 }
 
 void Server::look_at_changed_files(const CallPointer& call) {
@@ -291,15 +294,15 @@ void Server::look_at_changed_files(const CallPointer& call) {
 void Server::reconfigure_all() {
   settings_.forget();
   // Those that are still there will be told of again.
-  for (const std::string& uri : std::exchange(told_configurations_, {}))
-    if (!tabs_.contains(uri))
+  for (const std::string& uri : std::exchange(reported_configurations_, {}))
+    if (!open_documents_.contains(uri))
       notify("textDocument/publishDiagnostics", rpc::write({{"uri", uri}, {"diagnostics", Json::array()}}));
-  reconfigure_tabs();
+  reconfigure_documents();
 }
 
 /// What the editor has asked for before may be otherwise now.
-void Server::reconfigure_tabs() {
-  for (const auto& [uri, opened] : tabs_) opened.tab->reconfigure(client_);
+void Server::reconfigure_documents() {
+  for (const auto& [uri, opened] : open_documents_) opened.document->reconfigure(client_);
   for (const features::Feature* const feature : features::all_features())
     if (feature->refresh && client_->can(feature->refresh->capability)) request(feature->refresh->method, nullptr);
 }
@@ -322,48 +325,50 @@ void Server::execute_command(const CallPointer& call) {
 
 // --- Requests
 
-Server::Ongoing Server::begin(const Call& call) {
-  auto ongoing = std::make_shared<std::atomic<bool>>(false);
-  if (ongoing_.try_emplace(rpc::write(*call.id), ongoing).second) return ongoing;
+Server::CancelFlag Server::begin(const Call& call) {
+  auto cancel_flag = std::make_shared<std::atomic<bool>>(false);
+  if (cancel_flags_.try_emplace(rpc::write(*call.id), cancel_flag).second) return cancel_flag;
   refuse(call, ErrorCode::InvalidRequest, "a request with this id has no answer yet");
   return nullptr;
 }
 
-void Server::finish(const Json& id, const Ongoing& ongoing, std::string body) {
-  const auto found = ongoing_.find(rpc::write(id));
-  if (found == ongoing_.end() || found->second != ongoing) return;  // Cancelled, and so answered.
-  ongoing_.erase(found);
+void Server::finish(const Json& id, const CancelFlag& cancel_flag, std::string body) {
+  const auto found = cancel_flags_.find(rpc::write(id));
+  if (found == cancel_flags_.end() || found->second != cancel_flag) return;  // Cancelled, and so answered.
+  cancel_flags_.erase(found);
   send_(std::move(body));
 }
 
 void Server::ask(const features::Method& method, const CallPointer& call, Json params,
                  const std::function<std::string(std::string)>& finish_result) {
   if (call->is_notification()) return;
-  Tab* const tab = find_tab(params);
-  if (!tab && method.serves_closed) return ask_closed(method, call, params.at("textDocument").at("uri"));
-  if (tab && tab->is_configuration() && !method.of_configuration.empty())
+  OpenDocument* const document = find_document(params);
+  if (!document && method.serves_closed) return ask_closed(method, call, params.at("textDocument").at("uri"));
+  if (document && document->is_configuration() && !method.of_configuration.empty())
     return send_(rpc::result_message(*call->id, method.of_configuration));
-  if (!tab || tab->is_configuration()) {
+  if (!document || document->is_configuration()) {
     // What we have given out may be asked about when the document has just been closed: that is nobody's mistake.
     const bool is_of_ours = params.is_object() && params.contains(kPlaceInData);
     return refuse(*call, is_of_ours ? ErrorCode::ContentModified : ErrorCode::InvalidParams,
                   "this document is not open");
   }
-  const Ongoing ongoing = begin(*call);
-  if (!ongoing) return;
+  const CancelFlag cancel_flag = begin(*call);
+  if (!cancel_flag) return;
   const Json id = *call->id;
-  const auto done = [this, id, ongoing, finish_result](std::string result) {
+  const auto done = [this, id, cancel_flag, finish_result](std::string result) {
     std::string body = finish_result ? std::string() : rpc::result_message(id, result);
-    loop_.post([this, id, ongoing, finish_result, result = finish_result ? std::move(result) : std::string(),
+    loop_.post([this, id, cancel_flag, finish_result, result = finish_result ? std::move(result) : std::string(),
                 body = std::move(body)]() mutable {
-      finish(id, ongoing, finish_result ? rpc::result_message(id, finish_result(std::move(result))) : std::move(body));
+      finish(id, cancel_flag,
+             finish_result ? rpc::result_message(id, finish_result(std::move(result))) : std::move(body));
     });
   };
-  const auto failed = [this, id, ongoing](const rpc::Error& error) {
-    loop_.post(
-        [this, id, ongoing, body = rpc::error_message(id, error.code(), error.what())] { finish(id, ongoing, body); });
+  const auto failed = [this, id, cancel_flag](const rpc::Error& error) {
+    loop_.post([this, id, cancel_flag, body = rpc::error_message(id, error.code(), error.what())] {
+      finish(id, cancel_flag, body);
+    });
   };
-  tab->ask(method, std::move(params), client_, ongoing, done, failed);
+  document->ask(method, std::move(params), client_, cancel_flag, done, failed);
 }
 
 std::vector<std::filesystem::path> Server::folders_of_workspace() const {
@@ -376,23 +381,23 @@ std::vector<std::filesystem::path> Server::folders_of_workspace() const {
 /// No other files than those in the folders that the user has opened are read because a message names them.
 void Server::ask_closed(const features::Method& method, const CallPointer& call, const std::string& uri) {
   if (documents::names_configuration(uri)) return send_(rpc::result_message(*call->id, method.of_configuration));
-  const Ongoing ongoing = begin(*call);
-  if (!ongoing) return;
+  const CancelFlag cancel_flag = begin(*call);
+  if (!cancel_flag) return;
   closed_programs_.ask_one(
-      method, call->params(), uri, folders_of_workspace(), client_, ongoing,
-      [this, id = *call->id, ongoing](const std::optional<std::string>& result) {
+      method, call->params(), uri, folders_of_workspace(), client_, cancel_flag,
+      [this, id = *call->id, cancel_flag](const std::optional<std::string>& result) {
         // The editor may have closed, or lost, what it asks about: nothing that its user would want to hear of.
-        loop_.post([this, id, ongoing,
+        loop_.post([this, id, cancel_flag,
                     body = result ? rpc::result_message(id, *result)
                                   : rpc::error_message(id, ErrorCode::ContentModified,
                                                        "there is no such program in the workspace")] {
-          finish(id, ongoing, body);
+          finish(id, cancel_flag, body);
         });
       });
 }
 
 /// The results of all programs, as they come in.
-struct Server::Harvest {
+struct Server::Aggregate {
   std::vector<std::string> results;
   std::size_t awaited = 0;
 };
@@ -410,70 +415,73 @@ static std::string joined(const std::vector<std::string>& arrays) {
 }
 
 /// Where the client has given a token for partial results: sends a program's result as soon as it is there.
-std::function<void(const std::string& result)> Server::teller_of_parts(const features::Gathering& gathering,
-                                                                       const CallPointer& call,
-                                                                       const Ongoing& ongoing) {
+std::function<void(const std::string& result)> Server::partial_result_notifier(
+    const features::WorkspaceRequest& workspace_request, const CallPointer& call, const CancelFlag& cancel_flag) {
   const auto token = documents::member<Json>(call->params(), "partialResultToken");
   if (!token) return {};
-  return [this, gathering, call, ongoing, token = *token](const std::string& result) {
+  return [this, workspace_request, call, cancel_flag, token = *token](const std::string& result) {
     if (result == "[]") return;
     std::string part;
     try {
-      part = gathering.conclude(result, call->params(), features::Gathered::Some);
+      part = workspace_request.combine(result, call->params(), features::AggregateScope::Some);
     } catch (const Json::exception&) {
       return;  // What is wrong with the parameters is told at the end.
     }
     std::string params = fmt::format(R"({{"token":{},"value":{}}})", rpc::write(token), part);
-    loop_.post([this, ongoing, params = std::move(params)] {
-      if (!ongoing->load()) notify("$/progress", params);
+    loop_.post([this, cancel_flag, params = std::move(params)] {
+      if (!cancel_flag->load()) notify("$/progress", params);
     });
   };
 }
 
-void Server::gather(const features::Gathering& gathering, const CallPointer& call) {
-  const Ongoing ongoing = begin(*call);
-  if (!ongoing) return;
+void Server::ask_workspace(const features::WorkspaceRequest& workspace_request, const CallPointer& call) {
+  const CancelFlag cancel_flag = begin(*call);
+  if (!cancel_flag) return;
   const Json id = *call->id;
-  const auto harvest = std::make_shared<Harvest>();
-  const auto tell_part = teller_of_parts(gathering, call, ongoing);
+  const auto aggregate = std::make_shared<Aggregate>();
+  const auto report_part = partial_result_notifier(workspace_request, call, cancel_flag);
   std::set<std::string> open;
-  for (const auto& [uri, opened] : tabs_)
-    if (!opened.tab->is_configuration()) open.insert(uri);
-  harvest->awaited = open.size() + 1;
-  const auto conclude = [this, id, ongoing, harvest, gathering, call, is_told = static_cast<bool>(tell_part)] {
+  for (const auto& [uri, opened] : open_documents_)
+    if (!opened.document->is_configuration()) open.insert(uri);
+  aggregate->awaited = open.size() + 1;
+  const auto combine = [this, id, cancel_flag, aggregate, workspace_request, call,
+                        is_reported = static_cast<bool>(report_part)] {
     // Away from the loop: the results may be long.
-    pool_.post([this, id, ongoing, harvest, gathering, call, is_told] {
+    pool_.post([this, id, cancel_flag, aggregate, workspace_request, call, is_reported] {
       std::string body;
       try {
-        body =
-            rpc::result_message(id, gathering.conclude(joined(harvest->results), call->params(),
-                                                       is_told ? features::Gathered::Rest : features::Gathered::All));
+        body = rpc::result_message(id, workspace_request.combine(joined(aggregate->results), call->params(),
+                                                                 is_reported ? features::AggregateScope::Rest
+                                                                             : features::AggregateScope::All));
       } catch (const Json::exception& error) {
         body = rpc::error_message(id, ErrorCode::InvalidParams, error.what());
       }
-      loop_.post([this, id, ongoing, body = std::move(body)]() mutable { finish(id, ongoing, std::move(body)); });
+      loop_.post(
+          [this, id, cancel_flag, body = std::move(body)]() mutable { finish(id, cancel_flag, std::move(body)); });
     });
   };
-  const auto take = [this, harvest, conclude](std::vector<std::string> results) {
-    loop_.post([harvest, conclude, results = std::move(results)]() mutable {
-      std::move(results.begin(), results.end(), std::back_inserter(harvest->results));
-      if (--harvest->awaited == 0) conclude();
+  const auto take = [this, aggregate, combine](std::vector<std::string> results) {
+    loop_.post([aggregate, combine, results = std::move(results)]() mutable {
+      std::move(results.begin(), results.end(), std::back_inserter(aggregate->results));
+      if (--aggregate->awaited == 0) combine();
     });
   };
-  const auto take_one = [take, tell_part](std::string result) {
-    if (tell_part) tell_part(result);
+  const auto take_one = [take, report_part](std::string result) {
+    if (report_part) report_part(result);
     take({std::move(result)});
   };
-  const features::Method method = {.name = gathering.name, .answer = gathering.answer, .begin = nullptr};
+  const features::Method method = {
+      .name = workspace_request.name, .answer = workspace_request.answer, .begin = nullptr};
   for (const std::string& uri : open)
     // A document that is being edited has nothing to say just now.
-    tabs_[uri].tab->ask(method, call->params(), client_, ongoing, take_one, [take](const rpc::Error&) { take({}); });
-  closed_programs_.ask({.gathering = gathering,
-                        .take_one = tell_part,
+    open_documents_[uri].document->ask(method, call->params(), client_, cancel_flag, take_one,
+                                       [take](const rpc::Error&) { take({}); });
+  closed_programs_.ask({.request = workspace_request,
+                        .take_one = report_part,
                         .folders = folders_of_workspace(),
                         .open = std::move(open),
                         .client = client_,
-                        .cancelled = ongoing},
+                        .cancelled = cancel_flag},
                        take);
 }
 

@@ -16,17 +16,17 @@
 #include "lsp/documents/client.h"
 #include "lsp/documents/settings_store.h"
 #include "lsp/features/feature.h"
+#include "lsp/open_document.h"
 #include "lsp/rpc/message.h"
 #include "lsp/rpc/serve.h"
 #include "lsp/rpc/strand.h"
-#include "lsp/tab.h"
 
 namespace isocnc::lsp {
 
 /// The language server: the lifecycle of the protocol, and who does what. It lives on the loop's thread and does
-/// nothing there that takes time; what concerns a document is done on its Tab's strand, and the answer comes back as a
+/// nothing there that takes time; what concerns a document is done on its OpenDocument's strand, and the answer comes back as a
 /// task of the loop.
-class Server final : public rpc::Party {
+class Server final : public rpc::Peer {
  public:
   /// The language outweighs those of configurations and of the editor's own texts.
   Server(rpc::Loop& loop, rpc::Send send, std::optional<dialect::Language> language = {});
@@ -46,8 +46,8 @@ class Server final : public rpc::Party {
  private:
   using CallPointer = std::shared_ptr<const rpc::Call>;
   /// A request of the client's that has no answer yet; set when it is cancelled.
-  using Ongoing = std::shared_ptr<std::atomic<bool>>;
-  struct Harvest;
+  using CancelFlag = std::shared_ptr<std::atomic<bool>>;
+  struct Aggregate;
 
   void dispatch(const CallPointer& call);
   bool is_allowed(const rpc::Call& call);
@@ -71,24 +71,24 @@ class Server final : public rpc::Party {
   void execute_command(const CallPointer& call);
 
   void reconfigure_all();
-  void reconfigure_tabs();
+  void reconfigure_documents();
   void ask(const features::Method& method, const CallPointer& call, rpc::Json params,
            const std::function<std::string(std::string)>& finish_result = {});
   std::vector<std::filesystem::path> folders_of_workspace() const;
   void ask_closed(const features::Method& method, const CallPointer& call, const std::string& uri);
-  void gather(const features::Gathering& gathering, const CallPointer& call);
-  std::function<void(const std::string& result)> teller_of_parts(const features::Gathering& gathering,
-                                                                 const CallPointer& call, const Ongoing& ongoing);
-  Ongoing begin(const rpc::Call& call);
-  void finish(const rpc::Json& id, const Ongoing& ongoing, std::string body);
+  void ask_workspace(const features::WorkspaceRequest& workspace_request, const CallPointer& call);
+  std::function<void(const std::string& result)> partial_result_notifier(
+      const features::WorkspaceRequest& workspace_request, const CallPointer& call, const CancelFlag& cancel_flag);
+  CancelFlag begin(const rpc::Call& call);
+  void finish(const rpc::Json& id, const CancelFlag& cancel_flag, std::string body);
   void reply(const rpc::Call& call, const rpc::Json& result);
   void refuse(const rpc::Call& call, rpc::ErrorCode code, const std::string& message);
   void notify(std::string_view method, const std::string& params);
   void request(std::string_view method, const rpc::Json& params);
   void log(const std::string& message);
-  void tell_of_progress(const std::string& token, const std::optional<std::string>& title);
-  void tell_of_configuration(const std::string& uri, const std::string& params);
-  Tab* find_tab(const rpc::Json& params) const;
+  void report_progress(const std::string& token, const std::optional<std::string>& title);
+  void report_configuration(const std::string& uri, const std::string& params);
+  OpenDocument* find_document(const rpc::Json& params) const;
   features::Notify notifier_of(const std::string& uri, std::size_t generation);
 
   enum class Phase { Starting, Running, ShutDown, Ended };
@@ -105,15 +105,15 @@ class Server final : public rpc::Party {
   std::shared_ptr<const documents::Client> client_ = std::make_shared<const documents::Client>();
   documents::SettingsStore settings_;
   struct Opened {
-    std::shared_ptr<Tab> tab;
+    std::shared_ptr<OpenDocument> document;
     std::size_t generation = 0;
   };
-  std::unordered_map<std::string, Opened> tabs_;  // By URI.
+  std::unordered_map<std::string, Opened> open_documents_;  // By URI.
   std::size_t generations_ = 0;
-  std::set<std::string> told_configurations_;         // Files of which something wrong may have been told.
-  std::unordered_map<std::string, Ongoing> ongoing_;  // By id, as JSON.
+  std::set<std::string> reported_configurations_;             // Files of which something wrong may have been told.
+  std::unordered_map<std::string, CancelFlag> cancel_flags_;  // By id, as JSON.
   std::unordered_map<std::string_view, features::Method> methods_;
-  std::unordered_map<std::string_view, features::Gathering> gatherings_;
+  std::unordered_map<std::string_view, features::WorkspaceRequest> workspace_requests_;
   std::unordered_map<std::string_view, features::Method> commands_;
   std::int64_t next_request_ = 1;
   std::set<std::string> folders_;  // Of the workspace, by URI.

@@ -142,7 +142,7 @@ void Analysis::check_changed_jumps_again(const JumpMap& old_jumps) {
   std::uint32_t jump = 0;
   for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk)
     for (const JumpEvent& event : rows_[chunk].jumps) {
-      const bool is_alike = event.kind == JumpEvent::Kind::Jump         ? jumps_.does_the_same(jump++, old_jumps)
+      const bool is_alike = event.kind == JumpEvent::Kind::Jump         ? jumps_.is_equivalent(jump++, old_jumps)
                             : event.kind == JumpEvent::Kind::Assignment ? is_assigned_alike(event, jump)
                                                                         : true;
       if (!is_alike) rows_[chunk].is_stale = true;

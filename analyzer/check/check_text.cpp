@@ -108,11 +108,11 @@ class Pass {
       mine.batch.parse(begin, batch_end, end_);
       lock.lock();
       mine.is_ready = true;
-      if (!is_executing_) execute_what_is_ready(lock);
+      if (!is_executing_) execute_ready_batches(lock);
     }
   }
 
-  void execute_what_is_ready(std::unique_lock<std::mutex>& lock) {
+  void execute_ready_batches(std::unique_lock<std::mutex>& lock) {
     is_executing_ = true;
     while (!finished_ && executed_ < taken_ && slot(executed_).is_ready) {
       Slot& due = slot(executed_);
@@ -162,7 +162,7 @@ Report check_text(std::string_view text, const execution::Setup& setup, int jobs
     // Rare, each at most once: a jump whose label is not below it (E004, E005), or not among the lines that had to be
     // read: once more with all labels known. Centers that count from the start in some arcs, and may do so in others:
     // once more to report these.
-    if (!jumps.knows_labels() && !all_jumps_land(outcome, jumps)) {
+    if (!jumps.knows_labels() && !all_jumps_resolve(outcome, jumps)) {
       jumps = JumpMap::with_labels(text);
     } else if (!suspects_centers && outcome.centers.from_start && outcome.centers.open) {
       suspects_centers = true;

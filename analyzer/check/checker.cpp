@@ -28,7 +28,7 @@ static constexpr std::uint32_t kSpreadLimit = 20'000'000;
 /// Groups that are followed once some have been given up: the rest of a program must not take long, whatever it does.
 static constexpr std::size_t kMaxStatesReduced = 16;
 /// The part of it that a line makes up for.
-static constexpr std::uint32_t kSpreadRelief = 32;
+static constexpr std::uint32_t kSpreadPerLine = 32;
 /// Labels that may be waited for at once.
 static constexpr std::size_t kMaxWaiting = 16'384;
 
@@ -36,7 +36,7 @@ Checker::Checker(const execution::Setup& setup, const JumpMap& jumps, bool suspe
     : frontier(start(setup)),
       setup_(setup),
       jumps_(jumps),
-      watches_moves_(rules::watches_moves(setup)),
+      checks_moves_(rules::checks_moves(setup)),
       suspects_centers_(suspects_centers) {}
 
 Frontier Checker::start(const execution::Setup& setup) {
@@ -98,7 +98,7 @@ static void note_plain_move(const PlainLine& line, const execution::PlainRun& ru
 template <class PlainLineAt>
 std::size_t Checker::check_plain(std::size_t count, std::uint64_t line_number, Outcome& outcome,
                                  PlainLineAt plain_line_at) {
-  if (frontier.live.size() != 1 || watches_moves_) return 0;
+  if (frontier.live.size() != 1 || checks_moves_) return 0;
   const execution::State& state = frontier.live[0].state;
   execution::PlainRun run(frontier.live[0].state, setup_, suspects_centers_);
   PositionUse use = outcome.positions;
@@ -114,7 +114,7 @@ std::size_t Checker::check_plain(std::size_t count, std::uint64_t line_number, O
   outcome.last_text_line = line_number + done - 1;
   use.by_several |= !frontier.waiting().empty();
   outcome.positions = use;
-  relieve(done);
+  reduce_spread(done);
   return done;
 }
 
@@ -163,8 +163,9 @@ void Checker::check_any(const LineTree& line, std::uint64_t line_number, Outcome
   frontier.dead_reported = has_error(outcome.findings, first);
 }
 
-void Checker::relieve(std::size_t lines) {
-  frontier.spread -= static_cast<std::uint32_t>(std::min<std::size_t>(frontier.spread, kSpreadRelief * lines));
+void Checker::reduce_spread(std::size_t lines) {
+  frontier.branching_cost -=
+      static_cast<std::uint32_t>(std::min<std::size_t>(frontier.branching_cost, kSpreadPerLine * lines));
 }
 
 /// Lines on no feasible path are never read, and only that is reported of them, at the first (D51).
@@ -183,7 +184,7 @@ void Checker::arrive(const LineTree& line, std::uint64_t line_number, Outcome& o
   if (!jumps_.names(line.label)) return;
   if (frontier.arrive(line)) bound_states(line, line_number, outcome);
   for (const syntax::Word& word : line.words) {
-    if (word.letter != 'N' || word.owner != syntax::Word::kNobody) continue;
+    if (word.letter != 'N' || word.owner != syntax::Word::kNoOwner) continue;
     outcome.labels.push_back({line.label, line_number, word.span(), !frontier.live.empty()});
     break;
   }
@@ -232,13 +233,13 @@ void Checker::execute_around_jump(const LineTree& line, std::uint64_t line_numbe
 class Checker::LineExecution final : public execution::Sink {
  public:
   LineExecution(Checker& checker, const LineTree& line, Outcome& outcome)
-      : Sink(checker.watches_moves_), checker_(checker), line_(line), outcome_(outcome) {}
+      : Sink(checker.checks_moves_), checker_(checker), line_(line), outcome_(outcome) {}
 
   void run() {
     const bool is_wrong = has_error_in_text();
     Groups& live = checker_.frontier.live;
     // For one group check_plain() has tried it already.
-    const bool may_be_plain = live.size() > 1 && !checker_.watches_moves_;
+    const bool may_be_plain = live.size() > 1 && !checker_.checks_moves_;
     for (group_ = 0; group_ < live.size(); ++group_) {
       execution::State& state = live[group_].state;
       if (!may_be_plain || !run_plainly(state)) execute(state, is_wrong);
@@ -274,8 +275,8 @@ class Checker::LineExecution final : public execution::Sink {
     execution::execute(line_, state, checker_.setup_, *this);
     const auto is_error_here = [](const GroupFinding& found) { return is_error(found.finding); };
     if (!is_wrong && std::none_of(findings.begin() + first, findings.end(), is_error_here)) {
-      rules::ask_all({line_, before, state, checker_.setup_}, *this);
-      if (move_) rules::ask_about_move({line_, before, state, checker_.setup_}, *move_, *this);
+      rules::run_rules({line_, before, state, checker_.setup_}, *this);
+      if (move_) rules::run_move_rules({line_, before, state, checker_.setup_}, *move_, *this);
     }
     const bool has_findings = !line_.findings.empty() || static_cast<std::ptrdiff_t>(findings.size()) > first;
     checker_.note_line(line_, before, state, has_findings, outcome_.positions);
@@ -302,7 +303,7 @@ void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_num
     LineExecution(*this, line, outcome).run();
     if (!group_findings_.empty()) report_common_findings(line_number, outcome);
   }
-  if (live.size() == 1) return relieve(1);
+  if (live.size() == 1) return reduce_spread(1);
   live.converge();
   bound_states(line, line_number, outcome);
 }
@@ -323,7 +324,7 @@ void Checker::note_line(const LineTree& line, const execution::State& before, co
   }
   if (!moves && !changes_frame) return;
   use.far |= is_far(after.position);
-  const bool is_clear = !has_findings && !changes_frame && !watches_moves_ && before.unknown == after.unknown &&
+  const bool is_clear = !has_findings && !changes_frame && !checks_moves_ && before.unknown == after.unknown &&
                         after.mode(dialect::ModalGroup::Motion) != dialect::kNoMotion;
   if (is_clear && after.incremental()) return;
   dialect::LetterSet letters = 0;
@@ -343,10 +344,10 @@ void Checker::note_line(const LineTree& line, const execution::State& before, co
 void Checker::judge_arc(const execution::CenteredArc& arc, Outcome& outcome, execution::Sink& sink) const {
   const double tolerance = setup_.arc_tolerance;
   const geometry::CenterReadings readings =
-      geometry::read_center_both_ways(arc.given, arc.start, arc.incremental, tolerance);
+      geometry::read_center_in_both_modes(arc.given, arc.start, arc.incremental, tolerance);
   if (!arc.incremental) {
     outcome.centers.from_start |= !readings.is_same_center && readings.shows_other_origin(tolerance);
-    outcome.centers.open |= readings.is_legal_both_ways(tolerance);
+    outcome.centers.open |= readings.is_legal_in_both_readings(tolerance);
   }
   if (arc.circle.problem == geometry::ArcProblem::None)
     rules::judge_arc(arc, readings, suspects_centers_, setup_, sink);
@@ -456,12 +457,12 @@ bool Checker::reduce(Groups& groups) const {
 void Checker::bound_states(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   Groups& live = frontier.live;
   bool reduced = false;
-  frontier.spread += static_cast<std::uint32_t>(live.size()) - 1;
-  frontier.spread -= std::min(frontier.spread, kSpreadRelief);
+  frontier.branching_cost += static_cast<std::uint32_t>(live.size()) - 1;
+  frontier.branching_cost -= std::min(frontier.branching_cost, kSpreadPerLine);
   reduced |= reduce(live);
-  if (frontier.spread > kSpreadLimit) {
+  if (frontier.branching_cost > kSpreadLimit) {
     live.reduce_to(1);
-    frontier.spread = 0;
+    frontier.branching_cost = 0;
     reduced = true;
   }
   for (Group& group : live) {

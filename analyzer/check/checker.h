@@ -45,7 +45,7 @@ class Checker {
   template <class PlainLineAt>
   std::size_t check_plain(std::size_t count, std::uint64_t line_number, Outcome& outcome, PlainLineAt plain_line_at);
   /// Lines that one state alone runs through make up for some of those that more have.
-  void relieve(std::size_t lines);
+  void reduce_spread(std::size_t lines);
   void report_dead_code(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void arrive(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void execute_around_jump(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
@@ -68,7 +68,7 @@ class Checker {
 
   const execution::Setup& setup_;
   const JumpMap& jumps_;
-  const bool watches_moves_;
+  const bool checks_moves_;
   const bool suspects_centers_;
   std::vector<GroupFinding> group_findings_;  // The findings of one line; a member to keep its memory.
 };

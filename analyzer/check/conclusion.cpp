@@ -13,7 +13,7 @@ namespace isocnc::check {
 using namespace dialect::literals;
 using syntax::LineTree;
 
-bool all_jumps_land(const Outcome& outcome, const JumpMap& jumps) {
+bool all_jumps_resolve(const Outcome& outcome, const JumpMap& jumps) {
   std::unordered_map<std::uint64_t, std::uint64_t> last_lines;
   for (const Outcome::Label& label : outcome.labels) last_lines[label.label] = label.line;
   return std::all_of(outcome.live_jumps.begin(), outcome.live_jumps.end(), [&](std::uint32_t ordinal) {

@@ -39,6 +39,6 @@ FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const Finding
                        const FirstFindingsOptions& options = {});
 
 /// Whether each jump on a feasible path leads to one of the labels seen.
-bool all_jumps_land(const Outcome& outcome, const JumpMap& jumps);
+bool all_jumps_resolve(const Outcome& outcome, const JumpMap& jumps);
 
 }  // namespace isocnc::check

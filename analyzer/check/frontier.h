@@ -55,10 +55,10 @@ class Groups {
 /// Where a check stands between two lines: all that the rest of the program's findings depend on. Knows jumps by their
 /// number and labels by their name, never a line, so that text inserted elsewhere leaves it as it is.
 struct Frontier : syntax::ForwardPaths<Groups> {
-  std::uint32_t next_jump = 0;  ///< IFs with a label that have been passed.
-  std::uint32_t spread = 0;     ///< Recent cost of more than one live group, in lines executed.
-  bool dead_reported = false;   ///< W116 has been reported for the lines from here on, where no path leads.
-  bool reduced = false;         ///< Some states are not followed, as there were too many (W191).
+  std::uint32_t next_jump = 0;       ///< IFs with a label that have been passed.
+  std::uint32_t branching_cost = 0;  ///< Recent cost of more than one live group, in lines executed.
+  bool dead_reported = false;        ///< W116 has been reported for the lines from here on, where no path leads.
+  bool reduced = false;              ///< Some states are not followed, as there were too many (W191).
 
   /// The one state on all paths through the next line, where that is this one. Nothing where there are several, or not
   /// all are known.

@@ -286,7 +286,7 @@ bool JumpEvent::means_the_same(const JumpEvent& other) const {
          (kind != Kind::Jump || jump_alike(jump, other.jump));
 }
 
-bool JumpMap::does_the_same(std::uint32_t jump, const JumpMap& other) const {
+bool JumpMap::is_equivalent(std::uint32_t jump, const JumpMap& other) const {
   return jump_alike(sites_[jump].jump, other.sites_[jump].jump) && reads_[jump] == other.reads_[jump] &&
          target_of(jump) == other.target_of(jump);
 }

@@ -101,7 +101,7 @@ class JumpMap {
   bool may_repeat(std::uint64_t label) const { return !knows_labels_ || repeated_.contains(label); }
 
   /// Whether the jump of this number does the same in both to every state that comes to it.
-  bool does_the_same(std::uint32_t jump, const JumpMap& other) const;
+  bool is_equivalent(std::uint32_t jump, const JumpMap& other) const;
   /// The map of the same jumps at other places, or written otherwise: from the one of number `first` on those of
   /// `sites`, and all after these `lines` further down.
   JumpMap moved(std::size_t first, const std::vector<Site>& sites, std::int64_t lines) &&;

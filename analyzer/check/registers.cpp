@@ -100,7 +100,7 @@ RegisterSet Valuations::restricted() const {
   return restricted;
 }
 
-void Valuations::know(RegisterSet registers) {
+void Valuations::add_registers(RegisterSet registers) {
   for (RegisterSet left = registers & ~known_; left != 0; left &= left - 1) {
     const int reg = std::countr_zero(left);
     for (Valuation& valuation : all_)
@@ -149,7 +149,7 @@ void Valuations::add_all_again() {
 void Valuations::assign(int reg, double value, const JumpMap& jumps) {
   const std::vector<double>& constants = jumps.constants(reg);
   if (constants.empty()) return;
-  know(register_bit(reg));
+  add_registers(register_bit(reg));
   const ValueSet assigned = ValueSet::of(value, constants);
   for (Valuation& valuation : all_) *(valuation.begin() + place_of(reg, known_)) = assigned;
   add_all_again();
@@ -182,8 +182,8 @@ Valuations Valuations::where(const syntax::Jump& jump, bool holds) const {
 }
 
 void Valuations::unite(Valuations other) {
-  know(other.known_);
-  other.know(known_);
+  add_registers(other.known_);
+  other.add_registers(known_);
   for (Valuation& valuation : other.all_) add(std::move(valuation));
 }
 

@@ -106,7 +106,7 @@ class Valuations {
   void add(Valuation valuation);
   /// Joins valuations again that one register less may have made alike.
   void add_all_again();
-  void know(RegisterSet registers);
+  void add_registers(RegisterSet registers);
   void forget(RegisterSet registers);
   /// Of the registers that are known, those that some valuation restricts.
   RegisterSet restricted() const;

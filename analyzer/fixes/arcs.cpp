@@ -99,8 +99,8 @@ Draft radius_large_enough(const Request& request) {
   if (!motion || !motion->is_motion() || !(radius > 0) || needed - radius > needed / 20) return {};
   if (request.marked().find('(') != std::string_view::npos) return {};
   // What the word says in mm tells what a unit of it is worth.
-  const double least = std::ceil(needed * word->value / radius * 1e4 - 1e-6) / 1e4;
-  std::string larger = request.marked().front() + written(least, 4);
+  const double minimum = std::ceil(needed * word->value / radius * 1e4 - 1e-6) / 1e4;
+  std::string larger = request.marked().front() + written(minimum, 4);
   return {{replaced(request, request.finding.span, larger)}, larger};
 }
 

@@ -28,7 +28,7 @@ class ArcCollector final : public execution::Sink {
            .start = read.start,
            .incremental = read.incremental,
            .mm_per_unit = read.mm_per_unit,
-           .readings = geometry::read_center_both_ways(read.given, read.start, read.incremental, tolerance_)};
+           .readings = geometry::read_center_in_both_modes(read.given, read.start, read.incremental, tolerance_)};
   }
 
   int count = 0;

@@ -121,10 +121,10 @@ void Habits::find_centers() {
   CenterSurvey absolute(tolerance);
   CenterSurvey incremental(tolerance);
   for (std::uint64_t number = 0; number < program_.line_count(); ++number) {
-    const bool is_concerned = has_centers(line(number));
-    if (!is_concerned && !hides_a_g(line(number))) continue;
+    const bool is_affected = has_centers(line(number));
+    if (!is_affected && !hides_a_g(line(number))) continue;
     if (!program_.is_read(number)) continue;
-    if (!is_concerned || hides_a_g(line(number))) {
+    if (!is_affected || hides_a_g(line(number))) {
       absolute.add_unknown();
       incremental.add_unknown();
       continue;
@@ -182,7 +182,7 @@ Habits::Found Habits::find_milliseconds() {
       const bool may_be_milliseconds =
           time->known() && time->value >= kFewMilliseconds && text.find_first_of(".(") == std::string_view::npos;
       if (!may_be_milliseconds) return {};
-      found.is_shown |= time->value > program_.setup().opinions.longest_dwell;
+      found.is_shown |= time->value > program_.setup().advice.longest_dwell;
       std::string what = text.front() + written(time->value / 1000, 6);
       found.rewrites.push_back({number, {{{number, time->begin}, {number, time->end}, what}}, what});
     }

@@ -127,12 +127,11 @@ Draft tool_of_other_line(const Request& request) {
 
 /// Whether the line does what a T may be moved past: nothing that moves, mounts, jumps or ends.
 static bool lets_tool_pass(const LineTree& line, Program& program) {
-  const auto is_in_the_way = [&](const Instruction& each) {
+  const auto is_blocking = [&](const Instruction& each) {
     return each.is_motion() || each.kind == InstructionKind::ToolChange || each.kind == InstructionKind::StrayTool ||
            each.kind == InstructionKind::Jump || line.ends_program(each);
   };
-  return !is_jumped_to(line, program) &&
-         std::none_of(line.instructions.begin(), line.instructions.end(), is_in_the_way);
+  return !is_jumped_to(line, program) && std::none_of(line.instructions.begin(), line.instructions.end(), is_blocking);
 }
 
 /// T101001 alone, as other controls prepare a tool, and its M06 below.
@@ -163,10 +162,10 @@ Draft command_to_next_line(const Request& request) {
   const LineTree next = parsed.tree();
   const Word* const first = first_word(next);
   const Word* const own = word_at(request.line, request.finding.span);
-  const bool goes_on = first != nullptr && !next.instructions.empty() &&
-                       next.instructions.front().kind == InstructionKind::Continuation &&
-                       dialect::contains(dialect::kCoordinateLetters, first->letter);
-  if (!goes_on || own == nullptr || own->letter != 'G' || is_jumped_to(next, request.program)) return {};
+  const bool continues = first != nullptr && !next.instructions.empty() &&
+                         next.instructions.front().kind == InstructionKind::Continuation &&
+                         dialect::contains(dialect::kCoordinateLetters, first->letter);
+  if (!continues || own == nullptr || own->letter != 'G' || is_jumped_to(next, request.program)) return {};
   const Edit there{{*number, first->begin}, {*number, first->begin}, command + " "};
   return {{removed_with_line(request, request.finding.span), there}};
 }

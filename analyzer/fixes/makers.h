@@ -67,10 +67,10 @@ Draft mode_first(const Request& request);
 Draft arguments_together(const Request& request);
 Draft command_first(const Request& request);
 Draft compensation_before_motion(const Request& request);
-Draft behind_motion(const Request& request);
-Draft behind_feed_motion(const Request& request);
+Draft move_after_motion(const Request& request);
+Draft move_after_feed_motion(const Request& request);
 Draft change_before_tool(const Request& request);
-Draft tool_behind_change(const Request& request);
+Draft move_tool_after_change(const Request& request);
 Draft motions_on_two_lines(const Request& request);
 
 // lines.cpp: a word or a line that is missing, or stands on the neighboring line.

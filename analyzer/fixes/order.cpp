@@ -76,7 +76,7 @@ static bool has_another_finding(const Request& request) {
 }
 
 /// Whether a word has a finding of its own: what it should have been, and so what belongs to what, is not known.
-static bool is_in_doubt(const LineTree& line, const Word& word) {
+static bool is_ambiguous(const LineTree& line, const Word& word) {
   const auto marks_it = [&](const syntax::Finding& finding) {
     return finding.span.begin < word.end && word.begin < finding.span.end;
   };
@@ -100,7 +100,7 @@ Draft on_its_own_line(const Request& request) {
   if (!behind.empty() && alone->kind == InstructionKind::Jump) return {};
   const auto before = line.words.first(extent->first);
   // G92 X10 Y20= Z146: the Z belongs to the G92.
-  if ((!behind.empty() && is_in_doubt(line, behind.front())) || (!before.empty() && is_in_doubt(line, before.back())))
+  if ((!behind.empty() && is_ambiguous(line, behind.front())) || (!before.empty() && is_ambiguous(line, before.back())))
     return {};
   Draft draft;
   if (!std::all_of(before.begin(), before.end(), is_label))
@@ -150,7 +150,7 @@ Draft command_first(const Request& request) {
 }
 
 /// The first word of the line's first motion, or null.
-static const Word* motion_begin(const LineTree& line) {
+static const Word* motion_start(const LineTree& line) {
   const Instruction* const motion = line.motion();
   if (motion == nullptr) return nullptr;
   return &line.words[motion->kind == InstructionKind::G ? motion->command : motion->begin];
@@ -158,7 +158,7 @@ static const Word* motion_begin(const LineTree& line) {
 
 /// G01 X10 G41.
 Draft compensation_before_motion(const Request& request) {
-  const Word* const motion = motion_begin(request.line);
+  const Word* const motion = motion_start(request.line);
   if (!motion || motion->begin > request.finding.span.begin) return {};
   return moved(request, request.finding.span, motion->begin, true);
 }
@@ -172,16 +172,16 @@ static const Instruction* last_motion(const LineTree& line) {
 }
 
 /// G40 G01 Y20: behind the last coordinate.
-Draft behind_motion(const Request& request) {
+Draft move_after_motion(const Request& request) {
   const Instruction* const motion = last_motion(request.line);
   if (!motion) return {};
   return moved(request, request.finding.span, request.line.words[motion->end - 1u].end, false);
 }
 
 /// G09 G01 X10; a rapid stops at its end by itself.
-Draft behind_feed_motion(const Request& request) {
+Draft move_after_feed_motion(const Request& request) {
   const Instruction* const motion = last_motion(request.line);
-  return motion && !is_g(*motion, 0) ? behind_motion(request) : Draft{};
+  return motion && !is_g(*motion, 0) ? move_after_motion(request) : Draft{};
 }
 
 /// T101001 M06.
@@ -196,7 +196,7 @@ Draft change_before_tool(const Request& request) {
 }
 
 /// M06 S5000 T101001.
-Draft tool_behind_change(const Request& request) {
+Draft move_tool_after_change(const Request& request) {
   const LineTree& line = request.line;
   const Instruction* const change = marked_instruction(request);
   if (!change) return {};

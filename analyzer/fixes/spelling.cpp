@@ -32,10 +32,10 @@ static Draft rewritten(const Request& request, std::string text) {
 Draft zero_for_letter_o(const Request& request) {
   const std::string_view line = request.line.text;
   Span zeros = request.finding.span;
-  const bool is_behind_number = is_letter_o(line[zeros.begin]);
-  if (is_behind_number) {
-    const bool goes_on = zeros.begin > 0 && (syntax::is_digit(line[zeros.begin - 1]) || line[zeros.begin - 1] == '.');
-    if (!goes_on || !holds_only(request.marked(), "Oo0123456789.")) return {};
+  const bool follows_number = is_letter_o(line[zeros.begin]);
+  if (follows_number) {
+    const bool continues = zeros.begin > 0 && (syntax::is_digit(line[zeros.begin - 1]) || line[zeros.begin - 1] == '.');
+    if (!continues || !holds_only(request.marked(), "Oo0123456789.")) return {};
   } else {
     if (request.marked().size() != 1) return {};
     zeros.begin = zeros.end;

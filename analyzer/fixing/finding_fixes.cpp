@@ -32,10 +32,10 @@ std::optional<Fix> FindingFixes::offered(const check::LocatedFinding& located) {
   std::optional<Fix> fix = of(located);
   if (!fix) return fix;
   if (!trial_) trial_.emplace(program_, setup_, program_.jumps());
-  const bool mends = fix->habit == fixes::Habit::None
-                         ? trial_->mends(*fix, located, program_.frontier_before(located.line))
-                         : trial_->mends(fix->habit);
-  if (!mends) fix.reset();
+  const bool improves = fix->habit == fixes::Habit::None
+                            ? trial_->improves(*fix, located, program_.frontier_before(located.line))
+                            : trial_->improves(fix->habit);
+  if (!improves) fix.reset();
   return fix;
 }
 

@@ -50,8 +50,8 @@ class Attempt {
   const check::Frontier& frontier() const { return checker_.frontier; }
 
   /// Adds what has been found since this was last asked for.
-  void count(Balance& balance, int times) {
-    balance.count(outcome_.findings, counted_, times);
+  void count(FindingDelta& delta, int times) {
+    delta.count(outcome_.findings, counted_, times);
     counted_ = outcome_.findings.size();
   }
   const std::vector<check::LocatedFinding>& findings() const { return outcome_.findings; }
@@ -121,24 +121,24 @@ class TextLines {
 struct FixTrial::Comparison {
   Attempt without;
   Attempt with;
-  Balance balance = {};
+  FindingDelta delta = {};
 
-  const Balance& so_far() {
-    with.count(balance, 1);
-    without.count(balance, -1);
-    return balance;
+  const FindingDelta& so_far() {
+    with.count(delta, 1);
+    without.count(delta, -1);
+    return delta;
   }
   bool has_met() const { return without.frontier() == with.frontier(); }
 };
 
 /// Whether nothing that is reported by default is found more often, and the finding's own code, where it was found,
 /// less.
-static bool is_better(const Balance& balance, bool found_own, const check::LocatedFinding& located) {
+static bool is_better(const FindingDelta& delta, bool found_own, const check::LocatedFinding& located) {
   for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
     const dialect::DiagnosticId id{static_cast<std::uint8_t>(i)};
-    if (balance.of(id) > 0 && !dialect::definition(id).is_off) return false;
+    if (delta.of(id) > 0 && !dialect::definition(id).is_off) return false;
   }
-  return !found_own || balance.of(located.finding.id) < 0;
+  return !found_own || delta.of(located.finding.id) < 0;
 }
 
 FixTrial::FixTrial(fixes::Program& program, const execution::Setup& setup, const check::JumpMap& jumps)
@@ -146,33 +146,33 @@ FixTrial::FixTrial(fixes::Program& program, const execution::Setup& setup, const
       setup_(setup),
       jumps_(jumps),
       lines_(program),
-      work_left_(kMinWork + kWorkPerLine * program.line_count()) {}
+      work_budget_(kMinWork + kWorkPerLine * program.line_count()) {}
 
 /// Jumps are known by their number in the program, and labels by where they stand.
-bool FixTrial::is_concerned_by_jumps(const syntax::LineTree& line) const {
+bool FixTrial::is_affected_by_jumps(const syntax::LineTree& line) const {
   return line.jump != nullptr || (line.has_label() && jumps_.names(line.label));
 }
 
 std::optional<check::Report> FixTrial::found_with(std::vector<Edit> edits) {
   const std::uint64_t lines = program_.line_count();
-  if (work_left_ < lines) return std::nullopt;
-  work_left_ -= lines;
+  if (work_budget_ < lines) return std::nullopt;
+  work_budget_ -= lines;
   return check::check_text(edited_lines(program_, 0, lines - 1, std::move(edits)), setup_);
 }
 
-const check::Report* FixTrial::found_in_whole() {
-  if (!found_in_whole_) found_in_whole_ = found_with({});
-  return found_in_whole_ ? &*found_in_whole_ : nullptr;
+const check::Report* FixTrial::findings_of_whole() {
+  if (!findings_of_whole_) findings_of_whole_ = found_with({});
+  return findings_of_whole_ ? &*findings_of_whole_ : nullptr;
 }
 
-bool FixTrial::mends_in_whole(const Fix& fix, const check::LocatedFinding& located) {
-  const check::Report* const before = found_in_whole();
+bool FixTrial::improves_whole_program(const Fix& fix, const check::LocatedFinding& located) {
+  const check::Report* const before = findings_of_whole();
   const std::optional<check::Report> after = before ? found_with(fix.edits) : std::nullopt;
   if (!after) return true;
-  Balance balance;
-  balance.count(*after, 1);
-  balance.count(*before, -1);
-  return is_better(balance, finds(before->findings, located.finding.id), located);
+  FindingDelta delta;
+  delta.count(*after, 1);
+  delta.count(*before, -1);
+  return is_better(delta, finds(before->findings, located.finding.id), located);
 }
 
 /// Codes that a habit leads to.
@@ -223,46 +223,46 @@ static constexpr dialect::DiagnosticId kJudgedByReading[] = {"redundant-modal"_d
                                                              "useless-suppression"_diag};
 
 bool reads_better(const check::Report& before, const check::Report& after, fixes::Habit habit) {
-  Balance balance;
-  balance.count(after, 1);
-  balance.count(before, -1);
+  FindingDelta delta;
+  delta.count(after, 1);
+  delta.count(before, -1);
   int of_habit = 0;
-  for (const dialect::DiagnosticId id : codes_of(habit)) of_habit += balance.of(id);
+  for (const dialect::DiagnosticId id : codes_of(habit)) of_habit += delta.of(id);
   for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
     const dialect::DiagnosticId id{static_cast<std::uint8_t>(i)};
     const bool is_judged_by_reading =
         std::find(std::begin(kJudgedByReading), std::end(kJudgedByReading), id) != std::end(kJudgedByReading);
-    if (balance.of(id) > 0 && !is_judged_by_reading && !dialect::definition(id).is_off) return false;
+    if (delta.of(id) > 0 && !is_judged_by_reading && !dialect::definition(id).is_off) return false;
   }
   return of_habit < 0;
 }
 
-bool FixTrial::mends(fixes::Habit habit) {
-  std::optional<bool>& known = mended_habits_[static_cast<std::size_t>(habit)];
+bool FixTrial::improves(fixes::Habit habit) {
+  std::optional<bool>& known = improving_habits_[static_cast<std::size_t>(habit)];
   if (known) return *known;
-  const check::Report* const before = found_in_whole();
+  const check::Report* const before = findings_of_whole();
   const std::optional<check::Report> after = before ? found_with(all_edits({.habit = habit}, program_)) : std::nullopt;
   known = !after || reads_better(*before, *after, habit);
   return *known;
 }
 
-bool FixTrial::mends(const Fix& fix, const check::LocatedFinding& located, const check::Frontier& before) {
+bool FixTrial::improves(const Fix& fix, const check::LocatedFinding& located, const check::Frontier& before) {
   const std::uint64_t first = located.line;
   std::uint64_t last = first;
   for (const Edit& edit : fix.edits) {
-    if (edit.begin.line < first) return mends_in_whole(fix, located);
+    if (edit.begin.line < first) return improves_whole_program(fix, located);
     last = std::max(last, edit.end.line);
   }
-  if (last - first > (work_left_ > 0 ? kMaxEdited : kNearest)) return true;
+  if (last - first > (work_budget_ > 0 ? kMaxEdited : kNearest)) return true;
 
   const std::string text = edited_lines(program_, first, last, fix.edits);
   const TextLines edited(text);
   for (std::size_t i = 0; i < edited.size(); ++i)
-    if (is_concerned_by_jumps(edited[i])) return mends_in_whole(fix, located);
+    if (is_affected_by_jumps(edited[i])) return improves_whole_program(fix, located);
   Comparison compared{.without = {setup_, jumps_, before}, .with = {setup_, jumps_, before}};
   for (std::uint64_t line = first; line <= last; ++line) {
     const syntax::LineTree tree = lines_[line];
-    if (is_concerned_by_jumps(tree)) return mends_in_whole(fix, located);
+    if (is_affected_by_jumps(tree)) return improves_whole_program(fix, located);
     compared.without.check(tree);
     spend(compared.without.frontier());
   }
@@ -274,7 +274,7 @@ bool FixTrial::mends(const Fix& fix, const check::LocatedFinding& located, const
 }
 
 void FixTrial::spend(const check::Frontier& frontier) {
-  work_left_ -= std::min<std::uint64_t>(work_left_, 1 + frontier.live.size());
+  work_budget_ -= std::min<std::uint64_t>(work_budget_, 1 + frontier.live.size());
 }
 
 bool FixTrial::follow(Comparison& compared, std::uint64_t next, const check::LocatedFinding& located) {
@@ -284,7 +284,7 @@ bool FixTrial::follow(Comparison& compared, std::uint64_t next, const check::Loc
   const auto is_near_end = [&] { return end - next <= kMaxBlank; };
   Trail trail;
   std::optional<Trail::Rest> rest;
-  while (next < farthest && (work_left_ > 0 || next < nearest) && (!compared.has_met() || is_near_end())) {
+  while (next < farthest && (work_budget_ > 0 || next < nearest) && (!compared.has_met() || is_near_end())) {
     rest = trails_.rest_from(next, compared.with.frontier());
     if (rest) break;
     trail.pass(next, compared.with.frontier(), compared.so_far());
@@ -293,20 +293,20 @@ bool FixTrial::follow(Comparison& compared, std::uint64_t next, const check::Loc
     compared.with.check(tree);
     spend(compared.with.frontier());
   }
-  const Balance so_far = compared.so_far();
+  const FindingDelta so_far = compared.so_far();
   bool found_own = finds(compared.without.findings(), located.finding.id);
   if (!rest) {
     rest = Trail::Rest{.next_line = next, .has_more = next < end && !compared.has_met()};
     if (next == end) {
-      rest->balance.count(compared.with.conclusion(), 1);
+      rest->delta.count(compared.with.conclusion(), 1);
       const check::Report found = compared.without.conclusion();
-      rest->balance.count(found, -1);
-      rest->balance -= so_far;
+      rest->delta.count(found, -1);
+      rest->delta -= so_far;
       found_own |= finds(found.findings, located.finding.id);
     }
   }
-  Balance in_all = so_far;
-  in_all += rest->balance;
+  FindingDelta in_all = so_far;
+  in_all += rest->delta;
   if (trail.is_long()) {
     trail.end(so_far, *rest);
     trails_.keep(std::move(trail));

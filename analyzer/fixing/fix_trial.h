@@ -28,18 +28,18 @@ class FixTrial {
   FixTrial(fixes::Program& program, const execution::Setup& setup, const check::JumpMap& jumps);
 
   /// `before` is where the check stands before the finding's line.
-  bool mends(const fixes::Fix& fix, const check::LocatedFinding& located, const check::Frontier& before);
+  bool improves(const fixes::Fix& fix, const check::LocatedFinding& located, const check::Frontier& before);
   /// Whether all rewrites of a habit make the program read better (reads_better). Tried once.
-  bool mends(fixes::Habit habit);
+  bool improves(fixes::Habit habit);
 
  private:
   struct Comparison;
 
-  bool is_concerned_by_jumps(const syntax::LineTree& line) const;
-  bool mends_in_whole(const fixes::Fix& fix, const check::LocatedFinding& located);
+  bool is_affected_by_jumps(const syntax::LineTree& line) const;
+  bool improves_whole_program(const fixes::Fix& fix, const check::LocatedFinding& located);
   /// What is found in the whole program with these edits; nothing once too much has been spent.
   std::optional<check::Report> found_with(std::vector<fixes::Edit> edits);
-  const check::Report* found_in_whole();
+  const check::Report* findings_of_whole();
   /// Goes on from this line, below the edits.
   bool follow(Comparison& compared, std::uint64_t next, const check::LocatedFinding& located);
   void spend(const check::Frontier& frontier);
@@ -49,9 +49,9 @@ class FixTrial {
   const check::JumpMap& jumps_;
   RecentTrees lines_;
   Trails trails_;
-  std::uint64_t work_left_;
-  std::optional<check::Report> found_in_whole_;  // The report on the whole program, once it has been asked for.
-  std::array<std::optional<bool>, fixes::kHabitCount> mended_habits_;
+  std::uint64_t work_budget_;
+  std::optional<check::Report> findings_of_whole_;  // The report on the whole program, once it has been asked for.
+  std::array<std::optional<bool>, fixes::kHabitCount> improving_habits_;
 };
 
 }  // namespace isocnc::fixing

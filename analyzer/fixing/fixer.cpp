@@ -24,10 +24,10 @@ using fixes::Safety;
 namespace {
 
 /// Bytes that may be checked for a text of a size: a bound for hostile programs, on which most fixes are undone.
-constexpr std::size_t kLeastWork = 64'000'000;
+constexpr std::size_t kMinWork = 64'000'000;
 constexpr std::size_t kWorkPerByte = 40;
 /// How often what is to blame for a new finding is guessed before it is searched for.
-constexpr int kGuesses = 4;
+constexpr int kMaxGuesses = 4;
 
 /// A fix that is to be made.
 struct Candidate {
@@ -45,9 +45,9 @@ FindingKey key_of(const check::LocatedFinding& located) {
 /// A text, what is found in it, and what of that is to be fixed.
 struct Version {
   std::string text;
-  check::Report found;      // Whether selected or not.
-  check::Report concerned;  // Selected.
-  std::size_t unconcerned = 0;
+  check::Report found;   // Whether selected or not.
+  check::Report to_fix;  // Selected.
+  std::size_t filtered_out = 0;
   std::vector<std::uint64_t> origins;
 };
 
@@ -72,8 +72,8 @@ class Taken {
     const auto before = std::prev(next);
     return conflict(before->first, before->second, begin, end);
   }
-  static bool conflict(std::size_t begin, std::size_t end, std::size_t next_begin, std::size_t next_end) {
-    return next_begin < end || (next_begin == end && (begin == end || next_begin == next_end));
+  static bool conflict(std::size_t begin, std::size_t end, std::size_t next_start, std::size_t next_end) {
+    return next_start < end || (next_start == end && (begin == end || next_start == next_end));
   }
 
   std::multimap<std::size_t, std::size_t> taken_;
@@ -145,16 +145,16 @@ struct Trial {
 
 class Fixer {
  public:
-  Fixer(std::string_view text, const FixWishes& wishes)
-      : wishes_(wishes), work_left_(kLeastWork + kWorkPerByte * text.size()) {
+  Fixer(std::string_view text, const FixOptions& options)
+      : options_(options), work_budget_(kMinWork + kWorkPerByte * text.size()) {
     present_ = checked(std::string(text));
     std::vector<std::uint64_t>& origins = present_.origins;
-    origins.resize(TextProgram(present_.text, wishes.setup).line_count());
+    origins.resize(TextProgram(present_.text, options.setup).line_count());
     std::iota(origins.begin(), origins.end(), std::uint64_t{0});
   }
 
   FixedText run() {
-    while (work_left_ > 0) {
+    while (work_budget_ > 0) {
       const std::vector<Candidate> all = candidates();
       if (!all.empty()) {
         make_some_of(all);
@@ -166,37 +166,37 @@ class Fixer {
         changed_since_undone_ = false;
       }
     }
-    return {std::move(present_.text), std::move(present_.concerned), fixed_, present_.unconcerned,
+    return {std::move(present_.text), std::move(present_.to_fix), fixed_, present_.filtered_out,
             std::move(present_.origins)};
   }
 
  private:
   Version checked(std::string text) {
-    work_left_ -= std::min(work_left_, text.size() + 1);
+    work_budget_ -= std::min(work_budget_, text.size() + 1);
     Version version{.text = std::move(text)};
-    version.found = check::check_text(version.text, wishes_.setup, wishes_.jobs);
-    version.found = selection::with_style(std::move(version.found), version.text, wishes_.selection);
+    version.found = check::check_text(version.text, options_.setup, options_.jobs);
+    version.found = selection::with_style(std::move(version.found), version.text, options_.selection);
     std::erase_if(version.found.findings, [&](const check::LocatedFinding& located) {
       const dialect::DiagnosticId id = located.finding.id;
-      return dialect::definition(id).is_off && !wishes_.selection.shows(id);  // Nobody looks for it.
+      return dialect::definition(id).is_off && !options_.selection.shows(id);  // Nobody looks for it.
     });
-    version.found = selection::suppress(std::move(version.found), version.text, wishes_.selection);
-    version.concerned = wishes_.selection.shown(version.found);
-    const std::size_t selected = version.concerned.findings.size();
-    if (wishes_.concern) version.concerned = wishes_.concern(std::move(version.concerned), version.text);
-    version.unconcerned = selected - version.concerned.findings.size();
+    version.found = selection::suppress(std::move(version.found), version.text, options_.selection);
+    version.to_fix = options_.selection.shown(version.found);
+    const std::size_t selected = version.to_fix.findings.size();
+    if (options_.finding_filter) version.to_fix = options_.finding_filter(std::move(version.to_fix), version.text);
+    version.filtered_out = selected - version.to_fix.findings.size();
     return version;
   }
 
   /// The fixes that can be made together, in the order of the program. All rewrites of a habit are made alone.
   std::vector<Candidate> candidates() const {
     std::vector<Candidate> all;
-    FindingFixes fixes(present_.text, present_.found, wishes_.setup);
+    FindingFixes fixes(present_.text, present_.found, options_.setup);
     Taken taken;
-    for (const check::LocatedFinding& located : present_.concerned.findings) {
+    for (const check::LocatedFinding& located : present_.to_fix.findings) {
       if (undone_.contains(key_of(located))) continue;
       std::optional<Fix> fix = fixes.of(located);
-      if (!fix || (fix->safety == Safety::Unsafe && !wishes_.unsafe)) continue;
+      if (!fix || (fix->safety == Safety::Unsafe && !options_.unsafe)) continue;
       if (fix->habit != fixes::Habit::None) {
         if (undone_habits_[static_cast<std::size_t>(fix->habit)]) continue;
         return {{located, all_edits(*fix, fixes.program()), fix->habit}};
@@ -214,7 +214,7 @@ class Fixer {
     for (const Candidate& candidate : candidates)
       edits.insert(edits.end(), candidate.edits.begin(), candidate.edits.end());
     Trial trial;
-    std::string text = edited(present_.text, edits, TextProgram(present_.text, wishes_.setup));
+    std::string text = edited(present_.text, edits, TextProgram(present_.text, options_.setup));
     trial.version = checked(std::move(text));
     trial.lines = LineFollower(present_.origins).follow(edits);
     const fixes::Habit habit = candidates.empty() ? fixes::Habit::None : candidates.front().habit;
@@ -239,14 +239,14 @@ class Fixer {
   /// Makes as many of the candidates as a few attempts allow; at least one is made, or one is given up.
   void make_some_of(std::vector<Candidate> all) {
     Trial trial = made(all);
-    for (int i = 0; i < kGuesses && !trial.is_good && work_left_ > 0; ++i) {
-      std::vector<Candidate> innocent = without_suspects(all, trial);
-      if (innocent.empty() || innocent.size() == all.size()) break;
-      all = std::move(innocent);
+    for (int i = 0; i < kMaxGuesses && !trial.is_good && work_budget_ > 0; ++i) {
+      std::vector<Candidate> unsuspected = without_suspects(all, trial);
+      if (unsuspected.empty() || unsuspected.size() == all.size()) break;
+      all = std::move(unsuspected);
       trial = made(all);
     }
     // Half of them, and half of these, until what is left is right, or is the one that is wrong.
-    while (!trial.is_good && all.size() > 1 && work_left_ > 0) {
+    while (!trial.is_good && all.size() > 1 && work_budget_ > 0) {
       all.resize((all.size() + 1) / 2);
       trial = made(all);
     }
@@ -278,10 +278,10 @@ class Fixer {
       const auto behind = std::upper_bound(first_lines.begin(), first_lines.end(), located.line);
       if (behind != first_lines.begin()) suspected[static_cast<std::size_t>(behind - first_lines.begin()) - 1] = true;
     }
-    std::vector<Candidate> innocent;
+    std::vector<Candidate> unsuspected;
     for (std::size_t i = 0; i < all.size(); ++i)
-      if (!suspected[i]) innocent.push_back(all[i]);
-    return innocent;
+      if (!suspected[i]) unsuspected.push_back(all[i]);
+    return unsuspected;
   }
 
   /// The first line that the candidate changes or inserts.
@@ -300,8 +300,8 @@ class Fixer {
   void count_fixed(const Version& next) {
     selection::Tally before;
     selection::Tally after;
-    before.add(present_.concerned);
-    after.add(next.concerned);
+    before.add(present_.to_fix);
+    after.add(next.to_fix);
     for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
       const dialect::DiagnosticId id{static_cast<std::uint8_t>(i)};
       fixed_ += before.of(id) - std::min(before.of(id), after.of(id));
@@ -318,8 +318,8 @@ class Fixer {
     changed_since_undone_ = true;
   }
 
-  const FixWishes& wishes_;
-  std::size_t work_left_;
+  const FixOptions& options_;
+  std::size_t work_budget_;
   Version present_;
   std::set<FindingKey> undone_;  // Findings whose fix was not right.
   std::array<bool, fixes::kHabitCount> undone_habits_{};
@@ -329,6 +329,6 @@ class Fixer {
 
 }  // namespace
 
-FixedText fix_text(std::string_view text, const FixWishes& wishes) { return Fixer(text, wishes).run(); }
+FixedText fix_text(std::string_view text, const FixOptions& options) { return Fixer(text, options).run(); }
 
 }  // namespace isocnc::fixing

@@ -13,13 +13,13 @@
 namespace isocnc::fixing {
 
 /// What is to be fixed.
-struct FixWishes {
+struct FixOptions {
   const selection::Selection& selection;
   const execution::Setup& setup;
   bool unsafe = false;  ///< Unsafe fixes, too.
   int jobs = 1;
   /// Of what is found and selected in a text, what is somebody's concern; the rest is not fixed. None: all is.
-  std::function<check::Report(check::Report, std::string_view)> concern = {};
+  std::function<check::Report(check::Report, std::string_view)> finding_filter = {};
 };
 
 /// A text with its fixes.
@@ -29,7 +29,7 @@ struct FixedText {
   std::string text;
   check::Report report;                ///< What remains.
   std::size_t fixed = 0;               ///< Findings that have been mended.
-  std::size_t unconcerned = 0;         ///< What remains and is nobody's concern.
+  std::size_t filtered_out = 0;        ///< What remains and is nobody's concern.
   std::vector<std::uint64_t> origins;  ///< Of each line: the line of the original text that it was, or kNew.
 };
 
@@ -38,6 +38,6 @@ struct FixedText {
 /// whether it is selected or not; else it is undone. All that shows a habit of the author is rewritten at once, and
 /// may bring to light what was wrong before (reads_better). Fixing the result again changes nothing, unless it was so
 /// long, with so many fixes undone, that there was no time for all of them.
-FixedText fix_text(std::string_view text, const FixWishes& wishes);
+FixedText fix_text(std::string_view text, const FixOptions& options);
 
 }  // namespace isocnc::fixing

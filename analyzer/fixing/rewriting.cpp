@@ -65,12 +65,12 @@ bool is_same(const State& a, const State& b, std::initializer_list<ModalGroup> b
 /// How a number may be off in what is written, mm or degrees: first as short as it may be, then as long as it takes.
 constexpr double kRoundings[] = {2e-6, 1e-8};
 constexpr double kRadiusRoundings[] = {5e-5, 2e-6, 1e-8};
-constexpr int kMostDecimals = 9;
+constexpr int kMaxDecimals = 9;
 
 /// With as few decimals as leave it off by no more than that.
 std::string number_text(double value, double rounding) {
   int decimals = 0;
-  while (decimals < kMostDecimals) {
+  while (decimals < kMaxDecimals) {
     const double power = std::pow(10, decimals);
     if (std::abs(std::round(value * power) / power - value) <= rounding) break;
     ++decimals;

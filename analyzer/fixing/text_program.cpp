@@ -104,7 +104,7 @@ std::uint64_t TextProgram::highest_line_number() const {
 
 std::optional<std::uint64_t> TextProgram::free_line_number() {
   if (!last_line_number_) last_line_number_ = highest_line_number();
-  if (*last_line_number_ > syntax::kMostLineNumber - 10) return std::nullopt;
+  if (*last_line_number_ > syntax::kMaxLineNumber - 10) return std::nullopt;
   last_line_number_ = *last_line_number_ / 10 * 10 + 10;
   return last_line_number_;
 }

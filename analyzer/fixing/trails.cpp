@@ -20,14 +20,14 @@ static bool is_small(const check::Frontier& frontier) {
                      [](const auto& waiting) { return waiting.second.size() <= kMaxGroups; });
 }
 
-void Trail::pass(std::uint64_t next_line, const check::Frontier& frontier, const Balance& so_far) {
+void Trail::pass(std::uint64_t next_line, const check::Frontier& frontier, const FindingDelta& so_far) {
   if (++passed_ < kNear || next_line % kBetweenMarks != 0 || !is_small(frontier)) return;
   marks_.push_back({next_line, frontier, so_far});
 }
 
-void Trail::end(const Balance& so_far, const Rest& rest) {
+void Trail::end(const FindingDelta& so_far, const Rest& rest) {
   all_ = rest;
-  all_.balance += so_far;
+  all_.delta += so_far;
 }
 
 std::optional<Trail::Rest> Trail::rest_from(std::uint64_t line, const check::Frontier& frontier) const {
@@ -36,7 +36,7 @@ std::optional<Trail::Rest> Trail::rest_from(std::uint64_t line, const check::Fro
                                      [](const Mark& each, std::uint64_t wanted) { return each.next_line < wanted; });
   if (mark == marks_.end() || mark->next_line != line || mark->frontier != frontier) return std::nullopt;
   Rest rest = all_;
-  rest.balance -= mark->so_far;
+  rest.delta -= mark->so_far;
   return rest;
 }
 

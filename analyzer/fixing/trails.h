@@ -13,7 +13,7 @@
 namespace isocnc::fixing {
 
 /// How much more often each code is found in one text than in another.
-class Balance {
+class FindingDelta {
  public:
   void count(const check::Report& report, int times) { count(report.findings, 0, times); }
   /// Those from `first` on.
@@ -23,11 +23,11 @@ class Balance {
   }
   int of(dialect::DiagnosticId id) const { return counts_[static_cast<std::size_t>(id)]; }
 
-  Balance& operator+=(const Balance& other) { return add(other, 1); }
-  Balance& operator-=(const Balance& other) { return add(other, -1); }
+  FindingDelta& operator+=(const FindingDelta& other) { return add(other, 1); }
+  FindingDelta& operator-=(const FindingDelta& other) { return add(other, -1); }
 
  private:
-  Balance& add(const Balance& other, int times) {
+  FindingDelta& add(const FindingDelta& other, int times) {
     for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += times * other.counts_[i];
     return *this;
   }
@@ -40,15 +40,15 @@ class Trail {
  public:
   /// The last part of one.
   struct Rest {
-    Balance balance;              ///< The balance of what is found there.
+    FindingDelta delta;           ///< The balance of what is found there.
     std::uint64_t next_line = 0;  ///< The line after it.
     bool has_more = false;        ///< Whether the change may still count from that line on.
   };
 
   /// Notes the check after each line below the change, in their order.
-  void pass(std::uint64_t next_line, const check::Frontier& frontier, const Balance& so_far);
+  void pass(std::uint64_t next_line, const check::Frontier& frontier, const FindingDelta& so_far);
   /// Ends with what followed the lines that it has passed.
-  void end(const Balance& so_far, const Rest& rest);
+  void end(const FindingDelta& so_far, const Rest& rest);
 
   /// Whether it is worth keeping: shorter ones are followed again in the same time.
   bool is_long() const { return passed_ >= kLong; }
@@ -60,7 +60,7 @@ class Trail {
   struct Mark {
     std::uint64_t next_line = 0;
     check::Frontier frontier;
-    Balance so_far;
+    FindingDelta so_far;
   };
 
   static constexpr std::uint64_t kLong = 200;

@@ -25,7 +25,7 @@ class CheckstyleRenderer final : public Renderer {
                      "    <error line=\"{}\" column=\"{}\" severity=\"{}\" message=\"{}\" source=\"isolint.{}\"/>\n",
                      shown.line, shown.column, dialect::severity_name(shown.severity, dialect::Language::English),
                      syntax::xml_escaped(shown.message), shown.def.code);
-      output.relieve();
+      output.drain();
     }
     output.buffer() += "  </file>\n";
   }

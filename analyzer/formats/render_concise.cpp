@@ -17,7 +17,7 @@ class ConciseRenderer final : public Renderer {
       const ShownFinding shown = show(located, lines, style_);
       fmt::format_to(std::back_inserter(output.buffer()), "{}:{}:{}: {}: {} [{}]\n", name, shown.line, shown.column,
                      dialect::severity_name(shown.severity, style_.language), printable(shown.message), shown.def.code);
-      output.relieve();
+      output.drain();
     }
   }
 

@@ -36,7 +36,7 @@ class GithubRenderer final : public Renderer {
                      kCommands[static_cast<std::size_t>(shown.severity)], file, shown.line, shown.line, shown.column,
                      shown.end_column, shown.def.code, shown.def.name, escaped(printable(shown.message), false),
                      escaped(steps.note(located, program.report), false));
-      output.relieve();
+      output.drain();
     }
   }
 

@@ -35,7 +35,7 @@ class GitlabRenderer final : public Renderer {
       output.buffer() += first_ ? "\n  " : ",\n  ";
       first_ = false;
       output.buffer() += issue.dump(-1, ' ', false, Json::error_handler_t::replace);
-      output.relieve();
+      output.drain();
     }
   }
 

@@ -25,7 +25,7 @@ class JsonRenderer final : public Renderer {
       first_ = false;
       const Json object = to_json(program.name, lines, located, program.report, steps, fixes);
       output.buffer() += object.dump(-1, ' ', false, Json::error_handler_t::replace);
-      output.relieve();
+      output.drain();
     }
   }
 

@@ -33,7 +33,7 @@ class JunitRenderer final : public Renderer {
     const StepTexts steps(program.text, program.report, style_.language);
     for (const check::LocatedFinding& located : program.report.findings) {
       one(file, show(located, lines, style_), steps.note(located, program.report), output.buffer());
-      output.relieve();
+      output.drain();
     }
     output.buffer() += "  </testsuite>\n";
   }

@@ -61,7 +61,7 @@ class SarifRenderer final : public Renderer {
       if (const std::optional<fixes::Fix> fix = fixes.offered_in_full(located))
         object["fixes"] = Json::array({fix_of(*fix, fixes, artifact)});
       output.buffer() += dumped(object);
-      output.relieve();
+      output.drain();
     }
   }
 

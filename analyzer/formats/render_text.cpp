@@ -29,7 +29,7 @@ static constexpr std::size_t kShortLine = 60;
 static constexpr Text kOtherPlace = {"the other place", "l'altro punto"};
 
 /// Nobody reads the help of more findings in one file; --diff shows all that can be mended.
-static constexpr std::size_t kMostHelp = 1'000;
+static constexpr std::size_t kMaxHelpedFindings = 1'000;
 
 static void append(std::string& out, std::initializer_list<std::string_view> pieces) {
   for (const std::string_view piece : pieces) out += piece;
@@ -70,13 +70,13 @@ class TextRenderer final : public Renderer {
     std::size_t helps = 0;
     for (const check::LocatedFinding& located : program.report.findings) {
       one(name, lines, places, located, program.report, steps, output.buffer());
-      if (helps < kMostHelp)
+      if (helps < kMaxHelpedFindings)
         if (const std::optional<fixes::Fix> fix = fixes.offered(located)) {
           help(located, *fix, fixes, output.buffer());
           ++helps;
         }
       output.buffer() += '\n';
-      output.relieve();
+      output.drain();
     }
   }
 

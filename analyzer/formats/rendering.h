@@ -73,7 +73,7 @@ class Output {
   virtual ~Output() = default;
   std::string& buffer() { return buffer_; }
   /// To be called between findings.
-  void relieve() {
+  void drain() {
     if (buffer_.size() >= kLarge) flush();
   }
   void flush() {

@@ -10,7 +10,7 @@ namespace isocnc::formatting {
 /// order; it judges no condition, so it follows more paths than there are.
 class MotionInForce {
  public:
-  static constexpr std::uint8_t kNotKnown = 253;    ///< An error stands before it, or paths differ.
+  static constexpr std::uint8_t kUnknown = 253;     ///< An error stands before it, or paths differ.
   static constexpr std::uint8_t kNotReached = 254;  ///< An M02 stands before it, and no jump leads there.
   static constexpr std::uint8_t kNoMotion = dialect::kNoMotion;
 
@@ -29,7 +29,7 @@ class MotionInForce {
 
     bool empty() const { return number == kNotReached; }
     void join(Motion&& other) {
-      if (number != other.number) number = kNotKnown;
+      if (number != other.number) number = kUnknown;
     }
     void pass(const syntax::LineTree& line);
   };

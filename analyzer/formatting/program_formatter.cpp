@@ -16,7 +16,7 @@ static constexpr std::ptrdiff_t kPieceBytes = 64 * 1024;
 
 ProgramStyle style_by(const configuration::Format& format) {
   ProgramStyle style;
-  style.line.most_decimals = format.decimals;
+  style.line.max_decimals = format.decimals;
   style.line.word_order = format.word_order;
   if (format.g_digits) style.line.g_digits = *format.g_digits == 1 ? syntax::GDigits::One : syntax::GDigits::Two;
   if (format.modal == "write") style.motions = MotionStyle::Write;

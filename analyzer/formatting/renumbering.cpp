@@ -67,7 +67,7 @@ void Renumbering::read_jump(std::uint64_t number, const LineTree& line) {
 
 void Renumbering::number_label(std::uint64_t number, const LineTree& line) {
   if (!is_numbered(line)) return;
-  if (next_ > syntax::kMostLineNumber) return refuse(Obstacle::Kind::TooManyDigits, number);
+  if (next_ > syntax::kMaxLineNumber) return refuse(Obstacle::Kind::TooManyDigits, number);
   const std::uint64_t is_now = next_;
   next_ += style_.step;
   const auto named = line.has_label() ? labels_.find(line.label) : labels_.end();

@@ -34,10 +34,10 @@ struct GitIgnore::Rules {
   std::shared_ptr<const Rules> outer;
 
   /// Whether `path` is ignored, where these rules say anything of it: the last one that names it decides.
-  std::optional<bool> verdict(std::string_view path, bool is_directory) const;
+  std::optional<bool> ignored_state(std::string_view path, bool is_directory) const;
 };
 
-std::optional<bool> GitIgnore::Rules::verdict(std::string_view path, bool is_directory) const {
+std::optional<bool> GitIgnore::Rules::ignored_state(std::string_view path, bool is_directory) const {
   if (!path.starts_with(prefix)) return std::nullopt;
   const std::string_view below = path.substr(prefix.size());
   const std::string_view name = path.substr(path.rfind('/') + 1);
@@ -153,7 +153,8 @@ GitIgnore GitIgnore::with(std::string_view text, const fs::path& directory) cons
 
 bool GitIgnore::ignores(const fs::path& path, bool is_directory) const {
   for (const Rules* rules = innermost_.get(); rules; rules = rules->outer.get())
-    if (const std::optional<bool> verdict = rules->verdict(path.native(), is_directory)) return *verdict;
+    if (const std::optional<bool> ignored_state = rules->ignored_state(path.native(), is_directory))
+      return *ignored_state;
   return false;
 }
 

@@ -9,7 +9,7 @@ static void check_arc_goes_nowhere(const Block& block, execution::Sink& sink) {
   if ((motion != 2 && motion != 3) || block.before.unknown != 0 || block.after.unknown != 0) return;
   const syntax::Word* radius = nullptr;
   for (const syntax::Word& word : block.line.words) {
-    if (word.owner == syntax::Word::kNobody) continue;
+    if (word.owner == syntax::Word::kNoOwner) continue;
     if (word.letter == 'I' || word.letter == 'J' || word.letter == 'K') return;
     if (word.letter == 'R') radius = &word;
   }

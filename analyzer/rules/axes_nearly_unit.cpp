@@ -14,14 +14,14 @@ static void check_vector(const Block& block, std::string_view letters, execution
   bool is_direction = false;
   syntax::Span span;
   for (const syntax::Word& word : block.line.words) {
-    if (word.owner == syntax::Word::kNobody || letters.find(word.letter) == std::string_view::npos) continue;
+    if (word.owner == syntax::Word::kNoOwner || letters.find(word.letter) == std::string_view::npos) continue;
     square += word.value * word.value;
     is_direction |= std::abs(word.value) >= 1;
     span = span.empty() ? word.span() : syntax::hull(span, word.span());
   }
   const double length = std::sqrt(square);
   const double error = std::abs(length - 1);
-  if (!is_direction && error > block.setup.opinions.vector_error && error < kChosen)
+  if (!is_direction && error > block.setup.advice.vector_error && error < kChosen)
     report(sink, "axes-nearly-unit"_diag, span, length);
 }
 

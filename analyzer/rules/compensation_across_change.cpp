@@ -7,17 +7,17 @@ static void check_compensation_across_change(const Block& block, execution::Sink
   if (!block.compensated()) return;
   const double mode = block.before.mode(dialect::ModalGroup::CutterCompensation);
   const syntax::Word* const ended = block.g(40);
-  const auto tell = [&](const syntax::Word& word) {
+  const auto report_change = [&](const syntax::Word& word) {
     if (!ended || ended->begin > word.begin) report(sink, "compensation-across-change"_diag, word.span(), mode);
   };
-  if (const syntax::Word* const change = block.m(dialect::kToolChange)) return tell(*change);
+  if (const syntax::Word* const change = block.m(dialect::kToolChange)) return report_change(*change);
   for (const int frame : {24, 27, 28, 29, 92}) {
     if (frame == 27 && !block.before.face_mounted) continue;  // W002: it does nothing.
-    if (const syntax::Word* const word = block.g(frame)) return tell(*word);
+    if (const syntax::Word* const word = block.g(frame)) return report_change(*word);
   }
   for (const int plane : {17, 18, 19})
     if (const syntax::Word* const word = block.g(plane))
-      if (block.before.mode(dialect::ModalGroup::Plane) != plane) return tell(*word);
+      if (block.before.mode(dialect::ModalGroup::Plane) != plane) return report_change(*word);
 }
 
 extern const Rule compensation_across_change = {kModal | kToolChange, check_compensation_across_change};

@@ -15,7 +15,7 @@ static const Rule* const kRules[] = {
 #undef ISOCNC_RULE
 };
 
-void ask_all(const Block& block, execution::Sink& sink) {
+void run_rules(const Block& block, execution::Sink& sink) {
   unsigned concerns = (block.line.spindle >= 0 ? kSpindle : 0) | (block.line.feed >= 0 ? kFeed : 0);
   for (const syntax::Instruction& instruction : block.line.instructions) {
     switch (instruction.kind) {
@@ -38,12 +38,12 @@ void ask_all(const Block& block, execution::Sink& sink) {
     if ((rule->concerns & concerns) != 0) rule->check(block, sink);
 }
 
-bool watches_moves(const execution::Setup& setup) {
+bool checks_moves(const execution::Setup& setup) {
   return setup.every_motion || setup.clearance || setup.limits != execution::Limits{};
 }
 
-void ask_about_move(const Block& block, const execution::Move& move, execution::Sink& sink) {
-  if ((block.before.unknown | block.after.unknown) != 0 || !block.after.knows_frame()) return;
+void run_move_rules(const Block& block, const execution::Move& move, execution::Sink& sink) {
+  if ((block.before.unknown | block.after.unknown) != 0 || !block.after.is_frame_known()) return;
   for (const Rule* const rule : kRules)
     if (rule->check_move) rule->check_move(block, move, sink);
 }
@@ -51,7 +51,7 @@ void ask_about_move(const Block& block, const execution::Move& move, execution::
 void judge_arc(const execution::CenteredArc& arc, const geometry::CenterReadings& readings, bool suspects_centers,
                const execution::Setup& setup, execution::Sink& sink) {
   const geometry::Circle& circle = arc.circle;
-  if (suspects_centers && !arc.incremental && readings.is_legal_both_ways(setup.arc_tolerance)) {
+  if (suspects_centers && !arc.incremental && readings.is_legal_in_both_readings(setup.arc_tolerance)) {
     sink.report(
         {.id = "center-legal-both-ways"_diag, .span = arc.centers, .values = {readings.radius, readings.other_radius}});
   } else if (std::abs(circle.found - circle.wanted) > setup.arc_tolerance / 2) {

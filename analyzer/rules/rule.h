@@ -62,14 +62,14 @@ inline void report(execution::Sink& sink, dialect::DiagnosticId id, syntax::Span
 }
 
 /// Asks all rules.
-void ask_all(const Block& block, execution::Sink& sink);
+void run_rules(const Block& block, execution::Sink& sink);
 
 /// Whether motions are to be judged one by one. It takes the short cut for plain lines away, so only who has given
 /// limits, or asks for opinions on all motions, pays for it.
-bool watches_moves(const execution::Setup& setup);
+bool checks_moves(const execution::Setup& setup);
 
 /// Asks all rules about the motion of a block, given in the frame in force behind it.
-void ask_about_move(const Block& block, const execution::Move& move, execution::Sink& sink);
+void run_move_rules(const Block& block, const execution::Move& move, execution::Sink& sink);
 
 /// Judges an arc that the control accepts: W142 where it is legal both ways and centers of the program are suspected
 /// of counting from the start, else W112 where it would not fit with half the tolerance.

@@ -18,16 +18,16 @@ static void check_travel_exceeded(const Block& block, const execution::Move& mov
   for (std::size_t axis = 0; axis < start.size(); ++axis) {
     const Travel& travel = block.setup.limits.travel[axis];
     const geometry::Range& reached = extents[axis];
-    const bool below = reached.least < std::min(travel.least, start[axis]) - kSlack;
-    const bool above = reached.most > std::max(travel.most, start[axis]) + kSlack;
+    const bool below = reached.minimum < std::min(travel.minimum, start[axis]) - kSlack;
+    const bool above = reached.maximum > std::max(travel.maximum, start[axis]) + kSlack;
     if (!below && !above) continue;
     // In a face frame another coordinate may be what moves the machine's axis.
     const syntax::Word* const word =
         block.after.face_mounted && axis < 3 ? nullptr : block.argument(dialect::kAxisLetters[axis]);
     sink.report({.id = "travel-exceeded"_diag,
                  .span = word ? word->span() : block.motion_word().span(),
-                 .values = {static_cast<double>(axis), below ? reached.least : reached.most,
-                            below ? travel.least : travel.most}});
+                 .values = {static_cast<double>(axis), below ? reached.minimum : reached.maximum,
+                            below ? travel.minimum : travel.maximum}});
   }
 }
 

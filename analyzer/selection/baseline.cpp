@@ -132,10 +132,10 @@ class BaselineReader final : public nlohmann::json_sax<nlohmann::json> {
     static constexpr std::string_view kTopKeys[] = {"version", "findings"};
     static constexpr std::string_view kFindingKeys[] = {"file", "code", "line", "count"};
     key_ = value;
-    const auto knows = [&](const auto& keys) {
+    const auto is_one_of = [&](const auto& keys) {
       return std::find(std::begin(keys), std::end(keys), key_) != std::end(keys);
     };
-    if (place_ == Place::Top ? knows(kTopKeys) : knows(kFindingKeys)) return true;
+    if (place_ == Place::Top ? is_one_of(kTopKeys) : is_one_of(kFindingKeys)) return true;
     static constexpr Text kUnknown = {"unknown key: ", "chiave sconosciuta: "};
     mistake_ = std::string(kUnknown.in(language_)) + key_;
     return false;

@@ -5,24 +5,24 @@
 namespace isocnc::selection {
 
 using namespace dialect::literals;
-using configuration::CodeWishes;
+using configuration::CodeSelection;
 using configuration::Configuration;
-using configuration::FileWishes;
+using configuration::FileOverrides;
 
-static Wishes wishes_of(const CodeWishes& wishes) {
-  Wishes result{.select = wishes.select, .ignore = wishes.ignore, .severities = {}};
-  for (const auto& [code, severity] : wishes.severity)
+static SelectionOptions selection_options(const CodeSelection& selection) {
+  SelectionOptions result{.select = selection.select, .ignore = selection.ignore, .severities = {}};
+  for (const auto& [code, severity] : selection.severity)
     result.severities.push_back(fmt::format("{}={}", code, severity));
   return result;
 }
 
 static Selection selection_of(const Configuration& configuration, const std::vector<bool>& holds,
-                              const Wishes& command_line) {
+                              const SelectionOptions& command_line) {
   static constexpr auto kLanguage = dialect::Language::English;  // Of complaints, which have been made before.
   Selection selection;
-  selection.follow(wishes_of(configuration.lint.wishes), kLanguage);
+  selection.follow(selection_options(configuration.lint.selection), kLanguage);
   for (std::size_t i = 0; i < holds.size(); ++i)
-    if (holds[i]) selection.follow(wishes_of(configuration.lint.files[i].wishes), kLanguage);
+    if (holds[i]) selection.follow(selection_options(configuration.lint.files[i].selection), kLanguage);
   selection.follow(command_line, kLanguage);
   return selection;
 }
@@ -32,7 +32,7 @@ const ProgramSettings& SettingsFinder::of(const std::filesystem::path& program) 
   std::vector<bool> holds;
   if (!configuration.lint.files.empty()) {
     const std::filesystem::path real = configuration::real_path(program.parent_path()) / program.filename();
-    for (const FileWishes& files : configuration.lint.files) holds.push_back(files.patterns.match(real));
+    for (const FileOverrides& files : configuration.lint.files) holds.push_back(files.patterns.match(real));
   }
   std::unique_ptr<const ProgramSettings>& settings = settings_[{&configuration, holds}];
   if (!settings) {

@@ -23,7 +23,7 @@ struct ProgramSettings {
 class SettingsFinder {
  public:
   /// What is wrong with the wishes must have been told before.
-  SettingsFinder(configuration::Configurations& configurations, Wishes command_line)
+  SettingsFinder(configuration::Configurations& configurations, SelectionOptions command_line)
       : configurations_(configurations), command_line_(std::move(command_line)) {}
 
   const ProgramSettings& of(const std::filesystem::path& program);
@@ -33,7 +33,7 @@ class SettingsFinder {
   using Key = std::pair<const configuration::Configuration*, std::vector<bool>>;
 
   configuration::Configurations& configurations_;
-  const Wishes command_line_;
+  const SelectionOptions command_line_;
   std::map<Key, std::unique_ptr<const ProgramSettings>> settings_;
 };
 

@@ -19,7 +19,7 @@ using dialect::Language;
 using dialect::Severity;
 using dialect::Text;
 
-struct SeverityWish {
+struct SeverityOverride {
   CodeSet set;
   std::optional<Severity> severity;
 };
@@ -63,18 +63,18 @@ static std::vector<CodeSet> code_sets(const std::vector<std::string>& lists, Lan
 }
 
 /// Reads `W001=error`; a problem is told and gives nothing.
-static std::optional<SeverityWish> severity_wish(std::string_view word, Language language,
-                                                 std::vector<std::string>& problems) {
+static std::optional<SeverityOverride> parse_severity_override(std::string_view word, Language language,
+                                                               std::vector<std::string>& problems) {
   static constexpr Text kForm = {"{}: write CODE=error, warning, info or off",
                                  "{}: scrivere CODICE=error, warning, info oppure off"};
   const std::size_t equals = std::min(word.find('='), word.size());
   const std::string_view code = trimmed(word.substr(0, equals));
   const std::string_view level = trimmed(word.substr(std::min(equals + 1, word.size())));
-  SeverityWish wish;
+  SeverityOverride severity_override;
   bool known = equal_words(level, "off");
   for (const Severity severity : {Severity::Error, Severity::Warning, Severity::Info}) {
     if (!equal_words(level, dialect::severity_name(severity, Language::English))) continue;
-    wish.severity = severity;
+    severity_override.severity = severity;
     known = true;
   }
   const std::optional<CodeSet> set = dialect::find_codes(code);
@@ -83,18 +83,18 @@ static std::optional<SeverityWish> severity_wish(std::string_view word, Language
   } else if (!set) {
     problems.push_back(unknown_code(code, language));
   } else {
-    wish.set = *set;
-    return wish;
+    severity_override.set = *set;
+    return severity_override;
   }
   return std::nullopt;
 }
 
 /// How exactly the sets name a code; -1 when they do not.
 static int exactness_for(std::size_t code, const std::vector<CodeSet>& sets) {
-  int most = -1;
+  int maximum = -1;
   for (const CodeSet& set : sets)
-    if (set.codes[code]) most = std::max(most, static_cast<int>(set.exactness));
-  return most;
+    if (set.codes[code]) maximum = std::max(maximum, static_cast<int>(set.exactness));
+  return maximum;
 }
 
 Selection::Selection() {
@@ -102,16 +102,18 @@ Selection::Selection() {
     if (!dialect::kDiagnostics[i].is_off) severities_[i] = dialect::kDiagnostics[i].severity;
 }
 
-std::vector<std::string> Selection::follow(const Wishes& wishes, Language language) {
+std::vector<std::string> Selection::follow(const SelectionOptions& options, Language language) {
   static constexpr Text kSelectsNothing = {"select names no code; ALL names them all",
                                            "select non indica alcun codice; ALL li indica tutti"};
   std::vector<std::string> problems;
-  const std::vector<CodeSet> select = code_sets(wishes.select, language, problems);
-  if (!wishes.select.empty() && select.empty() && problems.empty()) problems.emplace_back(kSelectsNothing.in(language));
-  const std::vector<CodeSet> ignore = code_sets(wishes.ignore, language, problems);
-  std::vector<SeverityWish> severities;
-  for (const std::string_view word : words_of(wishes.severities))
-    if (const auto wish = severity_wish(word, language, problems)) severities.push_back(*wish);
+  const std::vector<CodeSet> select = code_sets(options.select, language, problems);
+  if (!options.select.empty() && select.empty() && problems.empty())
+    problems.emplace_back(kSelectsNothing.in(language));
+  const std::vector<CodeSet> ignore = code_sets(options.ignore, language, problems);
+  std::vector<SeverityOverride> severities;
+  for (const std::string_view word : words_of(options.severities))
+    if (const auto severity_override = parse_severity_override(word, language, problems))
+      severities.push_back(*severity_override);
   if (!problems.empty()) return problems;
 
   const std::array<std::optional<Severity>, kDiagnosticCount> before = severities_;
@@ -123,10 +125,10 @@ std::vector<std::string> Selection::follow(const Wishes& wishes, Language langua
     std::optional<Severity> severity = before[i] ? before[i] : dialect::kDiagnostics[i].severity;
     // What was off before and is given a weight now is wanted again, unless these very wishes leave it out.
     bool wanted = on;
-    for (const SeverityWish& wish : severities) {
-      if (!wish.set.codes[i] || static_cast<int>(wish.set.exactness) < decided) continue;
-      decided = static_cast<int>(wish.set.exactness);
-      severity = wish.severity;
+    for (const SeverityOverride& severity_override : severities) {
+      if (!severity_override.set.codes[i] || static_cast<int>(severity_override.set.exactness) < decided) continue;
+      decided = static_cast<int>(severity_override.set.exactness);
+      severity = severity_override.severity;
       wanted = on || (ignored < 0 && select.empty());
     }
     severities_[i] = wanted ? severity : std::nullopt;

@@ -14,7 +14,7 @@ namespace isocnc::selection {
 /// What somebody wishes to be told: the command line, or a configuration. Codes are written as `ISO031`, as
 /// `arc-center-mismatch`, as the beginning of codes (`W1` is all that begin so), or as `ALL`; several with commas
 /// between them. Capitals do not matter.
-struct Wishes {
+struct SelectionOptions {
   std::vector<std::string> select;      ///< These alone; none is all that were shown before.
   std::vector<std::string> ignore;      ///< Not these.
   std::vector<std::string> severities;  ///< `W001=error`; `off` is a severity, too.
@@ -28,7 +28,7 @@ class Selection {
   /// Follows the wishes, which outweigh what was followed before. Of wishes for the same code, the one that names it
   /// more exactly decides; of two that are equally exact, `ignore`, and the later severity. Returns what is wrong with
   /// them, for people: then none has been followed.
-  std::vector<std::string> follow(const Wishes& wishes, dialect::Language language);
+  std::vector<std::string> follow(const SelectionOptions& options, dialect::Language language);
 
   /// None when the code is off.
   std::optional<dialect::Severity> severity(dialect::DiagnosticId id) const {

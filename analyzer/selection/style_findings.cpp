@@ -14,9 +14,10 @@ static style::IsWanted wanted_by(const Selection& selection) {
 
 bool has_style(const Selection& selection) { return !style::Reader(wanted_by(selection)).is_idle(); }
 
-static check::Report with_remarks(check::Report report, const std::vector<style::Remark>& remarks) {
-  if (remarks.empty()) return report;
-  for (const style::Remark& remark : remarks) report.findings.push_back({remark.line, remark.finding});
+static check::Report with_remarks(check::Report report, const std::vector<style::StyleFinding>& style_findings) {
+  if (style_findings.empty()) return report;
+  for (const style::StyleFinding& style_finding : style_findings)
+    report.findings.push_back({style_finding.line, style_finding.finding});
   std::stable_sort(report.findings.begin(), report.findings.end(),
                    [](const check::LocatedFinding& a, const check::LocatedFinding& b) {
                      return a.line != b.line ? a.line < b.line : a.finding.span.begin < b.finding.span.begin;

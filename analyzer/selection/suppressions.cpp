@@ -41,7 +41,7 @@ Suppressions::Suppressions(std::string_view text) {
   }
 }
 
-bool Suppressions::may_speak(std::string_view text) { return find_call(text, 0) != std::string_view::npos; }
+bool Suppressions::may_have_directives(std::string_view text) { return find_call(text, 0) != std::string_view::npos; }
 
 void Suppressions::read_line(std::uint64_t number, std::string_view line) {
   if (find_call(line, 0) == std::string_view::npos) return;
@@ -75,10 +75,10 @@ void Suppressions::read_directive(std::uint64_t number, std::string_view line, s
                                                                  {"disable", Kind::Disable},
                                                                  {"enable", Kind::Enable},
                                                                  {"ignore-file", Kind::IgnoreFile}};
-  const std::uint32_t behind_call = begin + static_cast<std::uint32_t>(kCall.size());
-  const syntax::Span verb = next_word(line, behind_call, end);
-  Directive directive{.line = number, .span = {begin, std::max(verb.end, behind_call)}};
-  if (verb.empty()) directive.span = {begin, behind_call};
+  const std::uint32_t after_call = begin + static_cast<std::uint32_t>(kCall.size());
+  const syntax::Span verb = next_word(line, after_call, end);
+  Directive directive{.line = number, .span = {begin, std::max(verb.end, after_call)}};
+  if (verb.empty()) directive.span = {begin, after_call};
   for (const auto& [name, kind] : kKinds)
     if (dialect::equal_words(text_of(verb), name)) directive.kind = kind;
   if (directive.kind != Kind::Unknown) {
@@ -92,67 +92,68 @@ void Suppressions::read_directive(std::uint64_t number, std::string_view line, s
 }
 
 /// The comment nearest to a finding is the one that silences it; of two that reach as far, the first.
-void Suppressions::silence(Directive& directive, Silencers& silencers) {
+void Suppressions::apply_disable(Directive& directive, SuppressedBy& suppressors) {
   if (directive.codes.empty()) {
-    for (std::size_t i = 0; i < silencers.size(); ++i)
-      if (!silencers[i] && (DiagnosticId{static_cast<std::uint8_t>(i)} != kUseless)) silencers[i] = &directive.useful;
+    for (std::size_t i = 0; i < suppressors.size(); ++i)
+      if (!suppressors[i] && (DiagnosticId{static_cast<std::uint8_t>(i)} != kUseless))
+        suppressors[i] = &directive.useful;
     // Whoever silences a whole program wants no word about it; else the comment would silence its own W190.
-    bool*& useless = silencers[static_cast<std::size_t>(kUseless)];
+    bool*& useless = suppressors[static_cast<std::size_t>(kUseless)];
     if (directive.kind == Kind::IgnoreFile && !useless) useless = &directive.useful;
   }
   for (Code& code : directive.codes) {
     if (!code.id) continue;
-    bool*& silencer = silencers[static_cast<std::size_t>(*code.id)];
-    if (!silencer) silencer = &code.useful;
+    bool*& suppressor = suppressors[static_cast<std::size_t>(*code.id)];
+    if (!suppressor) suppressor = &code.useful;
   }
 }
 
-void Suppressions::unsilence(Directive& directive, Silencers& silencers) {
+void Suppressions::apply_enable(Directive& directive, SuppressedBy& suppressors) {
   if (directive.codes.empty()) {
     directive.useful =
-        std::any_of(silencers.begin(), silencers.end(), [](const bool* each) { return each != nullptr; });
-    silencers.fill(nullptr);
+        std::any_of(suppressors.begin(), suppressors.end(), [](const bool* each) { return each != nullptr; });
+    suppressors.fill(nullptr);
   }
   for (Code& code : directive.codes) {
     if (!code.id) continue;
-    bool*& silencer = silencers[static_cast<std::size_t>(*code.id)];
-    code.useful = code.useful || silencer != nullptr;
-    silencer = nullptr;
+    bool*& suppressor = suppressors[static_cast<std::size_t>(*code.id)];
+    code.useful = code.useful || suppressor != nullptr;
+    suppressor = nullptr;
   }
 }
 
-void Suppressions::drop_silenced(std::vector<check::LocatedFinding>& findings) {
-  Silencers of_file{};
-  Silencers of_stretch{};
-  Silencers of_line{};
+void Suppressions::drop_suppressed(std::vector<check::LocatedFinding>& findings) {
+  SuppressedBy of_file{};
+  SuppressedBy of_stretch{};
+  SuppressedBy of_line{};
   for (Directive& directive : directives_)
-    if (directive.kind == Kind::IgnoreFile) silence(directive, of_file);
+    if (directive.kind == Kind::IgnoreFile) apply_disable(directive, of_file);
   auto next = directives_.begin();
   std::uint64_t line_of_ignores = 0;
   const auto read_up_to = [&](std::uint64_t line) {
     for (; next != directives_.end() && next->line <= line; ++next) {
-      if (next->kind == Kind::Disable) silence(*next, of_stretch);
-      if (next->kind == Kind::Enable) unsilence(*next, of_stretch);
+      if (next->kind == Kind::Disable) apply_disable(*next, of_stretch);
+      if (next->kind == Kind::Enable) apply_enable(*next, of_stretch);
       if (next->kind != Kind::Ignore) continue;
       if (next->line != line_of_ignores) of_line.fill(nullptr);
       line_of_ignores = next->line;
-      silence(*next, of_line);
+      apply_disable(*next, of_line);
     }
   };
   std::erase_if(findings, [&](const check::LocatedFinding& located) {
     read_up_to(located.line);
     const auto id = static_cast<std::size_t>(located.finding.id);
     bool* const ignored = located.line == line_of_ignores ? of_line[id] : nullptr;
-    bool* const silencer = ignored ? ignored : of_stretch[id] ? of_stretch[id] : of_file[id];
-    if (silencer) *silencer = true;
-    return silencer != nullptr;
+    bool* const suppressor = ignored ? ignored : of_stretch[id] ? of_stretch[id] : of_file[id];
+    if (suppressor) *suppressor = true;
+    return suppressor != nullptr;
   });
   if (!directives_.empty()) read_up_to(directives_.back().line);
 }
 
-void Suppressions::spare_codes_that_are_off(const Selection& selection) {
+void Suppressions::keep_directives_for_disabled_codes(const Selection& selection) {
   const auto is_looked_for = [&](DiagnosticId id) {
-    return selection.shows(id) && !dialect::definition(id).is_told_by_runs;
+    return selection.shows(id) && !dialect::definition(id).is_reported_by_runs;
   };
   for (Directive& directive : directives_)
     for (Code& code : directive.codes) code.useful = code.useful || (code.id && !is_looked_for(*code.id));
@@ -166,16 +167,16 @@ std::vector<check::LocatedFinding> Suppressions::useless(bool about_w190) const 
   };
   for (const Directive& directive : directives_) {
     const auto is_useless = [](const Code& code) { return !code.useful; };
-    const bool silences_w190 = directive.codes.empty()
-                                   ? directive.kind == Kind::IgnoreFile
-                                   : std::any_of(directive.codes.begin(), directive.codes.end(),
-                                                 [](const Code& code) { return code.id == kUseless; });
+    const bool suppresses_w190 = directive.codes.empty()
+                                     ? directive.kind == Kind::IgnoreFile
+                                     : std::any_of(directive.codes.begin(), directive.codes.end(),
+                                                   [](const Code& code) { return code.id == kUseless; });
     const bool all_known = std::all_of(directive.codes.begin(), directive.codes.end(),
                                        [](const Code& code) { return code.id.has_value(); });
-    const bool whole = !directive.useful && all_known && (!silences_w190 || directive.codes.size() <= 1) &&
+    const bool whole = !directive.useful && all_known && (!suppresses_w190 || directive.codes.size() <= 1) &&
                        std::all_of(directive.codes.begin(), directive.codes.end(), is_useless);
     if (whole) {
-      if (silences_w190 == about_w190) report(directive.line, directive.span);
+      if (suppresses_w190 == about_w190) report(directive.line, directive.span);
       continue;
     }
     for (const Code& code : directive.codes)
@@ -186,10 +187,10 @@ std::vector<check::LocatedFinding> Suppressions::useless(bool about_w190) const 
 
 check::Report Suppressions::apply(check::Report report, const Selection& selection) {
   if (empty()) return report;
-  drop_silenced(report.findings);
-  spare_codes_that_are_off(selection);
+  drop_suppressed(report.findings);
+  keep_directives_for_disabled_codes(selection);
   std::vector<check::LocatedFinding> complaints = useless(false);
-  drop_silenced(complaints);
+  drop_suppressed(complaints);
   const auto middle = static_cast<std::ptrdiff_t>(report.findings.size());
   for (const std::vector<check::LocatedFinding>& each : {complaints, useless(true)})
     report.findings.insert(report.findings.end(), each.begin(), each.end());

@@ -25,7 +25,7 @@ class Suppressions {
   explicit Suppressions(std::string_view text);
 
   /// Whether some line of the text may say something to isolint: else none need be read.
-  static bool may_speak(std::string_view text);
+  static bool may_have_directives(std::string_view text);
   /// Reads a line; each must lie below the one before. The constructor reads those of a whole text.
   void read_line(std::uint64_t number, std::string_view line);
   bool empty() const { return directives_.empty(); }
@@ -49,13 +49,13 @@ class Suppressions {
     bool useful = false;
   };
   /// Which comment silences each code; null for none.
-  using Silencers = std::array<bool*, dialect::kDiagnosticCount>;
+  using SuppressedBy = std::array<bool*, dialect::kDiagnosticCount>;
 
   void read_directive(std::uint64_t number, std::string_view line, std::uint32_t begin, std::uint32_t end);
-  static void silence(Directive& directive, Silencers& silencers);
-  static void unsilence(Directive& directive, Silencers& silencers);
-  void drop_silenced(std::vector<check::LocatedFinding>& findings);
-  void spare_codes_that_are_off(const Selection& selection);
+  static void apply_disable(Directive& directive, SuppressedBy& suppressors);
+  static void apply_enable(Directive& directive, SuppressedBy& suppressors);
+  void drop_suppressed(std::vector<check::LocatedFinding>& findings);
+  void keep_directives_for_disabled_codes(const Selection& selection);
   std::vector<check::LocatedFinding> useless(bool about_w190) const;
 
   std::vector<Directive> directives_;  // In the order of the program.

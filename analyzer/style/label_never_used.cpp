@@ -8,19 +8,19 @@ namespace isocnc::style {
 /// written to be jumped to.
 class LabelNeverUsed final : public Rule {
  public:
-  void read(const Line& line, std::vector<Remark>& remarks) override {
-    static_cast<void>(remarks);
+  void read(const Line& line, std::vector<StyleFinding>& style_findings) override {
+    static_cast<void>(style_findings);
     if (!line.tree.is_empty()) ++blocks_;
     if (const syntax::Word* const word = line.tree.label_word())
       labels_.push_back({line.tree.label, line.number, word->span()});
     if (line.tree.jump && line.tree.jump->has_target) targets_.insert(line.tree.jump->target);
   }
 
-  void end(std::vector<Remark>& remarks) override {
+  void end(std::vector<StyleFinding>& style_findings) override {
     if (targets_.empty() || 2 * labels_.size() >= blocks_) return;
     for (const Label& label : labels_)
       if (!targets_.contains(label.label))
-        remarks.push_back({label.line, {.id = "label-never-used"_diag, .span = label.span}});
+        style_findings.push_back({label.line, {.id = "label-never-used"_diag, .span = label.span}});
   }
 
  private:
@@ -34,6 +34,6 @@ class LabelNeverUsed final : public Rule {
   std::size_t blocks_ = 0;
 };
 
-extern const RuleRow label_never_used = rule<LabelNeverUsed>("label-never-used"_diag);
+extern const StyleRuleRow label_never_used = rule<LabelNeverUsed>("label-never-used"_diag);
 
 }  // namespace isocnc::style

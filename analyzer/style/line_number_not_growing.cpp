@@ -5,11 +5,12 @@ namespace isocnc::style {
 /// A line number that is no greater than the one before: repeated ones are never growing ones all the way between.
 class LineNumberNotGrowing final : public Rule {
  public:
-  void read(const Line& line, std::vector<Remark>& remarks) override {
+  void read(const Line& line, std::vector<StyleFinding>& style_findings) override {
     const syntax::Word* const word = line.tree.label_word();
     if (!word) return;
     if (word->value <= last_) {
-      remarks.push_back({line.number, {.id = "line-number-not-growing"_diag, .span = word->span(), .values = {last_}}});
+      style_findings.push_back(
+          {line.number, {.id = "line-number-not-growing"_diag, .span = word->span(), .values = {last_}}});
     }
     last_ = word->value;
   }
@@ -18,6 +19,6 @@ class LineNumberNotGrowing final : public Rule {
   double last_ = -1;
 };
 
-extern const RuleRow line_number_not_growing = rule<LineNumberNotGrowing>("line-number-not-growing"_diag);
+extern const StyleRuleRow line_number_not_growing = rule<LineNumberNotGrowing>("line-number-not-growing"_diag);
 
 }  // namespace isocnc::style

@@ -9,13 +9,13 @@ static bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
 /// Small letters outside comments (D8): one remark a line, from the first to the last.
 class LowerCase final : public Rule {
  public:
-  void read(const Line& line, std::vector<Remark>& remarks) override {
+  void read(const Line& line, std::vector<StyleFinding>& style_findings) override {
     syntax::Span span;
     for (const syntax::Word& word : line.tree.words)
       for (std::uint32_t at = word.begin; at < word.end; ++at)
         if (is_lower(line.tree.text[at]) && !is_comment(line.tree, at))
           span = span.empty() ? syntax::Span{at, at + 1} : syntax::hull(span, {at, at + 1});
-    if (!span.empty()) remarks.push_back({line.number, {.id = "lower-case"_diag, .span = span}});
+    if (!span.empty()) style_findings.push_back({line.number, {.id = "lower-case"_diag, .span = span}});
   }
 
  private:
@@ -25,6 +25,6 @@ class LowerCase final : public Rule {
   }
 };
 
-extern const RuleRow lower_case = rule<LowerCase>("lower-case"_diag);
+extern const StyleRuleRow lower_case = rule<LowerCase>("lower-case"_diag);
 
 }  // namespace isocnc::style

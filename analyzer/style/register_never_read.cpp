@@ -8,29 +8,29 @@ namespace isocnc::style {
 /// A register that is given a value and compared by no IF: said at the first V.
 class RegisterNeverRead final : public Rule {
  public:
-  void read(const Line& line, std::vector<Remark>& remarks) override {
-    static_cast<void>(remarks);
+  void read(const Line& line, std::vector<StyleFinding>& style_findings) override {
+    static_cast<void>(style_findings);
     if (line.tree.jump && line.tree.jump->variable > 0)
       is_read_[static_cast<std::size_t>(line.tree.jump->variable)] = true;
     for (const syntax::Instruction& instruction : line.tree.instructions) {
       if (instruction.kind != syntax::InstructionKind::Assignment) continue;
       const syntax::Word& word = line.tree.command(instruction);
       if (word.register_number() == 0) continue;
-      std::optional<Remark>& first = first_[static_cast<std::size_t>(word.register_number())];
-      if (!first) first = Remark{line.number, {.id = "register-never-read"_diag, .span = word.span()}};
+      std::optional<StyleFinding>& first = first_[static_cast<std::size_t>(word.register_number())];
+      if (!first) first = StyleFinding{line.number, {.id = "register-never-read"_diag, .span = word.span()}};
     }
   }
 
-  void end(std::vector<Remark>& remarks) override {
+  void end(std::vector<StyleFinding>& style_findings) override {
     for (std::size_t i = 1; i < first_.size(); ++i)
-      if (first_[i] && !is_read_[i]) remarks.push_back(*first_[i]);
+      if (first_[i] && !is_read_[i]) style_findings.push_back(*first_[i]);
   }
 
  private:
-  std::array<std::optional<Remark>, dialect::kRegisterCount + 1> first_;
+  std::array<std::optional<StyleFinding>, dialect::kRegisterCount + 1> first_;
   std::array<bool, dialect::kRegisterCount + 1> is_read_{};
 };
 
-extern const RuleRow register_never_read = rule<RegisterNeverRead>("register-never-read"_diag);
+extern const StyleRuleRow register_never_read = rule<RegisterNeverRead>("register-never-read"_diag);
 
 }  // namespace isocnc::style

@@ -5,11 +5,11 @@
 
 namespace isocnc::style {
 
-#define ISOCNC_RULE(name) extern const RuleRow name;
+#define ISOCNC_RULE(name) extern const StyleRuleRow name;
 #include <style_rules.inc>
 #undef ISOCNC_RULE
 
-static const RuleRow* const kRules[] = {
+static const StyleRuleRow* const kRules[] = {
 #define ISOCNC_RULE(name) &(name),
 #include <style_rules.inc>
 #undef ISOCNC_RULE
@@ -37,7 +37,7 @@ class Reader::Liveness {
 };
 
 Reader::Reader(const IsWanted& is_wanted) : liveness_(std::make_unique<Liveness>()) {
-  for (const RuleRow* const row : kRules)
+  for (const StyleRuleRow* const row : kRules)
     if (is_wanted(row->id)) rules_.push_back(row->make());
 }
 
@@ -45,15 +45,15 @@ Reader::~Reader() = default;
 
 void Reader::read(const Line& line) {
   if (!liveness_->is_read(line.tree)) return;
-  for (const std::unique_ptr<Rule>& rule : rules_) rule->read(line, remarks_);
+  for (const std::unique_ptr<Rule>& rule : rules_) rule->read(line, style_findings_);
 }
 
-std::vector<Remark> Reader::finish() {
-  for (const std::unique_ptr<Rule>& rule : rules_) rule->end(remarks_);
-  return std::move(remarks_);
+std::vector<StyleFinding> Reader::finish() {
+  for (const std::unique_ptr<Rule>& rule : rules_) rule->end(style_findings_);
+  return std::move(style_findings_);
 }
 
-std::vector<Remark> read_program(std::string_view text, const IsWanted& is_wanted) {
+std::vector<StyleFinding> read_program(std::string_view text, const IsWanted& is_wanted) {
   Reader reader(is_wanted);
   if (reader.is_idle()) return {};
   std::uint64_t number = 0;

@@ -19,7 +19,7 @@ struct Line {
   std::string_view terminator;  ///< CR, LF or CRLF; nothing at the end of the program.
 };
 
-struct Remark {
+struct StyleFinding {
   std::uint64_t line = 0;
   syntax::Finding finding;
 };
@@ -29,19 +29,19 @@ class Rule {
  public:
   virtual ~Rule() = default;
   /// Reads the next line.
-  virtual void read(const Line& line, std::vector<Remark>& remarks) = 0;
+  virtual void read(const Line& line, std::vector<StyleFinding>& style_findings) = 0;
   /// There are no more.
-  virtual void end(std::vector<Remark>&) {}
+  virtual void end(std::vector<StyleFinding>&) {}
 };
 
 /// What a file of this folder defines, under the file's name.
-struct RuleRow {
+struct StyleRuleRow {
   dialect::DiagnosticId id;
   std::unique_ptr<Rule> (*make)();
 };
 
 template <class R>
-constexpr RuleRow rule(dialect::DiagnosticId id) {
+constexpr StyleRuleRow rule(dialect::DiagnosticId id) {
   return {id, [] { return std::unique_ptr<Rule>(std::make_unique<R>()); }};
 }
 
@@ -58,17 +58,17 @@ class Reader {
   bool is_idle() const { return rules_.empty(); }
   void read(const Line& line);
   /// What the rules have said, in no order.
-  std::vector<Remark> finish();
+  std::vector<StyleFinding> finish();
 
  private:
   class Liveness;
 
   std::vector<std::unique_ptr<Rule>> rules_;
   std::unique_ptr<Liveness> liveness_;
-  std::vector<Remark> remarks_;
+  std::vector<StyleFinding> style_findings_;
 };
 
 /// What the wanted rules say of a program, in no order.
-std::vector<Remark> read_program(std::string_view text, const IsWanted& is_wanted);
+std::vector<StyleFinding> read_program(std::string_view text, const IsWanted& is_wanted);
 
 }  // namespace isocnc::style

@@ -3,19 +3,19 @@
 namespace isocnc::style {
 
 /// The first tab of a line outside comments.
-class Tab final : public Rule {
+class TabRule final : public Rule {
  public:
-  void read(const Line& line, std::vector<Remark>& remarks) override {
+  void read(const Line& line, std::vector<StyleFinding>& style_findings) override {
     std::size_t at = line.tree.text.find('\t');
     for (const syntax::Span comment : line.tree.comments)
       if (at != std::string_view::npos && comment.holds(static_cast<std::uint32_t>(at)))
         at = line.tree.text.find('\t', comment.end);
     if (at == std::string_view::npos) return;
     const auto column = static_cast<std::uint32_t>(at);
-    remarks.push_back({line.number, {.id = "tab"_diag, .span = {column, column + 1}}});
+    style_findings.push_back({line.number, {.id = "tab"_diag, .span = {column, column + 1}}});
   }
 };
 
-extern const RuleRow tab = rule<Tab>("tab"_diag);
+extern const StyleRuleRow tab = rule<TabRule>("tab"_diag);
 
 }  // namespace isocnc::style

@@ -35,11 +35,11 @@ class Production {
   void write(int lines) {
     write_start();
     constexpr int kEndLines = 5;
-    constexpr int kRoomForOneMore = 130;
+    constexpr int kLinesOfOperation = 130;
     bool changes_tool = false;
     for (bool last = false; !last; ++operation_) {
       const int room = lines - kEndLines - out_.lines();
-      last = room < kRoomForOneMore;
+      last = room < kLinesOfOperation;
       const bool next_changes_tool = random_.one_in(3);
       write_operation({.moves = last ? room - 14 : random_.between(20, 58),
                        .changes_tool = changes_tool,

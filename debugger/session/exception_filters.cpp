@@ -22,7 +22,7 @@ bool ExceptionFilters::judge_blocks() const {
 bool ExceptionFilters::judge_motions(const simulation::TimedMachine& machine) const {
   const auto& axes = machine.motion.axes;
   return is_on(ExceptionFilter::Limits) && std::any_of(axes.begin(), axes.end(), [](const auto& axis) {
-           return std::isfinite(axis.least) || std::isfinite(axis.most);
+           return std::isfinite(axis.minimum) || std::isfinite(axis.maximum);
          });
 }
 

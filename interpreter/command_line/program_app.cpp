@@ -32,12 +32,12 @@ ProgramOption ProgramOption::excludes(ProgramOption other) const {
 
 ProgramOption ProgramOption::needs(ProgramOption other) const { return ProgramOption(option_->needs(other.option_)); }
 
-ProgramOption ProgramOption::tells_no_exclusions() const { return ProgramOption(option_->option_text(" ")); }
+ProgramOption ProgramOption::without_exclusions() const { return ProgramOption(option_->option_text(" ")); }
 
 ProgramOption ProgramOption::takes_one() const { return ProgramOption(option_->allow_extra_args(false)); }
 
-ProgramOption ProgramOption::in_range(int least, int most) const {
-  return ProgramOption(option_->check(CLI::Range(least, most)));
+ProgramOption ProgramOption::in_range(int minimum, int maximum) const {
+  return ProgramOption(option_->check(CLI::Range(minimum, maximum)));
 }
 
 ProgramOption ProgramOption::check(std::function<std::string(const std::string&)> complaint_about) const {
@@ -129,7 +129,7 @@ ProgramOption ProgramApp::add_language(std::string& value, const Text& descripti
                     {"LANG", "LINGUA"}, description);
 }
 
-ProgramApp::Said ProgramApp::read(int argc, const char* const* argv) {
+ProgramApp::CommandReply ProgramApp::read(int argc, const char* const* argv) {
   const std::string_view request = argc > 1 ? argv[1] : "";
   if (request == "--manual-page") return {.answer = manual_page(), .complaint = {}};
   if (request == "--complete")
@@ -150,7 +150,7 @@ ProgramApp::Said ProgramApp::read(int argc, const char* const* argv) {
 }
 
 std::optional<system::ExitStatus> ProgramApp::answer(int argc, const char* const* argv) {
-  const Said said = read(argc, argv);
+  const CommandReply said = read(argc, argv);
   if (said.answer) return say(texts_.program, *said.answer, language_);
   if (said.complaint) {
     complain_of_command(texts_.program, *said.complaint);

@@ -46,10 +46,10 @@ class ProgramOption {
   /// Not without the other.
   ProgramOption needs(ProgramOption other) const;
   /// The help does not tell what it excludes.
-  ProgramOption tells_no_exclusions() const;
+  ProgramOption without_exclusions() const;
   /// Takes one word each time that it is given: what follows is no value of its list.
   ProgramOption takes_one() const;
-  ProgramOption in_range(int least, int most) const;
+  ProgramOption in_range(int minimum, int maximum) const;
   /// Told what is wrong with a value: nothing where it is right.
   ProgramOption check(std::function<std::string(const std::string&)> complaint_about) const;
   /// In no help, nor in the manual.
@@ -86,11 +86,11 @@ class ProgramApp {
   void suggest(const std::string& option, std::vector<std::string> words) { words_[option] = std::move(words); }
 
   /// What is to be said in place of a run, if anything is.
-  struct Said {
+  struct CommandReply {
     std::optional<std::string> answer;
     std::optional<std::string> complaint;  ///< With the option that was most likely meant.
   };
-  Said read(int argc, const char* const* argv);
+  CommandReply read(int argc, const char* const* argv);
   /// Reads the command, and says what is to be said: then the exit status. Nothing where the program is to run.
   std::optional<system::ExitStatus> answer(int argc, const char* const* argv);
 

@@ -20,7 +20,7 @@ using system::ExitStatus;
 static std::string_view running_program;
 
 /// Tells of the exception that is being handled, or of the one that nobody handles; asks for no memory.
-static void tell_of_failure() {
+static void report_failure() {
   try {
     if (const std::exception_ptr failure = std::current_exception()) std::rethrow_exception(failure);
     std::cerr << running_program << ": internal error\n";
@@ -33,7 +33,7 @@ static void tell_of_failure() {
 
 /// Of a thread among several, whose exception cannot come to the others.
 [[noreturn]] static void end_in_trouble() {
-  tell_of_failure();
+  report_failure();
   system::remove_temporary_files();
   ::_exit(static_cast<int>(ExitStatus::Failure));
 }
@@ -41,14 +41,14 @@ static void tell_of_failure() {
 int program_main(std::string_view program, ExitStatus (*run)(int argc, char** argv), int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  system::tell_of_lost_bytes(program);
+  system::report_lost_bytes(program);
   system::leave_no_temporary_files();
   running_program = program;
   std::set_terminate(end_in_trouble);
   try {
     return static_cast<int>(run(argc, argv));
   } catch (const std::exception&) {
-    tell_of_failure();
+    report_failure();
     return static_cast<int>(ExitStatus::Failure);
   }
 }

@@ -9,13 +9,13 @@
 
 namespace isocnc::command_line {
 
-static constexpr std::chrono::milliseconds kPatience{500};
+static constexpr std::chrono::milliseconds kProgressDelay{500};
 static constexpr std::chrono::milliseconds kPace{100};
 static constexpr std::string_view kErase = "\r\x1b[K";
 
 Progress::Progress(std::function<void(std::string_view)> write, std::uint64_t total_bytes,
                    std::function<Clock::time_point()> now)
-    : write_(std::move(write)), now_(std::move(now)), total_(total_bytes), next_(now_() + kPatience) {}
+    : write_(std::move(write)), now_(std::move(now)), total_(total_bytes), next_(now_() + kProgressDelay) {}
 
 std::string Progress::bar(std::uint64_t done) const {
   constexpr std::uint64_t kWidth = 30;

@@ -8,7 +8,7 @@ void add_source_options(command_line::ProgramApp& program, configuration::Source
       program.add_option("--config", source.file, command_line::kFileValue, description);
   program.add_flag("--no-config", source.none, {"Read no isocnc.json", "Non legge nessun isocnc.json"})
       .excludes(config)
-      .tells_no_exclusions();
+      .without_exclusions();
 }
 
 }  // namespace isocnc::command_line

@@ -51,29 +51,29 @@ struct Machine {
 };
 
 /// Codes as a selection names them.
-struct CodeWishes {
+struct CodeSelection {
   std::vector<std::string> select;
   std::vector<std::string> ignore;
   std::vector<std::pair<std::string, std::string>> severity;  ///< A code; error, warning, info or off.
 };
 
 /// What holds for some programs alone.
-struct FileWishes {
+struct FileOverrides {
   std::vector<std::string> paths;
   PathPatterns patterns;  ///< Of `paths`.
-  CodeWishes wishes;
+  CodeSelection selection;
 };
 
 struct Lint {
-  CodeWishes wishes;
-  std::vector<FileWishes> files;  ///< The later ones outweigh the earlier ones.
+  CodeSelection selection;
+  std::vector<FileOverrides> files;  ///< The later ones outweigh the earlier ones.
   std::vector<std::string> extensions{kProgramExtensions.begin(), kProgramExtensions.end()};  ///< With their point.
   std::vector<std::string> exclude;
   PathPatterns excluded;  ///< Of `exclude`.
 };
 
 struct Renumber {
-  static constexpr int kMost = 1'000'000'000;
+  static constexpr int kMaxNumber = 1'000'000'000;
 
   int start = 10;
   int step = 10;
@@ -82,7 +82,7 @@ struct Renumber {
 
 /// How programs are formatted, where the command does not tell.
 struct Format {
-  static constexpr int kMostDecimals = 15;
+  static constexpr int kMaxDecimals = 15;
 
   bool word_order = false;
   std::optional<int> decimals;

@@ -41,20 +41,20 @@ static std::string_view token_at(std::size_t at, std::string_view text) {
 
 /// What the parser says, and what we say then.
 struct Reason {
-  std::string_view theirs;
-  const Text& ours;
+  std::string_view parser_message;
+  const Text& our_message;
 };
 static constexpr Reason kReasons[] = {
-    {"unexpected end of input", mistakes::kEndsEarly}, {"expected end of input", mistakes::kMoreBehind},
+    {"unexpected end of input", mistakes::kEndsEarly}, {"expected end of input", mistakes::kTextAfterEnd},
     {"missing closing quote", mistakes::kStringOpen},  {"control character U+0009", mistakes::kStringTab},
     {"control character", mistakes::kStringOpen},      {"invalid string", mistakes::kStringEscape},
     {"missing closing '*/'", mistakes::kCommentOpen},  {"invalid comment", mistakes::kBadComment},
     {"invalid number", mistakes::kBadNumber},          {"number overflow", mistakes::kHugeNumber},
 };
 
-static const Text* reason_of(std::string_view theirs) {
+static const Text* reason_of(std::string_view parser_message) {
   for (const Reason& reason : kReasons)
-    if (theirs.find(reason.theirs) != std::string_view::npos) return &reason.ours;
+    if (parser_message.find(reason.parser_message) != std::string_view::npos) return &reason.our_message;
   return nullptr;
 }
 
@@ -76,7 +76,7 @@ class JsonBuilder final : public nlohmann::json_sax<nlohmann::json> {
   bool binary(binary_t&) override { return false; }  // JSON has none.
 
   bool key(string_t& value) override {
-    const std::size_t at = begin_token();
+    const std::size_t at = token_start();
     JsonMember member;
     member.key = std::move(value);
     member.at = at;
@@ -96,14 +96,14 @@ class JsonBuilder final : public nlohmann::json_sax<nlohmann::json> {
     if (reason != nullptr) return fail(at, *reason);
     const std::string_view token = token_at(at, text_);
     const bool closes = token == "}" || token == "]";
-    return fail(at, closes && follows_comma(at) ? mistakes::kCommaTooMany : mistakes::kOutOfPlace, token);
+    return fail(at, closes && follows_comma(at) ? mistakes::kExtraComma : mistakes::kOutOfPlace, token);
   }
 
  private:
   std::size_t furthest() const { return static_cast<std::size_t>(furthest_ - text_.data()); }
 
   /// Where the token begins that has just been read. Behind a number the parser has read one byte more.
-  std::size_t begin_token() {
+  std::size_t token_start() {
     const std::size_t at = skip_separators(text_, end_);
     const bool is_number = text_[at] == '-' || (text_[at] >= '0' && text_[at] <= '9');
     end_ = is_number ? number_end(at) : furthest();
@@ -133,7 +133,7 @@ class JsonBuilder final : public nlohmann::json_sax<nlohmann::json> {
   }
 
   bool leaf(JsonValue value) {
-    value.at = begin_token();
+    value.at = token_start();
     add(std::move(value));
     return true;
   }
@@ -141,14 +141,14 @@ class JsonBuilder final : public nlohmann::json_sax<nlohmann::json> {
   bool number(double value) { return leaf({.kind = JsonValue::Kind::Number, .number = value}); }
 
   bool open(JsonValue value) {
-    value.at = begin_token();
+    value.at = token_start();
     if (open_.size() == kDeepestJson) return fail(value.at, mistakes::kTooDeep);
     open_.push_back(&add(std::move(value)));
     return true;
   }
 
   bool close() {
-    begin_token();
+    token_start();
     open_.pop_back();
     return true;
   }

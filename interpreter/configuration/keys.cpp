@@ -65,7 +65,7 @@ static void add_home(std::vector<Key>& keys) {
 }
 
 static std::optional<Objection> min_above_max(const execution::Travel& travel) {
-  if (travel.least <= travel.most) return std::nullopt;
+  if (travel.minimum <= travel.maximum) return std::nullopt;
   return Objection{"max", mistakes::kMinAboveMax};
 }
 
@@ -87,13 +87,13 @@ static void add_axes(std::vector<Key>& keys) {
                     .range = axis.range(),
                     .unit = axis.unit(),
                     .documentation = "The least coordinate.",
-                    .slot = [travel](Configuration& c, std::size_t) -> Slot { return &travel(c).least; }});
+                    .slot = [travel](Configuration& c, std::size_t) -> Slot { return &travel(c).minimum; }});
     keys.push_back({.path = path + ".max",
                     .kind = Kind::Number,
                     .range = axis.range(),
                     .unit = axis.unit(),
                     .documentation = "The greatest coordinate.",
-                    .slot = [travel](Configuration& c, std::size_t) -> Slot { return &travel(c).most; }});
+                    .slot = [travel](Configuration& c, std::size_t) -> Slot { return &travel(c).maximum; }});
     keys.push_back({.path = path + ".rapid",
                     .kind = Kind::Number,
                     .range = kSpeed,
@@ -305,25 +305,25 @@ static void add_functions(std::vector<Key>& keys) {
                   .slot = [](Configuration& c, std::size_t i) -> Slot { return &(*c.machine.functions)[i].seconds; }});
 }
 
-using WishesOf = CodeWishes& (*)(Configuration& configuration, std::size_t index);
+using SelectionGetter = CodeSelection& (*)(Configuration& configuration, std::size_t index);
 
-static void add_wishes(std::vector<Key>& keys, const std::string& path, WishesOf wishes) {
+static void add_selection_keys(std::vector<Key>& keys, const std::string& path, SelectionGetter selection) {
   keys.push_back({.path = path + ".select",
                   .kind = Kind::Texts,
                   .text = TextKind::Code,
                   .documentation = "Shows these codes alone: codes, names, beginnings of codes, ALL.",
-                  .slot = [wishes](Configuration& c, std::size_t i) -> Slot { return &wishes(c, i).select; }});
+                  .slot = [selection](Configuration& c, std::size_t i) -> Slot { return &selection(c, i).select; }});
   keys.push_back({.path = path + ".ignore",
                   .kind = Kind::Texts,
                   .text = TextKind::Code,
                   .documentation = "Does not show these codes.",
-                  .slot = [wishes](Configuration& c, std::size_t i) -> Slot { return &wishes(c, i).ignore; }});
+                  .slot = [selection](Configuration& c, std::size_t i) -> Slot { return &selection(c, i).ignore; }});
   keys.push_back({.path = path + ".severity",
                   .kind = Kind::Severities,
                   .text = TextKind::Code,
                   .choices = kSeverities,
                   .documentation = "How much codes weigh.",
-                  .slot = [wishes](Configuration& c, std::size_t i) -> Slot { return &wishes(c, i).severity; }});
+                  .slot = [selection](Configuration& c, std::size_t i) -> Slot { return &selection(c, i).severity; }});
 }
 
 static void add_options(std::vector<Key>& keys) {
@@ -336,19 +336,19 @@ static void add_options(std::vector<Key>& keys) {
          .range = range,
          .unit = unit,
          .documentation = documentation,
-         .slot = [member](Configuration& c, std::size_t) -> Slot { return &(c.machine.setup.opinions.*member); }});
+         .slot = [member](Configuration& c, std::size_t) -> Slot { return &(c.machine.setup.advice.*member); }});
   };
   add("longestDwell", {0, 1e6, true}, "s", "The longest G04 that is not told of (W115).",
-      &execution::Opinions::longest_dwell);
+      &execution::AdviceThresholds::longest_dwell);
   add("axisAngle", {0, 1}, "degrees", "How far face axes may be from the right angle without a word (W114).",
-      &execution::Opinions::axis_angle);
+      &execution::AdviceThresholds::axis_angle);
   add("vectorError", {0, 0.1}, "", "How far the length of an axis vector may be from 1 without a word (W128).",
-      &execution::Opinions::vector_error);
+      &execution::AdviceThresholds::vector_error);
 }
 
 static void add_lint(std::vector<Key>& keys) {
   keys.push_back({.path = "lint", .documentation = "What isolint reports, and which files are programs."});
-  add_wishes(keys, "lint", [](Configuration& c, std::size_t) -> CodeWishes& { return c.lint.wishes; });
+  add_selection_keys(keys, "lint", [](Configuration& c, std::size_t) -> CodeSelection& { return c.lint.selection; });
   add_options(keys);
   keys.push_back({.path = "lint.files",
                   .kind = Kind::Objects,
@@ -361,8 +361,8 @@ static void add_lint(std::vector<Key>& keys) {
                   .is_required = true,
                   .is_never_empty = true,
                   .slot = [](Configuration& c, std::size_t i) -> Slot { return &c.lint.files[i].paths; }});
-  add_wishes(keys, "lint.files[]",
-             [](Configuration& c, std::size_t i) -> CodeWishes& { return c.lint.files[i].wishes; });
+  add_selection_keys(keys, "lint.files[]",
+                     [](Configuration& c, std::size_t i) -> CodeSelection& { return c.lint.files[i].selection; });
   keys.push_back({.path = "lint.extensions",
                   .kind = Kind::Texts,
                   .text = TextKind::Extension,
@@ -384,7 +384,7 @@ static void add_format(std::vector<Key>& keys) {
                   .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.word_order; }});
   keys.push_back({.path = "format.decimals",
                   .kind = Kind::Integer,
-                  .range = {0, Format::kMostDecimals},
+                  .range = {0, Format::kMaxDecimals},
                   .documentation = "Drops zeros from numbers that need no more decimals than this; as --decimals.",
                   .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.decimals; }});
   keys.push_back({.path = "format.gDigits",
@@ -402,12 +402,12 @@ static void add_format(std::vector<Key>& keys) {
                   .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.renumber; }});
   keys.push_back({.path = "format.renumber.start",
                   .kind = Kind::Integer,
-                  .range = {0, Renumber::kMost},
+                  .range = {0, Renumber::kMaxNumber},
                   .documentation = "The first number.",
                   .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.renumber->start; }});
   keys.push_back({.path = "format.renumber.step",
                   .kind = Kind::Integer,
-                  .range = {1, Renumber::kMost},
+                  .range = {1, Renumber::kMaxNumber},
                   .documentation = "From one number to the next.",
                   .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.renumber->step; }});
   keys.push_back({.path = "format.renumber.allLines",

@@ -35,9 +35,9 @@ enum class TextKind : std::uint8_t { Any, Code, Pattern, Extension, Function };
 
 /// The numbers that a key takes.
 struct Range {
-  double least = -std::numeric_limits<double>::infinity();
-  double most = std::numeric_limits<double>::infinity();
-  bool above_least = false;  ///< `least` itself is none of them.
+  double minimum = -std::numeric_limits<double>::infinity();
+  double maximum = std::numeric_limits<double>::infinity();
+  bool exclusive_minimum = false;  ///< `least` itself is none of them.
 };
 
 /// Where the value of a key is kept: what reading fills and showing reads.
@@ -45,7 +45,7 @@ using Slot =
     std::variant<std::monostate, double*, std::optional<double>*, int*, std::optional<int>*, bool*, std::string*,
                  std::optional<dialect::Language>*, std::vector<std::string>*,
                  std::vector<std::pair<std::string, std::string>>*, std::optional<std::vector<Tool>>*,
-                 std::optional<std::vector<NamedFunction>>*, std::vector<FileWishes>*, std::optional<Renumber>*>;
+                 std::optional<std::vector<NamedFunction>>*, std::vector<FileOverrides>*, std::optional<Renumber>*>;
 
 /// What is wrong with an object whose keys are all right, and which of them shows it; empty: the object itself.
 struct Objection {

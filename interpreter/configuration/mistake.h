@@ -56,11 +56,11 @@ inline constexpr dialect::Text kNoFile = {"not a file", "non è un file"};
 inline constexpr dialect::Text kTooDeep = {"nested too deeply", "troppi livelli, uno dentro l'altro"};
 inline constexpr dialect::Text kEndsEarly = {"the file ends here, but a bracket is still open or a value missing",
                                              "il file finisce qui, ma c'è una parentesi aperta o manca un valore"};
-inline constexpr dialect::Text kCommaTooMany = {"there is a comma before this {0}, with nothing behind it",
-                                                "prima di questa {0} c'è una virgola di troppo"};
+inline constexpr dialect::Text kExtraComma = {"there is a comma before this {0}, with nothing behind it",
+                                              "prima di questa {0} c'è una virgola di troppo"};
 inline constexpr dialect::Text kOutOfPlace = {"{0} is out of place here", "{0} qui è fuori posto"};
-inline constexpr dialect::Text kMoreBehind = {"nothing may follow the end of the configuration",
-                                              "dopo la fine della configurazione non ci può essere altro"};
+inline constexpr dialect::Text kTextAfterEnd = {"nothing may follow the end of the configuration",
+                                                "dopo la fine della configurazione non ci può essere altro"};
 inline constexpr dialect::Text kStringOpen = {"a text without its closing quote", "testo senza virgolette di chiusura"};
 inline constexpr dialect::Text kStringEscape = {
     "a backslash that JSON does not know; write \\\\ for a backslash",

@@ -180,7 +180,7 @@ class Reader {
       const std::string below = path + (path.empty() ? "" : ".") + member.key;
       const auto known =
           std::find_if(keys.begin(), keys.end(), [&](const Key* each) { return each->name() == member.key; });
-      if (stands_twice(member, seen, below)) continue;
+      if (is_duplicate(member, seen, below)) continue;
       if (known == keys.end()) {
         complain(member.at, below, mistakes::kUnknownKey, {}, meant_key(member.key, keys));
       } else {
@@ -197,12 +197,12 @@ class Reader {
                        [&](const JsonMember& member) { return member.key == key; });
   }
 
-  bool stands_twice(const JsonMember& member, SeenKeys& seen, const std::string& path) {
-    return stands_twice(member, member.key, seen, path);
+  bool is_duplicate(const JsonMember& member, SeenKeys& seen, const std::string& path) {
+    return is_duplicate(member, member.key, seen, path);
   }
 
   /// By a name that means the same.
-  bool stands_twice(const JsonMember& member, std::string_view name, SeenKeys& seen, const std::string& path) {
+  bool is_duplicate(const JsonMember& member, std::string_view name, SeenKeys& seen, const std::string& path) {
     const auto [first, is_new] = seen.try_emplace(name, member.at);
     if (!is_new)
       complain(member.at, path, mistakes::kKeyTwice, {fmt::format("{}", place_of(first->second, text_).line)});
@@ -234,7 +234,7 @@ class Reader {
       (*tools)->value().emplace_back();
       return (*tools)->value().size() - 1;
     }
-    std::vector<FileWishes>& files = *std::get<std::vector<FileWishes>*>(slot);
+    std::vector<FileOverrides>& files = *std::get<std::vector<FileOverrides>*>(slot);
     files.emplace_back();
     return files.size() - 1;
   }
@@ -245,7 +245,7 @@ class Reader {
     for (const JsonMember& member : object.members) {
       if (is_full()) return;
       const std::string below = path + "." + member.key;
-      if (stands_twice(member, seen, below) || !is_right(key.text, member.key, member.at, below)) continue;
+      if (is_duplicate(member, seen, below) || !is_right(key.text, member.key, member.at, below)) continue;
       if (member.value.kind != Json::Object) {
         complain(member.value.at, below, mistakes::kWrongKind, {name_of(member.value.kind), name_of(Json::Object)});
         continue;
@@ -264,10 +264,11 @@ class Reader {
     const Range& range = key.range;
     if (key.kind == KeyKind::Integer && std::floor(number) != number)
       return complain(value.at, path, mistakes::kNotWhole, {written});
-    if (range.above_least && !(number > range.least))
-      return complain(value.at, path, mistakes::kNotAbove, {written, limit(range.least)});
-    if (!(number >= range.least)) return complain(value.at, path, mistakes::kTooSmall, {written, limit(range.least)});
-    if (!(number <= range.most)) return complain(value.at, path, mistakes::kTooBig, {written, limit(range.most)});
+    if (range.exclusive_minimum && !(number > range.minimum))
+      return complain(value.at, path, mistakes::kNotAbove, {written, limit(range.minimum)});
+    if (!(number >= range.minimum))
+      return complain(value.at, path, mistakes::kTooSmall, {written, limit(range.minimum)});
+    if (!(number <= range.maximum)) return complain(value.at, path, mistakes::kTooBig, {written, limit(range.maximum)});
     if (const auto* const real = std::get_if<double*>(&slot)) **real = number;
     if (const auto* const real = std::get_if<std::optional<double>*>(&slot)) **real = number;
     if (const auto* const whole = std::get_if<int*>(&slot)) **whole = static_cast<int>(number);
@@ -315,7 +316,7 @@ class Reader {
       const std::string below = path + "." + member.key;
       const std::optional<dialect::DiagnosticId> id = dialect::find_diagnostic(member.key);  // ISO031 by code or name.
       const std::string_view name = id ? dialect::definition(*id).code : member.key;
-      if (stands_twice(member, name, seen, below) || !is_right(key.text, member.key, member.at, below)) continue;
+      if (is_duplicate(member, name, seen, below) || !is_right(key.text, member.key, member.at, below)) continue;
       if (member.value.kind != Json::String) {
         complain(member.value.at, below, mistakes::kWrongKind, {name_of(member.value.kind), name_of(Json::String)});
       } else if (is_chosen(key, member.value, below)) {
@@ -337,8 +338,8 @@ static void derive_motion(Machine& machine) {
                            : machine.kind == "table" ? motion::MachineKind::Table
                                                      : motion::MachineKind::ThreeAxis;
   for (std::size_t i = 0; i < motion.axes.size(); ++i) {
-    motion.axes[i].least = machine.setup.limits.travel[i].least;
-    motion.axes[i].most = machine.setup.limits.travel[i].most;
+    motion.axes[i].minimum = machine.setup.limits.travel[i].minimum;
+    motion.axes[i].maximum = machine.setup.limits.travel[i].maximum;
     motion.axes[i].speed = machine.rapids[i] / motion::kSecondsPerMinute;
   }
   const execution::Limits& limits = machine.setup.limits;
@@ -368,7 +369,7 @@ static void derive(Configuration& configuration, const std::filesystem::path& fo
   derive_motion(machine);
   Lint& lint = configuration.lint;
   lint.excluded = PathPatterns(folder, lint.exclude);
-  for (FileWishes& files : lint.files) files.patterns = PathPatterns(folder, files.paths);
+  for (FileOverrides& files : lint.files) files.patterns = PathPatterns(folder, files.paths);
 }
 
 ReadConfiguration read_configuration(std::string_view text, const std::filesystem::path& folder) {

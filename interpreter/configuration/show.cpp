@@ -59,7 +59,7 @@ static std::optional<ordered_json> list_of(Configuration& configuration, const K
     if (!**tools) return std::nullopt;
     for (std::size_t i = 0; i < (**tools)->size(); ++i) list.push_back(object_of(configuration, &key, i));
   } else {
-    const std::size_t count = std::get<std::vector<FileWishes>*>(slot)->size();
+    const std::size_t count = std::get<std::vector<FileOverrides>*>(slot)->size();
     for (std::size_t i = 0; i < count; ++i) list.push_back(object_of(configuration, &key, i));
   }
   return list;
@@ -131,8 +131,9 @@ static ordered_json code_schema() {
 
 static void add_range(const Key& key, ordered_json& schema) {
   const Range& range = key.range;
-  if (std::isfinite(range.least)) schema[range.above_least ? "exclusiveMinimum" : "minimum"] = number(range.least);
-  if (std::isfinite(range.most)) schema["maximum"] = number(range.most);
+  if (std::isfinite(range.minimum))
+    schema[range.exclusive_minimum ? "exclusiveMinimum" : "minimum"] = number(range.minimum);
+  if (std::isfinite(range.maximum)) schema["maximum"] = number(range.maximum);
 }
 
 static std::string description_of(const Key& key) {
@@ -228,8 +229,8 @@ static std::string kind_of(const Key& key) {
   std::string kind(kNames[static_cast<std::size_t>(key.kind)]);
   if (!key.unit.empty()) kind += fmt::format(", {}", key.unit);
   const Range& range = key.range;
-  if (std::isfinite(range.least))
-    kind += fmt::format(", {}{} to {}", range.above_least ? "above " : "", range.least, range.most);
+  if (std::isfinite(range.minimum))
+    kind += fmt::format(", {}{} to {}", range.exclusive_minimum ? "above " : "", range.minimum, range.maximum);
   return kind;
 }
 

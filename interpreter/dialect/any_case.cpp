@@ -13,8 +13,8 @@ bool equal_words(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_letter);
 }
 
-bool begins_with(std::string_view text, std::string_view beginning) {
-  return equal_words(text.substr(0, beginning.size()), beginning);
+bool begins_with(std::string_view text, std::string_view prefix) {
+  return equal_words(text.substr(0, prefix.size()), prefix);
 }
 
 bool ends_with(std::string_view text, std::string_view ending) {

@@ -7,7 +7,7 @@ namespace isocnc::dialect {
 
 bool same_letter(char a, char b);
 bool equal_words(std::string_view a, std::string_view b);
-bool begins_with(std::string_view text, std::string_view beginning);
+bool begins_with(std::string_view text, std::string_view prefix);
 bool ends_with(std::string_view text, std::string_view ending);
 
 }  // namespace isocnc::dialect

@@ -243,11 +243,11 @@ constexpr bool is_user_function(int m) {
 }
 
 /// How far B or C of a G29 may be from 0, degrees (I.3.2).
-constexpr double most_face_angle(char letter) { return letter == 'B' ? 90 : 180; }
+constexpr double max_face_angle(char letter) { return letter == 'B' ? 90 : 180; }
 
 inline constexpr int kRegisterCount = 30;  ///< V1 to V30 (I.6).
 constexpr bool is_register(double number) { return number >= 1 && number <= kRegisterCount; }
 
-inline constexpr int kMostFunctionParameters = 20;  ///< P1 to P20 (I.4.4).
+inline constexpr int kMaxFunctionParameters = 20;  ///< P1 to P20 (I.4.4).
 
 }  // namespace isocnc::dialect

@@ -21,7 +21,7 @@ struct Text {
 };
 
 /// The most values that one message can name.
-inline constexpr int kMostArguments = 3;
+inline constexpr int kMaxArguments = 3;
 
 /// One kind of finding, as it stands in the table of diagnostics: everything that is ever said about it.
 ///
@@ -30,12 +30,12 @@ struct DiagnosticDef {
   std::string_view code;  ///< `ISO012`, `E004`, `W001`: stable, what users select and suppress.
   std::string_view name;  ///< `head-not-selected`: stable, what our code and readers say.
   Severity severity = Severity::Error;
-  bool is_off = false;                         ///< Shown only to who selects it.
-  bool is_told_by_runs = false;                ///< By isorun, which follows the tool; isolint does not find it.
-  std::string_view section;                    ///< Of the specification, `I.4.3`.
-  std::string_view arguments[kMostArguments];  ///< Names of the values, in the order in which they are reported.
-  Text title;                                  ///< A few words for lists.
-  Text message;                                ///< One line, without a full stop.
+  bool is_off = false;                        ///< Shown only to who selects it.
+  bool is_reported_by_runs = false;           ///< By isorun, which follows the tool; isolint does not find it.
+  std::string_view section;                   ///< Of the specification, `I.4.3`.
+  std::string_view arguments[kMaxArguments];  ///< Names of the values, in the order in which they are reported.
+  Text title;                                 ///< A few words for lists.
+  Text message;                               ///< One line, without a full stop.
   Text explanation;        ///< Why the control stops and what to do; the first sentence stands alone.
   std::string_view wrong;  ///< A program with this one finding; `[!` and `!]` enclose the marked text.
   std::string_view right;  ///< The same program, mended: no finding at all.

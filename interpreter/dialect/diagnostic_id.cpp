@@ -30,9 +30,9 @@ std::string format_value(double value) {
 
 /// A longer piece of program text would push the message off the screen; the mark shows it whole.
 static std::string shortened(std::string_view text) {
-  constexpr std::size_t kMost = 40;
-  if (text.size() <= kMost) return std::string(text);
-  std::size_t end = kMost - 3;
+  constexpr std::size_t kMaxShownBytes = 40;
+  if (text.size() <= kMaxShownBytes) return std::string(text);
+  std::size_t end = kMaxShownBytes - 3;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
   return std::string(text.substr(0, end)) + "...";
 }
@@ -87,7 +87,7 @@ std::string message(DiagnosticId id, Language language, std::string_view text, s
     result.append(pattern.substr(at, open - at));
     const std::string_view name = pattern.substr(open + 1, close - open - 1);
     if (name == "text") result.append(spelled_out(shortened(text)));
-    for (std::size_t i = 0; i < values.size() && i < kMostArguments; ++i)
+    for (std::size_t i = 0; i < values.size() && i < kMaxArguments; ++i)
       if (def.arguments[i] == name)
         result.append(name == kAxisArgument ? axis_name(values[i]) : format_value(values[i]));
     at = close + 1;

@@ -33,16 +33,16 @@ std::optional<std::string> nearest_name(std::string_view typed, std::span<const 
   if (typed.size() > kLongest) return std::nullopt;
   const std::size_t limit = std::max<std::size_t>(1, (typed.size() + 2) / 4);
   std::optional<std::string> nearest;
-  std::size_t least = limit + 1;
+  std::size_t minimum = limit + 1;
   for (const std::string& name : names) {
     const std::size_t steps = distance(typed, name);
-    if (steps == least) nearest.reset();
-    if (steps < least) {
-      least = steps;
+    if (steps == minimum) nearest.reset();
+    if (steps < minimum) {
+      minimum = steps;
       nearest = name;
     }
   }
-  if (least > limit)  // Far from all, but perhaps the beginning of one.
+  if (minimum > limit)  // Far from all, but perhaps the beginning of one.
     for (const std::string& name : names)
       if (typed.size() >= 3 && begins_with(name, typed)) return name;
   return nearest;

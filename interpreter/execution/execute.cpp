@@ -41,7 +41,7 @@ std::optional<Assigned> lone_assignment(const syntax::LineTree& line) {
 
 void pass_by(State& state) {
   state.exact_stop_fits = false;
-  state.tool_awaited = false;
+  state.expects_tool = false;
 }
 
 void take_spindle_speed(double number, State& state) {
@@ -137,8 +137,8 @@ void Executor::run() {
   if (state_.knows(State::kCompensationWaits) && (feed_move_ || rapid_move_) && moves_in_plane())
     state_.forget(State::kCompensationWaits);
   const Instruction* const last = line_.instructions.empty() ? nullptr : &line_.instructions.back();
-  state_.tool_awaited = last != nullptr && last->kind == InstructionKind::ToolChange &&
-                        last->end == last->command + 1 && !last->has(Instruction::kSettled);
+  state_.expects_tool = last != nullptr && last->kind == InstructionKind::ToolChange &&
+                        last->end == last->command + 1 && !last->has(Instruction::kReportedElsewhere);
 }
 
 /// Whether the line has a coordinate of the plane in force.
@@ -197,7 +197,7 @@ bool Executor::may_be_motion(const Word& g, const Arguments& arguments) {
 }
 
 /// G27 G27, G49 G49: what is wrong has been said of the first, which should stand alone.
-bool Executor::is_its_own_company(const dialect::GCode& code) const {
+bool Executor::repetition_is_reported(const dialect::GCode& code) const {
   const auto is_same = [&](const Instruction& each) { return each.g() && each.g()->number == code.number; };
   return line_.has(syntax::LineTree::kAloneViolated) &&
          std::count_if(line_.instructions.begin(), line_.instructions.end(), is_same) > 1;
@@ -207,7 +207,7 @@ void Executor::set_mode(const dialect::GCode& code, const Word& word) {
   if (code.group == dialect::ModalGroup::None) return;
   const auto bit = static_cast<std::uint16_t>(1u << static_cast<unsigned>(code.group));
   const bool repeats = state_.mode(code.group) == code.number && (state_.written & bit) != 0;
-  if (repeats && code.repeated != dialect::kNoDiagnostic && !is_its_own_company(code))
+  if (repeats && code.repeated != dialect::kNoDiagnostic && !repetition_is_reported(code))
     report(code.repeated, word.span());
   if (code.group == dialect::ModalGroup::CutterCompensation) {
     if (code.number == 40) {
@@ -251,13 +251,13 @@ void Executor::function(const Instruction& instruction) {
     turn_spindle(m);
   }
   if (!sink_.wants_effects()) return;
-  std::array<FunctionParameter, dialect::kMostFunctionParameters> parameters;
+  std::array<FunctionParameter, dialect::kMaxFunctionParameters> parameters;
   std::size_t count = 0;
   for (std::uint16_t i = instruction.begin; i + 1 < instruction.end && count < parameters.size(); ++i) {
     const Word& name = line_.words[i];
     const Word& value = line_.words[i + 1u];
     const bool is_named = name.owner == instruction.number && name.letter == 'P' && name.is_plain_integer() &&
-                          name.value >= 1 && name.value <= dialect::kMostFunctionParameters;
+                          name.value >= 1 && name.value <= dialect::kMaxFunctionParameters;
     if (is_named && value.letter == syntax::kAssign && value.known())
       parameters[count++] = {static_cast<int>(name.value), value.value};
   }
@@ -285,7 +285,7 @@ void Executor::stray_tool(const Instruction& instruction) {
   const Word& word = line_.command(instruction);
   const Word* const number = line_.number_without_letter();
   const bool is_lost_change = number && number->value == dialect::kToolChange;  // 06 T101001 (D58)
-  const bool follows_change = is_lost_change || (state_.tool_awaited && instruction.has(Instruction::kFirst));
+  const bool follows_change = is_lost_change || (state_.expects_tool && instruction.has(Instruction::kFirst));
   const bool is_legible = word.is_plain_integer() && word.digits == 6;  // Else reported, and one mistake is enough.
   if (!follows_change && is_legible) report("tool-without-m06"_diag, word.span());
   state_.tool_prepared = !follows_change && instruction.has(Instruction::kFirst);

@@ -35,7 +35,7 @@ class Executor {
   bool moves_in_plane() const;
   void execute_g(const syntax::Instruction& instruction);
   void set_mode(const dialect::GCode& code, const syntax::Word& word);
-  bool is_its_own_company(const dialect::GCode& code) const;
+  bool repetition_is_reported(const dialect::GCode& code) const;
   void exact_stop(const syntax::Instruction& instruction);
   void dwell(const syntax::Instruction& instruction);
   void function(const syntax::Instruction& instruction);

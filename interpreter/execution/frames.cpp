@@ -50,7 +50,7 @@ void Executor::workpiece_frame(const Instruction& instruction) {
     report("workpiece-frame-under-face"_diag, line_.command(instruction).span());
     leave_face();
     state_.set_mode(dialect::ModalGroup::Face, 27);
-    state_.dismount_forgiven = true;
+    state_.dismount_tolerated = true;
   }
   const Arguments arguments(line_, instruction);
   Vec3 origin;
@@ -63,9 +63,9 @@ void Executor::workpiece_frame(const Instruction& instruction) {
 }
 
 void Executor::dismount_face(const Instruction& instruction) {
-  if (!state_.face_mounted && !state_.dismount_forgiven && !is_its_own_company(*instruction.g()))
+  if (!state_.face_mounted && !state_.dismount_tolerated && !repetition_is_reported(*instruction.g()))
     report("g27-without-face"_diag, line_.command(instruction).span());
-  state_.dismount_forgiven = false;
+  state_.dismount_tolerated = false;
   leave_face();
   state_.set_mode(dialect::ModalGroup::Face, 27);
   sink_.frame_changed(state_);
@@ -97,14 +97,14 @@ bool Executor::read_axes(const Arguments& arguments, std::string_view letters, M
 void Executor::go_home(const Arguments& arguments) {
   Mat3 ignored;
   if (!line_.has(syntax::LineTree::kAloneViolated)) read_axes(arguments, "XYZIJKPQR", ignored);
-  if (!state_.face_mounted) state_.dismount_forgiven = true;
+  if (!state_.face_mounted) state_.dismount_tolerated = true;
   blur_linear_axes();
 }
 
 /// Whether a G29 says how its face lies: with an argument at all, and angles that can be read and are in their range.
 static bool has_face_angles(const Arguments& arguments) {
   const auto is_in_range = [&](char letter) {
-    return std::abs(arguments.value_or(letter, 0)) <= dialect::most_face_angle(letter);
+    return std::abs(arguments.value_or(letter, 0)) <= dialect::max_face_angle(letter);
   };
   constexpr dialect::LetterSet kTaken = dialect::kLinearLetters | dialect::kRotaryLetters;
   return (arguments.present() & kTaken) != 0 && is_in_range('B') && is_in_range('C');
@@ -114,10 +114,10 @@ void Executor::mount_face(const Instruction& instruction, const dialect::GCode& 
   const syntax::Span place = line_.command(instruction).span();
   const Arguments arguments(line_, instruction);
   if (code.number == 28 && (arguments.present() & dialect::letters("IJKPQR")) == 0) return go_home(arguments);
-  if (state_.face_mounted && !is_its_own_company(code)) report("face-already-mounted"_diag, place);
+  if (state_.face_mounted && !repetition_is_reported(code)) report("face-already-mounted"_diag, place);
   leave_face();
-  state_.dismount_forgiven = false;
-  const bool knows_tip = (state_.unknown & kLinearAxes) == 0;
+  state_.dismount_tolerated = false;
+  const bool is_tip_known = (state_.unknown & kLinearAxes) == 0;
   Frame face;
   face.origin = state_.position.tip;
   bool defined = true;
@@ -134,11 +134,11 @@ void Executor::mount_face(const Instruction& instruction, const dialect::GCode& 
   state_.set_mode(dialect::ModalGroup::Face, static_cast<std::uint8_t>(code.number));
   state_.face_mounted = true;
   state_.face_undefined = !defined;
-  state_.face_unplaced = defined && code.number == 28 && !knows_tip;
+  state_.face_unplaced = defined && code.number == 28 && !is_tip_known;
   if (defined) {
     state_.face = face;
     state_.position.tip = face.to_inner(state_.position.tip);
-    if (!knows_tip) blur_linear_axes();
+    if (!is_tip_known) blur_linear_axes();
   } else {
     state_.face = Frame{};
     blur_linear_axes();

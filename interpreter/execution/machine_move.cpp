@@ -11,7 +11,7 @@ namespace isocnc::execution {
 using geometry::Vec3;
 
 /// Length of a helix whose third axis leans over the plane of its circle; Simpson's rule on the speed, which is smooth.
-static double leaning_helix_length(double radius, double sweep, const Vec3& u, const Vec3& v, const Vec3& rise) {
+static double tilted_helix_length(double radius, double sweep, const Vec3& u, const Vec3& v, const Vec3& rise) {
   const auto speed = [&](double t) {
     const double angle = sweep * t;
     return (radius * sweep * (-std::sin(angle) * u + std::cos(angle) * v) + rise).norm();
@@ -67,7 +67,7 @@ MachineMove in_machine(const Move& move, const State& state) {
   if (leans) {
     const Vec3 start = (result.from.tip - result.center).normalized();
     const Vec3 side = result.normal.cross(start) * (move.sweep_deg < 0 ? -1 : 1);
-    result.length = leaning_helix_length(move.radius, sweep, start, side, rise);
+    result.length = tilted_helix_length(move.radius, sweep, start, side, rise);
   } else {
     result.length = height == 0 ? move.radius * sweep : std::hypot(move.radius * sweep, height);
   }

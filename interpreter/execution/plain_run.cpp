@@ -55,7 +55,7 @@ void PlainRun::finish() {
   state_.set_mode(ModalGroup::Motion, mode_);
   state_.motion_illegible = false;
   state_.exact_stop_fits = mode_ != 0;
-  state_.tool_awaited = false;
+  state_.expects_tool = false;
   state_.tool_prepared = false;
   if (feeds_) state_.forget(State::kUncut);
 }

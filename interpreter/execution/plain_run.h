@@ -19,7 +19,7 @@ class PlainRun {
         scale_(state.mm_per_unit()),
         straight_(state.five_axis() ? dialect::kCoordinateLetters : dialect::kLinearLetters),
         incremental_(state.incremental()),
-        may_run_(state.tool_selected && state.unknown == 0 && !concerns_rules(state)),
+        may_run_(state.tool_selected && state.unknown == 0 && !affects_rules(state)),
         feed_holds_(state.feed_given && !state.inverse_time()),
         mode_(state.mode(dialect::ModalGroup::Motion)) {}
   PlainRun(const PlainRun&) = delete;
@@ -56,7 +56,7 @@ class PlainRun {
   bool met_open_center() const { return met_open_center_; }
 
  private:
-  static bool concerns_rules(const State& state) {
+  static bool affects_rules(const State& state) {
     constexpr State::Knowledge kAlways = State::kStopped | State::kCompensationWaits | State::kNotStarted;
     return state.knows(state.inverse_time() ? kAlways : kAlways | State::kFeedOfInverseTime);
   }

@@ -23,8 +23,8 @@ constexpr ToolCode tool_code(int number) { return {number / 100000, number / 100
 
 /// From where to where an axis goes, in mm or degrees.
 struct Travel {
-  double least = -std::numeric_limits<double>::infinity();
-  double most = std::numeric_limits<double>::infinity();
+  double minimum = -std::numeric_limits<double>::infinity();
+  double maximum = std::numeric_limits<double>::infinity();
 
   friend bool operator==(const Travel&, const Travel&) = default;
 };
@@ -40,7 +40,7 @@ struct Limits {
 };
 
 /// From where on lint rules speak; no check of the control depends on it.
-struct Opinions {
+struct AdviceThresholds {
   double longest_dwell = 120;  ///< G04, seconds.
   double axis_angle = 1e-4;    ///< How far axis vectors may be from the right angle, degrees.
   double vector_error = 1e-3;  ///< How far the length of an axis vector may be from 1.
@@ -59,7 +59,7 @@ struct Setup {
   std::optional<double> clearance;
   /// Whether opinions are wanted on every motion, plain ones too.
   bool every_motion = false;
-  Opinions opinions;
+  AdviceThresholds advice;
 };
 
 }  // namespace isocnc::execution

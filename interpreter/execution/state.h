@@ -55,10 +55,10 @@ struct State {
   geometry::Vec3 workpiece_origin = geometry::Vec3::Zero();  ///< Machine frame (G92).
   geometry::Frame face;                                      ///< In the workpiece frame; identity unless mounted.
   bool face_mounted = false;
-  AxisSet workpiece_unknown = 0;   ///< Axes of `workpiece_origin` that an error has left open.
-  bool face_undefined = false;     ///< Mounted by a definition in error: its axes are not known.
-  bool face_unplaced = false;      ///< Mounted where the tip was (G28), which was not known.
-  bool dismount_forgiven = false;  ///< A G92 has dismounted it in error (ISO055): a G27 that follows is right (D29).
+  AxisSet workpiece_unknown = 0;    ///< Axes of `workpiece_origin` that an error has left open.
+  bool face_undefined = false;      ///< Mounted by a definition in error: its axes are not known.
+  bool face_unplaced = false;       ///< Mounted where the tip was (G28), which was not known.
+  bool dismount_tolerated = false;  ///< A G92 has dismounted it in error (ISO055): a G27 that follows is right (D29).
 
   Feed feed_per_minute;      ///< Last F under G94.
   Feed last_feed;            ///< Last F under either mode (D43).
@@ -70,7 +70,7 @@ struct State {
   bool feed_given = false;
   bool feed_reported = false;    ///< ISO066 has been said.
   bool exact_stop_fits = false;  ///< A G09 at the start of the next line would follow a feed move (D23).
-  bool tool_awaited = false;     ///< The line before ended in an M06 without T (reported): a T that follows is its.
+  bool expects_tool = false;     ///< The line before ended in an M06 without T (reported): a T that follows is its.
   bool tool_prepared = false;    ///< A T without M06 (reported), and no motion since: an M06 without T changes to it.
   bool motion_illegible =
       false;           ///< No motion G is in force, but one that cannot be read, or a cycle of others (E001).
@@ -89,7 +89,7 @@ struct State {
   double mm_per_unit() const { return mode(dialect::ModalGroup::Units) == 70 ? 25.4 : 1.0; }
 
   /// Whether it is known where the frame in force lies on the machine.
-  bool knows_frame() const { return workpiece_unknown == 0 && !face_undefined && !face_unplaced; }
+  bool is_frame_known() const { return workpiece_unknown == 0 && !face_undefined && !face_unplaced; }
   /// From the frame in force to the machine frame, mm.
   geometry::Vec3 to_machine(const geometry::Vec3& p) const {
     return workpiece_origin + (face_mounted ? face.to_outer(p) : p);

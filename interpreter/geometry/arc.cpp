@@ -77,7 +77,7 @@ static double misfit_about(PlanePoint center, const ArcGiven& given) {
   return given.radius ? std::max(misfit, std::abs(*given.radius - radius)) : misfit;
 }
 
-CenterReadings read_center_both_ways(const ArcGiven& given, PlanePoint start, bool incremental, double tolerance) {
+CenterReadings read_center_in_both_modes(const ArcGiven& given, PlanePoint start, bool incremental, double tolerance) {
   CenterReadings readings{.chord = given.end.norm(),
                           .is_complete = given.center_u && given.center_v,
                           .has_radius = given.radius.has_value()};

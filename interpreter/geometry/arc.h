@@ -73,7 +73,7 @@ struct CenterReadings {
   bool fits_other(double tolerance) const { return other_misfit <= tolerance; }
   /// Meant to fit, and rounded or measured.
   bool nearly_fits_other(double tolerance) const { return other_misfit <= kNearly * tolerance; }
-  bool is_legal_both_ways(double tolerance) const {
+  bool is_legal_in_both_readings(double tolerance) const {
     return !is_same_center && fits(tolerance) && fits_other(tolerance);
   }
   /// Whether the arc shows that centers are meant to count from the other origin. Any center fits a short chord, unless
@@ -91,7 +91,7 @@ struct CenterReadings {
 
 /// Reads an arc with at least one coordinate of the center both ways. `start` is in the frame in force; `incremental`
 /// says that G91 is in force.
-CenterReadings read_center_both_ways(const ArcGiven& given, PlanePoint start, bool incremental, double tolerance);
+CenterReadings read_center_in_both_modes(const ArcGiven& given, PlanePoint start, bool incremental, double tolerance);
 
 /// Whether an arc that surely fits under G90 surely does not fit with its center counted from the start, nor nearly:
 /// told without a root. False where it takes a closer look.

@@ -37,7 +37,7 @@ std::optional<ContourFlaw> ContourOffset::next_flaw() { return take_first(flaws_
 
 void ContourOffset::lead_in(const PlaneCurve& line, const ContourElement& like, bool is_inserted) {
   pieces_.clear();
-  given_out_ = 0;
+  emitted_ = 0;
   contour_.clear();
   before_ = count_;
   closing_ = std::numeric_limits<std::uint64_t>::max();
@@ -72,7 +72,7 @@ void ContourOffset::add(const ContourElement& element) {
     if (contour_.size() > kLookBack) contour_.pop_front();
     for (std::size_t i = 0; i < ended; ++i) {
       look_at(pieces_[i], kept);
-      if (i < given_out_) tell(pieces_[i]);
+      if (i < emitted_) report_gouge(pieces_[i]);
     }
   }
   join(way, element, arriving);
@@ -106,7 +106,7 @@ void ContourOffset::join(PlaneCurve& next, const ContourElement& element, const 
   if (last.is_lead_in && !is_final) way.end = next.start;
   if ((way.end - next.start).norm() <= kSmooth) {
     next.start = way.end;
-    return settle(last);
+    return finish_piece(last);
   }
   const Vec2 leaving = element.curve.direction_at_start();
   const double turn = cross(arriving, leaving) * element.side;
@@ -114,13 +114,13 @@ void ContourOffset::join(PlaneCurve& next, const ContourElement& element, const 
   constexpr double kReversal = 1e-9;
   const bool is_inside = turn > 0 && !(turn < kReversal && arriving.dot(leaving) < 0);
   const bool same_side = side_ == element.side;
-  if (same_side && is_inside && !is_final && trim(next)) return settle(last);
+  if (same_side && is_inside && !is_final && trim(next)) return finish_piece(last);
   PlaneCurve corner{.start = way.end, .end = next.start};
   if (same_side && !is_inside && last.cuts && element.cuts) {
     corner.center = element.curve.start;
     corner.sweep = -element.side * std::abs(turned);
   }
-  settle(last);
+  finish_piece(last);
   insert(corner);
 }
 
@@ -140,14 +140,14 @@ bool ContourOffset::trim(PlaneCurve& next) {
 void ContourOffset::insert(const PlaneCurve& curve) {
   Piece piece = pieces_.back();
   piece.out = {.curve = curve, .tag = piece.out.tag, .is_inserted = true};
-  piece.is_lead_in = piece.is_told = false;
+  piece.is_lead_in = piece.is_reported = false;
   pieces_.push_back(piece);
-  settle(pieces_.back());
+  finish_piece(pieces_.back());
 }
 
 /// The piece has its end: looks for gouges.
-void ContourOffset::settle(Piece& piece) {
-  piece.gouges = piece.tells = false;
+void ContourOffset::finish_piece(Piece& piece) {
+  piece.gouges = piece.has_gouge_to_report = false;
   piece.box = box_around(piece.out.curve);
   for (const Kept& element : contour_) look_at(piece, element);
 }
@@ -165,7 +165,7 @@ static bool may_face(const PlaneCurve& way, const PlaneCurve& element, int sides
 }
 
 void ContourOffset::look_at(Piece& piece, const Kept& element) const {
-  if (!piece.cuts || piece.pass != element.pass || piece.tells) return;
+  if (!piece.cuts || piece.pass != element.pass || piece.has_gouge_to_report) return;
   if (piece.number == element.number && !piece.out.is_inserted && !piece.is_lead_in) return;
   const auto [first, second] = std::minmax(piece.number, element.number);
   const bool is_smooth = second == element.number ? element.is_smooth : piece.is_smooth;
@@ -176,15 +176,15 @@ void ContourOffset::look_at(Piece& piece, const Kept& element) const {
   // Ways on and off shift the cutter sideways, and so pass the contour's ends at less than the radius.
   const double wanted = piece.is_lead_in ? radius_ / 2 : radius_;
   if (piece.box.squaredExteriorDistance(element.box) >= wanted * wanted) return;
-  const double least = wanted - kGouge - imprecision(way) - imprecision(element.curve);
-  if (!(least > 0)) return;
+  const double minimum = wanted - kGouge - imprecision(way) - imprecision(element.curve);
+  if (!(minimum > 0)) return;
   const int sides = piece.side * element.side;
   if (!are_neighbors && !may_face(way, element.curve, sides)) return;
   const Approach nearest = approach(way, element.curve);
-  if (nearest.distance() >= least) return;
+  if (nearest.distance() >= minimum) return;
   if (!are_neighbors && !faces(way, element.curve, nearest, sides)) return;
   piece.gouges = true;
-  piece.tells = !is_explained(piece.number, element.number);
+  piece.has_gouge_to_report = !is_explained(piece.number, element.number);
 }
 
 /// A gouge next to an inside arc that is too small comes from it, and one finding is enough.
@@ -200,7 +200,7 @@ bool ContourOffset::is_explained(std::uint64_t a, std::uint64_t b) const {
 /// Where a loop that gouges leads back to piece `last`, it is cut off. The shortest such loop is.
 void ContourOffset::reduce(std::size_t last) {
   bool gouges = false;
-  for (std::size_t first = last; first-- > given_out_;) {
+  for (std::size_t first = last; first-- > emitted_;) {
     if (pieces_[first].is_lead_in) return;
     gouges = gouges || pieces_[first].gouges;
     if (gouges && cut_loop(first, last)) return;
@@ -211,12 +211,12 @@ bool ContourOffset::cut_loop(std::size_t first, std::size_t last) {
   for (const Crossing& crossing : crossings(pieces_[first].out.curve, pieces_[last].out.curve)) {
     Piece cut = pieces_[first];
     cut.out.curve = cut.out.curve.to(crossing.point, crossing.along_first);
-    settle(cut);
+    finish_piece(cut);
     if (cut.gouges) continue;
     pieces_[first] = cut;
     Piece& rest = pieces_[last];
     rest.out.curve = rest.out.curve.from(crossing.point, crossing.along_second);
-    if (last + 1 < pieces_.size()) settle(rest);
+    if (last + 1 < pieces_.size()) finish_piece(rest);
     pieces_.erase(pieces_.begin() + static_cast<std::ptrdiff_t>(first) + 1,
                   pieces_.begin() + static_cast<std::ptrdiff_t>(last));
     return true;
@@ -226,33 +226,33 @@ bool ContourOffset::cut_loop(std::size_t first, std::size_t last) {
 
 void ContourOffset::finish() {
   if (has_stopped()) return;
-  settle(pieces_.back());
+  finish_piece(pieces_.back());
   release(0);
 }
 
 void ContourOffset::lead_out(const PlaneCurve& line, std::uint64_t tag) {
   Piece piece{
       .out = {.curve = line, .tag = tag, .is_inserted = true}, .number = count_ + 1, .pass = pass_, .is_lead_in = true};
-  settle(piece);
-  tell(piece);
+  finish_piece(piece);
+  report_gouge(piece);
 }
 
 /// Gives out what is final, but for so many pieces; what has waited for kLookAhead elements waits no longer.
 void ContourOffset::release(std::size_t held) {
   const auto has_waited = [&] {
-    return pieces_.size() - given_out_ > 1 && pieces_[given_out_].number + kLookAhead < count_;
+    return pieces_.size() - emitted_ > 1 && pieces_[emitted_].number + kLookAhead < count_;
   };
-  for (; pieces_.size() - given_out_ > held || has_waited(); ++given_out_) {
-    out_.push_back(pieces_[given_out_].out);
-    tell(pieces_[given_out_]);
+  for (; pieces_.size() - emitted_ > held || has_waited(); ++emitted_) {
+    out_.push_back(pieces_[emitted_].out);
+    report_gouge(pieces_[emitted_]);
   }
-  for (; given_out_ > 0 && pieces_.front().number + kLookBack < count_; --given_out_) pieces_.pop_front();
+  for (; emitted_ > 0 && pieces_.front().number + kLookBack < count_; --emitted_) pieces_.pop_front();
 }
 
 /// Once: who is told needs no second word about the same piece.
-void ContourOffset::tell(Piece& piece) {
-  if (!piece.tells || piece.is_told) return;
-  piece.is_told = true;
+void ContourOffset::report_gouge(Piece& piece) {
+  if (!piece.has_gouge_to_report || piece.is_reported) return;
+  piece.is_reported = true;
   flaws_.push_back({.tag = piece.out.tag});
 }
 

@@ -96,27 +96,27 @@ class ContourOffset {
     bool is_lead_in = false;  // Or leads out.
     bool is_smooth = false;
     bool gouges = false;
-    bool tells = false;  // Of a gouge that no other finding explains.
-    bool is_told = false;
+    bool has_gouge_to_report = false;  // Of a gouge that no other finding explains.
+    bool is_reported = false;
   };
 
   void join(PlaneCurve& next, const ContourElement& element, const Vec2& arriving);
   bool trim(PlaneCurve& next);
   void insert(const PlaneCurve& curve);
-  void settle(Piece& piece);
+  void finish_piece(Piece& piece);
   void look_at(Piece& piece, const Kept& element) const;
   bool closes(const PlaneCurve& curve) const;
-  bool has_stopped() const { return given_out_ == pieces_.size(); }
+  bool has_stopped() const { return emitted_ == pieces_.size(); }
   bool is_explained(std::uint64_t a, std::uint64_t b) const;
   void reduce(std::size_t last);
   bool cut_loop(std::size_t first, std::size_t last);
   void release(std::size_t held);
-  void tell(Piece& piece);
+  void report_gouge(Piece& piece);
 
   double radius_;
   std::deque<Kept> contour_;  // Elements that cut, the last kLookBack.
   std::deque<Piece> pieces_;  // Given out, those of the last kLookBack elements, then waiting; the last has no end yet.
-  std::size_t given_out_ = 0;  // Of pieces_.
+  std::size_t emitted_ = 0;   // Of pieces_.
   std::deque<OffsetPiece> out_;
   std::deque<ContourFlaw> flaws_;
   std::uint64_t count_ = 0;                                            // Elements.

@@ -35,8 +35,8 @@ static double turned_at(const PlaneCurve& arc, const Vec2& point) {
   const Vec2 a = arc.start - arc.center;
   const Vec2 b = point - arc.center;
   const double angle = std::atan2(cross(a, b), a.dot(b)) * (arc.sweep > 0 ? 1 : -1);
-  const double hair = kOnCurve / std::max(a.norm(), kOnCurve);
-  return angle < -hair ? angle + kTurn : angle;
+  const double tolerance = kOnCurve / std::max(a.norm(), kOnCurve);
+  return angle < -tolerance ? angle + kTurn : angle;
 }
 
 PlaneCurve PlaneCurve::from(const Vec2& point, double along) const {

@@ -7,8 +7,8 @@
 namespace isocnc::geometry {
 
 void Range::include(const Range& other) {
-  least = std::min(least, other.least);
-  most = std::max(most, other.most);
+  minimum = std::min(minimum, other.minimum);
+  maximum = std::max(maximum, other.maximum);
 }
 
 Turn turn_of(double angle) { return {angle, std::cos(angle), std::sin(angle)}; }
@@ -24,8 +24,8 @@ static bool passes(double p, double q, const Turn& end) {
 static Range level_wave_range(double p, double q, const Turn& end, double last) {
   Range range{std::min(p, last), std::max(p, last)};
   const double amplitude = std::sqrt(p * p + q * q);
-  if (passes(p, q, end)) range.most = std::max(range.most, amplitude);
-  if (passes(-p, -q, end)) range.least = std::min(range.least, -amplitude);
+  if (passes(p, q, end)) range.maximum = std::max(range.maximum, amplitude);
+  if (passes(-p, -q, end)) range.minimum = std::min(range.minimum, -amplitude);
   return range;
 }
 
@@ -56,7 +56,7 @@ std::array<Range, 3> wave_ranges(const Vec3& center, const Vec3& p, const Vec3& 
   std::array<Range, 3> ranges;
   for (int axis = 0; axis < 3; ++axis) {
     const Range wave = wave_range(p[axis], q[axis], slope[axis], end);
-    ranges[static_cast<std::size_t>(axis)] = {center[axis] + wave.least, center[axis] + wave.most};
+    ranges[static_cast<std::size_t>(axis)] = {center[axis] + wave.minimum, center[axis] + wave.maximum};
   }
   return ranges;
 }

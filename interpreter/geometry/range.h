@@ -7,8 +7,8 @@
 namespace isocnc::geometry {
 
 struct Range {
-  double least = 0;
-  double most = 0;
+  double minimum = 0;
+  double maximum = 0;
 
   void include(const Range& other);
 };

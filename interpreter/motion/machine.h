@@ -14,10 +14,10 @@ inline constexpr int kAxisCount = 5;
 
 /// The limits of one axis: in mm, mm/s, mm/s^2 and mm/s^3 for X, Y, Z; in degrees instead of mm for B and C.
 struct AxisLimits {
-  double least = -std::numeric_limits<double>::infinity();  ///< Lower end of the range.
-  double most = std::numeric_limits<double>::infinity();    ///< Upper end of the range.
-  double speed = 0;                                         ///< Speed of rapids, and maximum for feed moves; positive.
-  double acceleration = 0;                                  ///< Maximum acceleration; positive.
+  double minimum = -std::numeric_limits<double>::infinity();  ///< Lower end of the range.
+  double maximum = std::numeric_limits<double>::infinity();   ///< Upper end of the range.
+  double speed = 0;            ///< Speed of rapids, and maximum for feed moves; positive.
+  double acceleration = 0;     ///< Maximum acceleration; positive.
   std::optional<double> jerk;  ///< Maximum jerk; positive. Absent: the jerk is not limited.
 };
 

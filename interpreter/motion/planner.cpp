@@ -339,11 +339,11 @@ const Stretch* Planner::next() {
 /// Appends a span's phases to a stretch, if the stretch can hold them. Two phases of constant speed are merged.
 static bool extend(Stretch& stretch, const Profile::Span& span) {
   const auto count = static_cast<std::size_t>(stretch.phase_count);
-  const bool goes_on = count > 0 && span.phase_count > 0 && stretch.phases[count - 1].acceleration == 0 &&
-                       span.phases[0].acceleration == 0;
-  if (count + span.phase_count - (goes_on ? 1 : 0) > stretch.phases.size()) return false;
-  if (goes_on) stretch.phases[count - 1].duration += span.phases[0].duration;
-  for (std::size_t i = goes_on ? 1 : 0; i < span.phase_count; ++i)
+  const bool continues = count > 0 && span.phase_count > 0 && stretch.phases[count - 1].acceleration == 0 &&
+                         span.phases[0].acceleration == 0;
+  if (count + span.phase_count - (continues ? 1 : 0) > stretch.phases.size()) return false;
+  if (continues) stretch.phases[count - 1].duration += span.phases[0].duration;
+  for (std::size_t i = continues ? 1 : 0; i < span.phase_count; ++i)
     stretch.phases[static_cast<std::size_t>(stretch.phase_count++)] = span.phases[i];
   stretch.duration += span.duration;
   return true;

@@ -109,7 +109,7 @@ static std::vector<Overtravel> beyond(const Machine& machine, const MovePath& pa
   for (int axis = 0; axis < kAxisCount; ++axis) {
     const AxisLimits& limits = machine.axes[static_cast<std::size_t>(axis)];
     for (const double sign : {-1.0, 1.0}) {
-      const double limit = sign < 0 ? limits.least : limits.most;
+      const double limit = sign < 0 ? limits.minimum : limits.maximum;
       if (std::isinf(limit)) continue;
       const double part = find(axis, sign);
       const double position = path.joints(part)[axis];

@@ -147,8 +147,8 @@ void WindowMinimum::widen_forward(std::size_t count) {
 /// Adds an interval to the open cell if its limits are equal or it has no length; otherwise starts a new cell.
 void WindowMinimum::emit(double begin, double end, const LineLimits& limits) {
   const bool is_first = open_.length == 0;
-  const bool goes_on = are_equal(limits, open_.limits) && open_parts_ < kMaxParts;
-  if (!is_first && (end - begin <= kNoLength || goes_on)) {
+  const bool continues = are_equal(limits, open_.limits) && open_parts_ < kMaxParts;
+  if (!is_first && (end - begin <= kNoLength || continues)) {
     open_.length = end - open_.begin;
     ++open_parts_;
     return;

@@ -11,9 +11,9 @@ void PackedBytes::put(std::uint64_t number) {
 }
 
 std::int64_t in_units(double value, double unit) {
-  constexpr double kMost = 0x1p50;
+  constexpr double kMaxMagnitude = 0x1p50;
   if (std::isnan(value)) return 0;
-  return static_cast<std::int64_t>(std::nearbyint(std::clamp(value / unit, -kMost, kMost)));
+  return static_cast<std::int64_t>(std::nearbyint(std::clamp(value / unit, -kMaxMagnitude, kMaxMagnitude)));
 }
 
 std::string base64(std::string_view bytes) {

@@ -75,7 +75,7 @@ void PathRecording::add(const Place& place, double time) {
 }
 
 /// Infinite ends become null.
-static Json range(const motion::AxisLimits& axis) { return Json::array({axis.least, axis.most}); }
+static Json range(const motion::AxisLimits& axis) { return Json::array({axis.minimum, axis.maximum}); }
 
 static Json tool_of(const std::optional<execution::ToolCode>& tool, const std::vector<PlotTool>& known) {
   Json json = {{"name", nullptr}, {"length", nullptr}, {"radius", nullptr}};

@@ -23,7 +23,7 @@ static constexpr double kLegendTop = kTitleHeight + kViewSize + kMargin + kLegen
 /// Of a frame's axes, pixels.
 static constexpr double kArm = 26;
 /// What is smaller is not blown up further, mm.
-static constexpr double kLeastExtent = 20;
+static constexpr double kMinExtent = 20;
 /// What is shorter on the sheet is seen from its end, mm.
 static constexpr double kPoint = 1e-3;
 
@@ -56,13 +56,13 @@ SvgPlot::SvgPlot(const PlotSubject& subject) : subject_(subject) {
 }
 
 void SvgPlot::View::include(const Point& point) {
-  if (std::exchange(is_empty, false)) least = most = point;
-  least = {std::min(least.x, point.x), std::min(least.y, point.y)};
-  most = {std::max(most.x, point.x), std::max(most.y, point.y)};
+  if (std::exchange(is_empty, false)) minimum = maximum = point;
+  minimum = {std::min(minimum.x, point.x), std::min(minimum.y, point.y)};
+  maximum = {std::max(maximum.x, point.x), std::max(maximum.y, point.y)};
 }
 
 double SvgPlot::View::scale() const {
-  return kDrawnSize / std::max({most.x - least.x, most.y - least.y, kLeastExtent});
+  return kDrawnSize / std::max({maximum.x - minimum.x, maximum.y - minimum.y, kMinExtent});
 }
 
 void SvgPlot::View::draw(const Style& style, const Vec3& from, const Vec3& to) {
@@ -76,8 +76,8 @@ void SvgPlot::View::draw(const Style& style, const Vec3& from, const Vec3& to) {
     return;
   }
   std::string& path = paths[style];
-  const bool goes_on = !path.empty() && last == style && pen.x == begin.x && pen.y == begin.y;
-  if (!goes_on) fmt::format_to(std::back_inserter(path), "M{:.3f} {:.3f}", begin.x, begin.y);
+  const bool continues = !path.empty() && last == style && pen.x == begin.x && pen.y == begin.y;
+  if (!continues) fmt::format_to(std::back_inserter(path), "M{:.3f} {:.3f}", begin.x, begin.y);
   fmt::format_to(std::back_inserter(path), "L{:.3f} {:.3f}", end.x, end.y);
   last = style;
   pen = end;
@@ -126,7 +126,7 @@ std::string SvgPlot::drawn(const View& view, const Toolpath& path, double left) 
   const double scale = view.scale();
   std::string svg = fmt::format("<g transform=\"translate({:.2f} {:.2f}) scale({:.6g}) translate({:.3f} {:.3f})\">\n",
                                 left + kViewSize / 2, kTitleHeight + kViewSize / 2, scale,
-                                -(view.least.x + view.most.x) / 2, -(view.least.y + view.most.y) / 2);
+                                -(view.minimum.x + view.maximum.x) / 2, -(view.minimum.y + view.maximum.y) / 2);
   const auto draw = [&](std::string_view color, std::string_view style, std::string_view d) {
     fmt::format_to(std::back_inserter(svg),
                    "<path fill=\"none\" vector-effect=\"non-scaling-stroke\" stroke-linejoin=\"round\" stroke=\"{}\" "
@@ -140,10 +140,10 @@ std::string SvgPlot::drawn(const View& view, const Toolpath& path, double left) 
 }
 
 /// A length of 1, 2 or 5 and zeros that is no more than a quarter of the view.
-static double round_length(double most) {
-  const double power = std::pow(10, std::floor(std::log10(most)));
+static double round_length(double maximum) {
+  const double power = std::pow(10, std::floor(std::log10(maximum)));
   for (const double digit : {5.0, 2.0})
-    if (digit * power <= most) return digit * power;
+    if (digit * power <= maximum) return digit * power;
   return power;
 }
 

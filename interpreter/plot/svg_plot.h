@@ -31,8 +31,8 @@ class SvgPlot final : public Picture {
   /// What one view shows; y grows downwards.
   struct View {
     Point (*project)(const geometry::Vec3& point);
-    Point least;
-    Point most;
+    Point minimum;
+    Point maximum;
     bool is_empty = true;
     std::map<Style, std::string> paths;       ///< `d` of the paths.
     std::map<std::size_t, std::string> dots;  ///< By tool: feed moves that are seen as a point.

@@ -12,12 +12,12 @@ using geometry::Vec3;
 
 /// So many points may be left out in a row; looking at them again costs time. The middles of the planner's pieces are
 /// among them, so that what is left out is true between their ends, too.
-static constexpr std::size_t kMostSkipped = 64;
+static constexpr std::size_t kMaxSkipped = 64;
 /// A part of a curve turns by no more, nor B or C, so that its middle tells how far it bends.
 static constexpr double kPartDeg = 10;
 /// Halvings of such a part at most.
-static constexpr int kMostHalvings = 10;
-static constexpr int kMostParts = 1'000;
+static constexpr int kMaxHalvings = 10;
+static constexpr int kMaxParts = 1'000;
 
 Toolpath::Toolpath(const simulation::TimedMachine& machine, const Pose& home,
                    std::function<void(const ToolpathStep&)> on_step)
@@ -69,7 +69,7 @@ bool Toolpath::may_skip_to(const ToolpathPoint& point) const {
 }
 
 void Toolpath::go_to(const ToolpathPoint& point) {
-  if (!skipped_.empty() && (skipped_.size() >= kMostSkipped || !may_skip_to(point))) keep_last();
+  if (!skipped_.empty() && (skipped_.size() >= kMaxSkipped || !may_skip_to(point))) keep_last();
   skipped_.push_back(point);
 }
 
@@ -131,10 +131,10 @@ void Toolpath::add(const motion::Stretch& stretch) {
       const double turn = std::max(turned(point_at(stretch.path, phase, start, 0).pose,
                                           point_at(stretch.path, phase, start, phase.duration).pose),
                                    turn_of_circle(stretch.path, phase));
-      const int parts = motion::part_count(turn / kPartDeg, kMostParts);
+      const int parts = motion::part_count(turn / kPartDeg, kMaxParts);
       for (int part = 0; part < parts; ++part)
         add_curve(stretch.path, phase, start, phase.duration * part / parts, phase.duration * (part + 1) / parts,
-                  kMostHalvings);
+                  kMaxHalvings);
     }
     start += phase.duration;
   }
@@ -151,7 +151,7 @@ void Toolpath::add(const simulation::TimedEvent& timed) {
   if (const auto* const frame = std::get_if<running::FrameEvent>(&timed.event.what))
     add_frame(*frame, timed.event.line);
   if (const auto* const move = std::get_if<running::MoveEvent>(&timed.event.what))
-    return tell(timed, kind_of(move->kind), running::feed_of(*move));
+    return add_step(timed, kind_of(move->kind), running::feed_of(*move));
   if (timed.duration > 0) {
     points_.front().time = timed.start;
     points_.front().speed = 0;
@@ -159,13 +159,13 @@ void Toolpath::add(const simulation::TimedEvent& timed) {
     go_to(still);
     keep_last();
     if (!(end == still.pose)) go_to({.pose = end, .time = still.time});
-    tell(timed, StepKind::Wait, 0);
+    add_step(timed, StepKind::Wait, 0);
   }
   points_.front().pose = end;
 }
 
 /// What has been gone through since the last step is this one.
-void Toolpath::tell(const simulation::TimedEvent& timed, StepKind kind, double feed) {
+void Toolpath::add_step(const simulation::TimedEvent& timed, StepKind kind, double feed) {
   keep_last();
   if (points_.size() == 1) points_.front().time = timed.start;
   on_step_({.line = timed.event.line, .kind = kind, .tool = tool_, .feed = feed, .points = points_});
@@ -189,7 +189,7 @@ void Toolpath::add_frame(const running::FrameEvent& event, std::uint64_t line) {
   if (event.face_mounted) frame = {event.workpiece_origin + event.face.origin, event.face.axes};
   const bool is_known =
       std::any_of(frames_.begin(), frames_.end(), [&](const ToolpathFrame& known) { return known.frame == frame; });
-  if (!is_known && frames_.size() < kMostFrames) frames_.push_back({frame, line});
+  if (!is_known && frames_.size() < kMaxFrames) frames_.push_back({frame, line});
 }
 
 }  // namespace isocnc::plot

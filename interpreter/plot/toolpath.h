@@ -58,7 +58,7 @@ class Toolpath {
   const std::vector<std::optional<execution::ToolCode>>& tools() const { return tools_; }
   /// In the order in which they came; no more than kMostFrames, each once.
   const std::vector<ToolpathFrame>& frames() const { return frames_; }
-  static constexpr std::size_t kMostFrames = 100;
+  static constexpr std::size_t kMaxFrames = 100;
 
  private:
   void add_curve(const motion::Path& path, const motion::Phase& phase, double start, double from, double to, int depth);
@@ -69,7 +69,7 @@ class Toolpath {
   void keep_last();
   geometry::Pose mount(execution::ToolCode tool);
   void add_frame(const running::FrameEvent& event, std::uint64_t line);
-  void tell(const simulation::TimedEvent& timed, StepKind kind, double feed);
+  void add_step(const simulation::TimedEvent& timed, StepKind kind, double feed);
 
   const simulation::TimedMachine& machine_;
   std::function<void(const ToolpathStep&)> on_step_;

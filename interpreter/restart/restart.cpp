@@ -18,8 +18,8 @@ using dialect::Text;
 using execution::State;
 
 static constexpr Text kNoSuchLine{"there is no line {}: the last one is {}", "la riga {} non esiste: l'ultima è la {}"};
-static constexpr Text kBehindEnd{"line {} is not run: the program ends at line {}",
-                                 "la riga {} non viene eseguita: il programma termina alla riga {}"};
+static constexpr Text kAfterProgramEnd{"line {} is not run: the program ends at line {}",
+                                       "la riga {} non viene eseguita: il programma termina alla riga {}"};
 static constexpr Text kJumpedOver{"line {} is not run: the IF of line {} jumps over it",
                                   "la riga {} non viene eseguita: la scavalca l'IF della riga {}"};
 static constexpr Text kChoice{" (--vgpl and --set choose the way)", " (--vgpl e --set scelgono il percorso)"};
@@ -335,13 +335,13 @@ const Text& reason(Obstacle obstacle) {
   }
 }
 
-std::string what_is_wrong(const RestartRefusal& refusal, Language language) {
+std::string problem(const RestartRefusal& refusal, Language language) {
   const auto say = [&](const Text& text, auto... values) { return dialect::format(text, language, values...); };
   switch (refusal.obstacle) {
     case Obstacle::NoSuchLine:
       return say(kNoSuchLine, refusal.line + 1, refusal.cause);
-    case Obstacle::BehindEnd:
-      return say(kBehindEnd, refusal.line + 1, refusal.cause + 1);
+    case Obstacle::AfterProgramEnd:
+      return say(kAfterProgramEnd, refusal.line + 1, refusal.cause + 1);
     case Obstacle::JumpedOver:
       return say(kJumpedOver, refusal.line + 1, refusal.cause + 1);
     case Obstacle::BeyondTravel:
@@ -365,8 +365,8 @@ std::variant<std::string, RestartRefusal> restart_program(std::string_view text,
 }
 
 std::string message(const RestartRefusal& refusal, Language language) {
-  std::string text = what_is_wrong(refusal, language);
-  const bool is_not_run = refusal.obstacle == Obstacle::BehindEnd || refusal.obstacle == Obstacle::JumpedOver;
+  std::string text = problem(refusal, language);
+  const bool is_not_run = refusal.obstacle == Obstacle::AfterProgramEnd || refusal.obstacle == Obstacle::JumpedOver;
   if (is_not_run && refusal.has_choices) text += kChoice.in(language);
   const auto add = [&](const Text& nearest, auto... lines) {
     text += "; " + dialect::format(nearest, language, (lines + 1)...);

@@ -72,7 +72,7 @@ class Preamble {
         state_(execution::initial_state(options.run.setup)) {}
 
   std::string text() {
-    comment_on_the_way();
+    write_assumed_path();
     set_modes();
     assign_registers();
     if (target_.workpiece_origin != Vec3::Zero()) add("G92" + lengths(target_.workpiece_origin));
@@ -98,7 +98,7 @@ class Preamble {
   }
   void comment(std::string_view text) { text_.append(text).append(line_end_); }
 
-  void comment_on_the_way() {
+  void write_assumed_path() {
     const dialect::Language language = options_.language;
     comment(dialect::format(kTitle, language, ascii(options_.name), options_.line + 1));
     std::string assumed;
@@ -173,10 +173,10 @@ class Preamble {
   /// The height from which the tool feeds down, Z of the frame in force.
   double height() const {
     const double depth = target_.position.tip.z();
-    const double least = cuts() ? depth + kAboveWork : depth;
-    if (options_.clearance) return std::max(*options_.clearance, least);
+    const double minimum = cuts() ? depth + kAboveWork : depth;
+    if (options_.clearance) return std::max(*options_.clearance, minimum);
     const std::optional<double>& machine = options_.run.setup.clearance;
-    return std::max({machine.value_or(least), point_.fed.max().z(), least});
+    return std::max({machine.value_or(minimum), point_.fed.max().z(), minimum});
   }
 
   /// Out of the work where B tilts the tool, along which it comes and goes: beyond all that has been cut. Nothing
@@ -200,7 +200,7 @@ class Preamble {
     const simulation::TimedMachine& machine = options_.machine;
     const motion::Coordinates tip = motion::coordinates({Vec3::Zero(), state_.position.b, state_.position.c});
     const motion::Coordinates nose = motion::inverse(machine.motion.kinematics, tip, machine.tool_length(target_.tool));
-    const double room = std::floor((machine.motion.axes[motion::kZ].most - nose[motion::kZ]) * 1000) / 1000;
+    const double room = std::floor((machine.motion.axes[motion::kZ].maximum - nose[motion::kZ]) * 1000) / 1000;
     constexpr double kNoise = 1e-3;
     const double step = state_.mm_per_unit() / kStepsPerUnit;
     return std::floor((room - state_.workpiece_origin.z()) / step + kNoise) * step;
@@ -242,9 +242,9 @@ class Preamble {
     const execution::Feed& feed = target_.feed_per_minute;
     if (feed.number > 0) {
       const double unit = state_.mm_per_unit();
-      const double least = std::min(options_.approach_feed, feed.number * feed.mm_per_unit) / unit;
-      const bool is_feed = feed.mm_per_unit == unit && feed.number <= least;
-      add("G01 " + end + " F" + (is_feed ? exact(feed.number) : rounded_feed(least)));
+      const double minimum = std::min(options_.approach_feed, feed.number * feed.mm_per_unit) / unit;
+      const bool is_feed = feed.mm_per_unit == unit && feed.number <= minimum;
+      add("G01 " + end + " F" + (is_feed ? exact(feed.number) : rounded_feed(minimum)));
     } else if (target_.last_feed.number > 0) {
       set_feed_mode(93);
       add("G01 " + end + " F" + rounded_feed(options_.approach_feed / way.norm()));
@@ -255,9 +255,9 @@ class Preamble {
 
   /// Down to three significant digits, since it may not be exceeded; but never to 0.
   static std::string rounded_feed(double feed) {
-    constexpr double kLeast = 1e-9;
+    constexpr double kMinFeed = 1e-9;
     constexpr double kNoise = 1e-12;  // 12.3 is to stay 12.3, though it is 122.99999999999999 tenths.
-    feed = std::max(feed, kLeast);
+    feed = std::max(feed, kMinFeed);
     const double decimals = 2 - std::floor(std::log10(feed));
     const double scale = std::pow(10, std::abs(decimals));
     const double digits = std::floor((decimals < 0 ? feed / scale : feed * scale) * (1 + kNoise));

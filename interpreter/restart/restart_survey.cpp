@@ -200,7 +200,7 @@ bool RestartSurvey::has(std::uint64_t line, std::uint16_t trait) const {
 
 Obstacle RestartSurvey::obstacle(std::uint64_t line) const {
   if (run_.ending == running::Ending::Error) return Obstacle::ProgramError;
-  if (!has(line, kReached)) return line < traits_.size() ? Obstacle::JumpedOver : Obstacle::BehindEnd;
+  if (!has(line, kReached)) return line < traits_.size() ? Obstacle::JumpedOver : Obstacle::AfterProgramEnd;
   if (has(line, kCompensated)) return Obstacle::Compensation;
   if (has(line, kUnknownRadius)) return Obstacle::RadiusUnknown;
   if (has(line, kChangedLow)) return Obstacle::FrameChangedLow;

@@ -18,7 +18,7 @@ enum class Obstacle : std::uint8_t {
   None,
   NoSuchLine,       ///< The program is shorter.
   ProgramError,     ///< The program does not run to its M02.
-  BehindEnd,        ///< M02 comes first.
+  AfterProgramEnd,  ///< M02 comes first.
   JumpedOver,       ///< A taken IF passes over the line.
   Compensation,     ///< G41 or G42 is in force.
   OnContour,        ///< G40 has left the tool beside the contour, and from there the rest would run differently.

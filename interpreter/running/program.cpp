@@ -7,11 +7,11 @@
 
 namespace isocnc::running {
 
-std::optional<Place> Program::landing(const Place& jump, std::uint64_t label) const {
+std::optional<Place> Program::jump_target(const Place& jump, std::uint64_t label) const {
   {
     const std::lock_guard lock(mutex_);
-    const auto known = landings_.find(jump.offset);
-    if (known != landings_.end()) return known->second;
+    const auto known = jump_targets_.find(jump.offset);
+    if (known != jump_targets_.end()) return known->second;
   }
   const char* const begin = text_.data() + jump.offset;
   const char* const end = text_.data() + text_.size();
@@ -23,7 +23,7 @@ std::optional<Place> Program::landing(const Place& jump, std::uint64_t label) co
                        std::numeric_limits<std::uint64_t>::max());
   }
   const std::lock_guard lock(mutex_);
-  return landings_.emplace(jump.offset, found).first->second;
+  return jump_targets_.emplace(jump.offset, found).first->second;
 }
 
 bool Program::has_label_above(const Place& jump, std::uint64_t label) const {

@@ -27,7 +27,7 @@ class Program {
   std::string_view text() const { return text_; }
 
   /// The first line below the jump's that has the label (D50).
-  std::optional<Place> landing(const Place& jump, std::uint64_t label) const;
+  std::optional<Place> jump_target(const Place& jump, std::uint64_t label) const;
 
   /// Whether the jump's line, or one above it, has the label (E005).
   bool has_label_above(const Place& jump, std::uint64_t label) const;
@@ -37,7 +37,7 @@ class Program {
 
   std::string_view text_;
   mutable std::mutex mutex_;
-  mutable std::map<std::size_t, std::optional<Place>> landings_;  ///< By the offset of the jump.
+  mutable std::map<std::size_t, std::optional<Place>> jump_targets_;  ///< By the offset of the jump.
 };
 
 }  // namespace isocnc::running

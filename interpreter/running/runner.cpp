@@ -141,12 +141,12 @@ void Runner::execute_line(const syntax::LineTree& tree) {
 void Runner::branch(const syntax::Jump& jump, const Place& from) {
   const bool is_taken = holds(jump);
   if (is_taken) {
-    const std::optional<Place> landing = program_->landing(from, jump.target);
-    if (!landing) {
+    const std::optional<Place> jump_target = program_->jump_target(from, jump.target);
+    if (!jump_target) {
       const bool above = program_->has_label_above(from, jump.target);
       return fail({.id = above ? "backward-jump"_diag : "label-not-found"_diag, .span = jump.target_span});
     }
-    place_ = *landing;
+    place_ = *jump_target;
     if (options_->until && place_.line > *options_->until) result_.jumped_over_from = from.line;
   }
   workbench_.events.push_back({from.line, JumpEvent{is_taken, place_.line}});

@@ -88,16 +88,16 @@ class Runner {
 
  private:
   /// Memory to work in. It says nothing about the run, so a copy begins with none.
-  struct Workbench {
-    Workbench() = default;
-    Workbench(const Workbench&) : Workbench() {}
-    Workbench& operator=(const Workbench& other) {
+  struct ScratchMemory {
+    ScratchMemory() = default;
+    ScratchMemory(const ScratchMemory&) : ScratchMemory() {}
+    ScratchMemory& operator=(const ScratchMemory& other) {
       if (this == &other) return *this;
       holds_line = false;
       events.clear();
       return *this;
     }
-    ~Workbench() = default;
+    ~ScratchMemory() = default;
 
     syntax::TreeStore store;
     syntax::LineTree tree;
@@ -123,7 +123,7 @@ class Runner {
   bool has_ended_ = false;
   double vgpl_;
   RunResult result_;
-  Workbench workbench_;
+  ScratchMemory workbench_;
 };
 
 /// Runs a program as the control would, one block after another; what it does goes to `on_event`. A block with an error

@@ -12,8 +12,8 @@ using geometry::PlaneCurve;
 using geometry::Vec2;
 using geometry::Vec3;
 
-static constexpr double kNowhere = 1e-9;                 // mm
-static constexpr std::size_t kMostEventsBetween = 1000;  // Events between two elements; a control counts in tens.
+static constexpr double kNowhere = 1e-9;                // mm
+static constexpr std::size_t kMaxEventsBetween = 1000;  // Events between two elements; a control counts in tens.
 static constexpr std::size_t kLinesKept =
     2 * (geometry::ContourOffset::kLookBack + geometry::ContourOffset::kLookAhead);
 
@@ -71,7 +71,7 @@ void Compensation::take(const running::Event& event, const Listeners& listeners)
 void Compensation::wait(const running::Event& event, const Listeners& listeners) {
   if (is_paused_) return go_beside(event, listeners);
   waiting_.push_back({.event = event, .element = elements_});
-  if (waiting_.size() > kMostEventsBetween) pause(listeners);
+  if (waiting_.size() > kMaxEventsBetween) pause(listeners);
 }
 
 void Compensation::pause(const Listeners& listeners) {
@@ -122,9 +122,9 @@ void Compensation::begin_contour(const running::MoveEvent& move) {
 
 void Compensation::turn_plane(const Vec3& normal) {
   plane_.normal = normal;
-  Vec3::Index least = 0;
-  normal.cwiseAbs().minCoeff(&least);
-  plane_.u = Vec3::Unit(least).cross(normal).normalized();
+  Vec3::Index minimum = 0;
+  normal.cwiseAbs().minCoeff(&minimum);
+  plane_.u = Vec3::Unit(minimum).cross(normal).normalized();
   plane_.v = normal.cross(plane_.u);
 }
 

@@ -15,7 +15,7 @@ namespace isocnc::simulation {
 struct RunWarning {
   std::uint64_t line = 0;  ///< From 0.
   dialect::DiagnosticId id = dialect::kNoDiagnostic;
-  std::array<double, dialect::kMostArguments> values{};
+  std::array<double, dialect::kMaxArguments> values{};
 
   friend bool operator==(const RunWarning&, const RunWarning&) = default;
 };

@@ -4,7 +4,7 @@
 
 namespace isocnc::simulation {
 
-static constexpr std::size_t kMostFrames = 100;
+static constexpr std::size_t kMaxFrames = 100;
 
 void FrameLog::take(const running::FrameEvent& event, std::uint64_t line) {
   const bool dismounts = face_ && !event.face_mounted && event.workpiece_origin == workpiece_.frame.origin;
@@ -18,8 +18,8 @@ void FrameLog::take(const running::FrameEvent& event, std::uint64_t line) {
 
 static std::array<geometry::Range, 3> seen_from(const geometry::Vec3& origin, std::array<geometry::Range, 3> ranges) {
   for (std::size_t axis = 0; axis < ranges.size(); ++axis) {
-    ranges[axis].least -= origin[static_cast<Eigen::Index>(axis)];
-    ranges[axis].most -= origin[static_cast<Eigen::Index>(axis)];
+    ranges[axis].minimum -= origin[static_cast<Eigen::Index>(axis)];
+    ranges[axis].maximum -= origin[static_cast<Eigen::Index>(axis)];
   }
   return ranges;
 }
@@ -31,13 +31,13 @@ void FrameLog::take(const motion::Machine& machine, const motion::Move& move,
   const bool is_new = !now.place;
   if (is_new) {
     now.place = frames_.size();
-    if (frames_.size() == kMostFrames) {
+    if (frames_.size() == kMaxFrames) {
       ++left_out_;
     } else {
       frames_.push_back({.line = *now.line, .is_face = face_.has_value(), .frame = now.frame});
     }
   }
-  if (*now.place == kMostFrames) return;
+  if (*now.place == kMaxFrames) return;
   const bool is_shifted = now.frame.axes == geometry::Mat3::Identity();
   const auto reached =
       is_shifted ? seen_from(now.frame.origin, extents) : motion::tip_extents(machine, move, now.frame);

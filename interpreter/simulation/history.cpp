@@ -51,14 +51,14 @@ void History::go_to_time(double seconds) {
 }
 
 /// Goes to the last simulation at hand that qualifies, if any does, else to the begin. Those before it qualify, too.
-template <class Qualifies>
-void History::start_from(Qualifies&& qualifies) {
+template <class Predicate>
+void History::start_from(Predicate&& predicate) {
   const auto behind = std::partition_point(checkpoints_.begin() + 1, checkpoints_.end(),
-                                           [&](const Checkpoint& each) { return qualifies(*each.simulation); });
+                                           [&](const Checkpoint& each) { return predicate(*each.simulation); });
   const Simulation* best = std::prev(behind)->simulation.get();
   for (const auto& [work, simulation] : nearby_)
-    if (work > best->work() && qualifies(simulation)) best = &simulation;
-  if (present_.work() >= best->work() && qualifies(present_)) return;
+    if (work > best->work() && predicate(simulation)) best = &simulation;
+  if (present_.work() >= best->work() && predicate(present_)) return;
   present_ = *best;
   apply_settings(present_, present_.blocks());
 }
@@ -167,7 +167,7 @@ void History::thin_out() {
   }
 }
 
-bool History::is_behind_present(const Simulation& checkpoint) const {
+bool History::is_after_present(const Simulation& checkpoint) const {
   return checkpoint.blocks() > present_.blocks() || checkpoint.time() > present_.time();
 }
 
@@ -179,11 +179,11 @@ void History::set(const Setting& setting) {
   const auto is_later = [&](const Setting& other) { return other.blocks > setting.blocks; };
   settings_.erase(std::find_if(settings_.begin(), settings_.end(), is_later), settings_.end());
   settings_.push_back(setting);
-  while (checkpoints_.size() > 1 && is_behind_present(*checkpoints_.back().simulation)) {
+  while (checkpoints_.size() > 1 && is_after_present(*checkpoints_.back().simulation)) {
     bytes_ -= checkpoints_.back().bytes;
     checkpoints_.pop_back();
   }
-  std::erase_if(nearby_, [this](const auto& each) { return is_behind_present(each.second); });
+  std::erase_if(nearby_, [this](const auto& each) { return is_after_present(each.second); });
   apply_settings(present_, setting.blocks);
 }
 

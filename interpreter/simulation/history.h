@@ -89,13 +89,13 @@ class History {
     std::size_t bytes = 0;
   };
 
-  bool is_behind_present(const Simulation& checkpoint) const;
+  bool is_after_present(const Simulation& checkpoint) const;
   void add_checkpoint(const Simulation& simulation);
   void set(const Setting& setting);
   template <class Run>
   void apply_settings(Run& run, std::uint64_t blocks) const;
-  template <class Qualifies>
-  void start_from(Qualifies&& qualifies);
+  template <class Predicate>
+  void start_from(Predicate&& predicate);
   void keep();
   void keep_nearby();
   void thin_out();

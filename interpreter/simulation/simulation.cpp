@@ -66,7 +66,7 @@ Simulation::Simulation(const Simulation& before, const running::Runner& run, con
       timing_(machine, standing(before, run, machine, beside)),
       last_motion_(before.last_motion_),
       begin_(timing_.tip()),
-      begin_tool_length_(before.tool_length_),
+      start_tool_length_(before.tool_length_),
       tool_length_(before.tool_length_),
       spindle_(before.spindle_),
       time_(before.time_) {
@@ -82,36 +82,36 @@ void Simulation::advance_to(double seconds, const BeforeReading& before_reading)
 
 void Simulation::advance_in_block(double seconds, const BeforeReading& before_reading) {
   if (has_ended() || !(seconds > time_)) return;
-  if (!in_block_) begin_block();
-  carry_on(seconds, before_reading);
+  if (!in_block_) start_block();
+  continue_block(seconds, before_reading);
 }
 
 void Simulation::advance_along(double way, const BeforeReading& before_reading) {
   if (has_ended() || !(way > 0)) return;
-  if (!in_block_) begin_block();
-  while (in_block_ && read_on(before_reading) && is_of_block(piece())) {
+  if (!in_block_) start_block();
+  while (in_block_ && read_ahead(before_reading) && is_of_block(piece())) {
     const double end = piece()->end;
     if (const auto& stretch = piece()->stretch) {
       const double from = stretch->parameter_at(time_);
       const double left = stretch->parameter_at(end) - from;
-      if (way < left) return carry_on(stretch->time_at(from + way), before_reading);
+      if (way < left) return continue_block(stretch->time_at(from + way), before_reading);
       way -= left;
     }
-    carry_on(end, before_reading);
+    continue_block(end, before_reading);
   }
-  carry_on(time_, before_reading);  // The block is over, unless the machine has to wait.
+  continue_block(time_, before_reading);  // The block is over, unless the machine has to wait.
 }
 
 void Simulation::step_instruction(const BeforeReading& before_reading) {
   if (has_ended()) return;
   if (!in_block_) {
-    begin_block();
-    return carry_on(time_, before_reading);
+    start_block();
+    return continue_block(time_, before_reading);
   }
-  if (!read_on(before_reading) || !is_of_block(piece())) return carry_on(kForever, before_reading);
+  if (!read_ahead(before_reading) || !is_of_block(piece())) return continue_block(kForever, before_reading);
   const auto cause = piece()->cause;
-  while (in_block_ && read_on(before_reading) && is_of_block(piece()) && piece()->cause == cause)
-    carry_on(piece()->end, before_reading);
+  while (in_block_ && read_ahead(before_reading) && is_of_block(piece()) && piece()->cause == cause)
+    continue_block(piece()->end, before_reading);
 }
 
 void Simulation::trace_block(const std::function<void(const motion::Move&)>& on_move) {
@@ -121,7 +121,7 @@ void Simulation::trace_block(const std::function<void(const motion::Move&)>& on_
 
 /// The next block, with all that it brings about but what takes time. The control has read it already, unless the
 /// machine had to get there first.
-void Simulation::begin_block() {
+void Simulation::start_block() {
   const bool is_news = !ahead_.has_ended() && ahead_.place() == present_.place();
   const std::uint64_t blocks_before = blocks();
   line_ = present_.place().line;
@@ -139,9 +139,9 @@ void Simulation::begin_block() {
 }
 
 /// To the end of the block in progress, or to `seconds`. The block ends where the next thing begins.
-void Simulation::carry_on(double seconds, const BeforeReading& before_reading) {
+void Simulation::continue_block(double seconds, const BeforeReading& before_reading) {
   while (in_block_) {
-    const bool is_known = read_on(before_reading);
+    const bool is_known = read_ahead(before_reading);
     const bool is_over = !is_known || !is_of_block(piece());
     const double end = !is_over ? piece()->end : is_known ? piece()->start : timing_.time();
     if (end > seconds) {
@@ -162,10 +162,10 @@ void Simulation::pass_piece() {
   if (const auto* const change = std::get_if<running::ToolEvent>(&event.what))
     tool_length_ = machine_->tool_length(change->tool);
   if (const auto& stretch = pieces_[passed_].stretch) {
-    if (!last_stretch_ || last_stretch_->tag != stretch->tag) gone_ = 0;
+    if (!last_stretch_ || last_stretch_->tag != stretch->tag) travelled_ = 0;
     // Behind the last of a move nobody asks.
     if (!stretch->ends_move)
-      gone_ += stretch->parameter_at(stretch->start + stretch->duration) - stretch->parameter_at(stretch->start);
+      travelled_ += stretch->parameter_at(stretch->start + stretch->duration) - stretch->parameter_at(stretch->start);
     last_stretch_ = stretch;
     last_motion_ = pieces_[passed_].cause;
   }
@@ -173,13 +173,13 @@ void Simulation::pass_piece() {
 }
 
 /// Until it is known what the machine does next. False where it comes to rest before anything more is read, or at all.
-bool Simulation::read_on(const BeforeReading& before_reading) {
+bool Simulation::read_ahead(const BeforeReading& before_reading) {
   if (piece() != nullptr) return true;
   pieces_.clear();
   passed_ = 0;
   if (before_reading) before_reading(*this);
   timing_.listen(listeners());
-  while (pieces_.empty() && may_read_on()) {
+  while (pieces_.empty() && may_read_ahead()) {
     ahead_.step();
     plan(ahead_.events());
     ahead_.pass_empty_lines();
@@ -190,7 +190,7 @@ bool Simulation::read_on(const BeforeReading& before_reading) {
 }
 
 /// The control reads an IF when the machine has got there (I.5).
-bool Simulation::may_read_on() {
+bool Simulation::may_read_ahead() {
   if (ahead_.has_ended()) return false;
   const auto block = ahead_.next();
   return !block || block->tree.jump == nullptr || !block->tree.jump->has_target;
@@ -213,24 +213,25 @@ Compensation::Listeners Simulation::compensated() {
 
 /// Whatever takes time becomes a piece, and a tool change in any case.
 Timing::Listeners Simulation::listeners() {
-  return {.event =
-              [this](const TimedEvent& timed) {
-                if (std::holds_alternative<running::MoveEvent>(timed.event.what)) return;
-                if (!(timed.duration > 0) && !std::holds_alternative<running::ToolEvent>(timed.event.what)) return;
-                pieces_.push_back({.start = timed.start,
-                                   .end = timed.start + timed.duration,
-                                   .cause = std::make_shared<const TimedEvent>(timed)});
-              },
-          .stretch =
-              [this](const motion::Stretch& stretch, const TimedEvent& timed) {
-                ++stretches_;
-                const bool goes_on = !pieces_.empty() && pieces_.back().stretch.has_value() &&
-                                     pieces_.back().stretch->tag == stretch.tag;
-                pieces_.push_back({.start = stretch.start,
-                                   .end = stretch.start + stretch.duration,
-                                   .cause = goes_on ? pieces_.back().cause : std::make_shared<const TimedEvent>(timed),
-                                   .stretch = stretch});
-              }};
+  return {
+      .event =
+          [this](const TimedEvent& timed) {
+            if (std::holds_alternative<running::MoveEvent>(timed.event.what)) return;
+            if (!(timed.duration > 0) && !std::holds_alternative<running::ToolEvent>(timed.event.what)) return;
+            pieces_.push_back({.start = timed.start,
+                               .end = timed.start + timed.duration,
+                               .cause = std::make_shared<const TimedEvent>(timed)});
+          },
+      .stretch =
+          [this](const motion::Stretch& stretch, const TimedEvent& timed) {
+            ++stretches_;
+            const bool continues =
+                !pieces_.empty() && pieces_.back().stretch.has_value() && pieces_.back().stretch->tag == stretch.tag;
+            pieces_.push_back({.start = stretch.start,
+                               .end = stretch.start + stretch.duration,
+                               .cause = continues ? pieces_.back().cause : std::make_shared<const TimedEvent>(timed),
+                               .stretch = stretch});
+          }};
 }
 
 std::uint64_t Simulation::line() const {
@@ -257,7 +258,7 @@ motion::Sample Simulation::sample() const {
   const motion::Kinematics& kinematics = machine_->motion.kinematics;
   if (const motion::Stretch* const moving = stretch()) return moving->at(kinematics, time_);
   motion::Sample standing{.time = time_, .tip = begin_};
-  double length = begin_tool_length_;  // Of the tool that it has come here with.
+  double length = start_tool_length_;  // Of the tool that it has come here with.
   if (last_stretch_) {
     const motion::Sample last = last_stretch_->at(kinematics, kForever);
     standing.tip = last.tip;
@@ -280,7 +281,7 @@ DistanceToGo Simulation::to_go() const {
   if (moving == nullptr || event() == nullptr) return {};
   const motion::Move& move = *piece()->cause->move;
   const double here = moving->parameter_at(time_);
-  const double gone = last_stretch_ && last_stretch_->tag == moving->tag ? gone_ : 0;
+  const double gone = last_stretch_ && last_stretch_->tag == moving->tag ? travelled_ : 0;
   const double left = path_of(machine_->motion, move) - gone - (here - moving->parameter_at(moving->start));
   return {.axes = motion::coordinates(move.to) - motion::coordinates(sample().tip),
           .path = moving->ends_move ? moving->parameter_at(kForever) - here : std::max(0.0, left)};
@@ -303,7 +304,7 @@ std::optional<ArcSegment> Simulation::segment() const {
 void Simulation::forget_past() {
   pieces_.erase(pieces_.begin(), pieces_.begin() + static_cast<std::ptrdiff_t>(passed_));
   passed_ = 0;
-  timing_.forget_told();
+  timing_.release_reported();
 }
 
 std::size_t Simulation::memory() const {

@@ -121,11 +121,11 @@ class Simulation {
   /// The stretch that the machine is on; null where it stands.
   const motion::Stretch* stretch() const;
   bool is_of_block(const Piece* piece) const { return piece != nullptr && piece->cause->event.line <= line_; }
-  void begin_block();
-  void carry_on(double seconds, const BeforeReading& before_reading);
+  void start_block();
+  void continue_block(double seconds, const BeforeReading& before_reading);
   void pass_piece();
-  bool read_on(const BeforeReading& before_reading);
-  bool may_read_on();
+  bool read_ahead(const BeforeReading& before_reading);
+  bool may_read_ahead();
   void plan(std::span<const running::Event> events);
   void come_to_rest();
   Timing::Listeners listeners();
@@ -141,8 +141,8 @@ class Simulation {
   std::optional<motion::Stretch> last_stretch_;
   std::shared_ptr<const TimedEvent> last_motion_;  ///< That the machine has begun, also before its begin; or null.
   geometry::Pose begin_;  ///< Where the machine stood at the begin, with a tool of that length.
-  double begin_tool_length_ = 0;
-  double gone_ = 0;         ///< Of the path of its motion.
+  double start_tool_length_ = 0;
+  double travelled_ = 0;    ///< Of the path of its motion.
   double tool_length_ = 0;  ///< Of the tool that is mounted.
   Timing::Spindle spindle_;
   double time_ = 0;

@@ -14,7 +14,7 @@ using execution::MoveKind;
 Summary::Summary(const TimedMachine& machine)
     : machine_(machine),
       checks_travel_(std::any_of(machine.motion.axes.begin(), machine.motion.axes.end(), [](const auto& axis) {
-        return std::isfinite(axis.least) || std::isfinite(axis.most);
+        return std::isfinite(axis.minimum) || std::isfinite(axis.maximum);
       })) {}
 
 /// The share of the tool that is mounted; before the first M06 of none.
@@ -115,7 +115,7 @@ void Summary::ask_for(Limit limit, double value, std::uint64_t line) {
   if (!(value > limit_of(limit) * kRounding)) return;
   std::optional<Excess>& excess = excesses_[static_cast<std::size_t>(limit)];
   if (!excess) excess = Excess{.line = line};
-  excess->most = std::max(excess->most, value);
+  excess->maximum = std::max(excess->maximum, value);
 }
 
 void Summary::finish(const running::RunResult& result, double seconds, const motion::Coordinates& joints,

@@ -46,7 +46,7 @@ inline constexpr std::size_t kLimitCount = 3;
 
 struct Excess {
   std::uint64_t line = 0;  ///< Where it is first asked for, from 0.
-  double most = 0;         ///< That is asked for anywhere.
+  double maximum = 0;      ///< That is asked for anywhere.
 };
 
 /// What a run adds up to.

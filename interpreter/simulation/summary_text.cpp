@@ -85,8 +85,8 @@ template <std::size_t Count>
 static std::string shown_extents(const std::array<geometry::Range, Count>& extents) {
   std::string text;
   for (std::size_t axis = 0; axis < Count; ++axis)
-    text += fmt::format("{} {} {:.3f}..{:.3f}", axis == 0 ? "" : ",", dialect::kAxisLetters[axis], extents[axis].least,
-                        extents[axis].most);
+    text += fmt::format("{} {} {:.3f}..{:.3f}", axis == 0 ? "" : ",", dialect::kAxisLetters[axis],
+                        extents[axis].minimum, extents[axis].maximum);
   return text + '\n';
 }
 
@@ -129,7 +129,7 @@ std::string Summary::text(Language language) const {
       said += say(kBreach, dialect::kAxisLetters[i / 2], breach->farthest, breach->limit, breach->line + 1);
   for (std::size_t i = 0; i < excesses_.size(); ++i)
     if (const auto& excess = excesses_[i])
-      said += say(kExcesses[i], excess->most, limit_of(static_cast<Limit>(i)), excess->line + 1);
+      said += say(kExcesses[i], excess->maximum, limit_of(static_cast<Limit>(i)), excess->line + 1);
   const geometry::Pose pose = final_pose();
   said += say(kFinal, pose.tip.x(), pose.tip.y(), pose.tip.z(), pose.b, pose.c);
   const State& state = result_.state;
@@ -150,7 +150,7 @@ template <std::size_t Count>
 static Json json_of(const std::array<geometry::Range, Count>& extents) {
   Json json;
   for (std::size_t axis = 0; axis < Count; ++axis)
-    json[std::string(1, dialect::kAxisLetters[axis])] = {extents[axis].least, extents[axis].most};
+    json[std::string(1, dialect::kAxisLetters[axis])] = {extents[axis].minimum, extents[axis].maximum};
   return json;
 }
 
@@ -230,7 +230,7 @@ std::string Summary::json(std::string_view file, Language language) const {
     if (const auto& excess = excesses_[i])
       json["aboveLimits"].push_back({{"limit", kLimits[i]},
                                      {"line", excess->line + 1},
-                                     {"most", excess->most},
+                                     {"most", excess->maximum},
                                      {"allowed", limit_of(static_cast<Limit>(i))}});
   json["warnings"] = Json::array();
   for (const RunWarning& warning : warnings_) json["warnings"].push_back(json_of(warning, language));

@@ -17,14 +17,14 @@ using execution::MoveKind;
 motion::Machine unbounded_machine() {
   motion::Machine machine = motion::default_machine();
   for (motion::AxisLimits& axis : machine.axes) {
-    axis.least = -std::numeric_limits<double>::infinity();
-    axis.most = std::numeric_limits<double>::infinity();
+    axis.minimum = -std::numeric_limits<double>::infinity();
+    axis.maximum = std::numeric_limits<double>::infinity();
   }
   return machine;
 }
 
 /// More events than any control looks ahead.
-static constexpr std::size_t kMostWaiting = 32768;
+static constexpr std::size_t kMaxWaiting = 32768;
 /// Programs may hold any number. No move is slower (mm/s, deg/s), and nothing lasts longer (s).
 static constexpr double kSlowest = 1e-6;
 static constexpr double kLongest = 1e9;
@@ -101,7 +101,7 @@ void Timing::take(const running::Event& event) {
 }
 
 Timing::Waiting& Timing::enqueue(const running::Event& event) {
-  if (waiting_.size() >= kMostWaiting) come_to_rest();
+  if (waiting_.size() >= kMaxWaiting) come_to_rest();
   Waiting& waiting = waiting_.emplace_back();
   waiting.timed.event = event;
   waiting.motion = motions_;
@@ -137,17 +137,17 @@ void Timing::take_stretch(const motion::Stretch& stretch) {
   while (!waiting_.empty() && goes_before(waiting_.front())) {
     Waiting& first = waiting_.front();
     if (!first.has_begun) first.timed.start = stretch.start;
-    tell_first();
+    report_first();
   }
   if (waiting_.empty()) return;
   Waiting& moving = waiting_.front();
   if (!std::exchange(moving.has_begun, true)) moving.timed.start = stretch.start;
   if (listeners_.stretch) listeners_.stretch(stretch, moving.timed);
   moving.timed.duration = stretch.start + stretch.duration - moving.timed.start;
-  if (stretch.ends_move) tell_first();
+  if (stretch.ends_move) report_first();
 }
 
-void Timing::tell_first() {
+void Timing::report_first() {
   if (listeners_.event) listeners_.event(waiting_.front().timed);
   waiting_.pop_front();
 }
@@ -156,7 +156,7 @@ void Timing::tell_first() {
 void Timing::come_to_rest() {
   planner_.rest();
   take_stretches();
-  for (; !waiting_.empty(); tell_first())
+  for (; !waiting_.empty(); report_first())
     if (!waiting_.front().has_begun) waiting_.front().timed.start = planner_.time();
 }
 

@@ -96,7 +96,7 @@ class Timing {
   void finish();
 
   /// Lets go of what has been told: a copy is then as small as it can be.
-  void forget_told() {
+  void release_reported() {
     waiting_.forget_popped();
     planner_.forget_handed_out();
   }
@@ -124,7 +124,7 @@ class Timing {
   void push_motion();
   void take_stretches();
   void take_stretch(const motion::Stretch& stretch);
-  void tell_first();
+  void report_first();
   void come_to_rest();
   void rest(const running::Event& event, double seconds);
   double seconds_of(const running::Event& event) const;

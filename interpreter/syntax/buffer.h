@@ -34,20 +34,20 @@ class Buffer {
   T& back() { return data_[size_ - 1]; }
 
   /// Where `count` more elements can be written; add() makes them part of the row.
-  [[gnu::always_inline]] T* room_for(std::size_t count) {
+  [[gnu::always_inline]] T* reserve_for(std::size_t count) {
     if (size_ + count > capacity_) [[unlikely]]
       grow(count);
     return data_.get() + size_;
   }
   void add(std::size_t count) { size_ += count; }
   [[gnu::always_inline]] T& push_back(const T& value) {
-    T* const place = room_for(1);
+    T* const place = reserve_for(1);
     *place = value;
     ++size_;
     return *place;
   }
   void append(const T* values, std::size_t count) {
-    std::copy_n(values, count, room_for(count));
+    std::copy_n(values, count, reserve_for(count));
     size_ += count;
   }
   void pop_back() { --size_; }

@@ -87,7 +87,7 @@ inline const char* find_line_end(const char* p, const char* end) {
 }
 
 /// Behind the comment that opens with the parenthesis at `p`, or null when it is not closed on this line.
-inline const char* behind_closed_comment(const char* p, const char* end) {
+inline const char* skip_closed_comment(const char* p, const char* end) {
   for (; p != end && !is_line_end(*p); ++p)
     if (*p == ')') return p + 1;
   return nullptr;
@@ -98,7 +98,7 @@ inline const char* skip_space(const char* p, const char* end) {
   while (p != end) {
     if (is_blank(*p)) {
       ++p;
-    } else if (const char* behind = *p == '(' ? behind_closed_comment(p, end) : nullptr) {
+    } else if (const char* behind = *p == '(' ? skip_closed_comment(p, end) : nullptr) {
       p = behind;
     } else {
       break;

@@ -9,7 +9,7 @@ namespace isocnc::syntax {
 /// Lines per chunk, when chunks are made anew. An edit reads the lines of its chunk anew: few enough that this costs
 /// little, many enough that the chunks of a long program are soon counted.
 static constexpr std::size_t kChunkLines = 128;
-static constexpr std::size_t kMostChunkLines = 2 * kChunkLines;
+static constexpr std::size_t kMaxChunkLines = 2 * kChunkLines;
 
 struct Document::Chunk {
   std::string text;                   // With terminators.
@@ -103,11 +103,10 @@ Change Document::replace(Position begin, Position end, std::string_view text) {
 /// then takes what it needs.
 class Document::ChunkMaker {
  public:
-  ChunkMaker(std::size_t most_lines, std::uint64_t& next_version)
-      : most_lines_(most_lines), next_version_(next_version) {}
+  ChunkMaker(std::size_t max_lines, std::uint64_t& next_version) : max_lines_(max_lines), next_version_(next_version) {}
 
   void add(std::string_view line) {
-    if (gathered_.lines() >= most_lines_) end_chunk();
+    if (gathered_.lines() >= max_lines_) end_chunk();
     gathered_.begins.push_back(static_cast<std::uint32_t>(gathered_.text.size()));
     gathered_.text += line;
   }
@@ -123,7 +122,7 @@ class Document::ChunkMaker {
     gathered_.begins.clear();
   }
 
-  const std::size_t most_lines_;
+  const std::size_t max_lines_;
   std::uint64_t& next_version_;
   Chunk gathered_;
   std::vector<Slot> chunks_;
@@ -136,7 +135,7 @@ void Document::rebuild(std::size_t first_line, std::size_t removed, std::string_
   const Place from = is_new ? Place{0, 0} : locate(first_line);
   // The first line behind the removed ones; at the end of a chunk rather than the start of the next.
   const Place last = is_new ? Place{0, 0} : locate(first_line + removed - 1);
-  ChunkMaker maker(is_new ? kChunkLines : kMostChunkLines, next_version_);
+  ChunkMaker maker(is_new ? kChunkLines : kMaxChunkLines, next_version_);
   if (!is_new)
     for (std::size_t i = 0; i < from.line; ++i) maker.add(chunks_[from.chunk].chunk->with_terminator(i));
   const char* p = text.data();

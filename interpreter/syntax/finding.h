@@ -27,7 +27,7 @@ struct Finding {
   dialect::DiagnosticId id = dialect::kNoDiagnostic;
   Span span;
   Span related;  ///< The other place on the same line that matters (the first F of two); empty where there is none.
-  std::array<double, dialect::kMostArguments> values{};
+  std::array<double, dialect::kMaxArguments> values{};
 
   friend bool operator==(const Finding&, const Finding&) = default;
 };

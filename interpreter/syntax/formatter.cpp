@@ -11,7 +11,7 @@
 namespace isocnc::syntax {
 
 /// Behind the text that is parsed again, so that the parser's short cut can look ahead.
-static constexpr std::string_view kBehind = "\n               ";
+static constexpr std::string_view kLookAheadPadding = "\n               ";
 
 /// The word that is the line's number, or the count of words.
 static std::size_t line_number_word(const LineTree& tree) {
@@ -57,7 +57,7 @@ class Rereading {
   Rereading(const LineTree& before, const LineTree& after, const LineChange& change)
       : before_(before), after_(after), change_(change) {}
 
-  bool says_the_same() const {
+  bool has_same_meaning() const {
     return after_.findings.empty() && has_same_label() && has_same_jump() && has_same(before_.feed, after_.feed) &&
            has_same(before_.spindle, after_.spindle) && has_same_comments() && has_same_instructions();
   }
@@ -96,10 +96,10 @@ class Rereading {
   bool has_same_instructions() const {
     return std::equal(before_.instructions.begin(), before_.instructions.end(), after_.instructions.begin(),
                       after_.instructions.end(),
-                      [&](const Instruction& a, const Instruction& b) { return does_the_same(a, b); });
+                      [&](const Instruction& a, const Instruction& b) { return is_equivalent(a, b); });
   }
 
-  bool does_the_same(const Instruction& a, const Instruction& b) const {
+  bool is_equivalent(const Instruction& a, const Instruction& b) const {
     if (a.is_motion() && b.is_motion()) return is_same_motion(a, b) && has_same_arguments(a, b);
     if (a.kind != b.kind || a.row != b.row || a.flags != b.flags) return false;
     if (a.kind == InstructionKind::G) return has_same_arguments(a, b);
@@ -168,7 +168,7 @@ class Rereading {
 
 std::string_view Formatter::format(const LineTree& tree, const LineChange& change) {
   if (!tree.findings.empty()) return tree.text;
-  const bool is_plain_style = !style_.most_decimals && style_.g_digits == GDigits::Keep && !style_.word_order;
+  const bool is_plain_style = !style_.max_decimals && style_.g_digits == GDigits::Keep && !style_.word_order;
   const bool changes_nothing = !change.line_number && !change.target && change.motion == LineChange::Motion::Keep;
   if (!is_plain_style || !changes_nothing) return rewrite(tree, change);
   if (is_tidy(tree)) return tree.text;
@@ -197,11 +197,11 @@ bool Formatter::write(const LineTree& tree, const LineChange& change, Order orde
   write_words(tree, change);
   if (tree.text == written()) return true;
   const std::size_t length = line_.size();
-  put(kBehind);
+  put(kLookAheadPadding);
   written_.clear();
   const char* const end = written_.append_line(line_.data(), line_.data() + line_.size());
   while (line_.size() > length) line_.pop_back();
-  return end == line_.data() + length && Rereading(tree, written_.tree(0, line_.data()), change).says_the_same();
+  return end == line_.data() + length && Rereading(tree, written_.tree(0, line_.data()), change).has_same_meaning();
 }
 
 /// Begins a line, with room for all that may be added: blanks up to where a comment stood, and a few characters for
@@ -210,7 +210,8 @@ void Formatter::start(const LineTree& tree) {
   constexpr std::size_t kForEach = 5;
   constexpr std::size_t kOnce = 64;
   line_.clear();
-  line_.room_for(2 * tree.text.size() + kForEach * (tree.words.size() + tree.comments.size()) + kOnce + kBehind.size());
+  line_.reserve_for(2 * tree.text.size() + kForEach * (tree.words.size() + tree.comments.size()) + kOnce +
+                    kLookAheadPadding.size());
   comments_written_ = 0;
   order_.resize(tree.words.size());
   std::iota(order_.begin(), order_.end(), std::uint16_t{0});
@@ -314,7 +315,7 @@ void Formatter::write_word(const LineTree& tree, std::uint16_t index) {
   }
   const bool is_number = word.letter == kAssign || word.letter == kNumber ||
                          (word.letter >= 'A' && word.letter <= 'Z' && !dialect::contains(kIntegers, word.letter));
-  if (is_number && style_.most_decimals) {
+  if (is_number && style_.max_decimals) {
     if (word.has(Word::kPoint)) settle_decimals(number);
     drop_leading_zeros(number);
   }
@@ -323,7 +324,7 @@ void Formatter::write_word(const LineTree& tree, std::uint16_t index) {
 
 /// All but blanks and comments, in upper case.
 void Formatter::write_characters(std::string_view text) {
-  char* at = line_.room_for(text.size());
+  char* at = line_.reserve_for(text.size());
   const char* const begin = at;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '(') {
@@ -357,8 +358,8 @@ void Formatter::write_comments_before(const LineTree& tree, std::uint32_t column
 /// A comment at the end of its line, or alone on it, stays in its column where it can, since such comments often stand
 /// below one another; others follow their word.
 void Formatter::write_comment(const LineTree& tree, Span comment) {
-  const bool stands_behind = tree.words.empty() || comment.begin >= tree.words.back().end;
-  if (stands_behind) {
+  const bool follows_words = tree.words.empty() || comment.begin >= tree.words.back().end;
+  if (follows_words) {
     write_gap(tree.text, comment.begin);
   } else {
     separate();
@@ -390,7 +391,7 @@ void Formatter::settle_decimals(std::size_t number) {
   const std::string_view text(line_.data() + number, line_.size() - number);
   const std::size_t point = text.find('.');
   const std::size_t last = text.find_last_not_of('0');
-  if (point == std::string_view::npos || last - point > static_cast<std::size_t>(*style_.most_decimals)) return;
+  if (point == std::string_view::npos || last - point > static_cast<std::size_t>(*style_.max_decimals)) return;
   const std::size_t length = last == point ? point : last + 1;
   while (line_.size() > number + length) line_.pop_back();
   if (point != 0 && is_digit(line_[number + point - 1])) return;

@@ -11,13 +11,13 @@
 namespace isocnc::syntax {
 
 /// Of an N that our tools write, so that it stays exact wherever it is read: 15 digits.
-inline constexpr std::uint64_t kMostLineNumber = 999'999'999'999'999;
+inline constexpr std::uint64_t kMaxLineNumber = 999'999'999'999'999;
 
 enum class GDigits : std::uint8_t { Keep, One, Two };  ///< As written, G1, G01.
 
 /// How lines are written, beside upper case and blanks, which are the same in every style.
 struct LineStyle {
-  std::optional<int> most_decimals;  ///< 05.00 becomes 5 and .5 becomes 0.5, where so many decimals hold the number.
+  std::optional<int> max_decimals;  ///< 05.00 becomes 5 and .5 becomes 0.5, where so many decimals hold the number.
   GDigits g_digits = GDigits::Keep;
   bool word_order = false;  ///< N first, arguments as X Y Z A B C I J K P Q R, F behind those of the motion.
 };

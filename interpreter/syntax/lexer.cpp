@@ -56,10 +56,10 @@ const char* LineParser::lex() {
         p = lex_unknown(p);
         break;
     }
-    if (word_count() >= kMostWords) {
+    if (word_count() >= kMaxWords) {
       const char* const line_end = find_line_end(p, end_);
       line_.flags |= LineTree::kCut;
-      report("line-too-long"_diag, {column(p), column(line_end)}, {static_cast<double>(kMostWords)});
+      report("line-too-long"_diag, {column(p), column(line_end)}, {static_cast<double>(kMaxWords)});
       return line_end;
     }
   }
@@ -71,7 +71,7 @@ Word& LineParser::add_word(char letter, const char* begin, const char* end) {
   added.letter = letter;
   added.begin = column(begin);
   added.end = column(end);
-  added.owner = Word::kNobody;
+  added.owner = Word::kNoOwner;
   return added;
 }
 
@@ -90,7 +90,7 @@ Word& LineParser::add_word(char letter, const char* begin, const Number& number)
 
 /// Behind a GOTO the label has been read, or what stands in its place.
 void LineParser::end_target() {
-  if (behind_goto_) in_condition_ = behind_goto_ = false;
+  if (after_goto_) in_condition_ = after_goto_ = false;
 }
 
 /// A malformed number is reported with the letters that have a code of their own for it (D9, D12, D49).
@@ -138,7 +138,7 @@ const char* LineParser::lex_keyword(const char* p, char letter) {
     if (!end) return nullptr;
     add_word(kGoto, p, end);
     note_comments_inside(p, end);
-    in_condition_ = behind_goto_ = true;
+    in_condition_ = after_goto_ = true;
     return end;
   }
   if (letter == 'V') {
@@ -193,7 +193,7 @@ void LineParser::note_comments_inside(const char* p, const char* end) {
 }
 
 const char* LineParser::lex_comment(const char* p) {
-  if (const char* const behind = behind_closed_comment(p, end_)) {
+  if (const char* const behind = skip_closed_comment(p, end_)) {
     store_.comments_.push_back({column(p), column(behind)});
     return behind;
   }
@@ -236,7 +236,7 @@ const char* LineParser::lex_number_alone(const char* p) {
 }
 
 const char* LineParser::lex_equals(const char* p) {
-  if (in_condition_ && !behind_goto_) return lex_comparison(p);
+  if (in_condition_ && !after_goto_) return lex_comparison(p);
   const char* const at = skip_space(p + 1);
   if (at == end_ || !is_number_char(*at)) {
     Word& added = add_word(kAssign, p, p + 1);

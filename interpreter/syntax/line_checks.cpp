@@ -14,7 +14,7 @@ void LineParser::check() {
   check_misplaced_modes();
   for (std::size_t i = 0; i < instruction_count(); ++i) {
     const Instruction& checked = instruction(i);
-    if (checked.has(Instruction::kSettled)) continue;
+    if (checked.has(Instruction::kReportedElsewhere)) continue;
     switch (checked.kind) {
       case InstructionKind::G:
         check_g(checked);
@@ -36,7 +36,7 @@ void LineParser::check() {
   const auto by_end = [](const Instruction& a, const Instruction& b) { return a.end < b.end; };
   if (!std::is_sorted(first, end, by_end)) std::stable_sort(first, end, by_end);
   const auto settled = [](const Instruction& it) {
-    return it.kind == InstructionKind::Continuation && it.has(Instruction::kSettled);
+    return it.kind == InstructionKind::Continuation && it.has(Instruction::kReportedElsewhere);
   };
   for (auto removed = end - std::remove_if(first, end, settled); removed > 0; --removed)
     store_.instructions_.pop_back();
@@ -76,7 +76,7 @@ bool LineParser::must_be_alone(const Instruction& checked, dialect::DiagnosticId
 }
 
 /// Whether the line holds a right word that is neither the instruction's own nor the line number.
-bool LineParser::has_company(const Instruction& alone) const {
+bool LineParser::shares_line(const Instruction& alone) const {
   const dialect::GCode* const code = alone.kind == InstructionKind::G ? alone.g() : nullptr;
   const bool is_end = alone.kind == InstructionKind::Function && word(alone.command).value == dialect::kProgramEnd;
   const bool dwell_without_time = code != nullptr && code->number == 4 && !owns_any(alone, letters("P"));
@@ -88,8 +88,8 @@ bool LineParser::has_company(const Instruction& alone) const {
       if (dwell_without_time && !other.has(Word::kBreak)) continue;  // G04 X10: the X is where the P should be.
     }
     const bool is_time = dwell_without_time && i == alone.command + 1 && contains(letters("FS"), other.letter);
-    if (is_time) continue;                                                  // G04 F2: as other controls have it.
-    if (other.letter == kAssign && other.owner == Word::kNobody) continue;  // Reported with what it is given to.
+    if (is_time) continue;                                                   // G04 F2: as other controls have it.
+    if (other.letter == kAssign && other.owner == Word::kNoOwner) continue;  // Reported with what it is given to.
     return true;
   }
   return false;
@@ -99,7 +99,8 @@ void LineParser::check_alone() {
   for (std::size_t i = 0; i < instruction_count(); ++i) {
     const Instruction& checked = instruction(i);
     dialect::DiagnosticId diagnostic;
-    if (checked.has(Instruction::kSettled) || !must_be_alone(checked, diagnostic) || !has_company(checked)) continue;
+    if (checked.has(Instruction::kReportedElsewhere) || !must_be_alone(checked, diagnostic) || !shares_line(checked))
+      continue;
     report(diagnostic, word(checked.command).span());
     line_.flags |= LineTree::kAloneViolated;
     return;
@@ -141,7 +142,7 @@ void LineParser::check_g(const Instruction& checked) {
 }
 
 /// G92 G00 X5: what the instruction lacks has gone to the one that should not be there, which has been reported.
-bool LineParser::company_has_arguments_of(const Instruction& alone) const {
+bool LineParser::neighbor_has_arguments_of(const Instruction& alone) const {
   if ((line_.flags & LineTree::kAloneViolated) == 0) return false;
   for (std::size_t i = alone.command + 1u; i < word_count(); ++i)
     if (word(i).owner != alone.number && contains(alone.g()->arguments, word(i).letter)) return true;
@@ -150,11 +151,11 @@ bool LineParser::company_has_arguments_of(const Instruction& alone) const {
 
 /// Arguments that are missing, or that an N keeps from their G: the N breaks the series as an S would (D12, D17).
 void LineParser::check_arguments(const Instruction& checked, dialect::DiagnosticId when_missing) {
-  const bool company_is_reported = (line_.flags & LineTree::kAloneViolated) != 0;
-  if (owns_any(checked, checked.g()->arguments, !company_is_reported)) return check_unbroken(checked);
+  const bool shared_line_reported = (line_.flags & LineTree::kAloneViolated) != 0;
+  if (owns_any(checked, checked.g()->arguments, !shared_line_reported)) return check_unbroken(checked);
   // G92 C5: the C, which has been reported, stands where one of them should.
-  if (company_is_reported && owns_any(checked, dialect::kDimensionLetters)) return;
-  if (company_has_arguments_of(checked)) return;
+  if (shared_line_reported && owns_any(checked, dialect::kDimensionLetters)) return;
+  if (neighbor_has_arguments_of(checked)) return;
   report_missing(when_missing, checked);
 }
 
@@ -170,7 +171,7 @@ void LineParser::check_unbroken(const Instruction& checked) {
 bool LineParser::breaker_is_reported(const Instruction& motion, std::uint16_t broken) const {
   for (std::uint16_t i = broken; i-- > 0 && word(i).owner != motion.number;) {
     if (word(i).letter != 'G') continue;
-    if (word(i).owner == Word::kNobody) return true;  // G without a number, which has been reported.
+    if (word(i).owner == Word::kNoOwner) return true;  // G without a number, which has been reported.
     const dialect::GCode* const code = instruction(word(i).owner).g();
     if (!code || code->number == 9 || code->group == dialect::ModalGroup::CutterCompensation ||
         code->misplaced != dialect::kNoDiagnostic)
@@ -197,9 +198,9 @@ void LineParser::check_motion(const Instruction& motion) {
     if (breaker_is_reported(motion, static_cast<std::uint16_t>(broken))) return;
     if (!has_arguments) return report_missing("missing-coordinate"_diag, motion);
     Word& stray = word(static_cast<std::size_t>(broken));
-    const bool is_said = stray.has(Word::kMissing | Word::kReported);
+    const bool is_reported = stray.has(Word::kMissing | Word::kReported);
     stray.flags |= Word::kReported;
-    if (is_said) return;
+    if (is_reported) return;
     return report("stray-argument"_diag, stray.span(), {}, word(motion.command).span());
   }
   if (!is_g || owns_any(motion, dialect::kCoordinateLetters)) return;
@@ -229,10 +230,10 @@ bool LineParser::is_zero_return(const Instruction& frame) const {
 /// G24 and G28 want at least one component of each axis (D4, D27).
 void LineParser::check_vectors(const Instruction& frame, std::string_view i_letters) {
   check_unbroken(frame);
-  if (company_has_arguments_of(frame)) return;
+  if (neighbor_has_arguments_of(frame)) return;
   // G91 G28 Z0: as other controls go home. The line has been reported; what it lacks for a face says nothing more.
-  const bool has_company = (line_.flags & LineTree::kAloneViolated) != 0;
-  if (has_company && frame.g()->number == 28 && !owns_any(frame, letters("IJKPQR"))) return;
+  const bool shares_line = (line_.flags & LineTree::kAloneViolated) != 0;
+  if (shares_line && frame.g()->number == 28 && !owns_any(frame, letters("IJKPQR"))) return;
   if (is_zero_return(frame)) return;
   if (!owns_any(frame, letters(i_letters))) report_missing("missing-i-vector"_diag, frame);
   if (!owns_any(frame, letters("IJK"))) report_missing("missing-j-vector"_diag, frame);
@@ -243,7 +244,7 @@ void LineParser::check_face_angles(const Instruction& frame) {
   for (std::uint16_t i = frame.begin; i < frame.end; ++i) {
     const Word& angle = word(i);
     if (angle.owner != frame.number || !contains(dialect::kRotaryLetters, angle.letter)) continue;
-    const double limit = dialect::most_face_angle(angle.letter);
+    const double limit = dialect::max_face_angle(angle.letter);
     if (std::abs(angle.value) > limit) report("face-angle-out-of-range"_diag, angle.span(), {angle.value, limit});
   }
 }
@@ -269,7 +270,7 @@ void LineParser::check_parameters(const Instruction& function) {
     if (name.owner != function.number || name.letter != 'P') continue;
     const bool has_value = i + 1 < word_count() && word(i + 1u).letter == kAssign;
     const Span span = has_value ? hull(name.span(), word(i + 1u).span()) : name.span();
-    const bool named = name.is_plain_integer() && name.value >= 1 && name.value <= dialect::kMostFunctionParameters;
+    const bool named = name.is_plain_integer() && name.value >= 1 && name.value <= dialect::kMaxFunctionParameters;
     const std::uint32_t bit = named ? 1u << static_cast<unsigned>(name.value) : 0;
     const bool valued = has_value && !word(i + 1u).has(Word::kMissing);
     if (takes_parameters && name.has(Word::kMalformed)) continue;  // Said of its number.
@@ -283,7 +284,7 @@ void LineParser::check_parameters(const Instruction& function) {
 
 /// Whether a word is a G48 or G49.
 bool LineParser::is_interpolation_mode(const Word& checked) const {
-  if (checked.letter != 'G' || checked.owner == Word::kNobody) return false;
+  if (checked.letter != 'G' || checked.owner == Word::kNoOwner) return false;
   const dialect::GCode* const code = instruction(checked.owner).g();
   return code && code->group == dialect::ModalGroup::Interpolation;
 }
@@ -315,25 +316,25 @@ void LineParser::check_compensation(const Instruction& checked) {
   if (has_reported_company() || compensation_reported_) return;
   const bool is_end = code->number == 40;
   bool before_motion = false;
-  bool behind_motion = false;
+  bool after_motion = false;
   for (std::size_t i = 0; i < instruction_count(); ++i) {
     const Instruction& other = instruction(i);
     const bool is_motion = other.kind == InstructionKind::Continuation
-                               ? !other.has(Instruction::kSettled)
+                               ? !other.has(Instruction::kReportedElsewhere)
                                : other.kind == InstructionKind::G && other.g() && other.g()->is_motion();
     // A G that is unknown may be the motion that is wanted: any after a G41 (D62), one with coordinates before a G40.
     const bool may_be_motion = other.kind == InstructionKind::G && !other.g();
     if (may_be_motion) {
       before_motion |= !is_end && other.command > checked.command;
-      behind_motion |= other.command < checked.command && owns_any(other, dialect::kCoordinateLetters);
+      after_motion |= other.command < checked.command && owns_any(other, dialect::kCoordinateLetters);
     }
     if (!is_motion) continue;
     // Where a motion G begins is its G: words before it count as its own, but have been reported.
     const std::uint16_t begin = other.kind == InstructionKind::G ? other.command : other.begin;
     before_motion |= (is_end ? other.end : begin) > checked.command;
-    behind_motion |= begin < checked.command;
+    after_motion |= begin < checked.command;
   }
-  compensation_reported_ = is_end ? before_motion || !behind_motion : !before_motion;
+  compensation_reported_ = is_end ? before_motion || !after_motion : !before_motion;
   if (compensation_reported_)
     report(is_end ? "misplaced-g40"_diag : "misplaced-g41-g42"_diag, word(checked.command).span());
 }

@@ -61,7 +61,7 @@ class LineParser {
   void add_spindle_speed(std::uint16_t index);
   std::uint16_t add_assignment(std::uint16_t index);
   void own_in_place_of_value(Instruction& owner, std::uint16_t index);
-  bool is_equals_said_before(std::uint16_t index) const;
+  bool is_equals_reported_before(std::uint16_t index) const;
   bool is_between_coordinates(std::uint16_t assign) const;
   std::uint16_t add_equals(std::uint16_t index);
   std::uint16_t add_jump(std::uint16_t index);
@@ -79,8 +79,8 @@ class LineParser {
   void check();
   void check_alone();
   bool must_be_alone(const Instruction& checked, dialect::DiagnosticId& diagnostic) const;
-  bool has_company(const Instruction& alone) const;
-  bool company_has_arguments_of(const Instruction& alone) const;
+  bool shares_line(const Instruction& alone) const;
+  bool neighbor_has_arguments_of(const Instruction& alone) const;
   void check_misplaced_modes();
   void check_motion(const Instruction& motion);
   bool is_zero_return(const Instruction& frame) const;
@@ -119,9 +119,9 @@ class LineParser {
   TreeStore::Line line_;
 
   bool in_condition_ =
-      false;                  ///< Between IF and the label behind GOTO: a comparison and a bare number are right there.
-  bool behind_goto_ = false;  ///< The next word is the label.
-  bool has_prose_ = false;    ///< Some letter has no number, or some text is no word.
+      false;                 ///< Between IF and the label behind GOTO: a comparison and a bare number are right there.
+  bool after_goto_ = false;  ///< The next word is the label.
+  bool has_prose_ = false;   ///< Some letter has no number, or some text is no word.
   const char* last_goto_ =
       nullptr;  ///< The line's last GOTO, or its start where there is none; null before it was looked for.
 
@@ -139,8 +139,8 @@ class LineParser {
   bool needs_check_ = false;
   bool half_jump_ = false;              ///< A part of the IF is missing.
   bool stray_parameter_ = false;        ///< A parameter without its M has been reported.
-  bool behind_unknown_ = false;         ///< The continuation follows a word of no instruction of this control.
-  bool behind_motion_ = false;          ///< The word before belongs to a motion (G09).
+  bool after_unknown_ = false;          ///< The continuation follows a word of no instruction of this control.
+  bool after_motion_ = false;           ///< The word before belongs to a motion (G09).
   bool compensation_reported_ = false;  ///< G40 to G42 out of place: once per line.
 };
 

@@ -40,7 +40,7 @@ struct Word {
   char letter;           ///< Upper case.
   std::uint8_t flags;
 
-  static constexpr std::uint16_t kNobody = 0xFFFF;
+  static constexpr std::uint16_t kNoOwner = 0xFFFF;
 
   constexpr Span span() const { return {begin, end}; }
   bool known() const { return !std::isnan(value); }
@@ -66,9 +66,9 @@ enum class InstructionKind : std::uint8_t {
 /// A command with its arguments. Its words are those in [begin, end) whose `owner` is this instruction; what else
 /// stands there (an F, which belongs to the line, or what breaks the series) belongs to others.
 struct Instruction {
-  static constexpr std::uint8_t kFollowsMotion = 1;  ///< Directly behind a motion's arguments (G09).
-  static constexpr std::uint8_t kFirst = 2;          ///< The first instruction on its line.
-  static constexpr std::uint8_t kSettled = 4;        ///< What is wrong with it has been reported with another one.
+  static constexpr std::uint8_t kFollowsMotion = 1;      ///< Directly behind a motion's arguments (G09).
+  static constexpr std::uint8_t kFirst = 2;              ///< The first instruction on its line.
+  static constexpr std::uint8_t kReportedElsewhere = 4;  ///< What is wrong with it has been reported with another one.
 
   InstructionKind kind = InstructionKind::G;
   std::uint8_t row = dialect::kUnknownGCode;  ///< Of dialect::kGCodes, for G.
@@ -186,6 +186,6 @@ struct LineTree {
 };
 
 /// Words of a line that are read; W192 tells of a line that has more.
-inline constexpr std::size_t kMostWords = 16384;
+inline constexpr std::size_t kMaxWords = 16384;
 
 }  // namespace isocnc::syntax

@@ -6,7 +6,7 @@
 namespace isocnc::syntax {
 
 /// Whether a number before `p` goes on there, behind blanks and comments (D7).
-static bool goes_on(const char* p, const char* end) {
+static bool continues(const char* p, const char* end) {
   p = skip_space(p, end);
   return p != end && is_number_char(*p);
 }
@@ -53,7 +53,7 @@ static Number scan_any_number(const char* p, const char* end) {
 
 Number scan_number(const char* p, const char* end) {
   Number number;
-  if (end - p >= kShortNumberBytes && scan_short_number(p, number) && !goes_on(number.end, end)) return number;
+  if (end - p >= kShortNumberBytes && scan_short_number(p, number) && !continues(number.end, end)) return number;
   const char* const begin = p;
   number = {};
   bool negative = false;
@@ -65,19 +65,19 @@ Number scan_number(const char* p, const char* end) {
   // The digits are gathered in an integer and scaled once: below 2^53 and 10^22 both are exact, so that the quotient is
   // the correctly rounded decimal.
   std::uint64_t mantissa = 0;
-  const char* const digits_begin = p;
+  const char* const digits_start = p;
   while (p != end && is_digit(*p)) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*p++ - '0');
-  number.digits = static_cast<std::uint32_t>(p - digits_begin);
+  number.digits = static_cast<std::uint32_t>(p - digits_start);
   std::uint32_t decimals = 0;
   if (p != end && *p == '.') {
-    const char* const decimals_begin = ++p;
+    const char* const decimals_start = ++p;
     while (p != end && is_digit(*p)) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*p++ - '0');
-    decimals = static_cast<std::uint32_t>(p - decimals_begin);
+    decimals = static_cast<std::uint32_t>(p - decimals_start);
     number.digits += decimals;
     number.has_point = true;
   }
   number.end = p;
-  if (number.digits == 0 || number.digits > 18 || mantissa >= (std::uint64_t{1} << 53) || goes_on(p, end))
+  if (number.digits == 0 || number.digits > 18 || mantissa >= (std::uint64_t{1} << 53) || continues(p, end))
     return scan_any_number(begin, end);
   const double magnitude = static_cast<double>(mantissa) / detail::kPowersOfTen[decimals];
   number.value = negative ? 0.0 - magnitude : magnitude;  // -0 is 0.

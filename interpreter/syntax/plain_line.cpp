@@ -15,7 +15,7 @@ namespace {
 
 /// What follows the digits of a Word, as one number: it is written at once.
 struct WordTail {
-  std::uint16_t owner = Word::kNobody;
+  std::uint16_t owner = Word::kNoOwner;
   char letter = 0;  ///< Upper case.
   std::uint8_t flags = 0;
 };
@@ -40,7 +40,7 @@ constexpr auto kRoles = [] {
   for (char letter = 'A'; letter <= 'Z'; ++letter) {
     if (!dialect::contains(kArguments | kFeed | kCommand | kLineNumber, letter)) continue;
     const bool is_motion = dialect::contains(kArguments | kCommand, letter);
-    const WordTail tail{.owner = is_motion ? std::uint16_t{0} : Word::kNobody, .letter = letter};
+    const WordTail tail{.owner = is_motion ? std::uint16_t{0} : Word::kNoOwner, .letter = letter};
     for (const char written : {letter, static_cast<char>(letter + ('a' - 'A'))})
       roles[static_cast<unsigned char>(written)] = {std::bit_cast<std::uint32_t>(tail), dialect::letter_bit(letter)};
   }
@@ -48,7 +48,7 @@ constexpr auto kRoles = [] {
 }();
 
 /// N, G, F and each argument once; more never fit.
-constexpr std::size_t kMostPlainWords = 12;
+constexpr std::size_t kMaxPlainWords = 12;
 
 /// So many lines are parsed before room is made for more.
 constexpr std::size_t kLinesAtOnce = 64;
@@ -57,9 +57,9 @@ constexpr std::size_t kLinesAtOnce = 64;
 constexpr std::ptrdiff_t kMargin = 2 + kShortNumberBytes;
 
 /// Behind the comment at `p`, or null when it does not end on this line.
-const char* behind_comment(const char* p, const char* end) {
+const char* skip_comment(const char* p, const char* end) {
   if (*p == ';') return find_line_end(p, end);
-  return behind_closed_comment(p, end);
+  return skip_closed_comment(p, end);
 }
 
 /// A number that scan_short_number() leaves alone: a longer one, but with nothing inside and not malformed.
@@ -148,11 +148,11 @@ const char* TreeStore::append_plain_assignment(const char* begin, const char* en
         ++p;
         continue;
       }
-      const char* const behind_it = *p == ';' || *p == '(' ? behind_comment(p, end) : nullptr;
-      if (!behind_it) return nullptr;
-      comments_.push_back({static_cast<std::uint32_t>(p - begin), static_cast<std::uint32_t>(behind_it - begin)});
+      const char* const comment_end = *p == ';' || *p == '(' ? skip_comment(p, end) : nullptr;
+      if (!comment_end) return nullptr;
+      comments_.push_back({static_cast<std::uint32_t>(p - begin), static_cast<std::uint32_t>(comment_end - begin)});
       ++line.comments;
-      p = behind_it;
+      p = comment_end;
       continue;
     }
     const char* digits = p + 1;
@@ -200,14 +200,14 @@ const char* TreeStore::append_plain_lines(const char* begin, const char* stop, c
   if (end - begin < kMargin) return begin;
   const char* const last = end - kMargin;
   while (begin < stop) {
-    const std::size_t most = std::min(kLinesAtOnce, static_cast<std::size_t>(stop - begin));
-    Line* const lines = lines_.room_for(most);
-    Word* words = words_.room_for(most * kMostPlainWords);
+    const std::size_t maximum = std::min(kLinesAtOnce, static_cast<std::size_t>(stop - begin));
+    Line* const lines = lines_.reserve_for(maximum);
+    Word* words = words_.reserve_for(maximum * kMaxPlainWords);
     auto first_word = static_cast<std::uint32_t>(words_.size());
     auto first_comment = static_cast<std::uint32_t>(comments_.size());
     std::size_t read = 0;
     const char* line_end = begin;
-    while (read < most && begin < stop && (line_end = read_plain_line(begin, last, end, lines[read], words))) {
+    while (read < maximum && begin < stop && (line_end = read_plain_line(begin, last, end, lines[read], words))) {
       Line& line = lines[read++];
       line.first_word = first_word;
       line.first_comment = first_comment;

@@ -29,9 +29,9 @@ const char* LineParser::parse() {
 }
 
 void LineParser::report(dialect::DiagnosticId id, Span span, std::initializer_list<double> values, Span related) {
-  const bool said = store_.findings_.size() > line_.first_finding && store_.findings_.back().id == id &&
-                    store_.findings_.back().span == span;
-  if (said) return;  // One thing wrong may be missed in two places (IF IF).
+  const bool is_reported = store_.findings_.size() > line_.first_finding && store_.findings_.back().id == id &&
+                           store_.findings_.back().span == span;
+  if (is_reported) return;  // One thing wrong may be missed in two places (IF IF).
   Finding& finding = store_.findings_.emplace_back();
   finding.id = id;
   finding.span = span;
@@ -81,9 +81,8 @@ bool LineParser::is_unit(const Word& first, const Word& second) const {
 bool LineParser::is_number_of_prose(std::uint16_t index) const {
   const char letter = index < word_count() ? word(index).letter : '\0';
   const char before = upper(begin_[word(index - 1u).begin]);
-  const bool is_behind_letter = before >= 'A' && before <= 'Z';
-  return letter == kNumber ||
-         (is_behind_letter && contains(dialect::kDimensionLetters | dialect::letters("NT"), letter));
+  const bool follows_letter = before >= 'A' && before <= 'Z';
+  return letter == kNumber || (follows_letter && contains(dialect::kDimensionLetters | dialect::letters("NT"), letter));
 }
 
 /// Text that should be a comment reads as letters without numbers, one after the other: one mistake, not one for each.
@@ -131,7 +130,7 @@ void LineParser::structure() {
     const bool is_letter_alone = word(i).has(Word::kMissing);
     if (contains(dialect::kDimensionLetters, letter)) {
       add_dimension(i);
-      behind_motion_ = true;
+      after_motion_ = true;
       continue;
     }
     switch (letter) {
@@ -143,7 +142,7 @@ void LineParser::structure() {
         break;
       case 'S':
         add_spindle_speed(i);
-        behind_motion_ &= is_letter_alone;
+        after_motion_ &= is_letter_alone;
         break;
       case 'G':
         if (word(i).has(Word::kMissing) && i + 1 < count && word(i + 1u).letter == 'G') continue;  // GG01
@@ -151,23 +150,23 @@ void LineParser::structure() {
         continue;
       case 'M':
         add_m(i);
-        behind_motion_ &= is_letter_alone;
+        after_motion_ &= is_letter_alone;
         break;
       case 'T':
         add_tool(i);
-        behind_motion_ &= is_letter_alone;
+        after_motion_ &= is_letter_alone;
         break;
       case 'V':
         if (stands_for_number(i)) continue;
         i = add_assignment(i);
-        behind_motion_ &= is_letter_alone;
+        after_motion_ &= is_letter_alone;
         break;
       case kAssign:
         i = add_equals(i);
         continue;
       case kIf:
         i = end_jump(add_jump(i));
-        behind_motion_ = false;
+        after_motion_ = false;
         break;
       case kGoto:
         i = add_lone_goto(i);
@@ -250,7 +249,7 @@ void LineParser::add_dimension(std::uint16_t index) {
       instruction(static_cast<std::size_t>(taker_)).kind == InstructionKind::G)
     taker_ = kNone;  // What an unknown G would have taken ends where its series ends.
   if (taker_ == kNone) {
-    behind_unknown_ = index > 0 && word(index - 1u).letter == kError;
+    after_unknown_ = index > 0 && word(index - 1u).letter == kError;
     add_instruction(InstructionKind::Continuation, index);
     taker_ = static_cast<int>(instruction_count()) - 1;
     taken_ = 0;
@@ -264,7 +263,7 @@ void LineParser::add_dimension(std::uint16_t index) {
   }
   // L X10 R0: what the motion of another control takes.
   const bool is_of_unknown =
-      behind_unknown_ && taker.kind == InstructionKind::Continuation && !contains(dialect::kCoordinateLetters, letter);
+      after_unknown_ && taker.kind == InstructionKind::Continuation && !contains(dialect::kCoordinateLetters, letter);
   if (is_of_unknown) word(index).flags |= Word::kReported;
   const dialect::LetterSet bit = dialect::letter_bit(letter);
   // XX10: said at the first, which nobody wanted.
@@ -278,19 +277,19 @@ void LineParser::add_dimension(std::uint16_t index) {
       word(i).value = std::numeric_limits<double>::quiet_NaN();
     }
     // Of its number, as in R1=1 R2=2.
-    const bool is_said = is_assigned(index) || word(index).has(Word::kMissing | Word::kMalformed);
+    const bool is_reported = is_assigned(index) || word(index).has(Word::kMissing | Word::kMalformed);
     word(index).value = std::numeric_limits<double>::quiet_NaN();
     word(index).flags |= Word::kReported;
-    if (!is_said) report("repeated-argument"_diag, word(index).span(), {}, first);
+    if (!is_reported) report("repeated-argument"_diag, word(index).span(), {}, first);
   }
   taken_ |= bit;
   own(taker, index);
 }
 
 /// G1.0, M+6 and G-1 are spelled wrong, yet what they mean is plain: this number, else NaN.
-static double meant_number(double value, double least) {
+static double meant_number(double value, double minimum) {
   const double number = std::abs(value);
-  const bool is_plain = number >= least && number <= 999 && number == std::floor(number);
+  const bool is_plain = number >= minimum && number <= 999 && number == std::floor(number);
   return is_plain ? number : std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -308,8 +307,8 @@ void LineParser::add_g(std::uint16_t index) {
   }
   Instruction& added = add_instruction(InstructionKind::G, index);
   added.row = row;
-  if (behind_motion_) added.flags |= Instruction::kFollowsMotion;
-  behind_motion_ = false;
+  if (after_motion_) added.flags |= Instruction::kFollowsMotion;
+  after_motion_ = false;
   function_open_ = false;
   contiguous_ = false;
   needs_check_ = true;
@@ -321,7 +320,7 @@ void LineParser::add_g(std::uint16_t index) {
     return;
   }
   if (code->is_motion()) {
-    behind_motion_ = true;
+    after_motion_ = true;
     if (++motions_ == 1) {
       first_motion_ = written.span();
     } else {
@@ -355,7 +354,7 @@ void LineParser::take_earlier_words(Instruction& g) {
     word(i).flags = static_cast<std::uint8_t>((word(i).flags & ~Word::kBreak) | Word::kReported);
     own(g, i);
   }
-  earlier.flags |= Instruction::kSettled;
+  earlier.flags |= Instruction::kReportedElsewhere;
 }
 
 /// M06 101001: a tool change whose T is lost, so that the tool's number continues the M's (D59). `text` is the word's.
@@ -383,12 +382,12 @@ void LineParser::add_m(std::uint16_t index) {
   const bool before_tool = next < word_count() && word(next).letter == 'T';
   if (meant == dialect::kToolChange || (!is_function && before_tool)) return add_tool_change(index);
   if (!is_function && swallows_tool({begin_ + written.begin, written.end - written.begin})) {
-    add_instruction(InstructionKind::ToolChange, index).flags |= Instruction::kSettled;
+    add_instruction(InstructionKind::ToolChange, index).flags |= Instruction::kReportedElsewhere;
     return;
   }
   Instruction& added = add_instruction(InstructionKind::Function, index);
   if (!is_function) {  // It keeps its parameters, so that nothing is said of them.
-    added.flags |= Instruction::kSettled;
+    added.flags |= Instruction::kReportedElsewhere;
     word(index).value = std::numeric_limits<double>::quiet_NaN();
   }
   function_ = added.number;
@@ -404,7 +403,7 @@ void LineParser::add_tool_change(std::uint16_t index) {
   if (next < count && word(next).letter == 'T') return own(added, next);
   // The T may stand before it (and has been reported) or further on; either way one thing is wrong, not two.
   for (std::size_t i = 0; i + 1 < instruction_count(); ++i)
-    if (instruction(i).kind == InstructionKind::StrayTool) return void(added.flags |= Instruction::kSettled);
+    if (instruction(i).kind == InstructionKind::StrayTool) return void(added.flags |= Instruction::kReportedElsewhere);
   report_missing("tool-change-without-tool"_diag, added);
   for (auto i = static_cast<std::uint16_t>(index + 1); i < count; ++i) {
     if (word(i).letter == 'M' && std::abs(word(i).value) == dialect::kToolChange) return;
@@ -414,7 +413,7 @@ void LineParser::add_tool_change(std::uint16_t index) {
 
 void LineParser::add_tool(std::uint16_t index) {
   check_tool_number(word(index));
-  if (word(index).owner == Word::kNobody) {
+  if (word(index).owner == Word::kNoOwner) {
     add_instruction(InstructionKind::StrayTool, index);
   } else {
     own(instruction(word(index).owner), index);
@@ -517,7 +516,7 @@ bool LineParser::lacks_value(std::uint16_t assign) const {
 }
 
 /// What is wrong with a `=` that has a word before it has been said there.
-bool LineParser::is_equals_said_before(std::uint16_t index) const {
+bool LineParser::is_equals_reported_before(std::uint16_t index) const {
   const Word& before = word(index - 1u);
   if (before.letter == kError || before.letter == kVgpl) return true;  // #1=5
   if (before.letter == 'P' && line_.jump >= 0) return true;            // IF ... GOTO N9 P1=2: company of the IF.
@@ -538,8 +537,8 @@ std::uint16_t LineParser::add_equals(std::uint16_t index) {
   auto last = static_cast<std::uint16_t>(index + (lacks_value(index) && !is_between_coordinates(index) ? 1 : 0));
   if (index > 0) {
     Word& before = word(index - 1u);
-    if (is_equals_said_before(index)) return last;
-    if (before.owner != Word::kNobody) {
+    if (is_equals_reported_before(index)) return last;
+    if (before.owner != Word::kNoOwner) {
       Instruction& owner = instruction(before.owner);
       if (owner.kind == InstructionKind::Function && before.letter == 'P') {
         own(owner, index);
@@ -547,10 +546,10 @@ std::uint16_t LineParser::add_equals(std::uint16_t index) {
         return last;
       }
       // G54 P1=2: what an unknown G takes.
-      const bool is_said = index - 1 != owner.command || !before.has(Word::kMissing);  // G=5 has not been.
-      if (owner.kind == InstructionKind::G && owner.row == dialect::kUnknownGCode && is_said) return last;
+      const bool is_reported = index - 1 != owner.command || !before.has(Word::kMissing);  // G=5 has not been.
+      if (owner.kind == InstructionKind::G && owner.row == dialect::kUnknownGCode && is_reported) return last;
     }
-    const bool is_parameter = before.letter == 'P' && before.owner == Word::kNobody;
+    const bool is_parameter = before.letter == 'P' && before.owner == Word::kNoOwner;
     if (is_parameter && std::exchange(stray_parameter_, true)) return last;
     if (before.has(Word::kMissing)) {
       before.value = word(index).value;
@@ -579,7 +578,7 @@ std::uint16_t LineParser::add_jump(std::uint16_t index) {
   jump.if_span = word(index).span();
   const std::uint16_t last = read_condition(jump, index);
   // Half an IF: what else stands on the line may well be the other half.
-  if (half_jump_) added.flags |= Instruction::kSettled;
+  if (half_jump_) added.flags |= Instruction::kReportedElsewhere;
   for (auto i = static_cast<std::uint16_t>(index + 1); i <= last; ++i) own(added, i);
   line_.jump = static_cast<std::int32_t>(store_.jumps_.size());
   store_.jumps_.push_back(jump);

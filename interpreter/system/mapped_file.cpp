@@ -8,8 +8,8 @@
 #include <functional>
 #include <utility>
 
-#include "interpreter/system/exit_status.h"
 #include "interpreter/syntax/unicode.h"
+#include "interpreter/system/exit_status.h"
 #include "interpreter/system/handler_table.h"
 #include "interpreter/system/temporary_file.h"
 
@@ -72,7 +72,7 @@ static void on_lost_bytes(int signal, siginfo_t* info, void*) {
   std::signal(signal, SIG_DFL);  // Not of our making: the access is tried again, and ends the program.
 }
 
-void tell_of_lost_bytes(std::string_view program) {
+void report_lost_bytes(std::string_view program) {
   complaint_prefix = std::string(program) + ": ";
   struct sigaction action {};
   action.sa_sigaction = on_lost_bytes;

@@ -35,6 +35,6 @@ class MappedFile {
 
 /// From now on a program that touches bytes of a mapped file that another one has cut short says so, in the file's
 /// name, and ends with the status of trouble. Without this it ends by SIGBUS.
-void tell_of_lost_bytes(std::string_view program);
+void report_lost_bytes(std::string_view program);
 
 }  // namespace isocnc::system

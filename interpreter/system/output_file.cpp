@@ -27,7 +27,7 @@ static int open_to_write(const std::string& path, int flags, mode_t mode) {
   return descriptor;
 }
 
-OutputFile::OutputFile(const fs::path& path) : is_ours_(true) {
+OutputFile::OutputFile(const fs::path& path) : owns_descriptor_(true) {
   struct stat status {};
   const bool is_there = ::stat(path.c_str(), &status) == 0;
   if (!is_there && errno != ENOENT) {
@@ -42,7 +42,7 @@ OutputFile::OutputFile(const fs::path& path) : is_ours_(true) {
 }
 
 OutputFile::~OutputFile() {
-  if (is_ours_ && descriptor_ >= 0) ::close(descriptor_);
+  if (owns_descriptor_ && descriptor_ >= 0) ::close(descriptor_);
 }
 
 /// At its end: what others have written to it stays.
@@ -98,9 +98,9 @@ int OutputFile::flush() {
 bool OutputFile::take_over_attributes() const {
   struct stat now {};
   if (::fstat(descriptor_, &now) != 0) return false;
-  const bool is_others = now.st_uid != status_->st_uid || now.st_gid != status_->st_gid;
+  const bool owner_differs = now.st_uid != status_->st_uid || now.st_gid != status_->st_gid;
   // Not all may give files away; whoever may write the file may at least keep its group.
-  if (is_others && ::fchown(descriptor_, status_->st_uid, status_->st_gid) != 0 &&
+  if (owner_differs && ::fchown(descriptor_, status_->st_uid, status_->st_gid) != 0 &&
       ::fchown(descriptor_, static_cast<uid_t>(-1), status_->st_gid) != 0 && errno != EPERM)
     return false;
   return ::fchmod(descriptor_, status_->st_mode & kModeBits) == 0;

@@ -46,7 +46,7 @@ class OutputFile {
   static constexpr std::size_t kLarge = 64 * 1024;
 
   int descriptor_ = -1;
-  bool is_ours_ = false;
+  bool owns_descriptor_ = false;
   int error_ = 0;
   std::string gathered_;
   std::filesystem::path target_;            // Without symlinks.

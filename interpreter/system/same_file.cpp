@@ -6,18 +6,18 @@ namespace isocnc::system {
 
 namespace fs = std::filesystem;
 
-static constexpr int kMostLinks = 40;
+static constexpr int kMaxSymlinks = 40;
 
 fs::path place_of(fs::path path) {
   std::error_code error;
-  for (int i = 0; i < kMostLinks && fs::is_symlink(path, error); ++i)
+  for (int i = 0; i < kMaxSymlinks && fs::is_symlink(path, error); ++i)
     path = path.parent_path() / fs::read_symlink(path, error);
   return fs::weakly_canonical(fs::absolute(path, error), error);
 }
 
 bool names_descriptor(fs::path path) {
   std::error_code error;
-  for (int i = 0; i < kMostLinks && fs::is_symlink(path, error); ++i) {
+  for (int i = 0; i < kMaxSymlinks && fs::is_symlink(path, error); ++i) {
     const fs::path folder = fs::canonical(fs::absolute(path, error).parent_path(), error);
     if (folder.native().starts_with("/proc/")) return true;
     path = folder / fs::read_symlink(path, error);

@@ -29,7 +29,7 @@ static constexpr Text kHasEndlessLine{"has a line of 4 GiB or more", "ha una rig
 static constexpr std::size_t kHeadBytes = 8 * 1024;
 static constexpr std::size_t kEncodingBytes = 4 * 1024;
 /// Larger files are mapped: they would take memory of their own that is worth sparing, and nobody saves them often.
-static constexpr std::size_t kMostReadBytes = 8 * 1024 * 1024;
+static constexpr std::size_t kMaxReadBytes = 8 * 1024 * 1024;
 static constexpr std::size_t kLongestLine = std::numeric_limits<std::uint32_t>::max();
 
 static bool ends_line(char c) { return c == '\n' || c == '\r'; }
@@ -108,7 +108,7 @@ static std::optional<Text> obstacle(std::string_view text) {
   return std::nullopt;
 }
 
-static bool make_room(std::string& bytes, std::size_t size) {
+static bool grow_buffer(std::string& bytes, std::size_t size) {
   try {
     bytes.resize(size);
   } catch (const std::exception&) {  // No memory, or more than any string has.
@@ -124,8 +124,8 @@ static int read_up_to(std::size_t limit, std::size_t expected, int descriptor, s
   std::size_t size = bytes.size();
   int error = 0;
   while (size < limit) {
-    const std::size_t wished = std::min(limit, size < expected ? expected + 1 : std::max(kFirstBytes, 2 * size));
-    if (size == bytes.size() && !make_room(bytes, wished)) return ENOMEM;
+    const std::size_t capacity = std::min(limit, size < expected ? expected + 1 : std::max(kFirstBytes, 2 * size));
+    if (size == bytes.size() && !grow_buffer(bytes, capacity)) return ENOMEM;
     const ssize_t count = ::read(descriptor, bytes.data() + size, bytes.size() - size);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) error = errno;
@@ -161,7 +161,7 @@ class Descriptor {
 }  // namespace
 
 std::variant<SourceFile, SourceFile::Problem> SourceFile::open(const std::filesystem::path& path, Language language) {
-  return open(path, kMostReadBytes, language);
+  return open(path, kMaxReadBytes, language);
 }
 
 std::variant<SourceFile, SourceFile::Problem> SourceFile::open_unmapped(const std::filesystem::path& path,
@@ -169,14 +169,14 @@ std::variant<SourceFile, SourceFile::Problem> SourceFile::open_unmapped(const st
   return open(path, std::numeric_limits<std::size_t>::max(), language);
 }
 
-std::variant<SourceFile, SourceFile::Problem> SourceFile::open(const std::filesystem::path& path, std::size_t most_read,
-                                                               Language language) {
+std::variant<SourceFile, SourceFile::Problem> SourceFile::open(const std::filesystem::path& path,
+                                                               std::size_t max_read_bytes, Language language) {
   const Descriptor file(path);
   struct stat status;
   if (file.number() < 0 || ::fstat(file.number(), &status) != 0) return Problem{cannot_read(errno, language)};
   if (S_ISDIR(status.st_mode)) return Problem{std::string(kIsDirectory.in(language))};
   const auto size = static_cast<std::size_t>(status.st_size);
-  if (!S_ISREG(status.st_mode) || size <= most_read) return read(file.number(), size, language);
+  if (!S_ISREG(status.st_mode) || size <= max_read_bytes) return read(file.number(), size, language);
   return map(path, file.number(), size, language);
 }
 

@@ -34,7 +34,7 @@ class SourceFile {
 
  private:
   SourceFile() = default;
-  static std::variant<SourceFile, Problem> open(const std::filesystem::path& path, std::size_t most_read,
+  static std::variant<SourceFile, Problem> open(const std::filesystem::path& path, std::size_t max_read_bytes,
                                                 dialect::Language language);
   static std::variant<SourceFile, Problem> read(int descriptor, std::size_t expected, dialect::Language language);
   static std::variant<SourceFile, Problem> map(const std::filesystem::path& path, int descriptor, std::size_t size,

@@ -6,7 +6,7 @@ JumpPaths::JumpPaths(const Snapshot& snapshot) {
   const ProgramIndex& index = snapshot.index();
   std::map<std::uint64_t, std::vector<std::size_t>> lines_by_label;
   for (const Landmark& landmark : index.landmarks(LandmarkKind::Jump)) {
-    snapshot.give_way();
+    snapshot.throw_if_unwanted();
     const auto [entry, is_new] = lines_by_label.try_emplace(landmark.number);
     std::vector<std::size_t>& lines = entry->second;
     if (is_new) lines = index.lines_of_label(landmark.number);
@@ -14,7 +14,7 @@ JumpPaths::JumpPaths(const Snapshot& snapshot) {
     Jump jump{landmark, std::nullopt};
     if (target != lines.end()) {
       jump.target = *target;
-      landings_.emplace(*target, landmark.line);
+      jump_targets_.emplace(*target, landmark.line);
     }
     jumps_.push_back(jump);
   }
@@ -22,9 +22,10 @@ JumpPaths::JumpPaths(const Snapshot& snapshot) {
 }
 
 /// The first line of those above that can only be left downward, into this one.
-std::size_t JumpPaths::stretch_start(std::size_t line) const {
+std::size_t JumpPaths::run_start(std::size_t line) const {
   std::size_t start = 0;
-  if (const auto landing = landings_.lower_bound(line); landing != landings_.begin()) start = std::prev(landing)->first;
+  if (const auto jump_target = jump_targets_.lower_bound(line); jump_target != jump_targets_.begin())
+    start = std::prev(jump_target)->first;
   if (const auto end = after_ends_.lower_bound(line); end != after_ends_.begin())
     start = std::max(start, *std::prev(end));
   return start;

@@ -23,7 +23,7 @@ class JumpPaths {
   /// In the order of the program.
   const std::vector<Jump>& jumps() const { return jumps_; }
   /// Whether a jump leads to this line.
-  bool lands_on(std::size_t line) const { return landings_.contains(line); }
+  bool is_jump_target(std::size_t line) const { return jump_targets_.contains(line); }
 
   /// Goes up from a line on every path that leads there, until it finds something: `find(first, end)` gives the last of
   /// what it looks for in the lines [first, end), if there is any. Returns each of them once, in their order.
@@ -37,10 +37,11 @@ class JumpPaths {
       const std::size_t at = open.back();
       open.pop_back();
       if (!seen.insert(at).second) continue;
-      const auto [first_landing, last_landing] = landings_.equal_range(at);
-      for (auto landing = first_landing; landing != last_landing; ++landing) open.push_back(landing->second);
+      const auto [first_landing, last_landing] = jump_targets_.equal_range(at);
+      for (auto jump_target = first_landing; jump_target != last_landing; ++jump_target)
+        open.push_back(jump_target->second);
       if (at == 0 || ends_before(at)) continue;
-      const std::size_t first = stretch_start(at);
+      const std::size_t first = run_start(at);
       if (const auto nearest = find(first, at)) {
         found.insert(*nearest);
       } else {
@@ -52,11 +53,12 @@ class JumpPaths {
 
  private:
   bool ends_before(std::size_t line) const { return after_ends_.contains(line); }
-  std::size_t stretch_start(std::size_t line) const;
+  std::size_t run_start(std::size_t line) const;
 
   std::vector<Jump> jumps_;
-  std::multimap<std::size_t, std::size_t> landings_;  // The line of a label that a jump leads to; the line of the jump.
-  std::set<std::size_t> after_ends_;                  // Lines below an M02: no path comes from above.
+  std::multimap<std::size_t, std::size_t>
+      jump_targets_;                  // The line of a label that a jump leads to; the line of the jump.
+  std::set<std::size_t> after_ends_;  // Lines below an M02: no path comes from above.
 };
 
 }  // namespace isocnc::lsp::documents

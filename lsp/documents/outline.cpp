@@ -55,7 +55,7 @@ class Builder {
   explicit Builder(const Snapshot& snapshot) : snapshot_(snapshot) {}
 
   std::vector<Section> build() {
-    gather();
+    collect();
     sort();
     for (Event& event : events_) take(event);
     if (last_end_) close_above(*last_end_);
@@ -86,17 +86,17 @@ class Builder {
             .detail = {}};
   }
 
-  void gather() {
+  void collect() {
     const ProgramIndex& index = snapshot_.index();
     const auto wanted = kinds(LandmarkKind::ToolChange) | kinds(LandmarkKind::FaceFrame) |
                         kinds(LandmarkKind::FaceDismounted) | kinds(LandmarkKind::WorkpieceFrame) |
                         kinds(LandmarkKind::ProgramEnd);
-    for (const Landmark& landmark : index.landmarks(static_cast<LandmarkKinds>(wanted))) gather(landmark);
+    for (const Landmark& landmark : index.landmarks(static_cast<LandmarkKinds>(wanted))) collect(landmark);
     sort();
-    gather_comments();
+    collect_comments();
     std::set<std::uint64_t> named;
     for (const Landmark& jump : index.landmarks(LandmarkKind::Jump)) named.insert(jump.number);
-    for (const std::uint64_t label : named) gather_label(label);
+    for (const std::uint64_t label : named) collect_label(label);
   }
 
   void sort() {
@@ -105,7 +105,7 @@ class Builder {
     });
   }
 
-  void gather(const Landmark& landmark) {
+  void collect(const Landmark& landmark) {
     switch (landmark.kind) {
       case LandmarkKind::ToolChange: {
         Section section = section_at(SectionKind::Tool, landmark);
@@ -128,7 +128,7 @@ class Builder {
     }
   }
 
-  void gather_label(std::uint64_t label) {
+  void collect_label(std::uint64_t label) {
     for (const std::size_t line : snapshot_.index().lines_of_label(label)) {
       const syntax::DocumentLine read = snapshot_.document().line(line);
       const syntax::LineTree& tree = *read;
@@ -141,7 +141,7 @@ class Builder {
   }
 
   /// Comments are headings of their own, or, directly above a section, its beginning.
-  void gather_comments() {
+  void collect_comments() {
     std::vector<std::pair<std::size_t, std::size_t>> openings;  // Head line, event.
     for (std::size_t i = 0; i < events_.size(); ++i)
       if (is_opening(events_[i])) openings.emplace_back(events_[i].section.head_line, i);

@@ -81,8 +81,8 @@ ProgramIndex::Chunk ProgramIndex::read_chunk(const syntax::ChunkTrees& trees) {
   for (std::size_t i = 0; i < trees.size(); ++i) {
     const LineTree tree = trees[i];
     if (tree.has_label()) {
-      read.least_label = std::min(read.least_label, tree.label);
-      read.most_label = std::max(read.most_label, tree.label);
+      read.min_label = std::min(read.min_label, tree.label);
+      read.max_label = std::max(read.max_label, tree.label);
     }
     if (tree.plain_arguments == 0) LineReader(tree, static_cast<std::uint32_t>(i), read.landmarks).read();
   }
@@ -124,7 +124,7 @@ std::vector<std::size_t> ProgramIndex::lines_of_label(std::uint64_t label) const
   std::vector<std::size_t> lines;
   syntax::ChunkTrees trees;
   for (std::size_t i = 0; i < chunks_.size(); ++i) {
-    if (label < chunks_[i].least_label || label > chunks_[i].most_label) continue;
+    if (label < chunks_[i].min_label || label > chunks_[i].max_label) continue;
     trees.read(*document_, i);
     for (std::size_t line = 0; line < trees.size(); ++line) {
       const LineTree tree = trees[line];
@@ -136,7 +136,7 @@ std::vector<std::size_t> ProgramIndex::lines_of_label(std::uint64_t label) const
 
 std::uint64_t ProgramIndex::highest_label() const {
   std::uint64_t highest = 0;
-  for (std::size_t i = 0; i < chunks_.size(); ++i) highest = std::max(highest, chunks_[i].most_label);
+  for (std::size_t i = 0; i < chunks_.size(); ++i) highest = std::max(highest, chunks_[i].max_label);
   return highest;
 }
 

@@ -59,8 +59,8 @@ class ProgramIndex {
 
  private:
   struct Chunk {
-    std::uint64_t least_label = std::numeric_limits<std::uint64_t>::max();
-    std::uint64_t most_label = 0;
+    std::uint64_t min_label = std::numeric_limits<std::uint64_t>::max();
+    std::uint64_t max_label = 0;
     std::vector<Landmark> landmarks;  // Lines counted from the chunk's start.
   };
 

@@ -4,10 +4,10 @@
 
 namespace isocnc::lsp::documents {
 
-Snapshot::Snapshot(OpenDocument& document, const Client& client, const Interest& interest)
+Snapshot::Snapshot(AnalyzedDocument& document, const Client& client, const Interest& interest)
     : document_(document), client_(client), interest_(interest) {
   const bool is_done = document_.update([&] { return !is_wanted(); });
-  if (!is_done) give_way();
+  if (!is_done) throw_if_unwanted();
 }
 
 bool Snapshot::is_wanted() const {
@@ -22,7 +22,7 @@ std::optional<execution::State> Snapshot::state_before(std::size_t line) const {
   return frontier.state_at(*next);
 }
 
-void Snapshot::give_way() const {
+void Snapshot::throw_if_unwanted() const {
   if (interest_.cancelled && interest_.cancelled->load())
     throw rpc::Error(rpc::ErrorCode::RequestCancelled, "the request has been cancelled");
   if (interest_.edits_waiting && interest_.edits_waiting->load() > 0)

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "lsp/documents/analyzed_document.h"
 #include "lsp/documents/client.h"
-#include "lsp/documents/open_document.h"
 
 namespace isocnc::lsp::documents {
 
@@ -30,7 +30,7 @@ struct Interest {
 class Snapshot {
  public:
   /// Brings the analysis up to date; throws as give_way() does when that takes long and is not wanted any more.
-  Snapshot(OpenDocument& document, const Client& client, const Interest& interest);
+  Snapshot(AnalyzedDocument& document, const Client& client, const Interest& interest);
 
   const std::string& uri() const { return document_.uri(); }
   std::int64_t version() const { return document_.version(); }
@@ -39,7 +39,7 @@ class Snapshot {
   const check::Report& report() const { return document_.report(); }
   /// The first findings of the report, at least so many, and how many there are behind them: a program may have a
   /// hundred thousand, after each edit.
-  check::FirstFindings excerpt(std::size_t most) const { return document_.excerpt(most); }
+  check::FirstFindings excerpt(std::size_t maximum) const { return document_.excerpt(maximum); }
   /// Of the report, those on a line.
   std::vector<check::LocatedFinding> findings_on(std::size_t line) const { return document_.findings_on(line); }
   const check::Analysis& analysis() const { return document_.analysis(); }
@@ -79,12 +79,12 @@ class Snapshot {
 
   /// To be called now and then by who takes long, once for each thousand lines or so: throws rpc::Error where the
   /// answer is not wanted any more, or an edit waits for it.
-  void give_way() const;
+  void throw_if_unwanted() const;
 
  private:
   bool is_wanted() const;
 
-  OpenDocument& document_;
+  AnalyzedDocument& document_;
   const Client& client_;
   const Interest interest_;
 };

@@ -30,7 +30,7 @@ class HabitsOfDocument {
 
  private:
   void pause() {
-    if (++lines_seen_ % kLinesWithoutPause == 0) present_->give_way();
+    if (++lines_seen_ % kLinesWithoutPause == 0) present_->throw_if_unwanted();
   }
 
   const Snapshot* present_ = nullptr;  // Of the request that is being answered.
@@ -50,7 +50,7 @@ fixes::Habits& SnapshotProgram::habits() {
 }
 
 syntax::LineTree SnapshotProgram::line(std::uint64_t line) {
-  if (++lines_seen_ % kLinesWithoutPause == 0) snapshot_.give_way();
+  if (++lines_seen_ % kLinesWithoutPause == 0) snapshot_.throw_if_unwanted();
   return *line_.emplace(snapshot_.document().line(line));
 }
 
@@ -65,7 +65,7 @@ bool SnapshotProgram::is_jumped_to(std::uint64_t label) {
 
 std::optional<std::uint64_t> SnapshotProgram::free_line_number() {
   const std::uint64_t highest = std::max(last_line_number_, snapshot_.index().highest_label());
-  if (highest > syntax::kMostLineNumber - 10) return std::nullopt;
+  if (highest > syntax::kMaxLineNumber - 10) return std::nullopt;
   last_line_number_ = highest / 10 * 10 + 10;
   return last_line_number_;
 }
@@ -75,7 +75,7 @@ formatting::EachLine each_line_of(const Snapshot& snapshot) {
     const syntax::Document& document = snapshot.document();
     syntax::ChunkTrees trees;
     for (std::size_t chunk = 0; chunk < document.chunk_count(); ++chunk) {
-      snapshot.give_way();
+      snapshot.throw_if_unwanted();
       trees.read(document, chunk);
       for (std::size_t i = 0; i < trees.size(); ++i) look(trees[i]);
     }

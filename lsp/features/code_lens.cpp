@@ -16,8 +16,8 @@ using documents::LandmarkKind;
 namespace {
 
 std::string describe(const documents::TimedSection& section, dialect::Language language) {
-  static constexpr Text kTold = {"{}, path {:.1f} m", "{}, percorso {:.1f} m"};
-  return dialect::format(kTold, language, documents::clock_text(section.seconds), section.mm / 1000);
+  static constexpr Text kTimeAndPath = {"{}, path {:.1f} m", "{}, percorso {:.1f} m"};
+  return dialect::format(kTimeAndPath, language, documents::clock_text(section.seconds), section.mm / 1000);
 }
 
 /// Whether the editor knows a command of this name, as it tells in `experimental.commands.commands`.
@@ -59,7 +59,7 @@ Json answer_code_lens(const Snapshot& snapshot, const documents::DocumentParams&
   return lenses;
 }
 
-Study resolve_lens(const Snapshot& snapshot, const LensResolveParams& params) {
+BackgroundRequest resolve_lens(const Snapshot& snapshot, const LensResolveParams& params) {
   const Json& data = params.lens.at("data");
   if (data.at("version") != snapshot.version())
     throw rpc::Error(rpc::ErrorCode::ContentModified, "the document has been edited");
@@ -84,7 +84,7 @@ Json code_lens_capabilities(const Client&) { return {{"codeLensProvider", {{"res
 
 extern const Feature code_lens = {
     .capabilities = code_lens_capabilities,
-    .methods = {on<&answer_code_lens>("textDocument/codeLens"), begun_by<&resolve_lens>("codeLens/resolve")},
+    .methods = {on<&answer_code_lens>("textDocument/codeLens"), in_background<&resolve_lens>("codeLens/resolve")},
     .refresh = Refresh{"workspace/codeLens/refresh", "/workspace/codeLens/refreshSupport"}};
 
 }  // namespace isocnc::lsp::features

@@ -38,8 +38,8 @@ namespace {
 enum class ItemKind { Method = 2, Function = 3, Field = 5, Variable = 6, Value = 12, Keyword = 14, Reference = 18 };
 
 /// Forward labels that are offered, and lines that are looked through for them.
-constexpr std::size_t kMostLabels = 200;
-constexpr std::size_t kMostLinesForLabels = 100'000;
+constexpr std::size_t kMaxLabels = 200;
+constexpr std::size_t kMaxLinesForLabels = 100'000;
 
 /// What may be completed: `written` is put in, with its placeholders where the client knows them.
 struct Candidate {
@@ -243,7 +243,7 @@ class Completer {
   bool may_be(std::string_view text) const { return has_state_ ? is_legal(text) : is_well_written(text); }
 
   /// Whether the next word is one that the G before it would take: it has been written already.
-  bool has_arguments_behind() const {
+  bool has_arguments_after() const {
     for (const Word& word : line_.words)
       if (word.begin >= place_.column) return dialect::contains(dialect::kDimensionLetters, word.letter);
     return false;
@@ -257,7 +257,7 @@ class Completer {
       // Which coordinates a line will have, its author knows.
       if (may_be(code.number < 2 ? label + " X0" : plain(written))) {
         add(candidate);
-      } else if (code.takes_arguments() && has_arguments_behind() && is_well_written(label)) {
+      } else if (code.takes_arguments() && has_arguments_after() && is_well_written(label)) {
         add({label, candidate.kind, label, candidate.detail, {}, label});
       }
     }
@@ -295,13 +295,13 @@ class Completer {
       static constexpr Text kLength = {"length {} mm", "lunghezza {} mm"};
       static constexpr Text kRadius = {"radius {} mm", "raggio {} mm"};
       std::string detail = syntax::printable(tool.name);
-      const auto tell = [&](const Text& text, const std::optional<double>& value) {
+      const auto append = [&](const Text& text, const std::optional<double>& value) {
         if (!value) return;
         detail += detail.empty() ? "" : ", ";
         detail += dialect::format(text, language_, dialect::format_value(*value));
       };
-      tell(kLength, tool.length);
-      tell(kRadius, tool.radius);
+      append(kLength, tool.length);
+      append(kRadius, tool.radius);
       add({label, ItemKind::Value, label, detail, {}});
     }
   }
@@ -388,18 +388,18 @@ class Completer {
   /// Jumps lead forward only (I.5).
   void offer_labels() {
     const syntax::Document& document = snapshot_.document();
-    const std::size_t end = std::min(document.line_count(), place_.line + 1 + kMostLinesForLabels);
+    const std::size_t end = std::min(document.line_count(), place_.line + 1 + kMaxLinesForLabels);
     is_incomplete_ = end < document.line_count();
     std::string_view digits = typed();
     while (!digits.empty() && !syntax::is_digit(digits.front())) digits.remove_prefix(1);
     for (std::size_t number = place_.line + 1; number < end; ++number) {
-      if (number % 1024 == 0) snapshot_.give_way();
+      if (number % 1024 == 0) snapshot_.throw_if_unwanted();
       const syntax::DocumentLine read = document.line(number);
       const syntax::LineTree& target = *read;
       if (!target.has_label()) continue;
       const std::string label = fmt::format("N{}", target.label);
       if (label.compare(1, digits.size(), digits) != 0) continue;
-      if (items_.size() == kMostLabels) {
+      if (items_.size() == kMaxLabels) {
         is_incomplete_ = true;
         return;
       }

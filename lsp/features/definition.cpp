@@ -22,16 +22,16 @@ namespace {
 /// Where something stands; ordered, so that equal ones are told once.
 using Spot = std::pair<std::size_t, Span>;
 
-std::vector<Spot> spots_of(const std::vector<Occurrence>& all) {
-  std::vector<Spot> spots;
+std::vector<Spot> spans_of(const std::vector<Occurrence>& all) {
+  std::vector<Spot> spans;
   for (const Occurrence& each : all)
-    if (each.is_definition) spots.emplace_back(each.line, each.span);
-  return spots;
+    if (each.is_definition) spans.emplace_back(each.line, each.span);
+  return spans;
 }
 
 /// The label that the jump leads to; those that it was meant for where it leads nowhere.
 std::vector<Spot> labels_of(const Snapshot& snapshot, const Occurrence& target) {
-  std::vector<Spot> labels = spots_of(documents::occurrences(snapshot, target.name));
+  std::vector<Spot> labels = spans_of(documents::occurrences(snapshot, target.name));
   const auto below =
       std::find_if(labels.begin(), labels.end(), [&](const Spot& label) { return label.first > target.line; });
   return below == labels.end() ? labels : std::vector<Spot>{*below};
@@ -40,7 +40,7 @@ std::vector<Spot> labels_of(const Snapshot& snapshot, const Occurrence& target) 
 /// The assignments whose value may be there when the register is read; all where none can.
 std::vector<Spot> assignments_of(const Snapshot& snapshot, const Occurrence& read) {
   const std::vector<Occurrence> reaching = documents::assignments_reaching(snapshot, read);
-  return spots_of(reaching.empty() ? documents::occurrences(snapshot, read.name) : reaching);
+  return spans_of(reaching.empty() ? documents::occurrences(snapshot, read.name) : reaching);
 }
 
 /// The last motion G of a line.
@@ -64,7 +64,7 @@ bool is_continuation(const syntax::LineTree& line, std::uint32_t column) {
 std::vector<Spot> motions_before(const Snapshot& snapshot, std::size_t line) {
   return JumpPaths(snapshot).nearest_above(line, [&](std::size_t first, std::size_t end) -> std::optional<Spot> {
     for (std::size_t at = end; at-- > first;) {
-      if (at % 1024 == 0) snapshot.give_way();
+      if (at % 1024 == 0) snapshot.throw_if_unwanted();
       const syntax::DocumentLine line = snapshot.document().line(at);
       if (const auto span = motion_span(*line)) return Spot{at, *span};
     }
@@ -72,7 +72,7 @@ std::vector<Spot> motions_before(const Snapshot& snapshot, std::size_t line) {
   });
 }
 
-std::vector<Spot> spots_for(const Snapshot& snapshot, const syntax::Position& place) {
+std::vector<Spot> spans_for(const Snapshot& snapshot, const syntax::Position& place) {
   if (const auto name = documents::name_at(snapshot, place)) {
     if (name->is_definition) return {{name->line, name->span}};
     return name->name.kind == NameKind::Label ? labels_of(snapshot, *name) : assignments_of(snapshot, *name);
@@ -86,7 +86,7 @@ std::vector<Spot> spots_for(const Snapshot& snapshot, const syntax::Position& pl
 std::optional<std::vector<Location>> answer_definition(const Snapshot& snapshot,
                                                        const documents::PositionParams& params) {
   std::vector<Location> locations;
-  for (const auto& [line, span] : spots_for(snapshot, snapshot.from_client(params.position)))
+  for (const auto& [line, span] : spans_for(snapshot, snapshot.from_client(params.position)))
     locations.push_back({snapshot.uri(), snapshot.to_client(line, span)});
   return locations.empty() ? std::nullopt : std::optional(std::move(locations));
 }

@@ -23,7 +23,7 @@ using namespace dialect::literals;
 using check::LocatedFinding;
 
 /// Findings that are told of one program; a last one says how many there are.
-static constexpr std::size_t kMostFindings = 1000;
+static constexpr std::size_t kMaxFindings = 1000;
 
 /// Of a configuration: what is wrong with one is pushed in any case.
 static constexpr std::string_view kNothing = R"({"kind":"full","items":[]})";
@@ -47,8 +47,8 @@ class DiagnosticWriter {
   explicit DiagnosticWriter(const Snapshot& snapshot)
       : snapshot_(snapshot),
         language_(snapshot.language()),
-        first_(snapshot.excerpt(kMostFindings + 1)),
-        tells_related_(snapshot.client().can("/textDocument/publishDiagnostics/relatedInformation")) {}
+        first_(snapshot.excerpt(kMaxFindings + 1)),
+        sends_related_(snapshot.client().can("/textDocument/publishDiagnostics/relatedInformation")) {}
 
   /// The list, as JSON: written at once, for it may be long, and is wanted after each edit.
   std::string all() const {
@@ -60,13 +60,13 @@ class DiagnosticWriter {
   void append_all(std::string& list) const {
     static constexpr std::size_t kUsualLength = 400;
     const std::vector<LocatedFinding>& findings = first_.report.findings;
-    list.reserve(list.size() + kUsualLength * std::min(findings.size(), kMostFindings));
+    list.reserve(list.size() + kUsualLength * std::min(findings.size(), kMaxFindings));
     list += '[';
-    for (std::size_t i = 0; i < std::min(findings.size(), kMostFindings); ++i) {
+    for (std::size_t i = 0; i < std::min(findings.size(), kMaxFindings); ++i) {
       if (i > 0) list += ',';
       append(findings[i], list);
     }
-    if (findings.size() > kMostFindings) append_rest(findings[kMostFindings], list);
+    if (findings.size() > kMaxFindings) append_rest(findings[kMaxFindings], list);
     list += ']';
   }
 
@@ -78,8 +78,8 @@ class DiagnosticWriter {
                                         .substr(finding.span.begin, finding.span.end - finding.span.begin);
     append_head(located, 1 + static_cast<int>(located.severity()),
                 dialect::message(finding.id, language_, marked, finding.values), list);
-    list += told_of(finding.id);
-    if (tells_related_ && located.path >= 0) list += R"(,"relatedInformation":)" + rpc::write(path_of(located));
+    list += constant_part(finding.id);
+    if (sends_related_ && located.path >= 0) list += R"(,"relatedInformation":)" + rpc::write(path_of(located));
     list += '}';
   }
 
@@ -106,19 +106,19 @@ class DiagnosticWriter {
   }
 
   /// What all findings of one kind have behind their message.
-  static const std::string& told_of(dialect::DiagnosticId id) {
-    static const auto kTold = [] {
-      std::vector<std::string> told;
+  static const std::string& constant_part(dialect::DiagnosticId id) {
+    static const auto kConstantParts = [] {
+      std::vector<std::string> parts;
       for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
         const auto each = static_cast<dialect::DiagnosticId>(i);
         const dialect::DiagnosticDef& def = dialect::definition(each);
-        told.push_back(fmt::format(R"(,"code":"{}","codeDescription":{{"href":"{}"}},"data":{{"name":"{}"}})", def.code,
-                                   documents::rule_page(each), def.name));
-        if (each == "never-runs"_diag) told.back() += R"(,"tags":[1])";
+        parts.push_back(fmt::format(R"(,"code":"{}","codeDescription":{{"href":"{}"}},"data":{{"name":"{}"}})",
+                                    def.code, documents::rule_page(each), def.name));
+        if (each == "never-runs"_diag) parts.back() += R"(,"tags":[1])";
       }
-      return told;
+      return parts;
     }();
-    return kTold[static_cast<std::size_t>(id)];
+    return kConstantParts[static_cast<std::size_t>(id)];
   }
 
   /// The jumps through which a finding is reached.
@@ -139,7 +139,7 @@ class DiagnosticWriter {
   void append_rest(const LocatedFinding& next, std::string& list) const {
     static constexpr dialect::Text kRest = {"{} more findings are not shown; isolint tells them all",
                                             "altre {} segnalazioni non sono mostrate; isolint le riporta tutte"};
-    const std::size_t count = first_.report.findings.size() + first_.left_out - kMostFindings;
+    const std::size_t count = first_.report.findings.size() + first_.left_out - kMaxFindings;
     list += ',';
     append_head(next, 3, dialect::format(kRest, language_, count), list);
     list += '}';
@@ -148,7 +148,7 @@ class DiagnosticWriter {
   const Snapshot& snapshot_;
   const dialect::Language language_;
   const check::FirstFindings first_;
-  const bool tells_related_;
+  const bool sends_related_;
 };
 
 /// Equal findings have equal ids, so that a client that has them need not be told again.
@@ -170,10 +170,10 @@ documents::RawJson pull_each(const Snapshot& snapshot, const Json& /*params*/) {
 }
 
 /// Leaves out what the client has, and takes away what it has of programs that are gone.
-std::string conclude_pull(const std::string& results, const Json& params, Gathered gathered) {
+std::string conclude_pull(const std::string& results, const Json& params, AggregateScope scope) {
   std::map<std::string, std::string> before;
   for (const Json& each : params.value("previousResultIds", Json::array())) before[each.at("uri")] = each.at("value");
-  if (before.empty()) return fmt::format(R"({{"items":{}}})", gathered == Gathered::Rest ? "[]" : results);
+  if (before.empty()) return fmt::format(R"({{"items":{}}})", scope == AggregateScope::Rest ? "[]" : results);
   Json reports = Json::parse(results);
   for (Json& report : reports) {
     const auto known = before.find(report["uri"].get_ref<const std::string&>());
@@ -184,8 +184,8 @@ std::string conclude_pull(const std::string& results, const Json& params, Gather
     }
     before.erase(known);
   }
-  if (gathered == Gathered::Some) return rpc::write({{"items", reports}});
-  if (gathered == Gathered::Rest) reports = Json::array();
+  if (scope == AggregateScope::Some) return rpc::write({{"items", reports}});
+  if (scope == AggregateScope::Rest) reports = Json::array();
   for (const auto& [uri, id] : before)
     if (id != id_of("[]"))
       reports.push_back(
@@ -222,7 +222,7 @@ Json diagnostics_capabilities(const Client& client) {
 extern const Feature diagnostics = {
     .capabilities = diagnostics_capabilities,
     .methods = {on_any<&pull>("textDocument/diagnostic", kNothing)},
-    .gatherings = {on_each<&pull_each>("workspace/diagnostic", conclude_pull)},
+    .workspace_requests = {workspace_request<&pull_each>("workspace/diagnostic", conclude_pull)},
     .changed = push,
     .refresh = Refresh{"workspace/diagnostic/refresh", "/workspace/diagnostics/refreshSupport"},
     .closed = clear};

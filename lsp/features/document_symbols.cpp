@@ -24,7 +24,7 @@ class SymbolWriter {
   documents::RawJson row() {
     text_ = "[";
     for (const Section& section : sections_) {
-      snapshot_.give_way();
+      snapshot_.throw_if_unwanted();
       separate();
       Json json = {{"name", section.title},
                    {"kind", documents::symbol_kind(section.kind)},
@@ -46,7 +46,7 @@ class SymbolWriter {
   void write_children(int parent) {
     text_ += "[";
     while (next_ < sections_.size() && sections_[next_].parent == parent) {
-      snapshot_.give_way();
+      snapshot_.throw_if_unwanted();
       const Section& section = sections_[next_];
       separate();
       std::string symbol = rpc::write({{"name", section.title},

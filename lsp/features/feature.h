@@ -22,7 +22,7 @@ using documents::Snapshot;
 
 /// Work that takes long, and sees no document any more: the result, as JSON. Asked now and then whether to `stop`, it
 /// may throw rpc::Error.
-using Study = std::function<std::string(const std::function<bool()>& stop)>;
+using BackgroundRequest = std::function<std::string(const std::function<bool()>& stop)>;
 
 /// A request about one document: which one stands in `params.textDocument.uri`, or, where an item that we have handed
 /// out comes back (resolve), in its `data.uri`. It is answered on the document's strand.
@@ -32,7 +32,7 @@ struct Method {
   std::string (*answer)(const Snapshot& snapshot, const Json& params) = nullptr;
   /// In its place, for what takes long: takes with it what it needs of the snapshot. Edits and other requests go on
   /// beside the study.
-  Study (*begin)(const Snapshot& snapshot, const Json& params) = nullptr;
+  BackgroundRequest (*begin)(const Snapshot& snapshot, const Json& params) = nullptr;
   /// Whether `answer` is wanted of files that are not open, too: editors show tabs whose files they have not opened
   /// yet.
   bool serves_closed = false;
@@ -40,8 +40,8 @@ struct Method {
   std::string_view of_configuration = {};
 };
 
-/// Which results a Gathering concludes from.
-enum class Gathered {
+/// Which results a WorkspaceRequest concludes from.
+enum class AggregateScope {
   All,
   Some,  ///< The client is told of some programs while others are still being asked.
   Rest,  ///< Of all, but the client has been told of each of them: what is left to say.
@@ -49,12 +49,12 @@ enum class Gathered {
 
 /// A request about the whole workspace: asked of every open document on its strand, and of the programs in the
 /// workspace's folders that are not open.
-struct Gathering {
+struct WorkspaceRequest {
   std::string_view name;
   /// An array. Programs that are not open are asked without params, for what they answer is kept.
   std::string (*answer)(const Snapshot& snapshot, const Json& params) = nullptr;
   /// Makes of the results, put together to one array, what the client gets.
-  std::string (*conclude)(const std::string& results, const Json& params, Gathered gathered) = nullptr;
+  std::string (*combine)(const std::string& results, const Json& params, AggregateScope scope) = nullptr;
 };
 
 /// What an editor wants to know of code actions.
@@ -107,7 +107,7 @@ struct Feature {
   /// Its part of ServerCapabilities, for this client.
   Json (*capabilities)(const Client& client) = nullptr;
   std::vector<Method> methods;
-  std::vector<Gathering> gatherings;
+  std::vector<WorkspaceRequest> workspace_requests;
   /// What `workspace/executeCommand` offers. The params are the command's first argument: an object whose `uri` names
   /// the document. Where the result has an `edit`, the client is asked to apply it.
   std::vector<Method> commands;
@@ -161,30 +161,31 @@ Method on_any(std::string_view name, std::string_view of_configuration) {
           .of_configuration = of_configuration};
 }
 
-template <class Params, Study (*handle)(const Snapshot&, const Params&)>
-Study begin_with(const Snapshot& snapshot, const Json& params) {
+template <class Params, BackgroundRequest (*handle)(const Snapshot&, const Params&)>
+BackgroundRequest start_with(const Snapshot& snapshot, const Json& params) {
   return handle(snapshot, params.get<Params>());
 }
 
 template <auto handle>
-struct StudyOf;
+struct BackgroundRequestOf;
 
-template <class Params, Study (*handle)(const Snapshot&, const Params&)>
-struct StudyOf<handle> {
-  static constexpr auto kBegin = begin_with<Params, handle>;
+template <class Params, BackgroundRequest (*handle)(const Snapshot&, const Params&)>
+struct BackgroundRequestOf<handle> {
+  static constexpr auto kStart = start_with<Params, handle>;
 };
 
-/// A method that takes long, by `Study handle(const Snapshot&, const Params&)`.
+/// A method that takes long, by `BackgroundRequest handle(const Snapshot&, const Params&)`.
 template <auto handle>
-Method begun_by(std::string_view name) {
-  return {.name = name, .answer = nullptr, .begin = StudyOf<handle>::kBegin};
+Method in_background(std::string_view name) {
+  return {.name = name, .answer = nullptr, .begin = BackgroundRequestOf<handle>::kStart};
 }
 
 /// A gathering by its handler, whose Result is a list.
 template <auto handle>
-Gathering on_each(std::string_view name,
-                  std::string (*conclude)(const std::string& results, const Json& params, Gathered gathered)) {
-  return {name, MethodOf<handle>::kAnswer, conclude};
+WorkspaceRequest workspace_request(std::string_view name,
+                                   std::string (*combine)(const std::string& results, const Json& params,
+                                                          AggregateScope scope)) {
+  return {name, MethodOf<handle>::kAnswer, combine};
 }
 
 /// All features, in the order of their files' names.

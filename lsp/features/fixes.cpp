@@ -26,10 +26,10 @@ static constexpr std::string_view kQuickFix = "quickfix";
 static constexpr std::string_view kFixAll = "source.fixAll.isocnc";
 
 /// Findings for which actions are offered at once.
-static constexpr std::ptrdiff_t kMostFixed = 50;
+static constexpr std::ptrdiff_t kMaxFixed = 50;
 
 /// Edits that are sent with an offer. More, which only a habit of the program takes, wait until they are wanted.
-static constexpr std::size_t kMostEdits = 1'000;
+static constexpr std::size_t kMaxEdits = 1'000;
 
 namespace {
 
@@ -40,7 +40,7 @@ std::span<const LocatedFinding> findings_of(const Snapshot& snapshot, const Acti
       std::partition_point(all.begin(), all.end(), [&](const auto& each) { return each.line < params.first_line(); });
   const auto behind =
       std::partition_point(first, all.end(), [&](const auto& each) { return each.line <= params.last_line(); });
-  return {first, std::min(behind, first + std::min(kMostFixed, behind - first))};
+  return {first, std::min(behind, first + std::min(kMaxFixed, behind - first))};
 }
 
 /// The client's diagnostic of a finding.
@@ -66,7 +66,7 @@ void offer_fixes(const Snapshot& snapshot, const ActionParams& params, std::vect
                                                  .is_preferred = fix->safety == fixes::Safety::Safe,
                                                  .diagnostics = diagnostics_of(snapshot, located, params),
                                                  .data = {{"habit", fix->habit}}});
-    if (edits.size() <= kMostEdits) action.edit = workspace_edit(snapshot, to_client(snapshot, edits));
+    if (edits.size() <= kMaxEdits) action.edit = workspace_edit(snapshot, to_client(snapshot, edits));
   }
 }
 
@@ -91,9 +91,9 @@ Edit silencing_line(const syntax::LineTree& line, std::size_t number, std::strin
     return comment.end == line.text.size() &&
            (line.text[comment.begin] == ';' || line.has(syntax::LineTree::kUnclosed));
   };
-  const bool goes_on = std::any_of(line.comments.begin(), line.comments.end(), is_open);
+  const bool continues = std::any_of(line.comments.begin(), line.comments.end(), is_open);
   const syntax::Position end{number, line.text.size()};
-  return {end, end, fmt::format(" {}isolint: ignore {}", goes_on ? "" : ";", code)};
+  return {end, end, fmt::format(" {}isolint: ignore {}", continues ? "" : ";", code)};
 }
 
 void offer_silence(const Snapshot& snapshot, const ActionParams& params, std::vector<Action>& actions) {
@@ -120,11 +120,11 @@ void offer_silence(const Snapshot& snapshot, const ActionParams& params, std::ve
 std::vector<documents::TextEdit> edits_of_all(const Snapshot& snapshot) {
   const std::string text = snapshot.document().text();
   const auto pause = [&](check::Report report, std::string_view) {
-    snapshot.give_way();
+    snapshot.throw_if_unwanted();
     return report;
   };
   const fixing::FixedText fixed =
-      fixing::fix_text(text, {.selection = snapshot.selection(), .setup = snapshot.setup(), .concern = pause});
+      fixing::fix_text(text, {.selection = snapshot.selection(), .setup = snapshot.setup(), .finding_filter = pause});
   return edits_to(snapshot, fixed.text, fixed.origins);
 }
 

@@ -65,7 +65,7 @@ class FoldFinder {
   /// From the M02 after which nothing runs any more.
   void find_tail() {
     for (const documents::Landmark& end : snapshot_.index().landmarks(documents::LandmarkKind::ProgramEnd)) {
-      snapshot_.give_way();
+      snapshot_.throw_if_unwanted();
       if (!snapshot_.frontier_before(end.line + 1).finished()) continue;
       return add(end.line, last_text_line(snapshot_), "region");
     }

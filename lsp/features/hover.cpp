@@ -33,7 +33,7 @@ using syntax::InstructionKind;
 using syntax::Word;
 
 /// Places that are named before "and others".
-constexpr std::size_t kMostPlaces = 10;
+constexpr std::size_t kMaxPlaces = 10;
 
 struct Hover {
   Json contents;
@@ -43,15 +43,15 @@ struct Hover {
 void to_json(Json& json, const Hover& hover) { json = {{"contents", hover.contents}, {"range", hover.range}}; }
 
 /// Tells of one word, paragraph by paragraph.
-class Teller {
+class HoverWriter {
  public:
   /// A word of the line.
-  Teller(const Snapshot& snapshot, std::size_t line_number, const syntax::LineTree& line, const Word& word)
+  HoverWriter(const Snapshot& snapshot, std::size_t line_number, const syntax::LineTree& line, const Word& word)
       : snapshot_(snapshot), line_number_(line_number), line_(line), word_(word), language_(snapshot.language()) {}
 
-  std::string tell() {
-    tell_meaning();
-    tell_findings();
+  std::string describe() {
+    describe_meaning();
+    describe_findings();
     return fmt::format("{}", fmt::join(paragraphs_, "\n\n"));
   }
 
@@ -62,10 +62,10 @@ class Teller {
   }
   void add(std::string paragraph) { paragraphs_.push_back(std::move(paragraph)); }
   void title(std::string_view meaning) {
-    add(fmt::format("**{}** {}", as_it_stands(line_.text_of(word_.span())), meaning));
+    add(fmt::format("**{}** {}", as_written(line_.text_of(word_.span())), meaning));
   }
   /// Of the program or its configuration.
-  static std::string as_it_stands(std::string_view words) { return documents::in_markdown(syntax::printable(words)); }
+  static std::string as_written(std::string_view words) { return documents::in_markdown(syntax::printable(words)); }
 
   const Instruction* instruction() const {
     const auto mine = [&](const Instruction& each) {
@@ -75,47 +75,47 @@ class Teller {
     return found == line_.instructions.end() ? nullptr : &*found;
   }
 
-  void tell_meaning() {
+  void describe_meaning() {
     switch (word_.letter) {
       case 'G':
-        return tell_g();
+        return describe_g();
       case 'M':
-        return tell_m();
+        return describe_m();
       case 'T':
-        return tell_tool();
+        return describe_tool();
       case 'N':
-        return tell_label();
+        return describe_label();
       case 'V':
-        return tell_register();
+        return describe_register();
       case syntax::kIf:
       case syntax::kGoto:
-        return tell_jump();
+        return describe_jump();
       case syntax::kVgpl:
-        return tell_vgpl();
+        return describe_vgpl();
       case syntax::kAssign:
       case syntax::kNumber:
-        return tell_value();
+        return describe_value();
       case syntax::kOperator:
-        return tell_operator();
+        return describe_operator();
       default:
-        return tell_letter();
+        return describe_letter();
     }
   }
 
-  void tell_letter() {
+  void describe_letter() {
     const std::string_view meaning = dialect::meaning_of(word_.letter).in(language_);
     if (!meaning.empty()) title(meaning);
     const Instruction* const owner = instruction();
-    if (owner && owner->is_motion()) tell_motion();
+    if (owner && owner->is_motion()) describe_motion();
   }
 
-  void tell_g() {
+  void describe_g() {
     const Instruction* const owner = instruction();
     const dialect::GCode* const code = owner ? owner->g() : nullptr;
     if (!code) return;
     title(fmt::format("{} ({})", code->name.in(language_), code->section));
-    if (code->is_motion()) tell_motion();
-    if (code->number == 4) tell_dwell();
+    if (code->is_motion()) describe_motion();
+    if (code->number == 4) describe_dwell();
   }
 
   /// Of what paths do not agree on, `?` stands in its place.
@@ -140,7 +140,7 @@ class Teller {
     const std::vector<LineRun>& runs_;
   };
 
-  void tell_motion() {
+  void describe_motion() {
     static constexpr Text kFace = {"face frame", "s.d.r. di faccia"};
     static constexpr Text kWorkpiece = {"workpiece frame", "s.d.r. di pezzo"};
     static constexpr Text kMachine = {"machine frame", "s.d.r. di macchina"};
@@ -148,11 +148,11 @@ class Teller {
                                   "centro X{} Y{} Z{}, raggio {} mm, ampiezza {}°, lunghezza {} mm"};
     static constexpr Text kTime = {"at the programmed feed {} s", "alla velocità programmata {} s"};
     static constexpr Text kRapid = {"at full rapid speed {} s", "alla massima velocità di rapido {} s"};
-    static constexpr Text kWay = {"length {} mm", "lunghezza {} mm"};
+    static constexpr Text kMotionLength = {"length {} mm", "lunghezza {} mm"};
     static constexpr Text kPartial = {"`?`: that depends on the jumps before", "`?`: dipende dai salti precedenti"};
     const std::vector<LineRun> runs = documents::run_line_on_all_paths(snapshot_, line_number_);
     const auto is_unclear = [](const LineRun& run) {
-      return !run.move || run.after.unknown != 0 || !run.moved_in.knows_frame();
+      return !run.move || run.after.unknown != 0 || !run.moved_in.is_frame_known();
     };
     if (runs.empty() || std::any_of(runs.begin(), runs.end(), is_unclear)) return;
     const auto all = [&](auto holds) { return std::all_of(runs.begin(), runs.end(), holds); };
@@ -184,7 +184,7 @@ class Teller {
                agreement.of([&](const LineRun& run) { return in_machine(run).radius; }),
                agreement.of([&](const LineRun& run) { return in_machine(run).sweep_deg; }), length));
     } else {
-      add(text(kWay, length));
+      add(text(kMotionLength, length));
     }
     if (all([](const LineRun& run) { return run.move->feed > 0; })) {
       add(text(kTime, agreement.of([&](const LineRun& run) { return seconds_at_feed(in_machine(run)); })));
@@ -222,33 +222,33 @@ class Teller {
 
   static std::string shown(double value) { return dialect::format_value(value); }
 
-  void tell_dwell() {
+  void describe_dwell() {
     static constexpr Text kWaits = {"waits {} s", "attende {} s"};
     const std::vector<LineRun> runs = documents::run_line_on_all_paths(snapshot_, line_number_);
     if (!runs.empty() && runs.front().dwell > 0) add(text(kWaits, shown(runs.front().dwell)));
   }
 
-  void tell_jump() {
+  void describe_jump() {
     static constexpr Text kJump = {"jumps down to the line of the label behind GOTO where the condition holds (I.5)",
                                    "salta alla riga dell'etichetta dopo GOTO, più in basso, se la condizione è vera "
                                    "(I.5)"};
     title(kJump.in(language_));
   }
 
-  void tell_vgpl() {
+  void describe_vgpl() {
     static constexpr Text kVgpl = {"variable that the machine's own program sets, Var_IF[1] (I.5)",
                                    "variabile impostata dal programma GPL della macchina, Var_IF[1] (I.5)"};
     title(kVgpl.in(language_));
   }
 
   /// Of values: what a register, or an M's parameter, is set to or compared with.
-  void tell_value() {
+  void describe_value() {
     static constexpr Text kCompared = {"what it is compared with", "valore di confronto"};
     static constexpr Text kSet = {"what it is set to", "valore assegnato"};
     title((line_.jump ? kCompared : kSet).in(language_));
   }
 
-  void tell_operator() {
+  void describe_operator() {
     static constexpr std::array<Text, 6> kComparisons = {{{"is equal to", "è uguale a"},
                                                           {"is not equal to", "è diverso da"},
                                                           {"is less than", "è minore di"},
@@ -258,7 +258,7 @@ class Teller {
     if (word_.digits < kComparisons.size()) title(kComparisons[word_.digits].in(language_));
   }
 
-  void tell_m() {
+  void describe_m() {
     static constexpr Text kTakes = {"takes {} s", "richiede {} s"};
     static constexpr Text kTakesWhereItChanges = {"takes {} s where it changes what the spindle does",
                                                   "richiede {} s se cambia ciò che fa il mandrino"};
@@ -274,11 +274,11 @@ class Teller {
     title(kUser.in(language_));
     const auto* const function = snapshot_.configuration().machine.find_function(word_.value);
     if (!function) return;
-    add(as_it_stands(function->name));
+    add(as_written(function->name));
     if (function->seconds > 0) add(text(kTakes, shown(function->seconds)));
   }
 
-  void tell_tool() {
+  void describe_tool() {
     static constexpr Text kTool = {"head {}, holder {}, tool {}", "testa {}, portautensile {}, utensile {}"};
     static constexpr Text kLength = {"length {} mm", "lunghezza {} mm"};
     static constexpr Text kRadius = {"radius {} mm", "raggio {} mm"};
@@ -288,7 +288,7 @@ class Teller {
     const configuration::Tool* const tool = snapshot_.configuration().machine.find_tool(code);
     if (!tool) return;
     std::vector<std::string> data;
-    if (!tool->name.empty()) data.push_back(as_it_stands(tool->name));
+    if (!tool->name.empty()) data.push_back(as_written(tool->name));
     if (tool->length) data.push_back(text(kLength, shown(*tool->length)));
     if (tool->radius) data.push_back(text(kRadius, shown(*tool->radius)));
     if (!data.empty()) add(fmt::format("{}", fmt::join(data, ", ")));
@@ -300,15 +300,15 @@ class Teller {
   };
 
   /// `name: 3, 7, 12 ...`: line numbers as users count.
-  void tell_places(const Texts& names, const std::vector<documents::Landmark>& places) {
+  void list_places(const Texts& names, const std::vector<documents::Landmark>& places) {
     if (places.empty()) return;
     std::vector<std::size_t> lines;
-    for (std::size_t i = 0; i < std::min(places.size(), kMostPlaces); ++i) lines.push_back(places[i].line + 1u);
+    for (std::size_t i = 0; i < std::min(places.size(), kMaxPlaces); ++i) lines.push_back(places[i].line + 1u);
     const Text& name = lines.size() == 1 ? names.one : names.many;
-    add(fmt::format("{} {}{}", name.in(language_), fmt::join(lines, ", "), places.size() > kMostPlaces ? " ..." : ""));
+    add(fmt::format("{} {}{}", name.in(language_), fmt::join(lines, ", "), places.size() > kMaxPlaces ? " ..." : ""));
   }
 
-  void tell_label() {
+  void describe_label() {
     static constexpr Text kTarget = {"target of a jump", "destinazione di un salto"};
     static constexpr Text kNumber = {"line number", "numero di riga"};
     static constexpr Texts kJumps = {{"jump to it: line", "salto da: riga"}, {"jumps to it: lines", "salti da: righe"}};
@@ -316,10 +316,10 @@ class Teller {
     const std::uint64_t label = is_target ? line_.jump->target : line_.label;
     const auto jumps = snapshot_.index().landmarks(documents::kinds(LandmarkKind::Jump), label);
     title((is_target ? kTarget : kNumber).in(language_));
-    tell_places(kJumps, jumps);
+    list_places(kJumps, jumps);
   }
 
-  void tell_register() {
+  void describe_register() {
     static constexpr Text kRegister = {"register", "registro"};
     static constexpr Texts kAssigned = {{"assigned: line", "assegnato: riga"}, {"assigned: lines", "assegnato: righe"}};
     static constexpr Texts kCompared = {{"compared: line", "confrontato: riga"},
@@ -327,36 +327,36 @@ class Teller {
     title(kRegister.in(language_));
     const auto number = static_cast<std::uint64_t>(word_.register_number());
     if (number == 0) return;
-    tell_values();
-    tell_places(kAssigned, snapshot_.index().landmarks(documents::kinds(LandmarkKind::Assignment), number));
-    tell_places(kCompared, snapshot_.index().landmarks(documents::kinds(LandmarkKind::Comparison), number));
+    describe_values();
+    list_places(kAssigned, snapshot_.index().landmarks(documents::kinds(LandmarkKind::Assignment), number));
+    list_places(kCompared, snapshot_.index().landmarks(documents::kinds(LandmarkKind::Comparison), number));
   }
 
   /// What a register that is compared may hold there.
-  void tell_values() {
+  void describe_values() {
     static constexpr Text kMayBe = {"here it may be {}", "qui può valere {}"};
     static constexpr Text kValue = {"{} (line {})", "{} (riga {})"};
     const auto read = documents::name_at(snapshot_, {line_number_, word_.begin});
     if (!read || read->is_definition) return;
     std::vector<std::string> values;
     for (const documents::Occurrence& each : documents::assignments_reaching(snapshot_, *read)) {
-      if (values.size() == kMostPlaces) break;
+      if (values.size() == kMaxPlaces) break;
       const syntax::DocumentLine assigning = snapshot_.document().line(each.line);
       const syntax::LineTree& line = *assigning;
-      const Word* const value = value_behind(line, each.span);
+      const Word* const value = value_after(line, each.span);
       if (value && value->known()) values.push_back(text(kValue, shown(value->value), each.line + 1));
     }
     if (!values.empty()) add(text(kMayBe, fmt::format("{}", fmt::join(values, ", "))));
   }
 
   /// The value of `V1 = 2`, whose V stands at the span.
-  static const Word* value_behind(const syntax::LineTree& line, syntax::Span command) {
+  static const Word* value_after(const syntax::LineTree& line, syntax::Span command) {
     const auto is_value = [&](const Word& word) { return word.letter == syntax::kAssign && word.begin >= command.end; };
     const auto value = std::find_if(line.words.begin(), line.words.end(), is_value);
     return value == line.words.end() ? nullptr : &*value;
   }
 
-  void tell_findings() {
+  void describe_findings() {
     for (const check::LocatedFinding& located : snapshot_.findings_on(line_number_)) {
       if (!located.finding.span.holds(word_.begin)) continue;
       const dialect::DiagnosticDef& def = dialect::definition(located.finding.id);
@@ -378,7 +378,7 @@ std::optional<Hover> answer_hover(const Snapshot& snapshot, const documents::Pos
   const syntax::LineTree& line = *read;
   const Word* const word = line.word_at(static_cast<std::uint32_t>(place.column));
   if (!word) return std::nullopt;
-  std::string text = Teller(snapshot, place.line, line, *word).tell();
+  std::string text = HoverWriter(snapshot, place.line, line, *word).describe();
   if (text.empty()) return std::nullopt;
   return Hover{.contents = snapshot.client().in_format({std::move(text)}, "/textDocument/hover/contentFormat"),
                .range = snapshot.to_client(place.line, word->span())};

@@ -28,14 +28,14 @@ struct Hint {
   ClientPosition position;
   std::string label;
   std::string_view tooltip;
-  bool is_behind = false;  ///< Behind what it belongs to, not before it.
+  bool is_after = false;  ///< Behind what it belongs to, not before it.
 };
 
 void to_json(Json& json, const Hint& hint) {
   json = {{"position", hint.position},
           {"label", hint.label},
           {"tooltip", hint.tooltip},
-          {hint.is_behind ? "paddingLeft" : "paddingRight", true}};
+          {hint.is_after ? "paddingLeft" : "paddingRight", true}};
 }
 
 /// The state before each line of a stretch, where it is the same on all paths. Lines are executed once; the snapshot is
@@ -50,7 +50,7 @@ class StateWalk {
 
   /// Comes to a line, to which jumps may lead, too.
   void arrive(std::size_t line) {
-    if (paths_.lands_on(line)) state_ = snapshot_.state_before(line);
+    if (paths_.is_jump_target(line)) state_ = snapshot_.state_before(line);
   }
   /// Goes over the line to the next, without the jumps that lead there.
   void step(std::size_t line, const LineTree& tree) {
@@ -85,15 +85,15 @@ class HintFinder {
     const syntax::LineTree& line = *read;
     const syntax::Instruction* const motion = line.motion();
     walk_.arrive(index);
-    if (motion && motion->kind == syntax::InstructionKind::Continuation) tell_of_motion(index, line, *motion);
+    if (motion && motion->kind == syntax::InstructionKind::Continuation) add_motion_hint(index, line, *motion);
     walk_.step(index, line);
-    if (motion) tell_of_end(index, line, *motion);
+    if (motion) add_end_hint(index, line, *motion);
   }
 
   std::vector<Hint> hints;
 
  private:
-  void tell_of_motion(std::size_t index, const LineTree& line, const syntax::Instruction& motion) {
+  void add_motion_hint(std::size_t index, const LineTree& line, const syntax::Instruction& motion) {
     static constexpr dialect::Text kTooltip = {"the motion in force", "il movimento in presa"};
     if (!snapshot_.client().settings.shows_motion_in_force || !walk_.state()) return;
     const std::uint8_t g = walk_.state()->mode(ModalGroup::Motion);
@@ -104,7 +104,7 @@ class HintFinder {
   }
 
   /// The coordinates that the line moves, as they would be written in G90.
-  void tell_of_end(std::size_t index, const LineTree& line, const syntax::Instruction& motion) {
+  void add_end_hint(std::size_t index, const LineTree& line, const syntax::Instruction& motion) {
     static constexpr dialect::Text kTooltip = {"where the motion ends, in the frame in force",
                                                "dove finisce il movimento, nel riferimento in uso"};
     const std::optional<State>& after = walk_.state();
@@ -120,7 +120,7 @@ class HintFinder {
     hints.push_back({.position = snapshot_.to_client({index, end}),
                      .label = std::move(label),
                      .tooltip = kTooltip.in(snapshot_.language()),
-                     .is_behind = true});
+                     .is_after = true});
   }
 
   /// ` X12.5`; nothing for what is no coordinate, or not known.
@@ -139,14 +139,14 @@ class HintFinder {
 };
 
 /// Programs of more lines are not timed for hints alone: those then come once the code lenses have had them timed.
-constexpr std::size_t kMostLinesToTime = 20'000;
+constexpr std::size_t kMaxLinesToTime = 20'000;
 
 std::shared_ptr<const documents::Sections> timed_sections(const Snapshot& snapshot) {
   const auto times = documents::SectionTimes::of(snapshot);
   if (auto known = times->known(snapshot)) return known;
-  if (snapshot.document().line_count() > kMostLinesToTime) return nullptr;
+  if (snapshot.document().line_count() > kMaxLinesToTime) return nullptr;
   return times->time(documents::TimedProgram(snapshot, 0), [&] {
-    snapshot.give_way();
+    snapshot.throw_if_unwanted();
     return false;
   });
 }
@@ -168,7 +168,7 @@ void add_section_times(const Snapshot& snapshot, std::size_t first, std::size_t 
     hints.push_back({.position = snapshot.to_client({change.line, line.words.back().end}),
                      .label = documents::clock_text(section->second.start),
                      .tooltip = kTooltip.in(snapshot.language()),
-                     .is_behind = true});
+                     .is_after = true});
   }
 }
 
@@ -181,7 +181,7 @@ std::vector<Hint> answer_inlay_hints(const Snapshot& snapshot, const documents::
   if (!settings.shows_end_positions && !settings.shows_motion_in_force) return times;
   HintFinder finder(snapshot, first);
   for (std::size_t line = first; line <= last; ++line) {
-    if (line % 256 == 0) snapshot.give_way();
+    if (line % 256 == 0) snapshot.throw_if_unwanted();
     finder.look_at(line);
   }
   std::vector<Hint> hints = std::move(finder.hints);

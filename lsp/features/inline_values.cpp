@@ -35,7 +35,7 @@ std::vector<Variable> answer_inline_values(const Snapshot& snapshot, const Inlin
   const std::size_t first = snapshot.from_client(params.range.start).line;
   const std::size_t last = std::min(snapshot.from_client(params.range.end).line, params.stopped_line);
   for (std::size_t number = first; number <= last; ++number) {
-    if (number % 1024 == 0) snapshot.give_way();
+    if (number % 1024 == 0) snapshot.throw_if_unwanted();
     const syntax::DocumentLine read = snapshot.document().line(number);
     const syntax::LineTree& line = *read;
     std::set<std::string> seen;  // One value beside the line is enough.

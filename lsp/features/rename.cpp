@@ -21,7 +21,7 @@ using documents::NameKind;
 using documents::Occurrence;
 
 /// As many digits as a double holds without loss.
-static constexpr std::size_t kMostDigits = 15;
+static constexpr std::size_t kMaxDigits = 15;
 
 namespace {
 
@@ -62,7 +62,7 @@ std::optional<Name> read_name(std::string_view text, NameKind kind) {
   while (!text.empty() && is_blank_at(0)) text.remove_prefix(1);
   while (!text.empty() && is_blank_at(text.size() - 1)) text.remove_suffix(1);
   if (!text.empty() && syntax::upper(text[0]) == letter_of(kind)) text.remove_prefix(1);
-  if (text.empty() || text.size() > kMostDigits) return std::nullopt;
+  if (text.empty() || text.size() > kMaxDigits) return std::nullopt;
   std::uint64_t number = 0;
   for (const char digit : text) {
     if (!syntax::is_digit(digit)) return std::nullopt;
@@ -105,7 +105,7 @@ Json rename_at(const Snapshot& snapshot, const RenameParams& params) {
     refuse(snapshot, {"registers are V1 to V30", "i registri vanno da V1 a V30"});
   if (!name)
     refuse(snapshot, {"a line number is N with 1 to {} digits", "un numero di linea è N seguita da 1 a {} cifre"},
-           kMostDigits);
+           kMaxDigits);
   std::vector<documents::TextEdit> edits;
   if (*name == chosen.name) return workspace_edit(snapshot, edits);
   require_free(snapshot, *name);

@@ -31,7 +31,7 @@ struct Kind {
   Text title;
 };
 
-constexpr Kind kKinds[] = {
+constexpr Kind kRewriteActions[] = {
     {Rewrite::ArcByRadius,
      "refactor.rewrite.isocnc.arc",
      false,
@@ -74,8 +74,8 @@ std::optional<Json> try_rewrite(const Snapshot& snapshot, Rewrite how, std::size
 }
 
 void offer_rewrites(const Snapshot& snapshot, const ActionParams& params, std::vector<Action>& actions) {
-  for (std::size_t i = 0; i < std::size(kKinds); ++i) {
-    const Kind& kind = kKinds[i];
+  for (std::size_t i = 0; i < std::size(kRewriteActions); ++i) {
+    const Kind& kind = kRewriteActions[i];
     if (!params.wants(kind.kind) || (kind.wants_selection && !params.is_selection())) continue;
     Action action{.title = std::string(kind.title.in(snapshot.language())),
                   .kind = kind.kind,
@@ -91,8 +91,8 @@ void offer_rewrites(const Snapshot& snapshot, const ActionParams& params, std::v
 
 Json make_rewrite(const Snapshot& snapshot, const Json& data) {
   const std::size_t index = data.at("rewrite");
-  if (index >= std::size(kKinds)) refuse("there is no such rewrite");
-  auto edit = try_rewrite(snapshot, kKinds[index].how, data.at("first"), data.at("last"));
+  if (index >= std::size(kRewriteActions)) refuse("there is no such rewrite");
+  auto edit = try_rewrite(snapshot, kRewriteActions[index].how, data.at("first"), data.at("last"));
   if (!edit) refuse(kNotTheSame.in(snapshot.language()));
   return *edit;
 }
@@ -117,7 +117,7 @@ std::vector<TextEdit> formatted(const Snapshot& snapshot, const ProgramStyle& st
   return edits;
 }
 
-struct Styling {
+struct StyleAction {
   std::string_view kind;
   Text title;
   ProgramStyle (*style)(const configuration::Format& format);
@@ -129,7 +129,7 @@ ProgramStyle numbering(const configuration::Format& format) {
   return {.numbers = configured.value_or(NumberStyle{})};
 }
 
-const Styling kStylings[] = {
+const StyleAction kStyleActions[] = {
     {"refactor.rewrite.isocnc.modal",
      {"write the motion G on each line", "scrivere la G di movimento su ogni riga"},
      [](const configuration::Format&) { return ProgramStyle{.motions = MotionStyle::Write}; },
@@ -145,14 +145,14 @@ const Styling kStylings[] = {
 };
 
 /// Offered without a look at the whole program.
-void offer_stylings(const Snapshot& snapshot, const ActionParams& params, std::vector<Action>& actions) {
-  for (std::size_t i = 0; i < std::size(kStylings); ++i) {
-    const Styling& styling = kStylings[i];
-    if (!params.wants(styling.kind)) continue;
-    const bool is_for_all = styling.is_for_all || !params.is_selection();
+void offer_style_actions(const Snapshot& snapshot, const ActionParams& params, std::vector<Action>& actions) {
+  for (std::size_t i = 0; i < std::size(kStyleActions); ++i) {
+    const StyleAction& style_action = kStyleActions[i];
+    if (!params.wants(style_action.kind)) continue;
+    const bool is_for_all = style_action.is_for_all || !params.is_selection();
     const std::size_t last = is_for_all ? snapshot.document().line_count() - 1 : params.last_line();
-    actions.push_back({.title = std::string(styling.title.in(snapshot.language())),
-                       .kind = styling.kind,
+    actions.push_back({.title = std::string(style_action.title.in(snapshot.language())),
+                       .kind = style_action.kind,
                        .diagnostics = nullptr,
                        .data = {{"style", i}, {"first", is_for_all ? 0 : params.first_line()}, {"last", last}}});
   }
@@ -161,8 +161,8 @@ void offer_stylings(const Snapshot& snapshot, const ActionParams& params, std::v
 Json make_styling(const Snapshot& snapshot, const Json& data) {
   static constexpr Text kNothing = {"there is nothing to change", "non c'è niente da cambiare"};
   const std::size_t index = data.at("style");
-  if (index >= std::size(kStylings)) refuse("there is no such style");
-  const ProgramStyle style = kStylings[index].style(snapshot.configuration().format);
+  if (index >= std::size(kStyleActions)) refuse("there is no such style");
+  const ProgramStyle style = kStyleActions[index].style(snapshot.configuration().format);
   const std::vector<TextEdit> edits = formatted(snapshot, style, data.at("first"), data.at("last"));
   if (edits.empty()) refuse(kNothing.in(snapshot.language()));
   return workspace_edit(snapshot, edits);
@@ -181,6 +181,6 @@ Json renumber(const Snapshot& snapshot, const NoParams&) {
 extern const Feature rewrites = {
     .commands = {on<&renumber>("isocnc.renumber")},
     .actions = {{.kind = "refactor.rewrite", .offer = offer_rewrites, .edit = make_rewrite},
-                {.kind = "refactor.rewrite", .offer = offer_stylings, .edit = make_styling}}};
+                {.kind = "refactor.rewrite", .offer = offer_style_actions, .edit = make_styling}}};
 
 }  // namespace isocnc::lsp::features

@@ -46,7 +46,7 @@ const syntax::Word* word_at(const LineTree& line, std::uint32_t column) {
 Span instruction_span(const LineTree& line, const syntax::Word& word) {
   Span all = word.span();
   for (const syntax::Word& other : line.words)
-    if (word.owner != syntax::Word::kNobody && other.owner == word.owner) all = syntax::hull(all, other.span());
+    if (word.owner != syntax::Word::kNoOwner && other.owner == word.owner) all = syntax::hull(all, other.span());
   return all;
 }
 
@@ -85,7 +85,7 @@ std::vector<Selection> answer_selection_ranges(const Snapshot& snapshot, const S
   };
   std::vector<Selection> selections;
   for (const ClientPosition& position : params.positions) {
-    snapshot.give_way();
+    snapshot.throw_if_unwanted();
     const syntax::Position place = snapshot.from_client(position);
     Selection selection;
     const auto add = [&](const ClientRange& range) {

@@ -132,12 +132,12 @@ class Encoder {
       : snapshot_(snapshot), previous_line_(previous_line) {}
 
   /// The tokens of a line, at most so many.
-  void add(std::size_t index, const LineTree& line, std::size_t most = static_cast<std::size_t>(-1)) {
+  void add(std::size_t index, const LineTree& line, std::size_t maximum = static_cast<std::size_t>(-1)) {
     const std::vector<Token>& tokens = tokens_.of(line);
     std::uint32_t unit = index == 0 ? snapshot_.to_client({0, 0}).character : 0;
     std::uint32_t byte = 0;
     std::uint32_t previous_unit = 0;
-    for (std::size_t i = 0; i < std::min(most, tokens.size()); ++i) {
+    for (std::size_t i = 0; i < std::min(maximum, tokens.size()); ++i) {
       const Token& token = tokens[i];
       unit += units(line, byte, token.span.begin);
       const std::uint32_t length = units(line, token.span.begin, token.span.end);
@@ -185,7 +185,7 @@ class Encoder {
 };
 
 /// What the client has got last, so that it can be told what has changed since.
-struct ToldTokens {
+struct SentTokens {
   struct Chunk {
     std::uint64_t version = 0;
     std::size_t tokens = 0;
@@ -199,7 +199,7 @@ struct ToldTokens {
   void rename(std::int64_t version) { id = fmt::format("{}.{}", version, ++times); }
 };
 
-std::size_t sum_of_tokens(const std::vector<ToldTokens::Chunk>& chunks, std::size_t first, std::size_t behind) {
+std::size_t sum_of_tokens(const std::vector<SentTokens::Chunk>& chunks, std::size_t first, std::size_t behind) {
   std::size_t sum = 0;
   for (std::size_t i = first; i < behind; ++i) sum += chunks[i].tokens;
   return sum;
@@ -207,17 +207,17 @@ std::size_t sum_of_tokens(const std::vector<ToldTokens::Chunk>& chunks, std::siz
 
 documents::RawJson all_tokens(const Snapshot& snapshot) {
   Encoder encoder(snapshot);
-  std::vector<ToldTokens::Chunk> chunks;
+  std::vector<SentTokens::Chunk> chunks;
   for (std::size_t chunk = 0; chunk < snapshot.document().chunk_count(); ++chunk) {
-    snapshot.give_way();
+    snapshot.throw_if_unwanted();
     const std::size_t before = encoder.count();
     encoder.add_chunk(chunk);
     chunks.push_back({snapshot.document().chunk_version(chunk), encoder.count() - before});
   }
-  auto& told = snapshot.memory<ToldTokens>();
-  told.rename(snapshot.version());
-  told.chunks = std::move(chunks);
-  return {fmt::format(R"({{"resultId":"{}","data":{}}})", told.id, encoder.data())};
+  auto& sent = snapshot.memory<SentTokens>();
+  sent.rename(snapshot.version());
+  sent.chunks = std::move(chunks);
+  return {fmt::format(R"({{"resultId":"{}","data":{}}})", sent.id, encoder.data())};
 }
 
 documents::RawJson full(const Snapshot& snapshot, const documents::DocumentParams&) { return all_tokens(snapshot); }
@@ -227,7 +227,7 @@ documents::RawJson range(const Snapshot& snapshot, const documents::RangeParams&
   const std::size_t last = snapshot.from_client(params.range.end).line;
   Encoder encoder(snapshot);
   for (std::size_t line = first; line <= last; ++line) {
-    if (line % 1024 == 0) snapshot.give_way();
+    if (line % 1024 == 0) snapshot.throw_if_unwanted();
     const syntax::DocumentLine read = snapshot.document().line(line);
     encoder.add(line, *read);
   }
@@ -270,9 +270,9 @@ bool add_first_token(const Snapshot& snapshot, std::size_t chunk, Encoder& encod
 }
 
 /// One edit: the tokens of all chunks between the first and the last that have changed.
-std::string edits_since(const Snapshot& snapshot, ToldTokens& told) {
+std::string edits_since(const Snapshot& snapshot, SentTokens& sent) {
   const syntax::Document& document = snapshot.document();
-  const std::vector<ToldTokens::Chunk>& old = told.chunks;
+  const std::vector<SentTokens::Chunk>& old = sent.chunks;
   const std::size_t count = document.chunk_count();
   const std::size_t common = std::min(count, old.size());
   std::size_t head = 0;
@@ -281,10 +281,10 @@ std::string edits_since(const Snapshot& snapshot, ToldTokens& told) {
   std::size_t tail = 0;
   while (tail < common - head && old[old.size() - 1 - tail].version == document.chunk_version(count - 1 - tail)) ++tail;
 
-  std::vector<ToldTokens::Chunk> chunks(old.begin(), old.begin() + static_cast<std::ptrdiff_t>(head));
+  std::vector<SentTokens::Chunk> chunks(old.begin(), old.begin() + static_cast<std::ptrdiff_t>(head));
   Encoder encoder(snapshot, head < count ? last_line_with_tokens_above(snapshot, head) : 0);
   for (std::size_t chunk = head; chunk < count - tail; ++chunk) {
-    snapshot.give_way();
+    snapshot.throw_if_unwanted();
     const std::size_t before = encoder.count();
     encoder.add_chunk(chunk);
     chunks.push_back({document.chunk_version(chunk), encoder.count() - before});
@@ -293,16 +293,16 @@ std::string edits_since(const Snapshot& snapshot, ToldTokens& told) {
   std::size_t deleted = sum_of_tokens(old, head, old.size() - tail);
   if (add_first_token(snapshot, count - tail, encoder)) ++deleted;
   const std::size_t start = sum_of_tokens(old, 0, head);
-  told.chunks = std::move(chunks);
+  sent.chunks = std::move(chunks);
   return fmt::format(R"([{{"start":{},"deleteCount":{},"data":{}}}])", 5 * start, 5 * deleted, encoder.data());
 }
 
 documents::RawJson delta(const Snapshot& snapshot, const DeltaParams& params) {
-  auto& told = snapshot.memory<ToldTokens>();
-  if (told.id.empty() || told.id != params.previous_result_id) return all_tokens(snapshot);
-  const std::string edits = edits_since(snapshot, told);
-  told.rename(snapshot.version());
-  return {fmt::format(R"({{"resultId":"{}","edits":{}}})", told.id, edits)};
+  auto& sent = snapshot.memory<SentTokens>();
+  if (sent.id.empty() || sent.id != params.previous_result_id) return all_tokens(snapshot);
+  const std::string edits = edits_since(snapshot, sent);
+  sent.rename(snapshot.version());
+  return {fmt::format(R"({{"resultId":"{}","edits":{}}})", sent.id, edits)};
 }
 
 Json semantic_tokens_capabilities(const Client&) {

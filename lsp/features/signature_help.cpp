@@ -125,9 +125,9 @@ std::optional<Signature> of_function(const Snapshot& snapshot, const LineTree& l
   for (std::size_t i = instruction.begin; i < instruction.end; ++i) {
     const Word& word = line.words[i];
     if (word.owner != instruction.number || word.letter != 'P' || !word.known() || word.begin >= column) continue;
-    if (word.value >= 1 && word.value <= dialect::kMostFunctionParameters) last = static_cast<std::size_t>(word.value);
+    if (word.value >= 1 && word.value <= dialect::kMaxFunctionParameters) last = static_cast<std::size_t>(word.value);
   }
-  for (int i = 1; i <= dialect::kMostFunctionParameters; ++i) {
+  for (int i = 1; i <= dialect::kMaxFunctionParameters; ++i) {
     signature.label += fmt::format(" P{}=", i);
     signature.parameters.push_back({fmt::format("P{}=", i), std::string(kParameter.in(language))});
   }
@@ -161,8 +161,8 @@ Signature of_assignment(const LineTree& line, std::size_t column, Language langu
   static constexpr Text kAssignment = {"gives a register its value", "assegna un valore al registro"};
   static constexpr Text kRegister = {"the register, 1 to 30", "il registro, da 1 a 30"};
   static constexpr Text kValue = {"its value, a number", "il suo valore, un numero"};
-  const auto is_behind = [&](const Word& word) { return word.letter == syntax::kAssign && word.begin < column; };
-  const bool has_sign = std::any_of(line.words.begin(), line.words.end(), is_behind);
+  const auto is_sign_before = [&](const Word& word) { return word.letter == syntax::kAssign && word.begin < column; };
+  const bool has_sign = std::any_of(line.words.begin(), line.words.end(), is_sign_before);
   return {"V1 = 0",
           std::string(kAssignment.in(language)),
           {{"V1", std::string(kRegister.in(language))}, {"0", std::string(kValue.in(language))}},

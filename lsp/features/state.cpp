@@ -45,7 +45,7 @@ Json state_json(const execution::State& state) {
   Json in_force;
   for (std::size_t i = 0; i < dialect::kModalGroupCount; ++i)
     in_force[kGroupNames[i]] = state.in_force[i] == dialect::kNoMotion ? Json() : Json(state.in_force[i]);
-  const bool knows_place = (state.unknown & execution::kLinearAxes) == 0 && state.knows_frame();
+  const bool knows_place = (state.unknown & execution::kLinearAxes) == 0 && state.is_frame_known();
   Json json = {{"inForce", in_force},
                {"position", position_json(state)},
                {"machinePosition", knows_place ? vector_json(state.to_machine(state.position.tip)) : Json()},

@@ -14,7 +14,7 @@ namespace {
 using syntax::InstructionKind;
 
 /// Lines that are shown without a range.
-constexpr std::size_t kMostLines = 10'000;
+constexpr std::size_t kMaxLines = 10'000;
 
 struct TreeParams : documents::DocumentParams {
   std::optional<ClientRange> range;
@@ -60,7 +60,7 @@ class TreeWriter {
           write("    Word", line, word.span());
     }
     for (const syntax::Word& word : line.words)
-      if (word.owner == syntax::Word::kNobody && !is_command(line, word)) write("  Word", line, word.span());
+      if (word.owner == syntax::Word::kNoOwner && !is_command(line, word)) write("  Word", line, word.span());
     for (const syntax::Span comment : line.comments) write("  Comment", line, comment);
     for (const syntax::Finding& finding : line.findings)
       write(fmt::format("  Finding {}", dialect::definition(finding.id).code), line, finding.span);
@@ -84,11 +84,11 @@ class TreeWriter {
 std::string answer_syntax_tree(const Snapshot& snapshot, const TreeParams& params) {
   const std::size_t count = snapshot.document().line_count();
   const std::size_t first = params.range ? std::min<std::size_t>(params.range->start.line, count) : 0;
-  const std::size_t end = params.range ? std::min<std::size_t>(params.range->end.line + std::size_t{1}, count)
-                                       : std::min(count, kMostLines);
+  const std::size_t end =
+      params.range ? std::min<std::size_t>(params.range->end.line + std::size_t{1}, count) : std::min(count, kMaxLines);
   TreeWriter writer(snapshot);
   for (std::size_t line = first; line < end; ++line) {
-    if (line % 1'000 == 0) snapshot.give_way();
+    if (line % 1'000 == 0) snapshot.throw_if_unwanted();
     writer.write(line);
   }
   return writer.text;

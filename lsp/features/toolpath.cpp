@@ -19,7 +19,7 @@ namespace isocnc::lsp::features {
 namespace {
 
 /// A recording that has been handed out.
-struct ToldPath {
+struct SentPath {
   std::int64_t id = 0;
   std::string steps;
   std::string points;
@@ -27,10 +27,10 @@ struct ToldPath {
 };
 
 /// The last one, which studies exchange.
-struct LastTold {
+struct LastSent {
   std::mutex mutex;
   std::int64_t last_id = 0;
-  std::shared_ptr<const ToldPath> told;
+  std::shared_ptr<const SentPath> path;
 };
 
 struct ToolpathParams : documents::DocumentParams {
@@ -49,9 +49,9 @@ std::string stream(std::string_view now, const std::string* before) {
   if (!before) return fmt::format(R"({{"data":"{}"}})", plot::base64(now));
   const auto head = static_cast<std::size_t>(
       std::mismatch(now.begin(), now.end(), before->begin(), before->end()).first - now.begin());
-  const std::size_t most_tail = std::min(now.size(), before->size()) - head;
+  const std::size_t max_tail = std::min(now.size(), before->size()) - head;
   const auto tail = static_cast<std::size_t>(
-      std::mismatch(now.rbegin(), now.rbegin() + static_cast<std::ptrdiff_t>(most_tail), before->rbegin()).first -
+      std::mismatch(now.rbegin(), now.rbegin() + static_cast<std::ptrdiff_t>(max_tail), before->rbegin()).first -
       now.rbegin());
   return fmt::format(R"({{"start":{},"removed":{},"data":"{}"}})", head, before->size() - head - tail,
                      plot::base64(now.substr(head, now.size() - head - tail)));
@@ -62,7 +62,7 @@ struct Task {
   documents::TimedProgram program;
   plot::PlotSubject subject;
   std::string previous;
-  std::shared_ptr<LastTold> last;
+  std::shared_ptr<LastSent> last;
 
   std::string study(const std::function<bool()>& stop);
 };
@@ -74,16 +74,16 @@ std::string Task::study(const std::function<bool()>& stop) {
   const running::RunResult result = program.run(
       stop, {.event = [&](const simulation::TimedEvent& timed) { path.add(timed); },
              .stretch = [&](const motion::Stretch& stretch, const simulation::TimedEvent&) { path.add(stretch); }});
-  const auto now = std::make_shared<ToldPath>(ToldPath{.id = 0,
+  const auto now = std::make_shared<SentPath>(SentPath{.id = 0,
                                                        .steps = std::string(recording.steps()),
                                                        .points = std::string(recording.points()),
                                                        .turns = std::string(recording.turns())});
-  std::shared_ptr<const ToldPath> before;
+  std::shared_ptr<const SentPath> before;
   {
     const std::lock_guard lock(last->mutex);
     now->id = ++last->last_id;
-    if (last->told && fmt::to_string(last->told->id) == previous) before = last->told;
-    last->told = now;
+    if (last->path && fmt::to_string(last->path->id) == previous) before = last->path;
+    last->path = now;
   }
   return fmt::format(
       R"({{"resultId":"{}","version":{},"facts":{},"steps":{},"points":{},"turns":{}}})", now->id, program.version(),
@@ -91,9 +91,9 @@ std::string Task::study(const std::function<bool()>& stop) {
       stream(now->points, before ? &before->points : nullptr), stream(now->turns, before ? &before->turns : nullptr));
 }
 
-Study begin(const Snapshot& snapshot, const ToolpathParams& params) {
-  auto& last = snapshot.memory<std::shared_ptr<LastTold>>();
-  if (!last) last = std::make_shared<LastTold>();
+BackgroundRequest begin(const Snapshot& snapshot, const ToolpathParams& params) {
+  auto& last = snapshot.memory<std::shared_ptr<LastSent>>();
+  if (!last) last = std::make_shared<LastSent>();
   const auto path = documents::path_of(snapshot.uri());
   const configuration::Machine& machine = snapshot.configuration().machine;
   const auto task = std::make_shared<Task>(Task{.program = documents::TimedProgram(snapshot, params.vgpl),
@@ -113,6 +113,6 @@ Json toolpath_capabilities(const Client&) { return {{"experimental", {{"toolpath
 }  // namespace
 
 extern const Feature toolpath = {.capabilities = toolpath_capabilities,
-                                 .methods = {begun_by<&begin>("isocnc/toolpath")}};
+                                 .methods = {in_background<&begin>("isocnc/toolpath")}};
 
 }  // namespace isocnc::lsp::features

@@ -14,7 +14,7 @@ namespace isocnc::lsp::features {
 namespace {
 
 /// Symbols that are told of one program: who has more in mind goes on typing.
-constexpr std::size_t kMostSymbols = 1000;
+constexpr std::size_t kMaxSymbols = 1000;
 
 /// Without a text it asks for all there is.
 struct Query {
@@ -44,7 +44,7 @@ bool fits(std::string_view text, std::string_view query) {
 std::vector<Symbol> answer_workspace_symbols(const Snapshot& snapshot, const Query& query) {
   std::vector<Symbol> symbols;
   for (const documents::Section& section : documents::outline(snapshot)) {
-    if (query.text && symbols.size() == kMostSymbols) break;
+    if (query.text && symbols.size() == kMaxSymbols) break;
     const std::string name =
         section.detail.empty() ? section.title : fmt::format("{} {}", section.title, section.detail);
     if (fits(name, query.text.value_or("")))
@@ -56,14 +56,14 @@ std::vector<Symbol> answer_workspace_symbols(const Snapshot& snapshot, const Que
 }
 
 /// What closed programs have answered is all that is in them: here the query is asked of it.
-std::string conclude_symbols(const std::string& results, const Json& params, Gathered gathered) {
-  if (gathered == Gathered::Rest) return "[]";
+std::string conclude_symbols(const std::string& results, const Json& params, AggregateScope scope) {
+  if (scope == AggregateScope::Rest) return "[]";
   const std::string query = params.at("query");
   std::map<std::string, std::size_t> counts;
   std::string all = "[";
   for (const Json& symbol : Json::parse(results)) {
     if (!fits(symbol["name"].get_ref<const std::string&>(), query)) continue;
-    if (++counts[symbol["location"]["uri"]] > kMostSymbols) continue;
+    if (++counts[symbol["location"]["uri"]] > kMaxSymbols) continue;
     if (all.size() > 1) all += ',';
     all += rpc::write(symbol);
   }
@@ -76,6 +76,6 @@ Json workspace_symbols_capabilities(const Client&) { return {{"workspaceSymbolPr
 
 extern const Feature workspace_symbols = {
     .capabilities = workspace_symbols_capabilities,
-    .gatherings = {on_each<&answer_workspace_symbols>("workspace/symbol", conclude_symbols)}};
+    .workspace_requests = {workspace_request<&answer_workspace_symbols>("workspace/symbol", conclude_symbols)}};
 
 }  // namespace isocnc::lsp::features

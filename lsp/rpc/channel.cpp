@@ -16,7 +16,7 @@
 namespace isocnc::lsp::rpc {
 
 /// Bytes that may wait to be read by the other side before we stop reading from it.
-static constexpr std::size_t kMostUnsent = std::size_t{64} << 20;
+static constexpr std::size_t kMaxUnsent = std::size_t{64} << 20;
 /// A pipe that is ready takes so many bytes without waiting.
 static constexpr std::size_t kSurelyWritten = 4096;
 /// How long what has been sent may take to be read when the channel ends.
@@ -71,7 +71,7 @@ bool Channel::wait_for(int descriptor, short events, bool until_deadline) const 
 /// Waits while too much is unsent; false when the channel is to end.
 bool Channel::may_read() {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return is_ending_ || is_broken_ || unsent_bytes_ < kMostUnsent; });
+  changed_.wait(lock, [&] { return is_ending_ || is_broken_ || unsent_bytes_ < kMaxUnsent; });
   return !is_ending_ && !is_broken_;
 }
 

@@ -76,7 +76,7 @@ std::string_view FrameReader::read_header(std::string_view bytes, std::deque<Fra
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     header_.push_back(bytes[i]);
     if (bytes[i] == '\n' && (header_.ends_with("\n\r\n") || header_.ends_with("\n\n"))) {
-      begin_body(frames);
+      start_body(frames);
       return bytes.substr(i + 1);
     }
     if (header_.size() < kLongestHeader) continue;
@@ -88,7 +88,7 @@ std::string_view FrameReader::read_header(std::string_view bytes, std::deque<Fra
   return {};
 }
 
-void FrameReader::begin_body(std::deque<Frame>& frames) {
+void FrameReader::start_body(std::deque<Frame>& frames) {
   const auto length = length_in(header_);
   header_.clear();
   length_ = length.value_or(0);

@@ -46,7 +46,7 @@ class FrameReader {
   std::string_view read_body(std::string_view bytes, std::deque<Frame>& frames);
   std::string_view skip(std::string_view bytes);
   std::string_view find_header(std::string_view bytes);
-  void begin_body(std::deque<Frame>& frames);
+  void start_body(std::deque<Frame>& frames);
 
   const std::size_t longest_body_;
   State state_ = State::Header;

@@ -10,7 +10,7 @@ void Loop::post(Task task) {
     const std::lock_guard lock(mutex_);
     tasks_.push_back(std::move(task));
   }
-  came_.notify_one();
+  task_added_.notify_one();
 }
 
 void Loop::post_at(std::chrono::steady_clock::time_point time, Task task) {
@@ -18,7 +18,7 @@ void Loop::post_at(std::chrono::steady_clock::time_point time, Task task) {
     const std::lock_guard lock(mutex_);
     later_.emplace(time, std::move(task));
   }
-  came_.notify_one();
+  task_added_.notify_one();
 }
 
 /// What was to be done later and is due now.
@@ -28,15 +28,15 @@ void Loop::take_due(std::chrono::steady_clock::time_point now) {
   later_.erase(later_.begin(), end);
 }
 
-void Loop::run(std::chrono::milliseconds patience, const Task& idle) {
+void Loop::run(std::chrono::milliseconds idle_after, const Task& idle) {
   using Clock = std::chrono::steady_clock;
   std::deque<Task> due;
   while (!stopped_) {
     {
       std::unique_lock lock(mutex_);
-      const Clock::time_point end = Clock::now() + patience;
+      const Clock::time_point end = Clock::now() + idle_after;
       for (take_due(Clock::now()); tasks_.empty() && Clock::now() < end; take_due(Clock::now()))
-        came_.wait_until(lock, later_.empty() ? end : std::min(end, later_.begin()->first));
+        task_added_.wait_until(lock, later_.empty() ? end : std::min(end, later_.begin()->first));
       due.swap(tasks_);
     }
     if (due.empty()) idle();

@@ -19,14 +19,14 @@ class Loop {
   /// Not before that time.
   void post_at(std::chrono::steady_clock::time_point time, Task task);
   /// Does tasks until stop() has been called in one of them. Where none comes for so long, `idle` is called.
-  void run(std::chrono::milliseconds patience, const Task& idle);
+  void run(std::chrono::milliseconds idle_after, const Task& idle);
   void stop() { stopped_ = true; }
 
  private:
   void take_due(std::chrono::steady_clock::time_point now);
 
   std::mutex mutex_;
-  std::condition_variable came_;
+  std::condition_variable task_added_;
   std::deque<Task> tasks_;
   std::multimap<std::chrono::steady_clock::time_point, Task> later_;
   bool stopped_ = false;  // Of the loop's thread.

@@ -17,7 +17,7 @@
 namespace isocnc::lsp::rpc {
 
 /// How long nothing comes before the party may look whether the client is still there.
-static constexpr std::chrono::seconds kPatience{3};
+static constexpr std::chrono::seconds kIdleInterval{3};
 
 /// All threads share one heap, which grows by so much: a heap for each would ask the system again for every page, which
 /// takes a long program a tenth of its opening. Messages, which may be some hundred kilobytes after each edit, are
@@ -33,33 +33,33 @@ static void prepare_heap() {
 #endif
 }
 
-[[noreturn]] static void speak(Descriptors descriptors, const MakeParty& make_party) {
+[[noreturn]] static void run_peer(Descriptors descriptors, const MakePeer& make_peer) {
   prepare_heap();
   Loop loop;
   Channel* open_channel = nullptr;
-  const std::unique_ptr<Party> party = make_party(loop, [&](std::string body) { open_channel->send(std::move(body)); });
+  const std::unique_ptr<Peer> peer = make_peer(loop, [&](std::string body) { open_channel->send(std::move(body)); });
   {
     Channel channel(descriptors,
                     {.frame =
                          [&](Frame frame) {
-                           loop.post([&, frame = std::move(frame)]() mutable { party->receive(std::move(frame)); });
+                           loop.post([&, frame = std::move(frame)]() mutable { peer->receive(std::move(frame)); });
                          },
-                     .end = [&] { loop.post([&] { party->end(); }); }});
+                     .end = [&] { loop.post([&] { peer->end(); }); }});
     open_channel = &channel;
-    loop.run(kPatience, [&] { party->idle(); });
+    loop.run(kIdleInterval, [&] { peer->idle(); });
   }
   // What is still being worked on was for a client that is gone: it is not waited for.
-  std::_Exit(party->exit_status());
+  std::_Exit(peer->exit_status());
 }
 
-void serve(const std::optional<std::uint16_t>& port, const MakeParty& make_party,
-           const std::function<void(const std::string&)>& tell) {
-  if (!port) speak({STDIN_FILENO, STDOUT_FILENO}, make_party);
+void serve(const std::optional<std::uint16_t>& port, const MakePeer& make_peer,
+           const std::function<void(const std::string&)>& report) {
+  if (!port) run_peer({STDIN_FILENO, STDOUT_FILENO}, make_peer);
   const auto address = [](std::uint16_t number) { return fmt::format("127.0.0.1:{}", number); };
-  const auto accepted = accept_on_loopback(*port, [&](std::uint16_t number) { tell(address(number)); });
+  const auto accepted = accept_on_loopback(*port, [&](std::uint16_t number) { report(address(number)); });
   if (const auto* const error = std::get_if<std::error_code>(&accepted))
-    return tell(fmt::format("{}: {}", address(*port), error->message()));
-  speak({std::get<int>(accepted), std::get<int>(accepted)}, make_party);
+    return report(fmt::format("{}: {}", address(*port), error->message()));
+  run_peer({std::get<int>(accepted), std::get<int>(accepted)}, make_peer);
 }
 
 }  // namespace isocnc::lsp::rpc

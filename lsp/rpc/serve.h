@@ -12,9 +12,9 @@
 namespace isocnc::lsp::rpc {
 
 /// Who speaks with a client. All on the loop's thread, which it stops when it is done.
-class Party {
+class Peer {
  public:
-  virtual ~Party() = default;
+  virtual ~Peer() = default;
 
   virtual void receive(Frame frame) = 0;
   /// Nothing more will come.
@@ -26,12 +26,12 @@ class Party {
 
 /// Takes the body of a message; any thread.
 using Send = std::function<void(std::string body)>;
-using MakeParty = std::function<std::unique_ptr<Party>(Loop& loop, Send send)>;
+using MakePeer = std::function<std::unique_ptr<Peer>(Loop& loop, Send send)>;
 
 /// Lets a party speak with one client, by standard input and output or, with a port, over the first connection to it,
 /// which accept_on_loopback() waits for. Then the process ends, with the party's exit status: so this returns only
 /// where the port cannot be had. `tell` is given what people want to know of the port: `127.0.0.1:4711`, or why not.
-void serve(const std::optional<std::uint16_t>& port, const MakeParty& make_party,
-           const std::function<void(const std::string&)>& tell);
+void serve(const std::optional<std::uint16_t>& port, const MakePeer& make_peer,
+           const std::function<void(const std::string&)>& report);
 
 }  // namespace isocnc::lsp::rpc

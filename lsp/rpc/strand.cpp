@@ -12,7 +12,7 @@ Pool::~Pool() {
     dropped.swap(tasks_);
   }
   dropped.clear();
-  came_.notify_all();
+  task_added_.notify_all();
   for (std::thread& thread : threads_) thread.join();
 }
 
@@ -20,15 +20,15 @@ void Pool::post(Task task) {
   const std::lock_guard lock(mutex_);
   if (is_ending_) return;  // Nobody would wait for the thread that it might take.
   tasks_.push_back(std::move(task));
-  if (tasks_.size() > waiting_ && threads_.size() < most_threads_) threads_.emplace_back([this] { work(); });
-  came_.notify_one();
+  if (tasks_.size() > waiting_ && threads_.size() < max_threads_) threads_.emplace_back([this] { work(); });
+  task_added_.notify_one();
 }
 
 void Pool::work() {
   std::unique_lock lock(mutex_);
   for (;;) {
     ++waiting_;
-    came_.wait(lock, [&] { return is_ending_ || !tasks_.empty(); });
+    task_added_.wait(lock, [&] { return is_ending_ || !tasks_.empty(); });
     --waiting_;
     if (tasks_.empty()) return;
     const Task task = std::move(tasks_.front());

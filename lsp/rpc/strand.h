@@ -16,7 +16,7 @@ class Pool {
  public:
   using Task = std::function<void()>;
 
-  explicit Pool(std::size_t most_threads) : most_threads_(most_threads) {}
+  explicit Pool(std::size_t max_threads) : max_threads_(max_threads) {}
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
   /// Waits for the tasks that have begun; the others are dropped.
@@ -28,9 +28,9 @@ class Pool {
  private:
   void work();
 
-  const std::size_t most_threads_;
+  const std::size_t max_threads_;
   std::mutex mutex_;  // Guards all below.
-  std::condition_variable came_;
+  std::condition_variable task_added_;
   std::deque<Task> tasks_;
   std::vector<std::thread> threads_;
   std::size_t waiting_ = 0;

@@ -30,7 +30,7 @@ TEST(Analysis, ChecksAllLinesOnce) {
   EXPECT_TRUE(analysis.report().findings.empty());
 }
 
-TEST(Analysis, AnEditDoesNotRunTheLinesFarBehindItAgain) {
+TEST(Analysis, AnEditDoesNotRunTheLinesFarAfterItAgain) {
   Document document(zigzag(20'000));
   Analysis analysis(document, kSetup);
   document.replace({5'000, 4}, {5'000, 5}, "7");
@@ -39,7 +39,7 @@ TEST(Analysis, AnEditDoesNotRunTheLinesFarBehindItAgain) {
   EXPECT_TRUE(analysis.report().findings.empty());
 }
 
-TEST(Analysis, FindingsBehindAnInsertedLineMoveWithoutBeingCheckedAgain) {
+TEST(Analysis, FindingsAfterAnInsertedLineMoveWithoutBeingCheckedAgain) {
   Document document(zigzag(20'000));
   document.replace({15'000, 0}, {15'000, 0}, "G1 X1 X2\n");
   Analysis analysis(document, kSetup);
@@ -81,9 +81,9 @@ TEST(Analysis, WhatAnIfComparesIsCheckedAgainWhereItMatters) {
   Analysis analysis(document, kSetup);
   const std::size_t line = 3 + 4 * 2'000;
   ASSERT_EQ(document.text_of_line(line), "IF VGPL=1 GOTO N2001");
-  const auto expect_few = [&](std::uint64_t most) {
+  const auto expect_few = [&](std::uint64_t maximum) {
     analysis.update();
-    EXPECT_LE(analysis.lines_checked(), most);
+    EXPECT_LE(analysis.lines_checked(), maximum);
     EXPECT_EQ(support::texts_of(analysis.report()), support::texts_of(check_text(document.text(), kSetup)));
   };
   document.replace({line, 8}, {line, 9}, "7");  // IF VGPL=7
@@ -99,7 +99,7 @@ TEST(Analysis, WhatAnIfComparesIsCheckedAgainWhereItMatters) {
   expect_few(1'200);
 }
 
-TEST(Analysis, AJumpBelowLinesThatAreGoneStandsHigherUp) {
+TEST(Analysis, AJumpMovesUpWhenLinesAboveAreRemoved) {
   const std::string below = "IF V9=1 GOTO N5\nX1\nN5 X2\nM02\n";
   const std::string text = zigzag(1'000);
   for (std::size_t first = 60; first < 460; ++first) {  // Whole chunks, too.
@@ -187,18 +187,18 @@ TEST(Analysis, AnExcerptHasTheFirstFindingsAndCountsTheOthers) {
   const Document document(text + "IF V3=1 GOTO N9\nIF V3=2 GOTO N1\nN9 X7\n");
   const Analysis analysis(document, kSetup);
   const Report all = analysis.report();
-  for (const std::size_t most : {0u, 1u, 100u, 4'999u, 100'000u}) {
+  for (const std::size_t maximum : {0u, 1u, 100u, 4'999u, 100'000u}) {
     const auto is_even = [](dialect::DiagnosticId id) { return static_cast<int>(id) % 2 == 0; };
-    const FirstFindings excerpt = analysis.excerpt({.max = most, .counts = is_even});
+    const FirstFindings excerpt = analysis.excerpt({.max = maximum, .counts = is_even});
     const std::vector<std::string> texts = support::texts_of(excerpt.report);
     const auto counted = [&](const Report& report) {
       return std::count_if(report.findings.begin(), report.findings.end(),
                            [&](const LocatedFinding& located) { return is_even(located.finding.id); });
     };
     const std::vector<std::string> expected = support::texts_of(all);
-    EXPECT_TRUE(std::equal(texts.begin(), texts.end(), expected.begin())) << most;
+    EXPECT_TRUE(std::equal(texts.begin(), texts.end(), expected.begin())) << maximum;
     EXPECT_GE(static_cast<std::size_t>(counted(excerpt.report)),
-              std::min<std::size_t>(most, static_cast<std::size_t>(counted(all))));
+              std::min<std::size_t>(maximum, static_cast<std::size_t>(counted(all))));
     EXPECT_EQ(static_cast<std::size_t>(counted(excerpt.report)) + excerpt.left_out,
               static_cast<std::size_t>(counted(all)));
   }

@@ -132,7 +132,7 @@ TEST(CheckTextProperty, FindingsAreSortedAndLieWithinTheirLine) {
   }
 }
 
-TEST(CheckTextProperty, OneMistakeIsToldOncePerPlace) {
+TEST(CheckTextProperty, OneMistakeIsReportedOncePerPlace) {
   for (const std::uint64_t seed : support::seeds(1'000)) {
     Random random(seed);
     const std::vector<std::string> lines = RandomProgram(random).lines(random.between(1, 80));

@@ -259,7 +259,7 @@ TEST(Valuations, ForgetRegistersThatNoJumpWillRead) {
   EXPECT_FALSE(known.where(jumps.sites()[1].jump, false).possible());
 }
 
-TEST(Valuations, JumpsOnTheGplVariableTellNothing) {
+TEST(Valuations, JumpsOnTheGplVariableLimitNoRegister) {
   const JumpMap jumps("IF VGPL=1 GOTO N9\nIF V2=3 GOTO N9\nN9\n");
   const Valuations unknown = Valuations::unknown();
   EXPECT_EQ(unknown.where(jumps.sites()[0].jump, true), unknown);

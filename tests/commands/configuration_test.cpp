@@ -56,7 +56,7 @@ class ConfigurationFile : public testing::Test {
   const TemporaryFolder folder_;
 };
 
-TEST_F(ConfigurationFile, TellsWhatTheMachineIs) {
+TEST_F(ConfigurationFile, DescribesTheMachine) {
   write("part.iso", kArcProgram);
   EXPECT_THAT(found({"--select", "ISO", "part.iso"}), ElementsAre("part.iso:ISO031"));
   write("isocnc.json", R"({"machine": {"tolerances": {"arc": 0.05}}})");
@@ -118,7 +118,7 @@ TEST_F(ConfigurationFile, MayBeNamed) {
   EXPECT_EQ(missing.err, "none.json: error: cannot read: No such file or directory\n");
 }
 
-TEST_F(ConfigurationFile, HasWishesForSomePrograms) {
+TEST_F(ConfigurationFile, HasOptionsForSomePrograms) {
   write("isocnc.json", R"({"lint": {"severity": {"W001": "error"}, "files": [
       {"paths": ["old/"], "ignore": ["W001"]},
       {"paths": ["*.keep.iso"], "severity": {"W001": "info"}}]}})");
@@ -139,7 +139,7 @@ TEST_F(ConfigurationFile, DoesNotCallWhatItTurnsOffAnUnusedSuppression) {
   EXPECT_THAT(found({}), IsEmpty());
 }
 
-TEST_F(ConfigurationFile, TellsProgramsFromOtherFiles) {
+TEST_F(ConfigurationFile, DistinguishesProgramsFromOtherFiles) {
   write("isocnc.json", R"({"lint": {"extensions": ["mpf", ".ISO"], "exclude": ["scrap/", "*.tmp.iso"]}})");
   write("deep/isocnc.json", R"({"lint": {"extensions": [".nc"]}})");
   for (const char* name : {"a.mpf", "b.iso", "c.nc", "d.tmp.iso", "scrap/e.iso", "deep/f.nc", "deep/g.iso"})
@@ -235,7 +235,7 @@ TEST_F(ConfigurationFile, IsShown) {
   EXPECT_EQ(run({"isolint", "--show-config", "a", "."}).status, 2);
 }
 
-TEST_F(ConfigurationFile, TellsIsofmtItsStyle) {
+TEST_F(ConfigurationFile, SetsTheStyleOfIsofmt) {
   write("isocnc.json", R"({"format": {"decimals": 3, "gDigits": 2, "modal": "write", "wordOrder": true,
                                        "renumber": {"start": 5, "step": 5}}})");
   write("part.iso", "N1 g1 Y2.50 X1 F100\nN2 X3.0\nN3 M02\n");
@@ -255,7 +255,7 @@ TEST_F(ConfigurationFile, TellsIsofmtItsStyle) {
   EXPECT_EQ(run({"isofmt", "--stdin-filename", "x.iso", "-"}, "g0 x1\n").out, "G00 X1\n");
 }
 
-TEST_F(ConfigurationFile, TellsIsorunItsMachine) {
+TEST_F(ConfigurationFile, SetsTheMachineOfIsorun) {
   const std::string program = "M06 T101001\nG91 G00 X10\nM02\n";
   write("part.iso", program);
   const auto ran = [&](std::vector<std::string> options) {

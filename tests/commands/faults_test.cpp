@@ -77,7 +77,7 @@ int shell(const std::string& command) {
 
 class ScarceMemory : public testing::TestWithParam<std::string> {};
 
-TEST_P(ScarceMemory, IsToldOrIsEnough) {
+TEST_P(ScarceMemory, IsReportedOrIsEnough) {
   if (!support::kTriesAll) GTEST_SKIP() << "sanitizers take what address space there is";
   const TemporaryFolder folder;
   folder.write("good.iso", short_moves(100'000));
@@ -112,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(Commands, ScarceMemory,
                            return name;
                          });
 
-TEST(Faults, NoThreadsAreNoTrouble) {
+TEST(Faults, NoThreadsAreNoFailure) {
   if (!support::kTriesAll) GTEST_SKIP() << "sanitizers take what address space there is";
   const TemporaryFolder folder;
   folder.write("good.iso", short_moves(100'000));
@@ -187,7 +187,7 @@ TEST(Faults, TenWriteOneProgramAndItIsWhole) {
   EXPECT_EQ(left, 0U);
 }
 
-TEST(Faults, AProgramThatIsGoneIsTold) {
+TEST(Faults, ARemovedProgramIsReported) {
   const TemporaryFolder folder;
   const CommandResult result = run_command({"isolint", folder.path("gone.iso"), folder.path()});
   EXPECT_EQ(result.status, 2);

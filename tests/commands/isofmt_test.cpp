@@ -238,7 +238,7 @@ TEST(Isofmt, RefusesMistakenCommands) {
   EXPECT_EQ(text_of_file(file), kUntidy);
 }
 
-TEST(Isofmt, TellsWhenOutputIsLost) {
+TEST(Isofmt, ReportsLostOutput) {
   const TemporaryFolder folder;
   const std::string file = folder.write("a.iso", kUntidy);
   for (const StandardOutput output : {StandardOutput::FullDisk, StandardOutput::ClosedPipe})

@@ -115,7 +115,7 @@ TEST_F(IsolintBaseline, IsNoProgramAndNotReadAndWrittenAtOnce) {
   EXPECT_EQ(run({"--write-baseline", "a.json", "--baseline", "b.json", "parts"}).status, 2);
 }
 
-TEST_F(IsolintBaseline, TellsTheLineOfAMistake) {
+TEST_F(IsolintBaseline, ReportsTheLineOfAMistake) {
   const std::pair<std::string, std::string> mistakes[] = {
       {"", "1: no JSON: syntax error"},
       {"{\n  \"version\": 1,\n  \"findings\": [\n", "3: no JSON: syntax error"},

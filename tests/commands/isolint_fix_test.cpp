@@ -74,7 +74,7 @@ TEST(IsolintFix, MendsWhatIsLikelyWhenAskedTo) {
   EXPECT_THAT(again.err, EndsWith("; 0 corretti\n"));
 }
 
-TEST(IsolintFix, TellsOfUnsafeFixesButMakesNone) {
+TEST(IsolintFix, MentionsUnsafeFixesButMakesNone) {
   const TemporaryFolder folder;
   const std::string file = folder.write("part.iso", kMendable);
   EXPECT_THAT(run_command({"isolint", file}).out,
@@ -85,7 +85,7 @@ TEST(IsolintFix, TellsOfUnsafeFixesButMakesNone) {
   EXPECT_EQ(text_of_file(file), kMendable);
 }
 
-TEST(IsolintFix, MendsNotWhatNobodyWantsToHearOf) {
+TEST(IsolintFix, DoesNotFixWhatIsNotSelected) {
   const std::string silenced = "M06 T101001\nG71\nG71 ;isolint: ignore W001\nM02\n";
   EXPECT_EQ(run_on(silenced, {"--fix"}).out, silenced);
   EXPECT_EQ(run_on(std::string(kMendable), {"--fix", "--ignore", "W001"}).out, kMendable);
@@ -124,7 +124,7 @@ TEST(IsolintFix, PrintsTheProgramOfStandardInput) {
 }
 
 TEST(IsolintFix, MayLeaveNothing) {
-  const Surroundings only_line{.input = "G27\n"};
+  const CommandSetup only_line{.input = "G27\n"};
   EXPECT_EQ(run_command({"isolint", "--select", "W002", "--fix", "-"}, only_line).out, "");
   EXPECT_EQ(run_command({"isolint", "--select", "W002", "--diff", "-"}, only_line).out,
             "--- <stdin>\n+++ <stdin>\n@@ -1 +0,0 @@\n-G27\n");
@@ -158,7 +158,7 @@ TEST(IsolintFix, TouchesNothingThatStaysAsItIs) {
   EXPECT_EQ(before.st_ino, after.st_ino);
 }
 
-TEST(IsolintFix, TellsWhenAFileCannotBeReplaced) {
+TEST(IsolintFix, ReportsThatAFileCannotBeReplaced) {
   const TemporaryFolder folder;
   const std::string file = folder.write("part.iso", kMendable);
   const std::string other = folder.write("other.iso", kMendable);
@@ -172,7 +172,7 @@ TEST(IsolintFix, TellsWhenAFileCannotBeReplaced) {
   EXPECT_THAT(result.out, Not(HasSubstr("other.iso:3:1: ")));
 }
 
-TEST(IsolintFix, TellsWhenTheProgramIsLost) {
+TEST(IsolintFix, ReportsALostProgram) {
   for (const StandardOutput output : {StandardOutput::FullDisk, StandardOutput::ClosedPipe}) {
     const CommandResult result =
         run_command({"isolint", "--fix", "-"}, {.input = std::string(kMendable), .standard_output = output});
@@ -269,7 +269,7 @@ TEST(IsolintFix, RefusesMistakenCommands) {
 }
 
 /// The edits of a finding as JSON tells them, made on the lines of the program.
-TEST(IsolintFixJson, TellsEditsInCodePoints) {
+TEST(IsolintFixJson, ReportsEditsInCodePoints) {
   const CommandResult result = run_on("M06 T101001\n(\xC3\xA0\xE6\x9D\xB1) G00 X10,5\r\nG00 Y5",
                                       {"--format", "json", "--select", "ISO006,ISO045"});
   const json findings = json::parse(result.out);
@@ -284,7 +284,7 @@ TEST(IsolintFixJson, TellsEditsInCodePoints) {
   EXPECT_EQ(json::parse(run_on(std::string(kBrokenProgram), {"--format", "json"}).out)[0]["fix"], nullptr);
 }
 
-TEST(IsolintFixSarif, TellsReplacements) {
+TEST(IsolintFixSarif, ReportsReplacements) {
   const CommandResult result = run_on("M06 T101001\nG71\nG71\nM02\n", {"--format", "sarif"});
   const json sarif = json::parse(result.out);
   const json& fixes = sarif["runs"][0]["results"][0].at("fixes");

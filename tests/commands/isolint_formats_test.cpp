@@ -203,7 +203,7 @@ TEST(IsolintSarif, ObeysThePublishedSchema) {
   EXPECT_EQ(text_of_file(log), "5 documents\n");
 }
 
-TEST(IsolintSarif, TellsTheSeverityInForce) {
+TEST(IsolintSarif, ReportsTheSeverityInForce) {
   const json log = sarif_of(std::string(kWarnedProgram), {"--severity", "W001=error"});
   const json& result = log["runs"][0]["results"].at(0);
   EXPECT_EQ(result["level"], "error");

@@ -107,7 +107,7 @@ TEST(IsolintInput, GitIgnoreIsHonoredInAWorkTree) {
   for (const std::string name : {"kept.iso", "dropped.iso", "old/x.iso"}) folder.write(name, kBrokenProgram);
   folder.write(".gitignore", "dropped.iso\n/old/\n");
   const std::vector<std::string> command = {"isolint", "--format", "concise"};
-  const Surroundings there{.folder = folder.path()};
+  const CommandSetup there{.folder = folder.path()};
   EXPECT_THAT(files_in(run_command(command, there).out), ElementsAre("dropped.iso", "kept.iso", "old/x.iso"));
   std::filesystem::create_directory(folder.path(".git"));
   folder.write(".git/HEAD", "ref: refs/heads/main\n");
@@ -124,7 +124,7 @@ TEST(IsolintInput, EachFileIsCheckedOnce) {
   EXPECT_EQ(result.out, "a.iso:3:1: error: no coordinate comes with G01 [ISO026]\n");
 }
 
-TEST(IsolintInput, ADirectoryWithoutProgramsIsTrouble) {
+TEST(IsolintInput, ADirectoryWithoutProgramsIsAFailure) {
   const TemporaryFolder folder;
   folder.write("notes.txt", "nothing here");
   const CommandResult english = run_command({"isolint", folder.path()});
@@ -143,7 +143,7 @@ TEST(IsolintInput, AMissingFileIsNamedAndTheOthersAreChecked) {
   EXPECT_EQ(result.err, "isolint: gone.iso: cannot read: No such file or directory\n");
 }
 
-TEST(IsolintInput, AFileThatMayNotBeReadIsTrouble) {
+TEST(IsolintInput, AFileThatMayNotBeReadIsAFailure) {
   if (!support::child_may_run(ISOCNC_BIN_DIR "/isolint")) GTEST_SKIP() << "only the superuser may run the programs";
   const TemporaryFolder folder;
   const std::string file = folder.write("secret.iso", kCleanProgram);
@@ -234,7 +234,7 @@ std::string repeated(std::string_view piece, std::size_t size) {
   return result;
 }
 
-TEST(IsolintHugeLine, OneCommentIsNoTrouble) {
+TEST(IsolintHugeLine, OneCommentIsNoFailure) {
   const TemporaryFolder folder;
   const std::string file = folder.write("huge.iso", "M06 T101001\n;" + std::string(100 * kMegabyte, 'x') + "\nM02\n");
   const CommandResult result = run_command({"isolint", file});
@@ -269,7 +269,7 @@ INSTANTIATE_TEST_SUITE_P(Formats, IsolintHugeLineOfMistakes, testing::Values("te
                          [](const auto& tested) { return tested.param; });
 
 /// Each finding names its jump; that must not cost a walk to it from the top.
-TEST(IsolintManyPaths, FarBehindTheirJumpEndInTime) {
+TEST(IsolintManyPaths, FarAfterTheirJumpEndInTime) {
   std::string program = "M06 T101001\nG01 Z5 F100\n";
   for (int i = 0; i < 200'000; ++i) program += "X" + std::to_string(i) + " Y1 Z1\n";
   program += "IF V3 = 1 GOTO N50\nG93\nN50 G00 X3\nG01 X1 F3\n";

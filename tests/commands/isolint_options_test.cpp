@@ -14,7 +14,7 @@ using testing::HasSubstr;
 using testing::MatchesRegex;
 using testing::StartsWith;
 
-TEST(IsolintStatus, TellsErrorsFromWarningsAndTrouble) {
+TEST(IsolintStatus, ExitStatusDistinguishesErrorsWarningsAndFailure) {
   EXPECT_EQ(run_command({"isolint", "-"}, {.input = std::string(kCleanProgram)}).status, 0);
   EXPECT_EQ(run_command({"isolint", "-"}, {.input = std::string(kWarnedProgram)}).status, 0);
   EXPECT_EQ(run_command({"isolint", "-"}, {.input = std::string(kBrokenProgram)}).status, 1);
@@ -68,7 +68,7 @@ TEST(IsolintUsage, HelpNamesEveryOption) {
     EXPECT_THAT(result.out, HasSubstr(option));
 }
 
-TEST(IsolintExplain, TellsAllAboutACode) {
+TEST(IsolintExplain, PrintsAllAboutACode) {
   const CommandResult result = run_command({"isolint", "--explain", "ISO031"});
   EXPECT_THAT(result.out, StartsWith("ISO031 arc-center-mismatch (error, specification I.3.4.3.a)\n"));
   EXPECT_THAT(result.out, HasSubstr("\nWrong:\n"));
@@ -131,19 +131,19 @@ struct Saying {
 /// What was asked for and could not be said is no success.
 class IsolintOutput : public testing::TestWithParam<Saying> {
  protected:
-  static CommandResult say_to(StandardOutput output) {
+  static CommandResult write_to(StandardOutput output) {
     return run_command(GetParam().command, {.input = std::string(kBrokenProgram), .standard_output = output});
   }
 };
 
 TEST_P(IsolintOutput, FailsOnAFullDisk) {
-  const CommandResult result = say_to(StandardOutput::FullDisk);
+  const CommandResult result = write_to(StandardOutput::FullDisk);
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, HasSubstr("isolint: "));
 }
 
 TEST_P(IsolintOutput, FailsOnAClosedPipe) {
-  const CommandResult result = say_to(StandardOutput::ClosedPipe);
+  const CommandResult result = write_to(StandardOutput::ClosedPipe);
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, HasSubstr("isolint: "));
 }

@@ -62,12 +62,12 @@ TEST(IsolintText, ShowsNamesAsTextAndNothingElse) {
   }
 }
 
-TEST(IsolintText, TellsOfTheOtherPlaceOnTheLine) {
+TEST(IsolintText, NamesTheOtherPlaceOnTheLine) {
   const CommandResult result = run_command({"isolint", "-"}, {.input = "M06 T101001\nG01 X10 F100 F200\nM02\n"});
   EXPECT_THAT(result.out, HasSubstr("2 | G01 X10 F100 F200\n  |         ---- ^^^^  (--- the other place)\n"));
 }
 
-TEST(IsolintText, TellsOfTheLineAboveThatAFindingComesFrom) {
+TEST(IsolintText, NamesTheLineAboveThatAFindingComesFrom) {
   std::string program = "M06 T101001\nG24 F1\n";
   for (int i = 0; i < 8; ++i) program += "G00 X10\n";
   const CommandResult result = run_command({"isolint", "-"}, {.input = program + "G92 X0 Y0 Z0\nM02\n"});
@@ -209,7 +209,7 @@ TEST(IsolintJson, CountsColumnsInCodePoints) {
   EXPECT_EQ(finding["endColumn"], 19);
 }
 
-TEST(IsolintJson, CountsColumnsBehindAByteOrderMark) {
+TEST(IsolintJson, CountsColumnsAfterAByteOrderMark) {
   EXPECT_EQ(findings_in("\xEF\xBB\xBFM03 M02\n", {"--select", "ISO"}).at(0)["column"], 5);
 }
 
@@ -286,7 +286,7 @@ TEST(IsolintLanguage, FollowsTheLocale) {
 }
 
 TEST(IsolintLanguage, IsWhatTheOptionSays) {
-  const Surroundings italian{.input = std::string(kBrokenProgram), .environment = {{"LC_ALL", "it_IT.UTF-8"}}};
+  const CommandSetup italian{.input = std::string(kBrokenProgram), .environment = {{"LC_ALL", "it_IT.UTF-8"}}};
   EXPECT_THAT(run_command({"isolint", "--lang", "en", "-"}, italian).out, StartsWith("error["));
   const CommandResult result = run_command({"isolint", "--lang", "it", "-"}, {.input = std::string(kBrokenProgram)});
   EXPECT_THAT(result.out, StartsWith("errore[ISO026]: G01 senza alcuna quota\n"));
@@ -294,7 +294,7 @@ TEST(IsolintLanguage, IsWhatTheOptionSays) {
 }
 
 TEST(IsolintColor, IsForTerminalsUnlessAskedFor) {
-  const Surroundings broken{.input = std::string(kBrokenProgram)};
+  const CommandSetup broken{.input = std::string(kBrokenProgram)};
   EXPECT_THAT(run_command({"isolint", "-"}, broken).out, Not(HasSubstr("\x1b")));
   EXPECT_THAT(run_command({"isolint", "--color", "auto", "-"}, broken).out, Not(HasSubstr("\x1b")));
   EXPECT_THAT(run_command({"isolint", "--color", "never", "-"}, broken).out, Not(HasSubstr("\x1b")));
@@ -303,7 +303,7 @@ TEST(IsolintColor, IsForTerminalsUnlessAskedFor) {
 }
 
 TEST(IsolintColor, ChangesNothingButColors) {
-  const Surroundings broken{.input = std::string(kBrokenProgram)};
+  const CommandSetup broken{.input = std::string(kBrokenProgram)};
   std::string colored = run_command({"isolint", "--color", "always", "-"}, broken).out;
   for (std::size_t at = colored.find('\x1b'); at != std::string::npos; at = colored.find('\x1b'))
     colored.erase(at, colored.find('m', at) + 1 - at);

@@ -98,7 +98,7 @@ TEST(IsolintSelection, RefusesCodesThatItDoesNotKnow) {
   EXPECT_EQ(said("--severity", "W001"), "isolint: W001: write CODE=error, warning, info or off\n");
 }
 
-TEST(IsolintSelection, LeavesThePathBehindAListAlone) {
+TEST(IsolintSelection, LeavesThePathAfterAListAlone) {
   const TemporaryFolder folder;
   folder.write("part.iso", kMixedProgram);
   const CommandResult result =
@@ -107,7 +107,7 @@ TEST(IsolintSelection, LeavesThePathBehindAListAlone) {
 }
 
 TEST(IsolintMaxWarnings, FailsOnMore) {
-  const Surroundings warned{.input = std::string(kWarnedProgram)};
+  const CommandSetup warned{.input = std::string(kWarnedProgram)};
   EXPECT_EQ(run_command({"isolint", "--max-warnings", "1", "-"}, warned).status, 0);
   const CommandResult result = run_command({"isolint", "--max-warnings", "0", "-"}, warned);
   EXPECT_EQ(result.status, 1);
@@ -116,13 +116,13 @@ TEST(IsolintMaxWarnings, FailsOnMore) {
   EXPECT_EQ(run_command({"isolint", "--max-warnings", "-1", "-"}, warned).status, 2);
 }
 
-TEST(IsolintExitZero, IsNoCureForTrouble) {
+TEST(IsolintExitZero, DoesNotHideAFailure) {
   EXPECT_EQ(run_command({"isolint", "--exit-zero", "no-such-file.iso"}).status, 2);
 }
 
 TEST(IsolintOutputFile, HoldsWhatElseWouldBePrinted) {
   const TemporaryFolder folder;
-  const Surroundings mixed{.input = std::string(kMixedProgram), .folder = folder.path()};
+  const CommandSetup mixed{.input = std::string(kMixedProgram), .folder = folder.path()};
   const std::string expected = run_command({"isolint", "-"}, mixed).out;
   const CommandResult result = run_command({"isolint", "--output", "findings.txt", "-"}, mixed);
   EXPECT_EQ(result.out, "");
@@ -132,7 +132,7 @@ TEST(IsolintOutputFile, HoldsWhatElseWouldBePrinted) {
 }
 
 TEST(IsolintOutputFile, SaysWhyItCannotBeWritten) {
-  const Surroundings mixed{.input = std::string(kMixedProgram)};
+  const CommandSetup mixed{.input = std::string(kMixedProgram)};
   const CommandResult nowhere = run_command({"isolint", "--output", "/no/such/folder/x", "-"}, mixed);
   EXPECT_EQ(nowhere.status, 2);
   EXPECT_EQ(nowhere.err, "isolint: /no/such/folder/x: cannot write: No such file or directory\n");
@@ -174,7 +174,7 @@ TEST(IsolintOutputFile, IsNothingThatIsRead) {
 }
 
 TEST(IsolintStatistics, CountsTheFindingsOfEachCode) {
-  const Surroundings mixed{.input = std::string(kMixedProgram)};
+  const CommandSetup mixed{.input = std::string(kMixedProgram)};
   for (const auto& [language, said] : {std::pair("en", "--statistics: only with --format text, concise, json\n"),
                                        std::pair("it", "--statistics: solo con --format text, concise, json\n")}) {
     const CommandResult refused =

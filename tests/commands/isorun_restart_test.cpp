@@ -124,14 +124,14 @@ TEST(IsorunRestart, ThatIsRefusedLeavesTheFileAlone) {
   EXPECT_EQ(content_of(output), "what stood there before");
 }
 
-TEST(IsorunRestart, OfAProgramInErrorTellsTheError) {
+TEST(IsorunRestart, OfAProgramInErrorReportsTheError) {
   const CommandResult result = restart({"--restart-at", "2"}, kBrokenProgram);
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(result.out, "");
   EXPECT_EQ(result.err, "<stdin>:3: error: no coordinate comes with G01 [ISO026]\n");
 }
 
-TEST(IsorunRestart, BeyondTheLastLineIsTrouble) {
+TEST(IsorunRestart, BeyondTheLastLineIsAFailure) {
   const CommandResult result = restart({"--restart-at", "12"});
   EXPECT_EQ(result.status, 2);
   EXPECT_EQ(result.err, "isorun: <stdin>: there is no line 12: the last one is 11\n");
@@ -185,7 +185,7 @@ TEST(IsorunRestart, DoesNotOverwriteTheProgram) {
 }
 
 /// Z of the nose goes to 0 at most, the tool is 120 mm long.
-TEST(IsorunRestart, StaysWithinTheTravelOnItsWay) {
+TEST(IsorunRestart, StaysWithinTheTravelOnItsPath) {
   const auto restart_on = [](const std::string& machine, const std::string& line, const std::string& language = "en") {
     const TemporaryFolder folder;
     return run_command(
@@ -209,7 +209,7 @@ TEST(IsorunRestart, StaysWithinTheTravelOnItsWay) {
               HasSubstr("nessuna ripresa sicura dalla riga 5: sul percorso Z arriverebbe a "));
 }
 
-TEST(IsorunRestart, ThatCannotBeWrittenIsTrouble) {
+TEST(IsorunRestart, ThatCannotBeWrittenIsAFailure) {
   EXPECT_EQ(restart({"--restart-at", "6", "-o", "/no/such/folder/x"}).status, 2);
   const CommandResult full = restart({"--restart-at", "6", "-o", "/dev/full"});
   EXPECT_EQ(full.status, 2);

@@ -90,7 +90,7 @@ TEST(IsorunTrace, OfEveryExampleHasTheKeysOfEachKind) {
   }
 }
 
-TEST(IsorunTrace, TellsWhatHappensInItsOrder) {
+TEST(IsorunTrace, ReportsWhatHappensInItsOrder) {
   const std::vector<json> events = trace_of(
       "M06 T102003\n"
       "S12000 M03\n"
@@ -126,7 +126,7 @@ TEST(IsorunTrace, TellsWhatHappensInItsOrder) {
   EXPECT_EQ(timeless(events[11]), json::parse(R"({"line": 11, "kind": "end"})"));
 }
 
-TEST(IsorunTrace, TellsOfG990) {
+TEST(IsorunTrace, ReportsG990) {
   const std::vector<json> events = trace_of("M06 T101001\nG01 X100 F6000\nG990\nX200\nM02\n");
   EXPECT_THAT(kinds_in(events), ElementsAre("tool", "feed", "update", "feed", "end"));
   EXPECT_EQ(timeless(events[2]), json::parse(R"({"line": 3, "kind": "update"})"));
@@ -143,7 +143,7 @@ TEST(IsorunTrace, ToAFileLeavesTheSummaryOnStandardOutput) {
   EXPECT_THAT(kinds_in(events_in(written.str())), ElementsAre("tool", "rapid", "end"));
 }
 
-TEST(IsorunTrace, ThatCannotBeWrittenIsTrouble) {
+TEST(IsorunTrace, ThatCannotBeWrittenIsAFailure) {
   const auto complaint = [](const std::string& trace) {
     const CommandResult result = run_command({"isorun", "--trace", trace, "-"}, {.input = std::string(kCleanProgram)});
     EXPECT_EQ(result.status, 2) << trace;
@@ -193,7 +193,7 @@ TEST(IsorunSummary, IsJsonOnRequest) {
               summary.at("seconds").get<double>(), 1e-9);
 }
 
-TEST(IsorunSummary, TellsExtentsInEachFrame) {
+TEST(IsorunSummary, ReportsExtentsInEachFrame) {
   const json summary = summary_of(
       "M06 T101001\nG00 X5\nG92 X100 Y200 Z-50\nG00 X10 Y20 Z5\nG29 X50 B90\nG01 X30 Z5 F1000\nG27\nG00 Y40\n"
       "G92 X0\nG29 Z7\nG27\nM02\n");
@@ -220,7 +220,7 @@ TEST(IsorunSummary, KeepsAFewFramesOfMany) {
   EXPECT_EQ(summary.at("framesLeftOut"), 200);
 }
 
-TEST(IsorunSummary, TellsWhatTheTimeGoesInto) {
+TEST(IsorunSummary, ReportsWhatTheTimeGoesInto) {
   const json summary = summary_of(
       "M06 T101001\nS9000 M03\nG00 X10\nG01 X20 F1000 G09\nG03 X40 I30 J0\nG04 P1.5\nM06 T101002\nG00 X0\nM02\n");
   const json& times = summary.at("times");
@@ -240,7 +240,7 @@ TEST(IsorunSummary, TellsWhatTheTimeGoesInto) {
   EXPECT_NEAR(sum, summary.at("seconds"), 1e-9);
 }
 
-TEST(IsorunSummary, TellsTheStateAtTheEnd) {
+TEST(IsorunSummary, ReportsTheStateAtTheEnd) {
   const json summary = summary_of("M06 T102003\nS12000 M03\nG01 X10 F4000\nG91 G18\nM02\n");
   EXPECT_EQ(summary.at("finalState"), json::parse(R"({
     "tool": "T102003", "spindle": {"speed": 12000.0, "m": 3}, "feed": 4000.0,
@@ -327,7 +327,7 @@ TEST(IsorunMachine, OfTheExampleReachesAllThatTheExampleAsksFor) {
   EXPECT_EQ(json::parse(result.out).at("outsideTravel"), json::array()) << "with tools of 120 and 95 mm";
 }
 
-TEST(IsorunMachine, TellsWhatIsAskedBeyondItsLimits) {
+TEST(IsorunMachine, ReportsWhatIsAskedBeyondItsLimits) {
   const TemporaryFolder folder;
   const std::string machine = folder.write(
       "machine.json", R"({"machine": {"maxFeed": 3000, "maxRotarySpeed": 600, "maxSpindleSpeed": 18000}})");
@@ -346,7 +346,7 @@ TEST(IsorunMachine, TellsWhatIsAskedBeyondItsLimits) {
                               "alla riga 4\n"));
 }
 
-TEST(IsorunMachine, TellsHowFarItsTravelIsLeftAndWhereFirst) {
+TEST(IsorunMachine, ReportsHowFarItsTravelIsLeftAndWhereFirst) {
   const TemporaryFolder folder;
   const std::string machine = folder.write("machine.json", R"({"machine": {"axes": {"X": {"min": 0, "max": 100}}}})");
   const std::string program = "M06 T101001\nG00 X150\nX200\nX-5\nX120\nM02\n";
@@ -379,7 +379,7 @@ TEST(IsorunCompensation, MovesTheTipByTheRadiusOfTheTool) {
 TEST(IsorunCompensation, WarnsBesideTheSummary) {
   const TemporaryFolder folder;
   const std::string machine = folder.write("machine.json", kCutter);
-  const Surroundings input{.input = std::string(kGouging)};
+  const CommandSetup input{.input = std::string(kGouging)};
   const CommandResult result = run_command({"isorun", "--machine", machine, "-"}, input);
   EXPECT_EQ(result.status, 0);
   EXPECT_EQ(result.err,
@@ -520,14 +520,14 @@ TEST(IsorunOptions, RefuseWhatMakesNoSense) {
 }
 
 TEST(IsorunSummary, SpeaksItalian) {
-  const Surroundings clean{.input = std::string(kCleanProgram)};
+  const CommandSetup clean{.input = std::string(kCleanProgram)};
   EXPECT_THAT(run_command({"isorun", "--lang", "it", "-"}, clean).out,
               StartsWith("esito: eseguito fino a M02, riga 3\n"));
-  const Surroundings italian{.input = std::string(kCleanProgram), .environment = {{"LANG", "it_IT.UTF-8"}}};
+  const CommandSetup italian{.input = std::string(kCleanProgram), .environment = {{"LANG", "it_IT.UTF-8"}}};
   EXPECT_THAT(run_command({"isorun", "-"}, italian).out, StartsWith("esito: "));
 }
 
-TEST(IsorunSummary, ThatCannotBeWrittenIsTrouble) {
+TEST(IsorunSummary, ThatCannotBeWrittenIsAFailure) {
   for (const StandardOutput output : {StandardOutput::FullDisk, StandardOutput::ClosedPipe}) {
     const CommandResult result =
         run_command({"isorun", "-"}, {.input = std::string(kCleanProgram), .standard_output = output});
@@ -544,7 +544,7 @@ TEST(IsorunError, StopsTheProgramAsTheControlWould) {
   EXPECT_EQ(result.err, "<stdin>:3: error: no coordinate comes with G01 [ISO026]\n");
 }
 
-TEST(IsorunError, IsToldBesideTheSummary) {
+TEST(IsorunError, IsReportedBesideTheSummary) {
   const CommandResult result = run_command({"isorun", "-"}, {.input = std::string(kBrokenProgram)});
   EXPECT_EQ(result.status, 1);
   EXPECT_THAT(result.out, StartsWith("result: stopped by an error, line 3\n"));
@@ -589,7 +589,7 @@ TEST(IsorunPath, FollowsVgplAndTheRegisters) {
               ElementsAre(0, 2, 4));
 }
 
-TEST(IsorunPath, TellsOfJumpsTakenAndNot) {
+TEST(IsorunPath, ReportsJumpsTakenAndNot) {
   const std::vector<json> events = trace_of(kForkedProgram, {"--vgpl", "1"});
   std::vector<json> jumps;
   for (const json& event : events)
@@ -606,8 +606,8 @@ TEST(IsorunUntil, StopsBeforeTheLine) {
   EXPECT_THAT(kinds_in(trace_of(kCleanProgram, {"--until", "100"})), ElementsAre("tool", "rapid", "end"));
 }
 
-TEST(IsorunUntil, BehindAJumpOverTheLineStopsWhereItLeads) {
-  const Surroundings forked{.input = std::string(kForkedProgram)};
+TEST(IsorunUntil, AfterAJumpOverTheLineStopsAtItsTarget) {
+  const CommandSetup forked{.input = std::string(kForkedProgram)};
   const CommandResult result = run_command({"isorun", "--vgpl", "1", "--until", "4", "-"}, forked);
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out, StartsWith("result: stopped where asked, line 5 (the IF of line 3 jumps over the line asked "
@@ -623,7 +623,7 @@ TEST(IsorunUntil, BehindAJumpOverTheLineStopsWhereItLeads) {
 }
 
 /// A jump to nowhere is no way around the line.
-TEST(IsorunUntil, BehindAJumpToNowhereIsAnError) {
+TEST(IsorunUntil, AfterAJumpToNowhereIsAnError) {
   const CommandResult result =
       run_command({"isorun", "--until", "3", "-"}, {.input = "M06 T101001\nIF VGPL = 0 GOTO N5\nG00 X1\nM02\n"});
   EXPECT_EQ(result.status, 1);
@@ -703,7 +703,7 @@ TEST(IsorunUsage, LetsNoControlCharacterThrough) {
   }
 }
 
-TEST(IsorunOutput, ThatCannotBeWrittenIsTrouble) {
+TEST(IsorunOutput, ThatCannotBeWrittenIsAFailure) {
   const std::vector<std::vector<std::string>> commands = {
       {"isorun", "-"}, {"isorun", "--trace", "-", "-"}, {"isorun", "--version"}, {"isorun", "--help"}};
   for (const auto& command : commands) {
@@ -724,7 +724,7 @@ TEST(IsorunOutput, ThatCannotBeWrittenDoesNotHideTheErrorOfTheProgram) {
   EXPECT_THAT(result.err, HasSubstr("<stdin>:3: error: no coordinate comes with G01 [ISO026]\n"));
 }
 
-TEST(IsorunInput, ThatCannotBeReadIsTrouble) {
+TEST(IsorunInput, ThatCannotBeReadIsAFailure) {
   const TemporaryFolder folder;
   const std::string gone = folder.path("gone.iso");
   const std::string binary = folder.write("noise.iso", std::string(2000, '\x01'));

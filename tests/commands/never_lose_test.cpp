@@ -170,7 +170,7 @@ TEST(NeverLeave, WhenInterrupted) {
 /// has been looked at.
 class CutShort : public testing::TestWithParam<std::string> {};
 
-TEST_P(CutShort, IsToldAndTheEnd) {
+TEST_P(CutShort, IsReportedAndEndsTheRun) {
   const TemporaryFolder folder;
   std::string text = "M06 T101001\n";
   for (int i = 0; i < 800'000; ++i) text += "G71 G00 X" + std::to_string(i % 1'000) + "\n";  // A warning for isolint.

@@ -53,12 +53,12 @@ TEST(Port, ThatBelongsToAnotherEndsTheProgramWithTheReason) {
 }
 
 /// All that a server says to these messages, over a port of its choice, until it ends; `status` is what it ends with.
-std::string said_over_port(const std::string& program, const std::string& option, const std::string& messages,
-                           int& status) {
-  FILE* const told = ::popen((ISOCNC_BIN_DIR "/" + program + " " + option + " 0 2>&1 </dev/null").c_str(), "r");
+std::string replies_over_port(const std::string& program, const std::string& option, const std::string& messages,
+                              int& status) {
+  FILE* const pipe = ::popen((ISOCNC_BIN_DIR "/" + program + " " + option + " 0 2>&1 </dev/null").c_str(), "r");
   char line[200] = {};
   unsigned port = 0;
-  if (std::fgets(line, sizeof line, told) == nullptr ||
+  if (std::fgets(line, sizeof line, pipe) == nullptr ||
       std::sscanf(line, (program + ": 127.0.0.1:%u").c_str(), &port) != 1)
     ADD_FAILURE() << line;
   sockaddr_in address{};
@@ -74,13 +74,13 @@ std::string said_over_port(const std::string& program, const std::string& option
       said.append(bytes, static_cast<std::size_t>(count));
   }
   ::close(client);
-  status = WEXITSTATUS(::pclose(told));
+  status = WEXITSTATUS(::pclose(pipe));
   return said;
 }
 
 TEST(Port, ServesItsClientUntilItLeaves) {
   int status = -1;
-  const std::vector<nlohmann::json> from_isols = messages_of(said_over_port(
+  const std::vector<nlohmann::json> from_isols = messages_of(replies_over_port(
       "isols", "--tcp",
       frame(R"({"jsonrpc":"2.0","id":1,"method":"initialize","params":{"capabilities":{}}})") +
           frame(R"({"jsonrpc":"2.0","id":2,"method":"shutdown"})") + frame(R"({"jsonrpc":"2.0","method":"exit"})"),
@@ -88,11 +88,11 @@ TEST(Port, ServesItsClientUntilItLeaves) {
   EXPECT_EQ(status, 0);
   ASSERT_EQ(from_isols.size(), 2u);
   EXPECT_EQ(from_isols[0]["result"]["serverInfo"]["name"], "isols");
-  const std::vector<nlohmann::json> from_isodap = messages_of(
-      said_over_port("isodap", "--server",
-                     frame(R"({"seq":1,"type":"request","command":"initialize","arguments":{"adapterID":"isocnc"}})") +
-                         frame(R"({"seq":2,"type":"request","command":"disconnect"})"),
-                     status));
+  const std::vector<nlohmann::json> from_isodap = messages_of(replies_over_port(
+      "isodap", "--server",
+      frame(R"({"seq":1,"type":"request","command":"initialize","arguments":{"adapterID":"isocnc"}})") +
+          frame(R"({"seq":2,"type":"request","command":"disconnect"})"),
+      status));
   EXPECT_EQ(status, 0);
   ASSERT_GE(from_isodap.size(), 2u);
   EXPECT_EQ(from_isodap[0]["body"]["supportsStepBack"], true);

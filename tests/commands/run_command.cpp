@@ -156,7 +156,7 @@ static int wait_for(pid_t child) {
   return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
-CommandResult run_command(std::vector<std::string> arguments, const Surroundings& surroundings) {
+CommandResult run_command(std::vector<std::string> arguments, const CommandSetup& setup) {
   std::signal(SIGPIPE, SIG_IGN);
   Pipe in;
   Pipe out;
@@ -164,13 +164,13 @@ CommandResult run_command(std::vector<std::string> arguments, const Surroundings
   SpawnPlan plan;
   plan.connect(in.read_end, STDIN_FILENO);
   plan.connect(err.write_end, STDERR_FILENO);
-  if (surroundings.standard_output == StandardOutput::FullDisk)
+  if (setup.standard_output == StandardOutput::FullDisk)
     out.write_end = Descriptor(::open("/dev/full", O_WRONLY | O_CLOEXEC));
-  if (surroundings.standard_output != StandardOutput::Captured) out.read_end.close();
+  if (setup.standard_output != StandardOutput::Captured) out.read_end.close();
   plan.connect(out.write_end, STDOUT_FILENO);
-  if (!surroundings.folder.empty()) plan.enter(surroundings.folder);
+  if (!setup.folder.empty()) plan.enter(setup.folder);
   const std::string program = ISOCNC_BIN_DIR "/" + arguments.front();
-  std::vector<std::string> environment = environment_with(surroundings.environment);
+  std::vector<std::string> environment = environment_with(setup.environment);
   const pid_t child = plan.spawn(program, arguments, environment);
   in.read_end.close();
   out.write_end.close();
@@ -178,8 +178,7 @@ CommandResult run_command(std::vector<std::string> arguments, const Surroundings
   ::fcntl(in.write_end.number(), F_SETFL, O_NONBLOCK);
 
   CommandResult result;
-  result.timed_out =
-      !converse(in.write_end, out.read_end, err.read_end, surroundings.input, result, surroundings.limit);
+  result.timed_out = !converse(in.write_end, out.read_end, err.read_end, setup.input, result, setup.limit);
   if (result.timed_out) ::kill(child, SIGKILL);
   result.status = wait_for(child);
   return result;

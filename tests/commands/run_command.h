@@ -15,7 +15,7 @@ enum class StandardOutput {
 };
 
 /// What a command is given besides its arguments.
-struct Surroundings {
+struct CommandSetup {
   std::string input;                               ///< Standard input.
   std::map<std::string, std::string> environment;  ///< Beside what the tests run in, less its locale and NO_COLOR.
   std::string folder;                              ///< To run in; else that of the tests.
@@ -32,6 +32,6 @@ struct CommandResult {
 };
 
 /// Runs a command to its end. The first argument is one of our programs, `isolint` or `isorun`.
-CommandResult run_command(std::vector<std::string> arguments, const Surroundings& surroundings = {});
+CommandResult run_command(std::vector<std::string> arguments, const CommandSetup& setup = {});
 
 }  // namespace isocnc::commands

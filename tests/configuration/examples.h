@@ -26,11 +26,11 @@ inline constexpr std::string_view kRightTexts[] = {
 /// A configuration with a mistake, and what is said of it in English.
 struct WrongText {
   std::string_view text;
-  std::string_view said;        ///< `LINE:COLUMN: MESSAGE`, one a line.
-  bool schema_can_tell = true;  ///< Else it takes more than a schema, or is no JSON.
+  std::string_view said;       ///< `LINE:COLUMN: MESSAGE`, one a line.
+  bool schema_rejects = true;  ///< Else it takes more than a schema, or is no JSON.
 };
 
-inline constexpr bool kOnlyWeCanTell = false;
+inline constexpr bool kSchemaAccepts = false;
 
 inline constexpr WrongText kWrongTexts[] = {
     // Values that are not what they should be.
@@ -96,47 +96,47 @@ inline constexpr WrongText kWrongTexts[] = {
     {R"({"arc": 0.1})", "1:2: arc: unknown key; did you mean machine.tolerances.arc?"},
     {R"({"machine": {"functions": {"M100": {"nam": "a"}}}})",
      "1:37: machine.functions.M100.nam: unknown key; did you mean name?"},
-    {"{\"lint\": {},\n\"lint\": {}}", "2:1: lint: this key stands on line 1 already", kOnlyWeCanTell},
+    {"{\"lint\": {},\n\"lint\": {}}", "2:1: lint: this key stands on line 1 already", kSchemaAccepts},
     {"{\"machine\": {\"functions\": {\"M100\": {},\n \"M100\": {}}}}",
-     "2:2: machine.functions.M100: this key stands on line 1 already", kOnlyWeCanTell},
+     "2:2: machine.functions.M100: this key stands on line 1 already", kSchemaAccepts},
     {R"({"lint": {"severity": {"W1": "off", "W1": "off"}}})",
-     "1:37: lint.severity.W1: this key stands on line 1 already", kOnlyWeCanTell},
+     "1:37: lint.severity.W1: this key stands on line 1 already", kSchemaAccepts},
     // What takes two values.
     {R"({"machine": {"axes": {"Z": {"max": -1, "min": 0}}}})", "1:36: machine.axes.Z.max: min is more than max",
-     kOnlyWeCanTell},
+     kSchemaAccepts},
     {R"({"machine": {"tools": [{"head": 1, "holder": 2, "tool": 3}, {"tool": 3, "head": 1, "holder": 2}]}})",
-     "1:61: machine.tools[1]: this tool is listed already", kOnlyWeCanTell},
+     "1:61: machine.tools[1]: this tool is listed already", kSchemaAccepts},
     {R"({"machine": {"functions": {"M7": {}, "M07": {}}}})", "1:45: machine.functions.M07: this M is named already",
-     kOnlyWeCanTell},
+     kSchemaAccepts},
     // What only the table of codes, and the reader of patterns, knows.
     {R"({"lint": {"ignore": ["ISO31"]}})",
-     "1:22: lint.ignore[0]: there is no code ISO31 (isolint --list-rules); did you mean ISO031?", kOnlyWeCanTell},
+     "1:22: lint.ignore[0]: there is no code ISO31 (isolint --list-rules); did you mean ISO031?", kSchemaAccepts},
     {R"({"lint": {"exclude": ["a[", "/"]}})",
      "1:23: lint.exclude[0]: a[ is no pattern of paths\n1:29: lint.exclude[1]: / is no pattern of paths",
-     kOnlyWeCanTell},
+     kSchemaAccepts},
     // What is no JSON.
-    {"", "1:1: the file ends here, but a bracket is still open or a value missing", kOnlyWeCanTell},
-    {"{\n  \"lint\": {\n", "3:1: the file ends here, but a bracket is still open or a value missing", kOnlyWeCanTell},
+    {"", "1:1: the file ends here, but a bracket is still open or a value missing", kSchemaAccepts},
+    {"{\n  \"lint\": {\n", "3:1: the file ends here, but a bracket is still open or a value missing", kSchemaAccepts},
     {R"({"lint": {}, // one, two
 })",
-     "2:1: there is a comma before this }, with nothing behind it", kOnlyWeCanTell},
-    {R"({"lint" {}})", "1:9: { is out of place here", kOnlyWeCanTell},
-    {R"({"lint":: {}})", "1:9: : is out of place here", kOnlyWeCanTell},
-    {R"({lint: {}})", "1:2: lint is out of place here", kOnlyWeCanTell},
-    {R"({} {})", "1:4: nothing may follow the end of the configuration", kOnlyWeCanTell},
-    {"{\"language\": \"en\n\"}", "1:14: a text without its closing quote", kOnlyWeCanTell},
-    {"{\"language\": \"e\tn\"}", "1:14: a tab within a text; write \\t", kOnlyWeCanTell},
+     "2:1: there is a comma before this }, with nothing behind it", kSchemaAccepts},
+    {R"({"lint" {}})", "1:9: { is out of place here", kSchemaAccepts},
+    {R"({"lint":: {}})", "1:9: : is out of place here", kSchemaAccepts},
+    {R"({lint: {}})", "1:2: lint is out of place here", kSchemaAccepts},
+    {R"({} {})", "1:4: nothing may follow the end of the configuration", kSchemaAccepts},
+    {"{\"language\": \"en\n\"}", "1:14: a text without its closing quote", kSchemaAccepts},
+    {"{\"language\": \"e\tn\"}", "1:14: a tab within a text; write \\t", kSchemaAccepts},
     {R"({"language": "C:\iso"})", "1:14: a backslash that JSON does not know; write \\\\ for a backslash",
-     kOnlyWeCanTell},
-    {R"({"machine": {"maxFeed": 1e999}})", "1:25: a number too large to count with", kOnlyWeCanTell},
-    {R"({"machine": {"maxFeed": 01}})", "1:26: 1 is out of place here", kOnlyWeCanTell},
-    {R"({"machine": {"maxFeed": 1.}})", "1:25: not a number as JSON writes it", kOnlyWeCanTell},
-    {R"({"machine": {"maxFeed": NaN}})", "1:25: NaN is out of place here", kOnlyWeCanTell},
-    {"{ /* ", "1:3: a comment without its end", kOnlyWeCanTell},
-    {"{ # }", "1:3: # is out of place here", kOnlyWeCanTell},
-    {"{ / }", "1:3: a comment begins with // or /*", kOnlyWeCanTell},
-    {"{} // \xC3\xA8 \xE8", "1:9: this is no UTF-8; save the file as UTF-8", kOnlyWeCanTell},
-    {"{}\r\n\x01", "2:1: a control character, where only text may stand", kOnlyWeCanTell},
+     kSchemaAccepts},
+    {R"({"machine": {"maxFeed": 1e999}})", "1:25: a number too large to count with", kSchemaAccepts},
+    {R"({"machine": {"maxFeed": 01}})", "1:26: 1 is out of place here", kSchemaAccepts},
+    {R"({"machine": {"maxFeed": 1.}})", "1:25: not a number as JSON writes it", kSchemaAccepts},
+    {R"({"machine": {"maxFeed": NaN}})", "1:25: NaN is out of place here", kSchemaAccepts},
+    {"{ /* ", "1:3: a comment without its end", kSchemaAccepts},
+    {"{ # }", "1:3: # is out of place here", kSchemaAccepts},
+    {"{ / }", "1:3: a comment begins with // or /*", kSchemaAccepts},
+    {"{} // \xC3\xA8 \xE8", "1:9: this is no UTF-8; save the file as UTF-8", kSchemaAccepts},
+    {"{}\r\n\x01", "2:1: a control character, where only text may stand", kSchemaAccepts},
 };
 
 }  // namespace isocnc::configuration

@@ -25,7 +25,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-std::string said_of(std::string_view text, Language language = Language::English) {
+std::string mistakes_of(std::string_view text, Language language = Language::English) {
   std::string said;
   for (const Mistake& mistake : read_configuration(text, "/").mistakes) {
     const LineColumn place = place_of(mistake.at, text);
@@ -40,37 +40,37 @@ Configuration read(std::string_view text) {
   return std::move(result.configuration);
 }
 
-TEST(ReadConfiguration, TellsEachMistakeWithItsPlace) {
-  for (const WrongText& wrong : kWrongTexts) EXPECT_EQ(said_of(wrong.text), wrong.said) << wrong.text;
+TEST(ReadConfiguration, ReportsEachMistakeWithItsPlace) {
+  for (const WrongText& wrong : kWrongTexts) EXPECT_EQ(mistakes_of(wrong.text), wrong.said) << wrong.text;
 }
 
-TEST(ReadConfiguration, TellsMistakesInItalianToo) {
+TEST(ReadConfiguration, ReportsMistakesInItalianToo) {
   for (const WrongText& wrong : kWrongTexts) {
-    const std::string italian = said_of(wrong.text, Language::Italian);
+    const std::string italian = mistakes_of(wrong.text, Language::Italian);
     EXPECT_NE(italian, wrong.said) << wrong.text;
     EXPECT_EQ(italian.substr(0, 4), wrong.said.substr(0, 4)) << wrong.text;
   }
-  EXPECT_EQ(said_of(R"({"machine": {"maxfeed": 1}})", Language::Italian),
+  EXPECT_EQ(mistakes_of(R"({"machine": {"maxfeed": 1}})", Language::Italian),
             "1:14: machine.maxfeed: chiave sconosciuta; forse maxFeed?");
-  EXPECT_EQ(said_of(R"({"machine": {"maxFeed": true}})", Language::Italian),
+  EXPECT_EQ(mistakes_of(R"({"machine": {"maxFeed": true}})", Language::Italian),
             "1:25: machine.maxFeed: questo è true o false; ci vuole un numero");
 }
 
 TEST(ReadConfiguration, FindsNothingWrongWithWhatIsRight) {
-  for (const std::string_view text : kRightTexts) EXPECT_EQ(said_of(text), "") << text;
+  for (const std::string_view text : kRightTexts) EXPECT_EQ(mistakes_of(text), "") << text;
 }
 
 TEST(ReadConfiguration, IsReadAgainFromWhatIsShown) {
   for (const std::string_view text : kRightTexts) {
     const std::string shown = to_json(read(text));
-    EXPECT_EQ(said_of(shown), "") << shown;
+    EXPECT_EQ(mistakes_of(shown), "") << shown;
     EXPECT_EQ(to_json(read(shown)), shown);
   }
 }
 
 TEST(ReadConfiguration, CountsColumnsInCodePoints) {
-  EXPECT_EQ(said_of("{\"machine\": {/* à */ \"u\": 1}}"), "1:22: machine.u: unknown key");
-  EXPECT_EQ(said_of("{\r\"u\": 1,\r\n\"v\": 2}"), "2:1: u: unknown key\n3:1: v: unknown key");
+  EXPECT_EQ(mistakes_of("{\"machine\": {/* à */ \"u\": 1}}"), "1:22: machine.u: unknown key");
+  EXPECT_EQ(mistakes_of("{\r\"u\": 1,\r\n\"v\": 2}"), "2:1: u: unknown key\n3:1: v: unknown key");
 }
 
 TEST(ReadConfiguration, LeavesTheSetupOpenWhereTheFileIsSilent) {
@@ -93,13 +93,13 @@ TEST(ReadConfiguration, FillsTheSetup) {
   EXPECT_EQ(setup.home.tip, geometry::Vec3(1, 2, 3));
   EXPECT_EQ(setup.home.b, 4);
   EXPECT_EQ(setup.home.c, 5);
-  EXPECT_EQ(setup.limits.travel[0].least, -1);
-  EXPECT_EQ(setup.limits.travel[0].most, 1);
-  EXPECT_EQ(setup.limits.travel[1].least, -2);
-  EXPECT_EQ(setup.limits.travel[1].most, execution::Travel().most);
-  EXPECT_EQ(setup.limits.travel[2].most, 3);
-  EXPECT_EQ(setup.limits.travel[3].least, -4);
-  EXPECT_EQ(setup.limits.travel[4].most, 5);
+  EXPECT_EQ(setup.limits.travel[0].minimum, -1);
+  EXPECT_EQ(setup.limits.travel[0].maximum, 1);
+  EXPECT_EQ(setup.limits.travel[1].minimum, -2);
+  EXPECT_EQ(setup.limits.travel[1].maximum, execution::Travel().maximum);
+  EXPECT_EQ(setup.limits.travel[2].maximum, 3);
+  EXPECT_EQ(setup.limits.travel[3].minimum, -4);
+  EXPECT_EQ(setup.limits.travel[4].maximum, 5);
   EXPECT_EQ(setup.limits.feed, 6);
   EXPECT_EQ(setup.limits.rotary_speed, 7);
   EXPECT_EQ(setup.limits.spindle_speed, 8);
@@ -115,7 +115,7 @@ TEST(ReadConfiguration, FillsTheSetup) {
   EXPECT_EQ(machine.functions->front().name, "air");
 }
 
-TEST(ReadConfiguration, TellsAnEmptyListFromNone) {
+TEST(ReadConfiguration, DistinguishesAnEmptyListFromNone) {
   const execution::Setup setup = read(R"({"machine": {"tools": [], "functions": {}}})").machine.setup;
   ASSERT_TRUE(setup.tools);
   ASSERT_TRUE(setup.functions);
@@ -135,8 +135,8 @@ TEST(ReadConfiguration, ReadsTheProfilesThatShip) {
     const simulation::TimedMachine machine = read(text.str()).machine.timed;
     for (std::size_t axis = 0; axis < wanted.axes.size(); ++axis) {
       const motion::AxisLimits& limits = machine.motion.axes[axis];
-      EXPECT_EQ(limits.least, wanted.axes[axis].least) << name << ' ' << axis;
-      EXPECT_EQ(limits.most, wanted.axes[axis].most) << name << ' ' << axis;
+      EXPECT_EQ(limits.minimum, wanted.axes[axis].minimum) << name << ' ' << axis;
+      EXPECT_EQ(limits.maximum, wanted.axes[axis].maximum) << name << ' ' << axis;
       EXPECT_NEAR(limits.speed, wanted.axes[axis].speed, 1e-9) << name << ' ' << axis;
       EXPECT_EQ(limits.acceleration, wanted.axes[axis].acceleration) << name << ' ' << axis;
       EXPECT_FALSE(limits.jerk) << name << ' ' << axis;
@@ -148,7 +148,7 @@ TEST(ReadConfiguration, ReadsTheProfilesThatShip) {
     EXPECT_EQ(machine.motion.kinematics.c_point, wanted.kinematics.c_point) << name;
     EXPECT_EQ(machine.motion.chord_tolerance, wanted.chord_tolerance) << name;
     EXPECT_EQ(machine.motion.corner_tolerance, wanted.corner_tolerance) << name;
-    EXPECT_EQ(machine.home.tip.z(), wanted.axes[motion::kZ].most) << name << " begins with the spindle up";
+    EXPECT_EQ(machine.home.tip.z(), wanted.axes[motion::kZ].maximum) << name << " begins with the spindle up";
   }
 }
 
@@ -160,8 +160,8 @@ TEST(ReadConfiguration, StopsAtAHundredMistakes) {
 
 TEST(ReadConfiguration, RefusesAbsurdNesting) {
   const std::string deep(100'000, '[');
-  EXPECT_EQ(said_of("{\"lint\": " + deep), "1:41: nested too deeply");
-  EXPECT_EQ(said_of("{\"lint\": " + deep + std::string(deep.size(), ']') + "}"), "1:41: nested too deeply");
+  EXPECT_EQ(mistakes_of("{\"lint\": " + deep), "1:41: nested too deeply");
+  EXPECT_EQ(mistakes_of("{\"lint\": " + deep + std::string(deep.size(), ']') + "}"), "1:41: nested too deeply");
 }
 
 TEST(ReadConfigurationProperty, AnyTextIsReadOrRefusedWithinItself) {
@@ -181,7 +181,7 @@ TEST(ReadConfigurationProperty, AnyTextIsReadOrRefusedWithinItself) {
 }
 
 TEST(ReadConfiguration, ShortensWhatItRepeats) {
-  const std::string said = said_of("{\"" + std::string(100'000, 'x') + "\": 1}");
+  const std::string said = mistakes_of("{\"" + std::string(100'000, 'x') + "\": 1}");
   EXPECT_LT(said.size(), 120u);
   EXPECT_THAT(said, HasSubstr("xxx...: unknown key"));
 }

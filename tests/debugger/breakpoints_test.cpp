@@ -30,7 +30,7 @@ TEST(Breakpoints, MoveToTheNextBlock) {
   EXPECT_EQ(client.line(), 2);
 }
 
-TEST(Breakpoints, GoBackToTheBeginWhereNothingStops) {
+TEST(Breakpoints, GoBackToTheStartWhereNothingStops) {
   DebugClient client;
   client.launch(kPart);
   client.set_lines({16});
@@ -230,7 +230,7 @@ TEST(Breakpoints, DataBreakpointsWatchValuesAndThresholds) {
 }
 
 /// Arcs that come back to the height that they begin at: over it, less far over it, and under it.
-TEST(Breakpoints, ThresholdsCountOnTheWayAlongAnArc) {
+TEST(Breakpoints, ThresholdsCountOnThePathAlongAnArc) {
   for (const char* const mode : {"G48", "G49"}) {
     DebugClient client;
     client.launch(std::string("M06 T101001\nG00 X0 Y0 Z5\n") + mode +
@@ -258,7 +258,7 @@ TEST(Breakpoints, ThresholdsCountOnTheWayAlongAnArc) {
 
 TEST(Breakpoints, DataBreakpointsWatchWhatTheClientShows) {
   DebugClient client;
-  client.stand_at_begin(kPart);
+  client.stop_at_start(kPart);
   const auto id_of = [&](const char* scope, const char* name) {
     for (const Json& each : Json(client.request("scopes", {{"frameId", 1}}).at("scopes")))
       if (each.at("name") == scope)

@@ -33,7 +33,7 @@ TEST(Changing, ARegisterDecidesTheJumpsThatFollow) {
 
 TEST(Changing, ExpressionsThatNameSomethingCanBeSet) {
   DebugClient client;
-  client.stand_at_begin(kPart);
+  client.stop_at_start(kPart);
   for (const char* const name : {"V30", "VGPL", "S", "F", "OVERRIDE", "PLAYBACK"}) {
     EXPECT_EQ(client.request("setExpression", {{"expression", name}, {"value", "12.5"}}).at("value"), "12.5") << name;
     EXPECT_EQ(client.evaluate(name), "12.5") << name;
@@ -42,7 +42,7 @@ TEST(Changing, ExpressionsThatNameSomethingCanBeSet) {
 
 TEST(Changing, VariablesThatAreShownCanBeSetWhereTheyMayBe) {
   DebugClient client;
-  client.stand_at_begin(kPart);
+  client.stop_at_start(kPart);
   const Json in_registers = {
       {"variablesReference", reference_of(client, "Registers")}, {"name", "V3"}, {"value", "2 * 4"}};
   EXPECT_EQ(client.request("setVariable", in_registers).at("value"), "8");
@@ -162,7 +162,7 @@ TEST(Changing, LeavesAG09AfterAFeedMoveValid) {
 /// The machine cannot be changed within a block, nor after the end.
 TEST(Changing, WaitsForAMachineThatStandsBetweenTwoBlocks) {
   DebugClient client;
-  client.stand_at_begin("M06 T101001\nG01 X10 F600 M03\nM02\n");
+  client.stop_at_start("M06 T101001\nG01 X10 F600 M03\nM02\n");
   client.run("next");
   client.run("stepIn");
   client.run("stepIn");
@@ -179,7 +179,7 @@ class Refusals : public testing::TestWithParam<Refused> {};
 
 TEST_P(Refusals, SayWhy) {
   DebugClient client;
-  client.stand_at_begin(kPart);
+  client.stop_at_start(kPart);
   EXPECT_THAT(client.refusal("setExpression", {{"expression", GetParam().expression}, {"value", GetParam().value}}),
               HasSubstr(GetParam().message));
 }
@@ -281,7 +281,7 @@ TEST(Console, AWrongBlockDoesNothing) {
 
 TEST(Console, AnswersExpressions) {
   DebugClient client;
-  client.stand_at_begin(kPart, {{"registers", {{"V2", 255}}}, {"vgpl", 4}, {"decimals", 2}});
+  client.stop_at_start(kPart, {{"registers", {{"V2", 255}}}, {"vgpl", 4}, {"decimals", 2}});
   EXPECT_EQ(client.evaluate("V2 / 3", "repl"), "85");
   EXPECT_EQ(client.evaluate("V2,x", "repl"), "0xFF");
   EXPECT_EQ(client.evaluate("=1-3", "repl"), "-2");
@@ -292,7 +292,7 @@ TEST(Console, AnswersExpressions) {
 
 TEST(Console, CompletesNamesAndCodes) {
   DebugClient client;
-  client.stand_at_begin(kPart);
+  client.stop_at_start(kPart);
   std::vector<std::string> labels;
   for (const Json& each : Json(client.request("completions", {{"text", "Z + v1"}, {"column", 7}}).at("targets"))) {
     labels.push_back(each.at("label"));

@@ -35,7 +35,7 @@ void DebugClient::launch(const std::string& text, Json arguments) {
   event("initialized");
 }
 
-void DebugClient::stand_at_begin(const std::string& text, Json arguments) {
+void DebugClient::stop_at_start(const std::string& text, Json arguments) {
   arguments["stopOnEntry"] = true;
   launch(text, std::move(arguments));
   run("configurationDone");

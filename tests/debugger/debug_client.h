@@ -26,7 +26,7 @@ class DebugClient : public support::MessageClient {
   /// Sends `initialize` and `launch` of a program with this text, and waits until breakpoints can be set.
   void launch(const std::string& text, Json arguments = Json::object());
   /// As launch(), and then stands before the first block.
-  void stand_at_begin(const std::string& text, Json arguments = Json::object());
+  void stop_at_start(const std::string& text, Json arguments = Json::object());
 
   /// The whole response.
   Json respond(const std::string& command, const Json& arguments = Json::object());

@@ -37,11 +37,11 @@ TEST(Protocol, SaysWhatItCan) {
 }
 
 /// Whatever comes, an answer or a word to the user comes back, and the adapter goes on.
-class Hostile : public testing::TestWithParam<std::string> {};
+class HostileMessages : public testing::TestWithParam<std::string> {};
 
-TEST_P(Hostile, MessagesDoNoHarm) {
+TEST_P(HostileMessages, MessagesDoNoHarm) {
   DebugClient client;
-  client.stand_at_begin(kPart);
+  client.stop_at_start(kPart);
   client.send_raw(GetParam());
   EXPECT_EQ(client.line(), 2);
   EXPECT_EQ(client.run("next").at("reason"), "step");
@@ -49,7 +49,7 @@ TEST_P(Hostile, MessagesDoNoHarm) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    All, Hostile,
+    All, HostileMessages,
     testing::Values(
         "", "{", "null", "[]", "7", "{}", "\xff\xfe", R"({"type":"request"})", R"({"seq":1,"type":"request"})",
         R"({"seq":"a","type":"request","command":"next"})", R"({"seq":1,"type":"response","command":"next"})",
@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Protocol, AMessageThatNestsTooDeeplyDoesNoHarm) {
   constexpr int kDepth = 500'000;
   DebugClient client;
-  client.stand_at_begin(kPart);
+  client.stop_at_start(kPart);
   client.send_raw(R"({"seq":1,"type":"request","command":"restart","arguments":{"arguments":)" +
                   std::string(kDepth, '[') + std::string(kDepth, ']') + "}}");
   EXPECT_EQ(client.run("next").at("reason"), "step");
@@ -169,7 +169,7 @@ TEST(Protocol, ARequestThatTakesAStandingMachineIsRefusedWhileItRuns) {
 
 TEST(Protocol, AProgramThatChangesOnDiskIsDebuggedAsItWas) {
   DebugClient client;
-  client.stand_at_begin(kPart);
+  client.stop_at_start(kPart);
   std::filesystem::remove(client.program());
   client.run("next");
   EXPECT_EQ(client.event("loadedSource").at("reason"), "removed");
@@ -201,7 +201,7 @@ TEST(Protocol, ARestartThatFailsLeavesTheRunAsItIs) {
 
 TEST(Protocol, ARestartCanBringArgumentsOfItsOwn) {
   DebugClient client;
-  client.stand_at_begin(kPart);
+  client.stop_at_start(kPart);
   const std::string other = client.write("other.iso", "M06 T101001\nG00 X7\nM02\n").string();
   const Json arguments = {{"program", other}, {"startAtLine", 3}};
   EXPECT_EQ(client.run("restart", {{"arguments", arguments}}).at("reason"), "entry");
@@ -216,7 +216,7 @@ TEST(Protocol, TheProgramIsTheOneSource) {
     early.request("initialize");
     EXPECT_EQ(early.request("loadedSources").at("sources"), Json::array());
   }
-  client.stand_at_begin(kPart);
+  client.stop_at_start(kPart);
   const Json sources = client.request("loadedSources").at("sources");
   ASSERT_EQ(sources.size(), 1u);
   EXPECT_EQ(sources.at(0).at("path"), client.program().string());

@@ -19,7 +19,7 @@ TEST(Stepping, StandsBeforeTheFirstBlock) {
 
 TEST(Stepping, GoesABlockOnAndBack) {
   DebugClient client;
-  client.stand_at_begin(kPart);
+  client.stop_at_start(kPart);
   std::vector<std::string> states;
   std::vector<int> lines;
   for (int i = 0; i < 12; ++i) {
@@ -100,7 +100,7 @@ TEST(Stepping, WhatEndsTheRunIsReportedAfterAnyAmountOfOutput) {
 
 TEST(Stepping, StepsInByInstructions) {
   DebugClient client;
-  client.stand_at_begin("M06 T101001\nG01 X10 F600 M03\nM02\n");
+  client.stop_at_start("M06 T101001\nG01 X10 F600 M03\nM02\n");
   client.run("next");
   client.run("stepIn");
   EXPECT_EQ(client.line(), 2);
@@ -117,7 +117,7 @@ TEST(Stepping, StepsInByInstructions) {
 
 TEST(Stepping, StepsInByTheSegmentsOfAFiveAxisArc) {
   DebugClient client;
-  client.stand_at_begin(kFiveAxisArc);
+  client.stop_at_start(kFiveAxisArc);
   for (int i = 0; i < 3; ++i) client.run("next");
   client.run("stepIn");
   for (int number = 1; number <= 3; ++number) {
@@ -134,7 +134,7 @@ TEST(Stepping, StepsInByTheSegmentsOfAFiveAxisArc) {
 
 TEST(Stepping, StepsOutToTheEndOfTheToolsSection) {
   DebugClient client;
-  client.stand_at_begin(kPart);
+  client.stop_at_start(kPart);
   for (int i = 0; i < 4; ++i) client.run("next");
   EXPECT_EQ(client.line(), 7);
   EXPECT_EQ(client.run("stepOut").at("reason"), "step");
@@ -143,7 +143,7 @@ TEST(Stepping, StepsOutToTheEndOfTheToolsSection) {
 
 TEST(Stepping, GoesToALineWithTheStateOfARunToIt) {
   DebugClient client;
-  client.stand_at_begin(kPart);
+  client.stop_at_start(kPart);
   for (int i = 0; i < 7; ++i) client.run("next");
   const int line = client.line();
   const std::string state = client.state();
@@ -178,7 +178,7 @@ TEST(Stepping, TheStackShortensLongLinesBetweenCharacters) {
   DebugClient client;
   std::string line = "G00 X1 ;";
   line += std::string(79 - line.size(), 'x') + "àà";  // The first one lies across the end.
-  client.stand_at_begin("M06 T101001\n" + line + "\nM02\n");
+  client.stop_at_start("M06 T101001\n" + line + "\nM02\n");
   client.run("next");
   EXPECT_EQ(client.request("stackTrace", {{"threadId", 1}}).at("stackFrames").at(0).at("name"),
             line.substr(0, 79) + "…");

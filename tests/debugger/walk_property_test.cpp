@@ -72,12 +72,12 @@ INSTANTIATE_TEST_SUITE_P(Seeds, Walks, testing::Range(0, 25));
 class ClientWalks : public testing::TestWithParam<int> {};
 
 /// All that a client is shown between two blocks, however it has come there, is what it was on the first way on.
-TEST_P(ClientWalks, ShowWhatTheFirstWayShowed) {
+TEST_P(ClientWalks, ShowWhatTheFirstPassShowed) {
   support::Random random(static_cast<std::uint64_t>(GetParam()));
   std::string text = simulation::RandomRun(random).text(2);
   if (!text.ends_with("M02\n")) text += "M02\n";
   DebugClient client;
-  client.stand_at_begin(text);
+  client.stop_at_start(text);
   std::map<std::string, std::string> states;
   std::vector<int> lines;
   const auto any_line = [&] {

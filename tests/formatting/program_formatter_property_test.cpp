@@ -23,7 +23,7 @@ struct NamedStyle {
 const std::vector<NamedStyle>& styles() {
   static const std::vector<NamedStyle> all = {
       {"default", {}},
-      {"decimals", {.line = {.most_decimals = 2}}},
+      {"decimals", {.line = {.max_decimals = 2}}},
       {"one digit", {.line = {.g_digits = syntax::GDigits::One}}},
       {"two digits", {.line = {.g_digits = syntax::GDigits::Two}}},
       {"word order", {.line = {.word_order = true}}},
@@ -32,7 +32,7 @@ const std::vector<NamedStyle>& styles() {
       {"renumber", {.numbers = NumberStyle{.start = 7, .step = 3}}},
       {"renumber all", {.numbers = NumberStyle{.all_lines = true}}},
       {"everything",
-       {.line = {.most_decimals = 3, .g_digits = syntax::GDigits::Two, .word_order = true},
+       {.line = {.max_decimals = 3, .g_digits = syntax::GDigits::Two, .word_order = true},
         .motions = MotionStyle::Write,
         .numbers = NumberStyle{.all_lines = true}}},
   };

@@ -48,7 +48,7 @@ TEST(ProgramFormatter, FoldsRepeatedMotions) {
 }
 
 /// A comment behind a G that goes stands before the words that are left.
-TEST(ProgramFormatter, OrdersWhatIsLeftBehindAFoldedMotion) {
+TEST(ProgramFormatter, OrdersWhatIsLeftAfterAFoldedMotion) {
   const ProgramStyle style{.line = {.word_order = true}, .motions = MotionStyle::Fold};
   const std::string once = format("G01 X1 F500\nG01 (lap) Y5 X2\nG90 G01 (lap) Y5 X2\nN5 G01 (lap) Y5 X2\n", style);
   EXPECT_EQ(once, "G01 X1 F500\n(lap) X2 Y5\nG90 (lap) Y5 X2\nN5 (lap) Y5 X2\n");
@@ -74,7 +74,7 @@ TEST(ProgramFormatter, FollowsMotionsWherePathsAgree) {
             "G1 X1 F5\nIF V1 = 1 GOTO N10\nG0 X2\nM02\nG1 X3\nN10 X3\n");
 }
 
-TEST(ProgramFormatter, TouchesNoMotionBehindAnError) {
+TEST(ProgramFormatter, TouchesNoMotionAfterAnError) {
   EXPECT_EQ(format("G1 X1 F5\nG77 X1\nX2\nG1 X3\nX4\n", kWrite), "G1 X1 F5\nG77 X1\nX2\nG1 X3\nG01 X4\n");
   EXPECT_EQ(format("G1 X1 F5\nG1 X1 X2\nG1 X3\nG1 X4\n", kFold), "G1 X1 F5\nG1 X1 X2\nG1 X3\nX4\n");
 }

@@ -80,15 +80,15 @@ static Json arguments_of(std::uint8_t byte, const std::string& path) {
              {"logMessage", byte % 7 == 0 ? "{" + text + "}" : ""}}}}};
 }
 
-static Json launch_arguments(std::uint8_t wishes, const std::string& path) {
+static Json launch_arguments(std::uint8_t options, const std::string& path) {
   Json arguments = {{"program", path},
-                    {"stopOnEntry", (wishes & 1u) == 0},
-                    {"breakOnWarnings", (wishes & 2u) != 0},
-                    {"noDebug", (wishes & 4u) != 0},
-                    {"vgpl", wishes % 3},
-                    {"registers", {{"V3", wishes % 5}}},
-                    {"decimals", wishes % 13}};
-  if ((wishes & 8u) != 0) arguments["startAtLine"] = 1 + wishes / 16;
+                    {"stopOnEntry", (options & 1u) == 0},
+                    {"breakOnWarnings", (options & 2u) != 0},
+                    {"noDebug", (options & 4u) != 0},
+                    {"vgpl", options % 3},
+                    {"registers", {{"V3", options % 5}}},
+                    {"decimals", options % 13}};
+  if ((options & 8u) != 0) arguments["startAtLine"] = 1 + options / 16;
   return arguments;
 }
 
@@ -99,14 +99,14 @@ class Feeder {
       : bytes_(bytes), path_(std::move(path)), adapter_(loop_, [this](const std::string& body) { check(body); }) {}
 
   void run() {
-    const std::uint8_t wishes = number();
-    tell("initialize", {{"linesStartAt1", (wishes & 16u) == 0},
-                        {"columnsStartAt1", (wishes & 32u) == 0},
-                        {"supportsInvalidatedEvent", (wishes & 64u) != 0},
+    const std::uint8_t options = number();
+    send("initialize", {{"linesStartAt1", (options & 16u) == 0},
+                        {"columnsStartAt1", (options & 32u) == 0},
+                        {"supportsInvalidatedEvent", (options & 64u) != 0},
                         {"supportsProgressReporting", true},
-                        {"locale", (wishes & 128u) != 0 ? "it" : "en"}});
-    tell("launch", launch_arguments(number(), path_));
-    tell("configurationDone", Json::object());
+                        {"locale", (options & 128u) != 0 ? "it" : "en"}});
+    send("launch", launch_arguments(number(), path_));
+    send("configurationDone", Json::object());
     loop_.post([this] { feed(); });
     loop_.run(std::chrono::milliseconds(1000), [this] { adapter_.end(); });
     require(answered_ == asked_, "each request has one response");
@@ -127,7 +127,7 @@ class Feeder {
     if (command.empty()) return wait(argument % 32);
     Json arguments = arguments_of(argument, path_);
     if (command == "restart" && argument % 2 == 0) arguments["arguments"] = launch_arguments(argument, path_);
-    tell(command, arguments);
+    send(command, arguments);
     loop_.post([this] { feed(); });
   }
 
@@ -136,14 +136,14 @@ class Feeder {
     loop_.post([this, turns] { turns > 0 ? wait(turns - 1) : feed(); });
   }
 
-  void tell(const std::string& command, const Json& arguments) {
+  void send(const std::string& command, const Json& arguments) {
     const Json message = {{"seq", ++asked_}, {"type", "request"}, {"command", command}, {"arguments", arguments}};
     adapter_.receive({lsp::rpc::Frame::Problem::None, message.dump()});
   }
 
   void check(const std::string& body) {
     const Json message = Json::parse(body);
-    require(message.at("seq") == ++said_, "messages are numbered");
+    require(message.at("seq") == ++output_, "messages are numbered");
     if (message.at("type") == "response") require(message.at("request_seq") == ++answered_, "in the order of requests");
   }
 
@@ -151,7 +151,7 @@ class Feeder {
   const std::string path_;
   std::int64_t asked_ = 0;
   std::int64_t answered_ = 0;
-  std::int64_t said_ = 0;
+  std::int64_t output_ = 0;
   lsp::rpc::Loop loop_;
   Adapter adapter_;
 };

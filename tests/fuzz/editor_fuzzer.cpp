@@ -2,16 +2,16 @@
 #include <string>
 
 #include "interpreter/system/source_file.h"
-#include "lsp/documents/open_document.h"
+#include "lsp/documents/analyzed_document.h"
 #include "require.h"
 #include "tests/support/report_text.h"
 
 namespace isocnc::fuzz {
 
+using lsp::documents::AnalyzedDocument;
 using lsp::documents::ClientPosition;
 using lsp::documents::ContentChange;
 using lsp::documents::Encoding;
-using lsp::documents::OpenDocument;
 using lsp::documents::SettingsStore;
 
 static constexpr const char* kUri = "untitled:part";
@@ -44,14 +44,14 @@ class Input {
 };
 
 /// The whole text, with the byte-order mark that the document keeps apart: behind it there may be another.
-static std::string text_of(const OpenDocument& document) {
+static std::string text_of(const AnalyzedDocument& document) {
   const bool has_mark = document.to_client({0, 0}, Encoding::Utf8).character > 0;
   return std::string(has_mark ? system::kByteOrderMark : "") + document.document().text();
 }
 
 /// What the document says, and what one says that has been opened with its text.
-static void compare(OpenDocument& edited, SettingsStore& settings) {
-  OpenDocument fresh(kUri, settings);
+static void compare(AnalyzedDocument& edited, SettingsStore& settings) {
+  AnalyzedDocument fresh(kUri, settings);
   fresh.open(1, text_of(edited));
   fresh.update();
   edited.update();
@@ -62,7 +62,7 @@ static void edit(std::string_view bytes) {
   Input input(bytes);
   SettingsStore settings;
   const auto encoding = static_cast<Encoding>(input.number() % 3);
-  OpenDocument document(kUri, settings);
+  AnalyzedDocument document(kUri, settings);
   document.open(1, input.text(2 * std::size_t{input.number()}));
   for (int version = 2; !input.empty(); ++version) {
     ContentChange change{.range = lsp::documents::ClientRange{input.place(), input.place()},

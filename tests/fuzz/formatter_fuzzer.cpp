@@ -72,7 +72,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   const unsigned choice = data[0];
   formatting::ProgramStyle style;
-  if ((choice & 1u) != 0) style.line.most_decimals = 2;
+  if ((choice & 1u) != 0) style.line.max_decimals = 2;
   if ((choice & 2u) != 0) style.line.word_order = true;
   style.line.g_digits = static_cast<syntax::GDigits>((choice >> 2) % 3);
   style.motions = static_cast<formatting::MotionStyle>((choice >> 4) % 3);

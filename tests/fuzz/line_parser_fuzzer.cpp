@@ -39,13 +39,13 @@ static void check_instructions(const LineTree& tree) {
                        [&](const syntax::Instruction& each) { return each.number == number; });
   };
   for (const syntax::Word& word : tree.words)
-    require(word.owner == syntax::Word::kNobody || exists(word.owner), "owners are instructions");
+    require(word.owner == syntax::Word::kNoOwner || exists(word.owner), "owners are instructions");
   const auto words = static_cast<std::int32_t>(tree.words.size());
   require(tree.feed < words && tree.spindle < words, "F and S are words of the line");
 }
 
 /// Nothing that cannot be read passes in silence.
-static void check_is_told(const LineTree& tree) {
+static void check_is_reported(const LineTree& tree) {
   const auto is_wrong = [](const syntax::Word& word) {
     constexpr auto kWrong = syntax::Word::kMissing | syntax::Word::kMalformed;
     return word.letter == syntax::kError || word.letter == syntax::kNumber || word.has(kWrong);
@@ -69,7 +69,7 @@ static std::string in_case(std::string_view text, char from, int shift) {
 }
 
 /// Lines with others behind them may be read by a shorter way, which gives the same trees.
-static void check_ways(std::string_view text) {
+static void check_parsers_agree(std::string_view text) {
   const std::string padded = std::string(text) + "\nX1 Y2.5 Z-3.25 F100\nX2\n";
   const char* const end = padded.data() + padded.size();
   syntax::TreeStore rows;
@@ -86,12 +86,12 @@ static void check_ways(std::string_view text) {
 }
 
 static void check_line(std::string_view text) {
-  check_ways(text);
+  check_parsers_agree(text);
   const ParsedLine line(text);
   const LineTree tree = line.tree();
   check_spans(tree);
   check_instructions(tree);
-  check_is_told(tree);
+  check_is_reported(tree);
   require(support::text_of(tree) == support::text_of(ParsedLine(text).tree()), "equal text gives equal trees");
   require(findings_of(tree) == findings_of(ParsedLine(in_case(text, 'a', 'A' - 'a')).tree()),
           "upper case means the same");

@@ -12,7 +12,7 @@
 namespace isocnc::fuzz {
 
 /// Lines end at CR, LF or CRLF; a run may end behind the last.
-static std::uint64_t most_lines(std::string_view text) {
+static std::uint64_t max_lines(std::string_view text) {
   return 1 + static_cast<std::uint64_t>(
                  std::count_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }));
 }
@@ -27,8 +27,8 @@ static void run_program(std::string_view text, bool stop_at_errors) {
     line = event.line;
     require(!running::to_json(event).empty(), "events can be written");
   });
-  require(result.line <= most_lines(text), "a run ends within the text");
-  require(result.blocks <= most_lines(text), "no block runs twice");
+  require(result.line <= max_lines(text), "a run ends within the text");
+  require(result.blocks <= max_lines(text), "no block runs twice");
   require(stop_at_errors || result.ending != running::Ending::Until, "nothing but `until` ends a run there");
 }
 
@@ -43,14 +43,14 @@ static simulation::TimedMachine machine() {
 /// Arcs of many meters take the planner its time, and tell nothing that shorter ones do not: the rest of such a program
 /// is left out.
 static void time_program(std::string_view text) {
-  constexpr double kLongestWay = 500;
+  constexpr double kLongestPath = 500;
   const simulation::TimedMachine timed_on = machine();
   simulation::Summary summary(timed_on);
   std::size_t taken = 0;
-  std::size_t told = 0;
+  std::size_t reported = 0;
   double last = 0;
   simulation::Timing timing(timed_on, {.event = [&](const simulation::TimedEvent& timed) {
-                              ++told;
+                              ++reported;
                               require(timed.start >= last - 1e-9 * last, "events come in the order of their times");
                               require(timed.duration >= 0 && std::isfinite(timed.start + timed.duration),
                                       "times are numbers");
@@ -62,12 +62,12 @@ static void time_program(std::string_view text) {
   options.setup.home = timed_on.home;
   const auto result = running::run(text, options, [&](const running::Event& event) {
     if (const auto* const move = std::get_if<running::MoveEvent>(&event.what)) way += move->length;
-    if (!(way <= kLongestWay)) return;
+    if (!(way <= kLongestPath)) return;
     if (!std::holds_alternative<running::ExactStopEvent>(event.what)) ++taken;
     timing.take(event);
   });
   timing.finish();
-  require(told == taken, "each event is told once");
+  require(reported == taken, "each event is told once");
   require(std::isfinite(timing.time()), "a run ends");
   summary.finish(result, timing.time(), timing.joints(), {});
   require(!summary.json("-", dialect::Language::English).empty(), "a run has its summary");
@@ -91,12 +91,12 @@ static void follow_tool(std::string_view text) {
   options.stop_at_errors = false;
   running::run(text, options, [&](const running::Event& event) { compensation.take(event, listeners); });
   compensation.finish(listeners);
-  require(warned <= most_lines(text), "warnings have their line");
+  require(warned <= max_lines(text), "warnings have their line");
 }
 
 static void restart_program(std::string_view text) {
   restart::RestartOptions options;
-  options.line = text.size() % most_lines(text);
+  options.line = text.size() % max_lines(text);
   options.machine = machine();
   options.run.setup.home = options.machine.home;
   const auto made = restart::restart_program(text, options);

@@ -57,7 +57,7 @@ static const Answered& answered_by_features() {
     Answered answered;
     for (const lsp::features::Feature* const feature : lsp::features::all_features()) {
       for (const auto& method : feature->methods) answered.methods.emplace_back(method.name);
-      for (const auto& gathering : feature->gatherings) answered.methods.emplace_back(gathering.name);
+      for (const auto& request : feature->workspace_requests) answered.methods.emplace_back(request.name);
       for (const auto& command : feature->commands) answered.commands.emplace(command.name);
     }
     answered.methods.insert(answered.methods.end(), answered.commands.begin(), answered.commands.end());
@@ -113,7 +113,7 @@ class Typist {
     ask("initialize", {{"processId", nullptr},
                        {"capabilities", capabilities(abilities)},
                        {"workspaceFolders", Json::array({{{"uri", uri("")}, {"name", "parts"}}})}});
-    tell("initialized", Json::object());
+    notify("initialized", Json::object());
     open(0, kProgram);
     loop_.post([this] { feed(); });
     loop_.run(std::chrono::seconds(1), [] {});
@@ -166,7 +166,7 @@ class Typist {
   void feed() {
     if (is_waiting_ && !open_.empty()) return;  // Whoever takes the last answer goes on.
     is_waiting_ = false;
-    if (bytes_.size() < 4 || ++fed_ > kMostMessages) return leave();
+    if (bytes_.size() < 4 || ++fed_ > kMaxMessages) return leave();
     const std::vector<std::string>& methods = answered_by_features().methods;
     const std::size_t choice = number() % (std::size(kOwn) + methods.size());
     if (choice < std::size(kOwn)) {
@@ -184,7 +184,7 @@ class Typist {
       is_waiting_ = true;
       return;
     }
-    if (std::exchange(is_leaving_, true)) return tell("exit", nullptr);
+    if (std::exchange(is_leaving_, true)) return notify("exit", nullptr);
     is_waiting_ = true;  // The answer comes before ask() returns.
     ask("shutdown", nullptr);
   }
@@ -204,21 +204,21 @@ class Typist {
         if (number() % 16 == 1) change.erase("range");
         changes.push_back(change);
       } while (number() % 4 == 1);
-      return tell(method, {{"textDocument", named}, {"contentChanges", changes}});
+      return notify(method, {{"textDocument", named}, {"contentChanges", changes}});
     }
-    if (method == "$/cancelRequest") return tell(method, {{"id", asked_ - document % 4}});
-    tell(method, {{"textDocument", named},
-                  {"settings", {{"isocnc", {{"language", document % 2 == 0 ? "it" : "en"}}}}},
-                  {"changes", Json::array({named})},
-                  {"event",
-                   {{"added", Json::array({{{"uri", uri(document % 2 == 0 ? "" : "gone")}}})},
-                    {"removed", Json::array({{{"uri", uri("")}}})}}}});
+    if (method == "$/cancelRequest") return notify(method, {{"id", asked_ - document % 4}});
+    notify(method, {{"textDocument", named},
+                    {"settings", {{"isocnc", {{"language", document % 2 == 0 ? "it" : "en"}}}}},
+                    {"changes", Json::array({named})},
+                    {"event",
+                     {{"added", Json::array({{{"uri", uri(document % 2 == 0 ? "" : "gone")}}})},
+                      {"removed", Json::array({{{"uri", uri("")}}})}}}});
   }
 
   void open(unsigned document, const std::string& text) {
-    tell("textDocument/didOpen",
-         {{"textDocument",
-           {{"uri", uri_of_document(document)}, {"languageId", "isocnc"}, {"version", ++version_}, {"text", text}}}});
+    notify("textDocument/didOpen",
+           {{"textDocument",
+             {{"uri", uri_of_document(document)}, {"languageId", "isocnc"}, {"version", ++version_}, {"text", text}}}});
   }
 
   Json position() {
@@ -265,7 +265,7 @@ class Typist {
     open_.insert(++asked_);
     send({{"jsonrpc", "2.0"}, {"id", asked_}, {"method", method}, {"params", params}});
   }
-  void tell(const std::string& method, const Json& params) {
+  void notify(const std::string& method, const Json& params) {
     send({{"jsonrpc", "2.0"}, {"method", method}, {"params", params}});
   }
   void send(const Json& message) { server_.receive({lsp::rpc::Frame::Problem::None, lsp::rpc::write(message)}); }
@@ -304,7 +304,7 @@ class Typist {
   }
 
   /// More of them find little more, and take long.
-  static constexpr int kMostMessages = 128;
+  static constexpr int kMaxMessages = 128;
 
   std::string_view bytes_;
   int fed_ = 0;

@@ -34,8 +34,8 @@ KnownArc known_arc(double radius, double start_deg, double sweep_deg) {
           .sweep_deg = sweep_deg};
 }
 
-KnownArc random_arc(Random& random, double most_deg) {
-  const double sweep = random.real(1, most_deg);
+KnownArc random_arc(Random& random, double max_deg) {
+  const double sweep = random.real(1, max_deg);
   return known_arc(random.real(0.5, 1'000), random.real(0, 360), random.one_in(2) ? sweep : -sweep);
 }
 
@@ -156,7 +156,7 @@ struct Problem {
 
 class Problems : public testing::TestWithParam<Problem> {};
 
-TEST_P(Problems, AreTold) { EXPECT_EQ(find_circle(GetParam().given, kTolerance).problem, GetParam().problem); }
+TEST_P(Problems, AreReported) { EXPECT_EQ(find_circle(GetParam().given, kTolerance).problem, GetParam().problem); }
 
 INSTANTIATE_TEST_SUITE_P(
     All, Problems,
@@ -182,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(
         Problem{"RadiusNegative", {.end = {10, 0}, .radius = -50}, ArcProblem::RadiusTooSmall}),
     [](const testing::TestParamInfo<Problem>& each) { return std::string(each.param.name); });
 
-TEST(FindCircle, TellsWhatWasFound) {
+TEST(FindCircle, ReportsWhatWasFound) {
   const Circle mismatch = find_circle({.end = {10, 0}, .center_u = 4, .center_v = 0}, kTolerance);
   EXPECT_EQ(mismatch.found, 4);
   EXPECT_EQ(mismatch.wanted, 6);

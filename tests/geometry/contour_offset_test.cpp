@@ -29,11 +29,11 @@ struct Offset {
   std::vector<std::uint64_t> small_arcs;
 };
 
-struct Wish {
+struct OffsetOptions {
   double radius = 5;
   int side = 1;
   bool reduces = false;
-  std::uint64_t stop_behind = 0;  ///< The tag of an element.
+  std::uint64_t stop_after = 0;  ///< The tag of an element.
 };
 
 void drain(ContourOffset& contour, Offset& offset) {
@@ -42,16 +42,16 @@ void drain(ContourOffset& contour, Offset& offset) {
     (flaw->small_arc ? offset.small_arcs : offset.gouges).push_back(flaw->tag);
 }
 
-Offset offset(const std::vector<PlaneCurve>& curves, const Vec2& from, const Wish& wish) {
-  ContourOffset contour(wish.radius);
+Offset offset(const std::vector<PlaneCurve>& curves, const Vec2& from, const OffsetOptions& options) {
+  ContourOffset contour(options.radius);
   Offset result;
-  ContourElement element{.curve = line(from, curves.front().start), .side = wish.side, .reduces = wish.reduces};
+  ContourElement element{.curve = line(from, curves.front().start), .side = options.side, .reduces = options.reduces};
   contour.lead_in(element.curve, element, false);
   for (const PlaneCurve& curve : curves) {
     element.curve = curve;
     ++element.tag;
     contour.add(element);
-    if (element.tag == wish.stop_behind) contour.finish();
+    if (element.tag == options.stop_after) contour.finish();
     drain(contour, result);
   }
   contour.finish();
@@ -76,7 +76,7 @@ std::vector<std::uint64_t> tags(const Offset& offset) {
 /// A slot 6 mm wide in the upper side of a block.
 const std::vector<PlaneCurve> kSlot = lines({{-50, 0}, {0, 0}, {0, -20}, {6, -20}, {6, 0}, {50, 0}});
 
-TEST(ContourOffset, GougesWhereThereIsNoRoom) {
+TEST(ContourOffset, GougesWhereThereIsNoSpace) {
   const Offset kept = offset(kSlot, {-50, 10}, {.radius = 5});
   EXPECT_THAT(tags(kept), ElementsAre(0, 1, 2, 3, 4, 5));
   EXPECT_THAT(std::set<std::uint64_t>(kept.gouges.begin(), kept.gouges.end()), testing::IsSupersetOf({2, 4}));
@@ -131,8 +131,8 @@ const std::vector<PlaneCurve> kNeck = lines({{40, 0},
 
 TEST(ContourOffset, GougesTheFarWallOfANeck) {
   const std::set<std::uint64_t> walls = {4, 10};
-  const std::vector<std::uint64_t> told = offset(kNeck, {40, 20}, {.radius = 5}).gouges;
-  EXPECT_THAT(std::set<std::uint64_t>(told.begin(), told.end()), testing::IsSupersetOf(walls));
+  const std::vector<std::uint64_t> reported = offset(kNeck, {40, 20}, {.radius = 5}).gouges;
+  EXPECT_THAT(std::set<std::uint64_t>(reported.begin(), reported.end()), testing::IsSupersetOf(walls));
   EXPECT_THAT(offset(kNeck, {40, 20}, {.radius = 2.9}).gouges, IsEmpty());
   const Offset reduced = offset(kNeck, {40, 20}, {.radius = 5, .reduces = true});
   EXPECT_THAT(reduced.gouges, IsEmpty());
@@ -186,9 +186,9 @@ TEST(ContourOffset, IsAValue) {
   ASSERT_EQ(ends.pieces.size(), 2u);
   EXPECT_NEAR(ends.pieces[1].curve.end.x(), 50, 1e-9);
   copy.finish();
-  Offset goes_on;
-  drain(copy, goes_on);
-  EXPECT_EQ(goes_on.pieces.size(), 4u);
+  Offset continues;
+  drain(copy, continues);
+  EXPECT_EQ(continues.pieces.size(), 4u);
 }
 
 /// Round a convex contour a stop changes nothing; into an inside corner the cutter has then gone too far.
@@ -198,7 +198,7 @@ TEST(ContourOffset, GoesOnFromWhereItHasStopped) {
                                           line({100, -50}, {0, -50})};
   const Offset at_once = offset(convex, {0, 10}, {});
   for (std::uint64_t tag = 1; tag <= convex.size(); ++tag) {
-    const Offset stopped = offset(convex, {0, 10}, {.stop_behind = tag});
+    const Offset stopped = offset(convex, {0, 10}, {.stop_after = tag});
     ASSERT_EQ(stopped.pieces.size(), at_once.pieces.size()) << tag;
     for (std::size_t i = 0; i < at_once.pieces.size(); ++i) {
       EXPECT_EQ(stopped.pieces[i].curve.end, at_once.pieces[i].curve.end) << tag;
@@ -206,7 +206,7 @@ TEST(ContourOffset, GoesOnFromWhereItHasStopped) {
     }
     EXPECT_THAT(stopped.gouges, IsEmpty()) << tag;
   }
-  const Offset corner = offset(lines({{0, 0}, {50, 0}, {50, 40}}), {0, 10}, {.stop_behind = 1});
+  const Offset corner = offset(lines({{0, 0}, {50, 0}, {50, 40}}), {0, 10}, {.stop_after = 1});
   ASSERT_EQ(corner.pieces.size(), 4u);
   EXPECT_NEAR(corner.pieces[1].curve.end.x(), 50, 1e-9);
   EXPECT_FALSE(corner.pieces[2].curve.is_arc());
@@ -248,38 +248,38 @@ enum class Others { Sure, All };
 
 /// From a point of a piece to the nearest element that it has to spare.
 double nearest_to(const Vec2& point, const OffsetPiece& piece, const std::vector<PlaneCurve>& contour, Others others) {
-  double least = 1e9;
-  const auto goes_on = [&](std::uint64_t first) {
+  double minimum = 1e9;
+  const auto continues = [&](std::uint64_t first) {
     return first > 0 && (contour[first - 1].direction_at_end() - contour[first].direction_at_start()).norm() < 1e-3;
   };
   for (std::uint64_t tag = 1; tag <= contour.size(); ++tag) {
     const std::uint64_t apart = std::max(tag, piece.tag) - std::min(tag, piece.tag);
-    if (apart == 1 && goes_on(std::min(tag, piece.tag))) continue;
+    if (apart == 1 && continues(std::min(tag, piece.tag))) continue;
     if (apart > ContourOffset::kNeighbors && others == Others::Sure &&
         (piece.tag == 0 || !are_facing_lines(piece.curve, contour[tag - 1])))
       continue;
-    least = std::min(least, support::distance_from(point, contour[tag - 1]));
+    minimum = std::min(minimum, support::distance_from(point, contour[tag - 1]));
   }
-  return least;
+  return minimum;
 }
 
 /// The cutter's center is never nearer to the contour than its radius, but on motions that are told of; it is where the
 /// piece before has left it; and who is told of a gouge can find it.
-TEST(ContourOffsetProperty, SparesTheContourOrTells) {
+TEST(ContourOffsetProperty, SparesTheContourOrReportsAGouge) {
   constexpr int kPoints = 10;
   int clean = 0;
-  int told = 0;
+  int reported = 0;
   for (const std::uint64_t seed : support::seeds(100)) {
     support::Random random(seed);
     const std::vector<PlaneCurve> contour = random_contour(random);
-    const Wish wish{.radius = random.real(0.5, 8),
-                    .side = random.one_in(2) ? 1 : -1,
-                    .reduces = random.one_in(2),
-                    .stop_behind = static_cast<std::uint64_t>(random.between(0, 24))};
+    const OffsetOptions options{.radius = random.real(0.5, 8),
+                                .side = random.one_in(2) ? 1 : -1,
+                                .reduces = random.one_in(2),
+                                .stop_after = static_cast<std::uint64_t>(random.between(0, 24))};
     const Vec2 beside =
-        contour.front().start + 3 * wish.radius * wish.side * left_of(contour.front().direction_at_start());
-    const Offset result = offset(contour, beside, wish);
-    ++(result.gouges.empty() && result.small_arcs.empty() ? clean : told);
+        contour.front().start + 3 * options.radius * options.side * left_of(contour.front().direction_at_start());
+    const Offset result = offset(contour, beside, options);
+    ++(result.gouges.empty() && result.small_arcs.empty() ? clean : reported);
     Vec2 at = beside;
     std::set<std::uint64_t> gouging;
     for (const OffsetPiece& piece : result.pieces) {
@@ -288,27 +288,28 @@ TEST(ContourOffsetProperty, SparesTheContourOrTells) {
       EXPECT_NEAR((point_on(piece.curve, 1) - at).norm(), 0, 2e-4) << seed;
       for (int i = 0; i <= kPoints; ++i)
         if (nearest_to(point_on(piece.curve, 1.0 * i / kPoints), piece, contour, Others::Sure) +
-                (piece.tag == 0 ? wish.radius / 2 : 0) <
-            wish.radius - ContourOffset::kGouge - 3e-4)
+                (piece.tag == 0 ? options.radius / 2 : 0) <
+            options.radius - ContourOffset::kGouge - 3e-4)
           gouging.insert(piece.tag);
     }
     for (const std::uint64_t tag : gouging) {
-      const bool is_told = std::find(result.gouges.begin(), result.gouges.end(), tag) != result.gouges.end();
+      const bool is_reported = std::find(result.gouges.begin(), result.gouges.end(), tag) != result.gouges.end();
       const bool is_explained = std::any_of(result.small_arcs.begin(), result.small_arcs.end(), [&](std::uint64_t arc) {
         return std::max(arc, tag) - std::min(arc, tag) <= 2;
       });
-      EXPECT_TRUE(is_told || is_explained) << seed << " element " << tag;
+      EXPECT_TRUE(is_reported || is_explained) << seed << " element " << tag;
     }
     for (const std::uint64_t tag : result.gouges) {
-      double least = wish.radius;
+      double minimum = options.radius;
       for (const OffsetPiece& piece : result.pieces)
         for (int i = 0; piece.tag == tag && i <= 6 * kPoints; ++i)
-          least = std::min(least, nearest_to(point_on(piece.curve, i / (6.0 * kPoints)), piece, contour, Others::All));
-      EXPECT_LT(least, wish.radius - ContourOffset::kGouge / 2) << seed << " element " << tag;
+          minimum =
+              std::min(minimum, nearest_to(point_on(piece.curve, i / (6.0 * kPoints)), piece, contour, Others::All));
+      EXPECT_LT(minimum, options.radius - ContourOffset::kGouge / 2) << seed << " element " << tag;
     }
   }
   EXPECT_GT(clean, static_cast<int>(support::often(20)));
-  EXPECT_GT(told, static_cast<int>(support::often(20)));
+  EXPECT_GT(reported, static_cast<int>(support::often(20)));
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ Vec3 point(const Helix& helix, double part) {
   return helix.center + std::cos(angle) * helix.out + std::sin(angle) * helix.side + part * helix.rise;
 }
 
-TEST(Helix, RunsTheWayOfItsSweep) {
+TEST(Helix, RunsInTheDirectionOfItsSweep) {
   const Vec3 from(10, 0, 0);
   const Vec3 to(0, 10, 4);
   const Helix quarter = helix(from, to, Vec3::Zero(), Vec3::UnitZ(), 90);
@@ -41,8 +41,8 @@ TEST(Helix, JoinsItsEndsWithinItsExtents) {
     for (int step = 0; step <= kSteps; ++step)
       for (int axis = 0; axis < 3; ++axis) {
         const double value = point(found, static_cast<double>(step) / kSteps)[axis];
-        ASSERT_GE(value, extents[static_cast<std::size_t>(axis)].least - 1e-9);
-        ASSERT_LE(value, extents[static_cast<std::size_t>(axis)].most + 1e-9);
+        ASSERT_GE(value, extents[static_cast<std::size_t>(axis)].minimum - 1e-9);
+        ASSERT_LE(value, extents[static_cast<std::size_t>(axis)].maximum + 1e-9);
       }
   }
 }

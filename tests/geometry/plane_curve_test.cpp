@@ -93,21 +93,21 @@ PlaneCurve random_curve(support::Random& random) {
 }
 
 /// Against the nearest of many points on both.
-TEST(PlaneCurveProperty, ApproachIsTheLeastDistanceOfAllPoints) {
+TEST(PlaneCurveProperty, ApproachIsTheMinimumDistanceOfAllPoints) {
   constexpr int kPoints = 60;
   for (const std::uint64_t seed : support::seeds(100)) {
     support::Random random(seed);
     const PlaneCurve first = random_curve(random);
     const PlaneCurve second = random_curve(random);
-    double least = 1e9;
+    double minimum = 1e9;
     for (int i = 0; i <= kPoints; ++i)
       for (int j = 0; j <= kPoints; ++j)
-        least = std::min(least, (point_on(first, 1.0 * i / kPoints) - point_on(second, 1.0 * j / kPoints)).norm());
+        minimum = std::min(minimum, (point_on(first, 1.0 * i / kPoints) - point_on(second, 1.0 * j / kPoints)).norm());
     const double coarse = (first.length() + second.length()) / kPoints;
     const Approach nearest = approach(first, second);
     const double found = nearest.distance();
-    EXPECT_LE(found, least + 1e-9) << seed;
-    EXPECT_GE(found, least - coarse) << seed;
+    EXPECT_LE(found, minimum + 1e-9) << seed;
+    EXPECT_GE(found, minimum - coarse) << seed;
     EXPECT_NEAR(approach(second, first).distance(), found, 1e-9) << seed;
     EXPECT_NEAR(support::distance_from(nearest.on_first, first), 0, 1e-6) << seed;
     EXPECT_NEAR(support::distance_from(nearest.on_second, second), 0, 1e-6) << seed;

@@ -15,24 +15,24 @@ using std::numbers::pi;
 
 TEST(WaveRange, OfAFullTurnIsTheAmplitude) {
   const Range range = wave_range(3, 4, 0, 2 * pi);
-  EXPECT_NEAR(range.least, -5, 1e-12);
-  EXPECT_NEAR(range.most, 5, 1e-12);
+  EXPECT_NEAR(range.minimum, -5, 1e-12);
+  EXPECT_NEAR(range.maximum, 5, 1e-12);
 }
 
 TEST(WaveRange, OfAQuarterEndsWhereItEnds) {
   const Range range = wave_range(1, 0, 0, pi / 2);
-  EXPECT_NEAR(range.least, 0, 1e-12);
-  EXPECT_NEAR(range.most, 1, 1e-12);
+  EXPECT_NEAR(range.minimum, 0, 1e-12);
+  EXPECT_NEAR(range.maximum, 1, 1e-12);
 }
 
 TEST(WaveRange, OfNoWaveIsItsSlope) {
   const Range range = wave_range(0, 0, -2, 3);
-  EXPECT_NEAR(range.least, -6, 1e-12);
-  EXPECT_NEAR(range.most, 0, 1e-12);
+  EXPECT_NEAR(range.minimum, -6, 1e-12);
+  EXPECT_NEAR(range.maximum, 0, 1e-12);
 }
 
 /// Beside a dense walk along the curve.
-TEST(WaveRange, HoldsAllThatIsOnTheWayAndNoMore) {
+TEST(WaveRange, HoldsThePathAndNoMore) {
   support::Random random(7);
   for (int i = 0; i < 2'000; ++i) {
     const auto any = [&] { return random.between(-1'000, 1'000) / 100.0; };
@@ -42,18 +42,18 @@ TEST(WaveRange, HoldsAllThatIsOnTheWayAndNoMore) {
     const double end = random.between(0, 1'000) / 1'000.0 * 2 * pi;
     const Range range = wave_range(p, q, slope, end);
     constexpr int kSteps = 4'000;
-    double least = p;
-    double most = p;
+    double minimum = p;
+    double maximum = p;
     for (int step = 0; step <= kSteps; ++step) {
       const double t = end * step / kSteps;
       const double value = p * std::cos(t) + q * std::sin(t) + slope * t;
-      least = std::min(least, value);
-      most = std::max(most, value);
+      minimum = std::min(minimum, value);
+      maximum = std::max(maximum, value);
     }
-    ASSERT_NEAR(range.least, least, 1e-4) << p << ' ' << q << ' ' << slope << ' ' << end;
-    ASSERT_NEAR(range.most, most, 1e-4) << p << ' ' << q << ' ' << slope << ' ' << end;
-    ASSERT_LE(range.least, least + 1e-12);
-    ASSERT_GE(range.most, most - 1e-12);
+    ASSERT_NEAR(range.minimum, minimum, 1e-4) << p << ' ' << q << ' ' << slope << ' ' << end;
+    ASSERT_NEAR(range.maximum, maximum, 1e-4) << p << ' ' << q << ' ' << slope << ' ' << end;
+    ASSERT_LE(range.minimum, minimum + 1e-12);
+    ASSERT_GE(range.maximum, maximum - 1e-12);
   }
 }
 

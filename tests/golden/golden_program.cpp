@@ -63,7 +63,7 @@ static void read_directive(Part& part, const std::string& what, const std::strin
   } else if (key == "travel") {
     std::string axis;
     execution::Travel travel;
-    words >> axis >> travel.least >> travel.most;
+    words >> axis >> travel.minimum >> travel.maximum;
     part.setup.limits.travel.at(std::string("XYZBC").find(axis)) = travel;
   } else if (key == "most-feed") {
     words >> part.setup.limits.feed;

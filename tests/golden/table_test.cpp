@@ -49,7 +49,7 @@ Report reported_in(std::string_view program, const DiagnosticDef& def) {
 }
 
 /// What isorun would tell, with a cutter of 10 mm radius.
-std::string told_in_run_of(std::string_view program) {
+std::string warnings_of_run(std::string_view program) {
   simulation::TimedMachine machine;
   machine.tool_radii[{1, 1, 1}] = 10;
   std::string codes;
@@ -83,8 +83,8 @@ TEST_P(Table, WrongProgramHasThisOneFindingAtItsMark) {
   if (def.wrong.empty()) GTEST_SKIP() << "cannot be shown in a few lines";
   const MarkedProgram wrong = read_marked(def.wrong);
   ASSERT_TRUE(wrong.has_mark);
-  if (def.is_told_by_runs) {
-    EXPECT_EQ(told_in_run_of(wrong.text), std::string(def.code) + "@" + std::to_string(wrong.line + 1) + " ")
+  if (def.is_reported_by_runs) {
+    EXPECT_EQ(warnings_of_run(wrong.text), std::string(def.code) + "@" + std::to_string(wrong.line + 1) + " ")
         << wrong.text;
     return;
   }
@@ -100,8 +100,8 @@ TEST_P(Table, RightProgramHasNone) {
   const DiagnosticDef& def = GetParam();
   const std::string_view right = def.right.empty() ? "M02\n" : def.right;
   EXPECT_EQ(codes_of(reported_in(right, def)), "") << right;
-  if (def.is_told_by_runs) {
-    EXPECT_EQ(told_in_run_of(right), "") << right;
+  if (def.is_reported_by_runs) {
+    EXPECT_EQ(warnings_of_run(right), "") << right;
   }
 }
 

@@ -10,7 +10,7 @@ namespace {
 constexpr const char* kUri = "file:///nowhere/part.iso";
 const Json kParams = {{"textDocument", {{"uri", kUri}}}};
 
-TEST(CodeLens, TellsTheTimeAndPathOfEachToolSection) {
+TEST(CodeLens, ShowsTheTimeAndPathOfEachToolSection) {
   Session session;
   session.start();
   session.open(kUri, "M06 T101001\nG01 X1000 F1000\nM06 T101002\nG01 X0\nX1000\nM02\n");

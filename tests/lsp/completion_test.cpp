@@ -162,7 +162,7 @@ TEST(Completion, KnowsTheMachinesToolsAndFunctions) {
 }
 
 /// The assignment that is the nearest above tells more than any other.
-TEST(Completion, TellsWhereARegisterIsAssigned) {
+TEST(Completion, ShowsWhereARegisterIsAssigned) {
   Session session;
   session.start(Json::object(), {{"locale", "en"}});
   const Json registers = list(session, SelectedProgram("V1=1\nV1=2\nIF V[!!]\nV1=3\nV2=4\nV2=5\nM02\n"));

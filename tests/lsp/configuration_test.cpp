@@ -27,19 +27,19 @@ class ConfigurationFile : public testing::Test {
   void start() { session_.start(Json::object(), {{"locale", "en"}}); }
 
   /// The next diagnostics of this document: `LINE:COLUMN-COLUMN MESSAGE`, all from 0.
-  std::vector<std::string> told_of(const std::string& name) {
+  std::vector<std::string> reported_for(const std::string& name) {
     const Json published = session_.wait_for([&](const Json& message) {
       return message.value("method", "") == "textDocument/publishDiagnostics" && message["params"]["uri"] == uri(name);
     });
-    std::vector<std::string> told;
+    std::vector<std::string> reported;
     for (const Json& each : published["params"]["diagnostics"]) {
       const Json& range = each["range"];
       EXPECT_EQ(range["start"]["line"], range["end"]["line"]);
-      told.push_back(fmt::format("{}:{}-{} {}", range["start"]["line"].get<int>(),
-                                 range["start"]["character"].get<int>(), range["end"]["character"].get<int>(),
-                                 each["message"].get<std::string>()));
+      reported.push_back(fmt::format("{}:{}-{} {}", range["start"]["line"].get<int>(),
+                                     range["start"]["character"].get<int>(), range["end"]["character"].get<int>(),
+                                     each["message"].get<std::string>()));
     }
-    return told;
+    return reported;
   }
 
   const commands::TemporaryFolder temporary_;
@@ -51,7 +51,7 @@ class ConfigurationFile : public testing::Test {
 TEST_F(ConfigurationFile, MistakesAreMarkedWhileItIsTyped) {
   struct Case {
     std::string_view text;
-    std::string_view told;
+    std::string_view reported;
   };
   constexpr Case kCases[] = {
       {R"({"language": "de"})", "0:13-17 language: de is none of en, it"},
@@ -68,17 +68,17 @@ TEST_F(ConfigurationFile, MistakesAreMarkedWhileItIsTyped) {
   int version = 1;
   for (const Case& each : kCases) {
     session_.open(uri("isocnc.json"), std::string(each.text), version++);
-    EXPECT_THAT(told_of("isocnc.json"), ElementsAre(each.told)) << each.text;
+    EXPECT_THAT(reported_for("isocnc.json"), ElementsAre(each.reported)) << each.text;
     session_.close(uri("isocnc.json"));
-    told_of("isocnc.json");
+    reported_for("isocnc.json");
   }
 }
 
-TEST_F(ConfigurationFile, MistakesAreToldOfOnceForAllProgramsThatHaveIt) {
+TEST_F(ConfigurationFile, MistakesAreReportedOnceForAllItsPrograms) {
   write("isocnc.json", "{\n\"language\": 7}");
   start();
   session_.open(uri("a.iso"), "M02\n");
-  EXPECT_THAT(told_of("isocnc.json"), ElementsAre("1:12-13 language: this is a number; text is wanted"));
+  EXPECT_THAT(reported_for("isocnc.json"), ElementsAre("1:12-13 language: this is a number; text is wanted"));
   session_.open(uri("b.iso"), "M02\n");
   session_.diagnostics(uri("b.iso"), 1);
   EXPECT_FALSE(session_.has([&](const Json& message) {
@@ -88,18 +88,18 @@ TEST_F(ConfigurationFile, MistakesAreToldOfOnceForAllProgramsThatHaveIt) {
 
   write("isocnc.json", R"({"language": "it"})");
   session_.notify("textDocument/didSave", {{"textDocument", {{"uri", uri("isocnc.json")}}}});
-  EXPECT_THAT(told_of("isocnc.json"), testing::IsEmpty());
+  EXPECT_THAT(reported_for("isocnc.json"), testing::IsEmpty());
 }
 
-TEST_F(ConfigurationFile, ThatIsNoTextIsTold) {
+TEST_F(ConfigurationFile, ThatIsNoTextIsReported) {
   write("isocnc.json", std::string_view("\xEF\xBB\xBF{}"));
   start();
   session_.open(uri("a.iso"), "M02\n");
-  EXPECT_THAT(told_of("isocnc.json"), ElementsAre(HasSubstr("byte-order mark")));
+  EXPECT_THAT(reported_for("isocnc.json"), ElementsAre(HasSubstr("byte-order mark")));
   write("isocnc.json", std::string(2000, '\0'));
   session_.notify("textDocument/didSave", {{"textDocument", {{"uri", uri("isocnc.json")}}}});
-  told_of("isocnc.json");  // Taken back.
-  EXPECT_THAT(told_of("isocnc.json"), ElementsAre(HasSubstr("binary")));
+  reported_for("isocnc.json");  // Taken back.
+  EXPECT_THAT(reported_for("isocnc.json"), ElementsAre(HasSubstr("binary")));
 }
 
 constexpr const char* kMachine = R"({"machine": {
@@ -128,7 +128,7 @@ TEST_F(ConfigurationFile, NamesToolsAndFunctions) {
 }
 
 /// Where the numbers cannot be made anew, all else is written as it should be.
-TEST_F(ConfigurationFile, TellsHowProgramsAreFormatted) {
+TEST_F(ConfigurationFile, SetsHowProgramsAreFormatted) {
   write("isocnc.json", R"({"format": {"renumber": {"start": 100, "step": 10}}})");
   start();
   const auto formatted = [&](const std::string& name, const std::string& text) {

@@ -191,10 +191,10 @@ constexpr std::uint64_t kSequences = ISOCNC_RUNS_FAST ? 2000 : 120;
 
 TEST_P(EditingProperty, EditedEqualsOpenedAfresh) {
   for (std::uint64_t seed = GetParam(); seed <= kSequences; seed += kShares) {
-    Typist typist(seed, seed % 10 == 0 ? 600 : 25);
-    typist.type(12);
-    ASSERT_EQ(without_name(typist.known()), without_name(typist.known_afresh())) << "seed " << seed;
-    typist.expect_answers();
+    Typist editor(seed, seed % 10 == 0 ? 600 : 25);
+    editor.type(12);
+    ASSERT_EQ(without_name(editor.known()), without_name(editor.known_afresh())) << "seed " << seed;
+    editor.expect_answers();
     if (testing::Test::HasFailure()) FAIL() << "seed " << seed;
   }
 }

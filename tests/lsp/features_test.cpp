@@ -40,7 +40,7 @@ constexpr const char* kProgram =
     "G01 G40 X7\n"
     "M02\n";
 
-TEST(Hover, TellsOfEachWordWhatItMeansWhereItStands) {
+TEST(Hover, ExplainsEachWordWhereItStands) {
   EXPECT_THAT(hover(kProgram, 0, 0), HasSubstr("tool change"));
   EXPECT_THAT(hover(kProgram, 0, 5), HasSubstr("head 1, holder 1, tool 1"));
   EXPECT_THAT(hover(kProgram, 1, 1), HasSubstr("I.3.2"));
@@ -59,14 +59,14 @@ TEST(Hover, TellsOfEachWordWhatItMeansWhereItStands) {
 }
 
 /// So many that no report of all of them is made.
-TEST(Hover, TellsOfTheFindingsOfALineAmongThousands) {
+TEST(Hover, ShowsTheFindingsOfALineAmongThousands) {
   std::string text = "M06 T101001\nG00 X1\n";
   for (int i = 0; i < 6'000; ++i) text += "X1 X2\n";
   EXPECT_THAT(hover(text, 4'000, 4), HasSubstr("ISO016"));
   EXPECT_THAT(hover(text, 1, 5), testing::Not(HasSubstr("ISO016")));
 }
 
-TEST(Hover, TellsOfJumpsAndOfWhatTheyCompare) {
+TEST(Hover, ExplainsJumpsAndWhatTheyCompare) {
   const char* const kJumps = "IF VGPL >= 2 GOTO N9\nIF V3 <> -1 GOTO N9\nV3=2.5\nN9 M02\n";
   EXPECT_THAT(hover(kJumps, 0, 0), HasSubstr("**IF** jumps down"));
   EXPECT_THAT(hover(kJumps, 0, 4), HasSubstr("**VGPL** variable that the machine's own program sets"));
@@ -78,7 +78,7 @@ TEST(Hover, TellsOfJumpsAndOfWhatTheyCompare) {
   EXPECT_THAT(hover(kJumps, 0, 19), HasSubstr("jumps to it: lines 1, 2"));
 }
 
-TEST(Hover, TellsHowLongALineTakes) {
+TEST(Hover, ShowsHowLongALineTakes) {
   const char* const kTimed = "M06 T101001\nM03 S1000\nG00 X3000 Y10\nG04 P1.5\nG93 G01 X0 F30\nG94 G01 F0 X5\nM02\n";
   EXPECT_THAT(hover(kTimed, 0, 0), HasSubstr("takes 8 s"));
   EXPECT_THAT(hover(kTimed, 1, 0), HasSubstr("takes 2 s where it changes"));
@@ -88,13 +88,13 @@ TEST(Hover, TellsHowLongALineTakes) {
 }
 
 /// The pivot of the default machine's head is 180 mm: B90 swings the tip through a good part of a quarter turn.
-TEST(Hover, TellsTheLengthThatTheTipIsSwung) {
+TEST(Hover, ShowsTheLengthThatTheTipIsSwung) {
   const char* const kSwings = "M06 T101001\nG00 X10 B90\nB0\nM02\n";
   EXPECT_THAT(hover(kSwings, 2, 0), testing::Not(HasSubstr("length 0 mm")));
   EXPECT_THAT(hover("M06 T101001\nG00 X10 B90\nX30\nM02\n", 2, 0), HasSubstr("length 20 mm"));
 }
 
-TEST(Hover, TellsWhatAllWaysToALineAgreeOn) {
+TEST(Hover, ShowsWhatAllPathsToALineAgreeOn) {
   const std::string program =
       "M06 T101001\nG00 X10 Y5 Z50\nIF VGPL = 1 GOTO N5\nX20\nN5 G00 Y8\nG00 X0 Z40\nG91 G00 X1\nM02\n";
   EXPECT_THAT(hover(program, 1, 5), testing::Not(HasSubstr("?")));
@@ -112,9 +112,9 @@ TEST(Hover, IsPlainForEditorsThatShowPlainTextAlone) {
     session.open(kUri, "IF VGPL = 1 GOTO N5\nN5 M02\n");
     return session.request("textDocument/hover", at(0, 17))["contents"];
   };
-  const std::string told = " target of a jump\n\njump to it: line 1";
-  EXPECT_EQ(contents({"plaintext"}), Json({{"kind", "plaintext"}, {"value", "N5" + told}}));
-  EXPECT_EQ(contents({"plaintext", "markdown"}), Json({{"kind", "markdown"}, {"value", "**N5**" + told}}));
+  const std::string ending = " target of a jump\n\njump to it: line 1";
+  EXPECT_EQ(contents({"plaintext"}), Json({{"kind", "plaintext"}, {"value", "N5" + ending}}));
+  EXPECT_EQ(contents({"plaintext", "markdown"}), Json({{"kind", "markdown"}, {"value", "**N5**" + ending}}));
 }
 
 /// An editor fetches the images that a text names.
@@ -233,7 +233,7 @@ TEST(InlineValues, AreRegistersAndVgplUpToWhereTheProgramStands) {
 }
 
 /// The jumps that lead to what is wrong.
-TEST(Diagnostics, TellThePathToWhatIsWrong) {
+TEST(Diagnostics, ReportThePathToWhatIsWrong) {
   Session session;
   session.start({{"textDocument", {{"publishDiagnostics", {{"relatedInformation", true}}}}}}, {{"locale", "en"}});
   session.open(kUri, "M06 T101001\nG00 X0\nIF VGPL > 1 GOTO N5\nG01 X2 F500\nN5 G01 X1\nM02\n");
@@ -285,7 +285,7 @@ TEST(Diagnostics, FollowCommentsThatSilenceThem) {
 }
 
 /// Behind the last line is its end, which may be that of the first line.
-TEST(Diagnostics, TakeNoOffenceAtAByteOrderMarkThatComesBehindTheLastLine) {
+TEST(Diagnostics, AcceptAByteOrderMarkAfterTheLastLine) {
   Session session;
   session.start();
   session.open(kUri, "");

@@ -20,17 +20,17 @@ using Accepted = std::variant<int, std::error_code>;
 /// Waits for a client on a port that is free, beside what the test does.
 class Listener {
  public:
-  Listener() : port_(told_.get_future().get()) {}
+  Listener() : port_(port_promise_.get_future().get()) {}
 
   std::uint16_t port() const { return port_; }
   Accepted accepted() { return accepted_.get(); }
 
  private:
   Accepted accept() {
-    return accept_on_loopback(0, [this](std::uint16_t port) { told_.set_value(port); });
+    return accept_on_loopback(0, [this](std::uint16_t port) { port_promise_.set_value(port); });
   }
 
-  std::promise<std::uint16_t> told_;
+  std::promise<std::uint16_t> port_promise_;
   std::future<Accepted> accepted_ = std::async(std::launch::async, &Listener::accept, this);
   std::uint16_t port_;
 };

@@ -16,7 +16,7 @@ namespace isocnc::lsp {
 struct MarkedProgram {
   std::string text;
   rpc::Json cursor;  ///< As the protocol writes it: {"line", "character"}.
-  std::vector<rpc::Json> stretches;
+  std::vector<rpc::Json> marked_ranges;
 
   MarkedProgram(std::string_view marked, documents::Encoding encoding) {
     rpc::Json begin;
@@ -32,7 +32,7 @@ struct MarkedProgram {
       } else if (c == '[') {
         begin = here();
       } else if (c == ']') {
-        stretches.push_back({{"start", begin}, {"end", here()}});
+        marked_ranges.push_back({{"start", begin}, {"end", here()}});
       } else {
         text += c;
         if (c != '\n') continue;

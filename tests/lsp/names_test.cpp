@@ -42,7 +42,7 @@ void expect_marked(const std::string& method, const std::vector<const char*>& pr
     for (const Encoding encoding : kEncodings) {
       const MarkedProgram program(marked, encoding);
       const Json response = ask(program, method, encoding, more.is_null() ? Json::object() : more);
-      EXPECT_THAT(ranges_in(response), testing::ElementsAreArray(program.stretches)) << marked;
+      EXPECT_THAT(ranges_in(response), testing::ElementsAreArray(program.marked_ranges)) << marked;
     }
 }
 
@@ -96,7 +96,7 @@ TEST(References, AreTheOtherPlaces) {
                 {{"context", {{"includeDeclaration", true}}}});
 }
 
-TEST(Highlights, MarkEachPlaceAndTellWhereItIsDefined) {
+TEST(Highlights, MarkEachPlaceAndShowTheDefinition) {
   expect_marked("textDocument/documentHighlight", {
                                                       "IF VGPL = 1 GOTO [N3|0]\n(😀) [N30] M02\n",
                                                       "[V1]=2 (😀) [V|1]=3\nIF [V1] = 1 GOTO N30\nN30 M02\n",
@@ -166,7 +166,7 @@ TEST(Rename, IsPreparedWhereThereIsAName) {
   for (const Encoding encoding : kEncodings) {
     const MarkedProgram program("(😀) IF VGPL = 1 GOTO [N0|30]\nN30 M02\n", encoding);
     const Json result = ask(program, "textDocument/prepareRename", encoding)["result"];
-    EXPECT_EQ(result["range"], program.stretches[0]);
+    EXPECT_EQ(result["range"], program.marked_ranges[0]);
     EXPECT_EQ(result["placeholder"], "N30");
   }
   const MarkedProgram elsewhere("G00 X|1\n", Encoding::Utf16);
@@ -186,7 +186,7 @@ TEST(LinkedEditing, LinksNumbersThatAreWrittenAlike) {
   for (const Encoding encoding : kEncodings) {
     const MarkedProgram program("(😀) IF VGPL = 1 GOTO N[30]\nN [3|0] M02\n", encoding);
     const Json result = ask(program, "textDocument/linkedEditingRange", encoding)["result"];
-    EXPECT_THAT(result["ranges"], testing::ElementsAreArray(program.stretches));
+    EXPECT_THAT(result["ranges"], testing::ElementsAreArray(program.marked_ranges));
   }
   for (const char* const unlinked : {"IF VGPL = 1 GOTO N030\nN3|0 M02\n", "N10 G00 X1\nN1|0 M02\n", "V|1=2\nM02\n"}) {
     const MarkedProgram program(unlinked, Encoding::Utf16);

@@ -101,7 +101,7 @@ TEST(DocumentSymbols, PointAtWhatMakesThem) {
     session.start(capabilities);
     session.open(kUri, program.text);
     const Json symbols = session.request("textDocument/documentSymbol", document_params());
-    EXPECT_EQ(symbols[0]["selectionRange"], program.stretches[0]);
+    EXPECT_EQ(symbols[0]["selectionRange"], program.marked_ranges[0]);
   }
 }
 

@@ -121,7 +121,7 @@ TEST(Lifecycle, TheClientsFirstKnownEncodingIsTaken) {
 }
 
 /// Takes what is told of one work from its begin to its end: its token.
-Json told_work(Session& session, const std::string& title) {
+Json reported_work(Session& session, const std::string& title) {
   const Json token = session.wait_for("window/workDoneProgress/create")["params"]["token"];
   const Json begin = session.wait_for("$/progress")["params"];
   EXPECT_EQ(begin["token"], token);
@@ -133,17 +133,17 @@ Json told_work(Session& session, const std::string& title) {
   return token;
 }
 
-TEST(Progress, IsToldWhileALongProgramIsOpenedOrRun) {
+TEST(Progress, IsReportedWhileALongProgramIsOpenedOrRun) {
   Session session;
   session.start({{"window", {{"workDoneProgress", true}}}});
   std::string text;
   while (text.size() < (16u << 20))
     text += "(a long comment, so that few lines make a long program: 0123456789012345678901234567890123456789)\n";
   session.open(kUri, text);
-  std::set<Json> tokens{told_work(session, "opening part.iso")};
+  std::set<Json> tokens{reported_work(session, "opening part.iso")};
   for (int i = 0; i < 2; ++i) {
     session.request("isocnc/toolpath", {{"textDocument", {{"uri", kUri}}}});
-    tokens.insert(told_work(session, "running part.iso"));
+    tokens.insert(reported_work(session, "running part.iso"));
   }
   EXPECT_EQ(tokens.size(), 3u);
   session.open("file:///nowhere/short.iso", "M02\n");

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "client_text.h"
-#include "lsp/documents/open_document.h"
+#include "lsp/documents/analyzed_document.h"
 #include "lsp/documents/settings_store.h"
 #include "lsp/documents/snapshot.h"
 #include "lsp/features/feature.h"
@@ -93,7 +93,7 @@ const std::pair<const char*, const char*> kDrawn[] = {
     {"", ""},
 };
 
-TEST(SemanticTokens, TellWhatEachWordIs) {
+TEST(SemanticTokens, DescribeEachWord) {
   for (const auto& [program, drawing] : kDrawn)
     for (const Encoding encoding : kEncodings) {
       Reading reading(program, encoding);
@@ -153,9 +153,9 @@ TEST(SemanticTokens, ComeAsChangesThatGiveTheSameAsAfresh) {
   for (const std::uint64_t seed : support::seeds(30)) {
     support::Random random(seed);
     support::RandomProgram program(random);
-    const auto text = [&](int most) {
+    const auto text = [&](int maximum) {
       std::string all;
-      for (const std::string& line : program.lines(random.between(0, most))) all += message_text(line) + "\n";
+      for (const std::string& line : program.lines(random.between(0, maximum))) all += message_text(line) + "\n";
       return all;
     };
     Session session;
@@ -192,7 +192,7 @@ TEST(SemanticTokens, OfOneChangedLineAreFew) {
   EXPECT_LT(client.received, 30'000u);
 }
 
-TEST(InlayHints, TellWhereIncrementalMotionsEndAndWhatIsInForce) {
+TEST(InlayHints, ShowWhereIncrementalMotionsEndAndWhatIsInForce) {
   const std::pair<const char*, const char*> kCases[] = {
       {"M06 T101001\nG90 G00 X10 Y20\nG91 G01 X5 F100\n(😀) X5.25 Y-1\nG90\nX1\nM02\n",
        "M06 T101001{0:00:00}\nG90 G00 X10 Y20\nG91 G01 X5{→ X15} F100\n(😀) {G01}X5.25 Y-1{→ X20.25 "

@@ -88,23 +88,23 @@ class RandomPart {
   Random& random_;
 };
 
-struct Deeds {
+struct RecordedRun {
   std::vector<MachineMove> moves;
   std::vector<std::string> others;  // In their order, with how many moves came before.
 };
 
-Deeds run(const std::string& text, double vgpl) {
-  Deeds deeds;
+RecordedRun run(const std::string& text, double vgpl) {
+  RecordedRun recorded;
   const running::RunOptions options{.vgpl = vgpl};
   const auto result = running::run(text, options, [&](const Event& event) {
     if (const auto* const move = std::get_if<running::MoveEvent>(&event.what)) {
-      deeds.moves.push_back(*move);
+      recorded.moves.push_back(*move);
     } else {
-      deeds.others.push_back(fmt::format("{} {}", deeds.moves.size(), running::kind_of(event)));
+      recorded.others.push_back(fmt::format("{} {}", recorded.moves.size(), running::kind_of(event)));
     }
   });
-  deeds.others.push_back(fmt::format("ending {}", static_cast<int>(result.ending)));
-  return deeds;
+  recorded.others.push_back(fmt::format("ending {}", static_cast<int>(result.ending)));
+  return recorded;
 }
 
 /// Of an arc's way. The center of a flat arc may be a little elsewhere where the way is not.
@@ -117,12 +117,12 @@ geometry::Vec3 middle(const MachineMove& arc) {
 /// How far two motions are apart, mm and degrees; feeds in parts of them.
 double difference(const MachineMove& a, const MachineMove& b) {
   if (a.kind != b.kind || a.inverse_time != b.inverse_time || a.five_axis != b.five_axis) return 1e9;
-  double most = std::abs(a.feed - b.feed) / std::max(1.0, a.feed);
+  double maximum = std::abs(a.feed - b.feed) / std::max(1.0, a.feed);
   for (const auto& [p, q] : {std::pair(a.from, b.from), std::pair(a.to, b.to)})
-    most = std::max({most, (p.tip - q.tip).norm(), std::abs(p.b - q.b), std::abs(p.c - q.c)});
-  if (a.kind != execution::MoveKind::Arc) return most;
+    maximum = std::max({maximum, (p.tip - q.tip).norm(), std::abs(p.b - q.b), std::abs(p.c - q.c)});
+  if (a.kind != execution::MoveKind::Arc) return maximum;
   return std::max(
-      {most, (middle(a) - middle(b)).norm(), std::abs(a.radius * a.sweep_deg - b.radius * b.sweep_deg) / 57});
+      {maximum, (middle(a) - middle(b)).norm(), std::abs(a.radius * a.sweep_deg - b.radius * b.sweep_deg) / 57});
 }
 
 /// A place at the start of a line, or somewhere on one.
@@ -154,14 +154,14 @@ TEST(RewritesProperty, TheMachineMovesAsItDid) {
       const std::string after = before.with(action["edit"]["changes"][kUri]);
       EXPECT_NE(after, text) << title;
       for (const double vgpl : {0.0, 1.0}) {
-        const Deeds old_deeds = run(text, vgpl);
-        const Deeds new_deeds = run(after, vgpl);
-        ASSERT_EQ(new_deeds.others, old_deeds.others) << "seed " << seed << ", " << title << '\n'
-                                                      << text << "---\n"
-                                                      << after;
-        ASSERT_EQ(new_deeds.moves.size(), old_deeds.moves.size()) << "seed " << seed << ", " << title << '\n' << after;
-        for (std::size_t i = 0; i < old_deeds.moves.size(); ++i)
-          ASSERT_LE(difference(old_deeds.moves[i], new_deeds.moves[i]), 3 * fixing::kSameArc)
+        const RecordedRun old_run = run(text, vgpl);
+        const RecordedRun new_run = run(after, vgpl);
+        ASSERT_EQ(new_run.others, old_run.others) << "seed " << seed << ", " << title << '\n'
+                                                  << text << "---\n"
+                                                  << after;
+        ASSERT_EQ(new_run.moves.size(), old_run.moves.size()) << "seed " << seed << ", " << title << '\n' << after;
+        for (std::size_t i = 0; i < old_run.moves.size(); ++i)
+          ASSERT_LE(difference(old_run.moves[i], new_run.moves[i]), 3 * fixing::kSameArc)
               << "seed " << seed << ", " << title << ", move " << i << '\n'
               << text << "---\n"
               << after;

@@ -170,7 +170,7 @@ TEST(Strand, DoesItsTasksInTheirOrderBesideOthers) {
 }
 
 /// What a task that never comes holds may hold the strand itself.
-TEST(Strand, IsGoneWithAPoolThatHasNotComeToIt) {
+TEST(Strand, IsDestroyedWithAPoolThatHasNotRunIt) {
   struct Owner {
     explicit Owner(Pool& pool) : strand(pool) {}
     Strand strand;

@@ -43,7 +43,7 @@ constexpr Case kCases[] = {
     {"T101001[!!]\n", nullptr, ""},
 };
 
-TEST(SignatureHelp, TellsTheArgumentsAndTheOneAtTheCursor) {
+TEST(SignatureHelp, ShowsTheArgumentsAndTheOneAtTheCursor) {
   Session session;
   session.start();
   for (const Case& each : kCases) {

@@ -34,20 +34,20 @@ struct Known {
   std::string streams[3];
 
   std::size_t take(const Json& answer) {
-    std::size_t told = 0;
+    std::size_t received = 0;
     id = answer["resultId"];
     facts = answer["facts"];
     for (std::size_t i = 0; i < 3; ++i) {
       const Json& stream = answer[kStreams[i]];
       const std::string data = decoded(stream["data"]);
-      told += data.size();
+      received += data.size();
       if (stream.contains("start")) {
         streams[i].replace(stream["start"], stream["removed"], data);
       } else {
         streams[i] = data;
       }
     }
-    return told;
+    return received;
   }
 };
 
@@ -63,7 +63,7 @@ std::string program(std::mt19937& random, int lines) {
   return text + "M05\nM02\n";
 }
 
-TEST(Toolpath, TellsWhatAnEditHasChanged) {
+TEST(Toolpath, SendsWhatAnEditHasChanged) {
   std::mt19937 random(1);
   Session session;
   session.start();

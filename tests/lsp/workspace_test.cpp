@@ -36,28 +36,28 @@ class Workspace : public testing::Test {
   std::map<std::string, std::string> pull() {
     Json previous = Json::array();
     for (const auto& [uri, id] : ids_) previous.push_back({{"uri", uri}, {"value", id}});
-    std::map<std::string, std::string> told;
+    std::map<std::string, std::string> reported;
     const Json result = session_.request("workspace/diagnostic", {{"previousResultIds", previous}});
     for (const Json& report : result["items"]) {
       const std::string uri = report["uri"];
       ids_[uri] = report["resultId"];
-      told[uri.substr(this->uri("").size())] =
+      reported[uri.substr(this->uri("").size())] =
           report["kind"] == "full" ? fmt::format("full {}", report["items"].size()) : report["kind"].get<std::string>();
     }
-    return told;
+    return reported;
   }
 
-  using Told = std::map<std::string, std::string>;
+  using Reported = std::map<std::string, std::string>;
   const commands::TemporaryFolder temporary_;
   const fs::path folder_ = fs::canonical(temporary_.path());
   std::map<std::string, std::string> ids_;
   Session session_;
 };
 
-TEST_F(Workspace, TellsOfProgramsThatAreNotOpen) {
+TEST_F(Workspace, ReportsProgramsThatAreNotOpen) {
   EXPECT_EQ(start()["capabilities"]["diagnosticProvider"]["workspaceDiagnostics"], true);
-  EXPECT_EQ(pull(), (Told{{"good.iso", "full 0"}, {"sub/bad.iso", "full 2"}}));
-  EXPECT_EQ(pull(), (Told{{"good.iso", "unchanged"}, {"sub/bad.iso", "unchanged"}}));
+  EXPECT_EQ(pull(), (Reported{{"good.iso", "full 0"}, {"sub/bad.iso", "full 2"}}));
+  EXPECT_EQ(pull(), (Reported{{"good.iso", "unchanged"}, {"sub/bad.iso", "unchanged"}}));
 }
 
 TEST_F(Workspace, SaysOfClosedProgramsWhatItSaysOfOpenOnes) {
@@ -70,7 +70,7 @@ TEST_F(Workspace, SaysOfClosedProgramsWhatItSaysOfOpenOnes) {
   EXPECT_EQ(open["resultId"], closed["resultId"]);
 }
 
-TEST_F(Workspace, AnswersOfATabWhoseFileIsNotOpen) {
+TEST_F(Workspace, AnswersForAFileThatIsNotOpen) {
   start();
   const auto pull_of = [&](const std::string& uri) {
     return session_.respond("textDocument/diagnostic", {{"textDocument", {{"uri", uri}}}});
@@ -115,7 +115,7 @@ TEST_F(Workspace, SeesAChangeThatIsOlderThanWhatItKnows) {
   const auto before = fs::last_write_time(folder_ / "sub/bad.iso");
   write("sub/bad.iso", "G00 X10  \nM02\n");  // As long as it was.
   fs::last_write_time(folder_ / "sub/bad.iso", before - std::chrono::hours(24));
-  EXPECT_EQ(pull(), (Told{{"good.iso", "unchanged"}, {"sub/bad.iso", "full 1"}}));
+  EXPECT_EQ(pull(), (Reported{{"good.iso", "unchanged"}, {"sub/bad.iso", "full 1"}}));
 }
 
 /// Whoever made the folder may have put symlinks there.
@@ -125,7 +125,7 @@ TEST_F(Workspace, IsNotLeftThroughSymlinks) {
   fs::create_directory_symlink(outside.path(), folder_ / "away");
   fs::create_symlink(fs::path(outside.path()) / "part.iso", folder_ / "link.iso");
   start();
-  EXPECT_EQ(pull(), (Told{{"good.iso", "full 0"}, {"sub/bad.iso", "full 2"}}));
+  EXPECT_EQ(pull(), (Reported{{"good.iso", "full 0"}, {"sub/bad.iso", "full 2"}}));
   for (const std::string name : {"away/part.iso", "link.iso", "away/../good.iso", "sub/bad.iso"}) {
     const Json document = {{"textDocument", {{"uri", uri(name)}}}};
     const Json response = session_.respond("textDocument/diagnostic", document);
@@ -148,38 +148,38 @@ TEST_F(Workspace, SeesWhatTheEditorAndOthersChange) {
   session_.open(uri("good.iso"), "G00 X10 Q\nM02\n");
   write("sub/bad.iso", "M02\n");
   write("new.nc", "M02\n");
-  EXPECT_EQ(pull(), (Told{{"good.iso", "full 2"}, {"sub/bad.iso", "full 0"}, {"new.nc", "full 0"}}));
+  EXPECT_EQ(pull(), (Reported{{"good.iso", "full 2"}, {"sub/bad.iso", "full 0"}, {"new.nc", "full 0"}}));
   session_.close(uri("good.iso"));
-  EXPECT_EQ(pull(), (Told{{"good.iso", "full 0"}, {"sub/bad.iso", "unchanged"}, {"new.nc", "unchanged"}}));
+  EXPECT_EQ(pull(), (Reported{{"good.iso", "full 0"}, {"sub/bad.iso", "unchanged"}, {"new.nc", "unchanged"}}));
 }
 
-TEST_F(Workspace, TakesAwayWhatWasToldOfProgramsThatAreGone) {
+TEST_F(Workspace, RemovesTheFindingsOfRemovedPrograms) {
   start();
   pull();
   fs::remove_all(folder_ / "sub");
-  EXPECT_EQ(pull(), (Told{{"good.iso", "unchanged"}, {"sub/bad.iso", "full 0"}}));
-  EXPECT_EQ(pull(), (Told{{"good.iso", "unchanged"}}));
+  EXPECT_EQ(pull(), (Reported{{"good.iso", "unchanged"}, {"sub/bad.iso", "full 0"}}));
+  EXPECT_EQ(pull(), (Reported{{"good.iso", "unchanged"}}));
 }
 
 TEST_F(Workspace, KeepsToTheConfiguration) {
   write("isocnc.json", R"({"lint": {"exclude": ["sub/"]}})");
   start();
-  EXPECT_EQ(pull(), (Told{{"good.iso", "full 0"}}));
+  EXPECT_EQ(pull(), (Reported{{"good.iso", "full 0"}}));
 }
 
 TEST_F(Workspace, ComesAndGoesByFolder) {
   start({{"workspaceFolders", nullptr}});
-  EXPECT_EQ(pull(), Told{});
+  EXPECT_EQ(pull(), Reported{});
   const Json folders = Json::array({{{"uri", documents::uri_of(folder_ / "sub")}, {"name", "sub"}}});
   session_.notify("workspace/didChangeWorkspaceFolders", {{"event", {{"added", folders}, {"removed", Json::array()}}}});
-  EXPECT_EQ(pull(), (Told{{"sub/bad.iso", "full 2"}}));
+  EXPECT_EQ(pull(), (Reported{{"sub/bad.iso", "full 2"}}));
   session_.notify("workspace/didChangeWorkspaceFolders", {{"event", {{"added", Json::array()}, {"removed", folders}}}});
-  EXPECT_EQ(pull(), (Told{{"sub/bad.iso", "full 0"}}));
+  EXPECT_EQ(pull(), (Reported{{"sub/bad.iso", "full 0"}}));
 }
 
 TEST_F(Workspace, OfOlderEditorsIsOneFolder) {
   session_.start(kPulls, {{"rootUri", documents::uri_of(folder_ / "sub")}});
-  EXPECT_EQ(pull(), (Told{{"sub/bad.iso", "full 2"}}));
+  EXPECT_EQ(pull(), (Reported{{"sub/bad.iso", "full 2"}}));
 }
 
 TEST_F(Workspace, AsksTheEditorToWatchTheConfigurationFiles) {
@@ -234,7 +234,7 @@ TEST_F(Workspace, FindsSymbolsInAllPrograms) {
   EXPECT_TRUE(session_.respond("workspace/symbol", {{"query", 7}}).contains("error"));
 }
 
-TEST_F(Workspace, TellsInPartsWhereTheEditorWantsItSo) {
+TEST_F(Workspace, ReportsInPartsWhereTheEditorAsksForIt) {
   start();
   pull();
   write("new.iso", "M02\n");
@@ -244,15 +244,15 @@ TEST_F(Workspace, TellsInPartsWhereTheEditorWantsItSo) {
   session_.open("untitled:a", "G00 X10 Q\nM02\n");
   const std::int64_t id =
       session_.ask("workspace/diagnostic", {{"previousResultIds", previous}, {"partialResultToken", "part"}});
-  Told told;
+  Reported reported;
   for (int i = 0; i < 3; ++i) {
     const Json progress = session_.wait_for("$/progress")["params"];
     EXPECT_EQ(progress["token"], "part");
     ASSERT_EQ(progress["value"]["items"].size(), 1u);
     const Json& report = progress["value"]["items"][0];
-    told[report["uri"]] = report["kind"];
+    reported[report["uri"]] = report["kind"];
   }
-  EXPECT_EQ(told, (Told{{"untitled:a", "full"}, {uri("new.iso"), "full"}, {uri("sub/bad.iso"), "unchanged"}}));
+  EXPECT_EQ(reported, (Reported{{"untitled:a", "full"}, {uri("new.iso"), "full"}, {uri("sub/bad.iso"), "unchanged"}}));
   const Json rest = session_.response_to(id)["result"]["items"];
   ASSERT_EQ(rest.size(), 1u) << rest;
   EXPECT_EQ(rest[0]["uri"], uri("good.iso"));

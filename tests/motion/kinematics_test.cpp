@@ -118,7 +118,7 @@ class RandomKinematics {
  public:
   explicit RandomKinematics(std::uint64_t seed) : random_(seed) {}
 
-  Vec3 offset(double most) { return {real(most), real(most), real(most)}; }
+  Vec3 offset(double maximum) { return {real(maximum), real(maximum), real(maximum)}; }
   Kinematics head() {
     return {.kind = MachineKind::Head,
             .pivot = random_.real(0, 300),
@@ -133,7 +133,7 @@ class RandomKinematics {
   double tool_length() { return random_.real(0, 200); }
 
  private:
-  double real(double most) { return random_.real(-most, most); }
+  double real(double maximum) { return random_.real(-maximum, maximum); }
 
   support::Random random_;
 };
@@ -202,9 +202,9 @@ TEST(Kinematics, TheLeverBoundsWhatTurningMoves) {
         more[axis] += kStep;
         const Vec3 moved = (inverse(kinematics, more, length) - inverse(kinematics, tip, length)).head<3>();
         const double by_radian = moved.norm() / (kStep * std::numbers::pi / 180);
-        const double most = lever(kinematics, tip.head<3>(), length);
-        EXPECT_LE(by_radian, most * (1 + 1e-6)) << seed << " axis " << axis;
-        if (kinematics.kind == MachineKind::Head) fullest = std::max(fullest, by_radian / most);
+        const double maximum = lever(kinematics, tip.head<3>(), length);
+        EXPECT_LE(by_radian, maximum * (1 + 1e-6)) << seed << " axis " << axis;
+        if (kinematics.kind == MachineKind::Head) fullest = std::max(fullest, by_radian / maximum);
       }
     }
   }

@@ -79,10 +79,10 @@ TEST_P(RandomMoves, KeepTheJerk) {
       double start = stretch.start;
       const auto check = [&](const Sample& sample, double duration) {
         for (int axis = 0; axis < kAxisCount; ++axis) {
-          const double most = *machine().axes[static_cast<std::size_t>(axis)].jerk;
+          const double maximum = *machine().axes[static_cast<std::size_t>(axis)].jerk;
           const double change = std::abs(sample.joint_accelerations[axis] - before.joint_accelerations[axis]);
-          ASSERT_LE(change, most * kRelative * duration + 1e-6) << axis << " move " << stretch.tag;
-          if (duration > 1e-4) fullest = std::max(fullest, change / duration / most);
+          ASSERT_LE(change, maximum * kRelative * duration + 1e-6) << axis << " move " << stretch.tag;
+          if (duration > 1e-4) fullest = std::max(fullest, change / duration / maximum);
         }
         before = sample;
       };

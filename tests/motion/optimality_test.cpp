@@ -61,9 +61,9 @@ TEST(Optimality, FastCirclesAreWithinAPercent) {
 TEST(Optimality, FastArcsLoseNoMoreThanIsSaid) {
   constexpr std::pair<double, double> kSweeps[] = {{360, 1.006}, {90, 1.007}, {45, 1.018}};
   for (const Machine& machine : {uniform_machine(10000, 2000), three_axis_router()})
-    for (const auto& [sweep, most] : kSweeps) {
+    for (const auto& [sweep, maximum] : kSweeps) {
       const double found = ratio(machine, {arc_xy({-20, 0, 0}, {0, 0, 0}, sweep, 0, speed(10000))}, 200);
-      EXPECT_LE(found, most) << sweep;
+      EXPECT_LE(found, maximum) << sweep;
       EXPECT_GE(found, 0.9999) << sweep;
     }
 }
@@ -106,9 +106,9 @@ TEST(Optimality, JerkLimitedCornersAndArcsLoseNoMoreThanIsSaid) {
         line({8, 8, 0}, {8, 60, 0}, speed(150))},
        1.16},
       {{arc_xy({-20, 0, 0}, {0, 0, 0}, 360, 0, speed(300))}, 1.42}};
-  for (const auto& [moves, most] : programs) {
+  for (const auto& [moves, maximum] : programs) {
     const double found = jerk_limited_ratio(machine, moves);
-    EXPECT_LE(found, most) << moves.size();
+    EXPECT_LE(found, maximum) << moves.size();
     EXPECT_GE(found, 0.97) << moves.size();
   }
 }

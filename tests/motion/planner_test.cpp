@@ -186,11 +186,11 @@ TEST(Planner, RotaryAxesAloneMoveInDegrees) {
     move.to.b = 40;
     move.controls_tool_point = false;
     move.feed = speed(10);
-    const double most = 500 / 0.8;  // B takes 4/5 of it.
+    const double maximum = 500 / 0.8;  // B takes 4/5 of it.
     if (machine.kinematics.kind == MachineKind::ThreeAxis) {
-      EXPECT_NEAR(time_of(machine, {move}), trapezoid(50, 10, most), 1e-12);
+      EXPECT_NEAR(time_of(machine, {move}), trapezoid(50, 10, maximum), 1e-12);
     } else {
-      EXPECT_NEAR(time_of(machine, {move}), trapezoid(50, 10, most), 0.05);
+      EXPECT_NEAR(time_of(machine, {move}), trapezoid(50, 10, maximum), 0.05);
     }
   }
 }
@@ -218,18 +218,18 @@ TEST(Planner, SplitArcsStayWithinTheChordTolerance) {
   machine.corner_tolerance = 0.001;
   Move arc = arc_xy(kOrigin, {30, 0, 0}, -180, 0, speed(50));
   arc.splits_arcs = true;
-  double least = 100;
-  double most = 0;
+  double minimum = 100;
+  double maximum = 0;
   for (const Stretch& stretch : plan(machine, {arc})) {
     ASSERT_EQ(stretch.path.kind, PathKind::Polynomial);
     const double middle =
         (stretch.at(machine.kinematics, stretch.start + stretch.duration / 2).tip.tip - arc.center).norm();
-    least = std::min(least, middle);
-    most = std::max(most, middle);
+    minimum = std::min(minimum, middle);
+    maximum = std::max(maximum, middle);
   }
-  EXPECT_NEAR(most, 30, 0.001);
-  EXPECT_LT(least, 30 - 0.01);
-  EXPECT_GE(least, 30 - 0.021);
+  EXPECT_NEAR(maximum, 30, 0.001);
+  EXPECT_LT(minimum, 30 - 0.01);
+  EXPECT_GE(minimum, 30 - 0.021);
 }
 
 TEST(Planner, AMoveThatGoesNowhereHasNoStretch) {
@@ -292,29 +292,29 @@ TEST_P(Reading, CopiesAndLateReadersGetTheSame) {
 INSTANTIATE_TEST_SUITE_P(Planner, Reading, testing::Values(head_router(), with_jerk(head_router(), 30000)));
 
 /// How many moves the planner holds back at most.
-std::size_t most_behind(const Machine& machine, double step, std::size_t count, Feed feed) {
+std::size_t max_lag(const Machine& machine, double step, std::size_t count, Feed feed) {
   Planner planner(machine);
   std::size_t out = 0;
-  std::size_t most = 0;
+  std::size_t maximum = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const double x = static_cast<double>(i) * step;
     planner.push(line({x, 0, 0}, {x + step, 0, 0}, feed));
     while (planner.next()) ++out;
-    most = std::max(most, i + 1 - out);
+    maximum = std::max(maximum, i + 1 - out);
   }
-  return most;
+  return maximum;
 }
 
-TEST(Planner, HoldsBackNoMoreThanTheWayToStop) {
+TEST(Planner, HoldsBackNoMoreThanTheStoppingDistance) {
   // 10 mm to stop from 200 mm/s.
-  EXPECT_LE(most_behind(uniform_machine(1000, 2000), 1, 20000, speed(200)), 300U);
-  EXPECT_LE(most_behind(uniform_machine(1000, 2000), 0.01, 20000, speed(200)), 2100U);
+  EXPECT_LE(max_lag(uniform_machine(1000, 2000), 1, 20000, speed(200)), 300U);
+  EXPECT_LE(max_lag(uniform_machine(1000, 2000), 0.01, 20000, speed(200)), 2100U);
 }
 
 /// Moves of a micron, faster than the machine can stop in all that is looked at: it goes slower, and within its limits.
 TEST(Planner, HoldsBackNoMoreThanItsWindow) {
   const Machine machine = uniform_machine(1000, 2000);
-  EXPECT_LE(most_behind(machine, 0.001, 60000, speed(500)), 16400U);
+  EXPECT_LE(max_lag(machine, 0.001, 60000, speed(500)), 16400U);
   std::vector<Move> moves;
   for (int i = 0; i < 60000; ++i) moves.push_back(line({i * 0.001, 0, 0}, {(i + 1) * 0.001, 0, 0}, speed(500)));
   double before = 0;
@@ -336,8 +336,8 @@ TEST(Planner, HoldsBackNoMoreThanItsWindow) {
 /// Half a window more, of all that the machine could go in it.
 TEST(Planner, HoldsBackNoMoreWhereJerkIsLimited) {
   const Machine machine = with_jerk(uniform_machine(1000, 2000), 40000);
-  EXPECT_LE(most_behind(machine, 1, 5000, speed(200)), 1500U);
-  EXPECT_LE(most_behind(machine, 0.01, 40000, speed(200)), 30000U);
+  EXPECT_LE(max_lag(machine, 1, 5000, speed(200)), 1500U);
+  EXPECT_LE(max_lag(machine, 0.01, 40000, speed(200)), 30000U);
 }
 
 /// A thread of ten thousand turns is cut as it is needed.
@@ -411,13 +411,13 @@ TEST(Planner, ALongHelixIsNotHeldAsAWhole) {
 /// 2 sqrt(v/j) where a is not reached, and v half of that.
 double s_curve(double length, double v, double a, double j) {
   const auto ramp = [&](double speed) { return speed >= a * a / j ? speed / a + a / j : 2 * std::sqrt(speed / j); };
-  double least = 0;
-  double most = v;
+  double minimum = 0;
+  double maximum = v;
   for (int i = 0; i < 100 && v * ramp(v) > length; ++i) {
-    const double middle = (least + most) / 2;
-    (middle * ramp(middle) > length ? most : least) = middle;
+    const double middle = (minimum + maximum) / 2;
+    (middle * ramp(middle) > length ? maximum : minimum) = middle;
   }
-  return length / most + ramp(most);
+  return length / maximum + ramp(maximum);
 }
 
 TEST(Planner, OneMoveIsAnSCurve) {
@@ -446,9 +446,9 @@ TEST(Planner, ACircleGoesAsFastAsItsJerkAllows) {
   double fastest = 0;
   for (const Stretch& stretch : plan(machine, {arc_xy({-5, 0, 0}, kOrigin, 3600, 0, speed(1000))}))
     fastest = std::max(fastest, stretch.at(machine.kinematics, stretch.start).speed);
-  const double most = std::cbrt(20000.0 * 25);
-  EXPECT_LE(fastest, most);
-  EXPECT_GE(fastest, most * std::cbrt(0.59));
+  const double maximum = std::cbrt(20000.0 * 25);
+  EXPECT_LE(fastest, maximum);
+  EXPECT_GE(fastest, maximum * std::cbrt(0.59));
 }
 
 /// An arc that leaves a line along its tangent is entered without a stop, through a curve that gathers the bend.

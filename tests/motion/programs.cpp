@@ -100,7 +100,7 @@ double distance(const Machine& machine, const Move& move, const Vec3& point) {
   constexpr int kGrid = 48;
   std::array<double, kGrid + 1> grid;
   for (std::size_t i = 0; i < grid.size(); ++i) grid[i] = off(static_cast<double>(i) / kGrid);
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const bool is_valley = (i == 0 || grid[i] <= grid[i - 1]) && (i == kGrid || grid[i] <= grid[i + 1]);
     if (!is_valley) continue;
@@ -114,9 +114,9 @@ double distance(const Machine& machine, const Move& move, const Vec3& point) {
         low += third;
       }
     }
-    least = std::min(least, off((low + high) / 2));
+    minimum = std::min(minimum, off((low + high) / 2));
   }
-  return least;
+  return minimum;
 }
 
 namespace {

@@ -58,17 +58,17 @@ class Optimization {
 
   double shortest_time() {
     const std::size_t count = intervals_.size();
-    std::vector<double> most(count + 1, 0);
+    std::vector<double> maximum(count + 1, 0);
     for (std::size_t i = count; i-- > 0;) {
       const Interval& interval = intervals_[i];
-      const double exit = std::min(interval.stops ? 0 : most[i + 1], interval.end.cap);
-      most[i] = farthest(interval, interval.end, interval.begin, exit, -1);
+      const double exit = std::min(interval.stops ? 0 : maximum[i + 1], interval.end.cap);
+      maximum[i] = farthest(interval, interval.end, interval.begin, exit, -1);
     }
     double time = 0;
     double entry = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const Interval& interval = intervals_[i];
-      const double limit = interval.stops || i + 1 == count ? 0 : most[i + 1];
+      const double limit = interval.stops || i + 1 == count ? 0 : maximum[i + 1];
       const double exit = std::min(limit, farthest(interval, interval.begin, interval.end, entry, 1));
       time += 2 * interval.length / (std::sqrt(entry) + std::sqrt(exit));
       entry = exit;
@@ -109,18 +109,18 @@ class Optimization {
   /// Most x at the other end of the interval, by bisection.
   double farthest(const Interval& interval, const Point& here, const Point& there, double x, int sense) const {
     if (interval.is_level) return std::min(x, there.cap);
-    double least = std::min(x, there.cap);
-    double most = std::min(there.cap, 1e12);
+    double minimum = std::min(x, there.cap);
+    double maximum = std::min(there.cap, 1e12);
     const auto fits = [&](double other) {
       const double a = sense * (other - x) / (2 * interval.length);
       return is_possible(here, x, a) && is_possible(there, other, a);
     };
-    if (fits(most)) return most;
+    if (fits(maximum)) return maximum;
     for (int i = 0; i < 60; ++i) {
-      const double middle = (least + most) / 2;
-      (fits(middle) ? least : most) = middle;
+      const double middle = (minimum + maximum) / 2;
+      (fits(middle) ? minimum : maximum) = middle;
     }
-    return least;
+    return minimum;
   }
 
   const Machine& machine_;

@@ -13,10 +13,10 @@ namespace {
 
 using geometry::Vec3;
 
-Machine with_range(Axis axis, double least, double most) {
+Machine with_range(Axis axis, double minimum, double maximum) {
   Machine machine = uniform_machine(100, 100);
-  machine.axes[axis].least = least;
-  machine.axes[axis].most = most;
+  machine.axes[axis].minimum = minimum;
+  machine.axes[axis].maximum = maximum;
   return machine;
 }
 
@@ -72,7 +72,7 @@ TEST(Travel, RotaryAxesHaveRangesToo) {
 /// As far as a walk along the way in many small steps finds, and a little farther.
 TEST(Travel, FindsTheFarthestPoint) {
   for (Machine machine : {three_axis_router(), head_router(), table_router()}) {
-    for (AxisLimits& axis : machine.axes) axis.least = axis.most = 1e-4;  // All else is outside.
+    for (AxisLimits& axis : machine.axes) axis.minimum = axis.maximum = 1e-4;  // All else is outside.
     for (const Move& move : random_moves(11, 60)) {
       const auto found = overtravels(machine, move);
       for (const Overtravel& each : found) {
@@ -131,8 +131,8 @@ TEST(TipTravel, IsThatOfTheProgrammedPath) {
             << "move " << move.tag;
         const auto extents = tip_extents(machine, move, frame);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-          EXPECT_NEAR(extents[axis].least, expected.extents[axis].least, 1e-3) << "move " << move.tag;
-          EXPECT_NEAR(extents[axis].most, expected.extents[axis].most, 1e-3) << "move " << move.tag;
+          EXPECT_NEAR(extents[axis].minimum, expected.extents[axis].minimum, 1e-3) << "move " << move.tag;
+          EXPECT_NEAR(extents[axis].maximum, expected.extents[axis].maximum, 1e-3) << "move " << move.tag;
         }
       }
     }
@@ -153,7 +153,7 @@ TEST(TipTravel, OfARapidThatTurnsIsTheSwing) {
   const double aside = 300 * (std::numbers::sqrt2 / 2 - 0.5) * std::numbers::sqrt2;
   EXPECT_GT(tip_travel(machine, move).length, 2 * aside);
   EXPECT_LT(tip_travel(machine, move).length, 2.2 * aside);
-  EXPECT_LT(tip_extents(machine, move, {})[2].least, -300 * (std::numbers::sqrt2 / 2 - 0.5));
+  EXPECT_LT(tip_extents(machine, move, {})[2].minimum, -300 * (std::numbers::sqrt2 / 2 - 0.5));
 }
 
 }  // namespace

@@ -124,14 +124,14 @@ TEST(Toolpath, HasNoMorePointsThanItTakes) {
   EXPECT_LE(counts[5], 220u);
 }
 
-TEST(Toolpath, TellsLinesKindsToolsAndFeeds) {
+TEST(Toolpath, ReportsLinesKindsToolsAndFeeds) {
   const Recorded recorded =
       record("M06 T101001\nG01 X10 F600\nM06 T101002\nG00 Y5\nG00 Y5\nG02 X20 I15 J5 F900\nM02\n", machines().front());
-  std::vector<std::string> told;
+  std::vector<std::string> shown;
   for (const KeptStep& kept : recorded.steps)
-    told.push_back(std::to_string(kept.step.line) + " " + "rfaw"[static_cast<std::size_t>(kept.step.kind)] + " " +
-                   std::to_string(kept.step.tool) + " " + std::to_string(static_cast<int>(kept.step.feed)));
-  EXPECT_THAT(told, ElementsAre("0 w 1 0", "1 f 1 600", "2 w 2 0", "3 r 2 0", "4 r 2 0", "5 a 2 900"));
+    shown.push_back(std::to_string(kept.step.line) + " " + "rfaw"[static_cast<std::size_t>(kept.step.kind)] + " " +
+                    std::to_string(kept.step.tool) + " " + std::to_string(static_cast<int>(kept.step.feed)));
+  EXPECT_THAT(shown, ElementsAre("0 w 1 0", "1 f 1 600", "2 w 2 0", "3 r 2 0", "4 r 2 0", "5 a 2 900"));
   EXPECT_EQ(recorded.steps[4].points.size(), 1u);  // It goes nowhere.
   EXPECT_EQ(recorded.tool_count, 3u);
 }

@@ -144,7 +144,8 @@ execution::State state_before(std::string_view text, running::RunOptions options
 
 /// The way to the line: level motions as high as the highest place at which the program has cut so far, and the rest
 /// straight down at the place where the machine stood.
-void expect_safe_approach(std::span<const Motion> approach, std::span<const Motion> before, const std::string& told) {
+void expect_safe_approach(std::span<const Motion> approach, std::span<const Motion> before,
+                          const std::string& context) {
   if (approach.empty()) return;
   double safe = -std::numeric_limits<double>::infinity();
   for (const Motion& motion : before)
@@ -155,40 +156,40 @@ void expect_safe_approach(std::span<const Motion> approach, std::span<const Moti
     const Vec3& from = motion.move.from.tip;
     const Vec3& to = motion.move.to.tip;
     const bool is_there = (to - place).head<2>().norm() < kNear && (from - place).head<2>().norm() < kNear;
-    EXPECT_TRUE(is_there || std::min(from.z(), to.z()) > safe - kNear) << in_words(motion) << '\n' << told;
+    EXPECT_TRUE(is_there || std::min(from.z(), to.z()) > safe - kNear) << in_words(motion) << '\n' << context;
     if (motion.kind == MoveKind::Rapid) {
-      EXPECT_GT(to.z(), std::min(safe, has_cut ? place.z() + 5 : place.z()) - kNear) << told;
+      EXPECT_GT(to.z(), std::min(safe, has_cut ? place.z() + 5 : place.z()) - kNear) << context;
     }
   }
 }
 
 void expect_same_machine(const std::string& program, const std::string& restarted, const RestartOptions& options,
                          bool is_upright, Tally& tally) {
-  const std::string told = fmt::format("before line {} of\n{}\nby\n{}", options.line + 1, program, restarted);
+  const std::string context = fmt::format("before line {} of\n{}\nby\n{}", options.line + 1, program, restarted);
   const std::uint64_t preamble = line_count(restarted) - line_count(rest_of(program, options.line));
   const Course wanted = course_of(program, options, options.line);
   const Course found = course_of(restarted, options, preamble);
-  ASSERT_EQ(found.ending, running::Ending::ProgramEnd) << told;
-  EXPECT_EQ(found.others, wanted.others) << told;
+  ASSERT_EQ(found.ending, running::Ending::ProgramEnd) << context;
+  EXPECT_EQ(found.others, wanted.others) << context;
   const auto rest = from_line(wanted, options.line);
-  const auto goes_on = from_line(found, preamble);
-  ASSERT_EQ(goes_on.size(), rest.size()) << told;
+  const auto continues = from_line(found, preamble);
+  ASSERT_EQ(continues.size(), rest.size()) << context;
   for (std::size_t i = 0; i < rest.size(); ++i)
-    ASSERT_TRUE(is_same(options.machine.motion, goes_on[i], rest[i])) << in_words(goes_on[i]) << '\n'
-                                                                      << in_words(rest[i]) << '\n'
-                                                                      << told;
+    ASSERT_TRUE(is_same(options.machine.motion, continues[i], rest[i])) << in_words(continues[i]) << '\n'
+                                                                        << in_words(rest[i]) << '\n'
+                                                                        << context;
   const auto before = before_line(wanted, options.line);
   const auto approach = before_line(found, preamble);
   const auto state = state_before(program, options.run, options.line);
   const auto state_then = state_before(restarted, options.run, preamble);
-  EXPECT_EQ(state.spindle_speed, state_then.spindle_speed) << told;
-  EXPECT_EQ(state.tool, state_then.tool) << told;
-  EXPECT_EQ(feed_in_force(state), feed_in_force(state_then)) << told;
+  EXPECT_EQ(state.spindle_speed, state_then.spindle_speed) << context;
+  EXPECT_EQ(state.tool, state_then.tool) << context;
+  EXPECT_EQ(feed_in_force(state), feed_in_force(state_then)) << context;
   if (before.empty()) return;
   if (!approach.empty()) {
-    EXPECT_TRUE(end_alike(options.machine.motion, approach.back().move, before.back().move)) << told;
+    EXPECT_TRUE(end_alike(options.machine.motion, approach.back().move, before.back().move)) << context;
   }
-  if (is_upright) expect_safe_approach(approach, before, told);
+  if (is_upright) expect_safe_approach(approach, before, context);
   if (!is_near(before.back().move.to.tip, state.to_machine(state.position.tip))) ++tally.made_off_program;
 }
 
@@ -298,7 +299,7 @@ std::string runnable(std::string text, const running::RunOptions& options) {
   }
 }
 
-TEST(RestartMachine, GoesOnAsInTheProgramBehindContours) {
+TEST(RestartMachine, GoesOnAsInTheProgramAfterContours) {
   Tally tally;
   for (const std::uint64_t seed : seeds(400)) {
     SCOPED_TRACE(seed);

@@ -281,10 +281,10 @@ void expect_safe_approach(const std::string& program, const std::string& restart
     if (move->kind != execution::MoveKind::Rapid || !clearance || feed_in_force(wanted).number == 0) return;
     const geometry::Vec3 end = before.face_mounted ? before.face.to_inner(move->to.tip - before.workpiece_origin)
                                                    : geometry::Vec3(move->to.tip - before.workpiece_origin);
-    const double least = std::min(*clearance, before.position.tip.z());
+    const double minimum = std::min(*clearance, before.position.tip.z());
     const bool is_tilted = !wanted.face_mounted && (wanted.position.b != 0 || wanted.position.c != 0);
     if (before.face_mounted == wanted.face_mounted && !is_tilted) {
-      EXPECT_GE(end.z(), least - kRounding) << event.line + 1 << '\n' << restarted;
+      EXPECT_GE(end.z(), minimum - kRounding) << event.line + 1 << '\n' << restarted;
     }
   });
 }

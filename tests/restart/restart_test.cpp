@@ -20,7 +20,7 @@ using testing::StartsWith;
 struct Case {
   std::string program;
   /// `line 4`, `clearance 30`, `highest-z 820`, `approach-feed 500`, `vgpl 1`, `radius T101002 8`, `italian` and so on.
-  std::vector<std::string> wishes;
+  std::vector<std::string> settings;
   std::string expected;  ///< The restart program, or the refusal.
 };
 
@@ -37,12 +37,13 @@ std::vector<Case> cases_in(const fs::path& file) {
   std::string* part = &cases.back().program;
   std::istringstream lines(content_of(file));
   for (std::string line; std::getline(lines, line);) {
-    constexpr std::string_view kWishes = "; ---- restart at ";
+    constexpr std::string_view kSettingsMark = "; ---- restart at ";
     if (line == "; ====") {
       part = &cases.emplace_back().program;
-    } else if (line.starts_with(kWishes)) {
-      std::istringstream wishes(line.substr(kWishes.size()));
-      for (std::string wish; std::getline(wishes >> std::ws, wish, ',');) cases.back().wishes.push_back(wish);
+    } else if (line.starts_with(kSettingsMark)) {
+      std::istringstream settings(line.substr(kSettingsMark.size()));
+      for (std::string setting; std::getline(settings >> std::ws, setting, ',');)
+        cases.back().settings.push_back(setting);
     } else if (line.starts_with("; ---- ")) {
       part = &cases.back().expected;
     } else {
@@ -53,8 +54,8 @@ std::vector<Case> cases_in(const fs::path& file) {
 }
 
 /// `radius T101002 8` or `length T101002 50`.
-void add_tool(const std::string& wish, simulation::TimedMachine& machine) {
-  std::istringstream words(wish);
+void add_tool(const std::string& setting, simulation::TimedMachine& machine) {
+  std::istringstream words(setting);
   std::string what;
   char letter = 0;
   int code = 0;
@@ -67,8 +68,8 @@ void add_tool(const std::string& wish, simulation::TimedMachine& machine) {
 RestartOptions options_of(const Case& each) {
   RestartOptions options;
   options.name = "part.iso";
-  for (const std::string& wish : each.wishes) {
-    std::istringstream words(wish);
+  for (const std::string& setting : each.settings) {
+    std::istringstream words(setting);
     std::string what;
     double value = 0;
     words >> what >> value;
@@ -81,9 +82,9 @@ RestartOptions options_of(const Case& each) {
     } else if (what == "home-z") {
       options.run.setup.home.tip.z() = options.machine.home.tip.z() = value;
     } else if (what == "highest-z") {
-      options.machine.motion.axes[motion::kZ].most = value;
+      options.machine.motion.axes[motion::kZ].maximum = value;
     } else if (what == "radius" || what == "length") {
-      add_tool(wish, options.machine);
+      add_tool(setting, options.machine);
     } else if (what == "approach-feed") {
       options.approach_feed = value;
     } else if (what == "vgpl") {
@@ -168,7 +169,7 @@ TEST(Restart, BeyondTheLastLineIsRefused) {
   EXPECT_EQ(outcome_of("", 1), "; there is no line 1: the last one is 0\n");
 }
 
-TEST(Restart, OfAProgramInErrorTellsTheError) {
+TEST(Restart, OfAProgramInErrorReportsTheError) {
   for (const std::uint64_t line : {0u, 2u}) {
     const auto made = restart_program("M06 T101001\nG01\nM02\n", {.line = line});
     const auto& refusal = std::get<RestartRefusal>(made);

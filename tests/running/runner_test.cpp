@@ -26,13 +26,13 @@ constexpr std::string_view kJumps =
     "N20 V3=1\n"
     "N10 M02\n";
 
-std::vector<std::string> told_by(Runner runner) {
-  std::vector<std::string> told;
+std::vector<std::string> events_of(Runner runner) {
+  std::vector<std::string> reported;
   while (!runner.has_ended()) {
     runner.step();
-    for (const Event& event : runner.events()) told.push_back(to_json(event));
+    for (const Event& event : runner.events()) reported.push_back(to_json(event));
   }
-  return told;
+  return reported;
 }
 
 TEST(Runner, ExecutesLineByLine) {
@@ -116,18 +116,18 @@ TEST(RunnerProperty, CopiesGoOnAsTheOriginal) {
     std::vector<std::string> all;
     const RunResult result = run(text, options, [&](const Event& event) { all.push_back(to_json(event)); });
     Runner runner(program, options);
-    std::vector<std::string> told;
+    std::vector<std::string> reported;
     while (!runner.has_ended()) {
       const Runner copy = runner;
       if (random.one_in(5)) {
-        std::vector<std::string> rest(all.begin() + static_cast<std::ptrdiff_t>(told.size()), all.end());
-        ASSERT_EQ(told_by(copy), rest) << seed;
+        std::vector<std::string> rest(all.begin() + static_cast<std::ptrdiff_t>(reported.size()), all.end());
+        ASSERT_EQ(events_of(copy), rest) << seed;
       }
       if (random.one_in(2)) runner = copy;
       runner.step();
-      for (const Event& event : runner.events()) told.push_back(to_json(event));
+      for (const Event& event : runner.events()) reported.push_back(to_json(event));
     }
-    EXPECT_EQ(told, all) << seed;
+    EXPECT_EQ(reported, all) << seed;
     EXPECT_EQ(runner.result().state, result.state) << seed;
     EXPECT_EQ(runner.result().blocks, result.blocks) << seed;
   }
@@ -136,12 +136,13 @@ TEST(RunnerProperty, CopiesGoOnAsTheOriginal) {
 TEST(Program, IsSharedByThreads) {
   const Program program(kJumps);
   const RunOptions options;
-  std::vector<std::vector<std::string>> told(4);
+  std::vector<std::vector<std::string>> reported(4);
   std::vector<std::thread> threads;
-  for (std::vector<std::string>& mine : told) threads.emplace_back([&] { mine = told_by(Runner(program, options)); });
+  for (std::vector<std::string>& mine : reported)
+    threads.emplace_back([&] { mine = events_of(Runner(program, options)); });
   for (std::thread& thread : threads) thread.join();
-  EXPECT_THAT(told, testing::Each(told_by(Runner(program, options))));
-  EXPECT_EQ(told.front().size(), 3u);
+  EXPECT_THAT(reported, testing::Each(events_of(Runner(program, options))));
+  EXPECT_EQ(reported.front().size(), 3u);
 }
 
 }  // namespace

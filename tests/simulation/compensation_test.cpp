@@ -272,7 +272,7 @@ TEST(Compensation, TakesTheTimeOfThePathThatTheToolGoes) {
     const Compensation::Listeners listeners{.event = [&](const running::Event& event) { timing.take(event); },
                                             .warning = {}};
     running::run("M06 T101001\n" + std::string(program) + "M02\n", {},
-        [&](const running::Event& event) { compensation.take(event, listeners); });
+                 [&](const running::Event& event) { compensation.take(event, listeners); });
     compensation.finish(listeners);
     timing.finish();
     return timing.time();
@@ -365,7 +365,7 @@ TEST(Compensation, IsAValue) {
   const TimedMachine machine = machine_with(5);
   Compensation first(machine);
   std::vector<std::string> ends;
-  std::vector<std::string> goes_on;
+  std::vector<std::string> continues;
   const auto into = [](std::vector<std::string>& texts) {
     return Compensation::Listeners{.event = [&](const running::Event& event) { texts.push_back(shown(event)); },
                                    .warning = {}};
@@ -377,9 +377,9 @@ TEST(Compensation, IsAValue) {
   Compensation second = first;
   first.finish(into(ends));
   EXPECT_EQ(ends.back(), "4 feed X40 Y5 Z0");
-  for (std::size_t i = 4; i < events.size(); ++i) second.take(events[i], into(goes_on));
-  second.finish(into(goes_on));
-  EXPECT_THAT(goes_on,
+  for (std::size_t i = 4; i < events.size(); ++i) second.take(events[i], into(continues));
+  second.finish(into(continues));
+  EXPECT_THAT(continues,
               ElementsAre("4 feed X40 Y5 Z0", "4 arc X45 Y0 Z0 about 40 0 0 by -90", "5 feed X45 Y-40 Z0", "6 end"));
 }
 

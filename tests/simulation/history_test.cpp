@@ -130,7 +130,7 @@ TEST_F(HistoryTest, FindsTheLastMotionBefore) {
   }
 }
 
-TEST_F(HistoryTest, FindsTheBlockOfALineThatLiesBehind) {
+TEST_F(HistoryTest, FindsTheBlockOfAnEarlierLine) {
   for (const std::uint64_t seed : seeds(25)) {
     Random random(seed);
     History history(begin(RandomRun(random).text(random.between(1, 4)), random.between(0, 2)), kFew);

@@ -153,7 +153,7 @@ std::vector<geometry::Vec3> places_when_taken_over(const Case& of, std::uint64_t
 }
 
 /// The tool of 3 mm radius stands at X40 Y3 after the G40, and goes straight to X60 Y0; the second contour runs at Y17.
-TEST(Simulation, TakenOverByHandGoesTheSameWay) {
+TEST(Simulation, MovedByHandFollowsTheSamePath) {
   const Case contours{
       "M06 T101001\n"
       "G1 X-20 Y20 Z0 F6000\n"
@@ -403,7 +403,7 @@ struct Trip {
   running::RunResult result;
 };
 
-TEST(SimulationProperty, GoesTheWayOfARunInOneGo) {
+TEST(SimulationProperty, FollowsThePathOfARunInOneGo) {
   for (const std::uint64_t seed : seeds(40)) {
     Random random(seed);
     const Case some{random};
@@ -507,7 +507,7 @@ TEST(SimulationProperty, RunsAnyProgram) {
 /// Where the machine is told to be, and how fast, agree: no leaps. Those of the tip are tool changes.
 TEST(SimulationProperty, MovesAtTheSpeedThatItShows) {
   constexpr double kStep = 0.002;
-  constexpr double kMostAcceleration = 30'000;  // Of a tip that B and C swing as well, mm/s^2.
+  constexpr double kMaxAcceleration = 30'000;  // Of a tip that B and C swing as well, mm/s^2.
   for (const std::uint64_t seed : seeds(8)) {
     Random random(seed);
     const Case some{RandomRun(random).text(2), 1};
@@ -516,12 +516,12 @@ TEST(SimulationProperty, MovesAtTheSpeedThatItShows) {
     for (int step = 1; !simulation.has_ended(); ++step) {
       simulation.advance_to(step * kStep);
       const motion::Sample now = simulation.sample();
-      const double slack = kMostAcceleration * kStep * kStep + kTiny;
+      const double tolerance = kMaxAcceleration * kStep * kStep + kTiny;
       const motion::Coordinates expected = kStep * (last.joint_speeds + now.joint_speeds) / 2;
-      ASSERT_LE((now.joints - last.joints - expected).cwiseAbs().maxCoeff(), slack)
+      ASSERT_LE((now.joints - last.joints - expected).cwiseAbs().maxCoeff(), tolerance)
           << seed << " at " << simulation.time();
       if (last.speed > 0) {
-        ASSERT_LE((now.tip.tip - last.tip.tip).norm(), kStep * (last.speed + now.speed) / 2 + slack)
+        ASSERT_LE((now.tip.tip - last.tip.tip).norm(), kStep * (last.speed + now.speed) / 2 + tolerance)
             << seed << " at " << simulation.time();
       }
       last = now;

@@ -120,13 +120,13 @@ TEST(Timing, OfWhatChangesNothingIsThatOfTheStop) {
 /// What does not stop the machine has the time of the motion behind it; a motion that goes nowhere takes none.
 TEST(Timing, EventsComeInOrderWithTheirTimes) {
   const Timed timed = time("M06 T101001\nG01 X100 F3000\nS500\nX100\nX200\nM02\n");
-  std::vector<std::string> told;
+  std::vector<std::string> reported;
   std::vector<double> starts;
   for (const TimedEvent& event : timed.events) {
-    told.push_back(std::string(running::kind_of(event.event)) + " " + std::to_string(event.event.line + 1));
+    reported.push_back(std::string(running::kind_of(event.event)) + " " + std::to_string(event.event.line + 1));
     starts.push_back(event.start - 5);
   }
-  EXPECT_THAT(told, ElementsAre("tool 1", "feed 2", "spindle 3", "feed 4", "feed 5", "end 6"));
+  EXPECT_THAT(reported, ElementsAre("tool 1", "feed 2", "spindle 3", "feed 4", "feed 5", "end 6"));
   const double half = trapezoid(200, 50) / 2;
   EXPECT_THAT(starts, ElementsAre(DoubleNear(-5, kTiny), DoubleNear(0, kTiny), DoubleNear(half, kTiny),
                                   DoubleNear(half, kTiny), DoubleNear(half, kTiny), DoubleNear(2 * half, kTiny)));
@@ -138,7 +138,7 @@ TEST(Timing, AnErrorKeepsWhatWasDoneBefore) {
   EXPECT_NEAR(timed.events.back().duration, trapezoid(200, 50), kTiny);
 }
 
-TEST(Timing, WaitsForTheChannelBehindTheMotion) {
+TEST(Timing, WaitsForTheChannelAfterTheMotion) {
   const Timed timed = time("M06 T101001\nG01 X100 F3000 G09\nX200\nM02\n");
   EXPECT_EQ(timed.events[1].wait, 0.5);
   EXPECT_NEAR(timed.events[2].start - timed.events[1].start - timed.events[1].duration, 0.5, kTiny);
@@ -157,10 +157,10 @@ TEST(Timing, IsFiniteWhateverTheProgramSays) {
 /// However many lines follow a motion that do not move the machine.
 TEST(Timing, HoldsNoMoreThanAControlLooksAhead) {
   const auto check = [](auto&& next) {
-    std::size_t told = 0;
-    std::size_t most = 0;
+    std::size_t reported = 0;
+    std::size_t maximum = 0;
     const TimedMachine machine = slow_machine();
-    Timing timing(machine, {.event = [&](const TimedEvent&) { ++told; }});
+    Timing timing(machine, {.event = [&](const TimedEvent&) { ++reported; }});
     running::MoveEvent motion;
     motion.to.tip.x() = 100;
     motion.length = 100;
@@ -168,11 +168,11 @@ TEST(Timing, HoldsNoMoreThanAControlLooksAhead) {
     constexpr std::size_t kEvents = 40'000;
     for (std::size_t i = 1; i <= kEvents; ++i) {
       timing.take(next(i));
-      most = std::max(most, i + 1 - told);
+      maximum = std::max(maximum, i + 1 - reported);
     }
     timing.finish();
-    EXPECT_EQ(told, kEvents + 1);
-    EXPECT_LT(most, 33'000u);
+    EXPECT_EQ(reported, kEvents + 1);
+    EXPECT_LT(maximum, 33'000u);
     EXPECT_NEAR(timing.time(), trapezoid(100, 100), kTiny);
   };
   check([](std::size_t line) { return running::Event{line, running::SpindleSpeedEvent{1000}}; });
@@ -211,7 +211,7 @@ TEST(Timing, AToolChangeMovesNoAxis) {
   EXPECT_EQ(heights_of("M06 T101001\nG00 Z450\nM06 T000000\nG00 X9\nM02\n"), (Heights{{400, 450}, {550, 550}}));
 }
 
-TEST(Timing, OfAToolChangeTheFaceFrameTellsWhichAxesStay) {
+TEST(Timing, OfAToolChangeTheFaceFrameDecidesWhichAxesStay) {
   // Seen from the face, machine Z is -X, and machine X is Z.
   const auto heights = heights_of("M06 T101001\nG29 B90\nG00 Z5\nY5\nX10\nM02\n");
   ASSERT_EQ(heights.size(), 3u);

@@ -108,7 +108,7 @@ struct Trip {
   std::string program;
   std::vector<TimedEvent> motions;  ///< As the tags of the stretches count them.
   std::vector<Stretch> stretches;
-  double told = 0;  ///< Seconds of all events.
+  double reported_seconds = 0;  ///< Seconds of all events.
   double seconds = 0;
   geometry::Pose tip;
 };
@@ -118,7 +118,7 @@ Trip trip_of(std::string_view program, const TimedMachine& machine) {
   Timing timing(machine,
                 {.event =
                      [&](const TimedEvent& timed) {
-                       trip.told += timed.duration + timed.wait;
+                       trip.reported_seconds += timed.duration + timed.wait;
                        if (timed.move) trip.motions.push_back(timed);
                      },
                  .stretch = [&](const Stretch& stretch, const TimedEvent&) { trip.stretches.push_back(stretch); }});
@@ -229,7 +229,7 @@ TEST_P(Trips, KeepToTheFeedAndToWhatFeedMovesMay) {
 }
 
 /// The speed, summed up over time, is the way: less what is cut off corners, and by the chords of arcs.
-TEST_P(Trips, GoAllTheirWay) {
+TEST_P(Trips, CoverTheirWholePath) {
   for_trips([](const TimedMachine& machine, const Trip& trip) {
     const auto swings = [](const motion::Move& move) {
       return !move.controls_tool_point && (move.from.b != move.to.b || move.from.c != move.to.c);
@@ -293,9 +293,9 @@ TEST_P(Trips, TraceTheLengthsOfTheSummary) {
   });
 }
 
-TEST_P(Trips, TakeTheTimesThatAreTold) {
+TEST_P(Trips, TakeTheTimesThatAreReported) {
   for_trips([](const TimedMachine& machine, const Trip& trip) {
-    ASSERT_NEAR(trip.told, trip.seconds, 1e-9 * trip.seconds);
+    ASSERT_NEAR(trip.reported_seconds, trip.seconds, 1e-9 * trip.seconds);
     std::vector<double> times(trip.motions.size());
     for (const Stretch& stretch : trip.stretches) times[stretch.tag] += stretch.duration;
     for (std::size_t i = 0; i < times.size(); ++i)

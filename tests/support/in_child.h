@@ -12,10 +12,10 @@ namespace isocnc::support {
 /// Runs `act` in a process of its own that is no superuser, and may write no more than so many bytes to a file: a disk
 /// that fills up. 0 when `act` says true, 1 when it says false, -1 when a signal ended it.
 template <class Act>
-int in_child(Act act, rlim_t most_bytes = RLIM_INFINITY) {
+int in_child(Act act, rlim_t max_bytes = RLIM_INFINITY) {
   const pid_t child = ::fork();
   if (child == 0) {
-    const rlimit limit{most_bytes, most_bytes};
+    const rlimit limit{max_bytes, max_bytes};
     ::setrlimit(RLIMIT_FSIZE, &limit);
     ::signal(SIGXFSZ, SIG_DFL);
     if (::geteuid() == 0 && ::setuid(65534) != 0) ::_exit(99);

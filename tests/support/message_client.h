@@ -22,8 +22,8 @@ using lsp::rpc::Json;
 /// A client within the process: speaks with a party whose loop runs on a thread of its own.
 class MessageClient {
  public:
-  explicit MessageClient(const lsp::rpc::MakeParty& make_party)
-      : party_(make_party(loop_, [this](std::string body) { take(std::move(body)); })),
+  explicit MessageClient(const lsp::rpc::MakePeer& make_peer)
+      : party_(make_peer(loop_, [this](std::string body) { take(std::move(body)); })),
         thread_([this] { loop_.run(std::chrono::seconds(3), [] {}); }) {}
   MessageClient(const MessageClient&) = delete;
   MessageClient& operator=(const MessageClient&) = delete;
@@ -49,7 +49,7 @@ class MessageClient {
       messages_.erase(message);
       return true;
     };
-    if (!came_.wait_for(lock, kLongest, take)) throw std::runtime_error("no such message has come");
+    if (!message_received_.wait_for(lock, kLongest, take)) throw std::runtime_error("no such message has come");
     return found;
   }
   /// Whether a message has come that fits, and that nobody has waited for.
@@ -76,14 +76,14 @@ class MessageClient {
       const std::lock_guard lock(mutex_);
       messages_.push_back(Json::parse(body));
     }
-    came_.notify_all();
+    message_received_.notify_all();
   }
 
   lsp::rpc::Loop loop_;
   std::mutex mutex_;
-  std::condition_variable came_;
+  std::condition_variable message_received_;
   std::deque<Json> messages_;
-  std::unique_ptr<lsp::rpc::Party> party_;
+  std::unique_ptr<lsp::rpc::Peer> party_;
   std::thread thread_;
 };
 

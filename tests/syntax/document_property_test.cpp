@@ -13,9 +13,9 @@ namespace {
 using support::Random;
 
 /// Text of all that a program can hold and much that it cannot, with all three line ends.
-std::string random_text(Random& random, int most_pieces) {
+std::string random_text(Random& random, int max_pieces) {
   std::string text;
-  for (int i = random.between(0, most_pieces); i > 0; --i)
+  for (int i = random.between(0, max_pieces); i > 0; --i)
     text += random.any_of({"\r",
                            "\n",
                            "\r\n",
@@ -71,7 +71,7 @@ class Model {
     text_.replace(first, last - first, text);
   }
 
-  std::vector<std::size_t> line_begins() const {
+  std::vector<std::size_t> line_starts() const {
     std::vector<std::size_t> begins{0};
     for (std::size_t i = 0; i < text_.size(); ++i) {
       const bool is_half = text_[i] == '\r' && i + 1 < text_.size() && text_[i + 1] == '\n';
@@ -82,7 +82,7 @@ class Model {
 
  private:
   std::size_t offset_of(Position position) const {
-    const std::vector<std::size_t> begins = line_begins();
+    const std::vector<std::size_t> begins = line_starts();
     if (position.line >= begins.size()) return text_.size();
     const std::size_t end = position.line + 1 < begins.size() ? begins[position.line + 1] : text_.size();
     return std::min(begins[position.line] + position.column, end);
@@ -102,7 +102,7 @@ Position random_end(Random& random, Position begin) {
 
 void expect_same(const Document& document, const Model& model, const std::string& which) {
   ASSERT_EQ(document.text(), model.text()) << which;
-  ASSERT_EQ(document.line_count(), model.line_begins().size()) << which;
+  ASSERT_EQ(document.line_count(), model.line_starts().size()) << which;
   ASSERT_EQ(support::text_of(document), support::text_of(Document(model.text()))) << which;
 }
 

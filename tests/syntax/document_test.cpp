@@ -88,7 +88,7 @@ std::string numbered_lines(int count) {
   return text;
 }
 
-TEST(Document, TellsWhatAnEditDidToTheLines) {
+TEST(Document, ReportsWhatAnEditDidToTheLines) {
   Document document("a\nb\nc\nd\n");
   const Change change = document.replace({1, 0}, {2, 1}, "1\n2\n3");
   EXPECT_EQ(change.first_line, 1u);

@@ -72,29 +72,29 @@ TEST(Formatter, LeavesCommentsAtTheEndInTheirColumn) {
 TEST(Formatter, LeavesLinesWithAnErrorAlone) {
   for (const std::string_view line :
        {"g1  x1.2.3 ", " g1 x1  x2", "g1 (open ", "g77  x1", "x  ", "\xC3\xA8 x1 ", "if v1 ", "m02  x1", "%  ", " m0"})
-    EXPECT_EQ(formatted(line, {.most_decimals = 3, .g_digits = GDigits::Two, .word_order = true}), line);
+    EXPECT_EQ(formatted(line, {.max_decimals = 3, .g_digits = GDigits::Two, .word_order = true}), line);
 }
 
 TEST(Formatter, DropsZerosThatMeanNothingAndNeverRounds) {
-  expect_all({.most_decimals = 3}, {
-                                       {"X5.000", "X5"},
-                                       {"X5.", "X5"},
-                                       {"X-.5", "X-0.5"},
-                                       {"X+0.120000 Y.0 Z-.0", "X+0.12 Y0 Z-0"},
-                                       {"X1.2345", "X1.2345"},
-                                       {"X.2345", "X.2345"},
-                                       {"X1.234500", "X1.234500"},
-                                       {"X007.10", "X7.1"},
-                                       {"X007 Y-00.5 Z+000", "X7 Y-0.5 Z+0"},
-                                       {"X(a)00(b)7", "X7 (a) (b)"},
-                                       {"X100", "X100"},
-                                       {"G1 X1(a).50(b)0", "G1 X1.5 (a) (b)"},
-                                       {"V1 = .500", "V1 = 0.5"},
-                                       {"M100 P1=2.50", "M100 P1=2.5"},
-                                       {"IF V1 = 34.5670 GOTO N3", "IF V1 = 34.567 GOTO N3"},
-                                       {"F1000.0", "F1000"},
-                                   });
-  expect_all({.most_decimals = 0}, {{"X5.0 Y1.50", "X5 Y1.50"}});
+  expect_all({.max_decimals = 3}, {
+                                      {"X5.000", "X5"},
+                                      {"X5.", "X5"},
+                                      {"X-.5", "X-0.5"},
+                                      {"X+0.120000 Y.0 Z-.0", "X+0.12 Y0 Z-0"},
+                                      {"X1.2345", "X1.2345"},
+                                      {"X.2345", "X.2345"},
+                                      {"X1.234500", "X1.234500"},
+                                      {"X007.10", "X7.1"},
+                                      {"X007 Y-00.5 Z+000", "X7 Y-0.5 Z+0"},
+                                      {"X(a)00(b)7", "X7 (a) (b)"},
+                                      {"X100", "X100"},
+                                      {"G1 X1(a).50(b)0", "G1 X1.5 (a) (b)"},
+                                      {"V1 = .500", "V1 = 0.5"},
+                                      {"M100 P1=2.50", "M100 P1=2.5"},
+                                      {"IF V1 = 34.5670 GOTO N3", "IF V1 = 34.567 GOTO N3"},
+                                      {"F1000.0", "F1000"},
+                                  });
+  expect_all({.max_decimals = 0}, {{"X5.0 Y1.50", "X5 Y1.50"}});
 }
 
 TEST(Formatter, WritesGWithTheDigitsAskedFor) {

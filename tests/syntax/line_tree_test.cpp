@@ -165,7 +165,7 @@ TEST(LineTree, UserFunctionsTakeTwentyParameters) {
   EXPECT_TRUE(tree.findings.empty());
 }
 
-TEST(LineTree, InstructionsTellTheirKind) {
+TEST(LineTree, InstructionsHaveAKind) {
   const auto kind = [](const char* text) { return ParsedLine(text).tree().instructions[0].kind; };
   EXPECT_EQ(kind("G1 X1"), InstructionKind::G);
   EXPECT_EQ(kind("X1"), InstructionKind::Continuation);
@@ -296,9 +296,9 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(LineTree, ALineOfTooManyWordsIsCutAndSaysSo) {
   std::string text = "G1";
-  for (std::size_t i = 0; i < kMostWords + 10; ++i) text += " N";
+  for (std::size_t i = 0; i < kMaxWords + 10; ++i) text += " N";
   const ParsedLine line(text);
-  EXPECT_EQ(line.tree().words.size(), kMostWords);
+  EXPECT_EQ(line.tree().words.size(), kMaxWords);
   EXPECT_TRUE(line.tree().has(LineTree::kCut));
   EXPECT_EQ(line.tree().text.size(), text.size());
 }

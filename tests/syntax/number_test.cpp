@@ -19,24 +19,24 @@ std::size_t length_of(const Number& number, const std::string& text) {
   return static_cast<std::size_t>(number.end - text.data());
 }
 
-std::string random_digits(Random& random, int most) {
+std::string random_digits(Random& random, int maximum) {
   std::string digits;
-  for (int i = random.between(0, most); i > 0; --i) digits += random.any_of("0123456789");
+  for (int i = random.between(0, maximum); i > 0; --i) digits += random.any_of("0123456789");
   return digits;
 }
 
 /// A number as I.2.1 allows it, of any length.
 std::string random_decimal(Random& random) {
-  const int most = random.one_in(8) ? 400 : random.one_in(4) ? 25 : 6;
+  const int maximum = random.one_in(8) ? 400 : random.one_in(4) ? 25 : 6;
   std::string text;
   if (random.one_in(3)) text += random.any_of("+-");
-  const std::string whole = random_digits(random, most);
+  const std::string whole = random_digits(random, maximum);
   text += whole;
   const bool needs_decimals = whole.empty();
   if (needs_decimals || random.one_in(2)) {
     text += '.';
     if (random.one_in(6)) text += std::string(random.below(350), '0');
-    text += random_digits(random, most);
+    text += random_digits(random, maximum);
     if (needs_decimals) text += random.any_of("0123456789");
   }
   return text;
@@ -124,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(Spellings, Malformed,
                          testing::Values(".", "+", "-", ",", "1.2.3", "1,5", "--1", "+-1", "1-", "1+2", "-.", "+.",
                                          "1..", "..1", "1 . 2 . 3", "1(a),(b)5", "1234567890123456789012345,6"));
 
-TEST(Number, EndsBehindItsLastCharacter) {
+TEST(Number, EndsAfterItsLastCharacter) {
   for (const std::string behind : {" ", "\t", "X", "(a)", " (a) X", "(a", ";5", "\n5", "\r5", " \n5", "(a)\n5", ")5"}) {
     const std::string text = "12.5" + behind;
     const Number number = read(text);

@@ -45,7 +45,7 @@ std::string random_text(Random& random, int lines) {
 }
 
 /// Rows of plain lines are read by a way of their own, which must not show in the trees.
-TEST(PlainLineProperty, TreesAreThoseOfTheGeneralWay) {
+TEST(PlainLineProperty, TreesAreThoseOfTheGeneralParser) {
   std::size_t plain = 0;
   std::size_t others = 0;
   for (const std::uint64_t seed : support::seeds(800)) {

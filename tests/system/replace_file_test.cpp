@@ -122,7 +122,7 @@ TEST_F(FileReplacements, LeaveAFileThatHasBeenReplacedMeanwhile) {
   expect_untouched();
 }
 
-TEST_F(FileReplacements, DoNotBringBackAFileThatIsGone) {
+TEST_F(FileReplacements, DoNotBringBackARemovedFile) {
   FileReplacement replacement(file);
   replacement.write("new\n");
   fs::remove(file);

@@ -116,7 +116,7 @@ class SourceFiles : public testing::Test {
   fs::path directory_;
 };
 
-TEST_F(SourceFiles, TextIsTheFileByteByByteBehindAByteOrderMark) {
+TEST_F(SourceFiles, TextIsTheFileByteByByteAfterAByteOrderMark) {
   EXPECT_EQ(opened("\xEF\xBB\xBFG00 X1\r\n;\xE8\n\x1A"), "G00 X1\r\n;\xE8\n\x1A");
   EXPECT_EQ(opened("\xEF\xBB\xBF\xEF\xBB\xBFM02"), "\xEF\xBB\xBFM02");  // One is a mark, two are text.
 }
@@ -284,7 +284,7 @@ TEST_F(SourceFiles, BinaryFileIsAProblem) {
   EXPECT_EQ(opened(noise, Language::Italian), "[sembra un file binario]");
 }
 
-TEST_F(SourceFiles, TenthOfControlsIsTheMostThatATextHas) {
+TEST_F(SourceFiles, TenthOfControlsIsTheMaximumOfAText) {
   const std::string nine(9, 'X');
   std::string tenth;
   for (int i = 0; i < 100; ++i) tenth += nine + "\x01";
@@ -306,7 +306,7 @@ TEST_F(SourceFiles, StrayControlsAreText) {
     EXPECT_EQ(opened(text), text);
 }
 
-TEST_F(SourceFiles, OnlyTheHeadTellsBinaryFromText) {
+TEST_F(SourceFiles, OnlyTheFirstBytesDistinguishBinaryFromText) {
   const std::string text = std::string(8 * 1024, 'X') + std::string(5000, '\0');
   EXPECT_TRUE(opened(text) == text);
 }

@@ -1,4 +1,4 @@
-#include "lsp/documents/open_document.h"
+#include "lsp/documents/analyzed_document.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -12,23 +12,23 @@
 
 namespace isocnc::lsp::documents {
 
-OpenDocument::OpenDocument(std::string uri, SettingsStore& settings) : uri_(std::move(uri)), store_(settings) {}
+AnalyzedDocument::AnalyzedDocument(std::string uri, SettingsStore& settings) : uri_(std::move(uri)), store_(settings) {}
 
-void OpenDocument::open(std::int64_t version, std::string_view text) {
+void AnalyzedDocument::open(std::int64_t version, std::string_view text) {
   version_ = version;
   has_byte_order_mark_ = text.starts_with(system::kByteOrderMark);
   if (has_byte_order_mark_) text.remove_prefix(system::kByteOrderMark.size());
   settings_ = store_.of(path_of(uri_));
   analysis_.reset();
   index_ = {};
-  speaks_ = {};
+  has_suppressions_ = {};
   report_.reset();
   memories_.clear();  // The new text numbers its chunks anew.
   document_ = syntax::Document(text);
   is_up_to_date_ = false;
 }
 
-void OpenDocument::edit(std::int64_t version, const std::vector<ContentChange>& changes, Encoding encoding) {
+void AnalyzedDocument::edit(std::int64_t version, const std::vector<ContentChange>& changes, Encoding encoding) {
   for (const ContentChange& change : changes) {
     if (change.range) {
       replace(change, encoding);
@@ -40,7 +40,7 @@ void OpenDocument::edit(std::int64_t version, const std::vector<ContentChange>& 
   is_up_to_date_ = false;
 }
 
-void OpenDocument::replace(const ContentChange& change, Encoding encoding) {
+void AnalyzedDocument::replace(const ContentChange& change, Encoding encoding) {
   ClientPosition first = change.range->start;
   ClientPosition last = change.range->end;
   if (last < first) std::swap(first, last);
@@ -54,7 +54,7 @@ void OpenDocument::replace(const ContentChange& change, Encoding encoding) {
   document_.replace({}, {0, system::kByteOrderMark.size()}, {});
 }
 
-void OpenDocument::reread_settings() {
+void AnalyzedDocument::reread_settings() {
   DocumentSettings settings = store_.of(path_of(uri_));
   if (settings.program == settings_.program) return;
   settings_ = std::move(settings);
@@ -63,7 +63,7 @@ void OpenDocument::reread_settings() {
   is_up_to_date_ = false;
 }
 
-bool OpenDocument::update(const std::function<bool()>& stop) {
+bool AnalyzedDocument::update(const std::function<bool()>& stop) {
   if (is_up_to_date_) return true;
   report_.reset();
   if (!analysis_) analysis_.emplace(document_, settings_.program->setup, check::Analysis::Unchecked{});
@@ -71,30 +71,31 @@ bool OpenDocument::update(const std::function<bool()>& stop) {
   return is_up_to_date_;
 }
 
-const ProgramIndex& OpenDocument::index() {
+const ProgramIndex& AnalyzedDocument::index() {
   index_.update(document_);
   return index_;
 }
 
 /// What the program's comments say to isolint.
-selection::Suppressions OpenDocument::read_suppressions() {
-  speaks_.update(document_,
-                 [&](std::size_t chunk) { return selection::Suppressions::may_speak(document_.chunk_text(chunk)); });
+selection::Suppressions AnalyzedDocument::read_suppressions() {
+  has_suppressions_.update(document_, [&](std::size_t chunk) {
+    return selection::Suppressions::may_have_directives(document_.chunk_text(chunk));
+  });
   selection::Suppressions suppressions;
-  for (std::size_t chunk = 0; chunk < speaks_.size(); ++chunk) {
+  for (std::size_t chunk = 0; chunk < has_suppressions_.size(); ++chunk) {
     const std::size_t first = document_.first_line_of_chunk(chunk);
-    for (std::size_t line = first; speaks_[chunk] && line < first + document_.chunk_lines(chunk); ++line)
+    for (std::size_t line = first; has_suppressions_[chunk] && line < first + document_.chunk_lines(chunk); ++line)
       suppressions.read_line(line, document_.text_of_line(line));
   }
   return suppressions;
 }
 
 /// As isolint would tell it.
-check::Report OpenDocument::shown_report() {
+check::Report AnalyzedDocument::shown_report() {
   return selection::shown_report(analysis_->report(), document_, read_suppressions(), settings_.program->selection);
 }
 
-const check::Report& OpenDocument::report() {
+const check::Report& AnalyzedDocument::report() {
   if (!report_) report_ = shown_report();
   return *report_;
 }
@@ -104,21 +105,21 @@ static constexpr std::size_t kFewFindings = 4'000;
 
 /// Whether the report has so many findings that it is not made as a whole unless somebody asks for it. Not where
 /// comments, or opinions on style, have a say in what it holds.
-bool OpenDocument::is_long() {
+bool AnalyzedDocument::is_long() {
   return !report_ && analysis_->finding_count() > kFewFindings && !selection::has_style(settings_.program->selection) &&
          read_suppressions().empty();
 }
 
-check::FirstFindings OpenDocument::excerpt(std::size_t most) {
+check::FirstFindings AnalyzedDocument::excerpt(std::size_t maximum) {
   if (!is_long()) return {report(), 0};
   const selection::Selection& selection = settings_.program->selection;
   check::FirstFindings first =
-      analysis_->excerpt({.max = most, .counts = [&](dialect::DiagnosticId id) { return selection.shows(id); }});
+      analysis_->excerpt({.max = maximum, .counts = [&](dialect::DiagnosticId id) { return selection.shows(id); }});
   first.report = selection.shown(std::move(first.report));
   return first;
 }
 
-std::vector<check::LocatedFinding> OpenDocument::findings_on(std::size_t line) {
+std::vector<check::LocatedFinding> AnalyzedDocument::findings_on(std::size_t line) {
   if (is_long())
     return settings_.program->selection.shown({.findings = analysis_->findings_on(line), .paths = {}}).findings;
   const auto [begin, end] = std::equal_range(
@@ -127,14 +128,14 @@ std::vector<check::LocatedFinding> OpenDocument::findings_on(std::size_t line) {
   return {begin, end};
 }
 
-ClientPosition OpenDocument::to_client(const syntax::Position& position, Encoding encoding) const {
+ClientPosition AnalyzedDocument::to_client(const syntax::Position& position, Encoding encoding) const {
   const std::string_view line = document_.text_of_line(position.line);
   std::uint32_t column = units_before(line, position.column, encoding);
   if (has_byte_order_mark_ && position.line == 0) column += units_before(system::kByteOrderMark, 3, encoding);
   return {static_cast<std::uint32_t>(position.line), column};
 }
 
-syntax::Position OpenDocument::from_client(const ClientPosition& position, Encoding encoding) const {
+syntax::Position AnalyzedDocument::from_client(const ClientPosition& position, Encoding encoding) const {
   if (position.line >= document_.line_count()) {
     const std::size_t last = document_.line_count() - 1;
     return {last, document_.text_of_line(last).size()};

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "lsp/documents/open_document.h"
+#include "lsp/documents/analyzed_document.h"
 #include "lsp/features/feature.h"
 #include "lsp/rpc/message.h"
 #include "lsp/rpc/strand.h"
@@ -21,24 +21,24 @@ namespace isocnc::lsp {
 /// The editor may also hold an isocnc.json open: then what is told of it is what is wrong with its text, saved or not.
 ///
 /// Called on the loop's thread; the work, and the answers, come on the strand.
-class Tab : public std::enable_shared_from_this<Tab> {
+class OpenDocument : public std::enable_shared_from_this<OpenDocument> {
  public:
   using ClientPointer = std::shared_ptr<const documents::Client>;
 
   /// What is wrong with a configuration file, told as diagnostics of its own.
-  using TellConfiguration = std::function<void(std::string uri, std::string params)>;
+  using ReportConfiguration = std::function<void(std::string uri, std::string params)>;
 
   /// Work on the document goes on that the user may want to see, under a title; without one it is over. No two works of
   /// a document have the same name.
-  using TellProgress = std::function<void(std::string work, std::optional<std::string> title)>;
+  using ReportProgress = std::function<void(std::string work, std::optional<std::string> title)>;
 
-  struct Teller {
+  struct Notifier {
     features::Notify notify;
-    TellConfiguration configuration;
-    TellProgress progress;
+    ReportConfiguration configuration;
+    ReportProgress progress;
   };
 
-  Tab(rpc::Pool& pool, documents::SettingsStore& settings, std::string uri, Teller teller);
+  OpenDocument(rpc::Pool& pool, documents::SettingsStore& settings, std::string uri, Notifier notifier);
 
   const std::string& uri() const { return uri_; }
   bool is_configuration() const { return is_configuration_; }
@@ -62,28 +62,29 @@ class Tab : public std::enable_shared_from_this<Tab> {
   static void work_on(const std::shared_ptr<Request>& request, const std::function<void()>& work);
 
   void post_edit(std::function<void()> edit, ClientPointer client);
-  void tell_of_change(const documents::Client& client);
-  void begin_progress(const documents::Client& client);
+  void report_change(const documents::Client& client);
+  void start_progress(const documents::Client& client);
   void end_progress();
   std::string titled(const documents::Client& client, const dialect::Text& title) const;
-  void post_study(features::Study study, const documents::Client& client, std::shared_ptr<Request> request);
-  void tell_of_configuration(const documents::Client& client);
-  void tell_as_configuration(const documents::Client& client);
+  void post_background_request(features::BackgroundRequest study, const documents::Client& client,
+                               std::shared_ptr<Request> request);
+  void report_configuration(const documents::Client& client);
+  void report_as_configuration(const documents::Client& client);
   void log(const std::exception& error);
 
   const std::string uri_;
   const bool is_configuration_;  // An isocnc.json, in which no program is looked for.
   documents::SettingsStore& settings_;
-  const Teller tell_;
+  const Notifier notifier_;
   std::atomic<int> edits_waiting_ = 0;
   std::atomic<bool> is_closed_ = false;
-  bool is_long_ = false;              // Of the strand: the text, when it was opened.
-  bool shows_progress_ = false;       // Of the strand.
-  documents::OpenDocument document_;  // Of the strand.
+  bool is_long_ = false;                  // Of the strand: the text, when it was opened.
+  bool shows_progress_ = false;           // Of the strand.
+  documents::AnalyzedDocument document_;  // Of the strand.
   rpc::Strand strand_;
-  rpc::Strand studies_;  // What takes long, one after another.
-  std::mutex studies_mutex_;
-  int studies_waiting_ = 0;  // Those that are shown, as all below: guarded by the mutex.
+  rpc::Strand background_requests_;  // What takes long, one after another.
+  std::mutex background_mutex_;
+  int background_waiting_ = 0;  // Those that are shown, as all below: guarded by the mutex.
   int times_shown_ = 0;
 };
 

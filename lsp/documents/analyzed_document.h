@@ -27,9 +27,9 @@ struct ContentChange {
 
 /// A program that the editor holds open: its text as it is edited, and its one analysis. Belongs to its strand; what
 /// features see of it is a Snapshot. Nothing is read, nor looked for in files, before open().
-class OpenDocument {
+class AnalyzedDocument {
  public:
-  OpenDocument(std::string uri, SettingsStore& settings);
+  AnalyzedDocument(std::string uri, SettingsStore& settings);
 
   /// Takes the text in the place of all that was there.
   void open(std::int64_t version, std::string_view text);
@@ -49,7 +49,7 @@ class OpenDocument {
   const check::Analysis& analysis() const { return *analysis_; }
   const check::Report& report();
   /// The first findings of the report, at least so many, and how many there are behind them.
-  check::FirstFindings excerpt(std::size_t most);
+  check::FirstFindings excerpt(std::size_t maximum);
   /// The report's findings on a line; of a report with very many, without their paths and those that only the whole
   /// program shows.
   std::vector<check::LocatedFinding> findings_on(std::size_t line);
@@ -82,7 +82,7 @@ class OpenDocument {
   bool is_up_to_date_ = false;
   std::optional<check::Report> report_;  // Once somebody has asked.
   ProgramIndex index_;
-  syntax::PerChunk<bool> speaks_;  // To isolint, perhaps, in its comments.
+  syntax::PerChunk<bool> has_suppressions_;  // To isolint, perhaps, in its comments.
   std::unordered_map<std::type_index, std::any> memories_;
 };
 

@@ -1,4 +1,4 @@
-#include "lsp/tab.h"
+#include "lsp/open_document.h"
 
 #include <utility>
 #include <vector>
@@ -21,26 +21,26 @@ using rpc::Json;
 /// Texts of fewer bytes are open before anybody could read that they are being opened.
 static constexpr std::size_t kLongText = 16 << 20;
 
-Tab::Tab(rpc::Pool& pool, documents::SettingsStore& settings, std::string uri, Teller teller)
+OpenDocument::OpenDocument(rpc::Pool& pool, documents::SettingsStore& settings, std::string uri, Notifier notifier)
     : uri_(uri),
       is_configuration_(documents::names_configuration(uri)),
       settings_(settings),
-      tell_(std::move(teller)),
+      notifier_(std::move(notifier)),
       document_(std::move(uri), settings),
       strand_(pool),
-      studies_(pool) {}
+      background_requests_(pool) {}
 
 static std::int64_t version_of(const Json& params) {
   return documents::member<std::int64_t>(params.at("textDocument"), "version").value_or(0);
 }
 
-void Tab::open(std::shared_ptr<const rpc::Call> call, const ClientPointer& client) {
+void OpenDocument::open(std::shared_ptr<const rpc::Call> call, const ClientPointer& client) {
   post_edit(
       [this, call = std::move(call), client] {
         const Json& params = call->params();
         const std::string text = call->message.text(params.at("textDocument").at("text"));
         is_long_ = text.size() >= kLongText;
-        begin_progress(*client);
+        start_progress(*client);
         document_.open(version_of(params), text);
       },
       client);
@@ -54,18 +54,18 @@ static std::vector<ContentChange> changes_in(const rpc::Call& call) {
   return changes;
 }
 
-void Tab::edit(std::shared_ptr<const rpc::Call> call, const ClientPointer& client) {
+void OpenDocument::edit(std::shared_ptr<const rpc::Call> call, const ClientPointer& client) {
   post_edit([this, call = std::move(call),
              encoding = client->encoding] { document_.edit(version_of(call->params()), changes_in(*call), encoding); },
             client);
 }
 
-void Tab::reconfigure(ClientPointer client) {
+void OpenDocument::reconfigure(ClientPointer client) {
   post_edit([this] { document_.reread_settings(); }, std::move(client));
 }
 
 /// Only after the last of the edits that wait does anybody look at the document.
-void Tab::post_edit(std::function<void()> edit, ClientPointer client) {
+void OpenDocument::post_edit(std::function<void()> edit, ClientPointer client) {
   ++edits_waiting_;
   strand_.post([self = shared_from_this(), edit = std::move(edit), client = std::move(client)] {
     try {
@@ -73,38 +73,39 @@ void Tab::post_edit(std::function<void()> edit, ClientPointer client) {
     } catch (const std::exception& error) {
       self->log(error);
     }
-    if (--self->edits_waiting_ == 0) self->tell_of_change(*client);
+    if (--self->edits_waiting_ == 0) self->report_change(*client);
     if (self->edits_waiting_ == 0 || self->is_closed_) self->end_progress();
   });
 }
 
-std::string Tab::titled(const Client& client, const dialect::Text& title) const {
+std::string OpenDocument::titled(const Client& client, const dialect::Text& title) const {
   const auto path = documents::path_of(uri_);
   return dialect::format(title, client.language({}), path ? path->filename().string() : uri_);
 }
 
-void Tab::begin_progress(const Client& client) {
+void OpenDocument::start_progress(const Client& client) {
   if (!is_long_ || !client.can("/window/workDoneProgress")) return;
   static constexpr dialect::Text kOpening = {"opening {}", "apertura di {}"};
-  tell_.progress("opening", titled(client, kOpening));
+  notifier_.progress("opening", titled(client, kOpening));
   shows_progress_ = true;
 }
 
-void Tab::end_progress() {
-  if (std::exchange(shows_progress_, false)) tell_.progress("opening", std::nullopt);
+void OpenDocument::end_progress() {
+  if (std::exchange(shows_progress_, false)) notifier_.progress("opening", std::nullopt);
 }
 
-void Tab::log(const std::exception& error) {
-  tell_.notify("window/logMessage", rpc::write({{"type", 1}, {"message", fmt::format("{}: {}", uri_, error.what())}}));
+void OpenDocument::log(const std::exception& error) {
+  notifier_.notify("window/logMessage",
+                   rpc::write({{"type", 1}, {"message", fmt::format("{}: {}", uri_, error.what())}}));
 }
 
-void Tab::tell_of_change(const Client& client) {
-  if (is_configuration_) return tell_as_configuration(client);
+void OpenDocument::report_change(const Client& client) {
+  if (is_configuration_) return report_as_configuration(client);
   try {
-    tell_of_configuration(client);
+    report_configuration(client);
     const Snapshot snapshot(document_, client, Interest{nullptr, &edits_waiting_});
     for (const features::Feature* const feature : features::all_features())
-      if (feature->changed) feature->changed(snapshot, tell_.notify);
+      if (feature->changed) feature->changed(snapshot, notifier_.notify);
   } catch (const rpc::Error&) {
     return;  // An edit has come; it will be told of.
   } catch (const std::exception& error) {
@@ -117,31 +118,31 @@ static std::string published(const std::string& uri, Json diagnostics) {
 }
 
 /// Tells what is wrong with the program's configuration file, once for all programs that have it.
-void Tab::tell_of_configuration(const Client& client) {
+void OpenDocument::report_configuration(const Client& client) {
   const configuration::Configuration& found = *document_.settings().configuration;
   if (found.file.empty() || !settings_.claim(found.file)) return;
   const std::filesystem::path file = configuration::real_path(found.file);
   const auto language = client.language(found.language);
-  tell_.configuration(
+  notifier_.configuration(
       documents::uri_of(file),
       published(documents::uri_of(file), documents::configuration_diagnostics(file, client.encoding, language)));
 }
 
-void Tab::tell_as_configuration(const Client& client) {
+void OpenDocument::report_as_configuration(const Client& client) {
   const std::filesystem::path folder = configuration::real_path(documents::path_of(uri_)->parent_path());
-  tell_.notify("textDocument/publishDiagnostics",
-               published(uri_, documents::configuration_diagnostics(document_.document().text(), folder,
-                                                                    client.encoding, client.language({}))));
+  notifier_.notify("textDocument/publishDiagnostics",
+                   published(uri_, documents::configuration_diagnostics(document_.document().text(), folder,
+                                                                        client.encoding, client.language({}))));
 }
 
-struct Tab::Request {
+struct OpenDocument::Request {
   std::shared_ptr<const std::atomic<bool>> cancelled;
   std::function<void(std::string result)> done;
   std::function<void(rpc::Error error)> failed;
 };
 
 /// Turns what the work throws into the request's error.
-void Tab::work_on(const std::shared_ptr<Request>& request, const std::function<void()>& work) {
+void OpenDocument::work_on(const std::shared_ptr<Request>& request, const std::function<void()>& work) {
   if (request->cancelled->load()) return;
   try {
     work();
@@ -154,37 +155,39 @@ void Tab::work_on(const std::shared_ptr<Request>& request, const std::function<v
   }
 }
 
-void Tab::ask(features::Method method, Json params, ClientPointer client,
-              std::shared_ptr<const std::atomic<bool>> cancelled, std::function<void(std::string result)> done,
-              std::function<void(rpc::Error error)> failed) {
+void OpenDocument::ask(features::Method method, Json params, ClientPointer client,
+                       std::shared_ptr<const std::atomic<bool>> cancelled, std::function<void(std::string result)> done,
+                       std::function<void(rpc::Error error)> failed) {
   const auto request = std::make_shared<Request>(Request{std::move(cancelled), std::move(done), std::move(failed)});
   strand_.post([self = shared_from_this(), method, params = std::move(params), client = std::move(client), request] {
     work_on(request, [&] {
       const Snapshot snapshot(self->document_, *client, Interest{request->cancelled.get(), &self->edits_waiting_});
       if (!method.begin) return request->done(method.answer(snapshot, params));
-      self->post_study(method.begin(snapshot, params), *client, request);
+      self->post_background_request(method.begin(snapshot, params), *client, request);
     });
   });
 }
 
 /// Studies of a long program are shown, as one work as long as there are any.
-void Tab::post_study(features::Study study, const Client& client, std::shared_ptr<Request> request) {
+void OpenDocument::post_background_request(features::BackgroundRequest study, const Client& client,
+                                           std::shared_ptr<Request> request) {
   static constexpr dialect::Text kRunning = {"running {}", "esecuzione di {}"};
   const bool is_shown = is_long_ && client.can("/window/workDoneProgress");
   const auto name = [this] { return fmt::format("running {}", times_shown_); };
   if (is_shown) {
-    const std::lock_guard lock(studies_mutex_);
-    if (studies_waiting_++ == 0) {
+    const std::lock_guard lock(background_mutex_);
+    if (background_waiting_++ == 0) {
       ++times_shown_;
-      tell_.progress(name(), titled(client, kRunning));
+      notifier_.progress(name(), titled(client, kRunning));
     }
   }
-  studies_.post([self = shared_from_this(), study = std::move(study), request = std::move(request), is_shown, name] {
-    work_on(request, [&] { request->done(study([&] { return request->cancelled->load() || self->is_closed_; })); });
-    if (!is_shown) return;
-    const std::lock_guard lock(self->studies_mutex_);
-    if (--self->studies_waiting_ == 0) self->tell_.progress(name(), std::nullopt);
-  });
+  background_requests_.post(
+      [self = shared_from_this(), study = std::move(study), request = std::move(request), is_shown, name] {
+        work_on(request, [&] { request->done(study([&] { return request->cancelled->load() || self->is_closed_; })); });
+        if (!is_shown) return;
+        const std::lock_guard lock(self->background_mutex_);
+        if (--self->background_waiting_ == 0) self->notifier_.progress(name(), std::nullopt);
+      });
 }
 
 }  // namespace isocnc::lsp
