@@ -99,7 +99,10 @@ static void add_options(command_line::ProgramApp& program, Options& options) {
   program
       .add_option("--output", options.output, command_line::kFileValue,
                   {"Write to this file, not to standard output", "Scrive in questo file, non sullo standard output"})
-      .check([](const std::string& given) { return std::string(given.empty() ? "no name" : ""); });
+      .check([](const std::string& given, dialect::Language language) {
+        static constexpr dialect::Text kNoName = {"no name", "manca il nome"};
+        return std::string(given.empty() ? kNoName.in(language) : "");
+      });
   program
       .add_flag("--statistics", options.statistics,
                 {"Show how many findings each code has", "Mostra quante segnalazioni ha ogni codice"})
@@ -116,11 +119,7 @@ static void add_options(command_line::ProgramApp& program, Options& options) {
   program
       .add_option("--max-warnings", options.max_warnings, {"N", "N"},
                   {"Fail when there are more warnings than N", "Fallisce se gli avvisi sono più di N"})
-      .check([](const std::string& given) {
-        const bool is_count =
-            !given.empty() && given.size() <= 9 && given.find_first_not_of("0123456789") == std::string::npos;
-        return is_count ? std::string() : given + " is no count of warnings";
-      });
+      .in_range(0, 999'999'999);
   program.add_flag("--exit-zero", options.exit_zero,
                    {"Do not fail because of findings", "Non fallisce per le segnalazioni"});
   program

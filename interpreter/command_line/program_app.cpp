@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <sstream>
+#include <type_traits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -24,27 +27,34 @@ using dialect::Text;
 static bool is_hidden(const CLI::Option& option) { return option.get_group().empty(); }
 static bool takes_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
 
-ProgramOption ProgramOption::required() const { return ProgramOption(option_->required()); }
+ProgramOption ProgramOption::required() const { return with(option_->required()); }
 
-ProgramOption ProgramOption::excludes(ProgramOption other) const {
-  return ProgramOption(option_->excludes(other.option_));
+ProgramOption ProgramOption::excludes(ProgramOption other) const { return with(option_->excludes(other.option_)); }
+
+ProgramOption ProgramOption::needs(ProgramOption other) const { return with(option_->needs(other.option_)); }
+
+ProgramOption ProgramOption::without_exclusions() const { return with(option_->option_text(" ")); }
+
+ProgramOption ProgramOption::takes_one() const { return with(option_->allow_extra_args(false)); }
+
+ProgramOption ProgramOption::in_range(std::uint64_t minimum, std::uint64_t maximum) const {
+  static constexpr Text kNotInRange = {"{} is not a whole number from {} to {}",
+                                       "{} non è un numero intero da {} a {}"};
+  return check([minimum, maximum](const std::string& given, Language language) -> std::string {
+    std::uint64_t number = 0;
+    const char* const end = given.data() + given.size();
+    const auto [parsed_end, error] = std::from_chars(given.data(), end, number);
+    if (error == std::errc() && parsed_end == end && minimum <= number && number <= maximum) return {};
+    return dialect::format(kNotInRange, language, given, minimum, maximum);
+  });
 }
 
-ProgramOption ProgramOption::needs(ProgramOption other) const { return ProgramOption(option_->needs(other.option_)); }
-
-ProgramOption ProgramOption::without_exclusions() const { return ProgramOption(option_->option_text(" ")); }
-
-ProgramOption ProgramOption::takes_one() const { return ProgramOption(option_->allow_extra_args(false)); }
-
-ProgramOption ProgramOption::in_range(int minimum, int maximum) const {
-  return ProgramOption(option_->check(CLI::Range(minimum, maximum)));
+ProgramOption ProgramOption::check(std::function<std::string(const std::string&, Language)> find_fault) const {
+  return with(option_->check([find_fault = std::move(find_fault), language = language_](
+                                 const std::string& given) -> std::string { return find_fault(given, language); }));
 }
 
-ProgramOption ProgramOption::check(std::function<std::string(const std::string&)> complaint_about) const {
-  return ProgramOption(option_->check(std::move(complaint_about)));
-}
-
-ProgramOption ProgramOption::hidden() const { return ProgramOption(option_->group("")); }
+ProgramOption ProgramOption::hidden() const { return with(option_->group("")); }
 
 /// By `--lang`, else by the environment. What follows -- is no option.
 static Language language_of_command(int argc, const char* const* argv) {
@@ -88,7 +98,12 @@ void ProgramApp::begin_group(const Text& heading) { app_->option_defaults()->gro
 template <class Value>
 ProgramOption ProgramApp::add_option(const std::string& names, Value& value, const Text& value_name,
                                      const Text& description) {
-  return ProgramOption(app_->add_option(names, value, text(description))->option_text(text(value_name)));
+  CLI::Option* const added = app_->add_option(names, value, text(description))->option_text(text(value_name));
+  const ProgramOption option(added, language_);
+  if constexpr (std::is_same_v<Value, std::optional<std::size_t>> ||
+                std::is_same_v<Value, std::optional<std::uint16_t>>)
+    option.in_range(0, std::numeric_limits<typename Value::value_type>::max());
+  return option;
 }
 
 // All kinds of values that the programs take.
@@ -103,7 +118,7 @@ template ProgramOption ProgramApp::add_option(const std::string&, std::optional<
                                               const Text&);
 
 ProgramOption ProgramApp::add_flag(const std::string& names, bool& value, const Text& description) {
-  return ProgramOption(app_->add_flag(names, value, text(description)));
+  return ProgramOption(app_->add_flag(names, value, text(description)), language_);
 }
 
 static std::string no_such_choice(const std::string& given, const std::vector<std::string>& choices,
@@ -118,9 +133,9 @@ ProgramOption ProgramApp::add_choice(const std::string& name, std::string& value
                                      const Text& value_name, const Text& description) {
   suggest(name, choices);
   return add_option(name, value, value_name, description)
-      .check([choices = std::move(choices)](const std::string& given) -> std::string {
+      .check([choices = std::move(choices)](const std::string& given, Language language) -> std::string {
         if (std::find(choices.begin(), choices.end(), given) != choices.end()) return {};
-        return no_such_choice(given, choices, Language::English);
+        return no_such_choice(given, choices, language);
       });
 }
 
@@ -134,6 +149,7 @@ ProgramApp::CommandReply ProgramApp::read(int argc, const char* const* argv) {
   if (request == "--manual-page") return {.answer = manual_page(), .complaint = {}};
   if (request == "--complete")
     return {.answer = completions(argc > 3 ? argv[3] : "", argc > 4 ? argv[4] : ""), .complaint = {}};
+  command_.assign(argv + std::min(argc, 1), argv + argc);
   try {
     app_->parse(argc, argv);
   } catch (const CLI::Success& success) {
@@ -159,59 +175,107 @@ std::optional<system::ExitStatus> ProgramApp::answer(int argc, const char* const
   return std::nullopt;
 }
 
-/// What a complaint of the library is about: `--fix excludes --baseline`, `--jobs: 1 required INT missing`.
-static std::string first_name(std::string_view complaint) {
-  const std::size_t begin = complaint.find('-');
-  if (begin == std::string_view::npos) return {};
-  return std::string(complaint.substr(begin, complaint.find_first_of(": ", begin) - begin));
+using Options = std::vector<const CLI::Option*>;
+
+static bool is_given(const CLI::Option& option) { return option.count() > 0; }
+
+/// Two options, where one has something to do with the other.
+using Pair = std::pair<const CLI::Option*, const CLI::Option*>;
+
+/// The first two options that are given, and exclude each other.
+static std::optional<Pair> excluded_pair(const Options& options) {
+  for (const CLI::Option* const option : options)
+    if (is_given(*option))
+      for (const CLI::Option* const other : option->get_excludes())
+        if (is_given(*other)) return Pair(option, other);
+  return std::nullopt;
 }
 
-static std::string last_name(std::string_view complaint) {
-  return std::string(complaint.substr(complaint.find_last_of(' ') + 1));
+/// The first option that is given without another that it needs.
+static std::optional<Pair> lonely_pair(const Options& options) {
+  for (const CLI::Option* const option : options)
+    if (is_given(*option))
+      for (const CLI::Option* const needed : option->get_needs())
+        if (!is_given(*needed)) return Pair(option, needed);
+  return std::nullopt;
 }
 
-/// What the library says in English, for who reads Italian.
-std::string ProgramApp::italian_complaint(const CLI::ParseError& error) const {
-  const std::string_view complaint = error.what();
-  const std::string name = first_name(complaint);
-  const CLI::Option* const option = name.empty() ? nullptr : app_->get_option_no_throw(name);
-  if (dynamic_cast<const CLI::ExcludesError*>(&error) != nullptr)
-    return fmt::format("{} e {} si escludono", name, last_name(complaint));
-  if (dynamic_cast<const CLI::RequiresError*>(&error) != nullptr)
-    return fmt::format("{} richiede {}", name, last_name(complaint));
-  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
-    return fmt::format("manca un argomento obbligatorio: {}", complaint.substr(0, complaint.find(' ')));
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
-    return fmt::format("argomento di troppo: {}", app_->remaining().empty() ? name : app_->remaining().front());
-  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
-    return option != nullptr && !takes_value(*option) ? fmt::format("{} non prende un valore", name)
-                                                      : fmt::format("{}: manca il valore", name);
-  if (option == nullptr || option->results().empty()) return std::string(complaint);
-  const auto choices = words_.find("--" + option->get_lnames().front());
-  if (choices == words_.end()) return fmt::format("{}: valore non ammesso: {}", name, option->results().back());
-  return fmt::format("{}: {}", name, no_such_choice(option->results().back(), choices->second, Language::Italian));
+static const CLI::Option* missing_option(const Options& options) {
+  const auto missing = std::find_if(options.begin(), options.end(), [](const CLI::Option* option) {
+    return option->get_required() && !is_given(*option);
+  });
+  return missing == options.end() ? nullptr : *missing;
 }
 
-std::string ProgramApp::complaint_about(const CLI::ParseError& error) const {
-  static constexpr Text kNoSuchOption = {"no such option", "opzione sconosciuta"};
-  static constexpr Text kGivenTwice = {"{}: given more than once", "{}: dato più di una volta"};
-  const std::vector<std::string> unexpected = app_->remaining();
-  if (unexpected.empty() || !unexpected.front().starts_with('-')) {
-    const std::string name = first_name(error.what());
-    const CLI::Option* const option = name.empty() ? nullptr : app_->get_option_no_throw(name);
-    if (option != nullptr && takes_value(*option) && dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr &&
-        option->results().size() > 1)
-      return dialect::format(kGivenTwice, language_, name);
-    return language_ == Language::Italian ? italian_complaint(error) : error.what();
+/// The first option that takes one value, and has been given several.
+static const CLI::Option* repeated_option(const Options& options) {
+  const auto repeated = std::find_if(options.begin(), options.end(), [](const CLI::Option* option) {
+    return takes_value(*option) &&
+           option->results().size() > static_cast<std::size_t>(option->get_items_expected_max());
+  });
+  return repeated == options.end() ? nullptr : *repeated;
+}
+
+/// The option of the command that is followed by no value, though it takes one.
+const CLI::Option* ProgramApp::option_without_value() const {
+  for (std::size_t i = 0; i < command_.size() && command_[i] != "--"; ++i) {
+    if (!command_[i].starts_with('-')) continue;
+    const CLI::Option* const option = app_->get_option_no_throw(command_[i]);
+    const bool is_last = i + 1 == command_.size();
+    if (option != nullptr && takes_value(*option) && (is_last || is_option(command_[i + 1]))) return option;
   }
+  return nullptr;
+}
+
+/// Whether a word of the command names an option, alone or with its value.
+bool ProgramApp::is_option(const std::string& word) const {
+  return word == "--" ||
+         (word.starts_with('-') && app_->get_option_no_throw(word.substr(0, word.find('='))) != nullptr);
+}
+
+/// `no such option: --frmt; did you mean --format?`
+std::string ProgramApp::no_such_option(const std::string& word) const {
+  static constexpr Text kNoSuchOption = {"no such option", "opzione sconosciuta"};
   std::vector<std::string> names;
   for (const CLI::Option* const option : app_->get_options()) {
     if (is_hidden(*option)) continue;
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
-  const std::string given = unexpected.front().substr(0, unexpected.front().find('='));
+  const std::string given = word.substr(0, word.find('='));
   return fmt::format("{}: {}{}", kNoSuchOption.in(language_), given,
                      dialect::did_you_mean(dialect::nearest_name(given, names), language_));
+}
+
+/// What is wrong with the command, in the reader's language. The library's exception tells the kind of the fault; what
+/// it is about is looked up in the options, so that no sentence of the library is read.
+std::string ProgramApp::complaint_about(const CLI::ParseError& error) const {
+  static constexpr Text kExclude = {"{} excludes {}", "{} e {} si escludono"};
+  static constexpr Text kNeeds = {"{} requires {}", "{} richiede {}"};
+  static constexpr Text kMissing = {"{} is required", "manca un argomento obbligatorio: {}"};
+  static constexpr Text kExtra = {"unexpected argument: {}", "argomento di troppo: {}"};
+  static constexpr Text kGivenTwice = {"{}: given more than once", "{}: dato più di una volta"};
+  static constexpr Text kNoValue = {"{}: the value is missing", "{}: manca il valore"};
+  const std::vector<std::string> unexpected = app_->remaining();
+  if (!unexpected.empty() && unexpected.front().starts_with('-')) return no_such_option(unexpected.front());
+  const Options options = std::as_const(*app_).get_options();
+  if (dynamic_cast<const CLI::ExcludesError*>(&error) != nullptr) {
+    if (const auto pair = excluded_pair(options))
+      return dialect::format(kExclude, language_, pair->first->get_name(), pair->second->get_name());
+  } else if (dynamic_cast<const CLI::RequiresError*>(&error) != nullptr) {
+    if (const auto pair = lonely_pair(options))
+      return dialect::format(kNeeds, language_, pair->first->get_name(), pair->second->get_name());
+  } else if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
+    if (const auto* const option = missing_option(options))
+      return dialect::format(kMissing, language_, option->get_name());
+  } else if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr && !unexpected.empty()) {
+    return dialect::format(kExtra, language_, unexpected.front());
+  } else if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+    if (const auto* const option = repeated_option(options))
+      return dialect::format(kGivenTwice, language_, option->get_name());
+    if (const auto* const option = option_without_value())
+      return dialect::format(kNoValue, language_, option->get_name());
+  }
+  return error.what();  // The name of an option, and what its check says of the value.
 }
 
 std::string ProgramApp::completions(std::string_view word, std::string_view previous) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -38,25 +39,29 @@ inline constexpr dialect::Text kFileValue = {"FILE", "FILE"};
 /// An option, as its program goes on to describe it.
 class ProgramOption {
  public:
-  explicit ProgramOption(CLI::Option* option) : option_(option) {}
+  ProgramOption(CLI::Option* option, dialect::Language language) : option_(option), language_(language) {}
 
   ProgramOption required() const;
   /// Not both.
   ProgramOption excludes(ProgramOption other) const;
   /// Not without the other.
   ProgramOption needs(ProgramOption other) const;
-  /// The help does not tell what it excludes.
+  /// The help does not list what it excludes.
   ProgramOption without_exclusions() const;
   /// Takes one word each time that it is given: what follows is no value of its list.
   ProgramOption takes_one() const;
-  ProgramOption in_range(int minimum, int maximum) const;
-  /// Told what is wrong with a value: nothing where it is right.
-  ProgramOption check(std::function<std::string(const std::string&)> complaint_about) const;
+  /// A whole number within these limits.
+  ProgramOption in_range(std::uint64_t minimum, std::uint64_t maximum) const;
+  /// `find_fault` returns what is wrong with a value, in the language given, or nothing where it is right.
+  ProgramOption check(std::function<std::string(const std::string&, dialect::Language)> find_fault) const;
   /// In no help, nor in the manual.
   ProgramOption hidden() const;
 
  private:
+  ProgramOption with(CLI::Option* option) const { return {option, language_}; }
+
   CLI::Option* option_;
+  dialect::Language language_;  // Of complaints.
 };
 
 /// The command line of one of the programs: its options, and what it answers by itself. `--help` and `--version`;
@@ -99,13 +104,16 @@ class ProgramApp {
   std::string completions(std::string_view word, std::string_view previous) const;
   std::string manual_page() const;
   void speak_italian();
-  std::string italian_complaint(const CLI::ParseError& error) const;
+  const CLI::Option* option_without_value() const;
+  bool is_option(const std::string& word) const;
+  std::string no_such_option(const std::string& word) const;
   std::string complaint_about(const CLI::ParseError& error) const;
 
   const dialect::Language language_;
   const std::unique_ptr<CLI::App> app_;
   const ManualTexts texts_;
   std::map<std::string, std::vector<std::string>> words_;  // By option.
+  std::vector<std::string> command_;                       // Without the name of the program.
 };
 
 }  // namespace isocnc::command_line

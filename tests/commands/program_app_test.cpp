@@ -84,7 +84,28 @@ TEST(IsolintCommand, ComplainsOfWhatDoesNotGoTogetherInItalian) {
   EXPECT_EQ(said({"isorun"}), "isorun: manca un argomento obbligatorio: FILE");
   EXPECT_EQ(said({"isorun", "a.iso", "b.iso"}), "isorun: argomento di troppo: b.iso");
   EXPECT_EQ(said({"isorun", "--vgpl", "1", "--vgpl=2", "a.iso"}), "isorun: --vgpl: dato più di una volta");
-  EXPECT_EQ(said({"isolint", "--max-warnings", "few"}), "isolint: --max-warnings: valore non ammesso: few");
+  EXPECT_EQ(said({"isolint", "--max-warnings", "few"}),
+            "isolint: --max-warnings: few non è un numero intero da 0 a 999999999");
+}
+
+/// The same faults in English: none of the sentences is the library's.
+TEST(IsolintCommand, ComplainsOfWhatDoesNotGoTogetherInEnglish) {
+  const auto complaint_about = [](const std::vector<std::string>& arguments) {
+    const CommandResult result = run_command(arguments);
+    EXPECT_EQ(result.status, 2);
+    return result.err.substr(0, result.err.find('\n'));
+  };
+  EXPECT_EQ(complaint_about({"isolint", "--config", "a", "--no-config", "b"}),
+            "isolint: --config excludes --no-config");
+  EXPECT_EQ(complaint_about({"isorun", "--dt", "1", "a.iso"}), "isorun: --dt requires --samples");
+  EXPECT_EQ(complaint_about({"isorun"}), "isorun: FILE is required");
+  EXPECT_EQ(complaint_about({"isorun", "a.iso", "b.iso"}), "isorun: unexpected argument: b.iso");
+  EXPECT_EQ(complaint_about({"isolint", "--jobs"}), "isolint: --jobs: the value is missing");
+  EXPECT_EQ(complaint_about({"isolint", "--output", "--fix", "a"}), "isolint: --output: the value is missing");
+  EXPECT_EQ(complaint_about({"isolint", "-j", "0"}), "isolint: --jobs: 0 is not a whole number from 1 to 1024");
+  EXPECT_EQ(complaint_about({"isolint", "--max-warnings", "-1"}),
+            "isolint: --max-warnings: -1 is not a whole number from 0 to 999999999");
+  EXPECT_EQ(complaint_about({"isols", "--tcp", "70000"}), "isols: --tcp: 70000 is not a whole number from 0 to 65535");
 }
 
 TEST(IsolintCommand, TakesAnOptionOnce) {
