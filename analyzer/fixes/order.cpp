@@ -99,7 +99,7 @@ Draft on_its_own_line(const Request& request) {
   if (!behind.empty() && alone->kind == InstructionKind::Function && !may_be_followed) return {};
   if (!behind.empty() && alone->kind == InstructionKind::Jump) return {};
   const auto before = line.words.first(extent->first);
-  // G92 X10 Y20= Z146: the Z belongs to the G92.
+  // G92 X10 Y20=-Z146: the Z belongs to the G92.
   if ((!behind.empty() && is_ambiguous(line, behind.front())) || (!before.empty() && is_ambiguous(line, before.back())))
     return {};
   Draft draft;

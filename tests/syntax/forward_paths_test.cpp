@@ -82,6 +82,9 @@ TEST(ForwardPaths, AreDoneWithALabelOnceTheyHaveArrived) {
 
 TEST(ForwardPaths, OpenNoPathFromLinesThatNoneReaches) {
   EXPECT_THAT(trails_to_last_line("M02\nIF VGPL=1 GOTO N9\nN9\n"), IsEmpty());
+  ForwardPaths<Trails> paths;
+  paths.pass(ParsedLine("IF VGPL=1 GOTO N9").tree(), [](Trails&) { ADD_FAILURE() << "There is no value to change."; });
+  EXPECT_TRUE(paths.finished());
 }
 
 TEST(ForwardPaths, IgnoreJumpsWithoutATargetAndLabelsThatNoneNames) {
