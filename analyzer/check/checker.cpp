@@ -238,8 +238,9 @@ class Checker::LineExecution final : public execution::Sink {
   void run() {
     const bool is_wrong = has_error_in_text();
     Groups& live = checker_.frontier.live;
-    // For one group check_plain() has tried it already.
-    const bool may_be_plain = live.size() > 1 && !checker_.checks_moves_;
+    // check_plain() has tried all but these already.
+    const bool is_target = line_.has_label() && checker_.jumps_.names(line_.label);
+    const bool may_be_plain = (live.size() > 1 || is_target) && !checker_.checks_moves_;
     for (group_ = 0; group_ < live.size(); ++group_) {
       execution::State& state = live[group_].state;
       if (!may_be_plain || !run_plainly(state)) execute(state, is_wrong);

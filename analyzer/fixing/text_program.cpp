@@ -16,9 +16,10 @@ struct TextProgram::Walk {
   syntax::TreeStore store;
   std::uint64_t line = 0;  // The next line.
 
-  void step(std::string_view text) {
+  /// Checks the next line. `end` is that of the whole text: short of it the short cut for plain lines gives up.
+  void step(std::string_view text, const char* end) {
     store.clear();
-    store.append_line(text.data(), text.data() + text.size());
+    store.append_line(text.data(), end);
     checker.check(store.tree(0, text.data()), line++, outcome);
     if (outcome.findings.size() + outcome.labels.size() + outcome.live_jumps.size() > 1'000) outcome.clear();
   }
@@ -78,7 +79,7 @@ bool TextProgram::is_jumped_to(std::uint64_t label) { return jumps().names(label
 const check::Frontier& TextProgram::frontier_before(std::uint64_t line) {
   // NOLINTNEXTLINE(modernize-make-unique): made where it stays, since a Checker in it is large.
   if (!walk_ || walk_->line > line) walk_.reset(new Walk{.checker = check::Checker(setup_, jumps())});
-  while (walk_->line < std::min(line, line_count())) walk_->step(text(walk_->line));
+  while (walk_->line < std::min(line, line_count())) walk_->step(text(walk_->line), text_.data() + text_.size());
   return walk_->checker.frontier;
 }
 
