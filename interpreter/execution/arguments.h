@@ -29,7 +29,7 @@ class Arguments {
   double operator[](char letter) const { return word(letter).value; }
   double value_or(char letter, double otherwise) const { return has(letter) ? word(letter).value : otherwise; }
   const syntax::Word& first() const { return line_.words[first_]; }
-  /// From the first to the last of the letters in `set` that are present; empty when none is.
+  /// The span of the words with a letter in `set`; empty without such a word.
   syntax::Span span_of(dialect::LetterSet set) const {
     syntax::Span span;
     for (char letter = 'A'; letter <= 'Z'; ++letter)
@@ -44,7 +44,7 @@ class Arguments {
   const syntax::LineTree& line_;
   dialect::LetterSet present_ = 0;
   std::uint16_t first_ = 0;
-  std::array<std::uint16_t, 26> index_;  // Read where `present_` says so.
+  std::array<std::uint16_t, 26> index_;  // Word by letter; set only for the letters in `present_`.
 };
 
 }  // namespace isocnc::execution

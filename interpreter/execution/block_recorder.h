@@ -6,7 +6,7 @@
 
 namespace isocnc::execution {
 
-/// Executes one block and records what it does. A value: it refers neither to the line nor to the setup afterwards.
+/// Executes one block and records what it does. A value: keeps no reference to the line or to the setup.
 class BlockRecorder final : public Sink {
  public:
   /// A motion with the state in which it runs: its frame, modes and spindle.
@@ -19,18 +19,18 @@ class BlockRecorder final : public Sink {
 
   /// The state after the block.
   const State& state() const { return state_; }
-  /// What is wrong with the block: what its text shows, then what takes the state before it.
+  /// The errors and warnings of the block: first those of its text, then those that depend on the state before it.
   const std::vector<syntax::Finding>& findings() const { return findings_; }
-  /// Whether one of them is an error: the control would stop here, and do none of the rest.
+  /// Whether one of the findings is an error: the control would stop here, without running the rest.
   bool has_error() const;
 
-  /// The block's motions in their order; more than one only where a finding says so.
+  /// The block's motions in their order; more than one only in a block with a finding.
   const std::vector<Motion>& motions() const { return motions_; }
-  /// The last of them; null where there is none.
+  /// The last motion; null if there is none.
   const Motion* motion() const { return motions_.empty() ? nullptr : &motions_.back(); }
   /// The state in which the last motion runs; without one, the state after the block.
   const State& modes() const { return motions_.empty() ? state_ : motions_.back().state; }
-  /// The waiting time of a G04, s; 0 where there is none.
+  /// The dwell of a G04, s; 0 without one.
   double dwell() const { return dwell_; }
   /// The values given to registers, in their order.
   const std::vector<Assigned>& assignments() const { return assignments_; }

@@ -17,7 +17,7 @@ void execute(const syntax::LineTree& line, State& state, const Setup& setup, Sin
   Executor(line, state, setup, sink).run();
 }
 
-/// Whether one sound instruction of this kind is all that the line has.
+/// Whether the line holds one valid instruction of this kind and nothing else.
 static bool is_lone(InstructionKind kind, const syntax::LineTree& line) {
   return line.instructions.size() == 1 && line.instructions[0].kind == kind && line.feed < 0 && line.spindle < 0 &&
          line.findings.empty();
@@ -51,9 +51,9 @@ void take_spindle_speed(double number, State& state) {
   if (state.knows(State::kCutNotStarted)) state.learn(State::kNotStarted);
 }
 
-/// What a number whose letter is lost may have been (D58): 01 a motion, 06 a tool change, 49 a mode, else the
-/// coordinate of some axis, a feed or a speed. What depends on it is unknown, so that no second finding follows from
-/// it.
+/// Handles a number whose letter is lost (D58). It may have been a motion (01), a tool change (06), a mode (49), else
+/// the coordinate of some axis, a feed or a speed. Everything that depends on it becomes unknown, so that no second
+/// finding follows.
 void Executor::allow_for_lost_letter() {
   const Word* const number = line_.number_without_letter();
   if (!number) return;
@@ -64,7 +64,7 @@ void Executor::allow_for_lost_letter() {
   if (value == dialect::kToolChange) {
     state_.tool_selected = true;
   } else if (value == 48 || value == 49) {
-    state_.set_mode(dialect::ModalGroup::Interpolation, 49);  // The one that allows more.
+    state_.set_mode(dialect::ModalGroup::Interpolation, 49);  // G49 allows more than G48.
     state_.written &= static_cast<std::uint16_t>(~(1u << static_cast<unsigned>(dialect::ModalGroup::Interpolation)));
   } else {
     blur_axes_not_named();
@@ -86,7 +86,7 @@ void Executor::blur_axes_not_named() {
   }
 }
 
-/// G70, G71, G90 or G91 after the coordinates, which may have been meant under the mode before or this one (D60).
+/// Handles G70, G71, G90 or G91 after the coordinates, which may have been meant under the old or the new mode (D60).
 void Executor::blur_axes_of_late_mode() {
   std::uint32_t mode = 0;
   for (const syntax::Finding& finding : line_.findings)
@@ -100,7 +100,7 @@ void Executor::blur_axes_of_late_mode() {
 
 void Executor::run() {
   if (!line_.findings.empty()) allow_for_lost_letter();
-  // S comes before the line's motion wherever it stands (I.4.2).
+  // S takes effect before the line's motion, wherever it stands (I.4.2).
   if (line_.spindle >= 0) {
     const double speed = line_.words[static_cast<std::size_t>(line_.spindle)].value;
     take_spindle_speed(speed, state_);
@@ -158,7 +158,7 @@ void Executor::report(dialect::DiagnosticId id, syntax::Span span, std::initiali
 void Executor::execute_g(const Instruction& instruction) {
   const dialect::GCode* const code = instruction.g();
   if (!code) {
-    // What an unknown G does with its arguments is unknown, and so are the axes it names.
+    // The effect of an unknown G is unknown; the positions of the axes that it names become unknown, too.
     const Arguments arguments(line_, instruction);
     const Word& g = line_.command(instruction);
     if (may_be_motion(g, arguments)) make_motion_illegible();
@@ -190,13 +190,13 @@ void Executor::execute_g(const Instruction& instruction) {
   }
 }
 
-/// Whether a G that is none of this control, or cannot be read, may have been meant as a motion that stays in force
-/// (D57): one on a line with coordinates, or one that has swallowed a coordinate whose letter is lost (G01 -20).
+/// Whether a G that is unknown to this control or illegible may have been meant as a motion that stays in force (D57):
+/// one on a line with coordinates, or one that has taken in a coordinate whose letter is lost (G01 -20).
 bool Executor::may_be_motion(const Word& g, const Arguments& arguments) {
   return (arguments.present() & dialect::kCoordinateLetters) != 0 || g.has(Word::kMalformed);
 }
 
-/// G27 G27, G49 G49: what is wrong has been said of the first, which should stand alone.
+/// Whether a repetition (G27 G27, G49 G49) has been reported at the first code, which must be alone on its line.
 bool Executor::repetition_is_reported(const dialect::GCode& code) const {
   const auto is_same = [&](const Instruction& each) { return each.g() && each.g()->number == code.number; };
   return line_.has(syntax::LineTree::kAloneViolated) &&
@@ -220,7 +220,7 @@ void Executor::set_mode(const dialect::GCode& code, const Word& word) {
   state_.written |= bit;
 }
 
-/// G09 belongs to the feed move before it: directly behind its arguments, or first on the next line (D23).
+/// G09 belongs to the feed move before it: directly after its arguments, or first on the next line (D23).
 void Executor::exact_stop(const Instruction& instruction) {
   const bool fits = instruction.has(Instruction::kFollowsMotion)
                         ? feed_move_
@@ -236,7 +236,7 @@ void Executor::dwell(const Instruction& instruction) {
 }
 
 void Executor::function(const Instruction& instruction) {
-  if (!line_.command(instruction).known())  // No M of any number; reported. It may have been any.
+  if (!line_.command(instruction).known())  // An M with an illegible number (reported) may have been any M.
     return state_.forget(State::kClockwise | State::kCounterclockwise | State::kStopped | State::kUncut |
                          State::kNotStarted | State::kCutNotStarted);
   const auto m = static_cast<int>(line_.command(instruction).value);
@@ -274,11 +274,11 @@ void Executor::turn_spindle(int m) {
 
 void Executor::tool_change(const Instruction& instruction) {
   state_.tool_prepared = false;
-  state_.forget(State::kClockwise | State::kCounterclockwise);  // What it does to the spindle is the machine's affair.
+  state_.forget(State::kClockwise | State::kCounterclockwise);  // Its effect on the spindle depends on the machine.
   for (const Word& word : line_.words)
     if (word.letter == 'T' && word.owner == instruction.number) return select_tool(word);
   state_.forget(State::kUncut | State::kToolKnown);
-  state_.tool_selected = true;  // Without its T, or with one reported elsewhere, a tool change was meant all the same.
+  state_.tool_selected = true;  // Without T, or with a T reported elsewhere, it still counts as a change.
 }
 
 void Executor::stray_tool(const Instruction& instruction) {
@@ -286,7 +286,7 @@ void Executor::stray_tool(const Instruction& instruction) {
   const Word* const number = line_.number_without_letter();
   const bool is_lost_change = number && number->value == dialect::kToolChange;  // 06 T101001 (D58)
   const bool follows_change = is_lost_change || (state_.expects_tool && instruction.has(Instruction::kFirst));
-  const bool is_legible = word.is_plain_integer() && word.digits == 6;  // Else reported, and one mistake is enough.
+  const bool is_legible = word.is_plain_integer() && word.digits == 6;  // An illegible T has been reported already.
   if (!follows_change && is_legible) report("tool-without-m06"_diag, word.span());
   state_.tool_prepared = !follows_change && instruction.has(Instruction::kFirst);
   select_tool(word);
@@ -305,7 +305,7 @@ void Executor::select_tool(const Word& word) {
   sink_.tool_change(state_.tool);
 }
 
-/// Zeros stand for nothing mounted, which needs no configuration (I.4.3).
+/// A zero means that nothing is mounted, which needs no configuration (I.4.3).
 bool Executor::is_configured(ToolCode tool) const {
   if (!setup_.tools || tool.head == 0) return true;
   return std::any_of(setup_.tools->begin(), setup_.tools->end(), [&](const ToolCode& listed) {
@@ -318,7 +318,7 @@ void Executor::assign(const Instruction& instruction) {
   if (const auto assigned = assigned_by(instruction, line_)) sink_.assign(assigned->reg, assigned->value);
 }
 
-/// In G93 an F without a feed move is ignored, on a rapid's line in G94 as well (D43).
+/// In G93 an F without a feed move is ignored; in G94 an F on the line of a rapid is ignored, too (D43).
 void Executor::apply_feed_without_motion() {
   const Word& word = line_.words[static_cast<std::size_t>(line_.feed)];
   if (state_.inverse_time()) {

@@ -10,14 +10,14 @@
 
 namespace isocnc::execution {
 
-/// The two axes of the arc plane in force and its normal, as coordinates (0 X, 1 Y, 2 Z) and letters. The normal is
-/// u x v: i x j, k x i, j x k (D40).
+/// The two axes of an arc plane and its normal, as coordinates (0 X, 1 Y, 2 Z) and letters. The normal is u x v: i x j,
+/// k x i, j x k (D40).
 struct Plane {
   int u, v, normal;
-  char u_letter, v_letter;                  ///< Of the end point.
-  char u_center, v_center, stray_center;    ///< I, J, K.
-  dialect::DiagnosticId stray;              ///< For the center letter outside the plane (D39).
-  dialect::DiagnosticId undetermined_by_u;  ///< When u of the center alone does not fix it.
+  char u_letter, v_letter;                  ///< Letters of the end point.
+  char u_center, v_center, stray_center;    ///< Letters of the center: I, J, K.
+  dialect::DiagnosticId stray;              ///< Diagnostic for the center letter outside the plane (D39).
+  dialect::DiagnosticId undetermined_by_u;  ///< Diagnostic where u alone does not determine the center.
   dialect::DiagnosticId undetermined_by_v;
 };
 
@@ -88,7 +88,7 @@ class Executor {
   State& state_;
   const Setup& setup_;
   Sink& sink_;
-  bool feed_move_ = false;  ///< The line has had an interpolated motion.
+  bool feed_move_ = false;  ///< Whether the line has had an interpolated motion.
   bool rapid_move_ = false;
 };
 

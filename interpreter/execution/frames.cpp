@@ -10,14 +10,14 @@ using geometry::Mat3;
 using geometry::Vec3;
 using syntax::Instruction;
 
-/// X Y Z of a frame's origin, mm; what is omitted is 0. False when one could not be read.
+/// Reads X Y Z of a frame's origin, mm; an omitted coordinate is 0. False when one could not be read.
 bool Executor::read_point(const Arguments& arguments, Vec3& point) const {
   const double scale = state_.mm_per_unit();
   for (int i = 0; i < 3; ++i) point[i] = arguments.value_or("XYZ"[i], 0) * scale;
   return point.allFinite();
 }
 
-/// The position goes from the face frame to the workpiece frame: the tip does not move (D25).
+/// Transforms the position from the face frame to the workpiece frame: the tip does not move (D25).
 void Executor::leave_face() {
   if (!state_.face_mounted) return;
   if ((state_.unknown & kLinearAxes) != 0 || state_.face_undefined || state_.face_unplaced) blur_linear_axes();
@@ -28,8 +28,8 @@ void Executor::leave_face() {
   state_.face_unplaced = false;
 }
 
-/// The origin that a G92 gives, and the axes of it that are not known: what could not be read, or all where the
-/// coordinate that it needs is missing.
+/// Reads the origin of a G92. Returns its unknown axes: those whose value could not be read, or all if the G92 has no
+/// coordinate.
 AxisSet Executor::read_origin(const Arguments& arguments, Vec3& origin) const {
   if ((arguments.present() & dialect::kLinearLetters) == 0) {
     origin = Vec3::Zero();
@@ -71,8 +71,8 @@ void Executor::dismount_face(const Instruction& instruction) {
   sink_.frame_changed(state_);
 }
 
-/// One unit axis per three letters. What is written but has no direction is ISO022; what is not written at all has been
-/// reported. False when the axes are not known in full.
+/// Reads one unit axis per three letters. A vector without direction is ISO022; a missing vector has been reported.
+/// False when not all axes are known.
 bool Executor::read_axes(const Arguments& arguments, std::string_view letters, Mat3& axes) {
   bool complete = true;
   for (int axis = 0; axis < 3; ++axis) {
@@ -92,8 +92,9 @@ bool Executor::read_axes(const Arguments& arguments, std::string_view letters, M
   return complete;
 }
 
-/// G28 Z0, and G91 G28 Z0, as other controls go home: no face was meant, so none is mounted, and where the tool is now
-/// is unknown. Said of the axes that it lacks, or of the company that it has.
+/// Handles G28 Z0 and G91 G28 Z0, with which other controls go home: no face was meant, so none is mounted, and the
+/// position of the tool is unknown. The finding is about the missing axes, or about the codes beside G28, which must be
+/// alone.
 void Executor::go_home(const Arguments& arguments) {
   Mat3 ignored;
   if (!line_.has(syntax::LineTree::kAloneViolated)) read_axes(arguments, "XYZIJKPQR", ignored);
@@ -101,7 +102,7 @@ void Executor::go_home(const Arguments& arguments) {
   blur_linear_axes();
 }
 
-/// Whether a G29 says how its face lies: with an argument at all, and angles that can be read and are in their range.
+/// Whether a G29 defines the orientation of its face: it has an argument, and legible angles within their range.
 static bool has_face_angles(const Arguments& arguments) {
   const auto is_in_range = [&](char letter) {
     return std::abs(arguments.value_or(letter, 0)) <= dialect::max_face_angle(letter);

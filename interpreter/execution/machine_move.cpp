@@ -10,7 +10,7 @@ namespace isocnc::execution {
 
 using geometry::Vec3;
 
-/// Length of a helix whose third axis leans over the plane of its circle; Simpson's rule on the speed, which is smooth.
+/// Length of a helix whose rise is oblique to the plane of its circle; Simpson's rule on the speed, which is smooth.
 static double tilted_helix_length(double radius, double sweep, const Vec3& u, const Vec3& v, const Vec3& rise) {
   const auto speed = [&](double t) {
     const double angle = sweep * t;
@@ -22,7 +22,7 @@ static double tilted_helix_length(double radius, double sweep, const Vec3& u, co
   return sum / (3 * kPanels);
 }
 
-/// The axis of the frame in force that the arc plane leaves out.
+/// The axis of the frame in force that is not in the arc plane.
 static int normal_of_plane(const State& state) {
   const std::uint8_t plane = state.mode(dialect::ModalGroup::Plane);
   return plane == 17 ? 2 : plane == 18 ? 1 : 0;

@@ -97,7 +97,7 @@ void Executor::motion(const Instruction& instruction) {
     const bool has_only_linear = (arguments.present() & dialect::kRotaryLetters) == 0;
     if (!state_.five_axis() && (!has_only_linear || (arguments.present() & dialect::kLinearLetters) == 0)) {
       const bool is_right = check_rotary_axes(arguments, code, place);
-      // B and C alone: that they may not turn says it all (D64).
+      // B and C alone: the finding that they may not turn is enough (D64).
       if (!is_right && (arguments.present() & dialect::kLinearLetters) == 0) return move_to(arguments);
     }
   }
@@ -124,7 +124,7 @@ void Executor::move_with_effects(const Arguments& arguments, const GCode& code, 
   sink_.move(move, state_);
 }
 
-/// Some motion was meant: where the axes are now is not known, nor whether the tool has cut.
+/// Handles coordinates without a legible motion G: the named axes become unknown, and so does whether the tool has cut.
 void Executor::move_illegibly(const Arguments& arguments) {
   for (int axis = 0; axis < kAxisCount; ++axis)
     if (arguments.has(letter_of(static_cast<Axis>(axis)))) state_.unknown |= axis_bit(static_cast<Axis>(axis));
@@ -132,7 +132,7 @@ void Executor::move_illegibly(const Arguments& arguments) {
     state_.forget(State::kStopped | State::kUncut | State::kNotStarted | State::kCutNotStarted);
 }
 
-/// Coordinates before any motion G belong to nothing: one finding a line (D21).
+/// Coordinates before any motion G belong to no instruction: one finding per line (D21).
 bool Executor::motion_is_in_force(const Arguments& arguments) {
   if (motion_is_legible()) return true;
   move_illegibly(arguments);
@@ -146,7 +146,7 @@ bool Executor::motion_is_in_force(const Arguments& arguments) {
   return false;
 }
 
-/// Letters that the motion does not take (D16).
+/// Reports letters that the motion does not take (D16).
 void Executor::report_strays(const Arguments& arguments, const GCode& code) {
   if (line_.has(syntax::LineTree::kAloneViolated)) return;
   Span center;  // I5 J0 with a G01 that should be a G02 is one mistake.
@@ -170,7 +170,7 @@ void Executor::check_first_motion(Span place) {
   state_.tool_reported = true;
 }
 
-/// A feed move needs an F: of its own in G93, of its own or an earlier line's in G94 (I.3.7, D43).
+/// A feed move needs an F: on its own line in G93, on its own or an earlier line in G94 (I.3.7, D43).
 void Executor::check_feed(Span place) {
   if (line_.feed >= 0) return take_feed();
   if (state_.inverse_time()) {
@@ -189,7 +189,7 @@ Feed Executor::feed_in_force() const {
   return execution::feed_in_force(state_);
 }
 
-/// Whether the motion keeps to three-axis interpolation, which moves no rotary axis; a G01 under it needs a linear one
+/// Whether the motion obeys three-axis interpolation, which moves no rotary axis; a G01 under it needs a linear axis
 /// (I.3.4.2, I.3.5, D41).
 bool Executor::check_rotary_axes(const Arguments& arguments, const GCode& code, Span place) {
   if (code.number == 1 && (arguments.present() & dialect::kLinearLetters) == 0) {
@@ -234,7 +234,7 @@ void Executor::move_to(const Arguments& arguments) {
   if (arguments.has('C')) move_axis(Axis::C, state_.position.c, arguments['C']);
 }
 
-/// R1=10: a word that cannot be read, which may be what the line lacks (D61). X=20 can be read, as X20.
+/// Whether the line has an illegible word such as R1=10, which may be the missing word (D61). X=20 is legible, as X20.
 bool Executor::has_illegible_equals() const {
   const auto is_stray = [](const syntax::Finding& finding) { return finding.id == "assignment-without-register"_diag; };
   const auto is_illegible = [](const syntax::Word& word) { return word.has(syntax::Word::kReported) && !word.known(); };
@@ -242,7 +242,7 @@ bool Executor::has_illegible_equals() const {
          std::any_of(line_.words.begin(), line_.words.end(), is_illegible);
 }
 
-/// What an arc must say before its geometry can be looked at, in the order of D45.
+/// Whether an arc has all words that its geometry needs; reports the first problem in the order of D45.
 bool Executor::arc_is_described(const Arguments& arguments, const Plane& plane, Span place) {
   if (!arguments.has(plane.u_letter) && !arguments.has(plane.v_letter)) {
     report("arc-end-outside-plane"_diag, arguments.span_of(dialect::kCoordinateLetters));
@@ -285,12 +285,12 @@ void Executor::report_circle(const Arguments& arguments, const geometry::Circle&
   }
 }
 
-/// Judges an arc, and works it out where `move` wants to know.
+/// Checks an arc, and computes it unless `move` is null.
 void Executor::arc(const Arguments& arguments, const GCode& code, Span place, Move* move) {
   const Plane& plane = plane_in_force(state_);
   if (!arc_is_described(arguments, plane, place)) return;
   const double scale = state_.mm_per_unit();
-  // From the start. Under G91 that is what is written, wherever the start may be.
+  // The offset from the start. Under G91 it is the value as written, even if the start is unknown.
   const auto offset = [&](char letter, int axis) {
     const double value = arguments[letter] * scale;
     if (state_.incremental()) return value;

@@ -16,7 +16,7 @@ void take_feed(double number, State& state) {
   state.feed_per_minute = state.last_feed;
 }
 
-/// Whether a first look shows that an arc is sound; arc() has the last word on the others.
+/// Whether a fast test shows that an arc is valid; Executor::arc() decides about the others.
 bool PlainRun::is_sound_arc(const PlainLine& line) {
   const Plane& plane = plane_in_force(state_);
   const auto has = [&](char letter) { return dialect::contains(line.arguments, letter); };

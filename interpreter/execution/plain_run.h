@@ -6,12 +6,13 @@
 
 namespace isocnc::execution {
 
-/// Executes plain lines in a row (LineTree::plain_arguments), as execute() would where nobody asks for effects: motions
-/// with which nothing is wrong, and which concern nothing in State::knowledge. Holds what no such line changes, so that
-/// each costs next to nothing. In between the state has the position right; all of it is when the run is gone.
+/// Executes plain lines in a row (LineTree::plain_arguments), as execute() does with a sink that wants no effects:
+/// motions that are valid and concern no lint rule on State::knowledge. Caches everything that plain lines cannot
+/// change, so that each line is cheap. During the run only `state.position` is up to date; the destructor updates the
+/// rest.
 class PlainRun {
  public:
-  /// With `suspects_centers` an arc under G90 whose center may as well count from the start is not plain.
+  /// With `suspects_centers`, an arc under G90 whose center could also be incremental is not plain.
   PlainRun(State& state, const Setup& setup, bool suspects_centers = false)
       : state_(state),
         setup_(setup),
@@ -28,8 +29,8 @@ class PlainRun {
     if (has_run_) finish();
   }
 
-  /// A rapid or a line, or a sound arc, with tool and feed known to be there. False, with nothing done, for any other
-  /// line.
+  /// Runs a rapid, a line or a valid arc if the tool and the feed are known. Does nothing and returns false for any
+  /// other line.
   bool run(const syntax::PlainLine& line) {
     if (!may_run_ || !line.has_coordinates()) return false;
     const std::uint8_t mode =
@@ -52,7 +53,7 @@ class PlainRun {
   bool is_incremental() const { return incremental_; }
   /// Whether the last line was an arc.
   bool was_arc() const { return mode_ > 1; }
-  /// Whether there was an arc under G90 whose center may as well count from the start.
+  /// Whether there was an arc under G90 whose center could also be incremental.
   bool met_open_center() const { return met_open_center_; }
 
  private:
@@ -82,13 +83,13 @@ class PlainRun {
   const Setup& setup_;
   const bool suspects_centers_;
   const double scale_;
-  const dialect::LetterSet straight_;  ///< What a straight motion may move.
+  const dialect::LetterSet straight_;  ///< Axes that a straight motion may move.
   const bool incremental_;
   const bool may_run_;
-  bool feed_holds_;  ///< A feed move may do without F.
+  bool feed_holds_;  ///< Whether a feed move without F is valid.
   std::uint8_t mode_;
   bool has_run_ = false;
-  bool feeds_ = false;  ///< A feed move has run.
+  bool feeds_ = false;  ///< Whether a feed move has run.
   bool met_open_center_ = false;
 };
 

@@ -21,7 +21,7 @@ struct ToolCode {
 
 constexpr ToolCode tool_code(int number) { return {number / 100000, number / 1000 % 100, number % 1000}; }
 
-/// From where to where an axis goes, in mm or degrees.
+/// The range of positions of an axis, in mm or degrees.
 struct Travel {
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
@@ -29,7 +29,7 @@ struct Travel {
   friend bool operator==(const Travel&, const Travel&) = default;
 };
 
-/// What the machine can do; infinite where its file does not tell.
+/// The limits of the machine; infinite where the machine file gives none.
 struct Limits {
   std::array<Travel, 5> travel;                           ///< X, Y, Z of the tool tip in the machine frame, B and C.
   double feed = std::numeric_limits<double>::infinity();  ///< mm/min
@@ -39,25 +39,25 @@ struct Limits {
   friend bool operator==(const Limits&, const Limits&) = default;
 };
 
-/// From where on lint rules speak; no check of the control depends on it.
+/// Thresholds above which lint rules report. They do not affect the errors of the control.
 struct AdviceThresholds {
   double longest_dwell = 120;  ///< G04, seconds.
-  double axis_angle = 1e-4;    ///< How far axis vectors may be from the right angle, degrees.
-  double vector_error = 1e-3;  ///< How far the length of an axis vector may be from 1.
+  double axis_angle = 1e-4;    ///< Maximum deviation of axis vectors from the right angle, degrees.
+  double vector_error = 1e-3;  ///< Maximum deviation of the length of an axis vector from 1.
 };
 
-/// What the checks must know of the machine.
+/// The data of the machine that the checks need.
 struct Setup {
   geometry::Pose home;          ///< Machine frame.
   double arc_tolerance = 0.01;  ///< mm (D35).
   /// The tools that the machine file lists; without a list any tool may be mounted (D46).
   std::optional<std::vector<ToolCode>> tools;
   Limits limits;
-  /// The M functions that the machine file names; without a list any number may be one.
+  /// The M functions that the machine file names; without a list any number is accepted.
   std::optional<std::vector<int>> functions;
-  /// mm: no rapid should go below this Z of the face frame.
+  /// Minimum Z of rapids in the face frame, mm.
   std::optional<double> clearance;
-  /// Whether opinions are wanted on every motion, plain ones too.
+  /// Whether lint rules check every motion, plain ones included.
   bool every_motion = false;
   AdviceThresholds advice;
 };

@@ -4,7 +4,7 @@
 
 namespace isocnc::execution {
 
-/// For who wants nothing of a block but the state behind it.
+/// Discards all effects and findings; for callers that need only the state after a block.
 class SilentSink final : public Sink {
  public:
   SilentSink() : Sink(false) {}

@@ -16,13 +16,13 @@ struct Move {
   MoveKind kind = MoveKind::Rapid;
   geometry::Pose from;  ///< Frame in force; mm, degrees.
   geometry::Pose to;
-  geometry::Vec3 center = geometry::Vec3::Zero();  ///< Arcs: frame in force; the start's coordinate along the normal.
+  geometry::Vec3 center = geometry::Vec3::Zero();  ///< Arcs: frame in force; along the normal, the start's coordinate.
   geometry::Vec3 normal =
-      geometry::Vec3::Zero();  ///< Arcs: unit, frame in force; for oblique frames along the axis cross product.
+      geometry::Vec3::Zero();  ///< Arcs: unit, frame in force; in oblique frames along the axes' cross product.
   double radius = 0;           ///< Arcs: distance of the center from the start, mm.
   double sweep_deg = 0;        ///< Arcs: positive counterclockwise about the normal (G03).
   int normal_axis = 2;         ///< Arcs: the coordinate that rises along a helix: 2 in G17, 1 in G18, 0 in G19.
-  AxisSet placed = 0;          ///< Axes whose end is given; the others are left out, or told from the start (G91).
+  AxisSet placed = 0;          ///< Axes whose end is given; the others are omitted, or relative to the start (G91).
   double feed = 0;             ///< mm/min (degrees/min when only rotary axes move), or 1/min in G93; 0 for rapids.
   bool inverse_time = false;
 };
@@ -36,9 +36,9 @@ struct CenteredArc {
   geometry::PlanePoint start;   ///< In the frame in force, mm.
   bool start_is_known = false;  ///< Always under G90.
   bool incremental = false;     ///< G91 is in force.
-  double mm_per_unit = 1;       ///< What a unit in the program is worth.
+  double mm_per_unit = 1;       ///< Length of a program unit, mm.
   const geometry::Circle& circle;
-  syntax::Span centers;  ///< What I, J and K span.
+  syntax::Span centers;  ///< Span of I, J and K.
 };
 
 /// A parameter of a user M (I.4.4).
@@ -47,11 +47,11 @@ struct FunctionParameter {
   double value = 0;
 };
 
-/// Takes what a block does and what is wrong with it, in the order in which it happens. A checker listens to findings
-/// alone; a simulator moves a machine.
+/// Receives the effects and the findings of a block, in the order in which they occur. A checker uses the findings
+/// only; a simulator moves a machine.
 class Sink {
  public:
-  /// With `wants_effects` false the motions below are not worked out, nor is anyone told of them.
+  /// With `wants_effects` false, motions are not computed, and move() and function() are not called.
   explicit Sink(bool wants_effects) : wants_effects_(wants_effects) {}
   virtual ~Sink() = default;
 
@@ -60,8 +60,7 @@ class Sink {
 
   /// `state` is the one in which the motion runs: its frame, modes and spindle.
   virtual void move(const Move&, const State&) {}
-  /// An arc whose circle is given by its center, with a mistake in it or not. Not called for the plain arcs of a
-  /// PlainRun.
+  /// An arc whose circle is given by its center, correct or not. Not called for the plain arcs of a PlainRun.
   virtual void centered_arc(const CenteredArc&) {}
   virtual void dwell(double) {}  ///< Seconds.
   virtual void spindle_speed(double) {}
