@@ -69,7 +69,7 @@ bool surely_fits(const ArcGiven& given, double tolerance) {
   return *given.radius > 0 && chord2 <= diameter2 * (1 - 1e-12) && chord2 > 4 * kEqualCoordinate * kEqualCoordinate;
 }
 
-/// How far the ends of an arc, and its R, are from one circle about the center.
+/// Deviation of the ends of an arc, and of its R, from one circle about the center, mm.
 static double misfit_about(PlanePoint center, const ArcGiven& given) {
   const double radius = center.norm();
   if (radius <= kEqualCoordinate) return std::numeric_limits<double>::infinity();

@@ -6,11 +6,11 @@
 
 namespace isocnc::geometry {
 
-static constexpr double kSmooth = 1e-4;  // mm: ends this near to each other are one point.
+static constexpr double kSmooth = 1e-4;  // mm: maximum distance of ends that count as one point.
 
 using Box = Eigen::AlignedBox2d;
 
-/// Holds the curve; of an arc, its circle.
+/// A box around the curve; for an arc, around its whole circle.
 static Box box_around(const PlaneCurve& curve) {
   Box box(curve.start);
   box.extend(curve.end);
@@ -19,7 +19,7 @@ static Box box_around(const PlaneCurve& curve) {
   return {Vec2(curve.center - reach), Vec2(curve.center + reach)};
 }
 
-/// How unequally far the ends of an arc are from its center.
+/// Difference of the distances of an arc's ends from its center, mm.
 static double imprecision(const PlaneCurve& curve) {
   return curve.is_arc() ? std::abs(curve.radius() - (curve.end - curve.center).norm()) : 0;
 }
@@ -88,7 +88,7 @@ void ContourOffset::add(const ContourElement& element) {
   release(element.reduces ? kLookAhead : 1);
 }
 
-/// Whether an element that comes now begins on one of the contour's first.
+/// Whether an element that comes now starts on one of the first elements of the contour.
 bool ContourOffset::closes(const PlaneCurve& curve) const {
   const PlaneCurve begin{.start = curve.start, .end = curve.start};
   return std::any_of(contour_.begin(), contour_.end(), [&](const Kept& first) {
@@ -97,8 +97,8 @@ bool ContourOffset::closes(const PlaneCurve& curve) const {
   });
 }
 
-/// Brings the last piece and the next together; `next` may begin later than it would, and what comes between them is
-/// inserted. `arriving` is where the contour's last element leads.
+/// Connects the last piece and the next: trims the start of `next`, or inserts a piece between them. `arriving` is the
+/// direction at the end of the contour's last element.
 void ContourOffset::join(PlaneCurve& next, const ContourElement& element, const Vec2& arriving) {
   Piece& last = pieces_.back();
   PlaneCurve& way = last.out.curve;
@@ -124,7 +124,7 @@ void ContourOffset::join(PlaneCurve& next, const ContourElement& element, const 
   insert(corner);
 }
 
-/// Cuts the last piece and the next off where they cross, nearest to their corner.
+/// Trims the last piece and the next at the crossing nearest to their corner.
 bool ContourOffset::trim(PlaneCurve& next) {
   PlaneCurve& way = pieces_.back().out.curve;
   const Crossings found = crossings(way, next);
@@ -145,21 +145,21 @@ void ContourOffset::insert(const PlaneCurve& curve) {
   finish_piece(pieces_.back());
 }
 
-/// The piece has its end: looks for gouges.
+/// Checks a piece for gouges, once its end is known.
 void ContourOffset::finish_piece(Piece& piece) {
   piece.gouges = piece.has_gouge_to_report = false;
   piece.box = box_around(piece.out.curve);
   for (const Kept& element : contour_) look_at(piece, element);
 }
 
-/// Whether the contour's walls face each other at a point of the cutter's way along the one and a point of the other.
+/// Whether the contour's walls face each other at a point of the cutter's path and a point of another element.
 /// `sides`: 1 if the cutter runs on the same side of both, else -1.
 static bool faces(const PlaneCurve& way, const PlaneCurve& element, const Approach& at, int sides) {
-  constexpr double kFacing = -0.7;  // Within some 45 degrees.
+  constexpr double kFacing = -0.7;  // Cosine: opposite to within about 45 degrees.
   return sides * way.direction_at(at.on_first).dot(element.direction_at(at.on_second)) < kFacing;
 }
 
-/// Lines face each other everywhere or nowhere.
+/// Whether two walls can face each other; two lines do so everywhere or nowhere.
 static bool may_face(const PlaneCurve& way, const PlaneCurve& element, int sides) {
   return way.is_arc() || element.is_arc() || faces(way, element, {}, sides);
 }
@@ -173,7 +173,7 @@ void ContourOffset::look_at(Piece& piece, const Kept& element) const {
   const bool lead_on_and_off = second >= closing_ && first <= before_ + kNeighbors;
   if ((!are_neighbors && (piece.is_lead_in || lead_on_and_off)) || (second - first == 1 && is_smooth)) return;
   const PlaneCurve& way = piece.out.curve;
-  // Ways on and off shift the cutter sideways, and so pass the contour's ends at less than the radius.
+  // Lead-in and lead-out shift the cutter sideways, and so pass the contour's ends at less than the radius.
   const double wanted = piece.is_lead_in ? radius_ / 2 : radius_;
   if (piece.box.squaredExteriorDistance(element.box) >= wanted * wanted) return;
   const double minimum = wanted - kGouge - imprecision(way) - imprecision(element.curve);
@@ -187,7 +187,7 @@ void ContourOffset::look_at(Piece& piece, const Kept& element) const {
   piece.has_gouge_to_report = !is_explained(piece.number, element.number);
 }
 
-/// A gouge next to an inside arc that is too small comes from it, and one finding is enough.
+/// Whether a gouge is next to an inside arc that is too small, which causes it and has been reported.
 bool ContourOffset::is_explained(std::uint64_t a, std::uint64_t b) const {
   const auto low = std::min(a, b);
   const auto high = std::max(a, b);
@@ -197,7 +197,7 @@ bool ContourOffset::is_explained(std::uint64_t a, std::uint64_t b) const {
   });
 }
 
-/// Where a loop that gouges leads back to piece `last`, it is cut off. The shortest such loop is.
+/// Cuts off the shortest loop that gouges and ends at piece `last`.
 void ContourOffset::reduce(std::size_t last) {
   bool gouges = false;
   for (std::size_t first = last; first-- > emitted_;) {
@@ -237,7 +237,7 @@ void ContourOffset::lead_out(const PlaneCurve& line, std::uint64_t tag) {
   report_gouge(piece);
 }
 
-/// Gives out what is final, but for so many pieces; what has waited for kLookAhead elements waits no longer.
+/// Emits the final pieces except the last `held`; a piece is emitted at the latest after kLookAhead elements.
 void ContourOffset::release(std::size_t held) {
   const auto has_waited = [&] {
     return pieces_.size() - emitted_ > 1 && pieces_[emitted_].number + kLookAhead < count_;
@@ -249,7 +249,7 @@ void ContourOffset::release(std::size_t held) {
   for (; emitted_ > 0 && pieces_.front().number + kLookBack < count_; --emitted_) pieces_.pop_front();
 }
 
-/// Once: who is told needs no second word about the same piece.
+/// Reports each piece at most once.
 void ContourOffset::report_gouge(Piece& piece) {
   if (!piece.has_gouge_to_report || piece.is_reported) return;
   piece.is_reported = true;

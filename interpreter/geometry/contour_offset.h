@@ -11,39 +11,43 @@
 
 namespace isocnc::geometry {
 
-/// A line or an arc of a contour, and how the cutter is to follow it.
+/// A line or an arc of a contour, and how the cutter must follow it.
 struct ContourElement {
-  PlaneCurve curve;       ///< Of some length.
-  std::uint64_t tag = 0;  ///< The caller's; comes back with what the element becomes. Grows from each to the next.
+  PlaneCurve curve;       ///< Longer than 0.
+  std::uint64_t tag = 0;  ///< Number set by the caller, ascending; copied to the element's pieces and flaws.
   int side = 1;           ///< The cutter runs to the left (1) or to the right (-1).
-  bool reduces = false;   ///< Whatever the cutter cannot reach without a gouge is left out.
-  bool cuts = true;       ///< Else it is neither spared nor looked after, as rapids are.
+  bool reduces = false;   ///< Parts that the cutter cannot reach without a gouge are omitted.
+  bool cuts = true;       ///< False for rapids, which are excluded from the gouge check.
 };
 
-/// A piece of the way of the cutter's center.
+/// A piece of the path of the cutter's center.
 struct OffsetPiece {
   PlaneCurve curve;
   std::uint64_t tag = 0;
-  bool is_inserted = false;  ///< A corner, or a way onto the contour, and not the element itself.
+  bool is_inserted = false;  ///< A corner or a lead-in, not the offset of the element itself.
 };
 
-/// Something that the cutter cannot do as the contour wants it.
+/// A place where the cutter does not fit: an inside arc that is too small, or a gouge.
 struct ContourFlaw {
   std::uint64_t tag = 0;
-  std::optional<double> small_arc;  ///< The radius of an inside arc that is smaller than the cutter's; else a gouge.
+  std::optional<double> small_arc;  ///< Radius of an inside arc that is smaller than the cutter's; empty for a gouge.
 };
 
-/// Leads the center of a round cutter along a contour, beside it by the cutter's radius. All in one plane, mm. What
-/// goes in comes out a few elements later; memory does not grow. A value: a copy goes on by itself.
+/// Leads the center of a round cutter along a contour, offset by the cutter's radius. All in one plane, mm. Pieces come
+/// out a few elements after their element goes in; memory does not grow. A value: a copy runs independently.
 ///
-/// Outside corners are rounded about their point, inside corners end where both sides meet. Where they do not meet, the
-/// cutter goes from beside the end of the one straight to beside the begin of the other, and gouges the contour; where
-/// the elements reduce the contour, the loop that gouges is cut off where its ends cross, if that is within kLookAhead
-/// pieces. The way is always continuous, and where it comes nearer to an element than the radius, by more than kGouge,
-/// that is told: to one of the kNeighbors elements before and behind it, and to one of the kLookBack whose wall faces
-/// its own, as on both sides of a neck. Other elements are none of its business: a finishing pass goes where the wall
-/// of the roughing pass was, and ways on and off lead over where the contour closes. For the same reason elements that
-/// go on as they are spare each other, and ways on and off have neighbors alone, and only keep half the radius.
+/// Outside corners are rounded about their point; at inside corners both offsets are trimmed where they cross. Offsets
+/// that do not cross are connected by a straight line, which gouges the contour; where the elements reduce the contour,
+/// the loop that gouges is cut off where its ends cross, if that is within kLookAhead pieces. The path is always
+/// continuous.
+///
+/// Gouge check: reports where a piece comes nearer to an element than the radius, by more than kGouge.
+/// - Each piece is compared with the kNeighbors elements before and after it, and with those of the last kLookBack
+///   whose wall faces its own, as on both sides of a neck.
+/// - Not compared: other elements, because a finishing pass runs where the wall of the roughing pass was; and
+///   consecutive elements that are tangent.
+/// - Lead-in and lead-out cross the place where the contour closes. Hence they are compared with their neighbors only,
+///   at half the radius.
 class ContourOffset {
  public:
   static constexpr std::size_t kLookAhead = 32;
@@ -56,24 +60,24 @@ class ContourOffset {
 
   double radius() const { return radius_; }
 
-  /// Begins a contour, behind finish() or at first: from `line.start`, where the cutter stands, straight to beside the
-  /// begin of the element that comes next, or, when none does, to `line.end`.
+  /// Starts a contour; call it first, or after finish(). The cutter moves straight from `line.start` to the offset
+  /// start of the next element, or, without a next element, to `line.end`.
   void lead_in(const PlaneCurve& line, const ContourElement& like, bool is_inserted);
-  /// Behind lead_in().
+  /// Adds an element; call it after lead_in().
   void add(const ContourElement& element);
-  /// The cutter comes to beside the end of the last element, and all that is known comes out. The contour may go on
-  /// from there: round an outside corner as ever, while inside it goes straight across to beside the begin of the next
-  /// one.
+  /// Moves the cutter to the offset end of the last element, and emits all pieces. The contour may continue from there:
+  /// an outside corner is rounded as usual; at an inside corner the cutter goes straight to the offset start of the
+  /// next element.
   void finish();
-  /// A straight way off the contour. It is looked at, and does not come out.
+  /// Adds a straight lead-out. It is checked for gouges but not returned by next_piece().
   void lead_out(const PlaneCurve& line, std::uint64_t tag);
-  /// What has been cut so far is out of the way of what follows: the cutter has been raised.
+  /// Excludes everything cut so far from gouge checks, because the cutter has been raised.
   void forget() { ++pass_; }
 
   std::optional<OffsetPiece> next_piece();
   std::optional<ContourFlaw> next_flaw();
 
-  /// Bytes that it holds, beside itself, when all that came out has been taken.
+  /// Bytes held beside the object itself, once the caller has taken all pieces and flaws.
   std::size_t memory() const { return contour_.size() * sizeof(Kept) + pieces_.size() * sizeof(Piece); }
 
  private:
@@ -84,19 +88,19 @@ class ContourOffset {
     std::uint64_t pass = 0;
     int side = 1;
     bool is_too_small = false;
-    bool is_smooth = false;  // Goes on as the element before it.
+    bool is_smooth = false;  // Tangent to the element before it.
   };
   struct Piece {
     OffsetPiece out;
-    Eigen::AlignedBox2d box;   // Around it, once it has its end.
-    std::uint64_t number = 0;  // Of the element.
+    Eigen::AlignedBox2d box;   // Box around the piece, set once its end is known.
+    std::uint64_t number = 0;  // Number of its element.
     std::uint64_t pass = 0;
     int side = 1;
     bool cuts = true;
-    bool is_lead_in = false;  // Or leads out.
+    bool is_lead_in = false;  // Lead-in or lead-out.
     bool is_smooth = false;
     bool gouges = false;
-    bool has_gouge_to_report = false;  // Of a gouge that no other finding explains.
+    bool has_gouge_to_report = false;  // A gouge that no other finding explains.
     bool is_reported = false;
   };
 
@@ -114,16 +118,17 @@ class ContourOffset {
   void report_gouge(Piece& piece);
 
   double radius_;
-  std::deque<Kept> contour_;  // Elements that cut, the last kLookBack.
-  std::deque<Piece> pieces_;  // Given out, those of the last kLookBack elements, then waiting; the last has no end yet.
-  std::size_t emitted_ = 0;   // Of pieces_.
+  std::deque<Kept> contour_;  // The last kLookBack elements that cut.
+  std::deque<Piece> pieces_;  // Emitted pieces of the last kLookBack elements, then waiting ones; the last is open.
+  std::size_t emitted_ = 0;   // Number of emitted pieces in `pieces_`.
   std::deque<OffsetPiece> out_;
   std::deque<ContourFlaw> flaws_;
-  std::uint64_t count_ = 0;                                            // Elements.
-  std::uint64_t before_ = 0;                                           // Of them, before this contour.
-  std::uint64_t closing_ = std::numeric_limits<std::uint64_t>::max();  // The first that begins where this one did.
+  std::uint64_t count_ = 0;   // Number of elements.
+  std::uint64_t before_ = 0;  // Number of elements before this contour.
+  // First element that starts where the contour did.
+  std::uint64_t closing_ = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t pass_ = 0;
-  int side_ = 0;  // Of the last element.
+  int side_ = 0;  // Side of the last element.
   Vec2 arriving_ = Vec2::Zero();
 };
 

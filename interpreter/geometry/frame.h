@@ -4,13 +4,13 @@
 
 namespace isocnc::geometry {
 
-/// Below this length an axis vector is none, and below this volume three unit vectors lie in a plane (D26).
+/// Length below which an axis vector has no direction, and volume below which three unit vectors are coplanar (D26).
 inline constexpr double kZeroVector = 1e-6;
-/// Two axes are orthogonal when the cosine between them is below this: CAM systems write few decimals (D26).
+/// Two axes are orthogonal when the cosine between them is below this. CAM systems write few decimals (D26).
 inline constexpr double kOrthogonalCosine = 1e-3;
 
-/// A frame given in another one: coordinates run along unit axes that need be neither orthogonal nor right-handed
-/// (D26). P = origin + x i + y j + z k.
+/// A frame, described in an outer frame. Its unit axes may be oblique or left-handed (D26).
+/// P = origin + x i + y j + z k.
 struct Frame {
   Vec3 origin = Vec3::Zero();
   Mat3 axes = Mat3::Identity();  ///< Columns i, j, k.
@@ -24,7 +24,7 @@ struct Frame {
 /// Whether an axis vector is long enough to give a direction.
 bool has_direction(const Vec3& vector);
 
-/// Whether three unit vectors span no volume worth the name.
+/// Whether three unit vectors lie in a plane (kZeroVector).
 bool are_coplanar(const Mat3& unit_axes);
 
 /// Axes of G29 (D28): i = Rz(C) Ry(B) ex, j = Rz(C) ey, k = Rz(C) Ry(B) ez; angles in degrees.

@@ -7,23 +7,23 @@
 
 namespace isocnc::geometry {
 
-/// An arc that may rise on its way, mm: center + cos(a) out + sin(a) side + rise a / sweep, for a from 0 to `sweep`.
+/// An arc or helix, mm: center + cos(a) out + sin(a) side + rise a / sweep, for a from 0 to `sweep`.
 struct Helix {
   Vec3 center;        ///< In the plane of the start.
   Vec3 out;           ///< From the center to the start.
-  Vec3 side;          ///< As `out`, a quarter turn later.
-  Vec3 rise;          ///< In all. It may lean over the plane of the circle.
+  Vec3 side;          ///< From the center to the point a quarter turn after the start.
+  Vec3 rise;          ///< Total rise; may be oblique to the plane of the circle.
   double sweep = 0;   ///< Radians, positive.
-  double cosine = 1;  ///< Of the sweep.
-  double sine = 0;
+  double cosine = 1;  ///< Cosine of the sweep.
+  double sine = 0;    ///< Sine of the sweep.
 
-  double length() const;  ///< Where the rise does not lean.
-  /// From where to where each coordinate goes.
+  double length() const;  ///< Valid only where the rise is not oblique.
+  /// The range of each coordinate.
   std::array<Range, 3> extents() const;
 };
 
-/// Through both ends even where they are not equally far from the center: what is missing is spread over the way, as
-/// the rise is (I.3.4.3.b). `normal` is a unit vector; `sweep_deg` is positive counterclockwise about it, and not 0.
+/// The helix through both ends. A difference of their distances from the center is spread evenly over the path, like
+/// the rise (I.3.4.3.b). `normal` is a unit vector; `sweep_deg` is positive counterclockwise about it, and not 0.
 Helix helix(const Vec3& from, const Vec3& to, const Vec3& center, const Vec3& normal, double sweep_deg);
 
 }  // namespace isocnc::geometry

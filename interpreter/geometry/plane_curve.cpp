@@ -8,14 +8,14 @@
 namespace isocnc::geometry {
 
 static constexpr double kTurn = 2 * std::numbers::pi;
-static constexpr double kOnCurve = 1e-7;  // mm: how far beyond its ends a curve still is met.
+static constexpr double kOnCurve = 1e-7;  // mm: distance beyond its ends at which a curve still counts as met.
 
 static Vec2 unit(const Vec2& vector) {
   const double length = vector.norm();
   return length > 0 ? Vec2(vector / length) : Vec2(Vec2::Zero());
 }
 
-/// Along an arc's way at one of its points.
+/// The unit vector along an arc at one of its points.
 static Vec2 direction_on_arc(const PlaneCurve& arc, const Vec2& point) {
   return (arc.sweep > 0 ? 1 : -1) * left_of(unit(point - arc.center));
 }
@@ -30,7 +30,8 @@ Vec2 PlaneCurve::direction_at(const Vec2& point) const {
   return is_arc() ? direction_on_arc(*this, point) : unit(end - start);
 }
 
-/// How far an arc has turned at a point beside it: radians in its own sense, from a hair before 0 to a full turn.
+/// The angle of an arc from its start to a point near it: radians in its own sense, from slightly below 0 to a full
+/// turn.
 static double turned_at(const PlaneCurve& arc, const Vec2& point) {
   const Vec2 a = arc.start - arc.center;
   const Vec2 b = point - arc.center;
@@ -59,7 +60,7 @@ PlaneCurve beside(const PlaneCurve& curve, double distance) {
   return shifted;
 }
 
-/// How much of the curve lies before a point of the line or circle that it is part of; nothing where it is not met.
+/// Length of the curve before a point of its infinite line or full circle; nothing if the point is not on the curve.
 static std::optional<double> length_before(const PlaneCurve& curve, const Vec2& point) {
   const double length = curve.length();
   if (!(length > 0)) return std::nullopt;
@@ -76,7 +77,7 @@ static void add_crossing(Crossings& found, const PlaneCurve& first, const PlaneC
   found.at[static_cast<std::size_t>(found.count++)] = {point, *along_first, *along_second};
 }
 
-/// Where the line through both ends meets a circle.
+/// Adds the points where the infinite line of `line` meets the circle of `arc`.
 static void cross_line_and_circle(const PlaneCurve& line, const PlaneCurve& arc, const auto& add) {
   const Vec2 way = line.direction_at_start();
   const double radius = arc.radius();
@@ -123,7 +124,7 @@ Crossings crossings(const PlaneCurve& first, const PlaneCurve& second) {
 
 static Vec2 nearest_on(const PlaneCurve& curve, const Vec2& point) {
   Vec2 nearest = (point - curve.start).norm() <= (point - curve.end).norm() ? curve.start : curve.end;
-  const bool is_center = curve.is_arc() && point == curve.center;  // All of the arc is equally near.
+  const bool is_center = curve.is_arc() && point == curve.center;  // All points of the arc are equally near.
   if (is_center || !length_before(curve, point)) return nearest;
   const Vec2 way = curve.direction_at_start();
   const Vec2 foot = curve.is_arc() ? Vec2(curve.center + curve.radius() * unit(point - curve.center))
@@ -131,7 +132,8 @@ static Vec2 nearest_on(const PlaneCurve& curve, const Vec2& point) {
   return (point - foot).norm() < (point - nearest).norm() ? foot : nearest;
 }
 
-/// Where a common normal of both can stand on an arc: towards the other's center, or straight towards its line.
+/// Adds the points of an arc where a common normal of both curves can stand: towards the other's center, or at right
+/// angles to its line.
 static void add_feet_of_normals(const PlaneCurve& arc, const PlaneCurve& other, const auto& add) {
   const Vec2 towards = other.is_arc() ? unit(other.center - arc.center) : left_of(other.direction_at_start());
   for (const double way : {arc.radius(), -arc.radius()}) {

@@ -6,8 +6,8 @@
 
 namespace isocnc::geometry {
 
-/// A line or an arc in a plane, mm. An arc whose ends are not equally far from its center runs through both, as those
-/// within the arc tolerance do (D35).
+/// A line or an arc in a plane, mm. An arc runs through both ends, even if they are not equally far from its center, as
+/// the arc tolerance allows (D35).
 struct PlaneCurve {
   Vec2 start = Vec2::Zero();
   Vec2 end = Vec2::Zero();
@@ -17,12 +17,12 @@ struct PlaneCurve {
   bool is_arc() const { return sweep != 0; }
   double radius() const { return (start - center).norm(); }
   double length() const;
-  /// Unit vectors along the way; zero where a line goes nowhere.
+  /// Unit vectors along the path; zero for a line of length 0.
   Vec2 direction_at_start() const;
   Vec2 direction_at_end() const;
-  /// At one of its points.
+  /// The unit vector along the path at one of its points.
   Vec2 direction_at(const Vec2& point) const;
-  /// What of it lies behind or before a point on it, so many mm along its way.
+  /// The part of the curve after (from) or before (to) a point at the arc length `along`, mm.
   PlaneCurve from(const Vec2& point, double along) const;
   PlaneCurve to(const Vec2& point, double along) const;
 };
@@ -33,21 +33,21 @@ inline Vec2 left_of(const Vec2& direction) { return {-direction.y(), direction.x
 /// The z of the cross product: positive where `b` points to the left of `a`.
 inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// The curve beside this one, to the left of its way, or for negative distances to the right. Of an arc that is no
-/// larger than that, what remains is the line between the points beside its ends.
+/// The curve at a distance (mm) to the left of this one; for negative distances to the right. An arc with a radius not
+/// above the distance becomes the line between the offset ends.
 PlaneCurve beside(const PlaneCurve& curve, double distance);
 
-/// Whether beside() leaves nothing of an arc.
+/// Whether beside() turns an arc into a line.
 bool vanishes_beside(const PlaneCurve& curve, double distance);
 
-/// A point that two curves share, and how much of each lies before it, mm.
+/// A point that two curves share, and the length of each before it, mm.
 struct Crossing {
   Vec2 point = Vec2::Zero();
   double along_first = 0;
   double along_second = 0;
 };
 
-/// Two at most. Curves that run along each other, or merely touch to within rounding, may have none.
+/// At most two crossings. Curves that overlap, or that touch only within rounding, may have none.
 struct Crossings {
   std::array<Crossing, 2> at;
   int count = 0;
@@ -57,7 +57,7 @@ struct Crossings {
 };
 Crossings crossings(const PlaneCurve& first, const PlaneCurve& second);
 
-/// Two points that are as near to each other as any of two curves; one and the same where they cross.
+/// The points of two curves that are nearest to each other; the same point where the curves cross.
 struct Approach {
   Vec2 on_first = Vec2::Zero();
   Vec2 on_second = Vec2::Zero();

@@ -13,14 +13,14 @@ void Range::include(const Range& other) {
 
 Turn turn_of(double angle) { return {angle, std::cos(angle), std::sin(angle)}; }
 
-/// Whether a vector's direction is met on the way from angle 0 to the end.
+/// Whether the direction of (p, q) lies between angle 0 and the end.
 static bool passes(double p, double q, const Turn& end) {
   const double beyond = end.cosine * q - end.sine * p;
   if (end.angle >= 2 * std::numbers::pi) return true;
   return end.angle <= std::numbers::pi ? q >= 0 && beyond <= 0 : q >= 0 || beyond <= 0;
 }
 
-/// p cos t + q sin t is most where t is the direction of (p, q), and least where it is the opposite one.
+/// p cos t + q sin t has its maximum where t is the direction of (p, q), and its minimum at the opposite direction.
 static Range level_wave_range(double p, double q, const Turn& end, double last) {
   Range range{std::min(p, last), std::max(p, last)};
   const double amplitude = std::sqrt(p * p + q * q);
@@ -29,7 +29,7 @@ static Range level_wave_range(double p, double q, const Turn& end, double last) 
   return range;
 }
 
-/// Between the ends it can only turn where its slope is zero: amplitude sin(t - phase) = slope. There the wave is
+/// Between the ends a minimum or maximum requires derivative zero: amplitude sin(t - phase) = slope. There the wave is
 /// amplitude cos(t - phase).
 static Range wave_range(double p, double q, double slope, const Turn& end) {
   const double last = end.cosine * p + end.sine * q + end.angle * slope;

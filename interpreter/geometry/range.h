@@ -13,10 +13,10 @@ struct Range {
   void include(const Range& other);
 };
 
-/// Least and most of p cos t + q sin t + slope t for t from 0 to `end`, radians, not negative.
+/// Minimum and maximum of p cos t + q sin t + slope t for t from 0 to `end`, radians, not negative.
 Range wave_range(double p, double q, double slope, double end);
 
-/// An angle in radians, not negative, that may be met again: with its cosine and sine.
+/// An angle in radians, not negative, with its cosine and sine, so that they are computed only once.
 struct Turn {
   double angle = 0;
   double cosine = 1;
@@ -24,7 +24,7 @@ struct Turn {
 };
 Turn turn_of(double angle);
 
-/// The same of each coordinate of center + p cos t + q sin t + slope t.
+/// Minimum and maximum of each coordinate of center + p cos t + q sin t + slope t, for t from 0 to `end`.
 std::array<Range, 3> wave_ranges(const Vec3& center, const Vec3& p, const Vec3& q, const Vec3& slope, const Turn& end);
 
 }  // namespace isocnc::geometry

@@ -5,7 +5,7 @@
 
 namespace isocnc::geometry {
 
-/// Positions and directions in mm, in the frame that the name or the comment says.
+/// Positions and directions in mm, in the frame given by the name or the comment.
 using Vec3 = Eigen::Vector3d;
 using Vec2 = Eigen::Vector2d;  ///< In a plane.
 using Mat3 = Eigen::Matrix3d;
