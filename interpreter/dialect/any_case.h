@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-/// Words that are compared capitals aside, as people type names.
+/// Comparison of words regardless of case, for names typed by users.
 namespace isocnc::dialect {
 
 bool same_letter(char a, char b);

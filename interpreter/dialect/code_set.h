@@ -10,17 +10,17 @@
 
 namespace isocnc::dialect {
 
-/// The codes that one word of a selection names.
+/// The diagnostic codes that one word of a selection names.
 struct CodeSet {
   std::bitset<kDiagnosticCount> codes;
-  std::size_t exactness = 0;  ///< How many letters of the code were given; `ALL` gives none.
+  std::size_t exactness = 0;  ///< Number of characters of the code that were given; 0 for `ALL`.
 };
 
-/// The codes of `ISO031`, of `arc-center-mismatch`, of the beginning `W1` or of `ALL`, capitals aside; none when
-/// nothing is called that.
+/// The codes named by a code (`ISO031`), a name (`arc-center-mismatch`), a prefix (`W1`) or `ALL`, in any case; nothing
+/// for an unknown word.
 std::optional<CodeSet> find_codes(std::string_view word);
 
-/// The code or name that was most plausibly meant.
+/// The code or name that was probably meant.
 std::optional<std::string> nearest_code(std::string_view word);
 
 }  // namespace isocnc::dialect

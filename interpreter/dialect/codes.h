@@ -10,7 +10,7 @@
 
 namespace isocnc::dialect {
 
-/// The groups of Tav. 2, of whose members one is in force at a time. `None`: not modal (Tav. 3 and I.3.9 to I.3.12).
+/// The modal groups of Tav. 2: one member of each is in force at a time. `None`: not modal (Tav. 3, I.3.9 to I.3.12).
 enum class ModalGroup : std::uint8_t {
   Motion,
   Plane,
@@ -27,14 +27,14 @@ enum class ModalGroup : std::uint8_t {
 
 inline constexpr std::size_t kModalGroupCount = static_cast<std::size_t>(ModalGroup::None);
 
-/// A G code: everything that is known of it without running it.
+/// A G code: all its properties that do not depend on the state of the machine.
 struct GCode {
   std::uint16_t number = 0;
   Text name;
   ModalGroup group = ModalGroup::None;
-  bool is_default = false;                 ///< In force when a program starts.
-  LetterSet arguments = 0;                 ///< What may follow it.
-  DiagnosticId alone = kNoDiagnostic;      ///< Reported when it has to stand alone on its line and does not.
+  bool is_default = false;                 ///< Whether it is in force when a program starts.
+  LetterSet arguments = 0;                 ///< Letters of its arguments.
+  DiagnosticId alone = kNoDiagnostic;      ///< Reported when it must be alone on its line and is not.
   DiagnosticId repeated = kNoDiagnostic;   ///< Reported when written again while in force.
   DiagnosticId misplaced = kNoDiagnostic;  ///< Reported when it follows dimensions on its line.
   std::string_view section;
@@ -199,7 +199,7 @@ inline constexpr GCode kGCodes[] = {
      .section = "I.3.11"},
 };
 
-/// Stands for a G that the dialect does not know (E001, ISO007).
+/// Row number of a G that the dialect does not know (E001, ISO007).
 inline constexpr std::uint8_t kUnknownGCode = 255;
 
 /// Row of kGCodes for each number up to 999; kUnknownGCode where there is none.
@@ -242,7 +242,7 @@ constexpr bool is_user_function(int m) {
   return std::none_of(std::begin(kMCodes), std::end(kMCodes), [m](const MCode& code) { return code.number == m; });
 }
 
-/// How far B or C of a G29 may be from 0, degrees (I.3.2).
+/// Maximum absolute value of B or C of a G29, degrees (I.3.2).
 constexpr double max_face_angle(char letter) { return letter == 'B' ? 90 : 180; }
 
 inline constexpr int kRegisterCount = 30;  ///< V1 to V30 (I.6).

@@ -5,11 +5,11 @@
 
 namespace isocnc::dialect {
 
-/// How much a finding weighs. `Error`: the control stops here. `Warning`: the control, or a machinist, would frown.
-/// `Info`: something that the reader should know of the check itself.
+/// Severity of a finding. `Error`: the control stops here. `Warning`: legal, but the control or a machinist would
+/// object. `Info`: a fact about the check itself.
 enum class Severity : std::uint8_t { Error, Warning, Info };
 
-/// The languages in which users are spoken to.
+/// The languages of all texts for users.
 enum class Language : std::uint8_t { English, Italian };
 
 /// One text in both languages.
@@ -20,25 +20,25 @@ struct Text {
   constexpr std::string_view in(Language language) const { return language == Language::Italian ? it : en; }
 };
 
-/// The most values that one message can name.
+/// Maximum number of values in one message.
 inline constexpr int kMaxArguments = 3;
 
-/// One kind of finding, as it stands in the table of diagnostics: everything that is ever said about it.
+/// One kind of finding: a row of the table of diagnostics, with all its texts.
 ///
 /// `message` may name `{text}` (the program text under the finding's mark) and the values in `arguments`, by name.
 struct DiagnosticDef {
-  std::string_view code;  ///< `ISO012`, `E004`, `W001`: stable, what users select and suppress.
-  std::string_view name;  ///< `head-not-selected`: stable, what our code and readers say.
+  std::string_view code;  ///< `ISO012`, `E004`, `W001`: stable; used in selections and suppressions.
+  std::string_view name;  ///< `head-not-selected`: stable; used in the code and by readers.
   Severity severity = Severity::Error;
-  bool is_off = false;                        ///< Shown only to who selects it.
-  bool is_reported_by_runs = false;           ///< By isorun, which follows the tool; isolint does not find it.
-  std::string_view section;                   ///< Of the specification, `I.4.3`.
+  bool is_off = false;                        ///< Reported only if selected by the user.
+  bool is_reported_by_runs = false;           ///< Reported by isorun, which follows the tool, and not by isolint.
+  std::string_view section;                   ///< Section of the specification: `I.4.3`.
   std::string_view arguments[kMaxArguments];  ///< Names of the values, in the order in which they are reported.
   Text title;                                 ///< A few words for lists.
   Text message;                               ///< One line, without a full stop.
-  Text explanation;        ///< Why the control stops and what to do; the first sentence stands alone.
+  Text explanation;        ///< Why the control stops and what to do; the first sentence can be read alone.
   std::string_view wrong;  ///< A program with this one finding; `[!` and `!]` enclose the marked text.
-  std::string_view right;  ///< The same program, mended: no finding at all.
+  std::string_view right;  ///< The same program, corrected; it has no finding.
 };
 
 }  // namespace isocnc::dialect

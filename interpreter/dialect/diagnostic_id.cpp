@@ -23,12 +23,12 @@ std::string format_value(double value) {
   if (text.size() > 24) return fmt::format("{:.6g}", value);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
-  // Below the printed decimals a value still has to read as what it is, and never as "-0".
+  // A value below the printed decimals must not read as 0, nor any value as "-0".
   if ((text == "0" || text == "-0") && value != 0) return fmt::format("{:.3g}", value);
   return text == "-0" ? "0" : text;
 }
 
-/// A longer piece of program text would push the message off the screen; the mark shows it whole.
+/// Shortens a long piece of program text, which would push the message off the screen; the mark shows it whole.
 static std::string shortened(std::string_view text) {
   constexpr std::size_t kMaxShownBytes = 40;
   if (text.size() <= kMaxShownBytes) return std::string(text);
@@ -37,7 +37,7 @@ static std::string shortened(std::string_view text) {
   return std::string(text.substr(0, end)) + "...";
 }
 
-/// Characters that a reader cannot see, by their number: U+00A0.
+/// Replaces invisible characters by their number: U+00A0.
 static std::string spelled_out(std::string_view text) {
   struct Invisible {
     std::string_view bytes, name;
@@ -67,7 +67,7 @@ static std::string spelled_out(std::string_view text) {
   return result;
 }
 
-/// The value of this name is the number of an axis.
+/// Name of the argument whose value is the number of an axis.
 static constexpr std::string_view kAxisArgument = "axis";
 
 static std::string axis_name(double axis) {

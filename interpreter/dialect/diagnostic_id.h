@@ -12,17 +12,17 @@
 
 namespace isocnc::dialect {
 
-/// A row of the table of diagnostics. Made only from a name, so that there is none that the table does not know.
+/// Index of a row of the table of diagnostics. Created from a name only, so that every id is in the table.
 enum class DiagnosticId : std::uint8_t {};
 
-/// Stands where a table row has no diagnostic to name.
+/// Value of a field that names no diagnostic.
 inline constexpr DiagnosticId kNoDiagnostic{255};
 
 inline constexpr std::size_t kDiagnosticCount = std::size(kDiagnostics);
 static_assert(kDiagnosticCount < 255);
 
 namespace detail {
-/// Never defined: calling it is what makes a misspelt name fail to compile.
+/// Never defined: the call makes a misspelt name fail to compile.
 void no_diagnostic_has_this_name();
 }  // namespace detail
 
@@ -41,7 +41,7 @@ inline const DiagnosticDef& definition(DiagnosticId id) { return kDiagnostics[st
 /// The diagnostic with this code (`ISO012`, any case) or name (`head-not-selected`).
 std::optional<DiagnosticId> find_diagnostic(std::string_view code_or_name);
 
-/// The message in `language`, with `text` (the program text under the mark) and the values put in.
+/// The message in `language`, with `text` (the program text under the mark) and the values inserted.
 std::string message(DiagnosticId id, Language language, std::string_view text, std::span<const double> values);
 
 /// A value as messages show it: at most four decimals, no trailing zeros.
@@ -50,7 +50,7 @@ std::string format_value(double value);
 /// `error`, `warning`, `info` (`errore`, `avviso`, `nota`).
 std::string_view severity_name(Severity severity, Language language);
 
-/// The explanation's first sentence: it stands alone.
+/// The explanation's first sentence, which can be read alone.
 std::string_view first_sentence(std::string_view explanation);
 
 }  // namespace isocnc::dialect

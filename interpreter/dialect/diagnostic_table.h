@@ -4,11 +4,11 @@
 
 namespace isocnc::dialect {
 
-/// Every kind of finding. One row is all that is ever said about a code: messages in both languages, `--explain`, the
-/// documentation and the reports to other tools are read from here, and `wrong` and `right` are its first test.
+/// Every kind of finding. A row is the only source of all texts about a code: messages in both languages, `--explain`,
+/// the documentation and the reports to other tools. `wrong` and `right` are its first test.
 ///
 /// `ISO` codes are the specification's (I.7); `E` and `W0` are rules that its text states without a code (D2, D3);
-/// `W19x` tell of the check itself. Lengths in messages are in mm and angles in degrees, whatever the program uses.
+/// `W19x` report on the check itself. Lengths in messages are in mm and angles in degrees, whatever the program uses.
 inline constexpr DiagnosticDef kDiagnostics[] = {
     {.code = "ISO001",
      .name = "unclosed-comment",

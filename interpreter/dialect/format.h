@@ -8,7 +8,7 @@
 
 namespace isocnc::dialect {
 
-/// A text in a language, with values in the places that it has for them, as those of fmt::format: `{}`, `{:.1f}`.
+/// A text in a language, with the values inserted at its fmt::format placeholders: `{}`, `{:.1f}`.
 template <class... Values>
 std::string format(const Text& text, Language language, const Values&... values) {
   return fmt::format(fmt::runtime(text.in(language)), values...);

@@ -22,7 +22,7 @@ constexpr bool contains(LetterSet set, char letter) {
   return letter >= 'A' && letter <= 'Z' && (set & letter_bit(letter)) != 0;
 }
 
-/// A letter that starts a word, and what it stands for (Tav. 1; N: I.2.0, V: I.6).
+/// A letter that starts a word, and its meaning (Tav. 1; N: I.2.0, V: I.6).
 struct LetterDef {
   char letter;
   Text meaning;
@@ -71,15 +71,16 @@ inline constexpr LetterSet kWordLetters = [] {
   return set;
 }();
 
-/// What a letter stands for; empty where it starts no word.
+/// The meaning of a letter; empty for a letter that starts no word.
 Text meaning_of(char letter);
 
-/// The letters that name a coordinate, a center, a radius or a component: what a G can take as an argument (Tav. 1), in
-/// the order in which programs write them.
+/// The letters of a coordinate, a center, a radius or a component, which a G can take as arguments (Tav. 1), in the
+/// order in which programs write them.
 inline constexpr std::string_view kArgumentOrder = "XYZABCIJKPQR";
 inline constexpr LetterSet kDimensionLetters = letters(kArgumentOrder);
 
-/// The axes by their numbers, in the order of a pose: what G00 to G03 can move (I.3.4; A is no axis of theirs, D16).
+/// The axes that G00 to G03 can move, in the order of a pose, indexed by axis number (I.3.4). A is not one of them
+/// (D16).
 inline constexpr std::string_view kAxisLetters = "XYZBC";
 inline constexpr LetterSet kCoordinateLetters = letters(kAxisLetters);
 inline constexpr LetterSet kLinearLetters = letters("XYZ");

@@ -5,18 +5,18 @@
 
 #include "interpreter/dialect/diagnostic.h"
 
-/// How users say in which language they want to be spoken to.
+/// The user's choice of language.
 namespace isocnc::dialect {
 
-/// What commands, files and messages call the languages, in their order.
+/// The names of the languages in commands, files and messages, in the order of Language.
 inline constexpr std::string_view kLanguageNames[] = {"en", "it"};
 std::optional<Language> language_named(std::string_view name);
 std::string_view name_of(Language language);
 
-/// Of `it_IT.UTF-8`, `it-IT` or `it`; English unless it is Italian.
+/// The language of a locale such as `it_IT.UTF-8`, `it-IT` or `it`; English unless it is Italian.
 Language language_of_locale(std::string_view locale);
 
-/// The user's language by LC_ALL, LC_MESSAGES or LANG, in this order; English unless one says Italian.
+/// The user's language: the first of LC_ALL, LC_MESSAGES and LANG that is set decides; English unless it is Italian.
 Language language_of_environment();
 
 }  // namespace isocnc::dialect

@@ -8,7 +8,7 @@
 
 namespace isocnc::dialect {
 
-/// Letters to insert, delete, change or swap with their neighbor to make one of the other.
+/// The number of letters to insert, delete, change or swap with their neighbor that turns one name into the other.
 static std::size_t distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before_last;
   std::vector<std::size_t> last(b.size() + 1);
@@ -29,7 +29,7 @@ static std::size_t distance(std::string_view a, std::string_view b) {
 }
 
 std::optional<std::string> nearest_name(std::string_view typed, std::span<const std::string> names) {
-  constexpr std::size_t kLongest = 64;  // What is longer was never a name.
+  constexpr std::size_t kLongest = 64;  // Maximum length of a mistyped name.
   if (typed.size() > kLongest) return std::nullopt;
   const std::size_t limit = std::max<std::size_t>(1, (typed.size() + 2) / 4);
   std::optional<std::string> nearest;
@@ -42,7 +42,7 @@ std::optional<std::string> nearest_name(std::string_view typed, std::span<const 
       nearest = name;
     }
   }
-  if (minimum > limit)  // Far from all, but perhaps the beginning of one.
+  if (minimum > limit)  // The typed word is far from all names, but perhaps a prefix of one.
     for (const std::string& name : names)
       if (typed.size() >= 3 && begins_with(name, typed)) return name;
   return nearest;

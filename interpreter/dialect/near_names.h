@@ -9,8 +9,8 @@
 
 namespace isocnc::dialect {
 
-/// The one of `names` that `typed` was most plausibly meant to be, capitals aside. None when none is near, or when
-/// several are equally near: a guess would mislead. A name that was not written to its end is near.
+/// The one of `names` that was probably meant by `typed`, in any case. Nothing when no name is near, or when several
+/// are equally near: a guess would mislead. A prefix of a name is near it.
 std::optional<std::string> nearest_name(std::string_view typed, std::span<const std::string> names);
 
 /// `; did you mean ISO031?`, or nothing.
