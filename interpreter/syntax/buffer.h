@@ -7,9 +7,8 @@
 
 namespace isocnc::syntax {
 
-/// A growing row of plain values that can be written in place: what is not yet written is left as it is. Unlike a
-/// vector it sets nothing to zero and says nothing of elements beyond its size, which is what a parser of millions of
-/// words needs.
+/// A growing array of plain values that can be written in place. Unlike a vector it does not initialize new elements,
+/// and allows writing beyond its size, as a parser of millions of words needs.
 template <class T>
 class Buffer {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
@@ -33,7 +32,7 @@ class Buffer {
   const T& operator[](std::size_t index) const { return data_[index]; }
   T& back() { return data_[size_ - 1]; }
 
-  /// Where `count` more elements can be written; add() makes them part of the row.
+  /// Returns the place for `count` more elements; add() makes them part of the array.
   [[gnu::always_inline]] T* reserve_for(std::size_t count) {
     if (size_ + count > capacity_) [[unlikely]]
       grow(count);

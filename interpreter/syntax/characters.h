@@ -13,12 +13,12 @@
 
 namespace isocnc::syntax {
 
-/// What a byte can be outside comments.
+/// The class of a byte outside comments.
 enum class CharClass : std::uint8_t {
   Letter,  ///< Starts a word; either case (D8).
   Digit,
-  NumberSign,  ///< + - . and the comma, which is never right but belongs to the number it spoils (D9).
-  Blank,       ///< Means nothing (D6).
+  NumberSign,  ///< + - . and the comma, which is always wrong but belongs to the number around it (D9).
+  Blank,       ///< Without meaning (D6).
   LineEnd,
   Open,
   Close,
@@ -58,11 +58,11 @@ inline bool is_number_char(char c) {
 }
 inline char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - ('a' - 'A')) : c; }
 
-/// Which of the sixteen bytes from `p` on are no digits, a bit each.
+/// The bytes that are not digits among the sixteen from `p` on, one bit each.
 inline std::uint32_t non_digits(const char* p) {
 #ifdef __SSE2__
   const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
-  // Digits are 0x30 to 0x39: so they become the least of the signed numbers, -128 to -119, and nothing else does.
+  // Digits are 0x30 to 0x39. They, and no other bytes, become the lowest signed numbers, -128 to -119.
   const __m128i digits_first = _mm_xor_si128(bytes, _mm_set1_epi8(static_cast<char>(0x80 ^ 0x30)));
   return static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_cmpgt_epi8(digits_first, _mm_set1_epi8(-128 + 9))));
 #else
@@ -72,7 +72,7 @@ inline std::uint32_t non_digits(const char* p) {
 #endif
 }
 
-/// The first CR or LF at or behind `p`, or `end`. Eight bytes at a time: comments are long.
+/// The first CR or LF at or after `p`, or `end`. Checks eight bytes at a time, because comments are long.
 inline const char* find_line_end(const char* p, const char* end) {
   constexpr std::uint64_t kOnes = 0x0101010101010101ULL;
   constexpr std::uint64_t kHighs = 0x8080808080808080ULL;
@@ -86,14 +86,14 @@ inline const char* find_line_end(const char* p, const char* end) {
   return p;
 }
 
-/// Behind the comment that opens with the parenthesis at `p`, or null when it is not closed on this line.
+/// The end of the comment that opens with the parenthesis at `p`, or null when it is not closed on this line.
 inline const char* skip_closed_comment(const char* p, const char* end) {
   for (; p != end && !is_line_end(*p); ++p)
     if (*p == ')') return p + 1;
   return nullptr;
 }
 
-/// Behind all blanks and closed comments at `p`.
+/// The first character after all blanks and closed comments at `p`.
 inline const char* skip_space(const char* p, const char* end) {
   while (p != end) {
     if (is_blank(*p)) {
@@ -107,7 +107,7 @@ inline const char* skip_space(const char* p, const char* end) {
   return p;
 }
 
-/// Behind the terminator at `p` (CR, LF or CRLF, D5), or `p` itself at the end of the text.
+/// The first character after the terminator at `p` (CR, LF or CRLF, D5), or `p` itself at the end of the text.
 inline const char* skip_line_end(const char* p, const char* end) {
   if (p == end) return p;
   if (*p == '\r' && end - p > 1 && p[1] == '\n') return p + 2;

@@ -6,14 +6,14 @@
 
 namespace isocnc::syntax {
 
-/// Lines per chunk, when chunks are made anew. An edit reads the lines of its chunk anew: few enough that this costs
-/// little, many enough that the chunks of a long program are soon counted.
+/// Number of lines per new chunk: few enough that an edit reads the lines of its chunk again at little cost, many
+/// enough that a long program has few chunks.
 static constexpr std::size_t kChunkLines = 128;
 static constexpr std::size_t kMaxChunkLines = 2 * kChunkLines;
 
 struct Document::Chunk {
-  std::string text;                   // With terminators.
-  std::vector<std::uint32_t> begins;  // Of the lines in `text`.
+  std::string text;                   // Lines with terminators.
+  std::vector<std::uint32_t> begins;  // Offsets of the lines in `text`.
 
   std::size_t lines() const { return begins.size(); }
   std::string_view with_terminator(std::size_t line) const {
@@ -90,7 +90,7 @@ Change Document::replace(Position begin, Position end, std::string_view text) {
   while (last + 1 < line_count() &&
          (!ends_line() || (fresh.back() == '\r' && line_with_terminator(last + 1).starts_with('\n'))))
     fresh += line_with_terminator(++last);
-  // A CR and an LF that come to stand side by side, here as above, are one terminator.
+  // A CR and an LF that the edit brings together are one terminator, at the start as well as at the end.
   if (first > 0 && fresh.starts_with('\n') && line_with_terminator(first - 1).ends_with('\r'))
     fresh.insert(0, line_with_terminator(--first));
   const std::size_t before = line_count();
@@ -99,8 +99,7 @@ Change Document::replace(Position begin, Position end, std::string_view text) {
   return {first, removed, line_count() + removed - before};
 }
 
-/// Makes chunks of lines. What has been gathered lies in one place, however much room it took to get there; each chunk
-/// then takes what it needs.
+/// Makes chunks of lines. Collects lines in one buffer, then allocates each chunk at its exact size.
 class Document::ChunkMaker {
  public:
   ChunkMaker(std::size_t max_lines, std::uint64_t& next_version) : max_lines_(max_lines), next_version_(next_version) {}
@@ -128,12 +127,12 @@ class Document::ChunkMaker {
   std::vector<Slot> chunks_;
 };
 
-/// Puts `text` in the place of `removed` lines. Whole lines, but for the last of the document (`is_end`), which may
+/// Replaces `removed` lines by `text`, which consists of whole lines; only the last line of the document (`is_end`) may
 /// lack its terminator.
 void Document::rebuild(std::size_t first_line, std::size_t removed, std::string_view text, bool is_end) {
   const bool is_new = chunks_.empty();
   const Place from = is_new ? Place{0, 0} : locate(first_line);
-  // The first line behind the removed ones; at the end of a chunk rather than the start of the next.
+  // The last removed line; the lines after it in its chunk are kept.
   const Place last = is_new ? Place{0, 0} : locate(first_line + removed - 1);
   ChunkMaker maker(is_new ? kChunkLines : kMaxChunkLines, next_version_);
   if (!is_new)
@@ -168,7 +167,7 @@ void Document::rebuild(std::size_t first_line, std::size_t removed, std::string_
   renumber(from.chunk, count);
 }
 
-/// Numbers the lines of `count` new chunks; those behind them have all moved by as many lines.
+/// Numbers the lines of `count` new chunks, and shifts all later chunks by the same number of lines.
 void Document::renumber(std::size_t first, std::size_t count) {
   std::size_t line = 0;
   if (first > 0) line = chunks_[first - 1].first_line + chunks_[first - 1].chunk->lines();
@@ -178,7 +177,7 @@ void Document::renumber(std::size_t first, std::size_t count) {
     line += chunks_[chunk].chunk->lines();
   }
   if (chunk == chunks_.size() || chunks_[chunk].first_line == line) return;
-  const std::size_t shift = line - chunks_[chunk].first_line;  // Modulo 2^n: upward as well.
+  const std::size_t shift = line - chunks_[chunk].first_line;  // Modulo 2^n, so that shifts to lower lines work, too.
   for (; chunk < chunks_.size(); ++chunk) chunks_[chunk].first_line += shift;
 }
 

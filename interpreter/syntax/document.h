@@ -19,15 +19,15 @@ struct Position {
   friend auto operator<=>(const Position&, const Position&) = default;
 };
 
-/// What an edit did to the lines.
+/// The effect of an edit on the lines.
 struct Change {
   std::size_t first_line = 0;
-  std::size_t removed = 0;   ///< Lines that were there before and have been read anew or are gone.
-  std::size_t inserted = 0;  ///< Lines that stand in their place.
+  std::size_t removed = 0;   ///< Number of old lines that were removed or read again.
+  std::size_t inserted = 0;  ///< Number of lines in their place.
 };
 
-/// The tree of one line of a document, with all that the tree refers to but the text, which stays the document's: valid
-/// until that is edited.
+/// The tree of one line of a document, with all data that the tree refers to except the text, which the document owns.
+/// Valid until the document is edited.
 class DocumentLine {
  public:
   /// Reads up to a terminator, or `end`.
@@ -43,19 +43,19 @@ class DocumentLine {
 
   const LineTree* operator->() const { return &tree_; }
   const LineTree& operator*() const& { return tree_; }
-  const LineTree& operator*() const&& = delete;  // Its words would be gone.
+  const LineTree& operator*() const&& = delete;  // The words are destroyed with this object.
 
  private:
   TreeStore store_;
   LineTree tree_;
 };
 
-/// A program as it is being edited: its text with line ends as they are (CR, LF, CRLF), and the tree of each line. A
+/// A program that is being edited: its text with line ends as written (CR, LF, CRLF), and the tree of each line. A
 /// document always has at least one line; a terminator at the end of the text is followed by an empty line, as in an
 /// editor.
 ///
-/// No trees are kept: they take four to ten times as much room as the text, and it takes longer to fetch them from
-/// memory than to parse the lines again.
+/// Trees are parsed on demand and not stored: they take four to ten times the memory of the text, and fetching them
+/// from memory takes longer than parsing the lines again.
 class Document {
  public:
   explicit Document(std::string_view text = {});
@@ -63,19 +63,19 @@ class Document {
   Document& operator=(Document&&) noexcept;
   ~Document();
 
-  /// Replaces what stands between the two places by `text`. Places beyond the end of a line or of the document count as
-  /// its end; `end` before `begin` counts as `begin`.
+  /// Replaces the text between two positions by `text`. A position beyond the end of a line or of the document counts
+  /// as its end; `end` before `begin` counts as `begin`.
   Change replace(Position begin, Position end, std::string_view text);
 
   std::size_t line_count() const;
   DocumentLine line(std::size_t index) const;
-  /// Without its terminator.
+  /// The text of a line without its terminator.
   std::string_view text_of_line(std::size_t index) const;
   std::string text() const;
-  /// CR, LF or CRLF; nothing behind the last line.
+  /// CR, LF or CRLF; empty after the last line.
   std::string_view terminator(std::size_t line) const;
 
-  /// Lines are kept in chunks; an edit leaves the others as they are.
+  /// Lines are stored in chunks; an edit replaces only the chunks that it touches.
   std::size_t chunk_count() const { return chunks_.size(); }
   std::size_t chunk_lines(std::size_t chunk) const;
   std::size_t first_line_of_chunk(std::size_t chunk) const { return chunks_[chunk].first_line; }
@@ -83,13 +83,13 @@ class Document {
   std::string_view chunk_text(std::size_t chunk) const;
   /// The chunk that holds a line of the document.
   std::size_t chunk_of_line(std::size_t line) const { return locate(line).chunk; }
-  /// Another number whenever the lines of the chunk are others; never used twice.
+  /// A number that changes whenever the lines of the chunk change, and is never used twice.
   std::uint64_t chunk_version(std::size_t chunk) const { return chunks_[chunk].version; }
 
  private:
   struct Chunk;
   class ChunkMaker;
-  /// What is asked of all chunks after each edit lies side by side.
+  /// The fields that every edit reads for all chunks, stored contiguously for speed.
   struct Slot {
     std::size_t first_line = 0;
     std::uint64_t version = 0;
@@ -110,12 +110,12 @@ class Document {
   std::uint64_t next_version_ = 1;
 };
 
-/// The trees of a chunk's lines, for who goes through many lines: the room for them is used again for the next chunk.
-/// Valid until then, or until the document is edited.
+/// Parses the lines of one chunk at a time, for loops over many lines; reuses the memory for the next chunk. The trees
+/// are valid until then, or until the document is edited.
 class ChunkTrees {
  public:
   void read(const Document& document, std::size_t chunk) { read(document, chunk, document.chunk_lines(chunk)); }
-  /// The first lines only.
+  /// Parses only the first `lines` lines of the chunk.
   void read(const Document& document, std::size_t chunk, std::size_t lines);
 
   std::size_t size() const { return texts_.size(); }

@@ -8,8 +8,8 @@
 
 namespace isocnc::syntax {
 
-/// Calls `look(tree, terminator)` for each line of a text, in order; what stands behind the last terminator is a line
-/// if it is anything. The tree is valid for the call.
+/// Calls `look(tree, terminator)` for each line of a text, in order. Text after the last terminator is a line unless it
+/// is empty. The tree is valid during the call.
 template <class Look>
 void each_tree(std::string_view text, Look&& look) {
   TreeStore store;

@@ -8,7 +8,7 @@
 
 namespace isocnc::syntax {
 
-/// A stretch of one line's text: byte columns from 0, end exclusive.
+/// A range of one line's text: byte columns from 0, end exclusive.
 struct Span {
   std::uint32_t begin = 0;
   std::uint32_t end = 0;
@@ -21,12 +21,12 @@ struct Span {
 /// The smallest span that holds both.
 constexpr Span hull(Span a, Span b) { return {a.begin < b.begin ? a.begin : b.begin, a.end > b.end ? a.end : b.end}; }
 
-/// Something wrong with a line, as data: its kind, its place on the line and the values found. Text is made only when
-/// it is shown, in the reader's language, with dialect::message().
+/// A problem of a line, as data: its kind, its place on the line and the values found. dialect::message() makes the
+/// text when it is shown, in the user's language.
 struct Finding {
   dialect::DiagnosticId id = dialect::kNoDiagnostic;
   Span span;
-  Span related;  ///< The other place on the same line that matters (the first F of two); empty where there is none.
+  Span related;  ///< A second place on the same line that explains the first (the first F of two); may be empty.
   std::array<double, dialect::kMaxArguments> values{};
 
   friend bool operator==(const Finding&, const Finding&) = default;

@@ -10,10 +10,10 @@
 
 namespace isocnc::syntax {
 
-/// Behind the text that is parsed again, so that the parser's short cut can look ahead.
+/// Padding after the text that is parsed again: the fast path of the parser reads ahead.
 static constexpr std::string_view kLookAheadPadding = "\n               ";
 
-/// The word that is the line's number, or the count of words.
+/// Index of the word with the line's number; without one, the number of words.
 static std::size_t line_number_word(const LineTree& tree) {
   const Word* const word = tree.label_word();
   return word == nullptr ? tree.words.size() : static_cast<std::size_t>(word - tree.words.data());
@@ -24,15 +24,15 @@ static bool is_argument(const LineTree& tree, const Instruction& instruction, st
   return tree.words[index].owner == instruction.number && !is_command;
 }
 
-/// Whether nothing but its letter and the characters of its number make up the word.
+/// Whether the word consists of its letter and the characters of its number only.
 static bool is_compact(const Word& word) {
   const std::uint32_t characters =
       1 + word.digits + (word.has(Word::kSigned) ? 1 : 0) + (word.has(Word::kPoint) ? 1 : 0);
   return word.letter >= 'A' && word.end - word.begin == characters;
 }
 
-/// Whether the line needs no look at its single characters: words in upper case with nothing inside, one blank between
-/// them, and at most a comment behind them.
+/// Whether the characters of the line need no change: compact words in upper case, one blank between them, and at most
+/// a comment after them.
 static bool is_tidy(const LineTree& tree) {
   const char* const text = tree.text.data();
   std::uint32_t behind = 0;
@@ -51,7 +51,7 @@ static bool is_tidy(const LineTree& tree) {
 
 namespace {
 
-/// Whether a line says the same before and after it has been written anew.
+/// Compares the meaning of a line before and after formatting.
 class Rereading {
  public:
   Rereading(const LineTree& before, const LineTree& after, const LineChange& change)
@@ -103,7 +103,7 @@ class Rereading {
     if (a.is_motion() && b.is_motion()) return is_same_motion(a, b) && has_same_arguments(a, b);
     if (a.kind != b.kind || a.row != b.row || a.flags != b.flags) return false;
     if (a.kind == InstructionKind::G) return has_same_arguments(a, b);
-    return a.kind == InstructionKind::Jump || has_same_words(a, b);  // A jump's words are in the Jump.
+    return a.kind == InstructionKind::Jump || has_same_words(a, b);  // The words of a jump are compared by its Jump.
   }
 
   bool is_same_motion(const Instruction& a, const Instruction& b) const {
@@ -129,7 +129,7 @@ class Rereading {
       const auto is_wanted = [&](std::size_t at) {
         return is_argument(after_, b, at) && after_.words[at].letter == wanted.letter;
       };
-      std::size_t at = b.begin + (i - a.begin);  // Nearly always there.
+      std::size_t at = b.begin + (i - a.begin);  // The usual position.
       if (at >= b.end || !is_wanted(at)) {
         at = b.begin;
         while (at < b.end && !is_wanted(at)) ++at;
@@ -152,7 +152,7 @@ class Rereading {
       if (i >= a.end || j >= b.end) return i >= a.end && j >= b.end;
       const Word& before = before_.words[i];
       const Word& after = after_.words[j];
-      const bool digits_count = before.letter == 'T';  // T has six of them.
+      const bool digits_count = before.letter == 'T';  // A T has exactly six digits.
       if (before.letter != after.letter || !is_same_number(before, after) ||
           (digits_count && before.digits != after.digits))
         return false;
@@ -173,14 +173,14 @@ std::string_view Formatter::format(const LineTree& tree, const LineChange& chang
   if (!is_plain_style || !changes_nothing) return rewrite(tree, change);
   if (is_tidy(tree)) return tree.text;
   if (!std::all_of(tree.words.begin(), tree.words.end(), is_compact)) return rewrite(tree, change);
-  // The words stay as they are but for the case of their letters: what stands between them cannot change their meaning.
+  // Only the case of letters and the blanks between words change, which cannot change the meaning.
   start(tree);
   write_words(tree, change);
   return written();
 }
 
-/// What cannot be had without another meaning is done without; only new line numbers must not be left out, since other
-/// lines count on them.
+/// Omits changes that would alter the meaning. New line numbers and labels must not be omitted, because other lines
+/// depend on them.
 std::string_view Formatter::rewrite(const LineTree& tree, const LineChange& change) {
   if (write(tree, change, style_.word_order ? Order::Canonical : Order::AsWritten)) return written();
   LineChange less = change;
@@ -190,7 +190,7 @@ std::string_view Formatter::rewrite(const LineTree& tree, const LineChange& chan
   return tree.text;
 }
 
-/// False when what has been written says something else.
+/// Writes the line; false if the result has another meaning.
 bool Formatter::write(const LineTree& tree, const LineChange& change, Order order) {
   start(tree);
   if (order == Order::Canonical) choose_order(tree, change);
@@ -204,8 +204,8 @@ bool Formatter::write(const LineTree& tree, const LineChange& change, Order orde
   return end == line_.data() + length && Rereading(tree, written_.tree(0, line_.data()), change).has_same_meaning();
 }
 
-/// Begins a line, with room for all that may be added: blanks up to where a comment stood, and a few characters for
-/// each word or comment.
+/// Starts a line, with memory for everything that may be added: blanks up to the column of a comment, and a few
+/// characters for each word or comment.
 void Formatter::start(const LineTree& tree) {
   constexpr std::size_t kForEach = 5;
   constexpr std::size_t kOnce = 64;
@@ -217,8 +217,9 @@ void Formatter::start(const LineTree& tree) {
   std::iota(order_.begin(), order_.end(), std::uint16_t{0});
 }
 
-/// Comments between words say something of their neighbors: such lines keep their order. One inside the last word will
-/// stand at the end, one behind a G that is dropped from the start of the line at the start.
+/// Chooses the order of the words. Lines with comments between words keep their order, because such comments refer to
+/// their neighbors. A comment inside the last word moves to the end; one after a G that is dropped from the start of
+/// the line moves to the start.
 void Formatter::choose_order(const LineTree& tree, const LineChange& change) {
   if (tree.words.empty()) return;
   const Instruction* const motion = tree.motion();
@@ -238,7 +239,7 @@ void Formatter::sort_arguments(const LineTree& tree, const Instruction& instruct
   slots_.clear();
   for (std::uint16_t i = instruction.begin; i < instruction.end; ++i)
     if (is_argument(tree, instruction, i)) slots_.push_back(i);
-  // Few, and nearly always in order.
+  // Insertion sort: the arguments are few, and usually in order.
   for (std::size_t i = 1; i < slots_.size(); ++i)
     for (std::size_t j = i; j > 0; --j) {
       const auto rank = [&](std::size_t at) {
@@ -249,7 +250,8 @@ void Formatter::sort_arguments(const LineTree& tree, const Instruction& instruct
     }
 }
 
-/// F is the speed of the line's motion wherever it stands (D14); a line has at most one motion.
+/// Moves the F after the motion's arguments. F is the speed of the line's motion wherever it stands (D14); a line has
+/// at most one motion.
 void Formatter::move_feed(const LineTree& tree) {
   const Instruction* const motion = tree.motion();
   if (tree.feed < 0 || motion == nullptr) return;
@@ -322,7 +324,7 @@ void Formatter::write_word(const LineTree& tree, std::uint16_t index) {
   if (word.letter == 'G') settle_g_digits(number);
 }
 
-/// All but blanks and comments, in upper case.
+/// Writes all characters except blanks and comments, in upper case.
 void Formatter::write_characters(std::string_view text) {
   char* at = line_.reserve_for(text.size());
   const char* const begin = at;
@@ -355,8 +357,8 @@ void Formatter::write_comments_before(const LineTree& tree, std::uint32_t column
     write_comment(tree, tree.comments[comments_written_++]);
 }
 
-/// A comment at the end of its line, or alone on it, stays in its column where it can, since such comments often stand
-/// below one another; others follow their word.
+/// Writes a comment. At the end of its line, or alone on it, it stays in its column if possible, because such comments
+/// are often aligned; other comments follow their word.
 void Formatter::write_comment(const LineTree& tree, Span comment) {
   const bool follows_words = tree.words.empty() || comment.begin >= tree.words.back().end;
   if (follows_words) {
@@ -367,7 +369,7 @@ void Formatter::write_comment(const LineTree& tree, Span comment) {
   put(tree.text_of(comment));
 }
 
-/// The blanks before the comment that stood at `column`.
+/// Writes the blanks before the comment that was at `column`.
 void Formatter::write_gap(std::string_view text, std::uint32_t column) {
   std::uint32_t begin = column;
   while (begin > 0 && is_blank(text[begin - 1])) --begin;
@@ -385,8 +387,8 @@ void Formatter::separate() {
 
 void Formatter::put(std::string_view text) { line_.append(text.data(), text.size()); }
 
-/// Drops zeros that mean nothing and puts one before the point, unless there are more decimals than there should be: a
-/// number is never rounded.
+/// Drops redundant zeros and puts one before the point, unless there are more decimals than the style allows: a number
+/// is never rounded.
 void Formatter::settle_decimals(std::size_t number) {
   const std::string_view text(line_.data() + number, line_.size() - number);
   const std::size_t point = text.find('.');
@@ -399,7 +401,7 @@ void Formatter::settle_decimals(std::size_t number) {
   std::rotate(line_.data() + number + point, line_.data() + line_.size() - 1, line_.data() + line_.size());
 }
 
-/// 007.5 is 7.5, and 0.5 keeps its zero.
+/// Writes 007.5 as 7.5; 0.5 keeps its zero.
 void Formatter::drop_leading_zeros(std::size_t number) {
   std::size_t begin = number;
   if (begin < line_.size() && (line_[begin] == '+' || line_[begin] == '-')) ++begin;
@@ -409,7 +411,7 @@ void Formatter::drop_leading_zeros(std::size_t number) {
   for (; first > begin; --first) line_.pop_back();
 }
 
-/// A G has at most three digits that count, so all that is needed is its number.
+/// Writes the number of a G, which has at most three significant digits, in the style's number of digits.
 void Formatter::settle_g_digits(std::size_t number) {
   if (style_.g_digits == GDigits::Keep) return;
   unsigned value = 0;

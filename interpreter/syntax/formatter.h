@@ -10,36 +10,36 @@
 
 namespace isocnc::syntax {
 
-/// Of an N that our tools write, so that it stays exact wherever it is read: 15 digits.
+/// Maximum line number (N) that the tools write. It has 15 digits, so that every reader represents it exactly.
 inline constexpr std::uint64_t kMaxLineNumber = 999'999'999'999'999;
 
 enum class GDigits : std::uint8_t { Keep, One, Two };  ///< As written, G1, G01.
 
-/// How lines are written, beside upper case and blanks, which are the same in every style.
+/// Style of the lines. Upper case and single blanks between words are the same in every style.
 struct LineStyle {
-  std::optional<int> max_decimals;  ///< 05.00 becomes 5 and .5 becomes 0.5, where so many decimals hold the number.
+  std::optional<int> max_decimals;  ///< 05.00 becomes 5 and .5 becomes 0.5, if the number fits in this many decimals.
   GDigits g_digits = GDigits::Keep;
-  bool word_order = false;  ///< N first, arguments as X Y Z A B C I J K P Q R, F behind those of the motion.
+  bool word_order = false;  ///< N first, arguments as X Y Z A B C I J K P Q R, F after those of the motion.
 };
 
-/// What else is to become of one line, which only the whole program shows.
+/// Changes of one line that depend on the whole program.
 struct LineChange {
-  enum class Motion : std::uint8_t { Keep, Write, Drop };  ///< Its motion G: as it is, written out, left out.
+  enum class Motion : std::uint8_t { Keep, Write, Drop };  ///< The line's motion G: unchanged, added, removed.
 
-  std::optional<std::uint64_t> line_number;  ///< Its N from now on, at most kMostLineNumber.
-  std::optional<std::uint64_t> target;       ///< The label behind its GOTO.
+  std::optional<std::uint64_t> line_number;  ///< New N of the line, at most kMaxLineNumber.
+  std::optional<std::uint64_t> target;       ///< New label after the line's GOTO.
   Motion motion = Motion::Keep;
-  std::uint8_t motion_in_force = 0;  ///< With Write: 0 to 3.
+  std::uint8_t motion_in_force = 0;  ///< Number of the G to write with Motion::Write: 0 to 3.
 };
 
-/// Writes lines as they should be written. Knows one line at a time; equal lines give equal results. Where more than
-/// letter case and the blanks between words changes, what is written is parsed again, and taken only when it says the
-/// same as before, word for word; a line with a finding of its own keeps every byte.
+/// Formats lines. Handles one line at a time; equal lines give equal results. Where more than letter case and the
+/// blanks between words changes, the result is parsed again, and used only if it has the same meaning, word for word. A
+/// line with a finding of its own keeps every byte.
 class Formatter {
  public:
   explicit Formatter(const LineStyle& style) : style_(style) {}
 
-  /// The line as it should be: tree.text itself where that is so already. Valid until the next call.
+  /// The formatted line; tree.text itself if it is formatted already. Valid until the next call.
   std::string_view format(const LineTree& tree, const LineChange& change = {});
 
  private:
@@ -68,13 +68,13 @@ class Formatter {
 
   LineStyle style_;
   Buffer<char> line_;
-  std::vector<std::uint16_t> order_;  // Of the words.
-  std::vector<std::uint16_t> slots_;  // Where in it the arguments of one instruction stand.
+  std::vector<std::uint16_t> order_;  // Indices of the words in the order of writing.
+  std::vector<std::uint16_t> slots_;  // Positions in `order_` of the arguments of one instruction.
   std::size_t comments_written_ = 0;
   TreeStore written_;
 };
 
-/// One line, for who has just one. Without a terminator.
+/// Formats a single line without terminator.
 std::string formatted(std::string_view line, const LineStyle& style = {});
 
 }  // namespace isocnc::syntax

@@ -11,21 +11,21 @@
 
 namespace isocnc::syntax {
 
-/// Follows every path that a program's jumps open, from its first line to its last, and carries a value along: what is
-/// known at a line on all paths that lead there. Jumps go forward only (I.5), to the first line below that has their
-/// label (D50), so one pass over the lines meets every path. Conditions are for the user to judge: pass() takes an IF
-/// as one that may jump and may stay.
+/// Follows every path through a program with jumps, from its first line to its last, and carries a value along: the
+/// facts at a line on all paths to it. Jumps go forward only (I.5), to the first line below that has their label (D50),
+/// so one pass over the lines covers every path. Conditions are not evaluated: pass() assumes that an IF may or may not
+/// jump.
 ///
 /// A Value has
 ///
-///     bool empty() const;      whether it is the value of no path, as Value{} is
-///     void join(Value&&);      makes it the value of both paths; not called where either is empty
+///     bool empty() const;      whether it is the value of no path, like Value{}
+///     void join(Value&&);      merges the values of two paths; not called where either is empty
 ///
-/// and what a line makes of it is the argument of pass():
+/// and the argument of pass() changes the value at a line:
 ///
-///     paths.arrive(line);                                      // What has jumped to the line's label goes on from
-///     here. if (!paths.live.empty()) ...                             // The value before the line. paths.pass(line,
-///     [](Value& value) { ... });              // The value after it; an IF parks a copy, M02 ends.
+///     paths.arrive(line);                         // Jumps to the line's label join here.
+///     if (!paths.live.empty()) ...                // The value before the line.
+///     paths.pass(line, [](Value& value) {...});   // The value after it; an IF stores a copy, M02 ends.
 template <class Value>
 class ForwardPaths {
  public:
@@ -34,14 +34,14 @@ class ForwardPaths {
   /// One path, before the first line.
   explicit ForwardPaths(Value start) : live(std::move(start)) {}
 
-  Value live = {};  ///< The value on the paths through the next line; empty where none leads there.
+  Value live = {};  ///< The value on the paths through the next line; empty without such a path.
 
   /// The values that have jumped ahead, by label; none of them is empty.
   const std::map<std::uint64_t, Value>& waiting() const { return waiting_; }
-  /// Whether no path goes on from here.
+  /// Whether no path continues from here.
   bool finished() const { return live.empty() && waiting_.empty(); }
 
-  /// Comes to a line: the paths that have jumped to its label go on from there. Whether there are any.
+  /// Arrives at a line: the paths that have jumped to its label continue there. Returns whether there are any.
   bool arrive(const LineTree& line) {
     if (!line.has_label() || waiting_.empty()) return false;
     const auto waiting = waiting_.find(line.label);
@@ -50,7 +50,7 @@ class ForwardPaths {
     waiting_.erase(waiting);
     return true;
   }
-  /// What would be live after arrive(). Changes nothing.
+  /// The value that would be live after arrive(). Changes nothing.
   Value live_at(const LineTree& line) const {
     Value value = live;
     const auto waiting = line.has_label() ? waiting_.find(line.label) : waiting_.end();
@@ -58,8 +58,8 @@ class ForwardPaths {
     return value;
   }
 
-  /// Goes over a line: `change(live)` makes the value before it the one after it. A copy of that waits for the label of
-  /// an IF, and after an M02 no path is live. Lines on no path change nothing.
+  /// Passes a line: `change(live)` turns the value before the line into the value after it. At an IF, a copy waits for
+  /// the label; after an M02 no path is live. A line on no path changes nothing.
   template <class Change>
   void pass(const LineTree& line, Change change) {
     if (live.empty()) return;
@@ -69,7 +69,7 @@ class ForwardPaths {
     if (std::any_of(line.instructions.begin(), line.instructions.end(), is_end)) end();
   }
 
-  /// Lets paths with this value, which is not empty, jump to a label. Returns all that waits there now.
+  /// Adds paths with this value, which is not empty, that jump to a label. Returns the joined value waiting there.
   Value& jump(std::uint64_t label, Value value) {
     Value& waiting = waiting_[label];
     join(waiting, std::move(value));
@@ -77,7 +77,7 @@ class ForwardPaths {
   }
   /// Ends the live paths.
   void end() { live = Value{}; }
-  /// Gives up the paths that wait for the highest label, of which there is one.
+  /// Drops the paths that wait for the highest label. At least one path must be waiting.
   void drop_highest_label() { waiting_.erase(std::prev(waiting_.end())); }
 
   /// Calls `change` with the value of each path.

@@ -88,12 +88,12 @@ Word& LineParser::add_word(char letter, const char* begin, const Number& number)
   return added;
 }
 
-/// Behind a GOTO the label has been read, or what stands in its place.
+/// Ends the condition after a GOTO, once the label, or the text in its place, has been read.
 void LineParser::end_target() {
   if (after_goto_) in_condition_ = after_goto_ = false;
 }
 
-/// A malformed number is reported with the letters that have a code of their own for it (D9, D12, D49).
+/// Whether a malformed number of this letter has a diagnostic of its own (D9, D12, D49).
 static bool has_own_code(char letter) { return dialect::contains(dialect::letters("GMNTV"), letter); }
 
 const char* LineParser::lex_word(const char* start) {
@@ -102,7 +102,7 @@ const char* LineParser::lex_word(const char* start) {
   return p != end_ && is_number_char(*p) ? lex_with_number(start, p) : lex_without_number(start, p);
 }
 
-/// A letter and the number at `p`; blanks and comments may stand between them.
+/// Reads a letter and the number at `p`, with blanks or comments between them.
 const char* LineParser::lex_with_number(const char* start, const char* p) {
   const Number number = scan_number(p, end_);
   const char letter = upper(*start);
@@ -114,7 +114,7 @@ const char* LineParser::lex_with_number(const char* start, const char* p) {
   return number.end;
 }
 
-/// A keyword, a comment before the number, or a letter that has none.
+/// Reads a keyword, a letter with a comment before its number, or a letter without a number.
 const char* LineParser::lex_without_number(const char* start, const char* p) {
   const char letter = upper(*start);
   const char* const behind = skip_space(p);
@@ -124,14 +124,14 @@ const char* LineParser::lex_without_number(const char* start, const char* p) {
   added.value = std::numeric_limits<double>::quiet_NaN();
   added.flags = Word::kMissing;
   has_prose_ = true;
-  // Before a `=` the author gave the value the wrong way (ISO058), and inside a condition E003 tells.
+  // Before a `=` the value is given in a wrong form (ISO058); inside a condition, E003 reports the error.
   const bool assigned = behind != end_ && *behind == '=' && letter != 'V';
   if (!in_condition_ && !assigned) report("word-without-number"_diag, added.span());
   end_target();
   return start + 1;
 }
 
-/// IF, GOTO and VGPL are read where no word could be meant: I and V are then followed by a letter, and O starts none.
+/// Reads IF, GOTO and VGPL. They cannot be words: I and V are followed by a letter here, and O does not start a word.
 const char* LineParser::lex_keyword(const char* p, char letter) {
   if (letter == 'G') {
     const char* const end = match_keyword(p, "GOTO");
@@ -172,7 +172,7 @@ const char* LineParser::match_keyword(const char* p, const char* keyword) const 
 }
 
 bool LineParser::goto_follows(const char* p) {
-  if (!last_goto_) {  // Looked for once, however many IFs the line has.
+  if (!last_goto_) {  // One search per line, however many IFs it has.
     last_goto_ = begin_;
     for (const char* at = p; at != end_ && !is_line_end(*at) && *at != ';'; ++at)
       if (upper(*at) == 'G' && match_keyword(at, "GOTO")) last_goto_ = at;
@@ -182,7 +182,7 @@ bool LineParser::goto_follows(const char* p) {
 
 const char* LineParser::skip_space(const char* p) const { return syntax::skip_space(p, end_); }
 
-/// Comments between the characters of one word are comments all the same.
+/// Records the comments between the characters of one word.
 void LineParser::note_comments_inside(const char* p, const char* end) {
   for (; p < end; ++p) {
     if (*p != '(') continue;
@@ -199,7 +199,7 @@ const char* LineParser::lex_comment(const char* p) {
   }
   const char* const line_end = find_line_end(p, end_);
   store_.comments_.push_back({column(p), column(line_end)});
-  // X(10: its number may stand in there.
+  // X(10: the number of the X may be in the comment.
   if (word_count() > 0 && word(word_count() - 1u).has(Word::kMissing))
     take_back("word-without-number"_diag, word(word_count() - 1u).span());
   report("unclosed-comment"_diag, {column(p), column(line_end)});
@@ -207,7 +207,7 @@ const char* LineParser::lex_comment(const char* p) {
   return line_end;
 }
 
-/// What reads as broken words before a `)` was meant as the comment's text: one mistake, not one for each letter.
+/// Removes the malformed words before a lone `)`, which were meant as a comment: one finding, not one for each letter.
 void LineParser::drop_comment_text() {
   std::uint32_t begin = std::numeric_limits<std::uint32_t>::max();
   for (std::size_t prose = 0; (prose = prose_at_end({store_.words_.data() + line_.first_word, word_count()})) > 0;) {
@@ -278,8 +278,8 @@ const char* LineParser::lex_comparison(const char* p) {
   return behind;
 }
 
-/// Whether unknown text stands where the last word's number should be (G#1, MO6), which has been said. Where it goes on
-/// a number (X1O, X1L, X1E5), that number is not known.
+/// Whether unknown text is in the place of the last word's number (G#1, MO6), which has been reported. Text that
+/// continues a number (X1O, X1L, X1E5) makes that number unknown.
 bool LineParser::garbles_number(char first) {
   if (word_count() == 0) return false;
   Word& before = word(word_count() - 1u);
@@ -296,7 +296,7 @@ bool LineParser::garbles_number(char first) {
   return false;
 }
 
-/// One finding for a run of characters that start no word, together with the number that follows (D10).
+/// One finding for a series of characters that do not start a word, together with the number after them (D10).
 const char* LineParser::lex_unknown(const char* p) {
   const char* const start = p;
   const char* behind = p;

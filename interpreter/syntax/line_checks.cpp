@@ -30,7 +30,7 @@ void LineParser::check() {
         break;
     }
   }
-  // What was broken off its series takes effect where its last word stands.
+  // An instruction with a broken series takes effect at the place of its last word.
   Instruction* const first = store_.instructions_.data() + line_.first_instruction;
   Instruction* const end = store_.instructions_.data() + store_.instructions_.size();
   const auto by_end = [](const Instruction& a, const Instruction& b) { return a.end < b.end; };
@@ -51,7 +51,7 @@ bool LineParser::owns_any(const Instruction& owner, dialect::LetterSet set, bool
   return false;
 }
 
-/// The instructions that want a line of their own, and the code for each (D22).
+/// Whether an instruction must be alone on its line, and the diagnostic for a violation (D22).
 bool LineParser::must_be_alone(const Instruction& checked, dialect::DiagnosticId& diagnostic) const {
   diagnostic = dialect::kNoDiagnostic;
   switch (checked.kind) {
@@ -75,7 +75,7 @@ bool LineParser::must_be_alone(const Instruction& checked, dialect::DiagnosticId
   return diagnostic != dialect::kNoDiagnostic;
 }
 
-/// Whether the line holds a right word that is neither the instruction's own nor the line number.
+/// Whether the line holds a correct word that is neither part of the instruction nor the line number.
 bool LineParser::shares_line(const Instruction& alone) const {
   const dialect::GCode* const code = alone.kind == InstructionKind::G ? alone.g() : nullptr;
   const bool is_end = alone.kind == InstructionKind::Function && word(alone.command).value == dialect::kProgramEnd;
@@ -85,11 +85,11 @@ bool LineParser::shares_line(const Instruction& alone) const {
     if (other.letter == 'N' || other.letter == kError || other.letter == kNumber || other.has(Word::kMissing)) continue;
     if (other.owner == alone.number) {
       if (i == alone.command || (!code && !is_end) || (code && contains(code->arguments, other.letter))) continue;
-      if (dwell_without_time && !other.has(Word::kBreak)) continue;  // G04 X10: the X is where the P should be.
+      if (dwell_without_time && !other.has(Word::kBreak)) continue;  // G04 X10: the X is in the place of the P.
     }
     const bool is_time = dwell_without_time && i == alone.command + 1 && contains(letters("FS"), other.letter);
-    if (is_time) continue;                                                   // G04 F2: as other controls have it.
-    if (other.letter == kAssign && other.owner == Word::kNoOwner) continue;  // Reported with what it is given to.
+    if (is_time) continue;                                                   // G04 F2: the form of other controls.
+    if (other.letter == kAssign && other.owner == Word::kNoOwner) continue;  // A stray `=` is reported elsewhere.
     return true;
   }
   return false;
@@ -141,7 +141,7 @@ void LineParser::check_g(const Instruction& checked) {
   }
 }
 
-/// G92 G00 X5: what the instruction lacks has gone to the one that should not be there, which has been reported.
+/// G92 G00 X5: whether the argument that G92 lacks was taken by the G00, which has been reported already.
 bool LineParser::neighbor_has_arguments_of(const Instruction& alone) const {
   if ((line_.flags & LineTree::kAloneViolated) == 0) return false;
   for (std::size_t i = alone.command + 1u; i < word_count(); ++i)
@@ -149,17 +149,18 @@ bool LineParser::neighbor_has_arguments_of(const Instruction& alone) const {
   return false;
 }
 
-/// Arguments that are missing, or that an N keeps from their G: the N breaks the series as an S would (D12, D17).
+/// Reports arguments that are missing, or that an N separates from their G: the N breaks the series like an S (D12,
+/// D17).
 void LineParser::check_arguments(const Instruction& checked, dialect::DiagnosticId when_missing) {
   const bool shared_line_reported = (line_.flags & LineTree::kAloneViolated) != 0;
   if (owns_any(checked, checked.g()->arguments, !shared_line_reported)) return check_unbroken(checked);
-  // G92 C5: the C, which has been reported, stands where one of them should.
+  // G92 C5: the C, which has been reported, is in the place of a missing argument.
   if (shared_line_reported && owns_any(checked, dialect::kDimensionLetters)) return;
   if (neighbor_has_arguments_of(checked)) return;
   report_missing(when_missing, checked);
 }
 
-/// The first argument that an N keeps from its G.
+/// Reports the first argument that an N separates from its G.
 void LineParser::check_unbroken(const Instruction& checked) {
   if ((line_.flags & LineTree::kAloneViolated) != 0) return;
   for (std::uint16_t i = checked.begin; i < checked.end; ++i)
@@ -167,7 +168,7 @@ void LineParser::check_unbroken(const Instruction& checked) {
       return report("stray-argument"_diag, word(i).span(), {}, word(checked.command).span());
 }
 
-/// Whether what stands between a motion and the argument broken off it has a finding of its own.
+/// Whether a word between a motion and an argument separated from it has a finding of its own.
 bool LineParser::breaker_is_reported(const Instruction& motion, std::uint16_t broken) const {
   for (std::uint16_t i = broken; i-- > 0 && word(i).owner != motion.number;) {
     if (word(i).letter != 'G') continue;
@@ -180,7 +181,7 @@ bool LineParser::breaker_is_reported(const Instruction& motion, std::uint16_t br
   return false;
 }
 
-/// A motion without coordinates, or with some that stand apart from their series (D17, D18).
+/// Reports a motion without coordinates, or with coordinates separated from their series (D17, D18).
 void LineParser::check_motion(const Instruction& motion) {
   if ((line_.flags & LineTree::kAloneViolated) != 0) return;
   const bool is_g = motion.kind == InstructionKind::G;
@@ -204,22 +205,23 @@ void LineParser::check_motion(const Instruction& motion) {
     return report("stray-argument"_diag, stray.span(), {}, word(motion.command).span());
   }
   if (!is_g || owns_any(motion, dialect::kCoordinateLetters)) return;
-  // Strays without a coordinate are reported where the motion is known; a second motion G, or one that is unknown and
-  // has taken the arguments, has said it all.
+  // Stray letters without a coordinate are reported where the motion is known. A second motion G, or an unknown G that
+  // has taken the arguments, has been reported already.
   if (owns_any(motion, dialect::kDimensionLetters & ~motion.g()->arguments)) return;
   if (word(motion.command).has(Word::kReported) || word(motion.command).span() != first_motion_) return;
   for (std::size_t i = motion.number + 1u; i < instruction_count(); ++i) {
     const Instruction& other = instruction(i);
     if (other.kind == InstructionKind::G && (!other.g() || other.g()->is_motion())) return;
   }
-  // G00 U5: another control's axis, said at the U.
+  // G00 U5: another control's axis, reported at the U.
   std::size_t next = motion.command + 1u;
   while (next < word_count() && word(next).letter == 'F') ++next;
   if (next < word_count() && word(next).letter == kError && is_foreign_word(word(next))) return;
   report_missing("missing-coordinate"_diag, motion);
 }
 
-/// G28 X0 Y0: the zero return of other controls (D71), of which one thing is said: that these are no axis vectors.
+/// Whether a G28 is the zero return of other controls (G28 X0 Y0, D71). Its only finding is that these are not axis
+/// vectors.
 bool LineParser::is_zero_return(const Instruction& frame) const {
   if (frame.g()->number != 28 || owns_any(frame, letters("IJKPQR")) || !owns_any(frame, letters("XYZ"))) return false;
   for (std::uint16_t i = frame.begin; i < frame.end; ++i)
@@ -227,11 +229,11 @@ bool LineParser::is_zero_return(const Instruction& frame) const {
   return true;
 }
 
-/// G24 and G28 want at least one component of each axis (D4, D27).
+/// G24 and G28 need at least one component of each axis (D4, D27).
 void LineParser::check_vectors(const Instruction& frame, std::string_view i_letters) {
   check_unbroken(frame);
   if (neighbor_has_arguments_of(frame)) return;
-  // G91 G28 Z0: as other controls go home. The line has been reported; what it lacks for a face says nothing more.
+  // G91 G28 Z0: the home command of other controls. The line has been reported; missing axis vectors need no finding.
   const bool shares_line = (line_.flags & LineTree::kAloneViolated) != 0;
   if (shares_line && frame.g()->number == 28 && !owns_any(frame, letters("IJKPQR"))) return;
   if (is_zero_return(frame)) return;
@@ -250,7 +252,7 @@ void LineParser::check_face_angles(const Instruction& frame) {
 }
 
 void LineParser::check_dwell(const Instruction& dwell) {
-  bool is_garbled = false;  // G04 U1: said at the U.
+  bool is_garbled = false;  // G04 U1: reported at the U.
   for (std::size_t i = dwell.command + 1u; i < word_count(); ++i) is_garbled |= word(i).letter == kError;
   if (!is_garbled) check_arguments(dwell, "dwell-time-missing"_diag);
   for (std::uint16_t i = dwell.begin; i < dwell.end; ++i) {
@@ -273,7 +275,7 @@ void LineParser::check_parameters(const Instruction& function) {
     const bool named = name.is_plain_integer() && name.value >= 1 && name.value <= dialect::kMaxFunctionParameters;
     const std::uint32_t bit = named ? 1u << static_cast<unsigned>(name.value) : 0;
     const bool valued = has_value && !word(i + 1u).has(Word::kMissing);
-    if (takes_parameters && name.has(Word::kMalformed)) continue;  // Said of its number.
+    if (takes_parameters && name.has(Word::kMalformed)) continue;  // The number has been reported.
     if (!takes_parameters || !named || !valued || (seen & bit) != 0) {
       report("m-param-invalid"_diag, span);
       if (!takes_parameters) return;
@@ -289,8 +291,8 @@ bool LineParser::is_interpolation_mode(const Word& checked) const {
   return code && code->group == dialect::ModalGroup::Interpolation;
 }
 
-/// Nothing else on the line but N; what is no word at all has been reported for itself, and a G48 or G49 that should
-/// have a line of its own leaves this one alone.
+/// Whether an instruction is alone on its line, apart from N. Text that is not a word does not count (it has a finding
+/// of its own), nor does a G48 or G49, which must itself be alone.
 bool LineParser::stands_alone(const Instruction& alone) const {
   for (std::uint16_t i = 0; i < word_count(); ++i) {
     const Word& other = word(i);
@@ -301,15 +303,15 @@ bool LineParser::stands_alone(const Instruction& alone) const {
   return true;
 }
 
-/// Whether the line has a finding that an instruction is not alone, other than a G48 or G49 (D65): what the company
-/// does has been said.
+/// Whether the line has a finding that an instruction is not alone, other than a G48 or G49 (D65): then the other codes
+/// on the line need no finding.
 bool LineParser::has_reported_company() const {
   const auto is_interpolation = [](const Finding& finding) { return finding.id == "g48-g49-not-alone"_diag; };
   return (line_.flags & LineTree::kAloneViolated) != 0 &&
          std::none_of(store_.findings_.begin() + line_.first_finding, store_.findings_.end(), is_interpolation);
 }
 
-/// G41/G42: alone or before a motion. G40: alone or behind the last motion (D24).
+/// G41/G42: alone or before a motion. G40: alone or after the last motion (D24).
 void LineParser::check_compensation(const Instruction& checked) {
   const dialect::GCode* const code = checked.g();
   if (!code || code->group != dialect::ModalGroup::CutterCompensation || stands_alone(checked)) return;
@@ -322,14 +324,14 @@ void LineParser::check_compensation(const Instruction& checked) {
     const bool is_motion = other.kind == InstructionKind::Continuation
                                ? !other.has(Instruction::kReportedElsewhere)
                                : other.kind == InstructionKind::G && other.g() && other.g()->is_motion();
-    // A G that is unknown may be the motion that is wanted: any after a G41 (D62), one with coordinates before a G40.
+    // An unknown G may be the required motion: any G after a G41 (D62), or a G with coordinates before a G40.
     const bool may_be_motion = other.kind == InstructionKind::G && !other.g();
     if (may_be_motion) {
       before_motion |= !is_end && other.command > checked.command;
       after_motion |= other.command < checked.command && owns_any(other, dialect::kCoordinateLetters);
     }
     if (!is_motion) continue;
-    // Where a motion G begins is its G: words before it count as its own, but have been reported.
+    // A motion starts at its G: words before it count as its own, but have been reported.
     const std::uint16_t begin = other.kind == InstructionKind::G ? other.command : other.begin;
     before_motion |= (is_end ? other.end : begin) > checked.command;
     after_motion |= begin < checked.command;
@@ -339,7 +341,7 @@ void LineParser::check_compensation(const Instruction& checked) {
     report(is_end ? "misplaced-g40"_diag : "misplaced-g41-g42"_diag, word(checked.command).span());
 }
 
-/// Six digits: head, holder, tool. Zeros mean that nothing is mounted there (I.4.3).
+/// A tool number has six digits: head, holder, tool. Zeros mean that nothing is mounted there (I.4.3).
 void LineParser::check_tool_number(const Word& tool) {
   if (tool.has(Word::kMissing | Word::kReported)) return;
   if (!tool.is_plain_integer() || tool.digits != 6) return report("invalid-tool-number"_diag, tool.span());

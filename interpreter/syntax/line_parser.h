@@ -9,8 +9,8 @@
 
 namespace isocnc::syntax {
 
-/// Parses one line into a TreeStore: first its characters into words, then its words into instructions. What can be
-/// said of a line without knowing the lines before it is reported here: spelling, order and company on the line.
+/// Parses one line into a TreeStore: first its characters into words, then its words into instructions. Reports all
+/// errors that do not depend on earlier lines: spelling, order, and codes that must be alone on their line.
 class LineParser {
  public:
   LineParser(TreeStore& store, const char* begin, const char* end);
@@ -75,7 +75,7 @@ class LineParser {
   Instruction& add_instruction(InstructionKind kind, std::uint16_t command);
   void own(Instruction& owner, std::uint16_t index);
 
-  // What is wrong with the instructions of the line (line_checks.cpp).
+  // Checks of the line's instructions (line_checks.cpp).
   void check();
   void check_alone();
   bool must_be_alone(const Instruction& checked, dialect::DiagnosticId& diagnostic) const;
@@ -118,30 +118,30 @@ class LineParser {
   const char* const end_;
   TreeStore::Line line_;
 
-  bool in_condition_ =
-      false;                 ///< Between IF and the label behind GOTO: a comparison and a bare number are right there.
+  /// The position is between IF and the label after GOTO, where a comparison and a bare number are valid.
+  bool in_condition_ = false;
   bool after_goto_ = false;  ///< The next word is the label.
-  bool has_prose_ = false;   ///< Some letter has no number, or some text is no word.
-  const char* last_goto_ =
-      nullptr;  ///< The line's last GOTO, or its start where there is none; null before it was looked for.
+  bool has_prose_ = false;   ///< Some letter has no number, or some text is not a word.
+  /// The line's last GOTO, or the line's start without a GOTO; null before the search.
+  const char* last_goto_ = nullptr;
 
   static constexpr int kNone = -1;
-  int taker_ = kNone;             ///< The instruction that the next argument goes to.
-  bool contiguous_ = false;       ///< Nothing stands between it and its series so far (D17).
-  dialect::LetterSet taken_ = 0;  ///< Letters among its arguments.
+  int taker_ = kNone;             ///< The instruction that takes the next argument.
+  bool contiguous_ = false;       ///< The argument series of `taker_` is unbroken so far (D17).
+  dialect::LetterSet taken_ = 0;  ///< Letters of the arguments of `taker_`.
   int function_ = kNone;          ///< The last M that may have parameters.
-  bool function_open_ = false;    ///< Directly behind that M or its parameters.
+  bool function_open_ = false;    ///< The position is directly after that M or its parameters.
   int motions_ = 0;
   Span first_motion_;
-  bool dimensions_seen_ = false;     ///< A G with dimensions, or a continuation, stands before (D15).
-  std::uint16_t misplaced_[4] = {};  ///< G70/G71/G90/G91 behind dimensions.
+  bool dimensions_seen_ = false;     ///< A G with dimensions, or a continuation, precedes (D15).
+  std::uint16_t misplaced_[4] = {};  ///< G70/G71/G90/G91 after dimensions.
   int misplaced_count_ = 0;
   bool needs_check_ = false;
   bool half_jump_ = false;              ///< A part of the IF is missing.
   bool stray_parameter_ = false;        ///< A parameter without its M has been reported.
-  bool after_unknown_ = false;          ///< The continuation follows a word of no instruction of this control.
-  bool after_motion_ = false;           ///< The word before belongs to a motion (G09).
-  bool compensation_reported_ = false;  ///< G40 to G42 out of place: once per line.
+  bool after_unknown_ = false;          ///< The continuation follows a word unknown to this control.
+  bool after_motion_ = false;           ///< The previous word belongs to a motion (G09).
+  bool compensation_reported_ = false;  ///< A misplaced G40 to G42 has been reported (once per line).
 };
 
 }  // namespace isocnc::syntax

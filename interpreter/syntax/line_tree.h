@@ -11,14 +11,14 @@
 
 namespace isocnc::syntax {
 
-/// Tokens that are no letter-number words have a sign of their own in Word::letter.
-inline constexpr char kAssign = '=';    ///< `=` and the number behind it, after a V or an M's P.
+/// Signs in Word::letter for tokens that are not letter-number words.
+inline constexpr char kAssign = '=';    ///< `=` and the number after it, following a V or an M's P.
 inline constexpr char kIf = '?';        ///< The keyword IF.
 inline constexpr char kVgpl = '$';      ///< The keyword VGPL.
 inline constexpr char kOperator = '<';  ///< A comparison inside IF; Word::digits holds the Comparison.
 inline constexpr char kGoto = '@';      ///< The keyword GOTO.
 inline constexpr char kNumber = '#';    ///< A number without a letter.
-inline constexpr char kError = '!';     ///< Characters that start no word (ISO003).
+inline constexpr char kError = '!';     ///< Characters that do not start a word (ISO003).
 
 enum class Comparison : std::uint8_t { Equal, NotEqual, Less, LessEqual, Greater, GreaterEqual, Invalid };
 
@@ -26,17 +26,17 @@ enum class Comparison : std::uint8_t { Equal, NotEqual, Less, LessEqual, Greater
 struct Word {
   static constexpr std::uint8_t kSigned = 1;     ///< Written with + or -.
   static constexpr std::uint8_t kPoint = 2;      ///< Written with a decimal point.
-  static constexpr std::uint8_t kMalformed = 4;  ///< Something stands where the number should be, but it is none.
+  static constexpr std::uint8_t kMalformed = 4;  ///< The text in place of the number is not a number.
   static constexpr std::uint8_t kMissing = 8;    ///< No number at all.
-  static constexpr std::uint8_t kBreak = 16;     ///< An argument that stands apart from its command's series (D17).
-  static constexpr std::uint8_t kReported = 32;  ///< What is wrong with it has been said (X=5): nothing more is.
+  static constexpr std::uint8_t kBreak = 16;     ///< An argument that is separated from its command's series (D17).
+  static constexpr std::uint8_t kReported = 32;  ///< An error of this word has been reported (X=5); checks skip it.
 
-  // No initializers: a million lines make millions of words, and each is filled in at once.
+  // Without initializers, for speed: long programs have millions of words, and each is filled in at once.
   double value;  ///< NaN when malformed, missing or written twice.
   std::uint32_t begin;
   std::uint32_t end;
-  std::uint32_t digits;  ///< How many digits were written.
-  std::uint16_t owner;   ///< Index of the instruction that it belongs to, kNobody for none.
+  std::uint32_t digits;  ///< Number of digits as written.
+  std::uint16_t owner;   ///< Index of the instruction that it belongs to, or kNoOwner.
   char letter;           ///< Upper case.
   std::uint8_t flags;
 
@@ -45,36 +45,36 @@ struct Word {
   constexpr Span span() const { return {begin, end}; }
   bool known() const { return !std::isnan(value); }
   constexpr bool has(std::uint8_t flag) const { return (flags & flag) != 0; }
-  /// Digits only: what G, M, N, T and V want.
+  /// Digits only, as G, M, N, T and V require.
   constexpr bool is_plain_integer() const { return (flags & (kSigned | kPoint | kMalformed | kMissing)) == 0; }
-  /// The register that a V names, 1 to 30; 0 where it names none.
+  /// The register that a V names, 1 to 30; 0 if it names none.
   constexpr int register_number() const {
     return is_plain_integer() && dialect::is_register(value) ? static_cast<int>(value) : 0;
   }
 };
 
 enum class InstructionKind : std::uint8_t {
-  G,             ///< A G code with its arguments; `row` tells which.
-  Continuation,  ///< Coordinates without a G: the motion in force goes on.
-  Function,      ///< M but for M06, with its parameters.
-  ToolChange,    ///< M06; its T, if there is one, is its argument.
+  G,             ///< A G code (`row`) with its arguments.
+  Continuation,  ///< Coordinates without a G, which continue the motion in force.
+  Function,      ///< Any M except M06, with its parameters.
+  ToolChange,    ///< M06; its T, if any, is its argument.
   StrayTool,     ///< T without M06.
-  Assignment,    ///< V = value; the value is the word behind the command.
+  Assignment,    ///< V = value; the value is the word after the command.
   Jump,          ///< IF ... GOTO; details in LineTree::jump.
 };
 
-/// A command with its arguments. Its words are those in [begin, end) whose `owner` is this instruction; what else
-/// stands there (an F, which belongs to the line, or what breaks the series) belongs to others.
+/// A command with its arguments. Its words are those in [begin, end) whose `owner` is this instruction. Other words in
+/// that range, such as an F (which belongs to the line) or a word that breaks the series, are not part of it.
 struct Instruction {
-  static constexpr std::uint8_t kFollowsMotion = 1;      ///< Directly behind a motion's arguments (G09).
+  static constexpr std::uint8_t kFollowsMotion = 1;      ///< It directly follows a motion's arguments (G09).
   static constexpr std::uint8_t kFirst = 2;              ///< The first instruction on its line.
-  static constexpr std::uint8_t kReportedElsewhere = 4;  ///< What is wrong with it has been reported with another one.
+  static constexpr std::uint8_t kReportedElsewhere = 4;  ///< Its error has been reported at another instruction.
 
   InstructionKind kind = InstructionKind::G;
-  std::uint8_t row = dialect::kUnknownGCode;  ///< Of dialect::kGCodes, for G.
+  std::uint8_t row = dialect::kUnknownGCode;  ///< Row of dialect::kGCodes, for G.
   std::uint8_t flags = 0;
-  std::uint16_t number = 0;   ///< Position in the order of writing: what Word::owner refers to.
-  std::uint16_t command = 0;  ///< Word of the command; for a continuation its first word.
+  std::uint16_t number = 0;   ///< Position in the order of writing, as in Word::owner.
+  std::uint16_t command = 0;  ///< Index of the command's word; of the first word for a continuation.
   std::uint16_t begin = 0;
   std::uint16_t end = 0;
 
@@ -96,19 +96,19 @@ struct Jump {
   std::uint64_t target = 0;
   Span if_span;
   Span variable_span;  ///< The register or VGPL.
-  Span target_span;    ///< The label behind GOTO.
+  Span target_span;    ///< The label after GOTO.
 
   bool condition_is_known() const {
     return variable != kUnknownVariable && comparison != Comparison::Invalid && !std::isnan(value);
   }
 };
 
-/// What executing a plain line takes (LineTree::plain_arguments).
+/// The data for the execution of a plain line (LineTree::plain_arguments).
 struct PlainLine {
   std::span<const Word> words;
-  dialect::LetterSet arguments = 0;           ///< Without any coordinate the line is none, or moves nothing.
-  std::int32_t feed = -1;                     ///< Index of the line's F, or -1.
-  std::uint8_t row = dialect::kUnknownGCode;  ///< Of dialect::kGCodes; kUnknownGCode where the motion in force goes on.
+  dialect::LetterSet arguments = 0;  ///< Letters of the arguments; without a coordinate there is no plain motion.
+  std::int32_t feed = -1;            ///< Index of the line's F, or -1.
+  std::uint8_t row = dialect::kUnknownGCode;  ///< Row of dialect::kGCodes; kUnknownGCode continues the motion in force.
   bool has_label = false;
   std::uint64_t label = 0;
 
@@ -116,39 +116,38 @@ struct PlainLine {
 };
 
 /// The tree of one line. It holds columns but no line number, and no meaning: `X10` is a word here, never a position.
-/// Hence a line inserted above changes nothing, and equal text gives equal trees. Parsing cannot fail; what is wrong
-/// with the line by itself is in `findings`, in the order of its columns, and the rest of the line is still there.
+/// Hence a line inserted above changes nothing, and equal text gives equal trees. Parsing cannot fail; `findings` lists
+/// the errors of the line by itself, in the order of its columns, and the rest of the line is still there.
 ///
-/// A view: the words and the text belong to a TreeStore and to whoever holds the text.
+/// A view: a TreeStore owns the words, and the caller owns the text.
 struct LineTree {
   static constexpr std::uint8_t kAloneViolated = 1;  ///< An instruction that must be alone is not; once per line (D22).
   static constexpr std::uint8_t kHasLabel = 2;
-  static constexpr std::uint8_t kCut = 4;       ///< More words than are read (W192).
-  static constexpr std::uint8_t kUnclosed = 8;  ///< A comment is not closed: what seems missing may stand in it.
+  static constexpr std::uint8_t kCut = 4;       ///< The line has more words than are parsed (W192).
+  static constexpr std::uint8_t kUnclosed = 8;  ///< A comment is not closed; words that seem missing may be in it.
 
-  std::string_view text;  ///< Without its terminator.
+  std::string_view text;  ///< Text of the line without its terminator.
   std::span<const Word> words;
   std::span<const Instruction> instructions;  ///< In the order in which they take effect.
   std::span<const Span> comments;
   std::span<const Finding> findings;
   const Jump* jump = nullptr;
-  std::uint64_t label = 0;    ///< The line number, when there is one.
+  std::uint64_t label = 0;    ///< The line number, if the line has one (kHasLabel).
   std::int32_t feed = -1;     ///< Index of the line's F, or -1.
   std::int32_t spindle = -1;  ///< Index of the line's S, or -1.
   std::uint8_t flags = 0;
-  /// Where the line is plain: the letters of its arguments. Plain is one motion, by a G of 0 to 3 or by coordinates
-  /// alone, and beside it N, F and comments at most; every value is finite, every argument the motion's. Most such
-  /// lines are known to be so, not all: it only helps to execute them quickly.
+  /// The letters of the arguments of a plain line; 0 for other lines. A plain line holds one motion, by a G of 0 to 3
+  /// or by coordinates alone, and beside it at most N, F and comments; every value is finite, and every argument
+  /// belongs to the motion. Not all such lines are marked plain: the mark only speeds up execution.
   dialect::LetterSet plain_arguments = 0;
 
   constexpr bool has(std::uint8_t flag) const { return (flags & flag) != 0; }
   constexpr bool has_label() const { return has(kHasLabel); }
-  /// The number that the line starts with, where its letter is lost (ISO005); else null. After an N there is none: the
-  /// digits are the N's.
+  /// The number without a letter that starts the line (ISO005), or null. Digits after an N belong to the N.
   const Word* number_without_letter() const {
     return !words.empty() && words.front().letter == kNumber ? &words.front() : nullptr;
   }
-  /// Nothing but blanks, comments and N: a block that does nothing (D13).
+  /// Whether the line has only blanks, comments and N: a block without effect (D13).
   bool is_empty() const { return instructions.empty() && feed < 0 && spindle < 0 && !number_without_letter(); }
   const Word& command(const Instruction& instruction) const { return words[instruction.command]; }
   /// The first motion, or null.
@@ -157,7 +156,7 @@ struct LineTree {
       if (instruction.is_motion()) return &instruction;
     return nullptr;
   }
-  /// Whether an instruction of the line is the M02.
+  /// Whether an instruction of the line is M02.
   bool ends_program(const Instruction& instruction) const {
     return instruction.kind == InstructionKind::Function && command(instruction).value == dialect::kProgramEnd;
   }
@@ -175,7 +174,7 @@ struct LineTree {
       if (word.span().holds(column)) return &word;
     return nullptr;
   }
-  /// The word of the line's own number, not of the one behind a GOTO; null where it has none.
+  /// The word of the line's own number, not of the label after a GOTO; null if the line has no number.
   const Word* label_word() const {
     if (!has_label()) return nullptr;
     for (const Word& word : words)
@@ -185,7 +184,7 @@ struct LineTree {
   std::string_view text_of(Span span) const { return text.substr(span.begin, span.end - span.begin); }
 };
 
-/// Words of a line that are read; W192 tells of a line that has more.
+/// Maximum number of words parsed per line; W192 reports longer lines.
 inline constexpr std::size_t kMaxWords = 16384;
 
 }  // namespace isocnc::syntax

@@ -5,13 +5,13 @@
 
 namespace isocnc::syntax {
 
-/// Whether a number before `p` goes on there, behind blanks and comments (D7).
+/// Whether a number before `p` continues after the blanks and comments at `p` (D7).
 static bool continues(const char* p, const char* end) {
   p = skip_space(p, end);
   return p != end && is_number_char(*p);
 }
 
-/// [+-]? digits [. digits?] | [+-]? . digits
+/// Whether the text matches [+-]? digits [. digits?] | [+-]? . digits
 static bool is_well_formed(const std::string& text, const Number& number) {
   std::size_t at = number.is_signed ? 1 : 0;
   bool point = false;
@@ -25,7 +25,7 @@ static bool is_well_formed(const std::string& text, const Number& number) {
   return number.digits > 0;
 }
 
-/// Any number: blanks and comments inside, any length, malformed ones.
+/// Reads any number: with blanks or comments inside, of any length, or malformed.
 static Number scan_any_number(const char* p, const char* end) {
   std::string text;
   Number number;
@@ -46,7 +46,7 @@ static Number scan_any_number(const char* p, const char* end) {
   if (error == std::errc{}) {
     number.value = value + 0.0;  // -0 is 0.
   } else if (text.find_first_of("123456789") > text.find('.')) {
-    number.value = 0;  // Too small for a double: an underflow, not an unknown.
+    number.value = 0;  // An underflow: too small for a double, but known.
   }
   return number;
 }
@@ -62,8 +62,8 @@ Number scan_number(const char* p, const char* end) {
     number.is_signed = true;
     ++p;
   }
-  // The digits are gathered in an integer and scaled once: below 2^53 and 10^22 both are exact, so that the quotient is
-  // the correctly rounded decimal.
+  // The digits are collected in an integer and scaled once. Below 2^53 and 10^22 both are exact, so that the quotient
+  // is the correctly rounded decimal.
   std::uint64_t mantissa = 0;
   const char* const digits_start = p;
   while (p != end && is_digit(*p)) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*p++ - '0');

@@ -9,10 +9,10 @@
 
 namespace isocnc::syntax {
 
-/// What stands where a number should be (I.2.1, D9).
+/// The text in the place of a number, valid or not (I.2.1, D9).
 struct Number {
   double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN when malformed or beyond what a double can hold.
-  const char* end = nullptr;                                ///< Behind its last character.
+  const char* end = nullptr;                                ///< One past the last character.
   std::uint32_t digits = 0;
   bool is_signed = false;
   bool has_point = false;
@@ -31,12 +31,12 @@ inline constexpr double kPowersOfTen[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e
 
 /// Bytes that must be readable where scan_short_number() starts.
 inline constexpr std::ptrdiff_t kShortNumberBytes = 17;
-/// Digits that it reads.
+/// Maximum number of digits that scan_short_number() reads.
 inline constexpr std::uint32_t kShortNumberDigits = 7;
 
-/// Reads a number of few digits, without anything inside; false when it is another. Does not look at what follows. All
-/// its characters are taken at once, and nothing branches on how many of them are digits, or on the sign, which no
-/// processor can guess. Where it ends, on which all that is read behind it waits, is found first and quickly.
+/// Reads a number of few digits, without blanks or comments inside; returns false for any other number. Does not check
+/// the text after it. Processes all characters at once, without branches on the number of digits or on the sign, which
+/// no processor can predict. Computes the end of the number first, because parsing of the following word depends on it.
 [[gnu::always_inline]] inline bool scan_short_number(const char* p, Number& number) {
   static_assert(std::endian::native == std::endian::little);
   // + is 0x2B and - is 0x2D. A comparison would branch.
@@ -57,12 +57,12 @@ inline constexpr std::uint32_t kShortNumberDigits = 7;
     length = static_cast<std::uint32_t>(std::countr_zero(others));
     decimals = length - whole - 1;
     const std::uint64_t in_front = (std::uint64_t{1} << (8 * (whole - is_signed) & 63)) - 1;
-    bytes = (((bytes >> 8) ^ bytes) & in_front) ^ (bytes >> 8);  // The point goes; its digits close up.
+    bytes = (((bytes >> 8) ^ bytes) & in_front) ^ (bytes >> 8);  // Removes the point between the digits.
   }
   number.digits = length - is_signed - (number.has_point ? 1 : 0);
   if (number.digits - 1 >= kShortNumberDigits) return false;
   bytes <<= 64 - 8 * number.digits;
-  bytes = bytes * 10 + (bytes >> 8);  // Eight digits to four pairs, to two fours, to one number.
+  bytes = bytes * 10 + (bytes >> 8);  // Combines eight digits to four pairs, then to two fours, then to one number.
   const std::uint64_t mantissa = (((bytes & 0x000000FF000000FFULL) * 0x000F424000000064ULL) +
                                   (((bytes >> 16) & 0x000000FF000000FFULL) * 0x0000271000000001ULL)) >>
                                  32;
@@ -74,7 +74,7 @@ inline constexpr std::uint32_t kShortNumberDigits = 7;
   return true;
 }
 
-/// Reads the number at `p`, which is a number's character.
+/// Reads the number at `p`, where is_number_char() must hold.
 Number scan_number(const char* p, const char* end);
 
 }  // namespace isocnc::syntax

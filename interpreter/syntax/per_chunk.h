@@ -11,12 +11,11 @@
 
 namespace isocnc::syntax {
 
-/// Something that is known of each chunk of one document. After edits only chunks that have changed are looked at
-/// again.
+/// A value for each chunk of a document. After edits, only the values of changed chunks are computed again.
 template <class T>
 class PerChunk {
  public:
-  /// Chunks [first, first + removed) are gone; `inserted` others stand in their place.
+  /// Replacement of the chunks [first, first + removed) by `inserted` new ones.
   struct Change {
     std::size_t first = 0;
     std::size_t removed = 0;
@@ -27,7 +26,7 @@ class PerChunk {
   T& operator[](std::size_t chunk) { return rows_[chunk].value; }
   const T& operator[](std::size_t chunk) const { return rows_[chunk].value; }
 
-  /// What has happened to the document since all its chunks were last known.
+  /// The change of the document since the last follow().
   Change change_to(const Document& document) const {
     const std::size_t count = document.chunk_count();
     const std::size_t common = std::min(count, rows_.size());
@@ -39,7 +38,7 @@ class PerChunk {
     return {head, rows_.size() - tail - head, count - tail - head};
   }
 
-  /// Follows the change: `make(chunk)` tells what is known of each new chunk.
+  /// Applies the change: `make(chunk)` computes the value of each new chunk.
   template <class Make>
   void follow(const Document& document, const Change& change, Make make) {
     std::vector<Row> fresh;
@@ -54,7 +53,7 @@ class PerChunk {
                  std::make_move_iterator(fresh.begin() + replaced), std::make_move_iterator(fresh.end()));
   }
 
-  /// Both in one.
+  /// Calls change_to() and follow().
   template <class Make>
   Change update(const Document& document, Make make) {
     const Change change = change_to(document);

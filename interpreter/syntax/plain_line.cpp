@@ -13,7 +13,7 @@ namespace isocnc::syntax {
 
 namespace {
 
-/// What follows the digits of a Word, as one number: it is written at once.
+/// The fields of a Word after its digits, so that all are written as one number.
 struct WordTail {
   std::uint16_t owner = Word::kNoOwner;
   char letter = 0;  ///< Upper case.
@@ -24,7 +24,7 @@ static_assert(sizeof(WordTail) == 4 && offsetof(Word, owner) + 4 == sizeof(Word)
               offsetof(Word, flags) - offsetof(Word, owner) == offsetof(WordTail, flags));
 constexpr int kFlagsShift = 8 * offsetof(WordTail, flags);
 
-/// What a byte is on a plain line: one of its letters, or anything else, with an empty set.
+/// The role of a byte on a plain line: one of its letters; `letter` is empty for any other byte.
 struct LetterRole {
   std::uint32_t tail = 0;
   dialect::LetterSet letter = 0;
@@ -47,22 +47,22 @@ constexpr auto kRoles = [] {
   return roles;
 }();
 
-/// N, G, F and each argument once; more never fit.
+/// Maximum number of words of a plain line: N, G, F and each argument once.
 constexpr std::size_t kMaxPlainWords = 12;
 
-/// So many lines are parsed before room is made for more.
+/// Number of lines parsed per buffer reservation.
 constexpr std::size_t kLinesAtOnce = 64;
 
-/// With so many bytes left, a letter, a blank and a short number can be read without looking for the end.
+/// Minimum number of readable bytes for parsing a letter, a blank and a short number without bounds checks.
 constexpr std::ptrdiff_t kMargin = 2 + kShortNumberBytes;
 
-/// Behind the comment at `p`, or null when it does not end on this line.
+/// The end of the comment at `p`, or null when it does not end on this line.
 const char* skip_comment(const char* p, const char* end) {
   if (*p == ';') return find_line_end(p, end);
   return skip_closed_comment(p, end);
 }
 
-/// A number that scan_short_number() leaves alone: a longer one, but with nothing inside and not malformed.
+/// Reads a number too long for scan_short_number(). False if it is malformed or has blanks or comments inside.
 bool scan_long_number(const char* p, const char* end, Number& number) {
   if (!is_number_char(*p)) return false;
   number = scan_number(p, end);
@@ -71,8 +71,8 @@ bool scan_long_number(const char* p, const char* end, Number& number) {
 
 }  // namespace
 
-/// A line of nothing but `V7 = 12.215`, in one go as well: programs that use registers at all use them a lot. Null,
-/// with nothing changed, for any other line.
+/// Fast path for a line with a single assignment (`V7 = 12.215`), because programs with registers have many of them.
+/// For any other line it returns null and changes nothing.
 const char* TreeStore::append_plain_assignment(const char* begin, const char* end) {
   const auto skip_blanks = [end](const char* p) {
     while (p != end && is_blank(*p)) ++p;
@@ -119,8 +119,8 @@ const char* TreeStore::append_plain_assignment(const char* begin, const char* en
   return line_end;
 }
 
-/// Reads the line at `begin` into `line` and `words`, if it is plain; `last` is the last place where a word may begin.
-/// Returns its end, or null.
+/// Reads the line at `begin` into `line` and `words`, if it is plain; `last` is the last place where a word may start.
+/// Returns the end of the line, or null.
 // NOLINTNEXTLINE(readability-function-cognitive-complexity): its parts would be calls, on every line of every program.
 [[gnu::always_inline]] inline const char* TreeStore::read_plain_line(const char* const begin, const char* const last,
                                                                      const char* const end, Line& line, Word* words) {
@@ -128,7 +128,7 @@ const char* TreeStore::append_plain_assignment(const char* begin, const char* en
   static_cast<PlainPart&>(line) = kPlain;
   Word* word = words;
   const Word* command = nullptr;  // The G, or the first argument.
-  const Word* behind = words;     // Behind the last argument.
+  const Word* behind = words;     // The place after the last argument.
   dialect::LetterSet taken = 0;
   for (const char* p = begin; p <= last;) {
     const LetterRole& role = kRoles[static_cast<unsigned char>(*p)];
@@ -141,7 +141,7 @@ const char* TreeStore::append_plain_assignment(const char* begin, const char* en
         line.motion.begin = line.motion.command = static_cast<std::uint16_t>(command - words);
         line.motion.end = static_cast<std::uint16_t>(behind - words);
         if (line.motion.command == line.flags / LineTree::kHasLabel) line.motion.flags = Instruction::kFirst;
-        // A motion G needs a coordinate; that it has none is for the general way to tell.
+        // A motion G needs a coordinate; the general parser reports that it has none.
         return (taken & kCommand) != 0 && (taken & dialect::kCoordinateLetters) == 0 ? nullptr : p;
       }
       if (is_blank(*p)) {
@@ -194,8 +194,8 @@ const char* TreeStore::append_plain_assignment(const char* begin, const char* en
   return nullptr;
 }
 
-/// Most lines of most programs hold at most an N, a motion G, coordinates and F, each once and well written. They are
-/// parsed in one go, into the very trees that the general way gives them. Returns where the first other line begins.
+/// Fast path for lines with at most an N, a motion G, coordinates and F, each once and well-formed, as most lines are.
+/// The trees are the same as those of the general parser. Returns the start of the first other line.
 const char* TreeStore::append_plain_lines(const char* begin, const char* stop, const char* end) {
   if (end - begin < kMargin) return begin;
   const char* const last = end - kMargin;

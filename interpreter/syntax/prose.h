@@ -7,8 +7,8 @@
 
 namespace isocnc::syntax {
 
-/// How many words at the end of these read as text for people: one that lacks its letter or number, or starts none,
-/// with the right word behind it (OP 10).
+/// The number of trailing words that are probably plain text (OP 10): a malformed word (without letter or number, or
+/// unknown characters), and one correct word after it.
 inline std::size_t prose_at_end(std::span<const Word> words) {
   const auto is_prose = [](const Word& word) {
     return word.letter == kError || word.letter == kNumber || word.has(Word::kMissing);

@@ -31,7 +31,7 @@ const char* LineParser::parse() {
 void LineParser::report(dialect::DiagnosticId id, Span span, std::initializer_list<double> values, Span related) {
   const bool is_reported = store_.findings_.size() > line_.first_finding && store_.findings_.back().id == id &&
                            store_.findings_.back().span == span;
-  if (is_reported) return;  // One thing wrong may be missed in two places (IF IF).
+  if (is_reported) return;  // Two checks may find the same error (IF IF).
   Finding& finding = store_.findings_.emplace_back();
   finding.id = id;
   finding.span = span;
@@ -39,7 +39,7 @@ void LineParser::report(dialect::DiagnosticId id, Span span, std::initializer_li
   std::copy(values.begin(), values.end(), finding.values.begin());
 }
 
-/// One mistake has been told as two.
+/// Removes a finding, where one mistake has been reported twice.
 void LineParser::take_back(dialect::DiagnosticId id, Span span) {
   auto& findings = store_.findings_;
   const auto first = findings.begin() + line_.first_finding;
@@ -56,12 +56,12 @@ void LineParser::take_back_within(Span span) {
 
 static bool is_no_word(const Word& word) { return word.letter == kError || word.has(Word::kMissing); }
 
-/// What is missing may stand in a comment that is not closed, which has been reported.
+/// Reports a missing word, unless a comment is not closed: the word may be in it, and the comment has been reported.
 void LineParser::report_missing(dialect::DiagnosticId id, const Instruction& lacking) {
   if ((line_.flags & LineTree::kUnclosed) == 0) report(id, word(lacking.command).span());
 }
 
-/// H2, D3: a letter that this control does not have with its number is a word, if an unknown one, and no text.
+/// Whether unknown characters are a letter of another control with its number (H2, D3): a word, not plain text.
 bool LineParser::is_foreign_word(const Word& unknown) const {
   const std::string_view text(begin_ + unknown.begin, unknown.end - unknown.begin);
   const std::string_view behind = text.substr(1);
@@ -69,7 +69,7 @@ bool LineParser::is_foreign_word(const Word& unknown) const {
          std::all_of(behind.begin(), behind.end(), [](char c) { return is_blank(c) || is_number_char(c); });
 }
 
-/// X10mm, X2in, C90deg, or a letter without a number that is written twice.
+/// Whether two words are a unit (X10mm, X2in, C90deg), or one letter without a number written twice.
 bool LineParser::is_unit(const Word& first, const Word& second) const {
   std::string unit;
   for (std::uint32_t i = first.begin; i < second.end && unit.size() < 4; ++i)
@@ -77,7 +77,7 @@ bool LineParser::is_unit(const Word& first, const Word& second) const {
   return unit == "IN" || unit == "DEG" || (unit.size() == 2 && unit[0] == unit[1]);
 }
 
-/// A number behind text belongs to it: PROGRAM 12, CALL SUB1.
+/// Whether a word is a number that belongs to the text before it: PROGRAM 12, CALL SUB1.
 bool LineParser::is_number_of_prose(std::uint16_t index) const {
   const char letter = index < word_count() ? word(index).letter : '\0';
   const char before = upper(begin_[word(index - 1u).begin]);
@@ -85,15 +85,15 @@ bool LineParser::is_number_of_prose(std::uint16_t index) const {
   return letter == kNumber || (follows_letter && contains(dialect::kDimensionLetters | dialect::letters("NT"), letter));
 }
 
-/// Text that should be a comment reads as letters without numbers, one after the other: one mistake, not one for each.
-/// `X Y Z` is no such text; it needs something that no line could want there.
+/// Joins letters without numbers that were meant as a comment: one finding, not one for each letter. `X Y Z` is not
+/// joined; the text must contain something that is never valid there.
 void LineParser::join_prose() {
   const auto is_prose = [&](std::uint16_t i) {
     const Word& it = word(i);
     return it.letter == kError ? !is_foreign_word(it) : it.has(Word::kMissing) && it.letter >= 'A' && it.letter <= 'Z';
   };
   for (std::uint16_t i = 0; i < word_count(); ++i) {
-    if (word(i).letter == kIf) return;  // In a condition there is a code for it.
+    if (word(i).letter == kIf) return;  // A condition has its own diagnostic.
     dialect::LetterSet seen = 0;
     bool is_odd = false;
     std::uint16_t last = i;
@@ -113,7 +113,7 @@ void LineParser::join_prose() {
     take_back_within(span);
     report(id, span);
     if (is_only_unit && word(i).letter == word(i + 1u).letter && contains(dialect::kDimensionLetters, word(i).letter))
-      ++i;  // XX: that there is an X is plain.
+      ++i;  // XX: the first X remains a word.
     for (; i < last; ++i) {
       word(i).letter = kError;
       word(i).value = std::numeric_limits<double>::quiet_NaN();
@@ -136,7 +136,7 @@ void LineParser::structure() {
     switch (letter) {
       case 'F':
         add_feed(i);
-        continue;  // The motion's speed: breaks nothing (D17).
+        continue;  // The motion's speed does not break the series (D17).
       case 'N':
         if (!add_line_number(i)) continue;
         break;
@@ -178,16 +178,16 @@ void LineParser::structure() {
         if (is_taken_by_unknown_g(i)) take_back("unknown-word"_diag, word(i).span());
         continue;
       default:
-        continue;  // An error that has been reported breaks nothing.
+        continue;  // An error that has been reported does not break the series.
     }
-    if (is_letter_alone) continue;  // X25S Y5: has been reported, and breaks nothing.
+    if (is_letter_alone) continue;  // X25S Y5: a reported letter does not break the series.
     contiguous_ = false;
     if (letter != 'M') function_open_ = false;
   }
 }
 
-/// G43 H1: unknown text belongs to the unknown G before it, which has been told; not so where it spoils the G's own
-/// number (G5O).
+/// Whether unknown text belongs to the unknown G before it, which has been reported (G43 H1). Text inside the number of
+/// that G does not (G5O).
 bool LineParser::is_taken_by_unknown_g(std::uint16_t index) const {
   if (taker_ == kNone || !contiguous_) return false;
   const Instruction& taker = instruction(static_cast<std::size_t>(taker_));
@@ -200,7 +200,7 @@ bool LineParser::is_assigned(std::uint16_t index) const {
   return index + 1 < word_count() && word(index + 1u).letter == kAssign;
 }
 
-/// X V1: a register where the number should be, which has been said at the X.
+/// Whether a register is in the place of a number (X V1), which has been reported at the X.
 bool LineParser::stands_for_number(std::uint16_t index) const {
   return index > 0 && word(index - 1u).has(Word::kMissing) && !is_assigned(index) &&
          contains(dialect::kDimensionLetters | dialect::letters("FS"), word(index - 1u).letter);
@@ -234,7 +234,7 @@ void LineParser::own(Instruction& owner, std::uint16_t index) {
 void LineParser::add_dimension(std::uint16_t index) {
   const bool names_register =
       index > 0 && word(index - 1u).letter == 'V' && word(index - 1u).has(Word::kMissing) && is_assigned(index);
-  if (names_register) return;  // VI=5: said at the V.
+  if (names_register) return;  // VI=5: reported at the V.
   const char letter = word(index).letter;
   const bool is_parameter = letter == 'P' && function_ != kNone && (function_open_ || is_assigned(index));
   if (is_parameter) {
@@ -242,12 +242,12 @@ void LineParser::add_dimension(std::uint16_t index) {
     needs_check_ = true;
     return;
   }
-  // P1=1 P2=4.5 without an M: nobody's arguments, and one mistake.
+  // P1=1 P2=4.5 without an M: parameters that belong to no instruction are reported once, together.
   if (letter == 'P' && taker_ == kNone && line_.jump < 0 && is_assigned(index)) return;
   function_open_ = false;
   if (taker_ != kNone && !contiguous_ && instruction(static_cast<std::size_t>(taker_)).row == dialect::kUnknownGCode &&
       instruction(static_cast<std::size_t>(taker_)).kind == InstructionKind::G)
-    taker_ = kNone;  // What an unknown G would have taken ends where its series ends.
+    taker_ = kNone;  // The arguments of an unknown G end with its series.
   if (taker_ == kNone) {
     after_unknown_ = index > 0 && word(index - 1u).letter == kError;
     add_instruction(InstructionKind::Continuation, index);
@@ -261,22 +261,22 @@ void LineParser::add_dimension(std::uint16_t index) {
     word(index).flags |= Word::kBreak;
     needs_check_ = true;
   }
-  // L X10 R0: what the motion of another control takes.
+  // L X10 R0: arguments of another control's motion.
   const bool is_of_unknown =
       after_unknown_ && taker.kind == InstructionKind::Continuation && !contains(dialect::kCoordinateLetters, letter);
   if (is_of_unknown) word(index).flags |= Word::kReported;
   const dialect::LetterSet bit = dialect::letter_bit(letter);
-  // XX10: said at the first, which nobody wanted.
+  // XX10: the first X has been reported, because it has no number.
   const bool is_typed_twice = index > 0 && word(index - 1u).letter == letter && word(index - 1u).has(Word::kMissing);
   if ((taken_ & bit) != 0 && !is_typed_twice) {
-    // Which of the two was meant cannot be known: the axis counts as unknown, so that nothing follows from it.
+    // It is unclear which of the two was meant: the axis becomes unknown, so that no second finding follows.
     Span first;
     for (std::uint16_t i = taker.begin; i < index; ++i) {
       if (word(i).owner != taker.number || word(i).letter != letter) continue;
       if (first.empty()) first = word(i).span();
       word(i).value = std::numeric_limits<double>::quiet_NaN();
     }
-    // Of its number, as in R1=1 R2=2.
+    // In R1=1 R2=2 the number has been reported, so the repetition is not.
     const bool is_reported = is_assigned(index) || word(index).has(Word::kMissing | Word::kMalformed);
     word(index).value = std::numeric_limits<double>::quiet_NaN();
     word(index).flags |= Word::kReported;
@@ -286,7 +286,7 @@ void LineParser::add_dimension(std::uint16_t index) {
   own(taker, index);
 }
 
-/// G1.0, M+6 and G-1 are spelled wrong, yet what they mean is plain: this number, else NaN.
+/// The number meant by a misspelled but clear word, such as G1.0, M+6 or G-1; otherwise NaN.
 static double meant_number(double value, double minimum) {
   const double number = std::abs(value);
   const bool is_plain = number >= minimum && number <= 999 && number == std::floor(number);
@@ -342,7 +342,7 @@ void LineParser::add_g(std::uint16_t index) {
   dimensions_seen_ |= has_dimensions;
 }
 
-/// `X10 G1`: arguments follow their G (D16). One finding, and the words count as the G's, for that is what was meant.
+/// Handles `X10 G1`: arguments must follow their G (D16). One finding; the words count as arguments of the G.
 void LineParser::take_earlier_words(Instruction& g) {
   Instruction& earlier = instruction(static_cast<std::size_t>(taker_));
   bool reported = false;
@@ -357,7 +357,8 @@ void LineParser::take_earlier_words(Instruction& g) {
   earlier.flags |= Instruction::kReportedElsewhere;
 }
 
-/// M06 101001: a tool change whose T is lost, so that the tool's number continues the M's (D59). `text` is the word's.
+/// Whether a word is a tool change without its T, so that the tool's number continues the M's number: M06 101001 (D59).
+/// `text` is the text of the word.
 static bool swallows_tool(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(" \t0", 1), text.size()));
   if (!text.starts_with('6')) return false;
@@ -376,7 +377,7 @@ void LineParser::add_m(std::uint16_t index) {
   if ((!written.is_plain_integer() || !is_function) && !written.has(Word::kMissing | Word::kReported))
     report("invalid-m-number"_diag, written.span());
   if (is_function) written.value = meant;
-  // An M without a legible number and a T: what else can it be?
+  // An M without a legible number before a T is probably a tool change.
   std::size_t next = index + 1u;
   while (next < word_count() && word(next).letter == kError) ++next;
   const bool before_tool = next < word_count() && word(next).letter == 'T';
@@ -386,7 +387,7 @@ void LineParser::add_m(std::uint16_t index) {
     return;
   }
   Instruction& added = add_instruction(InstructionKind::Function, index);
-  if (!is_function) {  // It keeps its parameters, so that nothing is said of them.
+  if (!is_function) {  // It keeps its parameters, so that they get no finding.
     added.flags |= Instruction::kReportedElsewhere;
     word(index).value = std::numeric_limits<double>::quiet_NaN();
   }
@@ -401,7 +402,7 @@ void LineParser::add_tool_change(std::uint16_t index) {
   auto next = static_cast<std::uint16_t>(index + 1);
   while (next < count && word(next).letter == kError) ++next;
   if (next < count && word(next).letter == 'T') return own(added, next);
-  // The T may stand before it (and has been reported) or further on; either way one thing is wrong, not two.
+  // The T may be before the M06 (and has been reported) or further on; in both cases there is one finding, not two.
   for (std::size_t i = 0; i + 1 < instruction_count(); ++i)
     if (instruction(i).kind == InstructionKind::StrayTool) return void(added.flags |= Instruction::kReportedElsewhere);
   report_missing("tool-change-without-tool"_diag, added);
@@ -420,7 +421,7 @@ void LineParser::add_tool(std::uint16_t index) {
   }
 }
 
-/// A label may have any number of digits; beyond 2^53 it is known by a hash of them.
+/// The value of a label, which may have any number of digits; above 15 digits, a hash of them.
 static std::uint64_t label_of(const Word& number, std::string_view text) {
   if (number.digits <= 15) return static_cast<std::uint64_t>(number.value);
   std::uint64_t hash = 14695981039346656037ULL;
@@ -436,11 +437,11 @@ static std::uint64_t label_of(const Word& number, std::string_view text) {
   return leading ? 0 : hash | (std::uint64_t{1} << 63);
 }
 
-/// False when it is none: reported, so it breaks nothing.
+/// Adds a line number. Returns false if it is not valid; it has been reported and does not break a series.
 bool LineParser::add_line_number(std::uint16_t index) {
   const Word& written = word(index);
   if (written.has(Word::kMissing)) return false;
-  // IF VGPL = 1 THEN N10: where the jump was meant to lead, not what the line is called.
+  // IF VGPL = 1 THEN N10: the target of the jump, not the number of the line.
   if (line_.jump >= 0 && !store_.jumps_[static_cast<std::size_t>(line_.jump)].has_target) return false;
   if (!written.is_plain_integer() || (line_.flags & LineTree::kHasLabel) != 0) {
     if (!written.has(Word::kReported)) report("invalid-line-number"_diag, written.span());
@@ -457,7 +458,7 @@ void LineParser::add_feed(std::uint16_t index) {
   if (line_.feed < 0) {
     line_.feed = index;
   } else if (word(static_cast<std::size_t>(line_.feed)).has(Word::kMissing)) {
-    line_.feed = index;  // FF900: said at the first.
+    line_.feed = index;  // FF900: reported at the first F.
   } else if (!written.has(Word::kMissing | Word::kMalformed)) {
     report("repeated-feed"_diag, written.span(), {}, word(static_cast<std::size_t>(line_.feed)).span());
   }
@@ -498,14 +499,14 @@ std::uint16_t LineParser::add_assignment(std::uint16_t index) {
   return last;
 }
 
-/// V5=X: what stands where the value should be lacks a number as well, but what is wrong is the value.
+/// Handles V5=X: the word in the place of the value lacks a number as well, but the value is reported.
 void LineParser::own_in_place_of_value(Instruction& owner, std::uint16_t index) {
   take_back("word-without-number"_diag, word(index).span());
   own(owner, index);
 }
 
-/// Whether a `=` has no legible number, and something else in its place, which belongs to the same mistake: V1=V2,
-/// V1=X5, V1==2, V1=-V2.
+/// Whether a `=` has no legible number but another word in its place, which belongs to the same mistake: V1=V2, V1=X5,
+/// V1==2, V1=-V2.
 bool LineParser::lacks_value(std::uint16_t assign) const {
   static constexpr dialect::LetterSet kInPlace = dialect::kDimensionLetters | dialect::letters("FSV");
   if (!word(assign).has(Word::kMissing) && !(word(assign).has(Word::kMalformed) && word(assign).digits == 0))
@@ -515,15 +516,16 @@ bool LineParser::lacks_value(std::uint16_t assign) const {
   return letter == kAssign || contains(kInPlace, letter);
 }
 
-/// What is wrong with a `=` that has a word before it has been said there.
+/// Whether the error of a `=` has been reported at the words before it.
 bool LineParser::is_equals_reported_before(std::uint16_t index) const {
   const Word& before = word(index - 1u);
   if (before.letter == kError || before.letter == kVgpl) return true;  // #1=5
-  if (before.letter == 'P' && line_.jump >= 0) return true;            // IF ... GOTO N9 P1=2: company of the IF.
-  return index > 1 && word(index - 2u).has(Word::kMissing);            // CR=5, VI=5: at the C or V.
+  if (before.letter == 'P' && line_.jump >= 0) return true;            // IF ... GOTO N9 P1=2: IF must be alone.
+  return index > 1 && word(index - 2u).has(Word::kMissing);            // CR=5, VI=5: reported at the C or V.
 }
 
-/// G92 Y20= Z146: both letters have their numbers, so that the second is no value of the first (D61).
+/// Whether both letters around a `=` have numbers, so that the second is not the value of the first: G92 Y20= Z146
+/// (D61).
 bool LineParser::is_between_coordinates(std::uint16_t assign) const {
   const auto is_complete = [](const Word& it) {
     return contains(dialect::kCoordinateLetters, it.letter) && !it.has(Word::kMissing);
@@ -532,7 +534,7 @@ bool LineParser::is_between_coordinates(std::uint16_t assign) const {
          is_complete(word(assign - 1u)) && is_complete(word(assign + 1u));
 }
 
-/// A `=` that no V, and no M's P, stands before (ISO058). Returns the last word that belongs to it.
+/// Reports a `=` that follows neither a V nor an M's P (ISO058). Returns the last word that belongs to it.
 std::uint16_t LineParser::add_equals(std::uint16_t index) {
   auto last = static_cast<std::uint16_t>(index + (lacks_value(index) && !is_between_coordinates(index) ? 1 : 0));
   if (index > 0) {
@@ -545,8 +547,8 @@ std::uint16_t LineParser::add_equals(std::uint16_t index) {
         if (last > index) own_in_place_of_value(owner, last);
         return last;
       }
-      // G54 P1=2: what an unknown G takes.
-      const bool is_reported = index - 1 != owner.command || !before.has(Word::kMissing);  // G=5 has not been.
+      // G54 P1=2: an argument of an unknown G.
+      const bool is_reported = index - 1 != owner.command || !before.has(Word::kMissing);  // G=5 has not been reported.
       if (owner.kind == InstructionKind::G && owner.row == dialect::kUnknownGCode && is_reported) return last;
     }
     const bool is_parameter = before.letter == 'P' && before.owner == Word::kNoOwner;
@@ -555,7 +557,7 @@ std::uint16_t LineParser::add_equals(std::uint16_t index) {
       before.value = word(index).value;
       before.flags = word(index).flags;
     } else if (!word(index).has(Word::kMissing)) {
-      before.value = std::numeric_limits<double>::quiet_NaN();  // R1=10: which of the two numbers counts? (D61)
+      before.value = std::numeric_limits<double>::quiet_NaN();  // R1=10: either number may be meant (D61).
     }
     before.flags |= Word::kReported;
   }
@@ -577,7 +579,7 @@ std::uint16_t LineParser::add_jump(std::uint16_t index) {
   Jump jump;
   jump.if_span = word(index).span();
   const std::uint16_t last = read_condition(jump, index);
-  // Half an IF: what else stands on the line may well be the other half.
+  // An incomplete IF: the other words on the line may be the missing part.
   if (half_jump_) added.flags |= Instruction::kReportedElsewhere;
   for (auto i = static_cast<std::uint16_t>(index + 1); i <= last; ++i) own(added, i);
   line_.jump = static_cast<std::int32_t>(store_.jumps_.size());
@@ -585,8 +587,8 @@ std::uint16_t LineParser::add_jump(std::uint16_t index) {
   return last;
 }
 
-/// GOTO N10 ELSE N20: what is no word behind the label is an attempt to say more of the jump, to the end of the line.
-/// Returns the last word that belongs to it.
+/// Handles text after the label that is not a word: a malformed part of the jump, up to the end of the line (GOTO N10
+/// ELSE N20). Returns the last word that belongs to the jump.
 std::uint16_t LineParser::end_jump(std::uint16_t last) {
   const auto next = static_cast<std::uint16_t>(last + 1);
   if (next >= word_count() || !store_.jumps_[static_cast<std::size_t>(line_.jump)].has_target) return last;
@@ -600,14 +602,14 @@ std::uint16_t LineParser::end_jump(std::uint16_t last) {
   return static_cast<std::uint16_t>(word_count() - 1);
 }
 
-/// Reads what stands between IF and the label, both included. One finding for a malformed condition, one for a
-/// malformed label. Returns the last word that belongs to it.
+/// Reads the words from IF to the label, both included. One finding for a malformed condition, one for a malformed
+/// label. Returns the last word that belongs to the jump.
 std::uint16_t LineParser::read_condition(Jump& jump, std::uint16_t index) {
   const std::uint16_t count = word_count();
   std::uint16_t goto_at = index;
   while (goto_at < count && word(goto_at).letter != kGoto) ++goto_at;
   auto at = static_cast<std::uint16_t>(index + 1);
-  // The piece in the place of what is wanted, up to what comes after it; what stands before when there is none.
+  // Reports the words in the place of the required part, up to the part after it; without such words, an incomplete IF.
   const auto fail = [&](std::uint16_t where, std::string_view next_letters) {
     auto last = where;
     while (last < goto_at && next_letters.find(word(last).letter) == std::string_view::npos) ++last;
@@ -633,7 +635,7 @@ std::uint16_t LineParser::read_condition(Jump& jump, std::uint16_t index) {
   }
   if (!good) jump.variable = Jump::kUnknownVariable;
   if (goto_at < count) return read_target(jump, goto_at);
-  // No GOTO: the condition is what belongs to no instruction of its own.
+  // Without a GOTO, the condition ends at the first word that belongs to another instruction.
   auto last = index;
   while (last + 1 < count) {
     const char letter = word(last + 1u).letter;
@@ -643,7 +645,7 @@ std::uint16_t LineParser::read_condition(Jump& jump, std::uint16_t index) {
   return last;
 }
 
-/// A comparison in a comment that stands between two places of the line.
+/// The comment with a comparison between two columns of the line.
 std::optional<Span> LineParser::comparison_in_comment(std::uint32_t begin, std::uint32_t end) const {
   for (std::size_t i = line_.first_comment; i < store_.comments_.size(); ++i) {
     const Span comment = store_.comments_[i];
@@ -654,8 +656,8 @@ std::optional<Span> LineParser::comparison_in_comment(std::uint32_t begin, std::
   return std::nullopt;
 }
 
-/// An IF that lacks something before the word at `where`, which may be the one at `end`: marks what stands in its place
-/// (THEN, a condition in parentheses), else the word that should have gone on.
+/// Reports an IF that lacks a part before the word at `where`, which may be the word at `end`. Marks the text in place
+/// of the missing part (THEN, a condition in parentheses), else the word after which it is missing.
 void LineParser::report_half_jump(std::uint16_t where, std::uint16_t end) {
   half_jump_ = true;
   const std::uint32_t behind = where < word_count() ? word(where).begin : line_.length;
@@ -667,7 +669,7 @@ void LineParser::report_half_jump(std::uint16_t where, std::uint16_t end) {
   report("if-malformed"_diag, hull(word(where).span(), word(last).span()));
 }
 
-/// A bad register number keeps its own code (D50); anything else but a register or VGPL is no variable.
+/// Reads the variable: a register or VGPL. A bad register number keeps its own diagnostic (D50).
 bool LineParser::read_variable(Jump& jump, const Word& written, bool has_operator) {
   jump.variable_span = written.span();
   if (written.letter == kVgpl) {
@@ -675,7 +677,7 @@ bool LineParser::read_variable(Jump& jump, const Word& written, bool has_operato
     return true;
   }
   if (written.letter != 'V' || written.has(Word::kMissing)) return false;
-  if (!has_operator) return true;  // V5 1 is V51, but what is wrong there is the operator (E003).
+  if (!has_operator) return true;  // V5 1 reads as V51, but the operator is reported (E003).
   if (!written.is_plain_integer()) {
     report("invalid-register-number"_diag, written.span());
   } else if (!dialect::is_register(written.value)) {
@@ -686,7 +688,7 @@ bool LineParser::read_variable(Jump& jump, const Word& written, bool has_operato
   return true;
 }
 
-/// The label behind the GOTO at `index`.
+/// Reads the label after the GOTO at `index`.
 std::uint16_t LineParser::read_target(Jump& jump, std::uint16_t index) {
   const auto at = static_cast<std::uint16_t>(index + 1);
   if (at >= word_count() || word(at).letter == 'G' || word(at).letter == kIf) {
@@ -696,7 +698,7 @@ std::uint16_t LineParser::read_target(Jump& jump, std::uint16_t index) {
   }
   const Word& label = word(at);
   if (label.letter != 'N' || !label.is_plain_integer()) {
-    if (!label.has(Word::kReported)) report("if-malformed"_diag, label.span());  // N1O: said at the O.
+    if (!label.has(Word::kReported)) report("if-malformed"_diag, label.span());  // N1O: reported at the O.
     return at;
   }
   jump.has_target = true;
@@ -705,7 +707,7 @@ std::uint16_t LineParser::read_target(Jump& jump, std::uint16_t index) {
   return at;
 }
 
-/// GOTO without IF, or a second one: then the first has company, which is said there.
+/// Handles a GOTO without IF, or a second GOTO on the line, which is reported at the first: it must be alone.
 std::uint16_t LineParser::add_lone_goto(std::uint16_t index) {
   if (line_.jump < 0) {
     for (std::uint16_t i = 0; i < index; ++i)  // V5 > 30 GOTO N340: the IF is missing.

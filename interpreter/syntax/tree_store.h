@@ -10,16 +10,16 @@
 
 namespace isocnc::syntax {
 
-/// Trees of successive lines, packed. Knows no line's text: whoever asks for a tree brings it.
+/// Trees of successive lines, packed. Does not store the text; the caller passes the line's text with each query.
 class TreeStore {
  public:
-  /// Parses the line that starts at `begin` and appends its tree. Returns where the line's text ends: at its CR or LF,
-  /// or at `end`. Reads nothing beyond.
+  /// Parses the line that starts at `begin` and appends its tree. Returns the end of the line's text: its CR or LF, or
+  /// `end`. Reads nothing beyond `end`.
   const char* append_line(const char* begin, const char* end) {
     if (append_plain_lines(begin, begin == end ? end : begin + 1, end) == begin) return append_rarer_line(begin, end);
     return begin + lines_.back().length;
   }
-  /// The same for all lines that start before `stop`. Returns where the one after them does, or `end`.
+  /// Parses and appends all lines that start before `stop`. Returns the start of the line after them, or `end`.
   const char* append_lines(const char* begin, const char* stop, const char* end);
   void clear();
 
@@ -48,7 +48,7 @@ class TreeStore {
             .spindle = line.spindle,
             .flags = line.flags};
   }
-  /// tree(index, text).plain(), for who executes millions of them.
+  /// Same as tree(index, text).plain(), without building the tree; for loops over millions of lines.
   PlainLine plain(std::size_t index) const {
     const Line& line = lines_[index];
     if (!line.is_plain) return {};
@@ -59,9 +59,9 @@ class TreeStore {
             .has_label = (line.flags & LineTree::kHasLabel) != 0,
             .label = line.label};
   }
-  /// Bytes of the line's text.
+  /// Number of bytes of the line's text.
   std::uint32_t length(std::size_t index) const { return lines_[index].length; }
-  /// append_line() without its short cut for plain lines: the same trees, only slower.
+  /// append_line() without its fast path for plain lines: the same trees, but slower.
   const char* append_any_line(const char* begin, const char* end);
 
  private:
@@ -82,9 +82,9 @@ class TreeStore {
     std::uint8_t flags = 0;
     bool is_plain = false;
     dialect::LetterSet plain_arguments = 0;
-    Instruction motion;  ///< Where there are plain arguments.
+    Instruction motion;  ///< Set if there are plain arguments.
   };
-  /// Of a plain line (LineTree::plain_arguments) nothing but its PlainPart is written.
+  /// For a plain line (LineTree::plain_arguments) only the PlainPart is initialized.
   struct Line : PlainPart {
     std::uint32_t first_instruction = 0;
     std::uint32_t first_finding = 0;
@@ -104,7 +104,7 @@ class TreeStore {
   std::vector<Jump> jumps_;
 };
 
-/// One line with its tree, for who wants just one.
+/// A single line with its tree.
 class ParsedLine {
  public:
   explicit ParsedLine(std::string_view text) : text_(text) {

@@ -5,7 +5,7 @@
 
 namespace isocnc::syntax {
 
-/// Text for an XML document, inside elements and attributes alike: what XML cannot hold, even escaped, becomes U+FFFD.
+/// Escapes text for XML elements and attributes. Characters that XML forbids even escaped become U+FFFD.
 std::string xml_escaped(std::string_view text);
 
 }  // namespace isocnc::syntax
