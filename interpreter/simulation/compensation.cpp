@@ -13,7 +13,7 @@ using geometry::Vec2;
 using geometry::Vec3;
 
 static constexpr double kNowhere = 1e-9;                // mm
-static constexpr std::size_t kMaxEventsBetween = 1000;  // Events between two elements; a control counts in tens.
+static constexpr std::size_t kMaxEventsBetween = 1000;  // Events between two elements; a control allows some tens.
 static constexpr std::size_t kLinesKept =
     2 * (geometry::ContourOffset::kLookBack + geometry::ContourOffset::kLookAhead);
 
@@ -21,7 +21,7 @@ Vec3 Compensation::Plane::point(const Vec2& flat, double height) const {
   return flat.x() * u + flat.y() * v + height * normal;
 }
 
-/// The axes may be off the right angle by as much as the dialect lets pass (D26).
+/// Tolerates axes as far from the right angle as the dialect allows (D26).
 bool Compensation::Plane::is_upright(const running::MoveEvent& move) const {
   if (move.kind == MoveKind::Arc) return false;
   const Vec3 way = move.to.tip - move.from.tip;
@@ -67,7 +67,7 @@ void Compensation::take(const running::Event& event, const Listeners& listeners)
   come_back(event, *move, listeners);
 }
 
-/// Behind the last element, and not forever.
+/// Queues an event after the last element. A pause ends the wait when the queue is too long.
 void Compensation::wait(const running::Event& event, const Listeners& listeners) {
   if (is_paused_) return go_beside(event, listeners);
   waiting_.push_back({.event = event, .element = elements_});
@@ -82,7 +82,7 @@ void Compensation::pause(const Listeners& listeners) {
   is_paused_ = true;
 }
 
-/// A motion under compensation.
+/// Takes a motion under compensation.
 void Compensation::follow(const running::Event& event, const running::MoveEvent& move, const Listeners& listeners) {
   if ((plane_.normal - move.normal).norm() > kNowhere) end_contour(listeners);
   const bool begins = !is_open_;
@@ -110,7 +110,7 @@ void Compensation::follow(const running::Event& event, const running::MoveEvent&
   pass_on(listeners);
 }
 
-/// Takes the plane of a motion, and the place where the tool stands.
+/// Sets the plane from a motion, and the position of the tool.
 void Compensation::begin_contour(const running::MoveEvent& move) {
   if (!is_beside_) tip_ = move.from;
   is_beside_ = true;
@@ -134,8 +134,8 @@ void Compensation::end_contour(const Listeners& listeners) {
   is_paused_ = false;
 }
 
-/// A motion without compensation, and the tip stands beside the contour: it goes straight to where the program leads.
-/// A motion along the normal alone keeps it there.
+/// Takes a motion without compensation while the tip is off the programmed path: the tip moves straight back to it. A
+/// motion along the normal only keeps the offset.
 void Compensation::come_back(const running::Event& event, const running::MoveEvent& move, const Listeners& listeners) {
   if (plane_.is_upright(move)) return go_beside(event, listeners);
   is_beside_ = false;
@@ -153,7 +153,7 @@ void Compensation::come_back(const running::Event& event, const running::MoveEve
   pass_on(listeners);
 }
 
-/// What the contour knows by now, and what waits between its pieces.
+/// Passes on the finished pieces of the contour, the events that wait between them, and warnings about flaws.
 void Compensation::pass_on(const Listeners& listeners) {
   while (const auto piece = contour_.next_piece()) {
     pass_on_before(piece->tag, listeners);
@@ -167,13 +167,13 @@ void Compensation::pass_on(const Listeners& listeners) {
   }
 }
 
-/// Everything that waits before an element. Elements that have become nothing are left out.
+/// Passes on all events waiting before an element. Elements without any piece are dropped.
 void Compensation::pass_on_before(std::uint64_t element, const Listeners& listeners) {
   for (; !waiting_.empty() && waiting_.front().element < element; waiting_.pop_front())
     if (!waiting_.front().is_element) go_beside(waiting_.front().event, listeners);
 }
 
-/// The element that a piece belongs to is the first that waits.
+/// Moves along a piece, whose element is the first in the queue.
 void Compensation::go_along(const geometry::OffsetPiece& piece, const Listeners& listeners) {
   const running::Event& event = waiting_.front().event;
   running::MoveEvent move = std::get<running::MoveEvent>(event.what);
@@ -194,7 +194,7 @@ void Compensation::go_along(const geometry::OffsetPiece& piece, const Listeners&
   if (piece.curve.length() > kNowhere || (move.to.tip - tip_.tip).norm() > kNowhere) go(event.line, move, listeners);
 }
 
-/// What waits behind an element; motions go along the normal, and the rotary axes as they should.
+/// Passes on an event after an element. Its motions go along the normal only, with the rotary axes as programmed.
 void Compensation::go_beside(const running::Event& event, const Listeners& listeners) {
   const auto* const move = std::get_if<running::MoveEvent>(&event.what);
   if (move == nullptr) return listeners.event(event);
@@ -203,7 +203,8 @@ void Compensation::go_beside(const running::Event& event, const Listeners& liste
   go(event.line, beside, listeners);
 }
 
-/// From where the tip is. Beside a contour each motion has its normal, by which a copy of the machine can go on.
+/// Reports a motion from the actual tip position. While the tip is offset, each motion gets the normal, so that a copy
+/// of the machine can continue from it.
 void Compensation::go(std::uint64_t line, const running::MoveEvent& move, const Listeners& listeners) {
   running::MoveEvent gone = move;
   if (is_beside_) gone.normal = plane_.normal;
@@ -226,7 +227,7 @@ std::uint64_t Compensation::line_of(std::uint64_t element) const {
   return lines_[lines_.size() - 1 - std::min(since, lines_.size() - 1)];
 }
 
-/// The number of a new element, from 1.
+/// Returns the number of a new element, from 1.
 std::uint64_t Compensation::count(std::uint64_t line) {
   lines_.push_back(line);
   if (lines_.size() > kLinesKept) lines_.pop_front();

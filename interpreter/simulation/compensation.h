@@ -11,7 +11,7 @@
 
 namespace isocnc::simulation {
 
-/// Something that a run tells and that does not stop it.
+/// A finding during a run that does not stop it.
 struct RunWarning {
   std::uint64_t line = 0;  ///< From 0.
   dialect::DiagnosticId id = dialect::kNoDiagnostic;
@@ -20,15 +20,14 @@ struct RunWarning {
   friend bool operator==(const RunWarning&, const RunWarning&) = default;
 };
 
-/// Turns the motions that a program wants under G41 and G42 into those of the tool tip, in the same order among all
-/// events (docs/dialect.md tells the rules). What is inserted has the line of the motion before it. Everything else
-/// goes through as it is; without compensation at once, and under it as soon as the motion before it is known to its
-/// end.
+/// Turns the programmed motions under G41 and G42 into motions of the tool tip, in the same order among all events
+/// (docs/dialect.md gives the rules). Inserted motions get the line of the motion before them. All other events pass
+/// through unchanged: at once without compensation, and under it as soon as the motion before them is fully known.
 ///
-/// Memory does not grow with the program. A value: a copy goes on by itself.
+/// Memory does not grow with the program. A value: a copy runs independently.
 class Compensation {
  public:
-  /// Who is told.
+  /// Callbacks for the compensated events and the warnings.
   struct Listeners {
     std::function<void(const running::Event&)> event;
     std::function<void(const RunWarning&)> warning;
@@ -36,29 +35,30 @@ class Compensation {
 
   /// Keeps a reference to the machine, which knows the radii of the tools.
   explicit Compensation(const TimedMachine& machine) : machine_(&machine) {}
-  /// Of a machine that stands between two blocks, not under G41 or G42, with that tool. `beside` is the motion that has
-  /// led it beside a contour, from which none has led it back; null elsewhere.
+  /// For a machine between two blocks, not under G41 or G42, with the given tool. `beside` is the last motion with
+  /// compensation, if the tool is still offset from the program; otherwise null.
   Compensation(const TimedMachine& machine, const execution::ToolCode& tool, const running::MoveEvent* beside);
 
   void take(const running::Event& event, const Listeners& listeners);
 
-  /// The control reads on when the machine has come to here, and no sooner (I.5, I.3.11): the tool stops beside the end
-  /// of the motion before, and the contour goes on from there. IFs and G990 do so of themselves.
+  /// Stops the look-ahead: the control reads the next block only when the machine has arrived here (I.5, I.3.11). The
+  /// tool stops at the offset end point of the last motion and continues the contour from there. IF and G990 do this
+  /// without a call.
   void pause(const Listeners& listeners);
 
-  /// The run is over: the tool stays beside the contour where that ends.
+  /// Ends the run: the tool stays at the offset end point of the contour.
   void finish(const Listeners& listeners) { end_contour(listeners); }
 
-  /// Whether motions wait for what follows: the tool is not yet where those taken will have led it.
+  /// Whether motions wait for the ones after them. The tool has then not yet made all motions taken.
   bool holds_motions() const { return is_open_ && !is_paused_; }
-  /// Whether the tool is off the programmed path. After G40 it is, until a motion leads it back.
+  /// Whether the tool is off the programmed path. After G40 it stays so until a motion leads it back.
   bool is_beside_contour() const { return is_beside_; }
 
-  /// Bytes that it holds, beside itself.
+  /// Heap memory in bytes, without the object itself.
   std::size_t memory() const;
 
  private:
-  /// Axes of the arc plane and what stands on it, in the machine frame.
+  /// Axes and normal of the arc plane, in the machine frame.
   struct Plane {
     geometry::Vec3 u = geometry::Vec3::UnitX();
     geometry::Vec3 v = geometry::Vec3::UnitY();
@@ -66,11 +66,11 @@ class Compensation {
 
     geometry::Vec2 flat(const geometry::Vec3& point) const { return {u.dot(point), v.dot(point)}; }
     geometry::Vec3 point(const geometry::Vec2& flat, double height) const;
-    /// Whether a motion leads along the normal alone, or nowhere.
+    /// Whether a motion runs along the normal only, or has no length.
     bool is_upright(const running::MoveEvent& move) const;
   };
 
-  /// An event that has not gone out: an element of the contour, or what comes behind one.
+  /// An event that has not been passed on: an element of the contour, or an event after one.
   struct Waiting {
     running::Event event;
     std::uint64_t element = 0;
@@ -93,15 +93,15 @@ class Compensation {
   std::uint64_t count(std::uint64_t line);
 
   const TimedMachine* machine_;
-  double radius_ = 0;  // Of the tool that is mounted.
+  double radius_ = 0;  // Radius of the mounted tool, mm.
   Plane plane_;
   geometry::ContourOffset contour_{1};
-  bool is_open_ = false;    // The contour goes on.
-  bool is_paused_ = false;  // Nothing of it waits.
-  bool is_beside_ = false;  // The tip is not where the program has led it.
-  geometry::Pose tip_;      // Where it is then.
+  bool is_open_ = false;    // The contour has not ended.
+  bool is_paused_ = false;  // All events of the contour have been passed on.
+  bool is_beside_ = false;  // The tip is off the programmed position.
+  geometry::Pose tip_;      // Position of the tip while it is off the program.
   std::deque<Waiting> waiting_;
-  std::deque<std::uint64_t> lines_;  // Of the last elements.
+  std::deque<std::uint64_t> lines_;  // Lines of the last elements.
   std::uint64_t elements_ = 0;
 };
 

@@ -6,7 +6,8 @@
 
 namespace isocnc::simulation {
 
-/// First in, first out, for items of some hundred bytes: std::deque takes memory for each of those, and gives it back.
+/// First in, first out, for items of some hundred bytes. Unlike std::deque it does not allocate and free memory for
+/// each.
 template <class Item>
 class Fifo {
  public:
@@ -22,14 +23,14 @@ class Fifo {
     if (empty() || (first_ >= kForgotten && first_ >= size())) forget_popped();
   }
 
-  /// Done now and then anyway. A copy is then as small as it can be.
+  /// Frees popped items. pop_front() does so from time to time; call it before copying, so that the copy is small.
   void forget_popped() {
     items_.erase(items_.begin(), items_.begin() + static_cast<std::ptrdiff_t>(std::exchange(first_, 0)));
   }
 
  private:
   std::vector<Item> items_;
-  std::size_t first_ = 0;  // Those before it are popped.
+  std::size_t first_ = 0;  // Index of the first item that has not been popped.
 };
 
 }  // namespace isocnc::simulation

@@ -12,7 +12,7 @@
 
 namespace isocnc::simulation {
 
-/// From where to where the tip has gone while a frame was in force, in its coordinates; mm.
+/// The range of the tip's positions while a frame was in force, in its coordinates; mm.
 struct FrameExtents {
   std::uint64_t line = 0;  ///< From 0: the G92 of a workpiece frame, or the G24, G28 or G29 of a face frame.
   bool is_face = false;
@@ -20,24 +20,24 @@ struct FrameExtents {
   std::array<geometry::Range, 3> extents;
 };
 
-/// Follows the frames of a run, and how far the tip goes in each. A workpiece frame that comes back at a G27 is the one
-/// that it was. The machine frame, which is in force before any G92, is none of them.
+/// Follows the frames of a run and the range of the tip in each. A workpiece frame restored by G27 counts as the same
+/// frame. The machine frame, in force before any G92, is not recorded.
 class FrameLog {
  public:
   void take(const running::FrameEvent& event, std::uint64_t line);
   /// `extents`: in the machine frame.
   void take(const motion::Machine& machine, const motion::Move& move, const std::array<geometry::Range, 3>& extents);
 
-  /// In the order of the first motion in each. A part has a few; of programs with more the first ones are kept.
+  /// In the order of the first motion in each frame. A typical part has a few; of longer lists the first ones are kept.
   const std::vector<FrameExtents>& frames() const { return frames_; }
-  /// How many more frames there were with motions.
+  /// Number of further frames with motions.
   std::size_t left_out() const { return left_out_; }
 
  private:
   struct InForce {
     std::optional<std::uint64_t> line;  ///< None: the machine frame.
     geometry::Frame frame;
-    std::optional<std::size_t> place;  ///< In frames_; behind its end: left out.
+    std::optional<std::size_t> place;  ///< Index in frames_; past its end for a frame left out.
   };
 
   std::vector<FrameExtents> frames_;

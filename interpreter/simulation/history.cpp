@@ -34,7 +34,7 @@ void History::step_instruction() {
 void History::step_back() {
   const bool was_at_end = present_.has_ended();
   const std::uint64_t blocks = present_.blocks();
-  if (was_at_end) go_to_block(blocks);  // M02 is a block, but an error ends the program at one that is not executed.
+  if (was_at_end) go_to_block(blocks);  // M02 counts as a block; a block with an error is not executed.
   if (present_.has_ended() == was_at_end && blocks > 0) go_to_block(blocks - 1);
 }
 
@@ -50,7 +50,8 @@ void History::go_to_time(double seconds) {
   while (!present_.has_ended() && present_.time() < seconds) advance_in_block(seconds);
 }
 
-/// Goes to the last simulation at hand that qualifies, if any does, else to the begin. Those before it qualify, too.
+/// Goes to the last available simulation that satisfies the predicate, else to the program start. The predicate must
+/// hold for all earlier ones, too.
 template <class Predicate>
 void History::start_from(Predicate&& predicate) {
   const auto behind = std::partition_point(checkpoints_.begin() + 1, checkpoints_.end(),
@@ -63,7 +64,7 @@ void History::start_from(Predicate&& predicate) {
   apply_settings(present_, present_.blocks());
 }
 
-/// What comes next lies on that line, or before it. Jumps lead forward only (I.5): lines come in order.
+/// Whether the next block is on the line or before it. Jumps lead forward only (I.5), so lines are reached in order.
 static bool comes_to(const running::Runner& runner, std::uint64_t line) {
   return !runner.has_ended() && runner.place().line <= line;
 }
@@ -91,7 +92,7 @@ std::optional<std::uint64_t> History::find_before(std::uint64_t blocks,
                                                   const std::function<bool(const running::Block&)>& is_it,
                                                   std::uint64_t from) const {
   std::optional<std::uint64_t> found;
-  // The checkpoints behind are those of blocks that are not asked for.
+  // Later checkpoints belong to blocks outside the search.
   const auto behind = std::partition_point(checkpoints_.begin() + 1, checkpoints_.end(),
                                            [&](const Checkpoint& each) { return each.simulation->blocks() < blocks; });
   for (auto checkpoint = std::make_reverse_iterator(behind);
@@ -116,7 +117,7 @@ std::optional<std::uint64_t> History::find_motion_before(std::uint64_t blocks,
   const auto behind = std::partition_point(checkpoints_.begin() + 1, checkpoints_.end(),
                                            [&](const Checkpoint& each) { return each.simulation->blocks() <= from; });
   Simulation simulation = *std::prev(behind)->simulation;
-  if (simulation.is_in_block()) simulation.step_block();  // A block before `from`.
+  if (simulation.is_in_block()) simulation.step_block();  // The block in progress is before `from`.
   std::optional<std::uint64_t> found;
   while (!simulation.has_ended() && simulation.blocks() < blocks) {
     const std::uint64_t block = simulation.blocks();
@@ -128,7 +129,7 @@ std::optional<std::uint64_t> History::find_motion_before(std::uint64_t blocks,
   return found;
 }
 
-/// Called before the control reads on: the present is as small then as it can be.
+/// Called before the control reads further blocks, when a copy of the present is smallest.
 void History::keep() {
   constexpr int kFreedAtOnce = 8;
   for (int i = 0; i < kFreedAtOnce && !thinned_out_.empty(); ++i) thinned_out_.pop_back();
@@ -150,7 +151,7 @@ void History::keep_nearby() {
   nearby_.erase(first_is_farther ? nearby_.begin() : std::prev(nearby_.end()));
 }
 
-/// Every other one goes, until they are few enough.
+/// Removes every other checkpoint until the limits are met.
 void History::thin_out() {
   while (checkpoints_.size() > 2 && (checkpoints_.size() > limits_.checkpoints || bytes_ > limits_.bytes)) {
     std::size_t kept = 0;
@@ -187,7 +188,7 @@ void History::set(const Setting& setting) {
   apply_settings(present_, setting.blocks);
 }
 
-/// Those that were made where so many blocks had begun.
+/// Applies the settings that were made after exactly `blocks` blocks had started.
 template <class Run>
 void History::apply_settings(Run& run, std::uint64_t blocks) const {
   const auto comes_before = [](const Setting& setting, std::uint64_t number) { return setting.blocks < number; };

@@ -13,17 +13,17 @@
 
 namespace isocnc::simulation {
 
-/// A simulation that goes back as well as on. Any moment is reached by going on from a copy that was kept before it:
-/// some all along the way, which become sparser as it grows longer, so that memory is bounded, and finer ones around
-/// the present, so that going back and forth there costs next to nothing.
+/// A simulation that goes back as well as forward. It reaches any moment by running on from a checkpoint, a copy kept
+/// from an earlier moment. Checkpoints of the whole run become sparser as it grows, so that memory is bounded; those
+/// around the present are denser, so that going back and forth there is cheap.
 class History {
  public:
-  /// What is kept of the whole way.
+  /// Limits of the checkpoints that are kept.
   struct Limits {
     std::size_t checkpoints = 65536;
     std::size_t bytes = std::size_t{256} << 20;
-    std::size_t nearby = 64;      ///< Checkpoints around the present, beside those.
-    std::uint64_t spacing = 256;  ///< Least Simulation::work() between two.
+    std::size_t nearby = 64;      ///< Additional checkpoints around the present.
+    std::uint64_t spacing = 256;  ///< Minimum Simulation::work() between two checkpoints.
   };
 
   explicit History(const Simulation& begin) : History(begin, Limits{}) {}
@@ -31,53 +31,53 @@ class History {
 
   const Simulation& present() const { return present_; }
 
-  /// As in Simulation.
+  /// These five do the same as in Simulation.
   void step_block() { advance_in_block(std::numeric_limits<double>::infinity()); }
   void advance_in_block(double seconds);
   void advance_along(double way);
   void step_instruction();
   std::optional<running::Block> next() { return present_.next(); }
 
-  /// To the begin of the block in progress, or, between two blocks, of the one before; from where an error has stopped
-  /// the program to before it.
+  /// Goes back to the start of the block in progress or, between two blocks, of the previous one. If an error has ended
+  /// the program, goes to the point before the failing block.
   void step_back();
-  /// To where so many blocks have been executed and the next has not begun, back or on; at most to the end.
+  /// Goes back or forward to the point after `blocks` blocks, before the next one starts; at most to the end.
   void go_to_block(std::uint64_t blocks);
-  /// To the first moment that is so many seconds from the program's begin, back or on; at most to the end.
+  /// Goes back or forward to the first moment that is `seconds` after the program start; at most to the end.
   void go_to_time(double seconds);
 
-  /// On to the last copy at hand from which a line is still to come; nowhere when none is nearer than the present.
+  /// Goes forward to the last checkpoint that is not past the line. Without a checkpoint nearer than the present
+  /// nothing changes.
   void skip_to_line(std::uint64_t line);
-  /// To where the present has been before; nothing has been set since.
+  /// Restores an earlier present. No register or VGPL may have been set since.
   void return_to(const Simulation& before) { present_ = before; }
 
-  /// How many blocks are executed before that of a line that lies behind the present; none where the run does not lead
-  /// to it.
+  /// Number of blocks executed before that of a line after the present; none if the run does not reach the line.
   std::optional<std::uint64_t> find_line(std::uint64_t line) const;
 
-  /// The last block, of the first `blocks` and not before the block `from`, before which `is_it` holds: how many have
-  /// been executed before it.
+  /// Finds the last of the blocks [from, blocks) before which `is_it` holds. Returns the number of blocks executed
+  /// before it.
   std::optional<std::uint64_t> find_before(std::uint64_t blocks,
                                            const std::function<bool(const running::Block&)>& is_it,
                                            std::uint64_t from = 0) const;
 
-  /// The last of the blocks [from, blocks) with a motion for which `is_it` holds, as the machine makes it
-  /// (Simulation::motion()): how many have been executed before it. It plans all motions on the way, so a search is to
-  /// take few blocks at once.
+  /// Finds the last of the blocks [from, blocks) with a motion for which `is_it` holds, as the machine makes it
+  /// (Simulation::motion()). Returns the number of blocks executed before it. Plans all motions from the checkpoint on,
+  /// so a search should cover few blocks at once.
   std::optional<std::uint64_t> find_motion_before(std::uint64_t blocks,
                                                   const std::function<bool(const motion::Move&)>& is_it,
                                                   std::uint64_t from = 0) const;
 
-  /// As in Simulation, from the present on: what has been further on is forgotten. Whoever comes back finds it as it
-  /// has been set, from the begin of the block in progress or the end of the one before.
+  /// Like Simulation::set_register() and set_vgpl(), from the present on. Discards later checkpoints. After a step back
+  /// the value applies from the start of the block in progress or the end of the one before.
   void set_register(int reg, double value);
   void set_vgpl(double value);
 
-  /// Bytes of all that is kept, about.
+  /// Approximate memory of all checkpoints, in bytes.
   std::size_t memory() const;
 
  private:
-  /// Somebody has set a register, or VGPL (0).
+  /// A register, or VGPL (0), set by a user.
   struct Setting {
     std::uint64_t blocks = 0;
     int variable = 0;
@@ -85,7 +85,7 @@ class History {
   };
 
   struct Checkpoint {
-    std::unique_ptr<const Simulation> simulation;  ///< On the heap: to thin them out moves none.
+    std::unique_ptr<const Simulation> simulation;  ///< On the heap, so that thinning out moves no simulation.
     std::size_t bytes = 0;
   };
 
@@ -102,12 +102,12 @@ class History {
 
   Limits limits_;
   Simulation present_;
-  std::vector<Checkpoint> checkpoints_;         ///< The first is the begin.
-  std::vector<Checkpoint> thinned_out_;         ///< Freed by and by: all at once they would hold up the run.
-  std::size_t bytes_ = 0;                       ///< Of checkpoints_.
-  std::uint64_t spacing_;                       ///< Work between two of them.
-  std::map<std::uint64_t, Simulation> nearby_;  ///< By their work.
-  std::vector<Setting> settings_;               ///< In order.
+  std::vector<Checkpoint> checkpoints_;  ///< The first is the start of the program.
+  std::vector<Checkpoint> thinned_out_;  ///< Freed a few at a time, since freeing all at once would delay the run.
+  std::size_t bytes_ = 0;                ///< Memory of checkpoints_.
+  std::uint64_t spacing_;                ///< Current minimum work between two checkpoints.
+  std::map<std::uint64_t, Simulation> nearby_;  ///< Checkpoints around the present, keyed by their work.
+  std::vector<Setting> settings_;               ///< In the order of their blocks.
 };
 
 }  // namespace isocnc::simulation

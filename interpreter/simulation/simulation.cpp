@@ -21,7 +21,8 @@ Simulation::Simulation(const running::Program& program, const running::RunOption
   ahead_ = present_;
 }
 
-/// A machine that rounds a corner stops on it: it is where the program has it, but for the length of the tool.
+/// The tip of the machine at rest. A tip within the corner tolerance was rounding a corner and takes the programmed
+/// position; a tip farther off, after a change of tool length, stays where it is.
 static geometry::Pose at_rest(const geometry::Pose& tip, const geometry::Pose& programmed,
                               const motion::Machine& machine) {
   constexpr double kRounding = 1 + 1e-6;
@@ -33,7 +34,7 @@ static geometry::Pose programmed_pose(const execution::State& state) {
   return {state.to_machine(state.position.tip), state.position.b, state.position.c};
 }
 
-/// The motion that has ended beside a contour, if it is the last one: elsewhere than the program.
+/// The last motion if it has ended at an offset contour, away from the programmed position; otherwise null.
 static const running::MoveEvent* motion_beside(const TimedEvent* last, const execution::State& state) {
   if (last == nullptr) return nullptr;
   const auto& move = std::get<running::MoveEvent>(last->event.what);
@@ -99,7 +100,7 @@ void Simulation::advance_along(double way, const BeforeReading& before_reading) 
     }
     continue_block(end, before_reading);
   }
-  continue_block(time_, before_reading);  // The block is over, unless the machine has to wait.
+  continue_block(time_, before_reading);  // Ends the block, unless the machine still has to wait.
 }
 
 void Simulation::step_instruction(const BeforeReading& before_reading) {
@@ -119,8 +120,8 @@ void Simulation::trace_block(const std::function<void(const motion::Move&)>& on_
     if (const motion::Move* const move = motion()) on_move(*move);
 }
 
-/// The next block, with all that it brings about but what takes time. The control has read it already, unless the
-/// machine had to get there first.
+/// Starts the next block and applies its effects that take no time. The control has read it already, unless the machine
+/// had to arrive there first.
 void Simulation::start_block() {
   const bool is_news = !ahead_.has_ended() && ahead_.place() == present_.place();
   const std::uint64_t blocks_before = blocks();
@@ -138,7 +139,7 @@ void Simulation::start_block() {
   if (is_news) ahead_ = present_;
 }
 
-/// To the end of the block in progress, or to `seconds`. The block ends where the next thing begins.
+/// Advances to the end of the block in progress, or to `seconds`. The block ends where the next event starts.
 void Simulation::continue_block(double seconds, const BeforeReading& before_reading) {
   while (in_block_) {
     const bool is_known = read_ahead(before_reading);
@@ -163,7 +164,7 @@ void Simulation::pass_piece() {
     tool_length_ = machine_->tool_length(change->tool);
   if (const auto& stretch = pieces_[passed_].stretch) {
     if (!last_stretch_ || last_stretch_->tag != stretch->tag) travelled_ = 0;
-    // Behind the last of a move nobody asks.
+    // After the last stretch of a move, the traveled length is not needed any more.
     if (!stretch->ends_move)
       travelled_ += stretch->parameter_at(stretch->start + stretch->duration) - stretch->parameter_at(stretch->start);
     last_stretch_ = stretch;
@@ -172,7 +173,8 @@ void Simulation::pass_piece() {
   ++passed_;
 }
 
-/// Until it is known what the machine does next. False where it comes to rest before anything more is read, or at all.
+/// Reads until the next piece is known. Returns false if the machine comes to rest before another block is read, or at
+/// the end.
 bool Simulation::read_ahead(const BeforeReading& before_reading) {
   if (piece() != nullptr) return true;
   pieces_.clear();
@@ -185,18 +187,18 @@ bool Simulation::read_ahead(const BeforeReading& before_reading) {
     ahead_.pass_empty_lines();
   }
   if (pieces_.empty()) come_to_rest();
-  timing_.listen({});  // A copy must not tell us.
+  timing_.listen({});  // A copy must not call this object.
   return !pieces_.empty();
 }
 
-/// The control reads an IF when the machine has got there (I.5).
+/// False at an IF: the control reads it when the machine has arrived there (I.5).
 bool Simulation::may_read_ahead() {
   if (ahead_.has_ended()) return false;
   const auto block = ahead_.next();
   return !block || block->tree.jump == nullptr || !block->tree.jump->has_target;
 }
 
-/// What the control has read goes to the planner, as motions of the tool and with their times.
+/// Passes events that the control has read to the planner, as motions of the tool and with their times.
 void Simulation::plan(std::span<const running::Event> events) {
   const Compensation::Listeners to_timing = compensated();
   for (const running::Event& event : events) compensation_.take(event, to_timing);
@@ -211,7 +213,7 @@ Compensation::Listeners Simulation::compensated() {
   return {.event = [this](const running::Event& event) { timing_.take(event); }, .warning = [](const RunWarning&) {}};
 }
 
-/// Whatever takes time becomes a piece, and a tool change in any case.
+/// Adds a piece for each event that takes time, and for each tool change.
 Timing::Listeners Simulation::listeners() {
   return {
       .event =
@@ -258,7 +260,7 @@ motion::Sample Simulation::sample() const {
   const motion::Kinematics& kinematics = machine_->motion.kinematics;
   if (const motion::Stretch* const moving = stretch()) return moving->at(kinematics, time_);
   motion::Sample standing{.time = time_, .tip = begin_};
-  double length = start_tool_length_;  // Of the tool that it has come here with.
+  double length = start_tool_length_;  // Length of the tool used on the way here, mm.
   if (last_stretch_) {
     const motion::Sample last = last_stretch_->at(kinematics, kForever);
     standing.tip = last.tip;
@@ -271,7 +273,7 @@ motion::Sample Simulation::sample() const {
   return standing;
 }
 
-/// As the planner measures it.
+/// The length of a move as the planner measures it.
 static double path_of(const motion::Machine& machine, const motion::Move& move) {
   return (move.is_arc ? programmed_circle(move) : programmed_line(machine, move, move.from, move.to)).length;
 }
@@ -293,7 +295,7 @@ std::optional<ArcSegment> Simulation::segment() const {
   const motion::Move& move = *piece()->cause->move;
   const int count = motion::segment_count(machine_->motion, move);
   if (count < 2) return std::nullopt;
-  // Rounded corners make the way a little shorter: a place this near to an end counts as there.
+  // Rounded corners shorten the path slightly, so a point this near to an end counts as the end.
   constexpr double kNear = 1e-3;
   const double length = path_of(machine_->motion, move) / count;
   const double gone = path_of(machine_->motion, move) - to_go().path;

@@ -15,101 +15,104 @@
 
 namespace isocnc::simulation {
 
-/// What a motion still has before it.
+/// The rest of a motion.
 struct DistanceToGo {
-  motion::Coordinates axes = motion::Coordinates::Zero();  ///< Of the tip, machine frame: mm, degrees; signed.
-  double path = 0;  ///< Along the tip's path, mm; where B and C alone turn, degrees of both together.
+  /// Rest of the tip's motion by axis, machine frame: mm, degrees; signed.
+  motion::Coordinates axes = motion::Coordinates::Zero();
+  double path = 0;  ///< Length left on the tip's path, mm; where only B and C turn, degrees of both together.
 };
 
-/// A piece of an arc in G49, which the machine drives as lines (I.3.4.3.a).
+/// A segment of an arc in G49, which the machine drives as lines (I.3.4.3.a).
 struct ArcSegment {
   int number = 0;   ///< From 0.
-  int count = 1;    ///< Of the arc.
-  double left = 0;  ///< Of its path, mm.
+  int count = 1;    ///< Number of segments of the arc.
+  double left = 0;  ///< Length left on the segment's path, mm.
 };
 
 /// A program on the simulated machine, which can be stopped at any moment: between two blocks, or inside one at any
-/// time or point of its path. A value: a copy goes on by itself, to the last bit as the original. It refers to program,
-/// options and machine, which outlive it. `RunOptions::before_block` is not called.
+/// time or point of its path. A value: a copy runs independently and produces bit-identical results. The program,
+/// options and machine must outlive it. `RunOptions::before_block` is not called.
 ///
-/// The control reads ahead of the machine, up to the next IF (I.5). All that is shown here is the machine's present.
-/// Motions are those of the tool: under G41 and G42 beside the contour (Compensation), whose warnings nobody hears
-/// here.
+/// The control reads ahead of the machine, up to the next IF (I.5). All accessors show the machine's present. Motions
+/// are those of the tool: under G41 and G42 offset from the contour (Compensation). Warnings of the compensation are
+/// discarded.
 class Simulation {
  public:
-  /// Told when the control is about to read on. A copy is then as small as it can be.
+  /// Called just before the control reads further blocks. At this moment copies of the simulation are smallest.
   using BeforeReading = std::function<void(const Simulation&)>;
 
   Simulation(const running::Program& program, const running::RunOptions& options, const TimedMachine& machine);
-  /// The machine of `before`, which is between two blocks and not under G41 or G42, brought to rest where it is, and
-  /// another run from there on: what the control has read ahead is forgotten.
+  /// Continues with another run on the machine of `before`, which is between two blocks and not under G41 or G42. The
+  /// machine comes to rest where it is, and blocks read ahead are discarded.
   Simulation(const Simulation& before, const running::Runner& run, const TimedMachine& machine);
 
-  /// The program has ended, and the machine stands.
+  /// Whether the program has ended and the machine stands.
   bool has_ended() const { return present_.has_ended() && !in_block_; }
 
-  /// Goes on to the end of the block in progress, or, between two blocks, of the next one. Blocks that take no time
-  /// count, lines that hold nothing do not (D13). An error of the next block ends the program.
+  /// Advances to the end of the block in progress or, between two blocks, of the next one. Blocks that take no time
+  /// count, empty lines do not (D13). An error of the next block ends the program.
   void step_block(const BeforeReading& before_reading = {});
-  /// Goes on to the first moment that is so many seconds from the program's begin, or to the end.
+  /// Advances to `seconds` after the program start, or to the end.
   void advance_to(double seconds, const BeforeReading& before_reading = {});
-  /// As advance_to(), but to the end of the block in progress, or of the next one, at most.
+  /// Like advance_to(), but at most to the end of the block in progress or, between two blocks, of the next one.
   void advance_in_block(double seconds, const BeforeReading& before_reading = {});
-  /// Goes on until so much more of the path lies behind, mm or degrees as in DistanceToGo; to the end of the path of
-  /// the block in progress, or of the next one, at most.
+  /// Advances by a length of path, in mm or degrees as in DistanceToGo; at most to the end of the path of the block in
+  /// progress or, between two blocks, of the next one.
   void advance_along(double way, const BeforeReading& before_reading = {});
 
-  /// Between two blocks begins the next one; within one goes on to the end of what the machine is at (event()).
+  /// Starts the next block if between two blocks; otherwise advances to the end of the current activity (event()).
   void step_instruction(const BeforeReading& before_reading = {});
 
-  /// As step_block(), between two blocks: `on_move` gets each motion of the block before the machine makes it.
+  /// Like step_block(), to be called between two blocks. Calls `on_move` with each motion of the block before the
+  /// machine makes it.
   void trace_block(const std::function<void(const motion::Move&)>& on_move);
 
   /// The block that comes next, before it is executed; none where the program ends.
   std::optional<running::Block> next() { return present_.next(); }
-  double time() const { return time_; }  ///< Seconds from the program's begin.
-  /// Blocks that have begun. The one in progress counts; what it has brought about shows in run().
+  double time() const { return time_; }  ///< Seconds since the program start.
+  /// Number of blocks started. The one in progress counts; run() shows its effects already.
   std::uint64_t blocks() const { return run().blocks; }
   bool is_in_block() const { return in_block_; }
-  /// Of the block in progress, or, between two blocks, of the next one; from 0. At the end that of the run.
+  /// Line of the block in progress or, between two blocks, of the next one; from 0. At the end the last line of the
+  /// run.
   std::uint64_t line() const;
-  /// State and registers, as of the block in progress, and why the program has ended, when it has.
+  /// State and registers after the block in progress, and the reason of the end if the program has ended.
   const running::RunResult& run() const { return present_.result(); }
-  /// The run by itself, between the block in progress and the next one.
+  /// The run without the machine, between the block in progress and the next one.
   const running::Runner& runner() const { return present_; }
   double vgpl() const { return present_.vgpl(); }
 
-  /// The motion, dwell or other thing that the machine is at; null between two blocks, and where nothing takes time.
-  /// Valid until the simulation is used again.
+  /// The motion, dwell or other event in progress; null between two blocks and during blocks that take no time. Valid
+  /// until the next non-const call.
   const running::Event* event() const;
-  /// The motion of the block in progress that the machine makes, or makes next, as it makes it: beside the contour
-  /// under G41 and G42, and off the program after a change to a tool of another length. Null for none. Valid until the
-  /// simulation is used again.
+  /// The current or next motion of the block in progress as the machine makes it: offset from the contour under G41 and
+  /// G42, and off the program after a change to a tool of another length. Null without a motion. Valid until the next
+  /// non-const call.
   const motion::Move* motion() const;
   motion::Sample sample() const;
-  double tool_length() const { return tool_length_; }  ///< Of the tool that is mounted, mm.
-  /// What the spindle does after the block in progress. An S that no M03 or M04 has followed does not show.
+  double tool_length() const { return tool_length_; }  ///< Length of the mounted tool, mm.
+  /// The spindle after the block in progress. An S counts only after the next M03 or M04.
   const Timing::Spindle& spindle() const { return spindle_; }
   DistanceToGo to_go() const;
-  /// Where the machine is on an arc that it drives as lines; none elsewhere.
+  /// The segment of the current arc if the machine drives it as lines; otherwise none.
   std::optional<ArcSegment> segment() const;
 
-  /// What the IFs that follow see. `reg` from 1 to 30.
+  /// Sets the value that the following IFs see. `reg` from 1 to 30.
   void set_register(int reg, double value) { present_.set_register(reg, value); }
   void set_vgpl(double value) { present_.set_vgpl(value); }
 
-  /// How much there was to do to get here: blocks, and stretches of motion.
+  /// Work done to get here: number of blocks and of stretches of motion.
   std::uint64_t work() const { return blocks() + stretches_; }
-  /// Lets go of memory that the rest does not need.
+  /// Frees memory that the rest of the run does not need.
   void forget_past();
-  /// Bytes that it holds, about.
+  /// Approximate memory in bytes.
   std::size_t memory() const;
 
  private:
   Simulation(const Simulation& before, const running::Runner& run, const TimedMachine& machine,
              const running::MoveEvent* beside);
 
-  /// A stretch of a motion, or what the machine stands still for.
+  /// A stretch of a motion, or an event for which the machine stands still.
   struct Piece {
     double start = 0;
     double end = 0;
@@ -118,7 +121,7 @@ class Simulation {
   };
 
   const Piece* piece() const { return passed_ < pieces_.size() ? &pieces_[passed_] : nullptr; }
-  /// The stretch that the machine is on; null where it stands.
+  /// The current stretch; null while the machine stands.
   const motion::Stretch* stretch() const;
   bool is_of_block(const Piece* piece) const { return piece != nullptr && piece->cause->event.line <= line_; }
   void start_block();
@@ -132,23 +135,24 @@ class Simulation {
   Compensation::Listeners compensated();
 
   const TimedMachine* machine_;
-  running::Runner present_;  ///< Where the machine is: all blocks that have begun.
-  running::Runner ahead_;    ///< Where the control is in its reading.
+  running::Runner present_;  ///< The run up to the machine: all blocks started.
+  running::Runner ahead_;    ///< The run up to the last block the control has read.
   Compensation compensation_;
   Timing timing_;
-  std::vector<Piece> pieces_;  ///< Those read whose times are known.
-  std::size_t passed_ = 0;     ///< Of them.
+  std::vector<Piece> pieces_;  ///< Pieces with known times.
+  std::size_t passed_ = 0;     ///< Number of pieces that the machine has completed.
   std::optional<motion::Stretch> last_stretch_;
-  std::shared_ptr<const TimedEvent> last_motion_;  ///< That the machine has begun, also before its begin; or null.
-  geometry::Pose begin_;  ///< Where the machine stood at the begin, with a tool of that length.
+  /// Last motion with a completed stretch, possibly from before the constructor; or null.
+  std::shared_ptr<const TimedEvent> last_motion_;
+  geometry::Pose begin_;  ///< Tip at the start, with a tool of start_tool_length_.
   double start_tool_length_ = 0;
-  double travelled_ = 0;    ///< Of the path of its motion.
-  double tool_length_ = 0;  ///< Of the tool that is mounted.
+  double travelled_ = 0;    ///< Length of the completed stretches of the current motion.
+  double tool_length_ = 0;  ///< Length of the mounted tool, mm.
   Timing::Spindle spindle_;
   double time_ = 0;
   bool in_block_ = false;
-  std::uint64_t line_ = 0;       ///< Of the block in progress.
-  std::uint64_t stretches_ = 0;  ///< Made.
+  std::uint64_t line_ = 0;       ///< Line of the block in progress.
+  std::uint64_t stretches_ = 0;  ///< Number of stretches planned.
 };
 
 }  // namespace isocnc::simulation

@@ -17,7 +17,7 @@ Summary::Summary(const TimedMachine& machine)
         return std::isfinite(axis.minimum) || std::isfinite(axis.maximum);
       })) {}
 
-/// The share of the tool that is mounted; before the first M06 of none.
+/// The share of the mounted tool; before the first M06, the share without a tool.
 ToolShare& Summary::share() {
   if (share_ == kNoShare) mount(std::nullopt);
   return tools_[share_];
@@ -30,7 +30,7 @@ void Summary::mount(std::optional<execution::ToolCode> tool) {
   if (known == tools_.end()) tools_.push_back({.tool = tool});
 }
 
-/// None for what takes no time.
+/// The kind of activity of an event; none for events that take no time.
 static std::optional<Work> work_of(const running::Event& event) {
   if (const auto* const move = std::get_if<running::MoveEvent>(&event.what)) return static_cast<Work>(move->kind);
   if (std::holds_alternative<running::DwellEvent>(event.what)) return Work::Dwell;
@@ -85,7 +85,7 @@ void Summary::look_at_travel(const motion::Move& real, std::uint64_t line) {
   }
 }
 
-/// What a feed move asks for, whether or not the machine follows.
+/// Checks the programmed speeds of a feed move, even those the machine does not reach.
 void Summary::look_at_speeds(const motion::Move& real, double length, std::uint64_t line) {
   if (real.feed.kind == motion::FeedKind::Rapid) return;
   const double b = std::abs(real.to.b - real.from.b);

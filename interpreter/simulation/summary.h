@@ -14,53 +14,53 @@
 
 namespace isocnc::simulation {
 
-/// What time is spent on. The first three as in execution::MoveKind.
+/// Kinds of activity that take time. The first three have the order of execution::MoveKind.
 enum class Work : std::uint8_t { Rapid, Feed, Arc, Dwell, ToolChange, Spindle, Function, Channel };
 inline constexpr std::size_t kWorkCount = 8;
 
 /// Seconds, by Work.
 using Times = std::array<double, kWorkCount>;
 
-/// What was done with one tool, from its M06s to the next ones.
+/// The work done with one tool, over all its uses.
 struct ToolShare {
   std::optional<execution::ToolCode> tool;  ///< None: before the first M06.
-  Times times{};                            ///< Its own M06 included.
+  Times times{};                            ///< Includes the M06 of this tool.
   double feed_mm = 0;
   double rapid_mm = 0;
 };
 
 /// A joint that would leave its travel.
 struct TravelBreach {
-  std::uint64_t line = 0;  ///< Where it first does so, from 0.
+  std::uint64_t line = 0;  ///< Line of the first breach, from 0.
   double farthest = 0;     ///< mm or degrees.
   double limit = 0;
 };
 
-/// What a program may ask more of than the machine can.
+/// Limits of the machine that a program may exceed.
 enum class Limit : std::uint8_t {
-  Feed,          ///< mm/min. The machine goes as fast as it can.
-  RotarySpeed,   ///< Of B or C in feed moves, degrees/min. The same.
+  Feed,          ///< mm/min. The machine moves at its maximum instead.
+  RotarySpeed,   ///< Speed of B or C in feed moves, degrees/min. The machine moves at its maximum instead.
   SpindleSpeed,  ///< rev/min.
 };
 inline constexpr std::size_t kLimitCount = 3;
 
 struct Excess {
-  std::uint64_t line = 0;  ///< Where it is first asked for, from 0.
-  double maximum = 0;      ///< That is asked for anywhere.
+  std::uint64_t line = 0;  ///< First line that exceeds the limit, from 0.
+  double maximum = 0;      ///< Maximum value in the program.
 };
 
-/// What a run adds up to.
+/// Totals of a run.
 class Summary {
  public:
   explicit Summary(const TimedMachine& machine);
 
   void add(const TimedEvent& timed);
-  /// `joints` are those at the end.
+  /// `joints` are the positions at the end.
   void finish(const running::RunResult& result, double seconds, const motion::Coordinates& joints,
               const std::vector<RunWarning>& warnings);
 
   std::string text(dialect::Language language) const;
-  /// One line; `error` is null or what stopped the program.
+  /// One line of JSON; its `error` is null or the error that stopped the program.
   std::string json(std::string_view file, dialect::Language language) const;
 
  private:
@@ -79,7 +79,7 @@ class Summary {
   void look_at_speeds(const motion::Move& real, double length, std::uint64_t line);
   void ask_for(Limit limit, double value, std::uint64_t line);
   double limit_of(Limit limit) const;
-  /// Where the tip is at the end, as the program has it.
+  /// Programmed tip position at the end.
   geometry::Pose final_pose() const;
 
   const TimedMachine& machine_;
@@ -87,16 +87,18 @@ class Summary {
   std::optional<std::array<geometry::Range, execution::kAxisCount>> extents_;
   FrameLog frames_;
   Times times_{};
-  std::vector<ToolShare> tools_;                                                 ///< In the order of their first use.
-  std::size_t share_ = kNoShare;                                                 ///< Of the tool that is mounted.
-  std::array<std::optional<TravelBreach>, 2 * execution::kAxisCount> breaches_;  ///< Below and above each axis.
+  std::vector<ToolShare> tools_;  ///< In the order of their first use.
+  std::size_t share_ = kNoShare;  ///< Index of the mounted tool in tools_.
+  std::array<std::optional<TravelBreach>, 2 * execution::kAxisCount>
+      breaches_;  ///< Two per axis: below its minimum and above its maximum.
   bool checks_travel_;
   std::array<std::optional<Excess>, kLimitCount> excesses_;
   running::RunResult result_;
   double seconds_ = 0;
   motion::Coordinates joints_ = motion::Coordinates::Zero();
   std::vector<RunWarning> warnings_;
-  std::optional<geometry::Pose> reached_;  ///< By the last motion; compensation may end beside the contour.
+  std::optional<geometry::Pose>
+      reached_;  ///< End of the last motion; under compensation it may differ from the programmed end.
 };
 
 }  // namespace isocnc::simulation

@@ -66,7 +66,7 @@ static constexpr Text kFinal{"final position (machine): X{:.3f} Y{:.3f} Z{:.3f} 
                              "posizione finale (macchina): X{:.3f} Y{:.3f} Z{:.3f} B{:.3f} C{:.3f}\n"};
 static constexpr Text kFinalState{"final state: tool {}, {}\n", "stato finale: utensile {}, {}\n"};
 
-/// The time in all, and what of it goes where: `46.3 s (rapids 2.4 s, ...)`.
+/// The total time and its parts: `46.3 s (rapids 2.4 s, ...)`.
 static std::string shown_times(double seconds, const Times& times, Language language) {
   std::string parts;
   for (std::size_t work = 0; work < times.size(); ++work)
@@ -90,12 +90,12 @@ static std::string shown_extents(const std::array<geometry::Range, Count>& exten
   return text + '\n';
 }
 
-/// 3, 4 or 5: what a tool change has stopped does not turn.
+/// The spindle function 3, 4 or 5; 5 after a tool change, which stops the spindle.
 static int spindle_function(const State& state) {
   return state.knows(State::kClockwise | State::kCounterclockwise) ? state.spindle : 5;
 }
 
-/// As the codes that bring it about: `S12000 M03, F4000, G01 G17 ...`.
+/// The state as the codes that produce it: `S12000 M03, F4000, G01 G17 ...`.
 static std::string shown_state(const State& state) {
   std::string text;
   if (state.spindle_speed > 0) text += fmt::format("S{} ", state.spindle_speed);

@@ -8,7 +8,7 @@
 
 namespace isocnc::simulation {
 
-/// Runs a program on the machine, with cutter compensation, and tells what happens when.
+/// Runs a program on the machine, with cutter compensation, and reports the events with their times.
 running::RunResult run_timed(std::string_view text, const running::RunOptions& options, const TimedMachine& machine,
                              Timing::Listeners listeners);
 

@@ -23,9 +23,9 @@ motion::Machine unbounded_machine() {
   return machine;
 }
 
-/// More events than any control looks ahead.
+/// Maximum number of waiting events; no control looks ahead so far.
 static constexpr std::size_t kMaxWaiting = 32768;
-/// Programs may hold any number. No move is slower (mm/s, deg/s), and nothing lasts longer (s).
+/// Bounds for numbers in programs: minimum speed of a move (mm/s, deg/s), maximum duration (s).
 static constexpr double kSlowest = 1e-6;
 static constexpr double kLongest = 1e9;
 
@@ -108,7 +108,7 @@ Timing::Waiting& Timing::enqueue(const running::Event& event) {
   return waiting;
 }
 
-/// The motion that waited for a G09.
+/// Plans the motion that was held back for a possible G09.
 void Timing::push_motion() {
   if (!std::exchange(holds_motion_, false)) return;
   Waiting& waiting = waiting_.back();
@@ -117,7 +117,8 @@ void Timing::push_motion() {
   planned.tag = waiting.motion;
   position_.follow(move, planned);
   planned.exact_stop = std::exchange(stops_exactly_, false);
-  // In three-axis interpolation the channel runs empty; in five-axis the motion goes on at once (I.3.8).
+  // In three-axis interpolation the channel is emptied; in five-axis interpolation the motion continues at once
+  // (I.3.8).
   if (planned.exact_stop && !move.five_axis) waiting.timed.wait = machine_->durations.channel;
   waiting.timed.move = planned;
   const double channel = waiting.timed.wait;
@@ -152,7 +153,7 @@ void Timing::report_first() {
   waiting_.pop_front();
 }
 
-/// What has no motion behind it has its time now.
+/// Reports all waiting events: those without a following motion start now.
 void Timing::come_to_rest() {
   planner_.rest();
   take_stretches();
@@ -160,7 +161,7 @@ void Timing::come_to_rest() {
     if (!waiting_.front().has_begun) waiting_.front().timed.start = planner_.time();
 }
 
-/// The machine stands still before and after what happens now.
+/// Reports an event for which the machine stands still.
 void Timing::rest(const running::Event& event, double seconds) {
   come_to_rest();
   const double start = planner_.time();
@@ -170,7 +171,7 @@ void Timing::rest(const running::Event& event, double seconds) {
   if (listeners_.event) listeners_.event({.event = event, .start = start, .duration = seconds});
 }
 
-/// How long the machine stands still for it; negative when it does not.
+/// Seconds for which the machine stands still for the event; negative if it does not stop.
 double Timing::seconds_of(const running::Event& event) const {
   const Durations& durations = machine_->durations;
   if (const auto* const dwell = std::get_if<running::DwellEvent>(&event.what))
