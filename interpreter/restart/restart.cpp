@@ -58,7 +58,7 @@ static constexpr Text kNearestTwo{"nearest safe lines: {} before it, {} after it
 
 namespace {
 
-/// Where a line begins, and how many there are before it.
+/// The start of a line, and the number of lines before it.
 struct LineStart {
   std::size_t offset = 0;
   std::uint64_t line = 0;
@@ -73,7 +73,7 @@ LineStart find_line(std::string_view text, std::uint64_t line) {
   return {static_cast<std::size_t>(p - text.data()), count, p != end};
 }
 
-/// As the program's first line ends.
+/// The line end of the program's first line.
 std::string_view line_end_of(std::string_view text) {
   const char* const end = text.data() + text.size();
   const char* const p = syntax::find_line_end(text.data(), end);
@@ -94,7 +94,8 @@ bool has_same_frames(const State& a, const State& b) {
          is_near(a.face.origin, b.face.origin) && (a.face.axes - b.face.axes).cwiseAbs().maxCoeff() < 1e-9;
 }
 
-/// G28 is written as G24, and a motion G that is written again before it is needed is left out.
+/// Whether the modes are the same. G28 counts as G24, and a motion G that is written again before its next use does not
+/// count.
 bool has_same_modes(const State& a, const State& b, bool needs_motion) {
   for (std::size_t i = 0; i < dialect::kModalGroupCount; ++i) {
     const auto group = static_cast<ModalGroup>(i);
@@ -104,7 +105,7 @@ bool has_same_modes(const State& a, const State& b, bool needs_motion) {
   return true;
 }
 
-/// Whether all that follows is the same after `a` as after `b`, where the tip is in the same place.
+/// Whether the rest of the program runs alike from `a` and `b` if the tip is in the same position.
 bool is_same_but_for_tip(const State& a, const State& b, bool needs_motion) {
   constexpr State::Knowledge kTurns = State::kClockwise | State::kCounterclockwise;
   return std::abs(a.position.b - b.position.b) <= geometry::kEqualCoordinate &&
@@ -114,17 +115,17 @@ bool is_same_but_for_tip(const State& a, const State& b, bool needs_motion) {
          a.spindle_speed == b.spindle_speed && (a.knowledge & kTurns) == (b.knowledge & kTurns);
 }
 
-/// What a restart program does when it is tried.
+/// The result of a trial run of a restart program.
 struct Trial {
-  bool is_proved = false;                        ///< It comes to the line in the same state, and ends as the original.
-  std::optional<motion::Overtravel> overtravel;  ///< The first on the way to the line.
+  bool is_proved = false;                        ///< It reaches the line in the same state, and ends like the original.
+  std::optional<motion::Overtravel> overtravel;  ///< The first one before the line.
 };
 
 /// Runs the restart program as the control would, from home.
 Trial try_program(std::string_view program, std::uint64_t preamble_lines, const RestartSurvey& survey,
                   const RestartOptions& options) {
   const RestartPoint& point = survey.point();
-  // Off the program the restart begins with another programmed place, and goes on as the original: runs_alike().
+  // If the tip is off the program, the restart starts from another programmed position; runs_alike() checks the rest.
   const auto is_same = [&](const State& a, const State& b) {
     return is_same_but_for_tip(a, b, point.continues_motion) &&
            (point.is_off_program || is_near(a.position.tip, b.position.tip));
@@ -158,7 +159,7 @@ Trial try_program(std::string_view program, std::uint64_t preamble_lines, const 
 class Rest {
  public:
   struct Motion {
-    std::uint64_t line = 0;  // From the line on.
+    std::uint64_t line = 0;  // Counted from the start line.
     execution::MoveKind kind = execution::MoveKind::Rapid;
     motion::Move move;
   };
@@ -170,7 +171,7 @@ class Rest {
   Rest(const Rest&) = delete;
   Rest& operator=(const Rest&) = delete;
 
-  /// The next that goes anywhere.
+  /// The next motion with a length or a turn.
   std::optional<Motion> next() {
     while (motions_.empty() && !runner_.has_ended()) step();
     if (motions_.empty()) return std::nullopt;
@@ -219,7 +220,7 @@ bool is_same(const Rest::Motion& a, const Rest::Motion& b) {
                             std::abs(a.move.sweep_deg - b.move.sweep_deg) <= geometry::kEqualCoordinate);
 }
 
-/// Whether the machine goes on in a restart program exactly as in the original.
+/// Whether the machine makes the same motions in a restart program as in the original.
 bool runs_alike(std::string_view text, std::string_view program, std::uint64_t preamble_lines,
                 const RestartOptions& options) {
   Rest original(text, options, options.line);
@@ -232,7 +233,7 @@ bool runs_alike(std::string_view text, std::string_view program, std::uint64_t p
   }
 }
 
-/// A restart program, or what stands in its way.
+/// A restart program, or the obstacle to it.
 struct Attempt {
   std::string program;
   Obstacle obstacle = Obstacle::None;
@@ -258,8 +259,8 @@ Attempt attempt(std::string_view text, const RestartOptions& options, const Rest
   return made;
 }
 
-/// Looks for a line from which there is a restart, from the first candidate to the next. Where the machine is off the
-/// program only a restart program shows it, and no more than a few are made.
+/// Searches a line from which a restart is possible, candidate by candidate. Where the machine is off the program only
+/// a trial run can prove it; the number of trials is limited.
 class Proposals {
  public:
   Proposals(std::string_view text, const RestartOptions& options, const RestartSurvey& survey)
@@ -304,7 +305,7 @@ RestartRefusal refuse(const Attempt& made, std::string_view text, const RestartO
   const State& state = survey.point().state;
   refusal.g = state.mode(obstacle == Obstacle::Compensation ? ModalGroup::CutterCompensation : ModalGroup::Motion);
   if (made.overtravel) refusal.overtravel = *made.overtravel;
-  // Whether the travel suffices for other lines, only a trial of each would tell.
+  // Only a trial of each line would show whether the travel suffices.
   if (obstacle != Obstacle::ProgramError && obstacle != Obstacle::BeyondTravel)
     propose_lines(text, options, survey, refusal);
   return refusal;

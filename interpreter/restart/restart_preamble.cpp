@@ -21,9 +21,9 @@ using dialect::Text;
 using execution::State;
 using geometry::Vec3;
 
-/// How far above a place that it has come to in feed a tool goes in feed again, at least; mm.
+/// Minimum height above a restart position reached in feed, in mm, at which the approach changes from rapid to feed.
 static constexpr double kAboveWork = 5;
-/// How far a tilted tool stays from where the program has cut, along the tool, until it goes there in feed; mm.
+/// Distance from the cut, along a tilted tool, at which the approach changes from rapid to feed; mm.
 static constexpr double kBesideWork = 50;
 
 static constexpr Text kTitle{"; restart of {} before its line {}", "; ripresa di {} dalla riga {}"};
@@ -32,19 +32,20 @@ static constexpr Text kNotRepeated{"; not repeated: {} of line {}", "; non ripet
 static constexpr Text kApproach{"; approach", "; avvicinamento"};
 static constexpr Text kRest{"; the program from line {} on", "; il programma dalla riga {} in poi"};
 
-/// A number as programs write it, exact: no exponent, as few digits as bring it back.
+/// A number as programs write it, exact: without exponent, with the fewest digits that give the same value.
 static std::string exact(double value) {
   std::array<char, 400> digits;
-  if (value == 0) value = 0;  // No -0.
+  if (value == 0) value = 0;  // Turns -0 into 0.
   char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed).ptr;
   return {digits.data(), end};
 }
 
-/// Coordinates are written to a billionth, which hides what sums of G91 lose and no tolerance sees.
+/// Coordinates are rounded to a billionth: this hides the rounding errors of sums under G91 and is below every
+/// tolerance.
 static constexpr double kStepsPerUnit = 1e9;
 static std::string coordinate(double value) { return exact(std::round(value * kStepsPerUnit) / kStepsPerUnit); }
 
-/// Letters, digits and signs; what else a file may be called has no place in a program.
+/// The name with every character that is not printable ASCII replaced, for use in a program.
 static std::string ascii(std::string_view name) {
   std::string shown(name);
   for (char& c : shown)
@@ -61,7 +62,7 @@ static std::string shown(const running::FunctionEvent& function) {
 
 namespace {
 
-/// Writes line by line, and knows what the machine is like behind the last one: so nothing is said twice.
+/// Writes line by line and tracks the state after the last line, so that nothing is written twice.
 class Preamble {
  public:
   Preamble(const RestartPoint& point, const RestartOptions& options, std::string_view line_end)
@@ -93,7 +94,7 @@ class Preamble {
  private:
   void add(const std::string& line) {
     text_.append(line).append(line_end_);
-    execution::SilentSink sink;  // The lines of a preamble are right, or the trial run finds out.
+    execution::SilentSink sink;  // Errors need no report: the trial run finds them.
     execution::execute(syntax::ParsedLine(line).tree(), state_, options_.run.setup, sink);
   }
   void comment(std::string_view text) { text_.append(text).append(line_end_); }
@@ -123,11 +124,11 @@ class Preamble {
 
   bool is_written(ModalGroup group) const { return (target_.written >> static_cast<unsigned>(group) & 1u) != 0; }
   bool differs(ModalGroup group) const { return state_.mode(group) != target_.mode(group); }
-  /// Only G93 has had an F, which a later G94 takes over (D43).
+  /// Whether only G93 has had an F, which a later G94 takes over (D43).
   bool has_only_inverse_feeds() const { return target_.feed_per_minute.number == 0 && target_.last_feed.number > 0; }
 
-  /// What the program has written is written here as well, defaults too: written again further down it would else be
-  /// no repetition (W001).
+  /// Writes the modes that the program has written, defaults too. Otherwise writing them again further down would not
+  /// be a repetition (W001).
   void set_modes() {
     std::string first;
     const auto write = [&](int g) { first += fmt::format("{}G{}", first.empty() ? "" : " ", g); };
@@ -151,7 +152,7 @@ class Preamble {
 
   void change_tool() {
     if (target_.tool_selected) add("M06 " + running::tool_name(target_.tool));
-    // A tool change stops the spindle: what turned before it does not turn behind it.
+    // A tool change stops the spindle, so a spindle start before it has no effect after it.
     const bool turns = target_.knows(State::kClockwise | State::kCounterclockwise);
     std::string line;
     if (target_.spindle_speed > 0) line = "S" + exact(target_.spindle_speed);
@@ -167,10 +168,11 @@ class Preamble {
   }
   std::string across(const Vec3& point) const { return length('X', point.x()) + " " + length('Y', point.y()); }
 
-  /// The tool may touch the work. A rapid that leads nowhere, as G00 Z-5 at this depth, does not take it out.
+  /// Whether the tool may touch the work. A rapid without a length, such as G00 Z-5 at this depth, does not take it
+  /// out.
   bool cuts() const { return target_.mode(ModalGroup::Motion) != 0 || point_.came_in_feed; }
 
-  /// The height from which the tool feeds down, Z of the frame in force.
+  /// The height at which the tool changes from rapid to feed, Z of the frame in force.
   double height() const {
     const double depth = target_.position.tip.z();
     const double minimum = cuts() ? depth + kAboveWork : depth;
@@ -179,8 +181,8 @@ class Preamble {
     return std::max({machine.value_or(minimum), point_.fed.max().z(), minimum});
   }
 
-  /// Out of the work where B tilts the tool, along which it comes and goes: beyond all that has been cut. Nothing
-  /// where Z will do.
+  /// A position beyond all cuts, on the axis of a tool that B tilts; the tool approaches along this axis. None if an
+  /// approach along Z suffices.
   std::optional<Vec3> place_along_tool() const {
     const Vec3& tip = target_.position.tip;
     const Vec3 tool = geometry::axes_from_angles(target_.position.b, target_.position.c).col(2);
@@ -194,8 +196,8 @@ class Preamble {
     return rounded(tip + (std::max(way, 0.0) + kBesideWork) * tool);
   }
 
-  /// The highest Z of the workpiece frame to which the machine lifts the tip from home; rounded down, in inches too, so
-  /// that what is written is not beyond the end of the axis.
+  /// The maximum Z of the workpiece frame to which the machine lifts the tip from home. Rounded down, in inches too, so
+  /// that the written number is not past the end of the axis.
   double reach_up() const {
     const simulation::TimedMachine& machine = options_.machine;
     const motion::Coordinates tip = motion::coordinates({Vec3::Zero(), state_.position.b, state_.position.c});
@@ -232,7 +234,7 @@ class Preamble {
     if (std::abs(state_.position.tip.z() - z) > geometry::kEqualCoordinate) add(length('Z', z));
   }
 
-  /// A program without any F has come here in rapid.
+  /// Goes down to the depth. Without any F the program has reached it in rapid, so the approach uses rapid.
   void feed_down() {
     const Vec3& tip = target_.position.tip;
     const Vec3 way = tip - state_.position.tip;
@@ -253,10 +255,10 @@ class Preamble {
     }
   }
 
-  /// Down to three significant digits, since it may not be exceeded; but never to 0.
+  /// Rounds down to three significant digits, since the feed is a maximum; but never to 0.
   static std::string rounded_feed(double feed) {
     constexpr double kMinFeed = 1e-9;
-    constexpr double kNoise = 1e-12;  // 12.3 is to stay 12.3, though it is 122.99999999999999 tenths.
+    constexpr double kNoise = 1e-12;  // Keeps 12.3 although it is 122.99999999999999 tenths.
     feed = std::max(feed, kMinFeed);
     const double decimals = 2 - std::floor(std::log10(feed));
     const double scale = std::pow(10, std::abs(decimals));
@@ -264,7 +266,8 @@ class Preamble {
     return exact(decimals < 0 ? digits * scale : digits / scale);
   }
 
-  /// The frame as the program wrote it. A G28, whose origin is where the tip was, becomes the G24 of that origin.
+  /// Writes the face frame as in the program. A G28, whose origin is the tip's position, becomes the G24 of that
+  /// origin.
   void mount_face() {
     if (!target_.face_mounted) return;
     const syntax::ParsedLine parsed(point_.face_line);
@@ -291,7 +294,7 @@ class Preamble {
   void restore_feed() {
     const double units = target_.mm_per_unit();
     if (has_only_inverse_feeds()) {
-      // In G93 an F needs a motion: one that goes nowhere.
+      // In G93 an F needs a motion; this one has no length.
       set_feed_mode(93);
       set_units(target_.last_feed.mm_per_unit);
       add("G91 G01 Z0 F" + exact(target_.last_feed.number));
@@ -303,7 +306,7 @@ class Preamble {
     set_units(units);
   }
 
-  /// A motion that goes nowhere, where coordinates without a G may follow. There is none for arcs (ArcContinues).
+  /// Writes a motion without a length if coordinates without a G may follow. There is none for arcs (ArcContinues).
   void restore_motion() {
     const int motion = target_.mode(ModalGroup::Motion);
     if (!point_.continues_motion || motion > 1 || !differs(ModalGroup::Motion)) return;
@@ -319,8 +322,8 @@ class Preamble {
   const RestartPoint& point_;
   const RestartOptions& options_;
   const std::string_view line_end_;
-  const State target_;  // With the tip where it stands, which need not be where the program has it.
-  State state_;         // Behind the last line written.
+  const State target_;  // With the actual tip position, which may differ from the programmed one.
+  State state_;         // State after the last line written.
   std::string text_;
 };
 

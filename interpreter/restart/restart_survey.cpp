@@ -21,13 +21,13 @@ static bool same_frame(const running::FrameEvent& a, const running::FrameEvent& 
 
 static bool compensates(const State& state) { return state.mode(ModalGroup::CutterCompensation) != 40; }
 
-/// Z of the face frame runs downward in the machine; of a State or a FrameEvent.
+/// Whether Z of the face frame points down in the machine; takes a State or a FrameEvent.
 template <class Frames>
 static bool looks_down(const Frames& frames) {
   return frames.face_mounted && frames.face.axes(2, 2) < -kSame;
 }
 
-/// In the machine, as the normal of a G29 with the same angles (D28).
+/// Whether the tool points up in the machine; its axis is the normal of a G29 with the same angles (D28).
 static bool tool_points_up(const State& state) {
   return geometry::axes_from_angles(state.position.b, state.position.c)(2, 2) < -kSame;
 }
@@ -95,7 +95,7 @@ void RestartSurvey::take(const running::Event& event) {
   now_.functions.push_back(event);
 }
 
-/// Lets the machine follow. A tool whose radius is not known gets one that shows while it is beside the contour.
+/// Moves the machine. A tool of unknown radius gets a small one, so that its offset from the contour shows.
 void RestartSurvey::follow(const running::Event& event) {
   constexpr double kShowing = 1e-3;  // mm
   if (const auto* const tool = std::get_if<running::ToolEvent>(&event.what)) {
@@ -121,7 +121,7 @@ void RestartSurvey::look_at(const running::Block& block) {
   note(block);
 }
 
-/// Where the tip is before a line without compensation. A contour that goes on if G41 comes again is left as it is.
+/// Finds the tip before a line without compensation. A contour that continues if G41 follows is not ended.
 void RestartSurvey::find_tip() {
   const auto keep = [&](const simulation::MachineCourse& course, const TipLog& log) {
     now_.machine_tip = course.tip();
@@ -149,10 +149,10 @@ void RestartSurvey::find_tip() {
   const bool has_moved = state.mode(ModalGroup::Motion) != dialect::kNoMotion;
   now_.is_off_program =
       has_moved && (now_.is_beside_contour || differ(now_.machine_tip.tip, state.to_machine(state.position.tip)));
-  now_.tip = now_.is_off_program ? tip_ : state.position.tip;  // As exact as it has been written.
+  now_.tip = now_.is_off_program ? tip_ : state.position.tip;  // As exact as in the program.
 }
 
-/// Remembers what a block will have done that its state does not hold.
+/// Records the effects of a block that its state does not hold.
 void RestartSurvey::note(const running::Block& block) {
   for (const Instruction& instruction : block.tree.instructions) {
     const syntax::Word& command = block.tree.command(instruction);
@@ -186,7 +186,7 @@ std::uint16_t RestartSurvey::traits_of(const running::Block& block) const {
   for (const Instruction& instruction : block.tree.instructions) {
     const dialect::GCode* const g = instruction.kind == InstructionKind::G ? instruction.g() : nullptr;
     if (instruction.kind == InstructionKind::Continuation) traits |= kContinues;
-    // Behind M02 nothing is left to be done.
+    // After M02 nothing is executed.
     if (block.tree.ends_program(instruction)) traits |= kIdle;
     if (g != nullptr && g->is_motion()) traits |= kNamesMotion;
     if (g != nullptr && g->number == 9 && instruction.has(Instruction::kFirst)) traits |= kStopsExactly;
@@ -225,13 +225,13 @@ bool RestartSurvey::has_choices() const {
   return std::any_of(traits_.begin(), traits_.end(), [](std::uint16_t traits) { return (traits & kJumps) != 0; });
 }
 
-/// Blank lines and comments between a feed move and its G09 do not count.
+/// Whether the next block is a G09. Blank lines and comments between a feed move and its G09 do not count.
 bool RestartSurvey::exact_stop_follows(std::uint64_t line) const {
   while (has(line, kReached) && has(line, kIdle)) ++line;
   return has(line, kStopsExactly);
 }
 
-/// Whether some line may need the motion G in force. Behind an IF either way is possible, and nothing is ruled out.
+/// Whether a later line may need the motion G in force. After an IF both paths are possible, so the answer is yes.
 bool RestartSurvey::continues_motion(std::uint64_t line) const {
   for (; line < traits_.size(); ++line) {
     if (has(line, kContinues | kJumps)) return true;

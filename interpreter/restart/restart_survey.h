@@ -13,7 +13,7 @@
 
 namespace isocnc::restart {
 
-/// What stands in the way of a restart before a line.
+/// The obstacle to a restart before a line.
 enum class Obstacle : std::uint8_t {
   None,
   NoSuchLine,       ///< The program is shorter.
@@ -21,20 +21,20 @@ enum class Obstacle : std::uint8_t {
   AfterProgramEnd,  ///< M02 comes first.
   JumpedOver,       ///< A taken IF passes over the line.
   Compensation,     ///< G41 or G42 is in force.
-  OnContour,        ///< G40 has left the tool beside the contour, and from there the rest would run differently.
-  RadiusUnknown,    ///< The same, and how far beside is not known.
-  OffProgram,       ///< A tool change has left the tip off the program, and from there the rest would run differently.
+  OnContour,        ///< The tool is still offset after G40, and the rest would run differently from there.
+  RadiusUnknown,    ///< After G40 the tool is still offset from the contour, by an unknown radius.
+  OffProgram,       ///< A tool change has left the tip off the program, and the rest would run differently from there.
   FrameChangedLow,  ///< The frame has changed with the tool in the cut, and no rapid has followed.
-  FaceLooksDown,    ///< The face's Z points down: there is no way to it from above.
+  FaceLooksDown,    ///< The face's Z points down, so it cannot be approached from above.
   ToolPointsUp,     ///< B has turned the tool beyond the horizontal.
-  ExactStop,        ///< A G09 comes next, which belongs to the feed move above (I.3.8, D23).
-  ArcContinues,     ///< Coordinates without a G go on with a G02 or G03, which nothing but an arc brings into force.
-  BeyondTravel,     ///< On the way there a joint would leave its travel.
-  NotProved,        ///< The trial run of the restart program has not come to the same state.
+  ExactStop,        ///< The next block is a G09, which belongs to the feed move above (I.3.8, D23).
+  ArcContinues,     ///< Coordinates without a G continue a G02 or G03, which only an arc brings into force.
+  BeyondTravel,     ///< During the approach a joint would leave its travel.
+  NotProved,        ///< The trial run of the restart program has not reached the same state.
 };
 
-/// Heights and frames on the path of the tip, as the machine makes it: beside the contour under compensation, and off
-/// the program after a tool change.
+/// Heights and frames on the path of the tip, as the machine makes it: offset from the contour under compensation, and
+/// off the program after a tool change.
 class TipLog {
  public:
   explicit TipLog(const execution::State& start);
@@ -42,13 +42,14 @@ class TipLog {
   void add(const running::Event& event, const motion::Move& move);
   void add(const running::FrameEvent& frame, const geometry::Vec3& tip);
 
-  /// From the machine frame to the frame in force.
+  /// Converts from the machine frame to the frame in force.
   geometry::Vec3 to_frame(const geometry::Vec3& place) const;
-  double highest() const { return highest_; }                    ///< As in RestartPoint.
-  double highest_in_frame() const { return highest_in_frame_; }  ///< As in RestartPoint.
-  const Eigen::AlignedBox3d& fed() const { return fed_; }        ///< As in RestartPoint.
-  bool came_in_feed() const { return came_in_feed_; }            ///< As in RestartPoint.
-  bool turns() const { return turns_; }                          ///< B or C have moved.
+  /// These four have the meaning of the RestartPoint members of the same name.
+  double highest() const { return highest_; }
+  double highest_in_frame() const { return highest_in_frame_; }
+  const Eigen::AlignedBox3d& fed() const { return fed_; }
+  bool came_in_feed() const { return came_in_feed_; }
+  bool turns() const { return turns_; }  ///< Whether B or C has moved.
   /// The frame has changed with the tool in the cut, and no rapid has followed.
   bool has_changed_low() const { return changed_low_; }
 
@@ -62,31 +63,31 @@ class TipLog {
   bool changed_low_ = false;
 };
 
-/// The machine before a line, and what the way there tells of how to come back.
+/// The state before a line, and the facts about the path up to it that a restart needs.
 struct RestartPoint {
   execution::State state;
-  geometry::Pose machine_tip;                   ///< Where the tip stands, machine frame.
-  geometry::Vec3 tip = geometry::Vec3::Zero();  ///< The same in the frame in force, mm.
-  bool is_beside_contour = false;               ///< Compensation has led the tool off the program, and not yet back.
-  bool is_off_program = false;                  ///< For this reason or by a tool change the tip is elsewhere.
+  geometry::Pose machine_tip;                   ///< Position of the tip, machine frame.
+  geometry::Vec3 tip = geometry::Vec3::Zero();  ///< Position of the tip in the frame in force, mm.
+  bool is_beside_contour = false;               ///< Compensation keeps the tool off the program.
+  bool is_off_program = false;                  ///< The tip is off the program, by compensation or by a tool change.
   running::Registers registers{};
-  std::uint32_t known_registers = 0;  ///< Bit n: Vn was assigned by the program, or set at the start.
+  std::uint32_t known_registers = 0;  ///< Bit n: Vn was assigned by the program or set at the start.
   std::string face_line;              ///< The G24, G28 or G29 in force as written.
-  double highest = 0;                 ///< The highest that the tip has been, home included: Z of the machine frame, mm.
-  double highest_in_frame = 0;        ///< Since the frame in force is so: its Z, mm.
-  Eigen::AlignedBox3d fed;            ///< Where feed moves have begun and ended since then, in that frame.
-  bool came_in_feed = false;      ///< The last motion that led anywhere was a feed move: the tool may be in the cut.
-  bool waits_at_end = false;      ///< G200 (I.3.12).
-  bool turns = false;             ///< B or C move somewhere in the program.
-  bool continues_motion = false;  ///< Coordinates may come before any motion G.
-  std::vector<running::Event> functions;  ///< The user's M functions on the way; of each number the last.
-  std::vector<int> assumed;  ///< Registers, or 0 for VGPL, that an IF has asked for and nobody has assigned.
+  double highest = 0;                 ///< Maximum height of the tip, home included: Z of the machine frame, mm.
+  double highest_in_frame = 0;        ///< Maximum Z of the tip since the last change of frame, in that frame, mm.
+  Eigen::AlignedBox3d fed;            ///< Box around the starts and ends of feed moves since then, in that frame.
+  bool came_in_feed = false;          ///< The last motion with a length was a feed move: the tool may be in the cut.
+  bool waits_at_end = false;          ///< G200 is in force (I.3.12).
+  bool turns = false;                 ///< B or C move somewhere in the program.
+  bool continues_motion = false;      ///< Coordinates may follow before any motion G.
+  std::vector<running::Event> functions;  ///< User M functions up to the line; the last one of each number.
+  std::vector<int> assumed;               ///< Registers, or 0 for VGPL, that an IF has read without an assignment.
 };
 
-/// One run over a whole program: where it could be taken up again, and what that takes.
+/// One run of a whole program, which finds the lines where it can be restarted and the facts that a restart needs.
 class RestartSurvey {
  public:
-  /// `line` (from 0) is the one whose point is kept.
+  /// `line` (from 0) is the line of point().
   RestartSurvey(std::string_view text, const running::RunOptions& options, const simulation::TimedMachine& machine,
                 std::uint64_t line);
   RestartSurvey(const RestartSurvey&) = delete;
@@ -94,17 +95,17 @@ class RestartSurvey {
 
   const running::RunResult& run() const { return run_; }
   Obstacle obstacle(std::uint64_t line) const;
-  /// The line of the IF, or of the M02, by which a line is not run.
+  /// The line of the IF or M02 by which a line is not run.
   std::uint64_t line_of_cause(std::uint64_t line) const;
-  /// Whether it is a line to propose: without an obstacle, and with something to do.
+  /// Whether the line can be proposed: it has no obstacle and a block with an effect.
   bool is_safe(std::uint64_t line) const;
-  /// Whether the machine is not where the program has it: whether the rest is the same from there shows when it is run.
+  /// Whether the machine is off the program before the line. Only a trial shows whether the rest runs alike from there.
   bool is_off_program(std::uint64_t line) const { return has(line, kOffProgram); }
-  /// Whether an IF on the way could send the run elsewhere.
+  /// Whether the run has an IF that could jump differently.
   bool has_choices() const;
-  /// Lines that the run has come to lie before this one.
+  /// One past the last line the run has reached.
   std::uint64_t end() const { return traits_.size(); }
-  /// Where obstacle() is None, or something that only concerns the way.
+  /// The state before `line`. Complete if obstacle() is None or concerns the approach only.
   const RestartPoint& point() const { return point_; }
 
  private:
@@ -141,15 +142,15 @@ class RestartSurvey {
   TipLog log_;
   const simulation::MachineCourse::Listeners to_log_;
   running::RunResult run_;
-  RestartPoint now_;  // Of the line that the run has come to.
+  RestartPoint now_;  // Facts before the line that the run has reached.
   RestartPoint point_;
   std::vector<std::uint16_t> traits_;
-  std::vector<std::pair<std::uint64_t, std::uint64_t>> jumps_;  // Taken: from an IF to a label.
-  bool is_tip_found_ = false;                                   // now_ knows where the tip is.
-  geometry::Vec3 tip_ = geometry::Vec3::Zero();                 // In the frame in force.
-  bool has_unknown_radius_ = false;                             // The tool that is mounted.
-  bool is_beside_by_unknown_ = false;                           // Such a tool has been led beside a contour.
-  bool changed_low_ = false;                                    // Before the line that the run has come to.
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> jumps_;  // Taken jumps, from an IF to a label.
+  bool is_tip_found_ = false;                                   // The tip in now_ is up to date.
+  geometry::Vec3 tip_ = geometry::Vec3::Zero();                 // The tip in the frame in force.
+  bool has_unknown_radius_ = false;                             // The radius of the mounted tool is unknown.
+  bool is_beside_by_unknown_ = false;                           // Such a tool is offset from a contour.
+  bool changed_low_ = false;  // The frame has changed low before the line that the run has reached.
 };
 
 }  // namespace isocnc::restart
