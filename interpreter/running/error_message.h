@@ -6,7 +6,7 @@
 
 namespace isocnc::running {
 
-/// What stopped a run that ended in an error, for people.
+/// The error that stopped a run, as text for a user.
 std::string error_message(const RunResult& result, dialect::Language language);
 
 }  // namespace isocnc::running

@@ -26,7 +26,7 @@ struct FunctionEvent {
 struct ToolEvent {
   execution::ToolCode tool;
 };
-/// A frame came into force, or went.
+/// A frame came into force or was removed.
 struct FrameEvent {
   geometry::Vec3 workpiece_origin = geometry::Vec3::Zero();  ///< Machine frame, mm.
   bool face_mounted = false;
@@ -34,15 +34,15 @@ struct FrameEvent {
 };
 struct JumpEvent {
   bool taken = false;
-  std::uint64_t target_line = 0;  ///< From 0; where the program goes on.
+  std::uint64_t target_line = 0;  ///< Line at which the program continues, from 0.
 };
-/// A G990: nothing goes on until the control has its technological parameters anew (I.3.11).
+/// A G990: the run waits until the control has reread its technological parameters (I.3.11).
 struct UpdateEvent {};
 /// A G09: the axes stop at the end of the last motion (I.3.8). Not in traces.
 struct ExactStopEvent {};
 struct EndEvent {};
 
-/// Something that a program did, on its line (from 0).
+/// One effect of a program, with its line (from 0).
 struct Event {
   std::uint64_t line = 0;
   std::variant<MoveEvent, DwellEvent, SpindleSpeedEvent, FunctionEvent, ToolEvent, FrameEvent, JumpEvent, UpdateEvent,
@@ -50,19 +50,20 @@ struct Event {
       what;
 };
 
-/// `rapid`, `feed`, `arc`, `dwell`, `spindle`, `tool`, `m`, `frame`, `jump`, `update`, `end`: how the trace calls it.
+/// Name of the event's kind in traces: `rapid`, `feed`, `arc`, `dwell`, `spindle`, `tool`, `m`, `frame`, `jump`,
+/// `update`, `end`.
 std::string_view kind_of(const Event& event);
 
 /// The feed of a feed move as a speed: mm/min, or degrees/min where only B and C turn. 0 for rapids.
 double feed_of(const MoveEvent& move);
 
-/// `T101001`: a tool as programs write it.
+/// The tool as programs write it: `T101001`.
 std::string tool_name(const execution::ToolCode& tool);
 
-/// The event as one line of JSON without its end, keys as docs/isorun.md lists them; lines from 1.
+/// The event as one line of JSON without the line end; keys as in docs/isorun.md, lines from 1.
 std::string to_json(const Event& event);
 
-/// The same, with these further keys and numbers.
+/// The event as JSON with further keys and numbers.
 std::string to_json(const Event& event, std::span<const std::pair<std::string_view, double>> more);
 
 }  // namespace isocnc::running

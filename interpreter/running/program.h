@@ -9,17 +9,17 @@
 
 namespace isocnc::running {
 
-/// The begin of a line of a program.
+/// The start of a line of a program.
 struct Place {
   std::uint64_t line = 0;  ///< From 0.
-  std::size_t offset = 0;  ///< Of its first byte.
+  std::size_t offset = 0;  ///< Offset of the line's first byte.
 
   friend bool operator==(const Place&, const Place&) = default;
 };
 
-/// The text of a program and where its jumps lead, which is looked for once for each jump that somebody takes. Nothing
-/// about it changes that could be seen: runs share it, on several threads, too. The text has to outlive it; a UTF-8
-/// byte-order mark is not part of it.
+/// The text of a program and the targets of its jumps. Each target is searched once, when a run first takes the jump.
+/// Logically const: runs can share it, also across threads. The text must outlive it; a UTF-8 byte-order mark is not
+/// part of the text.
 class Program {
  public:
   explicit Program(std::string_view text) : text_(text) {}
@@ -37,7 +37,7 @@ class Program {
 
   std::string_view text_;
   mutable std::mutex mutex_;
-  mutable std::map<std::size_t, std::optional<Place>> jump_targets_;  ///< By the offset of the jump.
+  mutable std::map<std::size_t, std::optional<Place>> jump_targets_;  ///< Targets by the offset of the jump.
 };
 
 }  // namespace isocnc::running

@@ -17,7 +17,7 @@ static bool is_error(const syntax::Finding& finding) {
 
 namespace {
 
-/// Gathers what one block does, so that a block in error does nothing.
+/// Collects the effects of one block, so that a block with an error has none.
 class BlockSink final : public execution::Sink {
  public:
   BlockSink(std::uint64_t line, std::vector<Event>& events, Registers& registers)
@@ -83,7 +83,7 @@ std::optional<Block> Runner::next() {
   return Block{place_.line, read_line(), result_.state, result_.registers, vgpl_, result_.blocks};
 }
 
-/// A line that holds nothing and does not stop the run by what is wrong with its text.
+/// Whether the next line is empty and has no error that stops the run.
 bool Runner::empty_line_comes() {
   const auto block = next();
   if (!block || !block->tree.is_empty()) return false;
@@ -137,7 +137,7 @@ void Runner::execute_line(const syntax::LineTree& tree) {
   if (tree.jump != nullptr && tree.jump->has_target) branch(*tree.jump, from);
 }
 
-/// To a line below that has the label, or to the run's end (E004, E005).
+/// Jumps to a line below with the label, or ends the run with an error (E004, E005).
 void Runner::branch(const syntax::Jump& jump, const Place& from) {
   const bool is_taken = holds(jump);
   if (is_taken) {

@@ -18,76 +18,77 @@ namespace isocnc::running {
 /// V1 to V30; [0] is not used.
 using Registers = std::array<double, dialect::kRegisterCount + 1>;
 
-/// A line that a run is about to execute. Lines that a jump passes over are none.
+/// A line that a run is about to execute. Lines that a jump skips do not count.
 struct Block {
   std::uint64_t line = 0;  ///< From 0.
   const syntax::LineTree& tree;
-  const execution::State& state;  ///< Before it.
-  const Registers& registers;     ///< Before it.
+  const execution::State& state;  ///< State before the block.
+  const Registers& registers;     ///< Values before the block.
   double vgpl = 0;
-  std::uint64_t number = 0;  ///< Blocks that have been executed before it.
+  std::uint64_t number = 0;  ///< Number of blocks executed before this one.
 };
 
-/// What a run is given besides the program.
+/// Options of a run.
 struct RunOptions {
   execution::Setup setup;
-  double vgpl = 0;                                 ///< The GPL variable that IF compares (I.5).
-  Registers registers{};                           ///< At the start.
-  std::optional<std::uint64_t> until;              ///< Stop before this line (from 0), or where a jump over it leads.
-  bool stop_at_errors = true;                      ///< As the control does; else go on as a checker reads it.
-  std::function<void(const Block&)> before_block;  ///< Where somebody wants to follow the state of a run().
+  double vgpl = 0;        ///< The GPL variable that IF compares (I.5).
+  Registers registers{};  ///< Values at the start.
+  /// Line (from 0) before which the run stops; if a jump skips it, the run stops at the jump's target.
+  std::optional<std::uint64_t> until;
+  /// Whether an error ends the run, as on the control; otherwise it continues as a checker does.
+  bool stop_at_errors = true;
+  std::function<void(const Block&)> before_block;  ///< Optional callback to follow the state of run().
 };
 
-/// Why a run came to its end.
+/// The reason for the end of a run.
 enum class Ending : std::uint8_t { ProgramEnd, Error, Until };
 
 struct RunResult {
   Ending ending = Ending::ProgramEnd;
-  std::uint64_t line = 0;  ///< Of the end, from 0.
+  std::uint64_t line = 0;  ///< Line of the end, from 0.
   std::string_view line_text;
-  syntax::Finding error;   ///< When `ending` is Error.
-  execution::State state;  ///< At the end.
+  syntax::Finding error;   ///< Set if `ending` is Error.
+  execution::State state;  ///< State at the end.
   Registers registers{};
-  std::uint64_t blocks = 0;                       ///< Blocks executed.
-  std::optional<std::uint64_t> jumped_over_from;  ///< Until: the IF (from 0) that leads over the line asked for.
+  std::uint64_t blocks = 0;                       ///< Number of blocks executed.
+  std::optional<std::uint64_t> jumped_over_from;  ///< For Until: line (from 0) of the IF that skips the requested line.
 };
 
-/// A run that goes on line by line, and stops wherever one likes. A value: a copy goes on by itself, exactly as the
-/// original. It refers to its program and options, which outlive it.
+/// A run that advances line by line and can be stopped between any two. A value: a copy runs independently, exactly as
+/// the original. The program and options must outlive it.
 class Runner {
  public:
   Runner(const Program& program, const RunOptions& options);
 
   bool has_ended() const { return has_ended_; }
 
-  /// The line that comes next, before it is executed; none behind the last one, or where the run is to stop. Valid
-  /// until the runner is used again.
+  /// The next line, before it is executed; none after the last line or at RunOptions::until. Valid until the next
+  /// non-const call.
   std::optional<Block> next();
 
-  /// Executes the line that comes next, and takes its jump, or ends the run. A block with an error does nothing.
+  /// Executes the next line and takes its jump, or ends the run. A block with an error has no effect.
   void step();
 
-  /// Executes lines that hold nothing (D13), so that a block comes next, or the end.
+  /// Executes empty lines (D13) up to the next block or the end.
   void pass_empty_lines();
 
-  /// What the last step() did, also behind empty lines that have been passed; valid until the next one. A copy has
-  /// none.
+  /// Events of the last step(), still available after pass_empty_lines(); valid until the next step(). Empty in a copy.
   std::span<const Event> events() const { return workbench_.events; }
 
-  /// Begin of the line that comes next.
+  /// Start of the next line.
   const Place& place() const { return place_; }
-  /// How far the run has come; `ending` and `line` count once it has ended.
+  /// The result so far; `ending` and `line` are valid after the end of the run.
   const RunResult& result() const { return result_; }
   double vgpl() const { return vgpl_; }
 
-  /// What the IFs that follow see (I.5). `reg` from 1 to 30.
+  /// Sets the value that the following IFs see (I.5). `reg` from 1 to 30.
   void set_register(int reg, double value) { result_.registers[static_cast<std::size_t>(reg)] = value; }
   void set_vgpl(double value) { vgpl_ = value; }
-  /// As if what has been executed had led to this state.
+  /// Replaces the state, as if the executed blocks had led to this one.
   void set_state(const execution::State& state) { result_.state = state; }
 
  private:
-  /// Memory to work in. It says nothing about the run, so a copy begins with none.
+  /// Scratch memory. It is not part of the run's value, so a copy starts empty.
   struct ScratchMemory {
     ScratchMemory() = default;
     ScratchMemory(const ScratchMemory&) : ScratchMemory() {}
@@ -102,8 +103,8 @@ class Runner {
     syntax::TreeStore store;
     syntax::LineTree tree;
     const char* line_end = nullptr;
-    bool holds_line = false;    ///< The tree is that of the line that comes next.
-    std::vector<Event> events;  ///< Of one block.
+    bool holds_line = false;    ///< The tree is that of the next line.
+    std::vector<Event> events;  ///< Events of one block.
   };
 
   bool is_at_end_of_text() const { return place_.offset == program_->text().size(); }
@@ -126,8 +127,8 @@ class Runner {
   ScratchMemory workbench_;
 };
 
-/// Runs a program as the control would, one block after another; what it does goes to `on_event`. A block with an error
-/// does nothing: the control stops there. A UTF-8 byte-order mark is not part of `text`.
+/// Runs a program as the control does, block by block, and passes its events to `on_event`. A block with an error has
+/// no effect: the control stops there. A UTF-8 byte-order mark is not part of `text`.
 RunResult run(std::string_view text, const RunOptions& options, const std::function<void(const Event&)>& on_event);
 
 }  // namespace isocnc::running
