@@ -6,7 +6,8 @@
 
 namespace isocnc::system {
 
-/// Goes through a text for a parser that does not tell where it is: `furthest` follows the last of all copies.
+/// An iterator over a text for a parser that does not report its position: `furthest` holds the furthest position that
+/// any copy has reached.
 class CountedBytes {
  public:
   using iterator_category = std::input_iterator_tag;

@@ -22,7 +22,7 @@ std::size_t index(char c) { return static_cast<unsigned char>(c); }
 
 }  // namespace
 
-/// Reads a pattern from left to right. A malformed one, which names nothing, gives no pieces at all.
+/// Reads a pattern from left to right. A malformed pattern, which matches nothing, gives no pieces.
 class GlobReader {
   using ByteSet = Glob::ByteSet;
   using Piece = Glob::Piece;
@@ -69,7 +69,7 @@ class GlobReader {
     return take_if('/') ? Piece::Kind::Directories : Piece::Kind::Star;
   }
 
-  /// Byte or escaped byte; none when nothing follows the backslash.
+  /// Reads a byte or escaped byte; none if nothing follows the backslash.
   std::optional<char> read_character() {
     take_if('\\');
     if (at_end()) return std::nullopt;
@@ -82,7 +82,7 @@ class GlobReader {
     return only(*c);
   }
 
-  /// What stands between brackets. A closing one that comes first belongs to the set.
+  /// Reads the set between brackets. A closing bracket in first place belongs to the set.
   std::optional<ByteSet> read_set() {
     const bool negated = take_if('!') || take_if('^');
     ByteSet set;
@@ -109,14 +109,14 @@ class GlobReader {
     return range(*first, *last);
   }
 
-  /// As in git, the first is in it even when the last comes before it.
+  /// As in git, the first byte belongs to the range even if the last comes before it.
   static ByteSet range(char first, char last) {
     ByteSet set = only(first);
     for (std::size_t c = index(first); c <= index(last); ++c) set.set(c);
     return set;
   }
 
-  /// Of `[:name:]`.
+  /// Reads the name in `[:name:]`.
   std::optional<std::string_view> take_class_name() {
     const std::string_view rest = text_.substr(at_);
     if (!rest.starts_with("[:")) return std::nullopt;
@@ -139,8 +139,8 @@ class GlobReader {
   std::size_t at_ = 0;
 };
 
-/// Tries a pattern on a text. A star first stands for nothing and takes more only when the rest does not fit; it is the
-/// last star that takes more, since whatever an earlier one could take, the later one can take as well.
+/// Matches a pattern with a text. A star first matches nothing and extends only when the rest does not fit. Only the
+/// last star extends, since it can match everything that an earlier one could.
 class GlobMatch {
   using Piece = Glob::Piece;
 
@@ -156,7 +156,7 @@ class GlobMatch {
   }
 
  private:
-  /// Where to go on when a star has taken all up to `at`.
+  /// The point to resume at when a star has matched everything up to `at`.
   struct Resume {
     std::size_t piece = 0;
     std::size_t at = 0;

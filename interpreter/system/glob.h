@@ -8,12 +8,12 @@
 
 namespace isocnc::system {
 
-/// A pattern of file names as gitignore(5) has them: `*` is any characters but slashes, `?` is one, `[a-z]` is one of a
-/// set; a backslash takes the character behind it as it is. In patterns of whole paths `**/` is any folders, also none,
-/// and `/**` at the end whatever follows.
+/// A pattern of file names as in gitignore(5): `*` matches any characters but slashes, `?` one character, `[a-z]` one
+/// of a set; a backslash makes the next character literal. In patterns of whole paths `**/` matches any number of
+/// folders, including none, and `/**` at the end any rest.
 class Glob {
  public:
-  /// None when the pattern is malformed, so that it could name nothing.
+  /// Returns none if the pattern is malformed and could match nothing.
   static std::optional<Glob> parse(std::string_view pattern, bool whole_path);
 
   bool matches(std::string_view text) const;
@@ -26,10 +26,10 @@ class Glob {
 
   struct Piece {
     enum class Kind : std::uint8_t {
-      Byte,         ///< `bytes`: one of them.
+      Byte,         ///< One of `bytes`.
       Star,         ///< `*`: any bytes but slashes.
-      Directories,  ///< `**/`: any number of whole directories, also none.
-      Everything,   ///< `/**` at the end: whatever follows.
+      Directories,  ///< `**/`: any number of whole directories, including none.
+      Everything,   ///< `/**` at the end: any rest.
     };
 
     Kind kind = Kind::Byte;

@@ -5,15 +5,15 @@
 
 namespace isocnc::system {
 
-/// What the handler of a signal, which may take no lock, has to know of; from any thread. One place for each thread is
-/// enough: what finds none is not known to the handler.
+/// Entries that a signal handler, which may take no lock, can read; for any thread. One slot per thread is enough. An
+/// entry that finds no free slot is not visible to the handler.
 template <class T>
 class HandlerTable {
  public:
   void add(const T* entry) { exchange(nullptr, entry); }
   void remove(const T* entry) { exchange(entry, nullptr); }
 
-  /// Also in a handler.
+  /// Can be called in a signal handler.
   template <class Look>
   void for_each(Look&& look) const {
     for (const std::atomic<const T*>& place : places_)

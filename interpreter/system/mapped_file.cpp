@@ -21,8 +21,7 @@ using dialect::Text;
 static constexpr Text kWasCutShort{"has been cut short by another program while it was being read",
                                    "è stato accorciato da un altro programma durante la lettura"};
 
-/// The files that are mapped now. One that finds no place ends the program without a word, as it would have without
-/// this.
+/// The mapped files. Lost bytes of a file that finds no free slot end the program by SIGBUS, without a message.
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): a handler sees nothing else.
 static HandlerTable<MappedFile> mapped_files;
 
@@ -55,11 +54,11 @@ const std::string* MappedFile::complaint_of(const void* address) const {
   return !is_below(place, begin_) && is_below(place, begin_ + size_) ? &complaint_ : nullptr;
 }
 
-/// `isolint: `, for the handler.
+/// Prefix of the handler's message: `isolint: `.
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): likewise.
 static std::string complaint_prefix;
 
-/// Calls nothing that a handler may not call.
+/// Handles SIGBUS; calls only functions allowed in a signal handler.
 static void on_lost_bytes(int signal, siginfo_t* info, void*) {
   mapped_files.for_each([info](const MappedFile& file) {
     const std::string* const complaint = file.complaint_of(info->si_addr);
@@ -69,7 +68,7 @@ static void on_lost_bytes(int signal, siginfo_t* info, void*) {
     remove_temporary_files();
     ::_exit(static_cast<int>(ExitStatus::Failure));
   });
-  std::signal(signal, SIG_DFL);  // Not of our making: the access is tried again, and ends the program.
+  std::signal(signal, SIG_DFL);  // Not in a mapped file: the access is repeated and ends the program.
 }
 
 void report_lost_bytes(std::string_view program) {

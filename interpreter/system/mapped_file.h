@@ -9,21 +9,21 @@
 
 namespace isocnc::system {
 
-/// A file whose bytes are the system's until they are looked at.
+/// A file mapped into memory; the system loads its bytes on access.
 class MappedFile {
  public:
-  /// Of an open file, which may be closed afterwards. `path` is what it is called when its bytes are lost.
+  /// Maps an open file, which may be closed afterward. `path` names the file in the message about lost bytes.
   MappedFile(const std::filesystem::path& path, int descriptor, std::size_t size, dialect::Language language);
   MappedFile(const MappedFile&) = delete;
   MappedFile& operator=(const MappedFile&) = delete;
   ~MappedFile();
 
-  /// An errno when it cannot be mapped; else 0.
+  /// 0, or the errno if the file cannot be mapped.
   int error() const { return error_; }
   std::string_view bytes() const { return {begin_, size_}; }
   void will_be_read_in_order() const;
 
-  /// What is told when an access to this address fails; nullptr when it is none of the bytes.
+  /// The message for a failed access to this address; nullptr if the address is outside the file.
   const std::string* complaint_of(const void* address) const;
 
  private:
@@ -33,8 +33,8 @@ class MappedFile {
   std::string complaint_;
 };
 
-/// From now on a program that touches bytes of a mapped file that another one has cut short says so, in the file's
-/// name, and ends with the status of trouble. Without this it ends by SIGBUS.
+/// After this call, access to bytes of a mapped file that another program has cut short prints a message with the
+/// file's name and ends the program with ExitStatus::Failure. Without this call SIGBUS ends it.
 void report_lost_bytes(std::string_view program);
 
 }  // namespace isocnc::system

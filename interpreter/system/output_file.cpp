@@ -45,16 +45,16 @@ OutputFile::~OutputFile() {
   if (owns_descriptor_ && descriptor_ >= 0) ::close(descriptor_);
 }
 
-/// At its end: what others have written to it stays.
+/// Opens the file for appending, so that text of other writers stays.
 void OutputFile::open_in_place(const fs::path& path) {
   descriptor_ = open_to_write(path, O_APPEND, 0666);
   if (descriptor_ < 0) error_ = errno;
 }
 
-/// By a name that nobody can foresee, and that ends in no extension of programs, should it ever be left behind.
+/// Opens a file with an unpredictable name that has no extension of programs, in case it is left behind.
 void OutputFile::open_beside() {
   constexpr int kAttempts = 100;
-  if (status_ && ::access(target_.c_str(), W_OK) != 0) {  // A rename would not ask.
+  if (status_ && ::access(target_.c_str(), W_OK) != 0) {  // A rename does not check write access.
     error_ = errno;
     return;
   }
@@ -63,7 +63,7 @@ void OutputFile::open_beside() {
     std::uint32_t number = 0;
     if (::getentropy(&number, sizeof number) != 0) break;
     std::string name = fmt::format("{}{:08x}", start, number);
-    // Nobody else may read what takes the place of something that they may not read.
+    // Other users must not read a replacement of a file that they may not read.
     descriptor_ = open_to_write(name, O_EXCL, status_ ? 0600 : 0666);
     if (descriptor_ >= 0) {
       temporary_.emplace(std::move(name));
@@ -94,19 +94,19 @@ int OutputFile::flush() {
   return error_;
 }
 
-/// The mode comes last, since a change of owner takes bits from it.
+/// Sets the mode last, since a change of owner clears bits of it.
 bool OutputFile::take_over_attributes() const {
   struct stat now {};
   if (::fstat(descriptor_, &now) != 0) return false;
   const bool owner_differs = now.st_uid != status_->st_uid || now.st_gid != status_->st_gid;
-  // Not all may give files away; whoever may write the file may at least keep its group.
+  // A user who may not change the owner may still keep the group.
   if (owner_differs && ::fchown(descriptor_, status_->st_uid, status_->st_gid) != 0 &&
       ::fchown(descriptor_, static_cast<uid_t>(-1), status_->st_gid) != 0 && errno != EPERM)
     return false;
   return ::fchmod(descriptor_, status_->st_mode & kModeBits) == 0;
 }
 
-/// The folder's entry is on the disk when the folder is. What fails here is told by nobody: the file is whole.
+/// Syncs the folder, so that the file's entry is on the disk. Errors are ignored: the file itself is complete.
 static void sync_folder(const fs::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;

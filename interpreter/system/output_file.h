@@ -12,30 +12,30 @@
 
 namespace isocnc::system {
 
-/// A descriptor that text goes to, in large pieces. After the first write that fails nothing more is written, and the
-/// reason is kept: who writes a lot asks for it once, at the end.
+/// Writes text to a descriptor in large pieces. After the first failed write nothing more is written and the reason is
+/// kept, so that the caller can check it once, at the end.
 class OutputFile {
  public:
-  /// Writes to `descriptor`, and leaves it open: standard output.
+  /// Writes to `descriptor` without closing it: for standard output.
   explicit OutputFile(int descriptor) : descriptor_(descriptor) {}
-  /// Writes a file, all of it or nothing: a new one beside it, which commit() puts in its place, with its mode and,
-  /// where that is permitted, its owner. So whoever opens the file at any moment, also after a power cut, finds what
-  /// was there or what is new, whole. Goes through symlinks; there need be no file yet. Devices and pipes, and files
-  /// that are open already (/dev/stdout), are written to as they are. error() tells when it cannot begin.
+  /// Writes to a temporary file that commit() renames over the target, keeping its mode and, if permitted, its owner.
+  /// Readers see the old or the new file, never a mixture, even after a power cut. Follows symlinks; the target need
+  /// not exist. Devices, pipes and files open already (/dev/stdout) are written in place. Check error() after
+  /// construction.
   explicit OutputFile(const std::filesystem::path& path);
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
-  /// What has not been committed is gone; the file is as it was.
+  /// Discards text that has not been committed; the target stays unchanged.
   ~OutputFile();
 
   void write(std::string_view text);
-  /// Writes what has been gathered, and returns error(). What is not flushed is lost.
+  /// Writes the buffered text and returns error(). Text that is not flushed is lost.
   int flush();
-  /// Flushes, and sees to it that all is on the disk, where it has a name; returns error().
+  /// Flushes, and for a file with a name waits until the text is on the disk; returns error().
   int sync();
-  /// The same, and then puts the file in its place; returns error(). To be called once.
+  /// Like sync(), then renames the file over the target; returns error(). Call it once.
   int commit();
-  /// 0, or the errno of what failed first.
+  /// 0, or the errno of the first failure.
   int error() const { return error_; }
 
  private:
@@ -49,12 +49,12 @@ class OutputFile {
   bool owns_descriptor_ = false;
   int error_ = 0;
   std::string gathered_;
-  std::filesystem::path target_;            // Without symlinks.
-  std::optional<struct stat> status_;       // Of the file that is there.
-  std::optional<TemporaryFile> temporary_;  // That is to become the target.
+  std::filesystem::path target_;            // Path without symlinks.
+  std::optional<struct stat> status_;       // Status of the existing target.
+  std::optional<TemporaryFile> temporary_;  // File that commit() renames over the target.
 };
 
-/// Commits an output. When anything written to it has been lost, what to tell: `trace.jsonl: cannot write: ...`.
+/// Commits an output. If any text has been lost, returns the message: `trace.jsonl: cannot write: ...`.
 std::optional<std::string> commit(OutputFile& output, std::string_view name, dialect::Language language);
 
 }  // namespace isocnc::system

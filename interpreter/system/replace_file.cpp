@@ -29,7 +29,7 @@ FileReplacement::FileReplacement(const std::filesystem::path& path) {
   } else if (status_.st_nlink > 1) {
     refusal_ = &kHasOtherNames;
   } else if (::access(target_.c_str(), W_OK) != 0) {
-    error_ = errno;  // A rename would not ask.
+    error_ = errno;  // A rename does not check write access.
   }
 }
 

@@ -12,32 +12,32 @@
 
 namespace isocnc::system {
 
-/// A new text in the place of a program's old one: all of it or nothing, as any OutputFile that has a name, and with
-/// more care. What has been written is thrown away unless it is committed.
+/// Replaces the text of a program, completely or not at all, like an OutputFile with a name but with additional checks.
+/// Text that is not committed is discarded.
 ///
-/// Begin before the file is read: a file that somebody else changes from then on is left to them.
+/// Construct it before the file is read: a file that another program changes after that is left unchanged.
 class FileReplacement {
  public:
-  /// Looks at the file, through symlinks, and touches nothing.
+  /// Inspects the file, following symlinks, without changing it.
   explicit FileReplacement(const std::filesystem::path& path);
   FileReplacement(const FileReplacement&) = delete;
   FileReplacement& operator=(const FileReplacement&) = delete;
 
-  /// Appends to the new text. What goes wrong is told by commit().
+  /// Appends to the new text. commit() reports errors.
   void write(std::string_view text);
-  /// Puts the new text in the file's place, with the file's mode and, where that is permitted, its owner. Returns what
-  /// stood in the way; the file is then as it was.
+  /// Replaces the file by the new text, keeping its mode and, if permitted, its owner. If this fails, returns the
+  /// reason and leaves the file unchanged.
   std::optional<std::string> commit(dialect::Language language);
 
  private:
   std::string why_not(dialect::Language language) const;
   bool is_unchanged() const;
 
-  std::filesystem::path target_;  // Without symlinks.
+  std::filesystem::path target_;  // Path without symlinks.
   struct stat status_ {};
   int error_ = 0;
   const dialect::Text* refusal_ = nullptr;
-  std::optional<OutputFile> output_;  // Once there is something to write.
+  std::optional<OutputFile> output_;  // Open after the first write().
 };
 
 }  // namespace isocnc::system

@@ -4,14 +4,14 @@
 
 namespace isocnc::system {
 
-/// Where a file is, or would be made that is not there yet: symlinks are followed, to nowhere, too.
+/// The path of a file, existing or not, with symlinks followed, even those to a missing target.
 std::filesystem::path place_of(std::filesystem::path path);
 
-/// Whether the name leads to a descriptor that is open, as /dev/stdout does, whatever stands behind that.
+/// Whether the name leads to an open descriptor of any kind, as /dev/stdout does.
 bool names_descriptor(std::filesystem::path path);
 
-/// Whether two names lead to one file, by links or other ways around, even where it is not there yet. Devices and pipes
-/// are none: they take from many.
+/// Whether two names lead to one file, by links or different spellings, even if it does not exist yet. False for
+/// devices and pipes, which accept several writers.
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
 }  // namespace isocnc::system

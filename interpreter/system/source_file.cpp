@@ -25,17 +25,17 @@ static constexpr Text kIsUtf32{"is UTF-32; save it as UTF-8 or ASCII", "è in UT
 static constexpr Text kIsBinary{"looks like a binary file", "sembra un file binario"};
 static constexpr Text kHasEndlessLine{"has a line of 4 GiB or more", "ha una riga di 4 GiB o più"};
 
-/// What is looked at to tell a program from other things.
+/// Number of bytes inspected to recognize binary data and wide encodings.
 static constexpr std::size_t kHeadBytes = 8 * 1024;
 static constexpr std::size_t kEncodingBytes = 4 * 1024;
-/// Larger files are mapped: they would take memory of their own that is worth sparing, and nobody saves them often.
+/// Maximum size of a file that is read. Larger ones are mapped, which saves memory; they are rarely saved while in use.
 static constexpr std::size_t kMaxReadBytes = 8 * 1024 * 1024;
 static constexpr std::size_t kLongestLine = std::numeric_limits<std::uint32_t>::max();
 
 static bool ends_line(char c) { return c == '\n' || c == '\r'; }
 
-/// From the start of a line the search runs backward from where the line would be too long, so that of many short lines
-/// only the last is looked at.
+/// Searches backward from the first byte that would make the line too long, so that of many short lines only the last
+/// is inspected.
 bool has_line_longer_than(std::size_t limit, std::string_view text) {
   while (text.size() > limit) {
     std::size_t end = limit;
@@ -46,7 +46,8 @@ bool has_line_longer_than(std::size_t limit, std::string_view text) {
   return false;
 }
 
-/// Which of four neighboring bytes are nearly always NUL where the others seldom are, as bits; 0 when they differ less.
+/// Bits for those of four neighboring bytes that are nearly always NUL where the others seldom are; 0 if they differ
+/// less.
 static unsigned null_columns(std::string_view text) {
   std::array<std::size_t, 4> nulls{};
   for (std::size_t i = 0; i < text.size(); ++i) nulls[i % 4] += text[i] == '\0' ? 1 : 0;
@@ -62,7 +63,7 @@ static unsigned null_columns(std::string_view text) {
   return columns;
 }
 
-/// UTF-16 or UTF-32 by its mark, else by where the NULs stand that fill up Latin letters.
+/// Recognizes UTF-16 or UTF-32 by its byte-order mark, or by the position of NULs in Latin letters.
 static std::optional<Text> wide_encoding(std::string_view text) {
   using namespace std::string_view_literals;
   if (text.starts_with("\xFF\xFE\0\0"sv) || text.starts_with("\0\0\xFE\xFF"sv)) return kIsUtf32;
@@ -86,7 +87,7 @@ static bool is_foreign_control(char c) {
   return (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) && kControlsOfText.find(c) == std::string_view::npos;
 }
 
-/// Compressed data has the controls of its 256 values, just above a tenth, and more NULs than ever stray into a text.
+/// Compressed data contains all 256 values, so just above a tenth are controls, and more NULs than stray into a text.
 static bool looks_binary(std::string_view head) {
   const auto controls = static_cast<std::size_t>(std::count_if(head.begin(), head.end(), is_foreign_control));
   const auto nulls = static_cast<std::size_t>(std::count(head.begin(), head.end(), '\0'));
@@ -95,7 +96,7 @@ static bool looks_binary(std::string_view head) {
   return many_controls || many_nulls;
 }
 
-/// Why this cannot be a program, seen from its first bytes.
+/// The reason why the first bytes cannot belong to a program.
 static std::optional<Text> obstacle_in_head(std::string_view text) {
   if (const std::optional<Text> encoding = wide_encoding(text)) return encoding;
   if (looks_binary(text.substr(0, kHeadBytes))) return kIsBinary;
@@ -111,14 +112,14 @@ static std::optional<Text> obstacle(std::string_view text) {
 static bool grow_buffer(std::string& bytes, std::size_t size) {
   try {
     bytes.resize(size);
-  } catch (const std::exception&) {  // No memory, or more than any string has.
+  } catch (const std::exception&) {  // Out of memory, or longer than the maximum string.
     return false;
   }
   return true;
 }
 
-/// Appends what the stream gives until there are `limit` bytes or it ends, with room for as many as are `expected`;
-/// returns 0 or the errno.
+/// Appends bytes of the stream until there are `limit` bytes or it ends, with memory for `expected` bytes; returns 0 or
+/// the errno.
 static int read_up_to(std::size_t limit, std::size_t expected, int descriptor, std::string& bytes) {
   static constexpr std::size_t kFirstBytes = 64 * 1024;
   std::size_t size = bytes.size();
@@ -138,7 +139,7 @@ static int read_up_to(std::size_t limit, std::size_t expected, int descriptor, s
 
 namespace {
 
-/// An open file, closed at the end.
+/// An open file, closed by the destructor.
 class Descriptor {
  public:
   explicit Descriptor(const std::filesystem::path& path) {
@@ -185,11 +186,11 @@ std::variant<SourceFile, SourceFile::Problem> SourceFile::map(const std::filesys
   SourceFile file;
   file.mapped_ = std::make_unique<MappedFile>(path, descriptor, size, language);
   const int error = file.mapped_->error();
-  // Files that the kernel makes up as they are read (sysfs) have a size, but cannot be mapped.
+  // Files that the kernel generates on reading (sysfs) have a size but cannot be mapped.
   if (error == ENODEV) return read_stream(descriptor, language);
   if (error != 0) return Problem{cannot_read(error, language)};
   std::variant<SourceFile, Problem> result = checked(std::move(file), language);
-  // Not before the check, which may run backward through a long line.
+  // After the check, which may read backward through a long line.
   if (const auto* const good = std::get_if<SourceFile>(&result)) good->mapped_->will_be_read_in_order();
   return result;
 }
@@ -198,7 +199,7 @@ std::variant<SourceFile, SourceFile::Problem> SourceFile::read_stream(int descri
   return read(descriptor, 0, language);
 }
 
-/// Looks at the head before it reads on, since a device may have no end.
+/// Checks the first bytes before reading further, since a device may have no end.
 std::variant<SourceFile, SourceFile::Problem> SourceFile::read(int descriptor, std::size_t expected,
                                                                Language language) {
   static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();

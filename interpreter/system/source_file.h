@@ -12,23 +12,25 @@
 
 namespace isocnc::system {
 
-/// A program's bytes: read to the end, or a file of more than 8 MiB mapped. Never UTF-16, never binary, and no line of
-/// it is longer than 32 bits can count.
+/// The bytes of a program: read to the end, or mapped if the file has more than 8 MiB. Never UTF-16 and never binary;
+/// the length of each line fits in 32 bits.
 class SourceFile {
  public:
-  /// Why a file cannot be taken, for people: `cannot read: Permission denied`. Does not name the file.
+  /// The reason for which a file is refused, as text for a user: `cannot read: Permission denied`. Does not name the
+  /// file.
   struct Problem {
     std::string message;
   };
 
-  /// Who cuts a mapped file short while it is in use takes its bytes away, which is the end (tell_of_lost_bytes).
+  /// If another program cuts a mapped file short while it is in use, its bytes are lost and the program ends
+  /// (report_lost_bytes).
   static std::variant<SourceFile, Problem> open(const std::filesystem::path& path, dialect::Language language);
-  /// Maps nothing: for servers, which outlive what happens to a file.
+  /// Reads the file without mapping: for servers, which keep running when the file changes.
   static std::variant<SourceFile, Problem> open_unmapped(const std::filesystem::path& path, dialect::Language language);
-  /// Reads on from where `descriptor` stands, and leaves it open: standard input, pipes.
+  /// Reads from the current position of `descriptor` without closing it: for standard input and pipes.
   static std::variant<SourceFile, Problem> read_stream(int descriptor, dialect::Language language);
 
-  /// Without a byte-order mark (D5). Valid as long as this, and not beyond a move.
+  /// The text without a byte-order mark (D5). Valid until this object is moved or destroyed.
   std::string_view text() const;
   bool has_byte_order_mark() const { return text().size() != bytes().size(); }
 
@@ -44,14 +46,13 @@ class SourceFile {
   std::string_view bytes() const;
 
   std::unique_ptr<const MappedFile> mapped_;
-  std::string read_;  // When nothing is mapped.
+  std::string read_;  // The bytes if the file is not mapped.
 };
 
-/// A UTF-8 byte-order mark, for who puts it back.
+/// A UTF-8 byte-order mark, for writing it back.
 inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-/// Whether some line has more than `limit` bytes, its end not counted. Looks at one place in `limit` bytes as long as
-/// lines are short.
+/// Whether a line has more than `limit` bytes without its end. For short lines it reads about one byte in `limit`.
 bool has_line_longer_than(std::size_t limit, std::string_view text);
 
 }  // namespace isocnc::system

@@ -13,7 +13,8 @@ using dialect::Text;
 static constexpr Text kCannotRead{"cannot read: ", "non si può leggere: "};
 static constexpr Text kCannotWrite{"cannot write: ", "non si può scrivere: "};
 
-/// The system speaks the locale's language, not the one asked for; what it says most often is said here.
+/// The system reports errors in the locale's language, not the chosen one, so the most common messages are translated
+/// here.
 struct SystemText {
   int error;
   Text text;

@@ -11,7 +11,7 @@
 
 namespace isocnc::system {
 
-/// The names in use. A file that finds no place may be left behind.
+/// The names in use. A file that finds no free slot may be left behind.
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): a handler sees nothing else.
 static HandlerTable<char> temporary_names;
 
@@ -32,7 +32,7 @@ void remove_temporary_files() {
   temporary_names.for_each([](const char& name) { ::unlink(&name); });
 }
 
-/// Then the signal does what it would have done.
+/// Removes the temporary files, then lets the signal take its default effect.
 static void on_end(int signal) {
   remove_temporary_files();
   std::signal(signal, SIG_DFL);
@@ -41,7 +41,8 @@ static void on_end(int signal) {
 
 void leave_no_temporary_files() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-    if (std::signal(signal, on_end) == SIG_IGN) std::signal(signal, SIG_IGN);  // As under nohup.
+    // Keeps an ignored signal ignored, as under nohup.
+    if (std::signal(signal, on_end) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
 }  // namespace isocnc::system

@@ -5,16 +5,16 @@
 
 namespace isocnc::system {
 
-/// The name of a file that is written to be given another one. Gone with this, unless it has got it.
+/// The name of a temporary file that is to be renamed. The destructor removes the file unless it has been renamed.
 class TemporaryFile {
  public:
-  /// Of a file that there is, or is about to be.
+  /// Takes the path of a file that exists or is about to be created.
   explicit TemporaryFile(std::string path);
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   ~TemporaryFile();
 
-  /// Puts the file in the place of another one. Returns 0 or the errno.
+  /// Renames the file over another one. Returns 0 or the errno.
   int rename(const std::filesystem::path& path);
   const std::string& path() const { return path_; }
 
@@ -23,9 +23,9 @@ class TemporaryFile {
   bool is_renamed_ = false;
 };
 
-/// From now on a signal that asks the program to end (Ctrl-C) leaves no temporary files behind.
+/// After this call, a signal that ends the program (Ctrl-C) removes its temporary files first.
 void leave_no_temporary_files();
-/// Removes those that there are; may be called by the handler of a signal, before the end.
+/// Removes all temporary files; can be called in a signal handler before the program ends.
 void remove_temporary_files();
 
 }  // namespace isocnc::system
