@@ -15,7 +15,7 @@
 
 namespace isocnc::configuration {
 
-/// What programs are called, unless a configuration says otherwise.
+/// Default extensions of program files.
 inline const std::array<std::string, 5> kProgramExtensions{".iso", ".nc", ".cnc", ".tap", ".ngc"};
 
 /// A tool of the machine. Lengths in mm.
@@ -26,50 +26,52 @@ struct Tool {
   std::optional<double> radius;
 };
 
-/// An M function of the shop.
+/// A named user M function.
 struct NamedFunction {
   int number = 0;
   std::string name;
-  double seconds = 0;  ///< How long the machine waits for it.
+  double seconds = 0;  ///< Duration in seconds for which the machine waits.
 };
 
 /// Rapids of the default machine, mm/min and degrees/min.
 std::array<double, execution::kAxisCount> default_rapids();
 
 struct Machine {
-  execution::Setup setup;  ///< Its tools and functions are those below.
-  /// How it moves. Travel, rapids and kind are those of `setup` and below; its tools and functions those below.
+  execution::Setup setup;  ///< Tools and functions are copies of the members below.
+  /// The machine's motion. Travel, rapids and kind are copies from `setup` and the members below, as are tools and
+  /// functions.
   simulation::TimedMachine timed;
   std::array<double, execution::kAxisCount> rapids = default_rapids();  ///< mm/min, degrees/min.
   std::string kind = "head";                                            ///< `three-axis`, `head`, `table`.
   std::optional<std::vector<Tool>> tools;
   std::optional<std::vector<NamedFunction>> functions;
 
-  /// What the file tells of a tool, and of an M function by its number as written; null where it tells nothing.
+  /// The tool, or the M function by its number as written, in the configuration; null if it is not listed.
   const Tool* find_tool(const execution::ToolCode& code) const;
   const NamedFunction* find_function(double number) const;
 };
 
-/// Codes as a selection names them.
+/// A selection of diagnostic codes.
 struct CodeSelection {
   std::vector<std::string> select;
   std::vector<std::string> ignore;
-  std::vector<std::pair<std::string, std::string>> severity;  ///< A code; error, warning, info or off.
+  std::vector<std::pair<std::string, std::string>> severity;  ///< Pairs of a code and error, warning, info or off.
 };
 
-/// What holds for some programs alone.
+/// A selection for certain programs only.
 struct FileOverrides {
   std::vector<std::string> paths;
-  PathPatterns patterns;  ///< Of `paths`.
+  PathPatterns patterns;  ///< Parsed form of `paths`.
   CodeSelection selection;
 };
 
 struct Lint {
   CodeSelection selection;
-  std::vector<FileOverrides> files;  ///< The later ones outweigh the earlier ones.
-  std::vector<std::string> extensions{kProgramExtensions.begin(), kProgramExtensions.end()};  ///< With their point.
+  std::vector<FileOverrides> files;  ///< Later entries override earlier ones.
+  /// Extensions with their dot.
+  std::vector<std::string> extensions{kProgramExtensions.begin(), kProgramExtensions.end()};
   std::vector<std::string> exclude;
-  PathPatterns excluded;  ///< Of `exclude`.
+  PathPatterns excluded;  ///< Parsed form of `exclude`.
 };
 
 struct Renumber {
@@ -80,7 +82,7 @@ struct Renumber {
   bool all_lines = false;
 };
 
-/// How programs are formatted, where the command does not tell.
+/// Format options of programs; those of the command line override them.
 struct Format {
   static constexpr int kMaxDecimals = 15;
 
@@ -91,13 +93,13 @@ struct Format {
   std::optional<Renumber> renumber;
 };
 
-/// What an isocnc.json says; what it leaves out, and without a file all, is as it was ever since.
+/// The content of an isocnc.json. Omitted keys, or all without a file, have their defaults.
 struct Configuration {
   Machine machine;
   Lint lint;
   Format format;
   std::optional<dialect::Language> language;
-  std::filesystem::path file;  ///< As shown to people; empty without one.
+  std::filesystem::path file;  ///< Path as shown to users; empty without a file.
 };
 
 }  // namespace isocnc::configuration

@@ -21,12 +21,12 @@ fs::path real_path(const fs::path& path) {
   std::error_code error;
   fs::path real = fs::weakly_canonical(path.empty() ? "." : path, error);
   if (error) real = fs::absolute(path, error).lexically_normal();
-  // What does not exist stays relative.
+  // A path that does not exist is still relative.
   if (real.is_relative()) real = (fs::current_path(error) / real).lexically_normal();
   return real;
 }
 
-/// As people would write it: from where they are, when it is below.
+/// The path as shown to users: relative if it is below the current folder.
 static fs::path shown_path(const fs::path& file) {
   std::error_code error;
   const fs::path relative = file.lexically_relative(fs::current_path(error));
@@ -54,7 +54,7 @@ const Configuration& Configurations::nearest(const fs::path& folder) {
   if (const auto known = folders_.find(folder.native()); known != folders_.end()) return *known->second;
   const fs::path file = folder / kFileName;
   std::error_code error;
-  const bool is_here = fs::exists(fs::symlink_status(file, error));  // A link that leads nowhere is to be told of.
+  const bool is_here = fs::exists(fs::symlink_status(file, error));  // Includes broken links, which are reported.
   const Configuration* found = &none_;
   if (is_here) {
     found = &load(file, shown_path(file));
@@ -71,7 +71,7 @@ const Configuration& Configurations::load(const fs::path& file, const fs::path& 
   const auto complain = [&](Mistake mistake, std::string_view text) {
     loaded.mistakes.emplace_back(place_of(mistake.at, text), std::move(mistake));
   };
-  // A pipe that happens to have the name would be waited for; one that is asked for may well be meant.
+  // Reading a pipe would block, so one is read only if the user names it.
   const fs::file_status status = fs::status(file, error);
   if (!source_.file && fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) {
     loaded.problem = mistakes::kNoFile.in(language_);

@@ -13,36 +13,36 @@
 
 namespace isocnc::configuration {
 
-/// What a configuration file is called, so that it is found.
+/// File name of a configuration.
 inline constexpr std::string_view kFileName = "isocnc.json";
 
-/// Which configuration a command wants.
+/// The choice of configuration by a command.
 struct Source {
-  std::optional<std::string> file;  ///< This one for all programs; else the nearest above each program.
-  bool none = false;                ///< None at all.
+  std::optional<std::string> file;  ///< The file for all programs; without it, the nearest one above each program.
+  bool none = false;                ///< Use no configuration.
 };
 
-/// The configurations of programs. Each file is read once, and each folder looked into once.
+/// The configurations of programs. Each file is read once, and each folder is searched once.
 class Configurations {
  public:
-  /// `language` is for what the system says of files.
+  /// `language` is the language of system errors about files.
   Configurations(Source source, dialect::Language language);
   Configurations(const Configurations&) = delete;
   Configurations& operator=(const Configurations&) = delete;
 
-  /// The one in force in a folder, which need not exist. Valid as long as this is.
+  /// The configuration for a folder, which need not exist. Valid as long as this object.
   const Configuration& in_folder(const std::filesystem::path& folder);
-  /// The one in force for a program, or, for a folder, in it.
+  /// The configuration for a program or a folder.
   const Configuration& of(const std::filesystem::path& path);
 
-  /// What is wrong with the files read so far, a line each: `isocnc.json:12:7: error: machine.home.x: ...`.
+  /// Mistakes in the files read so far, one line each: `isocnc.json:12:7: error: machine.home.x: ...`.
   std::vector<std::string> mistakes(dialect::Language language) const;
 
  private:
   struct File {
     Configuration configuration;
     std::vector<std::pair<LineColumn, Mistake>> mistakes;
-    std::string problem;  // Why it could not be read.
+    std::string problem;  // The reason why the file could not be read.
   };
 
   const Configuration& nearest(const std::filesystem::path& folder);
@@ -52,11 +52,11 @@ class Configurations {
   const dialect::Language language_;
   const Configuration none_;
   std::vector<std::unique_ptr<File>> files_;
-  std::unordered_map<std::string, const Configuration*> folders_;  // By their real paths.
-  std::unordered_map<std::string, const Configuration*> asked_;    // As they were asked for.
+  std::unordered_map<std::string, const Configuration*> folders_;  // Keyed by the real paths of folders.
+  std::unordered_map<std::string, const Configuration*> asked_;    // Keyed by the paths of the queries.
 };
 
-/// A path without symlinks, `.` and `..`, of whatever there is of it.
+/// The path without symlinks, `.` and `..`, as far as it exists.
 std::filesystem::path real_path(const std::filesystem::path& path);
 
 }  // namespace isocnc::configuration

@@ -12,7 +12,7 @@ namespace isocnc::configuration {
 
 using dialect::Text;
 
-/// Behind the comment that begins here; here, when none does.
+/// The offset after the comment that starts at `at`; `at` itself if there is none.
 static std::size_t skip_comment(std::string_view text, std::size_t at) {
   const std::string_view rest = text.substr(at);
   if (rest.starts_with("//")) return std::min(text.find_first_of("\r\n", at), text.size());
@@ -20,7 +20,7 @@ static std::size_t skip_comment(std::string_view text, std::size_t at) {
   return end == std::string_view::npos ? at : at + end + 2;
 }
 
-/// Behind blanks, comments, colons and commas: where the next token begins.
+/// The start of the next token, after blanks, comments, colons and commas.
 static std::size_t skip_separators(std::string_view text, std::size_t at) {
   static constexpr std::string_view kSeparators = " \t\r\n,:";
   while (at < text.size()) {
@@ -31,7 +31,7 @@ static std::size_t skip_separators(std::string_view text, std::size_t at) {
   return at;
 }
 
-/// What stands at a place, for messages.
+/// The token at a position, for messages.
 static std::string_view token_at(std::size_t at, std::string_view text) {
   const std::string_view rest = text.substr(at);
   if (rest.empty() || std::string_view("{}[],:").find(rest.front()) != std::string_view::npos) return rest.substr(0, 1);
@@ -39,7 +39,7 @@ static std::string_view token_at(std::size_t at, std::string_view text) {
   return rest.substr(0, std::min(end, rest.size() - 1) + 1);
 }
 
-/// What the parser says, and what we say then.
+/// A message of the parser and its replacement.
 struct Reason {
   std::string_view parser_message;
   const Text& our_message;
@@ -58,8 +58,8 @@ static const Text* reason_of(std::string_view parser_message) {
   return nullptr;
 }
 
-/// Makes values of what the parser finds. It is told no places, so it looks for each token's beginning behind the last
-/// token's end.
+/// Builds values from the tokens of the parser. The SAX interface reports no offsets, so the builder searches each
+/// token after the end of the previous one.
 class JsonBuilder final : public nlohmann::json_sax<nlohmann::json> {
  public:
   JsonBuilder(std::string_view text, const char* const& furthest) : text_(text), furthest_(furthest) {}
@@ -73,7 +73,7 @@ class JsonBuilder final : public nlohmann::json_sax<nlohmann::json> {
   bool number_unsigned(number_unsigned_t value) override { return number(static_cast<double>(value)); }
   bool number_float(number_float_t value, const string_t&) override { return number(value); }
   bool string(string_t& value) override { return leaf({.kind = JsonValue::Kind::String, .string = std::move(value)}); }
-  bool binary(binary_t&) override { return false; }  // JSON has none.
+  bool binary(binary_t&) override { return false; }  // JSON has no binary values.
 
   bool key(string_t& value) override {
     const std::size_t at = token_start();
@@ -102,7 +102,7 @@ class JsonBuilder final : public nlohmann::json_sax<nlohmann::json> {
  private:
   std::size_t furthest() const { return static_cast<std::size_t>(furthest_ - text_.data()); }
 
-  /// Where the token begins that has just been read. Behind a number the parser has read one byte more.
+  /// The start of the token just read. After a number the parser has read one byte more.
   std::size_t token_start() {
     const std::size_t at = skip_separators(text_, end_);
     const bool is_number = text_[at] == '-' || (text_[at] >= '0' && text_[at] <= '9');
@@ -110,7 +110,7 @@ class JsonBuilder final : public nlohmann::json_sax<nlohmann::json> {
     return at;
   }
 
-  /// Behind a leading zero JSON has no further digits.
+  /// In JSON no digits may follow a leading zero.
   std::size_t number_end(std::size_t at) const {
     const std::size_t digits = at + (text_[at] == '-' ? 1 : 0);
     const bool leads_zero = text_.substr(digits, 1) == "0" && digits + 1 < text_.size() &&
@@ -118,7 +118,7 @@ class JsonBuilder final : public nlohmann::json_sax<nlohmann::json> {
     return leads_zero ? digits + 1 : std::min(text_.find_first_not_of("+-.0123456789eE", at), text_.size());
   }
 
-  /// What has been read since the last token holds a comma, comments aside.
+  /// Whether a comma outside comments lies between the last token and `at`.
   bool follows_comma(std::size_t at) const {
     for (std::size_t i = end_; i < at; i = std::max(i + 1, skip_comment(text_, i)))
       if (text_[i] == ',') return true;
@@ -161,13 +161,13 @@ class JsonBuilder final : public nlohmann::json_sax<nlohmann::json> {
 
   const std::string_view text_;
   const char* const& furthest_;
-  std::size_t end_ = 0;  // Of the last token.
+  std::size_t end_ = 0;  // End of the last token.
   JsonValue root_;
-  std::vector<JsonValue*> open_;  // The innermost last.
+  std::vector<JsonValue*> open_;  // Open lists and objects, the innermost last.
   std::optional<Mistake> mistake_;
 };
 
-/// What the parser would pass over: it takes a NUL for the end, and does not look into comments.
+/// The first invalid byte that the parser would miss: it takes a NUL for the end and does not check comments.
 static std::optional<Mistake> foreign_byte(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t length = syntax::sequence_length(text.substr(at));

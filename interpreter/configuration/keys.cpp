@@ -15,13 +15,13 @@ static constexpr std::string_view kSeverities[] = {"error", "warning", "info", "
 static constexpr std::string_view kModal[] = {"keep", "write", "fold"};
 static constexpr std::string_view kMachineKinds[] = {"three-axis", "head", "table"};
 
-/// Farther than any machine reaches, and close enough to compute with.
+/// Larger than any machine, and small enough to compute with.
 static constexpr Range kLength = {-1e6, 1e6};
 static constexpr Range kAngle = {-1e5, 1e5};
-/// Slower than any machine, and fast enough that a program ends.
+/// The minimum is slower than any machine, and fast enough that a program ends.
 static constexpr Range kSpeed = {1, 1e7};
 static constexpr Range kAcceleration = {1, 1e6};
-/// From a tenth of a micron.
+/// The minimum is a tenth of a micron.
 static constexpr Range kRounding = {1e-4, 10};
 
 std::optional<int> function_number(std::string_view name) {
@@ -32,7 +32,7 @@ std::optional<int> function_number(std::string_view name) {
   return number >= 1 && dialect::is_user_function(number) ? std::optional(number) : std::nullopt;
 }
 
-/// The keys of an axis: of its home, or of its travel.
+/// The keys of an axis, for its home or its travel.
 struct Axis {
   std::string_view letter;
   bool is_rotary;

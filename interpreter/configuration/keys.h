@@ -16,47 +16,47 @@
 
 namespace isocnc::configuration {
 
-/// What the value of a key is.
+/// The type of a key's value.
 enum class KeyKind : std::uint8_t {
-  Object,   ///< Keys of its own.
-  Objects,  ///< A list of objects, whose keys stand below `PATH[]`.
-  Named,    ///< Objects by names that the author chooses, whose keys stand below `PATH.*`.
+  Object,   ///< An object with its own keys.
+  Objects,  ///< A list of objects, whose keys are listed as `PATH[].KEY`.
+  Named,    ///< Objects with names chosen by the author, whose keys are listed as `PATH.*.KEY`.
   Number,
   Integer,
   Boolean,
   Text,
   Choice,      ///< One of `choices`.
-  Texts,       ///< A list.
+  Texts,       ///< A list of texts.
   Severities,  ///< A severity for each code.
 };
 
-/// What a text, an element of a list or a name is.
+/// The meaning of a text, an element of a list or a name.
 enum class TextKind : std::uint8_t { Any, Code, Pattern, Extension, Function };
 
-/// The numbers that a key takes.
+/// The range of a key's numbers.
 struct Range {
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
-  bool exclusive_minimum = false;  ///< `least` itself is none of them.
+  bool exclusive_minimum = false;  ///< `minimum` itself is not in the range.
 };
 
-/// Where the value of a key is kept: what reading fills and showing reads.
+/// The storage of a key's value, written by the reader and read by --show-config.
 using Slot =
     std::variant<std::monostate, double*, std::optional<double>*, int*, std::optional<int>*, bool*, std::string*,
                  std::optional<dialect::Language>*, std::vector<std::string>*,
                  std::vector<std::pair<std::string, std::string>>*, std::optional<std::vector<Tool>>*,
                  std::optional<std::vector<NamedFunction>>*, std::vector<FileOverrides>*, std::optional<Renumber>*>;
 
-/// What is wrong with an object whose keys are all right, and which of them shows it; empty: the object itself.
+/// A mistake in an object whose keys are all valid, with the key to mark; an empty `member` marks the object itself.
 struct Objection {
   std::string_view member;
   const dialect::Text& text;
 };
 
-/// A row of the table of keys: all that is known of a key. Reading, the JSON schema, the page of keys and
-/// `--show-config` follow from it.
+/// A row of the table of keys, with all facts about a key. The reader, the JSON schema, the documentation and
+/// `--show-config` are derived from it.
 struct Key {
-  std::string path;  ///< `machine.tools[].head`
+  std::string path;  ///< For example `machine.tools[].head`.
   KeyKind kind = KeyKind::Object;
   TextKind text = TextKind::Any;
   Range range;
@@ -64,25 +64,25 @@ struct Key {
   std::span<const std::string_view> choices;
   std::string_view documentation;
   bool is_required = false;
-  bool is_never_empty = false;  ///< A list that would mean nothing without an element.
-  /// Below a list, `index` is the element's.
+  bool is_never_empty = false;  ///< The list must have an element.
+  /// For keys of list elements, `index` is the index of the element.
   std::function<Slot(Configuration& configuration, std::size_t index)> slot;
   std::function<std::optional<Objection>(const Configuration& configuration, std::size_t index)> objection;
 
-  /// `head`
+  /// The last part of the path: `head`.
   std::string_view name() const { return std::string_view(path).substr(path.rfind('.') + 1); }
 };
 
-/// The table. Keys stand behind the one that they belong to.
+/// The table. Keys follow the key of the object they belong to.
 const std::vector<Key>& all_keys();
 
-/// The keys of an object, of the elements of a list or of named objects; empty is the whole file.
+/// The keys of an object, of list elements or of named objects; null means the whole file.
 std::vector<const Key*> keys_below(const Key* key);
 
-/// What the paths of these keys begin with: `machine.tools[].`
+/// The common start of the paths of these keys: `machine.tools[].`
 std::string prefix_of(const Key* key);
 
-/// The number of M100; none when it is no M of the user's (D48).
+/// The number in a name such as M100; none if it is not a user M function (D48).
 std::optional<int> function_number(std::string_view name);
 
 }  // namespace isocnc::configuration

@@ -10,7 +10,7 @@
 
 namespace isocnc::configuration {
 
-/// What a message names: the same in both languages, or not.
+/// A name in a message, equal or different in the two languages.
 struct Named {
   std::string en;
   std::string it;
@@ -21,29 +21,29 @@ struct Named {
   Named(const dialect::Text& text) : en(text.en), it(text.it) {}
 };
 
-/// What is wrong with a configuration file, as data: text is made when it is shown.
+/// A mistake in a configuration file, as data; its text is made when it is shown.
 struct Mistake {
-  std::size_t at = 0;  ///< The byte, from 0.
-  std::string key;     ///< `machine.axes.X.min`; empty when it is the file as a whole.
-  dialect::Text text;  ///< With {0} and {1} for `names`.
+  std::size_t at = 0;  ///< Byte offset, from 0.
+  std::string key;     ///< Path of the key, such as `machine.axes.X.min`; empty for the file as a whole.
+  dialect::Text text;  ///< Message with {0} and {1} for `names`.
   std::vector<Named> names;
-  std::optional<std::string> meant;  ///< What the author may have wanted to write.
+  std::optional<std::string> meant;  ///< Suggested correction.
 
-  /// `machine.axes.X.min: 400 is more than max, 300`
+  /// The message with the key: `machine.axes.X.min: 400 is more than max, 300`.
   std::string message(dialect::Language language) const;
 };
 
-/// A place in a text, from 1; columns in code points.
+/// A position in a text, from 1; columns in code points.
 struct LineColumn {
   std::size_t line = 1;
   std::size_t column = 1;
 };
 LineColumn place_of(std::size_t at, std::string_view text);
 
-/// Text of the file, short enough for a message.
+/// Text of the file, shortened for a message.
 std::string shortened(std::string_view text);
 
-/// All that can be wrong.
+/// Texts of all mistakes.
 namespace mistakes {
 inline constexpr dialect::Text kByteOrderMark = {"a byte-order mark stands here; save the file as UTF-8 without it",
                                                  "qui c'è un byte-order mark: il file va salvato in UTF-8 senza BOM"};

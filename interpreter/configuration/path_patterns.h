@@ -10,21 +10,21 @@
 
 namespace isocnc::configuration {
 
-/// Patterns of paths as gitignore(5) has them, from a folder: one without a slash names files and folders wherever they
-/// are, one with a slash inside is a path from the folder, and one with a slash at its end names folders alone. What
-/// lies in a folder that is named is named, too.
+/// Path patterns as in gitignore(5), relative to a folder. A pattern without a slash matches files and folders at any
+/// depth, one with a slash inside matches a path from the folder, and one with a slash at its end matches folders only.
+/// The content of a matched folder is matched, too.
 class PathPatterns {
  public:
   PathPatterns() = default;
-  /// The folder is absolute and without symlinks. Patterns must be well-formed.
+  /// `folder` is absolute and without symlinks. Patterns must be well-formed.
   PathPatterns(std::filesystem::path folder, const std::vector<std::string>& patterns);
 
   static bool is_well_formed(std::string_view pattern);
 
-  /// Whether a pattern names the path itself. `path` as the folder: absolute. Outside of the folder only patterns
-  /// without a slash name anything.
+  /// Whether a pattern matches the path itself. `path` is absolute, like the folder. Outside the folder only patterns
+  /// without a slash match.
   bool name(const std::filesystem::path& path, bool is_directory) const;
-  /// Whether a pattern names the file, or a folder that it lies in.
+  /// Whether a pattern matches the file or a folder that contains it.
   bool match(const std::filesystem::path& file) const;
 
  private:

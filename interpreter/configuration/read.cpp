@@ -46,7 +46,7 @@ static Json json_of(KeyKind kind) {
   return Json::Object;
 }
 
-/// What has to be said of a text that is not what it should be.
+/// The mistake in a text, with a suggested correction.
 struct Fault {
   Text text;
   std::optional<std::string> meant;
@@ -84,7 +84,8 @@ static std::optional<Fault> fault_of(TextKind kind, std::string_view text) {
   return text.empty() ? std::optional(Fault{mistakes::kEmpty, {}}) : std::nullopt;
 }
 
-/// The one key that is called like this wherever it is, for who wrote it in the wrong place.
+/// The path of the only key with this name, for users who wrote it in the wrong object. None if there is none or more
+/// than one.
 static std::optional<std::string> same_name_elsewhere(std::string_view name) {
   std::optional<std::string> found;
   for (const Key& key : all_keys()) {
@@ -105,7 +106,7 @@ static std::optional<std::string> meant_key(std::string_view written, const std:
 
 namespace {
 
-/// Compares a tree of values with the table of keys, and puts what agrees into its slots.
+/// Compares a tree of values with the table of keys, and stores the valid ones in their slots.
 class Reader {
  public:
   Reader(std::string_view text, ReadConfiguration& result) : text_(text), result_(result) {}
@@ -116,10 +117,10 @@ class Reader {
   }
 
  private:
-  /// The keys of one object so far, with where they stand.
+  /// The keys of one object so far, with their offsets.
   using SeenKeys = std::unordered_map<std::string_view, std::size_t>;
 
-  /// Nobody reads on behind a hundred mistakes, and to look for what was meant takes its time.
+  /// Limits the list to a hundred mistakes: users read no more, and searching corrections takes time.
   bool is_full() const { return result_.mistakes.size() >= 100; }
 
   void complain(std::size_t at, const std::string& key, const Text& text, std::vector<Named> names = {},
@@ -159,7 +160,7 @@ class Reader {
     }
   }
 
-  /// An object, an element of a list or a named object: its keys, and then what only all of them show.
+  /// Reads an object, a list element or a named object: first its keys, then conditions on several keys.
   void read_object(const Key& key, const JsonValue& object, const std::string& path, std::size_t index) {
     const std::size_t before = result_.mistakes.size();
     read_members(object, &key, path, index);
@@ -201,7 +202,7 @@ class Reader {
     return is_duplicate(member, member.key, seen, path);
   }
 
-  /// By a name that means the same.
+  /// Reports a key that occurs twice, also under an equivalent name.
   bool is_duplicate(const JsonMember& member, std::string_view name, SeenKeys& seen, const std::string& path) {
     const auto [first, is_new] = seen.try_emplace(name, member.at);
     if (!is_new)
@@ -228,7 +229,7 @@ class Reader {
     }
   }
 
-  /// Returns its index.
+  /// Adds an element to the list and returns its index.
   static std::size_t add_element(const Slot& slot) {
     if (const auto* const tools = std::get_if<std::optional<std::vector<Tool>>*>(&slot)) {
       (*tools)->value().emplace_back();
@@ -314,7 +315,8 @@ class Reader {
     for (const JsonMember& member : object.members) {
       if (is_full()) return;
       const std::string below = path + "." + member.key;
-      const std::optional<dialect::DiagnosticId> id = dialect::find_diagnostic(member.key);  // ISO031 by code or name.
+      // A diagnostic by code (ISO031) or name.
+      const std::optional<dialect::DiagnosticId> id = dialect::find_diagnostic(member.key);
       const std::string_view name = id ? dialect::definition(*id).code : member.key;
       if (is_duplicate(member, name, seen, below) || !is_right(key.text, member.key, member.at, below)) continue;
       if (member.value.kind != Json::String) {
@@ -331,7 +333,7 @@ class Reader {
 
 }  // namespace
 
-/// What the simulated machine is told, in its units.
+/// Sets the members of the simulated machine, in its units.
 static void derive_motion(Machine& machine) {
   motion::Machine& motion = machine.timed.motion;
   motion.kinematics.kind = machine.kind == "head"    ? motion::MachineKind::Head
@@ -355,7 +357,7 @@ static void derive_motion(Machine& machine) {
     machine.timed.durations.functions[function.number] = function.seconds;
 }
 
-/// What is kept in a second form, for those who use it.
+/// Sets the members derived from others.
 static void derive(Configuration& configuration, const std::filesystem::path& folder) {
   Machine& machine = configuration.machine;
   if (machine.tools) {

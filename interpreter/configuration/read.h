@@ -8,15 +8,15 @@
 
 namespace isocnc::configuration {
 
-/// No configuration is longer, in bytes.
+/// Maximum size of a configuration, in bytes.
 inline constexpr std::size_t kLongestFile = 1024 * 1024;
 
 struct ReadConfiguration {
-  Configuration configuration;    ///< To go by when there is no mistake.
-  std::vector<Mistake> mistakes;  ///< In the order of the text; the first hundred.
+  Configuration configuration;    ///< Valid if there are no mistakes.
+  std::vector<Mistake> mistakes;  ///< The first hundred, in the order of the text.
 };
 
-/// Reads the text of an isocnc.json. Its patterns of paths start at `folder`, absolute and without symlinks.
+/// Reads the text of an isocnc.json. Its path patterns are relative to `folder`, absolute and without symlinks.
 ReadConfiguration read_configuration(std::string_view text, const std::filesystem::path& folder);
 
 }  // namespace isocnc::configuration

@@ -15,7 +15,7 @@ namespace isocnc::configuration {
 
 using nlohmann::ordered_json;
 
-/// 100, not 100.0.
+/// Whole numbers as 100, not 100.0.
 static ordered_json number(double value) {
   if (std::floor(value) == value && std::abs(value) < 1e15) return static_cast<std::int64_t>(value);
   return value;
@@ -45,7 +45,7 @@ static std::optional<ordered_json> value_in(const std::vector<std::pair<std::str
   for (const auto& [code, severity] : *severities) object[code] = severity;
   return object;
 }
-/// Objects have their keys in the table; here it only matters whether they are there.
+/// Objects have their keys in the table; only their presence matters here.
 template <typename T>
 static std::optional<ordered_json> value_in(const T* /*objects*/) {
   return std::nullopt;
@@ -94,7 +94,7 @@ static ordered_json object_of(Configuration& configuration, const Key* key, std:
 }
 
 std::string to_json(const Configuration& configuration) {
-  Configuration copy = configuration;  // Slots are for writing as well.
+  Configuration copy = configuration;  // A copy, since slots are writable.
   return object_of(copy, nullptr, 0).dump(2) + "\n";
 }
 
@@ -119,7 +119,7 @@ static ordered_json text_schema(TextKind kind) {
   return schema;
 }
 
-/// Codes and names to choose from, and beginnings of codes, which may be shorter than any.
+/// The schema of codes and names, and of prefixes, which may be shorter than any code.
 static ordered_json code_schema() {
   ordered_json names = {"ALL"};
   for (const dialect::DiagnosticDef& def : dialect::kDiagnostics) {
@@ -142,7 +142,7 @@ static std::string description_of(const Key& key) {
 
 static ordered_json schema_of(const Key* key);
 
-/// What an object may hold.
+/// The schema of an object's members.
 static ordered_json members_schema(const Key* key) {
   ordered_json schema = {{"type", "object"}, {"additionalProperties", false}, {"properties", ordered_json::object()}};
   ordered_json required = ordered_json::array();
@@ -208,7 +208,7 @@ std::string json_schema() {
   return schema.dump(2) + "\n";
 }
 
-/// The value of the key without any file.
+/// The default of the key.
 static std::string default_of(const Key& key) {
   if (key.path.find("[]") != std::string::npos || key.path.find('*') != std::string::npos) return "";
   Configuration none;
@@ -246,7 +246,7 @@ std::string key_page() {
     if (key.path.starts_with("machine.")) continue;
     if (key.path == "machine")
       page += "| `machine` | object |  | The machine that programs are written for: [all its keys](machine.md). |\n";
-    else if (key.kind != KeyKind::Object || key.slot)  // Only the keys of other objects mean anything.
+    else if (key.kind != KeyKind::Object || key.slot)  // Other objects have rows for their keys only.
       page += row_of(fmt::format("`{}`", key.path), key, default_of(key));
   }
   return page;
@@ -255,7 +255,7 @@ std::string key_page() {
 /// The path without its last part: `machine.axes.X` of `machine.axes.X.min`.
 static std::string_view parent_of(const Key& key) { return std::string_view(key.path).substr(0, key.path.rfind('.')); }
 
-/// Keys that differ by their axis alone share a row, each with its default if those differ.
+/// The rows of keys. Keys that differ only in their axis share a row, with each default if those differ.
 static std::string rows_of(const std::vector<const Key*>& keys, std::size_t prefix) {
   const auto alike = [](const Key& a, const Key& b) {
     return kind_of(a) == kind_of(b) && a.documentation == b.documentation && a.is_required == b.is_required;
@@ -278,7 +278,7 @@ static std::string rows_of(const std::vector<const Key*>& keys, std::size_t pref
   return rows;
 }
 
-/// The key's own section: what it is, and the table of the keys below it that have no section.
+/// The key's section: its documentation, and the table of its keys that have no section.
 static std::string section_of(const Key& section) {
   const std::string prefix = prefix_of(&section);
   std::vector<const Key*> keys;
@@ -290,7 +290,7 @@ static std::string section_of(const Key& section) {
                      rows_of(keys, prefix.size()));
 }
 
-/// Stands below the table of machine.kinematics.
+/// Text after the table of machine.kinematics.
 static constexpr std::string_view kMeasuringAHead = R"(
 ### Measuring a head
 

@@ -8,22 +8,22 @@
 
 namespace isocnc::configuration {
 
-/// The configuration as an isocnc.json that says all of it; what has no value in force is left out.
+/// The configuration as a complete isocnc.json; keys without a value are omitted.
 std::string to_json(const Configuration& configuration);
 
 /// The schema of isocnc.json: JSON Schema, draft 7.
 std::string json_schema();
 
-/// All keys but those of the machine, as a table of Markdown.
+/// All keys except those of the machine, as a Markdown table.
 std::string key_page();
 
 /// docs/machine.md: all keys of the machine, section by section.
 std::string machine_page();
 
-/// A key of isocnc.json that a code goes by: `lint.options.longestDwell`, `120 s`.
+/// A key of isocnc.json that affects a code: `lint.options.longestDwell`, `120 s`.
 struct CodeOption {
   std::string path;
-  std::string fallback;  ///< What holds without the key; empty: nothing.
+  std::string fallback;  ///< Default value; empty if there is none.
 };
 
 /// The keys whose documentation names the code.
