@@ -5,7 +5,7 @@
 
 namespace isocnc::plot {
 
-/// JSON that may stand in HTML.
+/// Escapes JSON for use in HTML.
 static std::string without_tags(std::string json) {
   for (std::size_t at = json.find('<'); at != std::string::npos; at = json.find('<', at))
     json.replace(at, 1, "\\u003c");

@@ -12,13 +12,13 @@ namespace isocnc::plot {
 
 using Json = nlohmann::ordered_json;
 
-/// What the first byte of a step says beside its kind. A number follows for each bit that is set, in this order.
+/// Flags in the first byte of a step, besides its kind. For each flag that is set a number follows, in this order.
 enum StepBits : std::uint8_t {
-  kOtherLine = 0x04,   ///< How many lines further on, if not one.
-  kOtherTool = 0x08,   ///< Which.
-  kOtherFeed = 0x10,   ///< By how much it differs, signed.
+  kOtherLine = 0x04,   ///< Number of lines forward, if not one.
+  kOtherTool = 0x08,   ///< Index of the tool.
+  kOtherFeed = 0x10,   ///< Difference to the last feed, signed.
   kPause = 0x20,       ///< Time since the last point.
-  kPointCount = 0x40,  ///< How many points, if not one.
+  kPointCount = 0x40,  ///< Number of points, if not one.
 };
 
 PathRecording::PathRecording(const PlotSubject& subject, const simulation::TimedMachine& machine)
@@ -59,7 +59,7 @@ void PathRecording::add(const ToolpathStep& step) {
   for (const ToolpathPoint& point : step.points.subspan(1)) add(place(point), point.time);
 }
 
-/// By how much it differs from the last one.
+/// Writes the difference to the last point.
 void PathRecording::add(const Place& place, double time) {
   for (std::size_t axis = 0; axis < 3; ++axis) points_.put_signed(place.tip[axis] - last_.tip[axis]);
   points_.put(static_cast<std::uint64_t>(std::max<std::int64_t>(0, in_units(time - last_time_, 1e-8))));

@@ -10,23 +10,23 @@
 
 namespace isocnc::plot {
 
-/// The way of the tool tip in few bytes, each step and point by how much it differs from the one before: what
-/// toolpath-view/src/toolpath.ts reads, in the page of isorun --plot and in an editor.
+/// The path of the tool tip in a compact form: each step and point as its difference to the previous one.
+/// toolpath-view/src/toolpath.ts reads it, in the page of isorun --plot and in an editor.
 class PathRecording {
  public:
-  /// Both must outlive it. Of the subject its program and page are not asked for.
+  /// Both must outlive this object. The program and page of the subject are not used.
   PathRecording(const PlotSubject& subject, const simulation::TimedMachine& machine);
 
   void add(const ToolpathStep& step);
 
   std::string_view steps() const { return steps_.bytes(); }
   std::string_view points() const { return points_.bytes(); }
-  std::string_view turns() const { return turns_.bytes(); }  ///< Of B and C, where they turn.
-  /// What is neither path nor program text, as JSON.
+  std::string_view turns() const { return turns_.bytes(); }  ///< Rotations of B and C, where they turn.
+  /// All other data of the plot except the program text, as JSON.
   std::string facts(const Toolpath& path, const running::RunResult& result) const;
 
  private:
-  /// Whole units of what is written: µm, 0.0001 degrees, 0.001 mm/s, 0.001 mm/min.
+  /// A point in the units of the recording: µm, 0.0001 degrees, 0.001 mm/s, 0.001 mm/min.
   struct Place {
     std::array<std::int64_t, 3> tip{};
     std::int64_t b = 0;
@@ -44,8 +44,8 @@ class PathRecording {
   PackedBytes turns_;
   Place home_;
   Place last_;
-  /// Times are told in units of 10 ns since the one before, not since the start: so a second more at the begin changes
-  /// one number.
+  /// Times are stored as differences to the previous point, in units of 10 ns, so that a shift at the start changes
+  /// only one number.
   double last_time_ = 0;
   std::uint64_t last_line_ = 0;
   std::uint64_t last_tool_ = 0;

@@ -12,7 +12,7 @@
 
 namespace isocnc::plot {
 
-/// A tool as the machine's file describes it; mm.
+/// A tool as described in the machine file; mm.
 struct PlotTool {
   execution::ToolCode code;
   std::string name;
@@ -20,26 +20,26 @@ struct PlotTool {
   std::optional<double> radius;
 };
 
-/// What a plot shows besides the path.
+/// The data that a plot shows besides the path.
 struct PlotSubject {
-  std::string name;          ///< Of the program; may hold anything.
+  std::string name;          ///< Name of the program; may contain any characters.
   std::string_view program;  ///< Its text.
-  geometry::Pose home;       ///< Where the machine starts.
+  geometry::Pose home;       ///< Position of the machine at the start.
   std::vector<PlotTool> tools;
-  std::string_view page;  ///< What a PlotFormat::Html is made of: kPageTemplate.
+  std::string_view page;  ///< Template for PlotFormat::Html: kPageTemplate.
   dialect::Language language = dialect::Language::English;
 };
 
-/// One way to draw a path.
+/// A drawing of a path in one format.
 class Picture {
  public:
   virtual ~Picture() = default;
   virtual void add(const ToolpathStep& step) = 0;
-  /// All of it, once the run is over.
+  /// Writes the whole picture after the end of the run.
   virtual void write(system::OutputFile& output, const Toolpath& path, const running::RunResult& result) = 0;
 };
 
-/// `T102003`, and what the machine's file calls it: `T102003 fresa D20`.
+/// The tool with its name in the machine file: `T102003 fresa D20`; without a name `T102003`.
 std::string shown_tool(const execution::ToolCode& tool, const std::vector<PlotTool>& known);
 
 }  // namespace isocnc::plot

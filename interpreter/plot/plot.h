@@ -16,10 +16,10 @@ namespace isocnc::plot {
 
 enum class PlotFormat : std::uint8_t { Svg, Html };
 
-/// By how the name of a file ends: .svg, .html or .htm, in capitals, too.
+/// The format for a file name by its extension: .svg, .html or .htm, upper case too.
 std::optional<PlotFormat> plot_format(std::string_view file_name);
 
-/// Listens to a run and draws the way of the tool tip.
+/// Receives the events of a run and draws the path of the tool tip.
 class Plot {
  public:
   Plot(PlotFormat format, const PlotSubject& subject, const simulation::TimedMachine& machine);

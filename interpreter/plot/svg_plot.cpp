@@ -13,21 +13,21 @@ namespace isocnc::plot {
 using dialect::Text;
 using geometry::Vec3;
 
-/// Of each view in the picture, pixels; what is drawn leaves room at its edge for letters.
+/// Sizes of the picture in pixels; in each view the drawing leaves a margin for letters.
 static constexpr double kViewSize = 640;
 static constexpr double kDrawnSize = 580;
 static constexpr double kMargin = 24;
 static constexpr double kTitleHeight = 56;
 static constexpr double kLegendRow = 20;
 static constexpr double kLegendTop = kTitleHeight + kViewSize + kMargin + kLegendRow;
-/// Of a frame's axes, pixels.
+/// Length of a frame's axes, pixels.
 static constexpr double kArm = 26;
-/// What is smaller is not blown up further, mm.
+/// Minimum extent that fills the view, mm; smaller drawings are not enlarged further.
 static constexpr double kMinExtent = 20;
-/// What is shorter on the sheet is seen from its end, mm.
+/// Maximum length in the view at which a move is drawn as a point, mm.
 static constexpr double kPoint = 1e-3;
 
-/// Told apart with every kind of color vision.
+/// Colors that are distinct with every kind of color vision.
 static constexpr std::string_view kColors[] = {"#6b7280", "#0072B2", "#D55E00", "#009E73",
                                                "#CC79A7", "#B8860B", "#56B4E9", "#000"};
 static constexpr std::string_view kAxisColors[] = {"#c2410c", "#15803d", "#1d4ed8"};
@@ -83,8 +83,8 @@ void SvgPlot::View::draw(const Style& style, const Vec3& from, const Vec3& to) {
   pen = end;
 }
 
-/// Whether the way from `from` to `to` leads over `point`, which is then no place to draw: the machine only changes its
-/// speed there.
+/// Whether the path from `from` to `to` passes through `point`. The machine only changes its speed there, so the point
+/// need not be drawn.
 static bool leads_over(const Vec3& point, const Vec3& from, const Vec3& to) {
   const Vec3 way = to - from;
   return (point - from).cross(way).norm() <= kPoint / 10 * way.norm() && (point - from).dot(way) > 0 &&
@@ -121,7 +121,7 @@ std::string SvgPlot::frames_drawn(const View& view, const Toolpath& path) {
   return svg;
 }
 
-/// In the middle of its square.
+/// Draws the view in the center of its square.
 std::string SvgPlot::drawn(const View& view, const Toolpath& path, double left) {
   const double scale = view.scale();
   std::string svg = fmt::format("<g transform=\"translate({:.2f} {:.2f}) scale({:.6g}) translate({:.3f} {:.3f})\">\n",
@@ -139,7 +139,7 @@ std::string SvgPlot::drawn(const View& view, const Toolpath& path, double left) 
   return svg + frames_drawn(view, path) + "</g>\n";
 }
 
-/// A length of 1, 2 or 5 and zeros that is no more than a quarter of the view.
+/// The greatest length of the form 1, 2 or 5 times a power of ten that is at most `maximum`.
 static double round_length(double maximum) {
   const double power = std::pow(10, std::floor(std::log10(maximum)));
   for (const double digit : {5.0, 2.0})

@@ -9,9 +9,9 @@
 
 namespace isocnc::plot {
 
-/// The path from above and in isometric view, machine coordinates, mm, as an SVG document. Rapids are dashed, arcs
-/// drawn thicker than lines, strokes along the view are dots, and each tool has a color that people see who tell red
-/// from green badly.
+/// The path from above and in isometric view, machine coordinates, mm, as an SVG document. Rapids are dashed, arcs are
+/// thicker than lines, moves along the view are dots, and the colors of the tools suit people with red-green color
+/// blindness.
 class SvgPlot final : public Picture {
  public:
   /// `subject` must outlive it.
@@ -25,18 +25,18 @@ class SvgPlot final : public Picture {
     double x = 0;
     double y = 0;
   };
-  /// What is drawn alike; in the order of drawing.
-  using Style = std::pair<StepKind, std::size_t>;  ///< With its tool.
+  /// A drawing style: kind of step and tool. Sorted by drawing order.
+  using Style = std::pair<StepKind, std::size_t>;
 
-  /// What one view shows; y grows downwards.
+  /// The content of one view; y increases downward.
   struct View {
     Point (*project)(const geometry::Vec3& point);
     Point minimum;
     Point maximum;
     bool is_empty = true;
-    std::map<Style, std::string> paths;       ///< `d` of the paths.
-    std::map<std::size_t, std::string> dots;  ///< By tool: feed moves that are seen as a point.
-    Style last{};                             ///< Whose path the pen is on.
+    std::map<Style, std::string> paths;       ///< Attribute `d` of the paths.
+    std::map<std::size_t, std::string> dots;  ///< Feed moves that appear as a point, by tool.
+    Style last{};                             ///< Style of the path at the pen.
     Point pen;
 
     void include(const Point& point);

@@ -10,12 +10,12 @@ namespace isocnc::plot {
 using geometry::Pose;
 using geometry::Vec3;
 
-/// So many points may be left out in a row; looking at them again costs time. The middles of the planner's pieces are
-/// among them, so that what is left out is true between their ends, too.
+/// Maximum number of points left out in a row; checking them again costs time. They include the middles of the
+/// planner's pieces, so that the path is also accurate between the ends.
 static constexpr std::size_t kMaxSkipped = 64;
-/// A part of a curve turns by no more, nor B or C, so that its middle tells how far it bends.
+/// Maximum turn of a part of a curve, also of B and C, degrees; its middle then shows how far it bends.
 static constexpr double kPartDeg = 10;
-/// Halvings of such a part at most.
+/// Maximum number of halvings of such a part.
 static constexpr int kMaxHalvings = 10;
 static constexpr int kMaxParts = 1'000;
 
@@ -29,7 +29,7 @@ static Pose between(const Pose& a, const Pose& b, double part) {
   return {a.tip + part * (b.tip - a.tip), a.b + part * (b.b - a.b), a.c + part * (b.c - a.c)};
 }
 
-/// Part of the way after a part of the time.
+/// The part of the path covered after a part of the time.
 static double way(double part, double speed0, double speed1) {
   const double sum = speed0 + speed1;
   return sum > 0 ? part * (2 * speed0 + part * (speed1 - speed0)) / sum : part;
@@ -44,14 +44,14 @@ static double distance_from_line(const Vec3& point, const Vec3& from, const Vec3
   return (from + part * line - point).norm();
 }
 
-/// Whether a way at a constant acceleration has the speeds at its ends.
+/// Whether a motion at a constant acceleration fits the speeds at its ends.
 static bool fits_speeds(const ToolpathPoint& from, const ToolpathPoint& to, double tolerance) {
   const double length = (to.pose.tip - from.pose.tip).norm();
   const double turn = std::hypot(to.pose.b - from.pose.b, to.pose.c - from.pose.c);
   return std::abs((from.speed + to.speed) / 2 * (to.time - from.time) - (length > 0 ? length : turn)) <= tolerance;
 }
 
-/// Whether the straight way leads by `point`, in place and time.
+/// Whether the straight path passes `point`, in position and time.
 bool Toolpath::leads_by(const ToolpathPoint& point, const ToolpathPoint& from, const ToolpathPoint& to) const {
   const double part = (point.time - from.time) / (to.time - from.time);
   const Pose expected = between(from.pose, to.pose, way(part, from.speed, to.speed));
@@ -60,7 +60,7 @@ bool Toolpath::leads_by(const ToolpathPoint& point, const ToolpathPoint& from, c
          distance_from_line(point.pose.tip, from.pose.tip, to.pose.tip) <= tolerance_.across / 2;
 }
 
-/// Whether all that was skipped may be.
+/// Whether all skipped points may be left out.
 bool Toolpath::may_skip_to(const ToolpathPoint& point) const {
   const ToolpathPoint& from = points_.back();
   return fits_speeds(from, point, tolerance_.along / 2) &&
@@ -79,7 +79,7 @@ void Toolpath::keep_last() {
   skipped_.clear();
 }
 
-/// Of the tip, or of B and C where it rests.
+/// Speed of the tip, or of B and C if it rests.
 static double speed_along(const motion::Coordinates& slope) {
   const double linear = slope.head<3>().norm();
   return linear > 0 ? linear : slope.tail<2>().norm();
@@ -96,7 +96,7 @@ static bool is_straight(const motion::Path& path) {
   return path.kind == motion::PathKind::Polynomial && !path.is_of_joints && path.c[2].isZero(0) && path.c[3].isZero(0);
 }
 
-/// From a point already gone to, to one behind it.
+/// Adds the curve from a point already added to a later one.
 void Toolpath::add_curve(const motion::Path& path, const motion::Phase& phase, double start, double from, double to,
                          int depth) {
   const ToolpathPoint begin = point_at(path, phase, start, from);
@@ -110,7 +110,7 @@ void Toolpath::add_curve(const motion::Path& path, const motion::Phase& phase, d
   add_curve(path, phase, start, (from + to) / 2, to, depth - 1);
 }
 
-/// Degrees.
+/// Angle of the circle, degrees.
 static double turn_of_circle(const motion::Path& path, const motion::Phase& phase) {
   if (path.kind != motion::PathKind::Circle) return 0;
   return std::abs(path.omega) * (phase.after(phase.duration).from - phase.from) * 180 / std::numbers::pi;
@@ -164,7 +164,7 @@ void Toolpath::add(const simulation::TimedEvent& timed) {
   points_.front().pose = end;
 }
 
-/// What has been gone through since the last step is this one.
+/// Ends a step with the points since the last one.
 void Toolpath::add_step(const simulation::TimedEvent& timed, StepKind kind, double feed) {
   keep_last();
   if (points_.size() == 1) points_.front().time = timed.start;
@@ -172,7 +172,7 @@ void Toolpath::add_step(const simulation::TimedEvent& timed, StepKind kind, doub
   points_ = {points_.back()};
 }
 
-/// The joints stand still while a tool is changed: the tip is where the new one ends. Returns that.
+/// Mounts a tool while the joints stand still, and returns the new position of the tip.
 Pose Toolpath::mount(execution::ToolCode tool) {
   const motion::Kinematics& kinematics = machine_.motion.kinematics;
   const motion::Coordinates joints = motion::inverse(kinematics, motion::coordinates(points_.front().pose),
