@@ -56,7 +56,7 @@ ProgramOption ProgramOption::check(std::function<std::string(const std::string&,
 
 ProgramOption ProgramOption::hidden() const { return with(option_->group("")); }
 
-/// By `--lang`, else by the environment. What follows -- is no option.
+/// The language given by `--lang`, otherwise by the environment. Words after -- are not options.
 static Language language_of_command(int argc, const char* const* argv) {
   if (argc > 1 && std::string_view(argv[1]) == "--manual-page") return Language::English;
   for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i) {
@@ -84,7 +84,7 @@ ProgramApp::ProgramApp(int argc, const char* const* argv, const Text& descriptio
 
 ProgramApp::~ProgramApp() = default;
 
-/// The library's own words in --help.
+/// Translates the library's own words in --help.
 void ProgramApp::speak_italian() {
   static constexpr std::pair<const char*, const char*> kLabels[] = {
       {"Usage", "Uso"}, {"Positionals", "Argomenti"}, {"OPTIONS", "OPZIONI"}, {"Options", "Opzioni"}};
@@ -106,7 +106,7 @@ ProgramOption ProgramApp::add_option(const std::string& names, Value& value, con
   return option;
 }
 
-// All kinds of values that the programs take.
+// All types of values that the programs take.
 template ProgramOption ProgramApp::add_option(const std::string&, std::string&, const Text&, const Text&);
 template ProgramOption ProgramApp::add_option(const std::string&, std::optional<std::string>&, const Text&,
                                               const Text&);
@@ -125,7 +125,8 @@ static std::string no_such_choice(const std::string& given, const std::vector<st
                                   Language language) {
   static constexpr Text kOnly = {"there is no {}, only {}{}", "{} non c'è, solo {}{}"};
   const bool is_number = !given.empty() && given.find_first_not_of("0123456789") == std::string::npos;
-  const auto meant = is_number ? std::nullopt : dialect::nearest_name(given, choices);  // 99 is as near to 9 as to 19.
+  // No suggestion for numbers: 99 is as near to 9 as to 19.
+  const auto meant = is_number ? std::nullopt : dialect::nearest_name(given, choices);
   return dialect::format(kOnly, language, given, fmt::join(choices, ", "), dialect::did_you_mean(meant, language));
 }
 
@@ -156,7 +157,7 @@ ProgramApp::CommandReply ProgramApp::read(int argc, const char* const* argv) {
     std::ostringstream said;
     app_->exit(success, said, said);
     std::string answer = said.str();
-    // The library separates groups by two empty lines: screens are short.
+    // The library separates groups by two empty lines; one saves space on the screen.
     for (std::size_t at = 0; (at = answer.find("\n\n\n", at)) != std::string::npos;) answer.erase(at, 1);
     return {.answer = std::move(answer), .complaint = {}};
   } catch (const CLI::ParseError& error) {
@@ -179,10 +180,10 @@ using Options = std::vector<const CLI::Option*>;
 
 static bool is_given(const CLI::Option& option) { return option.count() > 0; }
 
-/// Two options, where one has something to do with the other.
+/// Two related options.
 using Pair = std::pair<const CLI::Option*, const CLI::Option*>;
 
-/// The first two options that are given, and exclude each other.
+/// The first two given options that exclude each other.
 static std::optional<Pair> excluded_pair(const Options& options) {
   for (const CLI::Option* const option : options)
     if (is_given(*option))
@@ -191,7 +192,7 @@ static std::optional<Pair> excluded_pair(const Options& options) {
   return std::nullopt;
 }
 
-/// The first option that is given without another that it needs.
+/// The first given option whose required option is missing, with that option.
 static std::optional<Pair> lonely_pair(const Options& options) {
   for (const CLI::Option* const option : options)
     if (is_given(*option))
@@ -207,7 +208,7 @@ static const CLI::Option* missing_option(const Options& options) {
   return missing == options.end() ? nullptr : *missing;
 }
 
-/// The first option that takes one value, and has been given several.
+/// The first option with one value that is given several.
 static const CLI::Option* repeated_option(const Options& options) {
   const auto repeated = std::find_if(options.begin(), options.end(), [](const CLI::Option* option) {
     return takes_value(*option) &&
@@ -216,7 +217,7 @@ static const CLI::Option* repeated_option(const Options& options) {
   return repeated == options.end() ? nullptr : *repeated;
 }
 
-/// The option of the command that is followed by no value, though it takes one.
+/// The option of the command that needs a value but has none.
 const CLI::Option* ProgramApp::option_without_value() const {
   for (std::size_t i = 0; i < command_.size() && command_[i] != "--"; ++i) {
     if (!command_[i].starts_with('-')) continue;
@@ -246,8 +247,8 @@ std::string ProgramApp::no_such_option(const std::string& word) const {
                      dialect::did_you_mean(dialect::nearest_name(given, names), language_));
 }
 
-/// What is wrong with the command, in the reader's language. The library's exception tells the kind of the fault; what
-/// it is about is looked up in the options, so that no sentence of the library is read.
+/// The error of the command, in the user's language. The library's exception gives the kind of the error; its subject
+/// is looked up in the options, so that no sentence of the library is parsed.
 std::string ProgramApp::complaint_about(const CLI::ParseError& error) const {
   static constexpr Text kExclude = {"{} excludes {}", "{} e {} si escludono"};
   static constexpr Text kNeeds = {"{} requires {}", "{} richiede {}"};
@@ -275,7 +276,7 @@ std::string ProgramApp::complaint_about(const CLI::ParseError& error) const {
     if (const auto* const option = option_without_value())
       return dialect::format(kNoValue, language_, option->get_name());
   }
-  return error.what();  // The name of an option, and what its check says of the value.
+  return error.what();  // The name of an option, and the message of its check.
 }
 
 std::string ProgramApp::completions(std::string_view word, std::string_view previous) const {
@@ -285,7 +286,7 @@ std::string ProgramApp::completions(std::string_view word, std::string_view prev
   if (before != nullptr && takes_value(*before)) {
     const auto words = words_.find("--" + before->get_lnames().front());
     if (words == words_.end()) return lines;
-    const std::size_t last = word.find_last_of(',') + 1;  // 0 where there is no comma.
+    const std::size_t last = word.find_last_of(',') + 1;  // 0 if there is no comma.
     for (const std::string_view each : words->second)
       if (dialect::begins_with(each, word.substr(last))) lines += fmt::format("{}{}\n", word.substr(0, last), each);
     return lines;
@@ -299,7 +300,7 @@ std::string ProgramApp::completions(std::string_view word, std::string_view prev
   return lines;
 }
 
-/// Dashes as they are typed, and no line that begins as a request would.
+/// Escapes dashes, and lines that start like a roff request.
 static std::string roff(std::string_view text) {
   std::string escaped;
   for (const char c : text) {

@@ -19,7 +19,7 @@ using system::ExitStatus;
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): an exception that nobody handles brings none.
 static std::string_view running_program;
 
-/// Tells of the exception that is being handled, or of the one that nobody handles; asks for no memory.
+/// Prints the current exception, handled or not; allocates no memory.
 static void report_failure() {
   try {
     if (const std::exception_ptr failure = std::current_exception()) std::rethrow_exception(failure);
@@ -31,7 +31,7 @@ static void report_failure() {
   }
 }
 
-/// Of a thread among several, whose exception cannot come to the others.
+/// Ends the program after an uncaught exception in one of several threads.
 [[noreturn]] static void end_in_trouble() {
   report_failure();
   system::remove_temporary_files();

@@ -27,7 +27,7 @@ void Progress::add(std::uint64_t bytes) {
   const std::uint64_t done = done_ += bytes;
   if (!write_ || total_ == 0) return;
   const std::unique_lock lock(mutex_, std::try_to_lock);
-  if (!lock) return;  // Somebody else is drawing.
+  if (!lock) return;  // Another thread is drawing.
   const Clock::time_point now = now_();
   if (now < next_) return;
   next_ = now + kPace;
@@ -45,7 +45,7 @@ std::function<void(std::string_view)> terminal_writer() {
   const char* const terminal = std::getenv("TERM");  // NOLINT(concurrency-mt-unsafe): nobody sets it.
   if (isatty(STDERR_FILENO) == 0 || !terminal || std::string_view(terminal) == "dumb") return {};
   return [](std::string_view text) {
-    // A bar that cannot be drawn is no reason to stop.
+    // A failure to draw the bar is ignored.
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
   };
 }

@@ -10,21 +10,21 @@
 
 namespace isocnc::command_line {
 
-/// A bar on the terminal, from half a second on, drawn ten times a second at most. For any number of threads.
+/// A progress bar on the terminal, shown after half a second and drawn at most ten times a second. Thread-safe.
 class Progress {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `write` puts text on the terminal; without it nothing is shown.
+  /// `write` prints text on the terminal; without it nothing is shown.
   Progress(std::function<void(std::string_view)> write, std::uint64_t total_bytes,
            std::function<Clock::time_point()> now = Clock::now);
   ~Progress() { clear(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// So many bytes more have been checked.
+  /// Adds a number of checked bytes.
   void add(std::uint64_t bytes);
-  /// Takes the bar away, before anything else is written.
+  /// Erases the bar; call it before other output.
   void clear();
 
  private:
@@ -35,11 +35,12 @@ class Progress {
   const std::uint64_t total_;
   std::atomic<std::uint64_t> done_ = 0;
   std::mutex mutex_;
-  Clock::time_point next_;  // With all below: guarded by mutex_.
+  Clock::time_point next_;  // Guarded by mutex_, like the members below.
   bool is_drawn_ = false;
 };
 
-/// Writes to standard error where that is a terminal that can erase a line; else nothing.
+/// Returns a function that writes to standard error if that is a terminal that can erase a line; otherwise an empty
+/// one.
 std::function<void(std::string_view)> terminal_writer();
 
 }  // namespace isocnc::command_line

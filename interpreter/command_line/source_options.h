@@ -6,7 +6,7 @@
 
 namespace isocnc::command_line {
 
-/// `--config FILE`, described so, and `--no-config`.
+/// Adds `--config FILE` with this description, and `--no-config`.
 void add_source_options(command_line::ProgramApp& program, configuration::Source& source,
                         const dialect::Text& description);
 
