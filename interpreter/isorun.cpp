@@ -36,7 +36,7 @@ using dialect::Text;
 
 using system::ExitStatus;
 
-/// As they stand on the command line. Numbers are read later, when the language to complain in is known.
+/// The options of the command line as text. Numbers are parsed later, when the language of error messages is known.
 struct Options {
   std::string file;
   std::string trace;
@@ -59,14 +59,14 @@ struct Options {
     return dialect::language_named(language).value_or(dialect::language_of_environment());
   }
   bool reads_stdin() const { return file == "-"; }
-  /// As a name that the system knows.
+  /// The path of the program file for the system.
   std::string program_file() const { return reads_stdin() ? "/dev/stdin" : file; }
   std::string shown_file() const { return reads_stdin() ? "<stdin>" : file; }
 };
 
 void complain(std::string_view what) { command_line::complain("isorun", what); }
 
-/// A number as programs write it, and nothing else: sign, digits, point.
+/// Parses a number as in programs, with sign, digits and point only.
 std::optional<double> read_decimal(std::string_view text) {
   if (text.empty() || text.find_first_not_of("+-.0123456789") != std::string_view::npos) return std::nullopt;
   const syntax::Number number = syntax::scan_number(text.data(), text.data() + text.size());
@@ -74,7 +74,7 @@ std::optional<double> read_decimal(std::string_view text) {
   return number.value;
 }
 
-/// A number from 1, of digits alone; none when it is more than `most`.
+/// Parses a number from 1 to `maximum`, of digits only; otherwise none.
 std::optional<std::uint64_t> read_count(std::string_view text, std::uint64_t maximum) {
   std::uint64_t count = 0;
   const char* const end = text.data() + text.size();
@@ -83,7 +83,7 @@ std::optional<std::uint64_t> read_count(std::string_view text, std::uint64_t max
   return count;
 }
 
-/// V3=1.5
+/// Parses a setting such as V3=1.5.
 bool read_register(std::string_view setting, running::RunOptions& run) {
   const std::size_t equals = setting.find('=');
   if (!setting.starts_with('V') || equals == std::string_view::npos) return false;
@@ -122,13 +122,13 @@ constexpr Text kNoPage{
 constexpr Text kOneStandardOutput{"--trace - and --samples - both want standard output",
                                   "--trace - e --samples - vogliono tutti e due lo standard output"};
 
-/// Nothing, after a complaint.
+/// Prints an error and returns none.
 std::nullopt_t refuse(const Text& why, std::string_view value, const Options& options) {
   complain(dialect::format(why, options.reader_language(), value));
   return std::nullopt;
 }
 
-/// What is asked of the run; nothing after a complaint.
+/// The options of the run; none after an error message.
 std::optional<running::RunOptions> read_run_options(const Options& options) {
   running::RunOptions run;
   for (const std::string& setting : options.settings)
@@ -144,7 +144,7 @@ std::optional<running::RunOptions> read_run_options(const Options& options) {
   return run;
 }
 
-/// What is to be written, and where; nothing after a complaint.
+/// The outputs and their destinations; none after an error message.
 std::optional<RunOutputs> read_outputs(const Options& options) {
   constexpr double kShortest = 1e-4;
   RunOutputs outputs{.trace = options.trace,
@@ -163,7 +163,7 @@ std::optional<RunOutputs> read_outputs(const Options& options) {
   return outputs;
 }
 
-/// How the program is to be taken up again; nothing after a complaint.
+/// The options of the restart; none after an error message.
 std::optional<restart::RestartOptions> read_restart_options(const Options& options, const running::RunOptions& run) {
   restart::RestartOptions restart;
   restart.run = run;
@@ -182,7 +182,7 @@ std::optional<restart::RestartOptions> read_restart_options(const Options& optio
   return restart;
 }
 
-/// As compilers do.
+/// Prints a finding in the format of compilers.
 void print_finding(const Options& options, std::uint64_t line, dialect::DiagnosticId id, std::string_view message) {
   const dialect::DiagnosticDef& def = dialect::definition(id);
   std::cerr << syntax::printable(fmt::format("{}:{}: {}: {} [{}]", options.shown_file(), line + 1,
@@ -200,13 +200,13 @@ void print_warning(const Options& options, const simulation::RunWarning& warning
                 dialect::message(warning.id, options.reader_language(), "", warning.values));
 }
 
-/// A file that the run reads or writes, and what it is to people.
+/// A file that the run reads or writes, with its name for users.
 struct NamedFile {
   std::string path;
   std::string_view what;
 };
 
-/// Where all goes that is to be written; standard output, too, which may lead to a file.
+/// All files to be written, including standard output, which may be a file.
 std::vector<NamedFile> files_written(const Options& options) {
   std::vector<NamedFile> files;
   const auto add = [&](const std::string& file, std::string_view option) {
@@ -221,7 +221,7 @@ std::vector<NamedFile> files_written(const Options& options) {
   return files;
 }
 
-/// Nothing that is read may be written to, and no file twice; false after a complaint.
+/// Whether no file is both read and written or written twice; false after an error message.
 bool files_are_apart(const Options& options, const std::filesystem::path& configuration) {
   const Language language = options.reader_language();
   const NamedFile read[] = {{options.program_file(), kProgram.in(language)},
@@ -242,7 +242,7 @@ bool files_are_apart(const Options& options, const std::filesystem::path& config
   return true;
 }
 
-/// A bar on the terminal while the run goes through the program.
+/// Runs the program with a progress bar on the terminal.
 running::RunResult run_with_progress(std::string_view program, running::RunOptions options, const RunOutputs& outputs,
                                      const std::function<void(const running::Event&)>& on_event) {
   constexpr std::size_t kPace = 4096;  // Bytes: asking the clock on every line would cost more than the line.
@@ -302,14 +302,14 @@ ExitStatus restart(const system::SourceFile& source, const Options& options,
   return refusal.obstacle == restart::Obstacle::NoSuchLine ? ExitStatus::Failure : ExitStatus::Findings;
 }
 
-/// A machine, and the isocnc.json that has been read for the program.
+/// A machine, and the isocnc.json read for the program.
 struct FoundMachine {
   configuration::Machine machine;
-  std::filesystem::path configuration;  ///< Empty without one.
+  std::filesystem::path configuration;  ///< Path of the isocnc.json; empty without one.
 };
 
-/// What the checks know of the machine; none, after a complaint, when a file is wrong. The program's configuration also
-/// tells the language to speak, unless the command line does.
+/// The machine for the checks; none, after an error message, if a file is invalid. The program's configuration also
+/// sets the language, unless the command line does.
 std::optional<FoundMachine> find_machine(Options& options) {
   using configuration::Configurations;
   const Language language = options.reader_language();

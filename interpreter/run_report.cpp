@@ -50,7 +50,7 @@ void RunReport::take(const simulation::TimedEvent& timed) {
   if (plot_) plot_->add(timed);
   if (trace_ != nullptr) trace_->write(to_json(timed, machine_) + '\n');
   if (samples_ == nullptr || !std::holds_alternative<running::ToolEvent>(timed.event.what)) return;
-  // The joints stand still; what ends elsewhere from now on is the tool.
+  // The joints stand still; the tip changes with the tool from here on.
   sample_rest(timed.start + timed.duration);
   last_sample_.tip = timing_.tip();
 }
@@ -76,7 +76,7 @@ void RunReport::sort_warnings() {
   warnings_.erase(std::unique(warnings_.begin(), warnings_.end(), is_same), warnings_.end());
 }
 
-/// The machine stands where the last motion ended.
+/// Writes samples of the machine at rest where the last motion ended.
 void RunReport::sample_rest(double until) {
   motion::Sample resting = last_sample_;
   resting.speed = 0;

@@ -12,30 +12,30 @@
 
 namespace isocnc::interpreter {
 
-/// What is written of a run, and where: names of files, `-` for standard output, or nothing.
+/// The outputs of a run with their destinations: file names, `-` for standard output, or empty for none.
 struct RunOutputs {
   std::string trace;
   std::string samples;
   double sample_seconds = 0.01;
   std::string plot;
-  plot::PlotSubject subject;  ///< Of the plot.
-  bool json = false;          ///< The summary.
+  plot::PlotSubject subject;  ///< Subject of the plot.
+  bool json = false;          ///< Whether the summary is JSON.
   std::string program_name;
   dialect::Language language = dialect::Language::English;
 };
 
-/// Listens to a run on a machine, and writes what is wanted of it.
+/// Receives the events of a run on a machine and writes the requested outputs.
 class RunReport {
  public:
   RunReport(const RunOutputs& outputs, const simulation::TimedMachine& machine);
 
-  /// Whether all files could be made; problems() tells else.
+  /// Whether all files could be created; otherwise problems() has the reasons.
   bool is_ready() const { return problems_.empty(); }
   void take(const running::Event& event) { compensation_.take(event, compensated_); }
-  /// Writes the rest. Whatever could not be written stands in problems().
+  /// Writes the rest. problems() then lists the failed outputs.
   void finish(const running::RunResult& result);
   const std::vector<std::string>& problems() const { return problems_; }
-  /// By line, each once; complete when all is finished.
+  /// Warnings sorted by line, each once; complete after finish().
   const std::vector<simulation::RunWarning>& warnings() const { return warnings_; }
 
  private:
