@@ -9,7 +9,7 @@
 
 namespace isocnc::check {
 
-/// Chunks that are checked between two calls of `stop`: a millisecond or so.
+/// Chunks checked between two calls of `stop`, in about a millisecond.
 static constexpr std::size_t kChunksAtOnce = 64;
 
 Analysis::Analysis(const syntax::Document& document, const execution::Setup& setup)
@@ -33,7 +33,7 @@ static void append(std::vector<JumpEvent>& all, const std::vector<JumpEvent>& mo
   all.insert(all.end(), more.begin(), more.end());
 }
 
-/// Reads what in a chunk concerns jumps, as far as the program has any.
+/// Reads the events of a chunk that concern jumps, as far as the program has jumps.
 void Analysis::read_jumps(std::size_t chunk, Row& row) const {
   const std::string_view text = document_.chunk_text(chunk);
   if (jumps_.empty() && !may_hold_jumps(text)) return;
@@ -46,7 +46,7 @@ void Analysis::read_jumps(std::size_t chunk, Row& row) const {
   row.jumps.shrink_to_fit();
 }
 
-/// Finds labels, in ascending order, in a chunk that may define some of them. Whether it does.
+/// Finds the wanted labels (ascending) in a chunk that may define some of them. Returns whether it defines any.
 bool Analysis::read_labels(std::size_t chunk, const std::vector<std::uint64_t>& wanted) {
   Row& row = rows_[chunk];
   const auto first = std::lower_bound(wanted.begin(), wanted.end(), row.labels.min);
@@ -58,7 +58,7 @@ bool Analysis::read_labels(std::size_t chunk, const std::vector<std::uint64_t>& 
     row.labels.add(event.label);
     if (std::binary_search(first, wanted.end(), event.label)) row.jumps.push_back(event);
   });
-  // A line's label counts before what else is on the line.
+  // A line's label takes effect before its other events.
   std::inplace_merge(row.jumps.begin(), row.jumps.begin() + others, row.jumps.end(),
                      [](const JumpEvent& a, const JumpEvent& b) {
                        const auto rank = [](const JumpEvent& event) { return event.kind != JumpEvent::Kind::Label; };
@@ -67,7 +67,7 @@ bool Analysis::read_labels(std::size_t chunk, const std::vector<std::uint64_t>& 
   return static_cast<std::ptrdiff_t>(row.jumps.size()) > others;
 }
 
-/// Calls `take` with what concerns jumps in all chunks, and its line.
+/// Calls `take` with each event that concerns jumps, in all chunks, and its line.
 template <class Take>
 void Analysis::each_jump_event(Take take) const {
   for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk)
@@ -83,14 +83,14 @@ std::vector<std::uint64_t> Analysis::labels_named() const {
   return {labels.begin(), labels.end()};
 }
 
-/// What is in `a` and not in `b`, both ascending.
+/// The elements of `a` that are not in `b`; both are ascending.
 static std::vector<std::uint64_t> difference(const std::vector<std::uint64_t>& a, const std::vector<std::uint64_t>& b) {
   std::vector<std::uint64_t> result;
   std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(result));
   return result;
 }
 
-/// Finds the labels that are named now, ascending, where they are not those that were named before.
+/// Reads the labels that jumps name now (ascending) and did not name before, and forgets the others.
 void Analysis::follow_labels(const std::vector<std::uint64_t>& named) {
   const std::vector<std::uint64_t> named_before = jumps_.labels();
   const std::vector<std::uint64_t> added = difference(named, named_before);
@@ -105,7 +105,7 @@ void Analysis::follow_labels(const std::vector<std::uint64_t>& named) {
   }
 }
 
-/// The jumps of the program, from what is known of its chunks.
+/// The jumps of the program, from the events of its chunks.
 JumpMap Analysis::find_jumps() {
   follow_labels(labels_named());
   JumpCollector collector;
@@ -113,7 +113,7 @@ JumpMap Analysis::find_jumps() {
   return std::move(collector).finish();
 }
 
-/// Notes where the jumps stand now, which mean what they meant.
+/// Updates the lines of jumps that are otherwise equivalent to the old ones.
 void Analysis::move_jumps(const Change& change) {
   std::vector<JumpMap::Site> sites;
   for (std::size_t chunk = change.first; chunk < change.first + change.inserted; ++chunk)
@@ -127,8 +127,8 @@ void Analysis::move_jumps(const Change& change) {
       first, sites, static_cast<std::int64_t>(document_.line_count()) - static_cast<std::int64_t>(line_count_));
 }
 
-/// Where jumps do something else now, or values that are assigned mean something else to them, the chunk is to be
-/// checked again.
+/// Marks chunks as stale if a jump in them has another effect now, or if an assigned value now falls into another cell
+/// of constants.
 void Analysis::check_changed_jumps_again(const JumpMap& old_jumps) {
   RegisterSet recut = 0;
   for (int reg = 1; reg <= dialect::kRegisterCount; ++reg)
@@ -149,8 +149,8 @@ void Analysis::check_changed_jumps_again(const JumpMap& old_jumps) {
     }
 }
 
-/// Brings the jumps up to date where these events have been replaced by others. False when all must be checked again:
-/// frontiers name jumps by number.
+/// Updates the jumps after these events have been replaced. Returns false if all chunks must be checked again:
+/// frontiers refer to jumps by number.
 bool Analysis::follow_jumps(const Change& change, const std::vector<JumpEvent>& old_events) {
   std::vector<JumpEvent> new_events;
   for (std::size_t i = change.first; i < change.first + change.inserted; ++i) append(new_events, rows_[i].jumps);
@@ -175,8 +175,8 @@ bool Analysis::update(const std::function<bool()>& stop) {
   return follow_text(stop) && follow_centers(stop);
 }
 
-/// Whether centers are suspected of counting from the start depends on all arcs of the program: when that changes, the
-/// chunks that have arcs which are legal both ways are checked again.
+/// Whether centers are suspected of counting from the start depends on all arcs of the program. When that changes,
+/// chunks with arcs that are legal both ways are checked again.
 bool Analysis::follow_centers(const std::function<bool()>& stop) {
   bool suspects = false;
   for (std::size_t i = 0; i < rows_.size(); ++i) suspects |= rows_[i].centers.from_start;
@@ -192,7 +192,7 @@ bool Analysis::check_stale(const std::function<bool()>& stop) {
   return true;
 }
 
-/// Brings the analysis up to date with the text, as far as centers are judged as they were.
+/// Brings the analysis up to date with the text, without a change of `suspects_centers_`.
 bool Analysis::follow_text(const std::function<bool()>& stop) {
   const bool is_first = rows_.size() == 0;
   const auto change = rows_.change_to(document_);
@@ -218,7 +218,7 @@ bool Analysis::follow_text(const std::function<bool()>& stop) {
   return check_stale(stop);
 }
 
-/// Goes on from a chunk, as long as there is anything new. False when stopped, with the rest stale.
+/// Checks from a chunk on, as long as the frontier differs from the kept one. False if stopped; the rest is then stale.
 bool Analysis::check_from(std::size_t chunk, Frontier frontier, const std::function<bool()>& stop) {
   Checker checker(setup_, jumps_, suspects_centers_);
   checker.frontier = std::move(frontier);
@@ -247,8 +247,8 @@ bool Analysis::check_from(std::size_t chunk, Frontier frontier, const std::funct
   return true;
 }
 
-/// Shifts chunks from this one on, as long as they do not mind. Returns the first that does, with what is left of the
-/// shift before it.
+/// Shifts the chunks from this one on, as long as their findings do not depend on the shifted positions. Returns the
+/// first chunk whose findings do; `shift` is then the shift before that chunk.
 std::size_t Analysis::pass_over(std::size_t chunk, PositionShift& shift) {
   for (; chunk < rows_.size() && !shift.empty(); ++chunk) {
     Row& row = rows_[chunk];

@@ -14,47 +14,48 @@
 
 namespace isocnc::check {
 
-/// The check of a document that is being edited. It remembers where the check stood before each chunk of lines; after
-/// an edit it checks the chunks that changed, and those after them until it stands where it stood before, or all is as
-/// before but shifted: over chunks that do not mind a shift it passes without looking at their lines. The report is the
-/// one that a fresh check would give.
+/// The check of a document that is being edited. It keeps the check's frontier before each chunk of lines. After an
+/// edit it checks the changed chunks, and those after them until the frontier equals the kept one, or differs from it
+/// by a shift of the positions only: chunks whose findings a shift does not change are then skipped. The report equals
+/// that of a fresh check.
 class Analysis {
  public:
   /// Both must outlive the analysis.
   Analysis(const syntax::Document& document, const execution::Setup& setup);
-  /// The same without a check: nothing is known before the first update().
+  /// The same, without a first check: nothing is known before the first update().
   struct Unchecked {};
   Analysis(const syntax::Document& document, const execution::Setup& setup, Unchecked);
 
-  /// Brings the analysis up to date with the document, whatever has been edited. Asked now and then whether to `stop`,
-  /// it may leave the rest for the next call: then it returns false, and nothing may be asked of it before that.
+  /// Brings the analysis up to date with the document, after any edits. It calls `stop` now and then; once that returns
+  /// true, update() may leave the rest to the next call and return false. Until a call returns true, use no other
+  /// member.
   bool update(const std::function<bool()>& stop = {});
   Report report() const { return excerpt({}).report; }
-  /// The first findings of many.
+  /// The first findings, at most as many as the options allow.
   FirstFindings excerpt(const FirstFindingsOptions& options) const;
-  /// The number of findings, without those that only the whole program shows.
+  /// The number of findings, without those that need the whole program (see conclude()).
   std::size_t finding_count() const { return counts_.all(); }
-  /// The findings on a line of the document, without their paths and those that only the whole program shows.
+  /// The findings on a line of the document, without their paths and without those that need the whole program.
   std::vector<LocatedFinding> findings_on(std::size_t line) const;
-  /// Where the check stands before a line, with the states of all paths through it.
+  /// The frontier before a line, with the states of all paths through it.
   Frontier frontier_before(std::size_t line) const;
-  /// Whether an arc under G90 fits only with its center counted from the start.
+  /// Whether an arc under G90 is legal only with its center counted from the start.
   bool suspects_centers() const { return suspects_centers_; }
-  /// Lines executed by the last update: what an edit costs.
+  /// Lines that the last update executed: the cost of an edit.
   std::uint64_t lines_checked() const { return lines_checked_; }
 
  private:
-  /// Where the check stood when it came to a chunk, and what it found there.
+  /// The frontier before a chunk when it was checked, and what was found in the chunk.
   struct Checked {
     Frontier before;  ///< The frontier before the chunk, without Row::shift.
-    Outcome outcome;  ///< What was found, with lines counted from the start of the chunk.
+    Outcome outcome;  ///< The findings, with lines counted from the start of the chunk.
   };
   /// The range of the labels in a chunk.
   struct LabelRange {
     std::uint64_t min = std::numeric_limits<std::uint64_t>::max();
     std::uint64_t max = 0;
 
-    /// The range before they are read.
+    /// The range assumed before the labels are read.
     static LabelRange any() { return {0, std::numeric_limits<std::uint64_t>::max()}; }
     void add(std::uint64_t label) {
       min = std::min(min, label);
@@ -68,7 +69,7 @@ class Analysis {
     CenterUse centers;      ///< A copy from the outcome.
     bool has_text = false;
     bool has_more = false;         ///< Whether the outcome has findings, labels, jumps or assignments.
-    std::vector<JumpEvent> jumps;  ///< What concerns jumps; of the labels those that some jump names.
+    std::vector<JumpEvent> jumps;  ///< The events that concern jumps; labels only if a jump names them.
     LabelRange labels = LabelRange::any();
     std::unique_ptr<Checked> checked = std::make_unique<Checked>();
   };

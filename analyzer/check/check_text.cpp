@@ -16,24 +16,24 @@ namespace isocnc::check {
 
 using syntax::TreeStore;
 
-/// Text that is parsed in one go: its trees should stay in the cache until they are executed.
+/// Bytes parsed at a time: few enough that the trees stay in the cache until they are executed.
 static constexpr std::ptrdiff_t kBatchBytes = 16 * 1024;
-/// With several threads: large enough that handing it over costs nothing in comparison.
+/// The same with several threads: large enough that handing a batch over costs little in comparison.
 static constexpr std::ptrdiff_t kSharedBatchBytes = 64 * 1024;
 
 namespace {
 
-/// Whether nothing below is executed, and that has been reported.
+/// Whether no later line is executed, and that has been reported.
 bool is_over(const Frontier& frontier) { return frontier.finished() && frontier.dead_reported; }
 
-/// Lines that have been parsed, not yet executed.
+/// Lines that have been parsed, but not executed.
 class Batch {
  public:
   const char* text = nullptr;
   std::size_t size = 0;
   TreeStore trees;
 
-  /// Parses whole lines from `begin`, at least one.
+  /// Parses whole lines from `begin` on, at least one.
   void parse(const char* begin, const char* batch_end, const char* end) {
     text = begin;
     size = static_cast<std::size_t>(batch_end - begin);
@@ -41,7 +41,7 @@ class Batch {
     trees.append_lines(begin, batch_end, end);
   }
 
-  /// Executes them as lines `line` and following; returns the line after them.
+  /// Executes the lines, the first as line `line`; returns the number of the line after them.
   std::uint64_t check(Checker& checker, std::uint64_t line, Outcome& outcome) const {
     const char* p = text;
     for (std::size_t i = 0; i < trees.size();) {
@@ -57,14 +57,14 @@ class Batch {
   }
 
  private:
-  /// The place after a line that starts at `p`, and its terminator.
+  /// The end of the line that starts at `p`, after its terminator.
   const char* after_line(std::size_t index, const char* p) const {
     return syntax::skip_line_end(p + trees.length(index), text + size);
   }
 };
 
-/// One pass over the text. Threads parse batches side by side. The thread that has parsed the batch that is next to
-/// be executed, while none executes, does so, and goes on as long as the next one is there; the others parse ahead.
+/// One pass over the text. Threads parse batches in parallel. One thread at a time executes them in order: the one that
+/// has parsed the next batch. It continues as long as the following batch is ready; the others parse ahead.
 class Pass {
  public:
   Pass(std::string_view text, const execution::Setup& setup, const JumpMap& jumps, bool suspects_centers, int jobs,
@@ -86,7 +86,7 @@ class Pass {
   Outcome take_outcome() { return std::move(outcome_); }
 
  private:
-  /// A place in the ring: free, or being parsed, or waiting to be executed.
+  /// A slot of the ring: free, being parsed, or waiting to be executed.
   struct Slot {
     Batch batch;
     bool is_ready = false;
@@ -128,11 +128,11 @@ class Pass {
     is_executing_ = false;
   }
 
-  static constexpr int kAhead = 3;  // Batches for each thread.
+  static constexpr int kAhead = 3;  // The number of batches parsed ahead, per thread.
 
   const std::function<void(std::size_t)>& on_progress_;
   const int jobs_;
-  std::mutex mutex_;  // Guards all below, but a slot that is not ready, and what is executed, are their thread's.
+  std::mutex mutex_;  // Guards the members below, except slots that are not ready and the execution state.
   std::condition_variable may_take_;
   std::vector<Slot> ring_;
   const std::ptrdiff_t batch_bytes_;
@@ -159,9 +159,9 @@ Report check_text(std::string_view text, const execution::Setup& setup, int jobs
     Pass pass(text, setup, jumps, suspects_centers, jobs, on_progress);
     pass.run();
     Outcome outcome = pass.take_outcome();
-    // Rare, each at most once: a jump whose label is not below it (E004, E005), or not among the lines that had to be
-    // read: once more with all labels known. Centers that count from the start in some arcs, and may do so in others:
-    // once more to report these.
+    // Two rare reasons for one more pass each. A jump's label is not below it (E004, E005), or was not read: repeat
+    // with all labels known. Some arcs have centers that count from the start and others may have: repeat to report
+    // those (W142).
     if (!jumps.knows_labels() && !all_jumps_resolve(outcome, jumps)) {
       jumps = JumpMap::with_labels(text);
     } else if (!suspects_centers && outcome.centers.from_start && outcome.centers.open) {

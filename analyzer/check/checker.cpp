@@ -18,18 +18,18 @@ using syntax::Finding;
 using syntax::LineTree;
 using syntax::PlainLine;
 
-/// Longer paths are reported by their latest decisions.
+/// The maximum number of decisions in a path; longer paths keep the latest ones.
 static constexpr std::size_t kLongestPath = 64;
-/// Valuations of the registers that are kept apart in one group.
+/// The maximum number of valuations kept apart in one group.
 static constexpr std::size_t kMaxValuations = 256;
-/// More than a few live groups are paid from a bucket that fills by some extra executions a line and holds this many:
-/// long stretches may follow all paths, endless ones only those few.
+/// The maximum of Frontier::branching_cost. Each line adds the number of live groups beyond the first and takes off
+/// kSpreadPerLine: a few groups can be followed forever, many only for a limited stretch.
 static constexpr std::uint32_t kSpreadLimit = 20'000'000;
-/// Groups that are followed once some have been given up: the rest of a program must not take long, whatever it does.
+/// The maximum number of groups once some have been dropped: the rest of the program must not take long.
 static constexpr std::size_t kMaxStatesReduced = 16;
-/// The part of it that a line makes up for.
+/// The branching cost that each line takes off.
 static constexpr std::uint32_t kSpreadPerLine = 32;
-/// Labels that may be waited for at once.
+/// The maximum number of labels that paths wait for at once.
 static constexpr std::size_t kMaxWaiting = 16'384;
 
 Checker::Checker(const execution::Setup& setup, const JumpMap& jumps, bool suspects_centers)
@@ -52,13 +52,13 @@ static void sort_by_column(std::vector<LocatedFinding>& findings, std::size_t fi
         [](const LocatedFinding& a, const LocatedFinding& b) { return a.finding.span.begin < b.finding.span.begin; });
 }
 
-/// Rules are asked about a line unless something is an error there: a remark does not make it unclear, nor does an
-/// M02 that has company, which ends the program all the same (D22).
+/// Whether a finding keeps the lint rules from judging its line: every error does, except M02 on a line with other
+/// instructions, which ends the program all the same (D22).
 static bool is_error(const Finding& finding) {
   return dialect::definition(finding.id).severity == dialect::Severity::Error && finding.id != "m02-not-alone"_diag;
 }
 
-/// Whether one of the findings from this one on is.
+/// Whether one of the findings from index `first` on is an error.
 static bool has_error(const std::vector<LocatedFinding>& findings, std::size_t first) {
   return std::any_of(findings.begin() + static_cast<std::ptrdiff_t>(first), findings.end(),
                      [](const LocatedFinding& located) { return is_error(located.finding); });
@@ -70,21 +70,20 @@ static bool is_reported_above(const Finding& finding, const Groups& before) {
          std::all_of(before.begin(), before.end(), [](const Group& group) { return group.state.tool_prepared; });
 }
 
-/// The axes among some letters.
+/// The axes that some letters name.
 static constexpr execution::AxisSet axes_of(dialect::LetterSet letters) {
   static_assert(dialect::kLinearLetters == 7u << 23 && dialect::kRotaryLetters == 3u << 1);
   return static_cast<execution::AxisSet>((letters >> 23 & 7u) | (letters >> 1 & 3u) << 3);
 }
 
-/// Half of where increments add up exactly: positions may be shifted by as much again.
+/// Whether a coordinate is beyond half the range in which increments add up exactly; a shift may use the other half.
 static bool is_far(const geometry::Pose& pose) {
   constexpr double kFar = geometry::kFarthestStep / 2;
   return !(std::abs(pose.tip[0]) <= kFar && std::abs(pose.tip[1]) <= kFar && std::abs(pose.tip[2]) <= kFar &&
            std::abs(pose.b) <= kFar && std::abs(pose.c) <= kFar);
 }
 
-/// A line that a run of plain ones has done. Under G91 an arc is judged by what is written; under G90 by its start as
-/// well.
+/// Records a line executed by a plain run. Under G91 only the words of an arc matter, under G90 its start as well.
 static void note_plain_move(const PlainLine& line, const execution::PlainRun& run, const execution::State& state,
                             PositionUse& use) {
   if (run.is_incremental()) {
@@ -159,7 +158,8 @@ void Checker::check_any(const LineTree& line, std::uint64_t line_number, Outcome
   }
   sort_by_column(outcome.findings, first);
   if (live.empty() || !live[0].state.ended) return;
-  live.clear();  // M02 ends every path through it. On a line with another mistake it may not be meant as the end.
+  live.clear();  // M02 ends every path through it.
+  // On a line with an error, M02 may not be meant as the end: no W116 below.
   frontier.dead_reported = has_error(outcome.findings, first);
 }
 
@@ -168,7 +168,7 @@ void Checker::reduce_spread(std::size_t lines) {
       static_cast<std::uint32_t>(std::min<std::size_t>(frontier.branching_cost, kSpreadPerLine * lines));
 }
 
-/// Lines on no feasible path are never read, and only that is reported of them, at the first (D51).
+/// Unreachable lines are not executed; W116 is reported at the first of them, and nothing else (D51).
 void Checker::report_dead_code(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   if (frontier.dead_reported || line.is_empty()) return;
   frontier.dead_reported = true;
@@ -179,7 +179,7 @@ void Checker::report_dead_code(const LineTree& line, std::uint64_t line_number, 
   outcome.findings.push_back({line_number, {.id = "never-runs"_diag, .span = span}});
 }
 
-/// A label: paths that jumped here go on from here, on every feasible path or not.
+/// Handles a label: paths that jumped here continue. A label on no feasible path is recorded as well.
 void Checker::arrive(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   if (!jumps_.names(line.label)) return;
   if (frontier.arrive(line)) bound_states(line, line_number, outcome);
@@ -190,7 +190,7 @@ void Checker::arrive(const LineTree& line, std::uint64_t line_number, Outcome& o
   }
 }
 
-/// Most values are never compared: where no IF will see this one, that of before is forgotten, and no more is done.
+/// Most values are never compared: where no IF compares this one, forgets the old value and does nothing else.
 void Checker::assign(Group& group, int reg, double value, Outcome& outcome) const {
   if (!jumps_.compares_registers()) return;
   outcome.assigned |= register_bit(reg);
@@ -201,7 +201,7 @@ void Checker::assign(Group& group, int reg, double value, Outcome& outcome) cons
   }
 }
 
-/// Some of a line's instructions, with the F and S that stand among its words in [first, last).
+/// The line with some of its instructions only, and with F and S only if they are among its words [first, last).
 static LineTree part_of(const LineTree& line, std::span<const syntax::Instruction> instructions, std::size_t first,
                         std::size_t last) {
   LineTree part = line;
@@ -214,9 +214,9 @@ static LineTree part_of(const LineTree& line, std::span<const syntax::Instructio
   return part;
 }
 
-/// What stands after an IF on its line (E002) is executed only where the IF does not jump (D56).
+/// Words after an IF on its line (E002) are executed only if the IF does not jump (D56).
 void Checker::execute_around_jump(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
-  if (line.findings.empty()) {  // It is alone.
+  if (line.findings.empty()) {  // The IF is alone on the line.
     execute_in_all_groups(line, line_number, outcome);
     return branch(line, line_number, outcome);
   }
@@ -229,7 +229,7 @@ void Checker::execute_around_jump(const LineTree& line, std::uint64_t line_numbe
   if (!rest.is_empty() && !frontier.live.empty()) execute_in_all_groups(rest, line_number, outcome);
 }
 
-/// Executes one line in each live group, and takes what it reports and does there.
+/// Executes one line in each live group, and collects its findings and effects.
 class Checker::LineExecution final : public execution::Sink {
  public:
   LineExecution(Checker& checker, const LineTree& line, Outcome& outcome)
@@ -238,7 +238,7 @@ class Checker::LineExecution final : public execution::Sink {
   void run() {
     const bool is_wrong = has_error_in_text();
     Groups& live = checker_.frontier.live;
-    // check_plain() has tried all but these already.
+    // check_plain() has already tried all other lines.
     const bool is_target = line_.has_label() && checker_.jumps_.names(line_.label);
     const bool may_be_plain = (live.size() > 1 || is_target) && !checker_.checks_moves_;
     for (group_ = 0; group_ < live.size(); ++group_) {
@@ -267,7 +267,7 @@ class Checker::LineExecution final : public execution::Sink {
     return true;
   }
 
-  /// Asks the rules as well, unless the line is wrong, by its text or in this group.
+  /// Executes the line, then runs the rules, unless the line has an error in its text or in this group.
   void execute(execution::State& state, bool is_wrong) {
     const std::vector<GroupFinding>& findings = checker_.group_findings_;
     const auto first = static_cast<std::ptrdiff_t>(findings.size());
@@ -286,8 +286,8 @@ class Checker::LineExecution final : public execution::Sink {
   Checker& checker_;
   const LineTree& line_;
   Outcome& outcome_;
-  std::size_t group_ = 0;                // The group in which the line is executed.
-  std::optional<execution::Move> move_;  // The motion there, where moves are watched.
+  std::size_t group_ = 0;                // The group that executes the line.
+  std::optional<execution::Move> move_;  // The line's motion, if motions are watched.
 };
 
 void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
@@ -311,7 +311,7 @@ void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_num
 
 static constexpr execution::AxisSet kAllAxes = (1u << execution::kAxisCount) - 1;
 
-/// A line that is not plain: where it takes thought what its judgment depends on, it counts as depending on all.
+/// Records what the judgment of a line that is not plain depends on; in complicated cases, all axes.
 void Checker::note_line(const LineTree& line, const execution::State& before, const execution::State& after,
                         bool has_findings, PositionUse& use) const {
   bool moves = false;
@@ -331,8 +331,8 @@ void Checker::note_line(const LineTree& line, const execution::State& before, co
   dialect::LetterSet letters = 0;
   for (const syntax::Word& word : line.words)
     if (dialect::contains(dialect::kCoordinateLetters, word.letter)) letters |= dialect::letter_bit(word.letter);
-  // A straight move under G49 is right from anywhere; else the start of an arc, or of an axis that is not to turn,
-  // counts.
+  // A straight move under G49 is legal from any start. Otherwise the start matters: for an arc, or for a rotary axis
+  // that must not turn.
   const bool is_straight = after.mode(dialect::ModalGroup::Motion) <= 1;
   const execution::AxisSet read = !is_clear     ? kAllAxes
                                   : is_straight ? axes_of(letters & dialect::kRotaryLetters)
@@ -341,7 +341,7 @@ void Checker::note_line(const LineTree& line, const execution::State& before, co
   if (is_clear) use.set |= axes_of(letters);
 }
 
-/// What an arc whose circle is given by its center says of itself, and of how centers are meant (D70).
+/// Judges an arc whose circle is given by its center, and collects evidence on how centers are meant (D70).
 void Checker::judge_arc(const execution::CenteredArc& arc, Outcome& outcome, execution::Sink& sink) const {
   const double tolerance = setup_.arc_tolerance;
   const geometry::CenterReadings readings =
@@ -354,7 +354,7 @@ void Checker::judge_arc(const execution::CenteredArc& arc, Outcome& outcome, exe
     rules::judge_arc(arc, readings, suspects_centers_, setup_, sink);
 }
 
-/// Each finding once. One that only some groups have carries the decisions that lead to them.
+/// Reports each finding once. A finding that only some groups have carries the decisions that lead to them.
 void Checker::report_common_findings(std::uint64_t line_number, Outcome& outcome) {
   const Groups& live = frontier.live;
   for (std::size_t i = 0; i < group_findings_.size(); ++i) {
@@ -365,7 +365,7 @@ void Checker::report_common_findings(std::uint64_t line_number, Outcome& outcome
     const auto here = group_findings_.begin() + static_cast<std::ptrdiff_t>(i);
     if (std::any_of(group_findings_.begin(), here, same)) continue;
     LocatedFinding located{line_number, finding};
-    // The decisions that all of its paths share.
+    // The decisions shared by all paths that have the finding.
     Path path = live[group_findings_[i].group].path;
     std::size_t count = 0;
     for (auto other = here; other != group_findings_.end(); ++other) {
@@ -376,7 +376,7 @@ void Checker::report_common_findings(std::uint64_t line_number, Outcome& outcome
         return std::find(theirs.begin(), theirs.end(), decision) == theirs.end();
       });
     }
-    // On every path that comes here only jumps are worth reporting: that no IF skipped the line is clear.
+    // For findings on every path that comes here, report only the taken jumps; untaken IFs are implied.
     if (count == live.size()) std::erase_if(path, [](const Decision& decision) { return !decision.taken; });
     if (!path.empty()) {
       located.path = static_cast<std::int32_t>(outcome.paths.size());
@@ -390,7 +390,7 @@ void Checker::report_common_findings(std::uint64_t line_number, Outcome& outcome
   }
 }
 
-/// IF: follows the paths that are feasible (D51, D52).
+/// Executes an IF: follows the paths that are feasible (D51, D52).
 void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   const syntax::Jump& jump = *line.jump;
   const std::uint32_t ordinal = frontier.next_jump++;
@@ -439,7 +439,7 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
   }
   if (may_jump != may_stay && !frontier.reduced) {
     outcome.findings.push_back({line_number, {.id = "condition-decided"_diag, .span = jump.if_span}});
-    frontier.dead_reported = !may_stay;  // That the lines below do not run is what a switch is for.
+    frontier.dead_reported = !may_stay;  // No W116 below: an IF that always jumps often switches code off.
   }
   if (frontier.waiting().size() > kMaxWaiting) {
     frontier.drop_highest_label();
@@ -447,7 +447,7 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
   }
 }
 
-/// Whether there were too many.
+/// Limits the number of groups; returns whether there were too many.
 bool Checker::reduce(Groups& groups) const {
   const std::size_t max = frontier.reduced ? kMaxStatesReduced : kMaxStates;
   if (groups.size() <= max) return false;
@@ -474,7 +474,7 @@ void Checker::bound_states(const LineTree& line, std::uint64_t line_number, Outc
   if (reduced) admit_reduction(line, line_number, outcome);
 }
 
-/// Reports, once, that not all is followed from here on.
+/// Reports once (W191) that some paths are not followed from here on.
 void Checker::admit_reduction(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   if (frontier.reduced) return;
   frontier.reduced = true;

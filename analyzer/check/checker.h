@@ -12,15 +12,15 @@
 
 namespace isocnc::check {
 
-/// Machine states that are followed at once; with more, some are given up (W191).
+/// The maximum number of machine states followed at once; beyond it some are dropped (W191).
 inline constexpr std::size_t kMaxStates = 512;
 
-/// Checks a program line by line on every feasible path. It holds where it stands (`frontier`) and nothing else, so
-/// that a check can go on from any earlier frontier.
+/// Checks a program line by line on every feasible path. Its only state is `frontier`, so that a check can continue
+/// from any earlier frontier.
 class Checker {
  public:
-  /// With `suspects_centers` arcs under G90 that are also legal with their center counted from the start are reported
-  /// (W142). That is for programs in whose outcome others fit only so.
+  /// With `suspects_centers`, reports W142 for arcs under G90 that are also legal with their center counted from the
+  /// start. Set it after a first pass has found arcs that are legal only that way.
   Checker(const execution::Setup& setup, const JumpMap& jumps, bool suspects_centers = false);
 
   /// The frontier before the first line.
@@ -28,13 +28,13 @@ class Checker {
 
   /// Checks one line.
   void check(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
-  /// Checks the lines of a chunk, counted from its first.
+  /// Checks the lines of a chunk, numbered from 0 at its first line.
   void check_all(const syntax::ChunkTrees& trees, Outcome& outcome);
-  /// check() for most lines of most programs, in one go: plain ones with which nothing is wrong, and to which no jump
-  /// leads. Stops before the first other line; returns the number of lines from `first` on that it has checked.
+  /// Fast check() for a run of plain lines without findings and without labels that a jump names. Stops before the
+  /// first other line; returns the number of lines checked, counted from `first`.
   std::size_t check_plain_lines(const syntax::TreeStore& trees, std::size_t first, std::uint64_t line_number,
                                 Outcome& outcome);
-  /// check() for the line where check_plain_lines() has stopped.
+  /// check() for the line at which check_plain_lines() stopped.
   void check_any(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
 
   Frontier frontier;
@@ -44,7 +44,7 @@ class Checker {
 
   template <class PlainLineAt>
   std::size_t check_plain(std::size_t count, std::uint64_t line_number, Outcome& outcome, PlainLineAt plain_line_at);
-  /// Lines that one state alone runs through make up for some of those that more have.
+  /// Lowers Frontier::branching_cost by what `lines` lines with one live state allow.
   void reduce_spread(std::size_t lines);
   void report_dead_code(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void arrive(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);

@@ -23,7 +23,7 @@ bool all_jumps_resolve(const Outcome& outcome, const JumpMap& jumps) {
   });
 }
 
-/// A label that a GOTO names may be defined once: the second and each later one that the control reads (D50, D51).
+/// A label that a GOTO names must be defined once: reports each later definition that the control reads (D50, D51).
 static void add_duplicate_labels(const std::vector<PlacedOutcome>& outcomes, const JumpMap& jumps,
                                  std::vector<LocatedFinding>& findings) {
   std::unordered_set<std::uint64_t> seen;
@@ -46,7 +46,7 @@ static void add_duplicate_labels(const std::vector<PlacedOutcome>& outcomes, con
     if (is_named[label]) findings.push_back(finding);
 }
 
-/// Registers that an IF compares and nothing assigns: reported at the first such IF.
+/// Registers that an IF compares and no line assigns, reported at the first such IF.
 static void add_unassigned_registers(const std::vector<PlacedOutcome>& outcomes, const JumpMap& jumps,
                                      std::vector<LocatedFinding>& findings) {
   RegisterSet unassigned = jumps.compared();
@@ -71,7 +71,7 @@ static syntax::Span without_blanks(std::string_view text) {
   return {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
 }
 
-/// Whether an M02 may be meant on a line that has a finding for it: (M02 and M, MO2, or M0, or 02 alone (D58).
+/// Whether a line with a finding may have been meant as M02: `(M02`, `M`, `MO2`, `M0`, or `02` alone (D58).
 static bool may_hide_end(std::string_view text) {
   const syntax::ParsedLine parsed(text);
   const LineTree tree = parsed.tree();
@@ -108,7 +108,7 @@ static void add_missing_end(const std::vector<PlacedOutcome>& outcomes, const Fr
   findings.push_back(located);
 }
 
-/// Findings reported once per program: one mistake, however many paths show it (D44).
+/// Findings reported once per program, however many paths have them (D44).
 static constexpr dialect::DiagnosticId kReportedOnce[] = {"initial-tool-missing"_diag, "feed-missing"_diag,
                                                           "too-many-paths"_diag};
 
@@ -126,7 +126,7 @@ static bool by_place(const LocatedFinding& a, const LocatedFinding& b) {
   return a.line != b.line ? a.line < b.line : a.finding.span.begin < b.finding.span.begin;
 }
 
-/// What only the whole program shows.
+/// Adds the findings that need the whole program.
 static void add_findings_of_whole(const std::vector<PlacedOutcome>& outcomes, const Frontier& end, const JumpMap& jumps,
                                   const std::function<std::string_view(std::uint64_t)>& text_of_line,
                                   std::vector<Path>& paths, std::vector<LocatedFinding>& findings) {
@@ -135,7 +135,7 @@ static void add_findings_of_whole(const std::vector<PlacedOutcome>& outcomes, co
   add_missing_end(outcomes, end, text_of_line, paths, findings);
 }
 
-/// Brings findings into their order, and their paths into the form that users read.
+/// Sorts the findings and converts their paths to steps for users.
 static Report ordered(std::vector<LocatedFinding> findings, const std::vector<Path>& paths, const JumpMap& jumps) {
   Report report{.findings = std::move(findings), .paths = {}};
   if (!std::is_sorted(report.findings.begin(), report.findings.end(), by_place))
@@ -159,14 +159,14 @@ Report conclude(Outcome outcome, const Frontier& end, const JumpMap& jumps,
 
 namespace {
 
-/// Takes findings until there are enough, and counts the others.
+/// Takes findings up to the maximum, and counts the others.
 class ExcerptCollector {
  public:
   ExcerptCollector(const FirstFindingsOptions& options, FirstFindings& excerpt)
       : options_(options), excerpt_(excerpt) {}
 
   bool has_enough() const { return taken_ >= options_.max; }
-  /// The line after all that have been taken.
+  /// The line after the last finding taken.
   std::uint64_t end() const { return end_; }
 
   void take(const PlacedOutcome& placed) {

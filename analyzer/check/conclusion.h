@@ -10,30 +10,30 @@
 
 namespace isocnc::check {
 
-/// The outcome of some lines, which stand from this one on.
+/// The outcome of some lines, and the number of the first of them.
 struct PlacedOutcome {
   const Outcome* outcome = nullptr;
   std::uint64_t first_line = 0;
 };
 
-/// The first findings of a program, and how many follow them.
+/// The first findings of a program, and the number of those left out.
 struct FirstFindings {
   Report report;
-  std::size_t left_out = 0;  ///< Findings that count and are not in the report.
+  std::size_t left_out = 0;  ///< Findings that count but are not in the report.
 };
 
-/// What an excerpt holds.
+/// Which findings an excerpt holds. Findings of one outcome come together, so there may be more than `max`.
 struct FirstFindingsOptions {
-  std::size_t max = static_cast<std::size_t>(-1);  ///< Findings that count; a few more where they come together.
-  std::function<bool(dialect::DiagnosticId)> counts = {};  ///< Which findings count; without it all do.
+  std::size_t max = static_cast<std::size_t>(-1);          ///< The maximum of findings that count.
+  std::function<bool(dialect::DiagnosticId)> counts = {};  ///< Which findings count; if empty, all do.
 };
 
-/// Puts together what was found: sorts, adds what only the whole program shows (E006, ISO045), and keeps the first of
+/// Makes the report: sorts the findings, adds those that need the whole program (E006, ISO045), and keeps the first of
 /// the findings that are reported once per program (D44). `text_of_line` gives a line's text.
 Report conclude(Outcome outcome, const Frontier& end, const JumpMap& jumps,
                 const std::function<std::string_view(std::uint64_t)>& text_of_line);
-/// The same of several outcomes, in the order of the program, and of the `counts` of them all. Those that have nothing
-/// but `has_text` may be left out, except the last of these.
+/// The same for several outcomes in program order, with the summed `counts`. Outcomes with `has_text` alone may be
+/// omitted, except the last of them.
 FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const FindingCounts& counts, const Frontier& end,
                        const JumpMap& jumps, const std::function<std::string_view(std::uint64_t)>& text_of_line,
                        const FirstFindingsOptions& options = {});

@@ -7,7 +7,7 @@
 
 namespace isocnc::check {
 
-/// The decisions that both paths share; both have the latest first.
+/// The decisions that both paths share; both paths have the latest first.
 static Path common_decisions(const Path& a, const Path& b) {
   Path common;
   for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end();) {
@@ -45,7 +45,7 @@ void Groups::join(Groups&& groups) {
   groups.clear();
 }
 
-/// The same for states that are judged alike, and for few others.
+/// A hash that is equal for equal states and differs for most others.
 static std::uint64_t hash_of(const execution::State& state) {
   std::uint64_t hash = 14695981039346656037ULL;
   const auto mix = [&](std::uint64_t bits) { hash = std::rotl((hash ^ bits) * 0x9E3779B97F4A7C15ULL, 29); };
@@ -59,10 +59,10 @@ static std::uint64_t hash_of(const execution::State& state) {
   return hash;
 }
 
-/// Groups that are compared each with each.
+/// The maximum number of groups that are compared pairwise.
 static constexpr std::size_t kFew = 8;
 
-/// Compares each with each.
+/// Compares the groups pairwise.
 static void converge_few(std::vector<Group>& groups) {
   for (std::size_t i = 0; i < groups.size(); ++i)
     for (std::size_t j = i + 1; j < groups.size();) {
@@ -102,7 +102,7 @@ void Groups::converge() {
   all_.resize(kept);
 }
 
-/// Makes `a` stand for both states if they differ in position alone.
+/// Lets `a` stand for both states if they differ in position alone; the differing positions become unknown.
 static bool blur_positions(execution::State& a, const execution::State& b) {
   execution::State other = b;
   other.position = a.position;

@@ -12,7 +12,7 @@
 
 namespace isocnc::check {
 
-/// Paths through the program that have led to the same machine state: what follows is judged alike for all of them.
+/// Paths through the program that have led to the same machine state, and so have the same findings from here on.
 struct Group {
   execution::State state;
   Valuations registers;
@@ -21,7 +21,7 @@ struct Group {
   friend bool operator==(const Group&, const Group&) = default;
 };
 
-/// Groups whose states differ. Adding a group joins it to the one whose state it meets.
+/// Groups with different states. A group that is added is joined to the group with its state, if there is one.
 class Groups {
  public:
   bool empty() const { return all_.empty(); }
@@ -36,14 +36,14 @@ class Groups {
   void keep_first(std::size_t count) { all_.erase(all_.begin() + static_cast<std::ptrdiff_t>(count), all_.end()); }
 
   void add(Group group);
-  /// Adds one whose state is none of the others'.
+  /// Adds a group whose state none of the others has.
   void append(Group group) { all_.push_back(std::move(group)); }
-  /// Adds all of another, which is empty then.
+  /// Adds all groups of another object and leaves that empty.
   void join(Groups&& groups);
-  /// Joins groups whose states have met.
+  /// Joins groups whose states have become equal.
   void converge();
-  /// Joins groups until `limit` or fewer are left: first those that differ in position alone, whose position then
-  /// counts as unknown; then it drops the last. Gives up completeness, never correctness.
+  /// Reduces the groups to at most `limit`: first joins those that differ in position alone, whose position is then
+  /// unknown; then drops the last ones. Findings may be missed after that, but none is wrong.
   void reduce_to(std::size_t limit);
 
   friend bool operator==(const Groups&, const Groups&) = default;
@@ -52,16 +52,16 @@ class Groups {
   std::vector<Group> all_;
 };
 
-/// Where a check stands between two lines: all that the rest of the program's findings depend on. Knows jumps by their
-/// number and labels by their name, never a line, so that text inserted elsewhere leaves it as it is.
+/// The complete state of a check between two lines; all later findings depend on it alone. It refers to jumps by number
+/// and to labels by name, never to lines, so that text inserted elsewhere does not change it.
 struct Frontier : syntax::ForwardPaths<Groups> {
-  std::uint32_t next_jump = 0;       ///< IFs with a label that have been passed.
-  std::uint32_t branching_cost = 0;  ///< Recent cost of more than one live group, in lines executed.
-  bool dead_reported = false;        ///< W116 has been reported for the lines from here on, where no path leads.
-  bool reduced = false;              ///< Some states are not followed, as there were too many (W191).
+  std::uint32_t next_jump = 0;       ///< The number of IFs with a label so far.
+  std::uint32_t branching_cost = 0;  ///< Recent extra executions of lines because of several live groups.
+  bool dead_reported = false;        ///< Whether W116 has been reported for the current unreachable lines.
+  bool reduced = false;              ///< Whether states have been dropped because there were too many (W191).
 
-  /// The one state on all paths through the next line, where that is this one. Nothing where there are several, or not
-  /// all are known.
+  /// The state before line `next`, if it is the same on all paths. Nothing if there are several states or some are
+  /// unknown.
   std::optional<execution::State> state_at(const syntax::LineTree& next) const;
 
   friend bool operator==(const Frontier&, const Frontier&) = default;

@@ -7,13 +7,13 @@
 
 namespace isocnc::check {
 
-/// Takes in the jumps, labels and assignments of a program as its lines are read, and makes a JumpMap of them.
+/// Collects the jumps, labels and assignments of a program as its lines are read, and makes a JumpMap of them.
 class JumpCollector {
  public:
   /// Adds the next event; `line` counts from the start of the program. Labels that no jump names may be left out.
   void add(std::uint64_t line, const JumpEvent& event);
 
-  /// The map of all that has been added. It knows the labels.
+  /// The map of all events added. It knows the labels.
   JumpMap finish() &&;
 
  private:

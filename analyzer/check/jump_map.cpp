@@ -15,7 +15,7 @@
 
 namespace isocnc::check {
 
-/// How many line feeds there are. In blocks whose count fits a byte, so that the compiler counts sixteen bytes at once.
+/// The number of line feeds, counted in blocks whose count fits a byte, so that the compiler counts 16 bytes at once.
 static std::uint64_t count_line_feeds(std::string_view text) {
   constexpr std::size_t kRow = 16;
   constexpr std::size_t kMaxRows = 255;
@@ -31,7 +31,7 @@ static std::uint64_t count_line_feeds(std::string_view text) {
   return count + static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-/// Counts the lines of a text up to ever later places.
+/// Counts the lines of a text up to given places, which must ascend.
 class LineCounter {
  public:
   explicit LineCounter(std::string_view text) : text_(text) {}
@@ -54,7 +54,7 @@ class LineCounter {
   std::uint64_t line_ = 0;
 };
 
-/// Whether a GOTO may end in the O at `offset`: of its letters O stands nowhere else outside comments.
+/// Whether the O at `offset` may end the word GOTO.
 static bool may_belong_to_goto(std::string_view text, std::size_t offset) {
   while (offset > 0 && syntax::is_blank(text[offset - 1])) --offset;
   if (offset == 0) return false;
@@ -68,10 +68,10 @@ bool may_hold_jumps(std::string_view text) {
                      [&](char letter) { return text.find(letter) != std::string_view::npos; });
 }
 
-/// A line number at the start of a line, as most of those that have one write it.
+/// A line number at the start of a line, in the usual plain form.
 struct PlainLabel {
   std::uint64_t number = 0;
-  const char* end = nullptr;  ///< The place after it; null without one, or where it takes a closer look.
+  const char* end = nullptr;  ///< The place after the number; null if there is none or the line needs the parser.
 };
 
 static PlainLabel plain_label(const char* p, const char* end) {
@@ -83,8 +83,8 @@ static PlainLabel plain_label(const char* p, const char* end) {
   return {label, is_plain ? at + 1 : nullptr};
 }
 
-/// The first O at or after `p`, of either case, or `end`. Sixty-four bytes at a time: this is all that most programs
-/// take before they are read.
+/// The first O or o at or after `p`, or `end`. Tests 64 bytes at a time: for most programs this is the only search for
+/// jumps.
 static const char* next_o(const char* p, const char* end) {
   const auto is_o = [](char c) { return (c | 0x20) == 'o'; };
 #ifdef __SSE2__
@@ -100,7 +100,7 @@ static const char* next_o(const char* p, const char* end) {
   return std::find_if(p, end, is_o);
 }
 
-/// The first letter at or after `p` that may make its line hold an event, or `end`.
+/// The first N, O or V (of either case) at or after `p`, or `end`: every event contains one of them.
 static const char* next_event_letter(const char* p, const char* end) {
 #ifdef __SSE2__
   for (; end - p >= 16; p += 16) {
@@ -116,12 +116,12 @@ static const char* next_event_letter(const char* p, const char* end) {
 }
 
 /// Calls `take` with the events of a text and the starts of their lines. Most lines with such a letter have a plain
-/// line number and no other event, which shows where the next such letter stands on another line.
+/// line number and no other event: that is so if the next such letter is on another line.
 template <class Take>
 static void scan_events(std::string_view text, Take take) {
   syntax::TreeStore store;
   const char* const end = text.data() + text.size();
-  const char* labelled = nullptr;  // The start of a line with a plain label that has not been taken yet.
+  const char* labelled = nullptr;  // The start of a line whose plain label has not been reported yet.
   PlainLabel label;
   for (const char* p = next_event_letter(text.data(), end);;) {
     const char* begin = p;
@@ -148,7 +148,7 @@ void each_event_in(std::string_view text, const std::function<void(const JumpEve
   });
 }
 
-/// The jumps of a text, found without parsing the lines that hold none.
+/// The jumps of a text, found without parsing lines that hold none.
 static std::vector<JumpMap::Site> sites_in(std::string_view text) {
   std::vector<JumpMap::Site> sites;
   LineCounter counter(text);
@@ -207,13 +207,14 @@ void JumpMap::read_labels(std::string_view text) {
   follow(steps);
 }
 
-/// Finds what depends on the order of jumps, labels and assignments.
+/// Computes what depends on the order of jumps, labels and assignments.
 void JumpMap::follow(const std::vector<Step>& steps) {
   if (compares_registers()) find_reads(steps);
   find_targets(steps);
 }
 
-/// From the end of the program to its start: all jumps go forward, so one pass shows what is still read where.
+/// Goes from the end of the program to its start: as all jumps go forward, one pass finds which registers are read
+/// later.
 void JumpMap::find_reads(const std::vector<Step>& steps) {
   std::unordered_map<std::uint64_t, RegisterSet> read_at_label;
   RegisterSet read = 0;
@@ -240,7 +241,7 @@ void JumpMap::find_reads(const std::vector<Step>& steps) {
   }
 }
 
-/// A line's label counts before its jump: the IF's own line is no target (D51).
+/// A line's label takes effect before its jump, so an IF cannot jump to its own line (D51).
 void JumpMap::find_targets(const std::vector<Step>& steps) {
   std::unordered_map<std::uint64_t, std::size_t> last_definitions;
   std::vector<std::size_t> jumps;

@@ -17,25 +17,25 @@ namespace isocnc::check {
 using RegisterSet = std::uint32_t;
 constexpr RegisterSet register_bit(int reg) { return RegisterSet{1} << reg; }
 
-/// What on a line concerns jumps: an IF with its label, an assignment to a register, or a label.
+/// An event on a line that concerns jumps: an IF with its label, an assignment to a register, or a label.
 struct JumpEvent {
   enum class Kind : std::uint8_t { Assignment, Jump, Label };
 
   Kind kind = Kind::Jump;
   std::uint8_t reg = 0;     ///< The register assigned to.
   std::uint32_t line = 0;   ///< The line, counted from the start of the text or chunk.
-  double value = 0;         ///< The value assigned; NaN where it could not be read.
+  double value = 0;         ///< The value assigned; NaN if it could not be read.
   std::uint64_t label = 0;  ///< The label defined.
   syntax::Jump jump;
 
-  /// Whether two events mean the same, wherever they stand.
+  /// Whether two events mean the same, wherever they are in the program.
   bool means_the_same(const JumpEvent& other) const;
 };
 
-/// Whether a text may hold assignments or jumps. False only where it holds none.
+/// Fast test: whether a text may hold assignments or jumps.
 bool may_hold_jumps(std::string_view text);
 
-/// Calls `take` with the events of a line in the order in which they count: label, assignments, jump.
+/// Calls `take` with the events of a line in the order in which they take effect: label, assignments, jump.
 template <class Take>
 void each_event(const syntax::LineTree& line, Take take) {
   if (line.has_label()) take(JumpEvent{.kind = JumpEvent::Kind::Label, .label = line.label});
@@ -49,27 +49,28 @@ void each_event(const syntax::LineTree& line, Take take) {
   if (line.jump && line.jump->has_target) take(JumpEvent{.kind = JumpEvent::Kind::Jump, .jump = *line.jump});
 }
 
-/// The same of a text, line by line, without parsing the lines that hold none; JumpEvent::line counts from its start.
+/// Calls `take` with the events of a text, without parsing lines that hold none; JumpEvent::line counts from its start.
 void each_event_in(std::string_view text, const std::function<void(const JumpEvent&)>& take);
 
-/// What of a program's jumps must be known before its first line is checked: where the IFs stand, which labels they
-/// name, what they compare registers with, and which of them land. Jumps go forward only (I.5), so this and one pass
-/// over the lines suffice. Made from a text or by a JumpCollector, and the same from then on.
+/// What must be known of a program's jumps before its first line is checked: the lines of the IFs, the labels that they
+/// name, the constants that they compare registers with, and which of them find their label. Jumps go forward only
+/// (I.5), so this and one pass over the lines suffice. Made from a text or by a JumpCollector; does not change after
+/// that.
 class JumpMap {
  public:
   struct Site {
     std::uint64_t line = 0;
     syntax::Jump jump;
   };
-  /// Where a jump leads, seen from its line.
+  /// Where a jump's label is, relative to the jump's line.
   enum class Target : std::uint8_t { Below, NotFound, Above };
 
-  /// Of a program without jumps.
+  /// The map of a program without jumps.
   JumpMap() = default;
-  /// The jumps of a text, found without parsing the lines that hold none. Where no IF compares a register, labels are
-  /// not read (knows_labels()): most programs have many, and nearly all of their jumps land.
+  /// The jumps of a text, found without parsing lines that hold none. Where no IF compares a register, labels are not
+  /// read (knows_labels()): most programs have many, and nearly all of their jumps find theirs.
   explicit JumpMap(std::string_view text);
-  /// The same with the labels read in any case.
+  /// The same, and labels are always read.
   static JumpMap with_labels(std::string_view text);
 
   bool empty() const { return sites_.empty(); }
@@ -78,7 +79,7 @@ class JumpMap {
   bool names(std::uint64_t label) const { return may_name(label) && targets_.contains(label); }
   /// The labels that jumps name, ascending.
   std::vector<std::uint64_t> labels() const;
-  /// The first jump on a line or below it; the number of all where there is none.
+  /// The first jump on or below a line; the number of all jumps if there is none.
   std::size_t first_from(std::uint64_t line) const;
 
   /// The registers that IFs compare.
@@ -86,36 +87,36 @@ class JumpMap {
   bool compares_registers() const { return compared_ != 0; }
   /// The values that register 1 to 30 is compared with, ascending.
   const std::vector<double>& constants(int reg) const { return constants_[static_cast<std::size_t>(reg)]; }
-  /// Registers whose value some IF may still see, one bit each: where this jump (counted from the top) is not taken,
-  /// and where it is.
+  /// Registers whose value a later IF may compare, one bit each: after this jump (counted from the top) when it is not
+  /// taken, and at its label when it is taken.
   RegisterSet read_after(std::uint32_t jump) const { return reads_[jump].after; }
   RegisterSet read_at_target(std::uint32_t jump) const { return reads_[jump].at_target; }
-  /// The same before it; none after the last jump.
+  /// Registers whose value this or a later IF may compare; none after the last jump.
   RegisterSet read_before(std::uint32_t jump) const { return jump < reads_.size() ? reads_[jump].before : 0; }
 
-  /// Whether all labels that jumps name have been read, and with them where each jump leads.
+  /// Whether all labels that jumps name have been read, so that the target of each jump is known.
   bool knows_labels() const { return knows_labels_; }
-  /// Below as long as the labels are not known.
+  /// The target of a jump; Below while the labels are not known.
   Target target_of(std::uint32_t jump) const { return knows_labels_ ? targets_of_jumps_[jump] : Target::Below; }
-  /// Whether a label is defined twice; as long as labels are not known, any may be.
+  /// Whether a label is defined twice; true for all while the labels are not known.
   bool may_repeat(std::uint64_t label) const { return !knows_labels_ || repeated_.contains(label); }
 
-  /// Whether the jump of this number does the same in both to every state that comes to it.
+  /// Whether the jump of this number has the same effect in both maps, for every state.
   bool is_equivalent(std::uint32_t jump, const JumpMap& other) const;
-  /// The map of the same jumps at other places, or written otherwise: from the one of number `first` on those of
-  /// `sites`, and all after these `lines` further down.
+  /// The map after an edit that leaves the jumps equivalent: replaces the sites from number `first` on by `sites`, and
+  /// moves all later ones down by `lines` lines.
   JumpMap moved(std::size_t first, const std::vector<Site>& sites, std::int64_t lines) &&;
 
  private:
   friend class JumpCollector;
 
-  /// An event, reduced to what the order of events is asked for.
+  /// An event, reduced to what find_reads() and find_targets() need.
   struct Step {
     explicit Step(const JumpEvent& event) : kind(event.kind), reg(event.reg), label(event.label) {}
 
     JumpEvent::Kind kind;
-    std::uint8_t reg;     // Assigned.
-    std::uint64_t label;  // Defined.
+    std::uint8_t reg;     // The register assigned to.
+    std::uint64_t label;  // The label defined.
   };
   struct Reads {
     RegisterSet after = 0;
@@ -125,14 +126,14 @@ class JumpMap {
     friend bool operator==(const Reads&, const Reads&) = default;
   };
 
-  /// Of the jumps alone.
+  /// The map of the jumps alone, without labels.
   explicit JumpMap(std::vector<Site> sites);
   void read_labels(std::string_view text);
   void follow(const std::vector<Step>& steps);
   void find_reads(const std::vector<Step>& steps);
   void find_targets(const std::vector<Step>& steps);
 
-  // Most line numbers are no targets; one bit by a hash of the number separates most of them.
+  // A filter of 2^20 bits: most line numbers are no targets, and the hash of the number rules most of them out.
   static std::size_t filter_bit(std::uint64_t label) { return (label * 0x9E3779B97F4A7C15ULL) >> 44; }
   bool may_name(std::uint64_t label) const {
     const std::size_t bit = filter_bit(label);
@@ -141,10 +142,10 @@ class JumpMap {
 
   std::vector<Site> sites_;
   std::unordered_set<std::uint64_t> targets_;
-  std::vector<std::uint64_t> filter_;  // 1,048,576 bits, once there is a jump.
+  std::vector<std::uint64_t> filter_;  // 1,048,576 bits; empty without jumps.
   std::array<std::vector<double>, dialect::kRegisterCount + 1> constants_;
   RegisterSet compared_ = 0;
-  std::vector<Reads> reads_;  // By jump.
+  std::vector<Reads> reads_;  // One per jump.
   bool knows_labels_ = true;
   std::vector<Target> targets_of_jumps_;
   std::unordered_set<std::uint64_t> repeated_;  // Labels defined twice.

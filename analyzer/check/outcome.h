@@ -9,37 +9,38 @@
 
 namespace isocnc::check {
 
-/// How what has been found in a stretch of lines, and the positions after it, depend on the positions before it.
+/// Which axis positions before a range of lines affect the findings in it and the positions after it. An axis
+/// outside `set` has moved by increments alone.
 struct PositionUse {
-  execution::AxisSet read = 0;  ///< Axes whose positions before it findings or frames depend on.
-  execution::AxisSet set = 0;   ///< Axes whose positions after it do not depend on those; the others have moved on.
-  bool by_several = false;  ///< Whether there was more than one state, live or waiting: `set` holds for some of them.
-  bool far = false;         ///< Whether an axis has been too far away for moves to add up exactly.
+  execution::AxisSet read = 0;  ///< Axes whose position before the lines affects findings or frames in them.
+  execution::AxisSet set = 0;   ///< Axes whose position after the lines does not depend on that before.
+  bool by_several = false;      ///< Whether there were several states, live or waiting: `set` may not hold for all.
+  bool far = false;             ///< Whether an axis was too far away for moves to add up exactly.
 };
 
-/// What the arcs of a stretch of lines say of how centers are meant under G90 (D70). Arcs of a PlainRun count as open
-/// already when it takes a closer look.
+/// Evidence from the arcs of a range of lines on whether centers under G90 count from the start (D70). For the arcs of
+/// a PlainRun, `open` is set as soon as it examines one more closely.
 struct CenterUse {
-  bool from_start = false;  ///< Whether an arc fits only with its center counted from the start.
-  bool open = false;        ///< Whether an arc is right, and may be so with its center counted from the start as well.
+  bool from_start = false;  ///< Whether an arc is legal only with its center counted from the start.
+  bool open = false;  ///< Whether an arc is legal as written and may be so with its center counted from the start.
 };
 
-/// What the check of a stretch of lines has found.
+/// The findings in a range of lines, and the facts needed to combine ranges.
 struct Outcome {
   struct Label {
     std::uint64_t label = 0;
     std::uint64_t line = 0;
     syntax::Span span;
-    bool live = false;  ///< Whether a feasible path leads there.
+    bool live = false;  ///< Whether a feasible path leads to the label.
   };
 
-  std::vector<LocatedFinding> findings;  ///< In the order of the lines.
+  std::vector<LocatedFinding> findings;  ///< The findings, in the order of the lines.
   std::vector<Path> paths;
   std::vector<Label> labels;              ///< Definitions of labels that some GOTO names.
   std::vector<std::uint32_t> live_jumps;  ///< Jumps on a feasible path, counted from the top of the file.
-  std::uint64_t last_text_line = 0;       ///< The last line that holds any text (D47), if one does.
+  std::uint64_t last_text_line = 0;       ///< The last line that holds any text (D47); valid if `has_text`.
   bool has_text = false;
-  RegisterSet assigned = 0;  ///< Registers that have been given a value; followed only where an IF compares one.
+  RegisterSet assigned = 0;  ///< Registers assigned a value; recorded only if some IF compares one.
   PositionUse positions;
   CenterUse centers;
   std::vector<std::pair<dialect::DiagnosticId, std::size_t>> tally;  ///< Findings of each kind, after count().
@@ -48,7 +49,7 @@ struct Outcome {
   void count();
 };
 
-/// The number of findings of each kind in several outcomes that have been counted.
+/// The number of findings of each kind in several outcomes; each needs a call of count() before.
 class FindingCounts {
  public:
   void add(const Outcome& outcome);

@@ -10,7 +10,7 @@ using execution::Axis;
 using execution::kAxisCount;
 using geometry::Pose;
 
-/// How far positions may be shifted: as far again as PositionUse::far allows them to be.
+/// The maximum of a shift: the part of the exact range that PositionUse::far leaves free.
 static constexpr double kFarthestShift = geometry::kFarthestStep / 2;
 
 static double& coordinate(Pose& pose, int axis) { return axis < 3 ? pose.tip[axis] : axis == 3 ? pose.b : pose.c; }
@@ -53,7 +53,7 @@ void PositionShift::apply(Frontier& frontier) const {
   });
 }
 
-/// The shift from one position to another, if it can be undone to the bit.
+/// The shift from one position to another; nothing if it would not give exactly that position.
 static std::optional<PositionShift> shift_between(const Pose& from, const Pose& to) {
   PositionShift shift;
   for (int axis = 0; axis < kAxisCount; ++axis) {
@@ -69,7 +69,7 @@ static std::optional<PositionShift> shift_between(const Pose& from, const Pose& 
   return shift;
 }
 
-/// Any group of the frontier; null where there is none.
+/// Any group of the frontier; null if there is none.
 static const Group* any_group(const Frontier& frontier) {
   if (!frontier.live.empty()) return &frontier.live[0];
   return frontier.waiting().empty() ? nullptr : &frontier.waiting().begin()->second[0];

@@ -6,21 +6,21 @@
 
 namespace isocnc::check {
 
-/// A move of all positions by the same distance, in whole steps (geometry::advanced). Where moves are incremental, what
-/// is executed after it is shifted as well, and otherwise the same.
+/// An equal displacement of all positions, in whole steps (geometry::advanced). Lines with incremental moves give the
+/// same findings after it, at shifted positions.
 struct PositionShift {
   geometry::Pose by;
-  execution::AxisSet axes = 0;  ///< The axes that it moves.
+  execution::AxisSet axes = 0;  ///< The shifted axes.
 
   bool empty() const { return axes == 0; }
   /// Ends the shift of these axes.
   void drop(execution::AxisSet dropped);
-  /// Adds a shift after this one; false, with nothing done, when they lead too far to add up exactly.
+  /// Adds a shift that follows this one; returns false and changes nothing if the sum is too large to be exact.
   bool add(const PositionShift& other);
   void apply(Frontier& frontier) const;
 };
 
-/// The shift that makes one frontier of another, where they differ in nothing else. Nothing where there is none.
+/// The shift that turns `from` into `to`, if they differ in positions alone; nothing otherwise.
 std::optional<PositionShift> shift_between(const Frontier& from, const Frontier& to);
 
 }  // namespace isocnc::check

@@ -77,7 +77,7 @@ Valuations Valuations::unknown() {
   return result;
 }
 
-/// Where the register stands, or would stand, among others.
+/// The index of the register among the others, or the index where it would be inserted.
 static std::ptrdiff_t place_of(int reg, RegisterSet among) { return std::popcount(among & (register_bit(reg) - 1)); }
 
 bool operator==(const Valuations& a, const Valuations& b) {
@@ -117,7 +117,7 @@ void Valuations::forget(RegisterSet registers) {
   }
 }
 
-/// Two valuations that differ in one register only are one, with the union there; exactly so.
+/// Merges valuations that differ in one register only into one with the union of that register's values; this is exact.
 void Valuations::add(Valuation valuation) {
   for (std::size_t i = 0; i < all_.size();) {
     std::size_t different = 0;

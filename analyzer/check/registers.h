@@ -9,10 +9,10 @@
 
 namespace isocnc::check {
 
-/// A set of values of one register. A value that is assigned stands for all that the program's conditions cannot tell
-/// from it: the constants that the register is compared with cut the real line into cells, below the first, the first
-/// itself, between first and second, and so on. Sets themselves know no constants, so they mean the same when some
-/// other condition is edited.
+/// A set of values of one register. A value that is assigned stands for all values that the program's conditions cannot
+/// distinguish from it: the constants that the register is compared with divide the real line into cells (below the
+/// first, the first itself, between first and second, and so on). A set stores no constants, so its meaning does not
+/// change when another condition is edited.
 class ValueSet {
  public:
   static ValueSet everything() { return {-kInfinity, kInfinity}; }
@@ -29,7 +29,7 @@ class ValueSet {
   friend bool operator==(const ValueSet&, const ValueSet&) = default;
 
  private:
-  /// From the first number to the last, both in it: of numbers, open ranges are closed ones, too.
+  /// The numbers from `first` to `last`, both included; an open range ends at the next representable number.
   struct Range {
     double first, last;
     friend bool operator==(const Range&, const Range&) = default;
@@ -42,10 +42,10 @@ class ValueSet {
 
   std::size_t count() const { return empty() ? 0 : 1 + tail_.size(); }
   const Range& range(std::size_t index) const { return index == 0 ? head_ : tail_[index - 1]; }
-  /// Adds a range above all others, joined to the last when nothing lies between them.
+  /// Adds a range above all others; joins it to the last one if no number lies between them.
   void append(Range range);
 
-  /// Further ranges. Nearly always there are none, and then copying them costs nothing.
+  /// The ranges after the first. Nearly always there are none, and copying is then free.
   class Tail {
    public:
     Tail() = default;
@@ -71,44 +71,44 @@ class ValueSet {
     }
 
    private:
-    std::unique_ptr<std::vector<Range>> ranges_;  // Null when there are none.
+    std::unique_ptr<std::vector<Range>> ranges_;  // Null if there are none.
   };
 
-  // Ascending, apart by at least one number.
+  // The ranges, ascending, with at least one number between them.
   Range head_{1, 0};
   Tail tail_;
 };
 
-/// What is known together of some registers, in ascending order; of all others nothing is.
+/// One joint possibility for the values of the known registers, in ascending order of register.
 using Valuation = std::vector<ValueSet>;
 
-/// The valuations that are possible at some point. Between registers nothing is lost (if V1 is 1 then V2 is 3), so that
-/// a path is followed only where its conditions agree with each other (D52).
+/// The valuations that are possible at one point of the program. Relations between registers are kept (if V1 is 1 then
+/// V2 is 3), so that a path is followed only if its conditions are consistent (D52).
 class Valuations {
  public:
-  /// Nothing is known of any register.
+  /// No register is known.
   static Valuations unknown();
 
   void assign(int reg, double value, const JumpMap& jumps);
-  /// What remains of it where the condition of a jump on a register holds, or does not.
+  /// The valuations that remain if the condition of a jump on a register holds, or does not.
   Valuations where(const syntax::Jump& jump, bool holds) const;
   void unite(Valuations other);
-  /// Forgets the registers that are not in `read`: no IF will see their values, so no two states differ in them.
+  /// Forgets the registers that are not in `read`: no later IF compares them, so they cannot distinguish two states.
   void keep_only(RegisterSet read);
   bool possible() const { return !all_.empty(); }
   std::size_t size() const { return all_.size(); }
-  /// Drops all but the first `limit`: what the others would lead to is not followed.
+  /// Drops all but the first `limit` valuations; the paths that need the others are not followed.
   void reduce_to(std::size_t limit);
 
   friend bool operator==(const Valuations& a, const Valuations& b);
 
  private:
   void add(Valuation valuation);
-  /// Joins valuations again that one register less may have made alike.
+  /// Joins valuations that have become equal because a register was forgotten.
   void add_all_again();
   void add_registers(RegisterSet registers);
   void forget(RegisterSet registers);
-  /// Of the registers that are known, those that some valuation restricts.
+  /// The known registers that some valuation restricts.
   RegisterSet restricted() const;
 
   std::vector<Valuation> all_;

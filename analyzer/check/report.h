@@ -17,17 +17,17 @@ struct Decision {
   friend bool operator==(const Decision&, const Decision&) = default;
 };
 
-/// The decisions that lead somewhere, the latest first.
+/// The decisions that lead to a place, the latest first.
 using Path = std::vector<Decision>;
 
 /// A finding on its line.
 struct LocatedFinding {
   static constexpr std::int32_t kEveryPath = -1;
 
-  std::uint64_t line = 0;  ///< From 0.
+  std::uint64_t line = 0;  ///< The line, from 0.
   syntax::Finding finding;
-  std::int32_t path = kEveryPath;             ///< Of Report::paths.
-  std::optional<dialect::Severity> selected;  ///< What a selection has made of its severity.
+  std::int32_t path = kEveryPath;             ///< An index into Report::paths.
+  std::optional<dialect::Severity> selected;  ///< The severity that a selection has set.
 
   dialect::Severity severity() const { return selected.value_or(dialect::definition(finding.id).severity); }
 
@@ -36,16 +36,16 @@ struct LocatedFinding {
 
 /// One step of a path as users read it.
 struct PathStep {
-  std::uint64_t line = 0;  ///< Of the IF, from 0.
+  std::uint64_t line = 0;  ///< The line of the IF, from 0.
   bool taken = false;
 
   friend bool operator==(const PathStep&, const PathStep&) = default;
 };
 
-/// Everything that is wrong with a program, sorted by line and column.
+/// All findings of a program, sorted by line and column.
 struct Report {
   std::vector<LocatedFinding> findings;
-  std::vector<std::vector<PathStep>> paths;  ///< In the order of the program.
+  std::vector<std::vector<PathStep>> paths;  ///< The steps of each path, in the order of the program.
 
   friend bool operator==(const Report&, const Report&) = default;
 };

@@ -15,7 +15,7 @@ void side_by_side(int workers, const std::function<void()>& work) {
   std::vector<std::thread> helpers;
   try {
     while (static_cast<int>(helpers.size()) + 1 < workers) helpers.emplace_back(work_or_end);
-  } catch (const std::system_error&) {  // Those that are there will do.
+  } catch (const std::system_error&) {  // The threads already started suffice.
   }
   work_or_end();
   for (std::thread& helper : helpers) helper.join();
