@@ -3,7 +3,7 @@
 
 namespace isocnc::rules {
 
-/// An arc by radius that ends where it starts has no sweep (D36): a full turn was meant, and needs a center.
+/// An arc by radius that ends where it starts has no sweep (D36); a full turn needs a center.
 static void check_arc_goes_nowhere(const Block& block, execution::Sink& sink) {
   const std::uint8_t motion = block.motion();
   if ((motion != 2 && motion != 3) || block.before.unknown != 0 || block.after.unknown != 0) return;

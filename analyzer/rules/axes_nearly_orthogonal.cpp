@@ -7,7 +7,7 @@
 
 namespace isocnc::rules {
 
-/// Face axes that are orthogonal for the control, but not quite (D26).
+/// Face axes that the control accepts as orthogonal, but that are not exactly so (D26).
 static void check_axes_nearly_orthogonal(const Block& block, execution::Sink& sink) {
   const syntax::Word* word = block.g(28);
   if (!word) word = block.g(24);

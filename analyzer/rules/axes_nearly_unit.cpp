@@ -5,10 +5,10 @@
 
 namespace isocnc::rules {
 
-/// More than rounding explains, and less than a length that somebody chose: a digit is wrong.
+/// A length error larger than rounding and smaller than this is a wrong digit; from here on the length was chosen.
 static constexpr double kChosen = 0.1;
 
-/// A component of 1 or more is no unit vector's, or the vector is exact: somebody gave a direction.
+/// Skips vectors with a component of 1 or more, and exact ones: those give a direction, not a unit vector.
 static void check_vector(const Block& block, std::string_view letters, execution::Sink& sink) {
   double square = 0;
   bool is_direction = false;
@@ -25,7 +25,7 @@ static void check_vector(const Block& block, std::string_view letters, execution
     report(sink, "axes-nearly-unit"_diag, span, length);
 }
 
-/// The axis vectors of G24 and G28, which are made unit ones whatever their length (D26).
+/// The axis vectors of G24 and G28, which the control normalizes whatever their length (D26).
 static void check_axes_nearly_unit(const Block& block, execution::Sink& sink) {
   const bool by_plane = block.g(24) != nullptr;
   if (!by_plane && !block.g(28)) return;

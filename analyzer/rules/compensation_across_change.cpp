@@ -12,7 +12,7 @@ static void check_compensation_across_change(const Block& block, execution::Sink
   };
   if (const syntax::Word* const change = block.m(dialect::kToolChange)) return report_change(*change);
   for (const int frame : {24, 27, 28, 29, 92}) {
-    if (frame == 27 && !block.before.face_mounted) continue;  // W002: it does nothing.
+    if (frame == 27 && !block.before.face_mounted) continue;  // W002 reports this G27, which has no effect.
     if (const syntax::Word* const word = block.g(frame)) return report_change(*word);
   }
   for (const int plane : {17, 18, 19})

@@ -2,7 +2,7 @@
 
 namespace isocnc::rules {
 
-/// G04 P0, and a P so long that milliseconds may have been meant.
+/// G04 P0, and a P long enough to have been meant in milliseconds.
 static void check_dwell_of_odd_length(const Block& block, execution::Sink& sink) {
   if (!block.g(4)) return;
   for (const syntax::Word& word : block.line.words)

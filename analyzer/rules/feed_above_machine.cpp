@@ -4,7 +4,7 @@
 
 namespace isocnc::rules {
 
-/// An F that drives the tool tip faster than the machine can, in mm/min; in G93 the length decides.
+/// An F that drives the tool tip faster than the machine's maximum, in mm/min; in G93 the length of the move counts.
 static void check_feed_above_machine(const Block& block, const execution::Move& move, execution::Sink& sink) {
   if (move.kind == execution::MoveKind::Rapid || block.line.feed < 0) return;
   const double length = execution::in_machine(move, block.after).length;
@@ -15,7 +15,7 @@ static void check_feed_above_machine(const Block& block, const execution::Move& 
   sink.report({.id = "feed-above-machine"_diag, .span = word.span(), .values = {speed, block.setup.limits.feed}});
 }
 
-/// An F on a line of its own, for the moves that follow.
+/// An F on its own line, for the moves that follow.
 static void check_alone(const Block& block, execution::Sink& sink) {
   if (block.motion() != dialect::kNoMotion || block.before.inverse_time()) return;
   const syntax::Word& word = block.line.words[static_cast<std::size_t>(block.line.feed)];

@@ -2,7 +2,7 @@
 
 namespace isocnc::rules {
 
-/// The first feed move back in G94 when the last F was given in G93 and meant a time (D43).
+/// The first feed move back in G94, if the last F was given in G93 and so meant a time (D43).
 static void check_feed_of_inverse_time(const Block& block, execution::Sink& sink) {
   if (!block.has_feed_move() || block.line.feed >= 0 || block.after.inverse_time()) return;
   if (!block.before.knows(execution::State::kFeedOfInverseTime)) return;

@@ -2,7 +2,7 @@
 
 namespace isocnc::rules {
 
-/// An F that its line's G00 ignores (I.3.7, D43); in G93 that is W003.
+/// An F on a line with G00, which ignores it (I.3.7, D43); in G93 W003 reports it.
 static void check_feed_on_rapid(const Block& block, execution::Sink& sink) {
   const syntax::LineTree& line = block.line;
   if (line.feed < 0 || block.motion() != 0 || block.after.inverse_time()) return;

@@ -4,8 +4,8 @@
 
 namespace isocnc::rules {
 
-/// Of two Gs of one modal group on a line only the later one counts (D20), unless a motion between them obeys the first
-/// (D14). The same G twice is W001.
+/// Of two Gs of one modal group on a line only the later one counts (D20), unless a motion between them uses the first
+/// (D14). W001 reports the same G twice.
 static void check_modal_group_twice(const Block& block, execution::Sink& sink) {
   std::array<const syntax::Word*, dialect::kModalGroupCount> first{};
   for (const syntax::Instruction& instruction : block.line.instructions) {
@@ -15,7 +15,7 @@ static void check_modal_group_twice(const Block& block, execution::Sink& sink) {
     if (!code || moves || code->group == dialect::ModalGroup::None) continue;
     const syntax::Word*& seen = first[static_cast<std::size_t>(code->group)];
     const syntax::Word& word = block.line.command(instruction);
-    // Frames have a code of their own for company (ISO018).
+    // ISO018 reports frames that are not alone on the line.
     const bool is_repeated = seen && seen->value == word.value && code->repeated != dialect::kNoDiagnostic;
     if (seen && !is_repeated && code->alone == dialect::kNoDiagnostic)
       report(sink, "modal-group-twice"_diag, word.span(), 0, seen->span());

@@ -3,7 +3,7 @@
 
 namespace isocnc::rules {
 
-/// A rapid or a straight feed move to where the tool stands; arcs have a code of their own.
+/// A rapid or a straight feed move to the tool's current position; arcs have their own code.
 static void check_motion_goes_nowhere(const Block& block, const execution::Move& move, execution::Sink& sink) {
   if (move.kind == execution::MoveKind::Arc) return;
   const double way = (move.to.tip - move.from.tip).cwiseAbs().maxCoeff();

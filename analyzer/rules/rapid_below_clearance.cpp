@@ -3,14 +3,14 @@
 
 namespace isocnc::rules {
 
-/// A rapid that goes below the clearance, or crosses the face beneath it; not one that rises to it.
+/// A rapid that goes down below the clearance, or moves across the face below it; rising rapids are allowed.
 static void check_rapid_below_clearance(const Block& block, const execution::Move& move, execution::Sink& sink) {
   if (move.kind != execution::MoveKind::Rapid || !block.setup.clearance) return;
   const double clearance = *block.setup.clearance - geometry::kEqualCoordinate;
   const geometry::Vec3 way = move.to.tip - move.from.tip;
   if (move.to.tip.z() >= clearance) return;
   const bool crosses = way.head<2>().cwiseAbs().maxCoeff() > geometry::kEqualCoordinate;
-  // The first motion leaves the home position, which is the machine's affair.
+  // The first motion leaves the home position; that path is the machine's responsibility.
   const bool leaves_home = block.before.mode(dialect::ModalGroup::Motion) == dialect::kNoMotion;
   if (way.z() >= 0 && (!crosses || leaves_home)) return;
   const syntax::Word* const word = block.argument('Z');

@@ -9,7 +9,7 @@ namespace isocnc::rules {
 
 using namespace dialect::literals;
 
-/// A line that takes effect on one path: what a lint rule judges.
+/// A line executed on one path: the input of a lint rule.
 struct Block {
   const syntax::LineTree& line;
   const execution::State& before;
@@ -20,7 +20,7 @@ struct Block {
   bool spindle_turns() const {
     return before.knows(execution::State::kClockwise | execution::State::kCounterclockwise);
   }
-  /// The number of the line's motion G, written or in force; kNoMotion where nothing moves.
+  /// The number of the line's motion G, written or in force; kNoMotion if nothing moves.
   std::uint8_t motion() const;
   /// Whether the line's motion cuts: G01, G02 or G03, written or in force.
   bool has_feed_move() const;
@@ -28,28 +28,28 @@ struct Block {
   const syntax::Word* g(int number) const;
   /// The M of this number on the line, or null.
   const syntax::Word* m(int number) const;
-  /// Whether an M of the shop's is on the line.
+  /// Whether the line has a user-defined M.
   bool has_user_function() const;
-  /// M03, M04 or M05, the last of them before a word of the line; 0 where there is none.
+  /// The last M03, M04 or M05 before a word of the line; 0 if there is none.
   int spindle_function_before(const syntax::Word& word) const;
-  /// The line's first coordinate, or the motion's G: where a finding about the motion stands.
+  /// The line's first coordinate, or the motion's G: the place of findings about the motion.
   const syntax::Word& motion_word() const;
   /// The motion's word of this letter, or null.
   const syntax::Word* argument(char letter) const;
 };
 
-/// What a line can have that a rule asks about.
+/// The parts of a line that rules can register for.
 inline constexpr unsigned kMotion = 1;      ///< A motion, by its G or continued.
 inline constexpr unsigned kModal = 2;       ///< Any other G.
-inline constexpr unsigned kFunction = 4;    ///< An M but for M06.
+inline constexpr unsigned kFunction = 4;    ///< An M other than M06.
 inline constexpr unsigned kToolChange = 8;  ///< M06.
 inline constexpr unsigned kSpindle = 16;    ///< An S.
 inline constexpr unsigned kFeed = 32;       ///< An F.
 
-/// A rule tells what it thinks of a block that has one of `concerns`, or of the motion of a block. Each has a file of
-/// its name in this folder, and a row in the table of diagnostics; the build gathers them. `check` is not asked about
-/// the plain motions that nothing in State::knowledge concerns, so it must not speak of them; `check_move` is asked
-/// about all motions whose ends are known, but only where watches_moves().
+/// Checks a block that contains one of `concerns`, or the motion of a block. One file per rule, named after it, and one
+/// row in the table of diagnostics; the build collects the files. `check` is not called for plain motions without a
+/// State::knowledge fact, so a rule must not rely on seeing them; `check_move` is called for all motions with known
+/// ends, but only where checks_moves().
 struct Rule {
   unsigned concerns = 0;
   void (*check)(const Block& block, execution::Sink& sink) = nullptr;
@@ -61,18 +61,18 @@ inline void report(execution::Sink& sink, dialect::DiagnosticId id, syntax::Span
   sink.report({.id = id, .span = span, .related = related, .values = {value}});
 }
 
-/// Asks all rules.
+/// Runs all rules on a block.
 void run_rules(const Block& block, execution::Sink& sink);
 
-/// Whether motions are to be judged one by one. It takes the short cut for plain lines away, so only who has given
-/// limits, or asks for opinions on all motions, pays for it.
+/// Whether rules judge each motion. This disables the fast path for plain lines, so it is on only if the setup has
+/// limits or a rule for all motions is selected.
 bool checks_moves(const execution::Setup& setup);
 
-/// Asks all rules about the motion of a block, given in the frame in force behind it.
+/// Runs all rules on the motion of a block, given in the frame in force after the block.
 void run_move_rules(const Block& block, const execution::Move& move, execution::Sink& sink);
 
-/// Judges an arc that the control accepts: W142 where it is legal both ways and centers of the program are suspected
-/// of counting from the start, else W112 where it would not fit with half the tolerance.
+/// Judges an arc that the control accepts. Reports W142 if it is legal both ways and `suspects_centers` is set;
+/// otherwise W112 if it would not fit with half the tolerance.
 void judge_arc(const execution::CenteredArc& arc, const geometry::CenterReadings& readings, bool suspects_centers,
                const execution::Setup& setup, execution::Sink& sink);
 

@@ -2,7 +2,7 @@
 
 namespace isocnc::rules {
 
-/// The first M03 or M04 behind feed moves.
+/// The first M03 or M04 after feed moves.
 static void check_spindle_started_late(const Block& block, execution::Sink& sink) {
   if (!block.before.knows(execution::State::kCutNotStarted)) return;
   for (const int m : {3, 4})

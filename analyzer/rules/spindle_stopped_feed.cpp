@@ -2,8 +2,8 @@
 
 namespace isocnc::rules {
 
-/// A feed move after M05, or after an S whose spindle nothing has started. Without an S, a spindle may not be meant at
-/// all: a laser, a part of a program.
+/// A feed move after M05, or after an S without M03 or M04. Without an S, the program may need no spindle: it may be
+/// for a laser, or be part of a program.
 static void check_spindle_stopped_feed(const Block& block, execution::Sink& sink) {
   using execution::State;
   if (!block.has_feed_move()) return;

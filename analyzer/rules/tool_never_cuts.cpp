@@ -2,7 +2,7 @@
 
 namespace isocnc::rules {
 
-/// A tool change to another tool while the last one has done nothing.
+/// A tool change to another tool although the last one has not been used.
 static void check_tool_never_cuts(const Block& block, execution::Sink& sink) {
   const syntax::Word* const change = block.m(dialect::kToolChange);
   if (!change || !block.before.knows(execution::State::kUncut) || block.after.tool == block.before.tool) return;

@@ -8,8 +8,8 @@ namespace isocnc::rules {
 
 using execution::Travel;
 
-/// Where an axis goes beyond its travel, at the end of a motion or at the bulge of an arc. What starts outside is told
-/// only where it goes further out: the way back is part of the same mistake.
+/// The place where an axis exceeds its travel, at the end of a motion or at an arc's extreme point. A motion that
+/// starts outside is reported only if it goes further out: the return is part of the same mistake.
 static void check_travel_exceeded(const Block& block, const execution::Move& move, execution::Sink& sink) {
   constexpr double kSlack = 1e-6;
   const geometry::Vec3 from = block.after.to_machine(move.from.tip);
@@ -21,7 +21,7 @@ static void check_travel_exceeded(const Block& block, const execution::Move& mov
     const bool below = reached.minimum < std::min(travel.minimum, start[axis]) - kSlack;
     const bool above = reached.maximum > std::max(travel.maximum, start[axis]) + kSlack;
     if (!below && !above) continue;
-    // In a face frame another coordinate may be what moves the machine's axis.
+    // In a face frame, other coordinates may move the machine's axis.
     const syntax::Word* const word =
         block.after.face_mounted && axis < 3 ? nullptr : block.argument(dialect::kAxisLetters[axis]);
     sink.report({.id = "travel-exceeded"_diag,

@@ -4,7 +4,7 @@
 
 namespace isocnc::rules {
 
-/// A user's M that is not among those the machine file names.
+/// A user-defined M that the machine file does not list.
 static void check_unnamed_function(const Block& block, execution::Sink& sink) {
   if (!block.setup.functions) return;
   const auto& named = *block.setup.functions;
