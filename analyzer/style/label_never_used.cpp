@@ -4,8 +4,8 @@
 
 namespace isocnc::style {
 
-/// A line number to which no GOTO leads, in a program that has jumps and numbers few of its lines: there a number is
-/// written to be jumped to.
+/// A line number that no GOTO names, in a program that has jumps and numbers only few lines: there a number is meant as
+/// a label.
 class LabelNeverUsed final : public Rule {
  public:
   void read(const Line& line, std::vector<StyleFinding>& style_findings) override {

@@ -2,7 +2,8 @@
 
 namespace isocnc::style {
 
-/// A line number that is no greater than the one before: repeated ones are never growing ones all the way between.
+/// A line number that is not greater than the one before. This covers repeated numbers: between two equal ones, one
+/// must fail to grow.
 class LineNumberNotGrowing final : public Rule {
  public:
   void read(const Line& line, std::vector<StyleFinding>& style_findings) override {

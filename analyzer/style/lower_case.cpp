@@ -6,7 +6,7 @@ namespace isocnc::style {
 
 static bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
 
-/// Small letters outside comments (D8): one remark a line, from the first to the last.
+/// Lower-case letters outside comments (D8): one finding a line, from the first such letter to the last.
 class LowerCase final : public Rule {
  public:
   void read(const Line& line, std::vector<StyleFinding>& style_findings) override {

@@ -2,7 +2,7 @@
 
 namespace isocnc::style {
 
-/// Where the line ends first differ from those above: one mistake, however many lines follow.
+/// The first line end that differs from those above; the lines after it are not reported.
 class MixedLineEnds final : public Rule {
  public:
   void read(const Line& line, std::vector<StyleFinding>& style_findings) override {

@@ -5,7 +5,7 @@
 
 namespace isocnc::style {
 
-/// A register that is given a value and compared by no IF: said at the first V.
+/// A register that is assigned and that no IF compares, reported at its first V.
 class RegisterNeverRead final : public Rule {
  public:
   void read(const Line& line, std::vector<StyleFinding>& style_findings) override {

@@ -15,7 +15,7 @@ static const StyleRuleRow* const kRules[] = {
 #undef ISOCNC_RULE
 };
 
-/// Whether the control reads a line: after M02 only from a label on to which a jump above leads (D47).
+/// Whether the control reads a line: after M02, only from a label on that a jump above names (D47).
 class Reader::Liveness {
  public:
   bool is_read(const syntax::LineTree& line) {

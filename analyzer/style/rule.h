@@ -12,11 +12,11 @@ namespace isocnc::style {
 
 using namespace dialect::literals;
 
-/// A line as it is written, whether it runs or not.
+/// A line as written, executed or not.
 struct Line {
-  std::uint64_t number = 0;  ///< From 0.
+  std::uint64_t number = 0;  ///< The line number, from 0.
   const syntax::LineTree& tree;
-  std::string_view terminator;  ///< CR, LF or CRLF; nothing at the end of the program.
+  std::string_view terminator;  ///< CR, LF or CRLF; empty at the end of the program.
 };
 
 struct StyleFinding {
@@ -24,17 +24,17 @@ struct StyleFinding {
   syntax::Finding finding;
 };
 
-/// An opinion on how a program is written. All are off until somebody asks for them, and cost nothing till then.
+/// A rule on how a program is written. All are off by default, and then cost nothing.
 class Rule {
  public:
   virtual ~Rule() = default;
   /// Reads the next line.
   virtual void read(const Line& line, std::vector<StyleFinding>& style_findings) = 0;
-  /// There are no more.
+  /// Called after the last line.
   virtual void end(std::vector<StyleFinding>&) {}
 };
 
-/// What a file of this folder defines, under the file's name.
+/// A rule's row, defined in the file named after the rule.
 struct StyleRuleRow {
   dialect::DiagnosticId id;
   std::unique_ptr<Rule> (*make)();
@@ -45,19 +45,19 @@ constexpr StyleRuleRow rule(dialect::DiagnosticId id) {
   return {id, [] { return std::unique_ptr<Rule>(std::make_unique<R>()); }};
 }
 
-/// Which rules are wanted.
+/// Whether a rule is selected.
 using IsWanted = std::function<bool(dialect::DiagnosticId)>;
 
-/// Reads a program to the rules that are wanted, line by line from the top.
+/// Passes a program's lines, from the top, to the selected rules.
 class Reader {
  public:
   explicit Reader(const IsWanted& is_wanted);
   ~Reader();
 
-  /// Whether nobody listens.
+  /// Whether no rule is selected.
   bool is_idle() const { return rules_.empty(); }
   void read(const Line& line);
-  /// What the rules have said, in no order.
+  /// The findings of the rules, unsorted.
   std::vector<StyleFinding> finish();
 
  private:
@@ -68,7 +68,7 @@ class Reader {
   std::vector<StyleFinding> style_findings_;
 };
 
-/// What the wanted rules say of a program, in no order.
+/// The findings of the selected rules in a program, unsorted.
 std::vector<StyleFinding> read_program(std::string_view text, const IsWanted& is_wanted);
 
 }  // namespace isocnc::style
