@@ -55,7 +55,7 @@ check::Report Baseline::without_known(check::Report report, std::string_view pro
   return report;
 }
 
-/// One finding on a line, so that versions of the file can be compared.
+/// Writes one finding per line, so that versions of the file can be compared.
 std::string Baseline::to_json() const {
   std::string text = fmt::format("{{\n  \"version\": {},\n  \"findings\": [", kVersion);
   bool first = true;
@@ -69,12 +69,12 @@ std::string Baseline::to_json() const {
   return text + (first ? "]\n}\n" : "\n  ]\n}\n");
 }
 
-/// Takes a baseline from its JSON, one value after the other, and stops at the first that has no business there.
+/// Reads a baseline from JSON, value by value, and stops at the first invalid one.
 class BaselineReader final : public nlohmann::json_sax<nlohmann::json> {
  public:
   BaselineReader(Baseline& baseline, Language language) : baseline_(baseline), language_(language) {}
 
-  /// Why it stopped.
+  /// The reason why it stopped.
   const std::string& mistake() const { return mistake_; }
 
   bool null() override { return misplaced(); }
@@ -169,7 +169,8 @@ class BaselineReader final : public nlohmann::json_sax<nlohmann::json> {
   }
 
   bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception& error) override {
-    // "[json.exception...] parse error at line 1, column 2: syntax error ...": where it is, is told otherwise.
+    // nlohmann says "[json.exception...] parse error at line 1, column 2: syntax error ..."; the position is reported
+    // separately.
     const std::string_view what = error.what();
     const std::size_t column = std::min(what.find("column "), what.size());
     const std::size_t reason = what.find(": ", column);
@@ -223,7 +224,7 @@ std::variant<Baseline, std::string> Baseline::read(const fs::path& file, Languag
   BaselineReader reader(baseline, language);
   if (nlohmann::json::sax_parse(CountedBytes(text.data(), furthest), CountedBytes(end, furthest), &reader))
     return baseline;
-  // Behind a number the parser has read one byte more, which may be the line's end.
+  // After a number the parser has read one byte more, which may be the line end.
   const auto line = 1 + std::count(text.data(), std::max(text.data(), furthest - 1), '\n');
   return fmt::format("{}:{}: {}", file.string(), line, reader.mistake());
 }

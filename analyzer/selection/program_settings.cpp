@@ -18,7 +18,7 @@ static SelectionOptions selection_options(const CodeSelection& selection) {
 
 static Selection selection_of(const Configuration& configuration, const std::vector<bool>& holds,
                               const SelectionOptions& command_line) {
-  static constexpr auto kLanguage = dialect::Language::English;  // Of complaints, which have been made before.
+  static constexpr auto kLanguage = dialect::Language::English;  // For errors, which have been reported before.
   Selection selection;
   selection.follow(selection_options(configuration.lint.selection), kLanguage);
   for (std::size_t i = 0; i < holds.size(); ++i)

@@ -12,24 +12,24 @@
 
 namespace isocnc::selection {
 
-/// How one program is checked.
+/// The settings with which one program is checked.
 struct ProgramSettings {
   execution::Setup setup;
   Selection selection;
 };
 
-/// Finds the settings of programs: what their configurations say, and the command line, which outweighs them. They are
-/// valid as long as this and the configurations are.
+/// Finds the settings of programs: those of their configurations, overridden by the command line. The results are valid
+/// as long as this object and the configurations are.
 class SettingsFinder {
  public:
-  /// What is wrong with the wishes must have been told before.
+  /// Errors in the options must have been reported before.
   SettingsFinder(configuration::Configurations& configurations, SelectionOptions command_line)
       : configurations_(configurations), command_line_(std::move(command_line)) {}
 
   const ProgramSettings& of(const std::filesystem::path& program);
 
  private:
-  /// The configuration, and which of its wishes for some files hold.
+  /// The configuration, and which of its overrides for some files apply.
   using Key = std::pair<const configuration::Configuration*, std::vector<bool>>;
 
   configuration::Configurations& configurations_;

@@ -30,7 +30,7 @@ static std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// The words between the commas; empty ones are left out.
+/// The words between the commas, without empty ones.
 static std::vector<std::string_view> words_of(const std::vector<std::string>& lists) {
   std::vector<std::string_view> words;
   for (const std::string_view list : lists)
@@ -62,7 +62,7 @@ static std::vector<CodeSet> code_sets(const std::vector<std::string>& lists, Lan
   return sets;
 }
 
-/// Reads `W001=error`; a problem is told and gives nothing.
+/// Reads `W001=error`; adds an error to `problems` and returns nothing if that fails.
 static std::optional<SeverityOverride> parse_severity_override(std::string_view word, Language language,
                                                                std::vector<std::string>& problems) {
   static constexpr Text kForm = {"{}: write CODE=error, warning, info or off",
@@ -89,7 +89,7 @@ static std::optional<SeverityOverride> parse_severity_override(std::string_view 
   return std::nullopt;
 }
 
-/// How exactly the sets name a code; -1 when they do not.
+/// How specifically the sets name a code; -1 if they do not.
 static int exactness_for(std::size_t code, const std::vector<CodeSet>& sets) {
   int maximum = -1;
   for (const CodeSet& set : sets)
@@ -123,7 +123,7 @@ std::vector<std::string> Selection::follow(const SelectionOptions& options, Lang
     const bool on = selected > ignored || (ignored < 0 && select.empty() && before[i]);
     int decided = -1;
     std::optional<Severity> severity = before[i] ? before[i] : dialect::kDiagnostics[i].severity;
-    // What was off before and is given a weight now is wanted again, unless these very wishes leave it out.
+    // A code that was off and is given a severity is shown again, unless the same options exclude it.
     bool wanted = on;
     for (const SeverityOverride& severity_override : severities) {
       if (!severity_override.set.codes[i] || static_cast<int>(severity_override.set.exactness) < decided) continue;

@@ -11,31 +11,31 @@
 
 namespace isocnc::selection {
 
-/// What somebody wishes to be told: the command line, or a configuration. Codes are written as `ISO031`, as
-/// `arc-center-mismatch`, as the beginning of codes (`W1` is all that begin so), or as `ALL`; several with commas
-/// between them. Capitals do not matter.
+/// Which findings to report, from the command line or a configuration. Codes are written as `ISO031`, as
+/// `arc-center-mismatch`, as a prefix of codes (`W1`) or as `ALL`; several are separated by commas. Case does not
+/// matter.
 struct SelectionOptions {
-  std::vector<std::string> select;      ///< These alone; none is all that were shown before.
-  std::vector<std::string> ignore;      ///< Not these.
-  std::vector<std::string> severities;  ///< `W001=error`; `off` is a severity, too.
+  std::vector<std::string> select;      ///< The only codes shown; empty: all that were shown before.
+  std::vector<std::string> ignore;      ///< Codes not shown.
+  std::vector<std::string> severities;  ///< Such as `W001=error`; `off` is also a severity.
 };
 
-/// Which codes are shown, and how much each weighs. At first all are, by the table of diagnostics.
+/// Which codes are shown, and with which severity. Initially the table of diagnostics decides.
 class Selection {
  public:
   Selection();
 
-  /// Follows the wishes, which outweigh what was followed before. Of wishes for the same code, the one that names it
-  /// more exactly decides; of two that are equally exact, `ignore`, and the later severity. Returns what is wrong with
-  /// them, for people: then none has been followed.
+  /// Applies options on top of those applied before. For the same code the more specific entry wins; between equally
+  /// specific ones, `ignore`, then the later severity. Returns error messages; if there are any, nothing has been
+  /// applied.
   std::vector<std::string> follow(const SelectionOptions& options, dialect::Language language);
 
-  /// None when the code is off.
+  /// Nothing if the code is off.
   std::optional<dialect::Severity> severity(dialect::DiagnosticId id) const {
     return severities_[static_cast<std::size_t>(id)];
   }
   bool shows(dialect::DiagnosticId id) const { return severity(id).has_value(); }
-  /// The report without findings that are off, and each of the others with its severity.
+  /// The report without findings that are off; each of the others has its selected severity.
   check::Report shown(check::Report report) const;
 
  private:

@@ -9,11 +9,11 @@
 
 namespace isocnc::selection {
 
-/// Of all that the check of a text has found, what is shown: the selection's findings and its rules of style, less what
-/// the program's comments silence, with the comments that silence nothing (W190) where those are selected. The one
-/// order for isolint, editors and debuggers.
+/// The findings of a check that are shown: adds the selected style rules, keeps the selected findings, removes those
+/// that the program's comments suppress, and adds useless comments (W190) if selected. isolint, editors and debuggers
+/// all use this order.
 check::Report shown_report(check::Report found, std::string_view text, const Selection& selection);
-/// The same for a document and the comments that stand in it.
+/// The same for a document and the suppressions read from it.
 check::Report shown_report(check::Report found, const syntax::Document& document, Suppressions comments,
                            const Selection& selection);
 

@@ -8,11 +8,11 @@
 
 namespace isocnc::selection {
 
-/// The report with what the shown style rules say of how the program is written.
+/// The report with the findings of the selected style rules.
 check::Report with_style(check::Report report, std::string_view text, const Selection& selection);
 check::Report with_style(check::Report report, const syntax::Document& document, const Selection& selection);
 
-/// Whether some style rule is shown.
+/// Whether a style rule is selected.
 bool has_style(const Selection& selection);
 
 }  // namespace isocnc::selection

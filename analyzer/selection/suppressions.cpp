@@ -15,7 +15,7 @@ using namespace dialect::literals;
 static constexpr std::string_view kCall = "isolint:";
 static constexpr DiagnosticId kUseless = "useless-suppression"_diag;
 
-/// Where the next `isolint:` begins at or behind `at`. Colons are rare in programs, so that looking for them is cheap.
+/// The position of the next `isolint:` from `at` on. Colons are rare in programs, so searching for them is fast.
 static std::size_t find_call(std::string_view text, std::size_t at) {
   for (std::size_t colon = text.find(':', at); colon != std::string_view::npos; colon = text.find(':', colon + 1)) {
     if (colon + 1 < at + kCall.size()) continue;
@@ -91,13 +91,14 @@ void Suppressions::read_directive(std::uint64_t number, std::string_view line, s
   directives_.push_back(std::move(directive));
 }
 
-/// The comment nearest to a finding is the one that silences it; of two that reach as far, the first.
+/// The directive with the narrowest scope suppresses a finding; of several with the same scope, the first.
 void Suppressions::apply_disable(Directive& directive, SuppressedBy& suppressors) {
   if (directive.codes.empty()) {
     for (std::size_t i = 0; i < suppressors.size(); ++i)
       if (!suppressors[i] && (DiagnosticId{static_cast<std::uint8_t>(i)} != kUseless))
         suppressors[i] = &directive.useful;
-    // Whoever silences a whole program wants no word about it; else the comment would silence its own W190.
+    // A directive for the whole program also suppresses W190; other directives must not suppress the W190 on
+    // themselves.
     bool*& useless = suppressors[static_cast<std::size_t>(kUseless)];
     if (directive.kind == Kind::IgnoreFile && !useless) useless = &directive.useful;
   }
@@ -159,7 +160,8 @@ void Suppressions::keep_directives_for_disabled_codes(const Selection& selection
     for (Code& code : directive.codes) code.useful = code.useful || (code.id && !is_looked_for(*code.id));
 }
 
-/// What changes nothing, but for what might silence W190 itself; or that alone, when all else has been judged.
+/// Directives without effect, except those that may suppress W190; with `about_w190` only these, after all others have
+/// been judged.
 std::vector<check::LocatedFinding> Suppressions::useless(bool about_w190) const {
   std::vector<check::LocatedFinding> findings;
   const auto report = [&](std::uint64_t line, syntax::Span span) {

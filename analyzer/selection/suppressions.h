@@ -11,33 +11,33 @@
 
 namespace isocnc::selection {
 
-/// What a program's comments say to isolint, and which findings it silences:
+/// The directives for isolint in a program's comments, and the findings that they suppress:
 ///
 ///     G01 X10 U5 ;isolint: ignore ISO003       this line
 ///     (isolint: disable W001, W002) ...        from this line on
 ///     (isolint: enable W001 W002)              up to the line above
 ///     ;isolint: ignore-file W003 -- a reason   the whole program
 ///
-/// Without codes, all are meant but W190, which tells of a comment that changes nothing.
+/// Without codes, a directive means all codes except W190, which reports a directive without effect.
 class Suppressions {
  public:
   Suppressions() = default;
   explicit Suppressions(std::string_view text);
 
-  /// Whether some line of the text may say something to isolint: else none need be read.
+  /// Fast test: whether the text may contain a directive for isolint.
   static bool may_have_directives(std::string_view text);
-  /// Reads a line; each must lie below the one before. The constructor reads those of a whole text.
+  /// Reads a line; lines must come in ascending order. The constructor reads those of a whole text.
   void read_line(std::uint64_t number, std::string_view line);
   bool empty() const { return directives_.empty(); }
-  /// The report less what is silenced, with what changes nothing (W190). A code that is off may not have been looked
-  /// for: to silence it is never held against the comment.
+  /// The report without suppressed findings, and with directives that have no effect (W190). W190 does not report
+  /// directives for codes that are off, because those may not have been checked.
   check::Report apply(check::Report report, const Selection& selection);
 
  private:
   enum class Kind : std::uint8_t { Ignore, Disable, Enable, IgnoreFile, Unknown };
 
   struct Code {
-    std::optional<dialect::DiagnosticId> id;  ///< None when there is no such code.
+    std::optional<dialect::DiagnosticId> id;  ///< Nothing if the code is unknown.
     syntax::Span span;
     bool useful = false;
   };
@@ -45,10 +45,10 @@ class Suppressions {
     Kind kind = Kind::Unknown;
     std::uint64_t line = 0;
     syntax::Span span;
-    std::vector<Code> codes;  ///< Empty: all.
+    std::vector<Code> codes;  ///< The codes named; empty: all.
     bool useful = false;
   };
-  /// Which comment silences each code; null for none.
+  /// The directive that suppresses each code; null for none.
   using SuppressedBy = std::array<bool*, dialect::kDiagnosticCount>;
 
   void read_directive(std::uint64_t number, std::string_view line, std::uint32_t begin, std::uint32_t end);
@@ -58,10 +58,10 @@ class Suppressions {
   void keep_directives_for_disabled_codes(const Selection& selection);
   std::vector<check::LocatedFinding> useless(bool about_w190) const;
 
-  std::vector<Directive> directives_;  // In the order of the program.
+  std::vector<Directive> directives_;  // The directives, in the order of the program.
 };
 
-/// The report as the program's comments want it.
+/// The report after applying the directives in the program's comments.
 check::Report suppress(check::Report report, std::string_view text, const Selection& selection);
 
 }  // namespace isocnc::selection

@@ -8,7 +8,7 @@
 
 namespace isocnc::selection {
 
-/// How often each code was found, and how much it weighed: not the same in every program.
+/// The number of findings of each code and severity; a code's severity may differ between programs.
 class Tally {
  public:
   void add(const check::Report& report) {
@@ -24,7 +24,7 @@ class Tally {
     for (const Counts& counts : counts_) sum += counts[static_cast<std::size_t>(severity)];
     return sum;
   }
-  /// The most that a code weighed where it was found.
+  /// The highest severity with which a code was found; its default if it was not found.
   dialect::Severity heaviest(dialect::DiagnosticId id) const {
     const Counts& counts = counts_[static_cast<std::size_t>(id)];
     const auto* const first = std::find_if(counts.begin(), counts.end(), [](std::size_t count) { return count > 0; });
@@ -32,7 +32,7 @@ class Tally {
   }
 
  private:
-  using Counts = std::array<std::size_t, 3>;  // By severity, the heaviest first.
+  using Counts = std::array<std::size_t, 3>;  // The counts by severity, the highest first.
 
   std::array<Counts, dialect::kDiagnosticCount> counts_{};
 };
