@@ -31,7 +31,7 @@ bool Options::wants_color() const {
 
 bool Options::prints_program() const { return fix && !diff && paths.size() == 1 && paths.front() == "-"; }
 
-/// `text, concise, ...`, in lines that fit beside the options.
+/// `text, concise, ...`, folded into lines that fit beside the options.
 static std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t kWidth = 50;
   std::string text;
@@ -58,7 +58,7 @@ static void add_options(command_line::ProgramApp& program, Options& options) {
   program.add_flag("--list-rules", options.list_rules, {"List all codes", "Elenca tutti i codici"});
 
   program.begin_group({"What is reported", "Che cosa segnalare"});
-  // One word behind each, so that `--select ISO031 part.iso` leaves the path alone.
+  // Each option takes one word, so that in `--select ISO031 part.iso` the path stays a path.
   program
       .add_option("--select", options.selection.select, kCodes,
                   {"Only these: codes (ISO031), names, what codes\nbegin with (W1), ALL; commas between them",
@@ -132,7 +132,8 @@ static void add_options(command_line::ProgramApp& program, Options& options) {
   program.add_flag(
       "--show-config", options.show_config,
       {"Print the configuration of PATH, and where it is", "Stampa la configurazione di PATH, e dove si trova"});
-  // What writes docs/isocnc.schema.json, a table of docs/configuration.md, docs/machine.md, and docs/rules.md.
+  // Options that generate docs/isocnc.schema.json, a table of docs/configuration.md, docs/machine.md, and
+  // docs/rules.md.
   program.add_flag("--config-schema", options.config_schema, {}).hidden();
   program.add_flag("--config-keys", options.config_keys, {}).hidden();
   program.add_flag("--machine-page", options.machine_page, {}).hidden();

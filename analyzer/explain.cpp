@@ -25,7 +25,7 @@ static constexpr Text kSection = {"specification", "specifica"};
 static constexpr Text kWrong = {"Wrong:", "Sbagliato:"};
 static constexpr Text kRight = {"Right:", "Giusto:"};
 
-/// `warning`; `info, off by default`; `warning, told by isorun`.
+/// Such as `warning`; `info, off by default`; `warning, told by isorun`.
 static std::string severity_text(const DiagnosticDef& def, Language language) {
   static constexpr Text kOff = {", off by default", ", disattivata di norma"};
   static constexpr Text kRuns = {", told by isorun", ", segnalato da isorun"};
@@ -57,7 +57,7 @@ MarkedProgram read_marked(std::string_view program) {
   return marked;
 }
 
-/// Folded at 78 columns; UTF-8 letters count as one.
+/// The text folded at 78 columns; a UTF-8 letter counts as one.
 static std::string folded(std::string_view text) {
   std::string result;
   std::size_t column = 0;
@@ -80,7 +80,7 @@ static std::string folded(std::string_view text) {
   return result + '\n';
 }
 
-/// The program, indented, with its mark beneath the line.
+/// The program, indented, with its mark below the line.
 static std::string shown(std::string_view program) {
   const MarkedProgram marked = read_marked(program);
   std::string result;
@@ -96,7 +96,7 @@ static std::string shown(std::string_view program) {
   return result;
 }
 
-/// The fix of the table's wrong program, when it has one.
+/// The fix of the wrong program in the table, if it has one.
 static std::optional<fixes::Fix> fix_of_wrong_program(DiagnosticId id) {
   const std::string wrong = read_marked(dialect::definition(id).wrong).text;
   const execution::Setup setup;
@@ -107,7 +107,7 @@ static std::optional<fixes::Fix> fix_of_wrong_program(DiagnosticId id) {
   return std::nullopt;
 }
 
-/// What the fixes of a code do, in the wrong program or with `...` for what others hold, or why it has none.
+/// The effects of a code's fixes, in the wrong program or with `...` for what differs elsewhere; or why there is none.
 static std::vector<std::string> fixes_of(DiagnosticId id, Language language) {
   static constexpr Text kKinds[] = {
       {"No fix", "Nessuna correzione"}, {"Safe fix", "Correzione sicura"}, {"Unsafe fix", "Correzione non sicura"}};
@@ -123,7 +123,7 @@ static std::vector<std::string> fixes_of(DiagnosticId id, Language language) {
   return lines;
 }
 
-/// `lint.options.longestDwell, else 120 s`: the keys of isocnc.json that a code goes by.
+/// Such as `lint.options.longestDwell, else 120 s`: the keys of isocnc.json that affect a code.
 static std::vector<std::string> keys_of(std::string_view code, Language language,
                                         const std::function<std::string(std::string_view path)>& named) {
   static constexpr Text kElse = {", else ", ", altrimenti "};

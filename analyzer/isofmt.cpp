@@ -34,7 +34,7 @@ using system::ExitStatus;
 
 enum class Mode { Check, Diff, Stdout, InPlace };
 
-/// As they stand on the command line.
+/// The options as given on the command line.
 struct Options {
   std::vector<std::string> paths;
   bool check = false;
@@ -44,7 +44,7 @@ struct Options {
   bool word_order = false;
   bool no_word_order = false;
   bool renumber_all = false;
-  std::string decimals;  // Empty, as the others: by the configuration.
+  std::string decimals;  // Empty, like the others: by the configuration.
   std::string renumber;
   std::string modal;
   std::string g_digits;
@@ -76,7 +76,7 @@ constexpr Text kNotRenumbered{"not renumbered: {}", "non rinumerato: {}"};
 constexpr Text kWouldBeChanged{"{} of {} programs would be changed", "programmi da modificare: {} di {}"};
 constexpr Text kWereChanged{"{} of {} programs changed", "programmi modificati: {} di {}"};
 
-/// 10:10; the step is at least 1.
+/// Reads a start and a step, such as 10:10; the step must be at least 1.
 std::optional<formatting::NumberStyle> read_numbers(std::string_view text) {
   formatting::NumberStyle style;
   const char* const end = text.data() + text.size();
@@ -90,13 +90,13 @@ std::optional<formatting::NumberStyle> read_numbers(std::string_view text) {
   return style;
 }
 
-/// Puts what an option says in the place of what the configuration does: a number, or `keep` for none.
+/// Overrides a value of the configuration with an option: a number, or `keep` for none.
 void override_value(std::optional<int>& value, const std::string& option) {
   if (option.empty()) return;
   value = option == "keep" ? std::nullopt : std::optional(std::stoi(option));
 }
 
-/// The configuration's style with what the command line says in its place. The options have been checked.
+/// The configuration's style, overridden by the command line. The options must be valid.
 formatting::ProgramStyle style_from(configuration::Format format, const Options& options) {
   if (options.word_order || options.no_word_order) format.word_order = options.word_order;
   override_value(format.decimals, options.decimals);
@@ -109,7 +109,7 @@ formatting::ProgramStyle style_from(configuration::Format format, const Options&
   return style;
 }
 
-/// Whether the options say what can be done; else false, after a complaint.
+/// Whether the options are valid; if not, an error has been printed.
 bool check_options(const Options& options) {
   const Language language = options.reader_language();
   const bool renumbers = !options.renumber.empty() && options.renumber != "keep";
@@ -124,7 +124,7 @@ bool check_options(const Options& options) {
   return true;
 }
 
-/// 0, 1, ..., and keep.
+/// 0, 1, ... and `keep`.
 std::vector<std::string> decimals_choices() {
   std::vector<std::string> choices;
   for (int maximum = 0; maximum <= configuration::Format::kMaxDecimals; ++maximum)
@@ -143,7 +143,7 @@ class Run {
         language_(options.reader_language()),
         progress_(shares_terminal() ? nullptr : command_line::terminal_writer(), input::bytes_of(selection.files)) {}
 
-  /// `styles` has one for each file.
+  /// `styles` holds one for each file.
   ExitStatus run(const std::vector<formatting::ProgramStyle>& styles) {
     failed_ = !selection_.problems.empty();
     for (std::size_t i = 0; i < selection_.files.size(); ++i) {
@@ -164,7 +164,7 @@ class Run {
   }
 
  private:
-  /// Whether what is printed would run into the bar.
+  /// Whether the output would overwrite the progress bar.
   bool shares_terminal() const { return mode_ != Mode::InPlace && ::isatty(STDOUT_FILENO) != 0; }
 
   void fail(std::string_view name, std::string_view why) {
@@ -233,7 +233,7 @@ class Run {
     while (const auto piece = next_piece(formatter)) output_.write(piece->after);
   }
 
-  /// A file that is as it should be is not touched at all.
+  /// Replaces the file; leaves a file that needs no change untouched.
   void replace(formatting::ProgramFormatter& formatter, const SourceFile& source, system::FileReplacement& replacement,
                const std::string& name) {
     bool is_changed = false;
@@ -257,14 +257,14 @@ class Run {
   const Mode mode_;
   const Language language_;
   command_line::Progress progress_;
-  std::size_t shown_bytes_ = 0;  // Bytes of the file that the bar knows of.
+  std::size_t shown_bytes_ = 0;  // Bytes of the file that the progress bar has counted.
   system::OutputFile output_{STDOUT_FILENO};
   std::size_t read_ = 0;
   std::size_t changed_ = 0;
   bool failed_ = false;
 };
 
-/// Takes the first path's configuration for the language, too: one command speaks one.
+/// Formats the files. The first path's configuration decides the language: a command uses one language.
 ExitStatus format(Options options) {
   configuration::Configurations configurations(options.source, options.reader_language());
   const auto& first = configurations.of(input::place_of_program(options.paths.front(), options.stdin_name));

@@ -43,14 +43,14 @@ using system::ExitStatus;
 
 void complain(std::string_view what) { command_line::complain("isolint", what); }
 
-/// Tells what is wrong with the configurations read so far; false when there is nothing.
+/// Reports errors in the configurations read so far; returns whether there are any.
 bool complain_of(const configuration::Configurations& configurations, Language language) {
   const std::vector<std::string> mistakes = configurations.mistakes(language);
   for (const std::string& mistake : mistakes) std::cerr << mistake << '\n';
   return !mistakes.empty();
 }
 
-/// Where findings and all other answers go.
+/// The output of findings and all other answers.
 class Answer final : public formats::Output {
  public:
   explicit Answer(const Options& options)
@@ -59,7 +59,7 @@ class Answer final : public formats::Output {
         descriptor_(options.prints_program() ? STDERR_FILENO : STDOUT_FILENO),
         file_(path_.empty() ? system::OutputFile(descriptor_) : system::OutputFile(std::filesystem::path(path_))) {}
 
-  /// Writes all of it; false, after a complaint, when anything has been lost.
+  /// Writes the rest; returns false, after an error message, if output has been lost.
   bool finish() {
     flush();
     const std::string standard = descriptor_ == STDOUT_FILENO ? "<stdout>" : "<stderr>";
@@ -79,20 +79,20 @@ class Answer final : public formats::Output {
   system::OutputFile file_;
 };
 
-/// Prints an answer that is no finding.
+/// Prints an answer other than findings.
 ExitStatus say(std::string_view text, const Options& options) {
   Answer answer(options);
   answer.buffer() += text;
   return answer.finish() ? ExitStatus::Success : ExitStatus::Failure;
 }
 
-/// What is to be checked, and how: one for each file.
+/// The files to check, and the settings of each.
 struct Programs {
   std::vector<std::filesystem::path> files;
   std::vector<std::reference_wrapper<const selection::ProgramSettings>> settings;
 };
 
-/// Checks files side by side and shows what was found in their order.
+/// Checks files in parallel and shows the findings in the order of the files.
 class Run {
  public:
   Run(const Options& options, const formats::Style& style, std::unique_ptr<formats::Renderer> renderer,
@@ -133,7 +133,7 @@ class Run {
   }
 
  private:
-  /// A program and what was found in it.
+  /// A program and its findings.
   struct Checked {
     std::string name;
     std::variant<SourceFile, SourceFile::Problem> opened;
@@ -248,7 +248,7 @@ class Run {
     return !too_many && !has_difference_ && count(dialect::Severity::Error) == 0;
   }
 
-  /// `3 fixed`.
+  /// The number of fixed findings, such as `3 fixed`.
   std::string fixed_in_words() const {
     const bool italian = style_.language == Language::Italian;
     if (options_.diff) return fmt::format("{} {}", fixed_, italian ? "correggibili" : "would be fixed");
@@ -283,20 +283,20 @@ class Run {
   const int jobs_;
   command_line::Progress progress_;
   std::atomic<std::size_t> next_ = 0;
-  std::atomic<std::size_t> known_ = 0;  // Findings of the baseline.
+  std::atomic<std::size_t> known_ = 0;  // The number of findings that the baseline knows.
   std::mutex mutex_;
   std::condition_variable turn_changed_;
-  std::size_t turn_ = 0;  // With all below: guarded by mutex_.
+  std::size_t turn_ = 0;  // Guarded by mutex_, like the members below.
   Answer output_;
   selection::Tally tally_;
-  system::OutputFile program_{STDOUT_FILENO};  // With --fix -.
+  system::OutputFile program_{STDOUT_FILENO};  // The output of --fix -.
   std::size_t files_checked_ = 0;
   std::size_t fixed_ = 0;
   bool has_difference_ = false;
   bool failed_ = false;
 };
 
-/// Records findings in place of showing them.
+/// Records findings instead of showing them.
 class Recorder final : public formats::Renderer {
  public:
   explicit Recorder(selection::Baseline& baseline) : baseline_(baseline) {}
@@ -308,11 +308,11 @@ class Recorder final : public formats::Renderer {
   selection::Baseline& baseline_;
 };
 
-/// Checks, and writes all that is found as a baseline, unless programs would be missing in it.
+/// Checks, and writes all findings as a baseline, unless programs would be missing from it.
 ExitStatus record(Options options, const formats::Style& style, Programs programs, bool failed) {
   const bool italian = style.language == Language::Italian;
   const std::string& file = options.write_baseline;
-  options.exit_zero = true;  // What is recorded is nobody's failure.
+  options.exit_zero = true;  // Findings that are recorded are no failure.
   selection::Baseline baseline(file);
   if (Run(options, style, std::make_unique<Recorder>(baseline), {}, std::move(programs)).run(failed) !=
       ExitStatus::Success) {
@@ -326,12 +326,12 @@ ExitStatus record(Options options, const formats::Style& style, Programs program
   return problem ? ExitStatus::Failure : ExitStatus::Success;
 }
 
-/// The programs to be checked; none, after a complaint, when the check cannot begin.
+/// The programs to check; nothing, after an error message, if the check cannot start.
 std::optional<Programs> find_programs(const Options& options, configuration::Configurations& configurations,
                                       selection::SettingsFinder& settings, bool& failed) {
   const Language language = options.reader_language();
   input::FileSelection found = input::select_programs(options.paths, configurations, language);
-  // Readers of JSON compare arrays, whatever order the files were named in.
+  // Tools that read JSON compare arrays, so the order must not depend on how the files were named.
   if (options.format == "json")
     std::sort(found.files.begin(), found.files.end(),
               [](const auto& a, const auto& b) { return a.native() < b.native(); });
@@ -345,8 +345,8 @@ std::optional<Programs> find_programs(const Options& options, configuration::Con
   return programs;
 }
 
-/// What must not be written over: the programs, whose lines would be gone while they are checked, and their authors'
-/// work; and what else is read. None when `written` is nothing of that.
+/// The reason why `written` must not be overwritten: it is one of the programs, which would lose their lines during the
+/// check, or another input. Null if it is neither.
 const dialect::Text* overwritten_input(const std::string& written, const Programs& programs, const Options& options,
                                        configuration::Configurations& configurations) {
   static constexpr dialect::Text kProgram = {"is one of the programs to be checked",
@@ -366,7 +366,7 @@ const dialect::Text* overwritten_input(const std::string& written, const Program
   return nullptr;
 }
 
-/// Takes the first path's configuration for the language, too: one command speaks one.
+/// Checks the files. The first path's configuration decides the language: a command uses one language.
 ExitStatus check(Options options) {
   if (options.paths.empty()) options.paths = {"."};
   configuration::Configurations configurations(options.source, options.reader_language());
@@ -414,7 +414,7 @@ ExitStatus explain_code(const Options& options) {
   return ExitStatus::Failure;
 }
 
-/// Of what holds for some programs alone, what holds for this one.
+/// The configuration with only those overrides for some files that apply to this program.
 configuration::Configuration without_other_files(configuration::Configuration shown,
                                                  const std::filesystem::path& program) {
   const std::filesystem::path real = configuration::real_path(program.parent_path()) / program.filename();
@@ -423,7 +423,7 @@ configuration::Configuration without_other_files(configuration::Configuration sh
   return shown;
 }
 
-/// Prints a configuration as its file could say it, and tells where it comes from.
+/// Prints a configuration as its file could write it, and the file that it comes from.
 ExitStatus show_config(Options options) {
   static constexpr dialect::Text kFrom = {"configuration: {}", "configurazione: {}"};
   static constexpr dialect::Text kDefaults = {"no isocnc.json: these are the defaults",
