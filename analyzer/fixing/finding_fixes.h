@@ -14,8 +14,8 @@
 
 namespace isocnc::fixing {
 
-/// An edit as the formats tell it: lines and columns from 1, columns in code points, the end exclusive; the program's
-/// own line ends in the text.
+/// An edit as the output formats show it: lines and columns from 1, columns in code points, the end exclusive; the text
+/// has the program's own line ends.
 struct ShownEdit {
   std::uint64_t line = 0;
   std::size_t column = 0;
@@ -24,21 +24,21 @@ struct ShownEdit {
   std::string text;
 };
 
-/// The fixes of a report's findings, which are best asked for in their order.
+/// The fixes of a report's findings; fastest if asked for in the order of the findings.
 class FindingFixes {
  public:
   /// All must outlive this.
   FindingFixes(std::string_view text, const check::Report& report, const execution::Setup& setup);
 
   std::optional<fixes::Fix> of(const check::LocatedFinding& located);
-  /// The same without a fix that would be undone when it is made: what may be offered to users. The edits of a habit
-  /// are those of the finding's own line.
+  /// of() without fixes that a trial rejects (FixTrial): what may be offered to users. For a habit, only the edits of
+  /// the finding's own line.
   std::optional<fixes::Fix> offered(const check::LocatedFinding& located);
-  /// offered() with all edits that the fix takes. A habit's are given with the first of its findings; the others have
-  /// no fix, since to make it twice would be wrong.
+  /// offered() with all edits of the fix. The edits of a habit come with the first of its findings; the others have no
+  /// fix, since applying it twice would be wrong.
   std::optional<fixes::Fix> offered_in_full(const check::LocatedFinding& located);
   std::vector<ShownEdit> shown(const fixes::Fix& fix);
-  /// The line as it would be, where the fix changes nothing else.
+  /// The line as the fix would leave it, if the fix changes nothing else.
   std::optional<std::string> changed_line(const check::LocatedFinding& located, const fixes::Fix& fix);
   TextProgram& program() { return program_; }
 
@@ -47,16 +47,16 @@ class FindingFixes {
 
   TextProgram program_;
   const execution::Setup& setup_;
-  std::optional<FixTrial> trial_;                         // Once it is asked for.
-  std::array<bool, fixes::kHabitCount> given_in_full_{};  // Habits.
-  std::uint64_t reduced_from_;                            // From this line on, not every path is known.
-  // Columns are counted once along a line.
+  std::optional<FixTrial> trial_;                         // Made when first needed.
+  std::array<bool, fixes::kHabitCount> given_in_full_{};  // Habits already given by offered_in_full().
+  std::uint64_t reduced_from_;                            // The first line from which not every path is known.
+  // The last counted column; the next one on the same line is counted from there.
   std::uint64_t counted_line_ = 0;
   std::size_t counted_bytes_ = 0;
   std::size_t counted_columns_ = 0;
 };
 
-/// The text with the edits made, which must not overlap; they are sorted.
+/// The text with the edits applied. They must not overlap; they are sorted.
 std::string edited(std::string_view text, std::vector<fixes::Edit>& edits, const TextProgram& program);
 
 }  // namespace isocnc::fixing

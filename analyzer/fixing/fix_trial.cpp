@@ -15,15 +15,15 @@ using namespace dialect::literals;
 using fixes::Edit;
 using fixes::Fix;
 
-/// Lines of the finding and its edits, and lines below them.
+/// The maximum number of lines from the finding to the last edit, and of lines examined below.
 static constexpr std::uint64_t kMaxEdited = 6'000;
 static constexpr std::uint64_t kMaxFollowed = 10'000;
-/// Lines, times the states in which each is executed, for all fixes of a program; and the same for each of its lines.
+/// The work budget for all trial fixes of a program, in executed lines times states; kWorkPerLine is added per line.
 static constexpr std::uint64_t kMinWork = 400'000;
 static constexpr std::uint64_t kWorkPerLine = 20;
-/// Lines that are tried when all that has been spent: what most fixes could do wrong shows where they are made.
+/// Lines examined once the budget is used up: most possible damage shows near the edits.
 static constexpr std::uint64_t kNearest = 8;
-/// Lines below the edits that are looked over for whether the program ends there.
+/// With at most this many lines left, a trial continues to the end of the program even if its checks agree again.
 static constexpr std::uint64_t kMaxBlank = 8;
 
 namespace {
@@ -33,7 +33,7 @@ bool finds(const std::vector<check::LocatedFinding>& findings, dialect::Diagnost
                      [&](const check::LocatedFinding& located) { return located.finding.id == id; });
 }
 
-/// A check that goes on from somewhere, and what it finds.
+/// A check that continues from a frontier, and its findings.
 class Attempt {
  public:
   Attempt(const execution::Setup& setup, const check::JumpMap& jumps, const check::Frontier& from)
@@ -49,14 +49,14 @@ class Attempt {
 
   const check::Frontier& frontier() const { return checker_.frontier; }
 
-  /// Adds what has been found since this was last asked for.
+  /// Adds the findings since the last call.
   void count(FindingDelta& delta, int times) {
     delta.count(outcome_.findings, counted_, times);
     counted_ = outcome_.findings.size();
   }
   const std::vector<check::LocatedFinding>& findings() const { return outcome_.findings; }
 
-  /// What has been found, with what the end of the program shows, where it has come there.
+  /// All findings, with those that need the whole program, for a check that has reached its end.
   check::Report conclusion() {
     return check::conclude(std::move(outcome_), checker_.frontier, jumps_, [&](std::uint64_t) { return last_text_; });
   }
@@ -70,7 +70,7 @@ class Attempt {
   std::string_view last_text_;
 };
 
-/// Some lines of a program, one after the other, with the edits made.
+/// Some consecutive lines of a program, with the edits applied.
 std::string edited_lines(fixes::Program& program, std::uint64_t first, std::uint64_t last, std::vector<Edit> edits) {
   std::string text;
   std::vector<std::size_t> starts;
@@ -117,7 +117,7 @@ class TextLines {
 
 }  // namespace
 
-/// The program as it is, and with a fix.
+/// The checks of the program without and with a fix.
 struct FixTrial::Comparison {
   Attempt without;
   Attempt with;
@@ -131,8 +131,7 @@ struct FixTrial::Comparison {
   bool has_met() const { return without.frontier() == with.frontier(); }
 };
 
-/// Whether nothing that is reported by default is found more often, and the finding's own code, where it was found,
-/// less.
+/// Whether no code enabled by default is found more often, and the finding's own code, if it was found, less often.
 static bool is_better(const FindingDelta& delta, bool found_own, const check::LocatedFinding& located) {
   for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
     const dialect::DiagnosticId id{static_cast<std::uint8_t>(i)};
@@ -148,7 +147,7 @@ FixTrial::FixTrial(fixes::Program& program, const execution::Setup& setup, const
       lines_(program),
       work_budget_(kMinWork + kWorkPerLine * program.line_count()) {}
 
-/// Jumps are known by their number in the program, and labels by where they stand.
+/// The jump map depends on the number of each jump and the place of each label, so editing one affects all lines.
 bool FixTrial::is_affected_by_jumps(const syntax::LineTree& line) const {
   return line.jump != nullptr || (line.has_label() && jumps_.names(line.label));
 }
@@ -175,7 +174,7 @@ bool FixTrial::improves_whole_program(const Fix& fix, const check::LocatedFindin
   return is_better(delta, finds(before->findings, located.finding.id), located);
 }
 
-/// Codes that a habit leads to.
+/// The codes that a habit causes.
 static std::span<const dialect::DiagnosticId> codes_of(fixes::Habit habit) {
   static constexpr dialect::DiagnosticId kCenters[] = {
       "arc-center-mismatch"_diag,       "arc-radius-mismatch"_diag,       "center-undetermined-g17-i"_diag,
@@ -198,8 +197,7 @@ static std::span<const dialect::DiagnosticId> codes_of(fixes::Habit habit) {
   return {};
 }
 
-/// Codes that judge where the machine goes, how fast, and what is written once too often, by the reading that is in
-/// force.
+/// Codes whose findings depend on how lengths, centers or modes are read: positions, speeds, and repeated words.
 static constexpr dialect::DiagnosticId kJudgedByReading[] = {"redundant-modal"_diag,
                                                              "arc-radius-mismatch"_diag,
                                                              "arc-radius-too-small"_diag,

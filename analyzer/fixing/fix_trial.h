@@ -11,25 +11,25 @@
 
 namespace isocnc::fixing {
 
-/// Whether a program reads better once all that shows a habit has been rewritten: less is found of what the habit
-/// leads to, and nothing new but what shows only when the program is read as it was meant, such as arcs that fit in
-/// mm by the tolerance and not in inches. What is found then was wrong before.
+/// Whether rewriting all instances of a habit improves the program: fewer findings of the codes that the habit causes,
+/// and no new ones except of codes that depend on the corrected reading, such as arcs that fit in mm by the tolerance
+/// and not in inches. Those were hidden before.
 bool reads_better(const check::Report& before, const check::Report& after, fixes::Habit habit);
 
-/// Tries fixes out, one at a time, on the part of a program that they concern: from the finding's line on, until the
-/// check stands where it would stand without them, or where an earlier fix has led it (of twenty that put the same
-/// mode in force, only the first is followed to its end). Those that edit jumps, labels or lines above the finding are
-/// tried on the whole program. A fix that leaves its finding, or brings another one that is reported by default, is
-/// none. What cannot be seen there counts as fine: effects more than a few thousand lines below, or, once the trials of
-/// a program have cost too much, more than a few.
+/// Tries out fixes, one at a time, on the part of the program that they affect: from the finding's line on, until the
+/// check's frontier equals the one without the fix, or one to which an earlier fix led (of twenty that put the same
+/// mode in force, only the first is followed to its end). Fixes that edit jumps, labels or lines above the finding are
+/// tried on the whole program. Rejects a fix that does not remove its finding or that adds a finding of a code enabled
+/// by default. Effects outside the examined lines are assumed harmless: those more than a few thousand lines below or,
+/// once the trials of a program have used up their work budget, more than a few.
 class FixTrial {
  public:
   /// All must outlive this.
   FixTrial(fixes::Program& program, const execution::Setup& setup, const check::JumpMap& jumps);
 
-  /// `before` is where the check stands before the finding's line.
+  /// `before` is the frontier before the finding's line.
   bool improves(const fixes::Fix& fix, const check::LocatedFinding& located, const check::Frontier& before);
-  /// Whether all rewrites of a habit make the program read better (reads_better). Tried once.
+  /// Whether all rewrites of a habit together improve the program (reads_better). Tried once.
   bool improves(fixes::Habit habit);
 
  private:
@@ -37,10 +37,10 @@ class FixTrial {
 
   bool is_affected_by_jumps(const syntax::LineTree& line) const;
   bool improves_whole_program(const fixes::Fix& fix, const check::LocatedFinding& located);
-  /// What is found in the whole program with these edits; nothing once too much has been spent.
+  /// The findings of the whole program with these edits; nothing once the work budget is used up.
   std::optional<check::Report> found_with(std::vector<fixes::Edit> edits);
   const check::Report* findings_of_whole();
-  /// Goes on from this line, below the edits.
+  /// Continues both checks from this line, which is below the edits.
   bool follow(Comparison& compared, std::uint64_t next, const check::LocatedFinding& located);
   void spend(const check::Frontier& frontier);
 
@@ -50,7 +50,7 @@ class FixTrial {
   RecentTrees lines_;
   Trails trails_;
   std::uint64_t work_budget_;
-  std::optional<check::Report> findings_of_whole_;  // The report on the whole program, once it has been asked for.
+  std::optional<check::Report> findings_of_whole_;  // The report on the whole program, made when first needed.
   std::array<std::optional<bool>, fixes::kHabitCount> improving_habits_;
 };
 

@@ -23,39 +23,40 @@ using fixes::Safety;
 
 namespace {
 
-/// Bytes that may be checked for a text of a size: a bound for hostile programs, on which most fixes are undone.
+/// The maximum number of bytes checked, depending on the text's size: a bound for hostile programs, in which most fixes
+/// are undone.
 constexpr std::size_t kMinWork = 64'000'000;
 constexpr std::size_t kWorkPerByte = 40;
-/// How often what is to blame for a new finding is guessed before it is searched for.
+/// The number of times that the cause of a new finding is guessed before it is searched for by halving.
 constexpr int kMaxGuesses = 4;
 
-/// A fix that is to be made.
+/// A fix that may be applied.
 struct Candidate {
   check::LocatedFinding located;
-  std::vector<Edit> edits;  // Sorted.
+  std::vector<Edit> edits;  // The edits, sorted.
   fixes::Habit habit = fixes::Habit::None;
 };
 
-/// Where something is found: what does not change when lines around it do.
+/// The identity of a finding (line, code, column), used to recognize it after lines have moved.
 using FindingKey = std::tuple<std::uint64_t, dialect::DiagnosticId, std::uint32_t>;
 FindingKey key_of(const check::LocatedFinding& located) {
   return {located.line, located.finding.id, located.finding.span.begin};
 }
 
-/// A text, what is found in it, and what of that is to be fixed.
+/// A text, its findings, and those of them to be fixed.
 struct Version {
   std::string text;
-  check::Report found;   // Whether selected or not.
-  check::Report to_fix;  // Selected.
+  check::Report found;   // All findings.
+  check::Report to_fix;  // The selected findings after the filter.
   std::size_t filtered_out = 0;
   std::vector<std::uint64_t> origins;
 };
 
-/// Parts of a text that are taken.
+/// Parts of a text that are already edited.
 class Taken {
  public:
-  /// Takes the parts, unless one of them meets what is taken. Two parts may touch, but for an insertion, whose order
-  /// would be open.
+  /// Takes the parts, unless one of them overlaps a taken one. Two parts may touch, except at an insertion, because the
+  /// order would be ambiguous.
   bool take(std::vector<std::pair<std::size_t, std::size_t>> parts) {
     std::sort(parts.begin(), parts.end());
     if (std::any_of(parts.begin(), parts.end(), [&](const auto& part) { return meets(part.first, part.second); }))
@@ -79,13 +80,13 @@ class Taken {
   std::multimap<std::size_t, std::size_t> taken_;
 };
 
-/// Where the lines of a text are after edits.
+/// The lines of a text before and after edits.
 struct LineMap {
-  std::vector<std::uint64_t> new_lines;  // By old line.
-  std::vector<std::uint64_t> origins;    // By new line, in the original text.
+  std::vector<std::uint64_t> new_lines;  // The new line of each old line.
+  std::vector<std::uint64_t> origins;    // The original line of each new line.
 };
 
-/// Follows the edits, which are sorted, through the lines of a text whose lines have these origins.
+/// Tracks the lines of a text through sorted edits; `origins` are the original lines of its lines.
 class LineFollower {
  public:
   explicit LineFollower(const std::vector<std::uint64_t>& origins) : origins_(origins), origin_(origins.front()) {
@@ -116,7 +117,7 @@ class LineFollower {
     }
   }
 
-  /// What is inserted at the start of a line stands above it; elsewhere it is a line's end that is new.
+  /// Text inserted at the start of a line is above that line; elsewhere, the part after a new line end is the new line.
   void pass(const Edit& edit) {
     const bool is_above = edit.begin.column == 0;
     for (auto left = std::count(edit.text.begin(), edit.text.end(), '\n'); left > 0; --left) {
@@ -132,11 +133,11 @@ class LineFollower {
 
   const std::vector<std::uint64_t>& origins_;
   LineMap map_;
-  std::uint64_t line_ = 0;  // The old one.
-  std::uint64_t origin_;    // Of the new line that is being put together.
+  std::uint64_t line_ = 0;  // The current old line.
+  std::uint64_t origin_;    // The origin of the new line being built.
 };
 
-/// Candidates, made together.
+/// The result of applying candidates together.
 struct Trial {
   Version version;
   LineMap lines;
@@ -160,7 +161,7 @@ class Fixer {
         make_some_of(all);
       } else if (undone_.empty() || !changed_since_undone_) {
         break;
-      } else {  // In other surroundings they may be right.
+      } else {  // After other changes they may succeed.
         undone_.clear();
         undone_habits_ = {};
         changed_since_undone_ = false;
@@ -178,7 +179,7 @@ class Fixer {
     version.found = selection::with_style(std::move(version.found), version.text, options_.selection);
     std::erase_if(version.found.findings, [&](const check::LocatedFinding& located) {
       const dialect::DiagnosticId id = located.finding.id;
-      return dialect::definition(id).is_off && !options_.selection.shows(id);  // Nobody looks for it.
+      return dialect::definition(id).is_off && !options_.selection.shows(id);  // Not requested.
     });
     version.found = selection::suppress(std::move(version.found), version.text, options_.selection);
     version.to_fix = options_.selection.shown(version.found);
@@ -188,7 +189,7 @@ class Fixer {
     return version;
   }
 
-  /// The fixes that can be made together, in the order of the program. All rewrites of a habit are made alone.
+  /// The fixes that can be applied together, in the order of the program. The rewrites of a habit are applied alone.
   std::vector<Candidate> candidates() const {
     std::vector<Candidate> all;
     FindingFixes fixes(present_.text, present_.found, options_.setup);
@@ -223,7 +224,7 @@ class Fixer {
     return trial;
   }
 
-  /// Every fix has done away with its finding, and no code is found more often.
+  /// Whether each fix has removed its finding, and no code is found more often.
   bool is_good(const check::Report& found, std::size_t made) const {
     selection::Tally before;
     selection::Tally after;
@@ -236,7 +237,7 @@ class Fixer {
     return found.findings.size() + made <= present_.found.findings.size();
   }
 
-  /// Makes as many of the candidates as a few attempts allow; at least one is made, or one is given up.
+  /// Applies as many candidates as a few attempts allow; at least one is applied, or one is given up.
   void make_some_of(std::vector<Candidate> all) {
     Trial trial = made(all);
     for (int i = 0; i < kMaxGuesses && !trial.is_good && work_budget_ > 0; ++i) {
@@ -245,7 +246,7 @@ class Fixer {
       all = std::move(unsuspected);
       trial = made(all);
     }
-    // Half of them, and half of these, until what is left is right, or is the one that is wrong.
+    // Halves the candidates until they are good, or one is left.
     while (!trial.is_good && all.size() > 1 && work_budget_ > 0) {
       all.resize((all.size() + 1) / 2);
       trial = made(all);
@@ -257,7 +258,7 @@ class Fixer {
     }
   }
 
-  /// Without the candidates that are nearest above what is found newly.
+  /// Removes the candidates that are nearest above the new findings.
   std::vector<Candidate> without_suspects(const std::vector<Candidate>& all, const Trial& trial) const {
     const auto place = [](std::uint64_t line, dialect::DiagnosticId id) {
       return line << 8 | static_cast<std::uint64_t>(id);
@@ -296,7 +297,7 @@ class Fixer {
     return first;
   }
 
-  /// Counts the findings of each code that are fixed. What shows only now takes nothing away from that.
+  /// Counts the fixed findings of each code. New findings are not subtracted.
   void count_fixed(const Version& next) {
     selection::Tally before;
     selection::Tally after;
@@ -321,7 +322,7 @@ class Fixer {
   const FixOptions& options_;
   std::size_t work_budget_;
   Version present_;
-  std::set<FindingKey> undone_;  // Findings whose fix was not right.
+  std::set<FindingKey> undone_;  // Findings whose fix was rejected.
   std::array<bool, fixes::kHabitCount> undone_habits_{};
   bool changed_since_undone_ = false;
   std::size_t fixed_ = 0;

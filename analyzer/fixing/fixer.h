@@ -12,32 +12,33 @@
 
 namespace isocnc::fixing {
 
-/// What is to be fixed.
+/// What to fix, and how.
 struct FixOptions {
   const selection::Selection& selection;
   const execution::Setup& setup;
-  bool unsafe = false;  ///< Unsafe fixes, too.
+  bool unsafe = false;  ///< Includes unsafe fixes.
   int jobs = 1;
-  /// Of what is found and selected in a text, what is somebody's concern; the rest is not fixed. None: all is.
+  /// Filter of the selected findings, for example by a baseline. Only those it returns are fixed; without a filter,
+  /// all.
   std::function<check::Report(check::Report, std::string_view)> finding_filter = {};
 };
 
-/// A text with its fixes.
+/// The result of fixing a text.
 struct FixedText {
   static constexpr std::uint64_t kNew = UINT64_MAX;
 
   std::string text;
-  check::Report report;                ///< What remains.
-  std::size_t fixed = 0;               ///< Findings that have been mended.
-  std::size_t filtered_out = 0;        ///< What remains and is nobody's concern.
-  std::vector<std::uint64_t> origins;  ///< Of each line: the line of the original text that it was, or kNew.
+  check::Report report;                ///< The remaining findings.
+  std::size_t fixed = 0;               ///< The number of findings fixed.
+  std::size_t filtered_out = 0;        ///< The number of remaining findings that the filter dropped.
+  std::vector<std::uint64_t> origins;  ///< For each line, its line in the original text, or kNew.
 };
 
-/// Applies the fixes of what is found, round by round, until nothing changes. Of two that overlap the first in the
-/// program comes first. A fix counts only when its finding is gone and no code is found more often than before,
-/// whether it is selected or not; else it is undone. All that shows a habit of the author is rewritten at once, and
-/// may bring to light what was wrong before (reads_better). Fixing the result again changes nothing, unless it was so
-/// long, with so many fixes undone, that there was no time for all of them.
+/// Applies the fixes of the findings, round by round, until nothing changes. Of two fixes that overlap, the first in
+/// the program is applied first. A fix is kept only if it removes its finding and no code is found more often than
+/// before, whether selected or not; otherwise it is undone. All instances of a habit are rewritten together, which may
+/// reveal findings that the habit hid (reads_better). Fixing the result again changes nothing, unless the work budget
+/// ran out because the text was long and many fixes were undone.
 FixedText fix_text(std::string_view text, const FixOptions& options);
 
 }  // namespace isocnc::fixing

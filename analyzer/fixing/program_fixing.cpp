@@ -19,7 +19,7 @@ std::optional<std::string> FileFixing::finish(const SourceFile& source, const Fi
   return replacement_.commit(language);
 }
 
-/// Gives one line of a text after the other, with its end; empty behind the last.
+/// Reads a text line by line, with line ends; empty after the last.
 class LineReader {
  public:
   explicit LineReader(std::string_view text) : rest_(text) {}
@@ -40,7 +40,7 @@ bool write_diff(const std::string& name, const SourceFile& source, const FixedTe
   UnifiedDiff diff(name, source.has_byte_order_mark(), std::move(write));
   LineReader before(source.text());
   LineReader after(fixed.text);
-  std::uint64_t next = 0;  // Line of the old text.
+  std::uint64_t next = 0;  // The next line of the old text.
   for (const std::uint64_t origin : fixed.origins) {
     const std::string_view line = after.next();
     for (; origin != FixedText::kNew && next < origin; ++next) diff.remove(before.next());

@@ -12,14 +12,13 @@
 
 namespace isocnc::fixing {
 
-/// A file that is to be fixed in place. Begin before the file is read: what somebody else changes meanwhile is left to
-/// them.
+/// A file to be fixed in place. Construct it before the file is read, so that changes that others make meanwhile are
+/// not overwritten.
 class FileFixing {
  public:
   explicit FileFixing(const std::filesystem::path& path) : replacement_(path) {}
 
-  /// Puts the fixed text in the file's place, where it is another one. Returns what stood in the way; the file is then
-  /// as it was.
+  /// Replaces the file by the fixed text if that differs. Returns the reason for a failure; the file is then unchanged.
   std::optional<std::string> finish(const system::SourceFile& source, const FixedText& fixed,
                                     dialect::Language language);
 
@@ -31,7 +30,7 @@ class FileFixing {
 void write_fixed(const system::SourceFile& source, const FixedText& fixed,
                  const std::function<void(std::string_view)>& write);
 
-/// Writes what the fixes change as a unified diff; false when they change nothing.
+/// Writes the changes of the fixes as a unified diff; false if there are none.
 bool write_diff(const std::string& name, const system::SourceFile& source, const FixedText& fixed,
                 std::function<void(std::string_view)> write);
 

@@ -9,12 +9,12 @@
 
 namespace isocnc::fixing {
 
-/// Trees of a program's lines, to go over the same lines again and again: each is parsed once, or nearly so.
+/// A cache of the trees of a program's lines, for repeated passes over the same lines.
 class RecentTrees {
  public:
   explicit RecentTrees(fixes::Program& program) : program_(program) {}
 
-  /// Valid until another line is asked for.
+  /// Valid until the next call.
   syntax::LineTree operator[](std::uint64_t line);
 
  private:
@@ -26,7 +26,7 @@ class RecentTrees {
   };
 
   fixes::Program& program_;
-  std::array<Parsed, kMaxTrees> parsed_;  ///< The trees, each at the number of its line modulo kMaxTrees.
+  std::array<Parsed, kMaxTrees> parsed_;  ///< The trees, each at its line number modulo kMaxTrees.
 };
 
 }  // namespace isocnc::fixing

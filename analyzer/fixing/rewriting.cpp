@@ -49,7 +49,7 @@ bool is_same(const Move& a, const Move& b) {
          std::abs(turn) * a.radius <= kSameArc;
 }
 
-/// The same for all that follows. `but` are groups that may differ.
+/// Whether two states are the same for all later lines. The groups in `but` may differ.
 bool is_same(const State& a, const State& b, std::initializer_list<ModalGroup> but) {
   for (std::size_t group = 0; group < dialect::kModalGroupCount; ++group)
     if (a.in_force[group] != b.in_force[group] &&
@@ -62,12 +62,12 @@ bool is_same(const State& a, const State& b, std::initializer_list<ModalGroup> b
          a.spindle == b.spindle && a.spindle_speed == b.spindle_speed && a.ended == b.ended;
 }
 
-/// How a number may be off in what is written, mm or degrees: first as short as it may be, then as long as it takes.
+/// Allowed errors of written numbers, in mm or degrees; tried in this order, so that short numbers come first.
 constexpr double kRoundings[] = {2e-6, 1e-8};
 constexpr double kRadiusRoundings[] = {5e-5, 2e-6, 1e-8};
 constexpr int kMaxDecimals = 9;
 
-/// With as few decimals as leave it off by no more than that.
+/// The number with as few decimals as keep the error within `rounding`.
 std::string number_text(double value, double rounding) {
   int decimals = 0;
   while (decimals < kMaxDecimals) {
@@ -78,17 +78,17 @@ std::string number_text(double value, double rounding) {
   return fixes::written(value, decimals);
 }
 
-/// The words of one line that are written anew.
+/// The rewritten words of one line.
 class LineRewrite {
  public:
   LineRewrite(std::uint64_t number, const LineTree& line) : number_(number), line_(line) {}
 
-  /// Blanks and comments inside a word would be lost: a comment is not.
+  /// Replaces a word. Blanks inside it are lost; a comment inside it must not be, so has_comment() reports that.
   void replace(Span span, std::string text) {
     has_comment_ |= line_.text_of(span).find('(') != std::string_view::npos;
     edits_.push_back({{number_, span.begin}, {number_, span.end}, std::move(text)});
   }
-  /// With the blanks before it, or behind it at the start of the line.
+  /// Removes a word with the blanks before it, or with those after it at the start of the line.
   void remove(Span span) {
     has_comment_ |= line_.text_of(span).find('(') != std::string_view::npos;
     Span wide = span;
@@ -97,12 +97,12 @@ class LineRewrite {
       wide = span;
       while (wide.end < line_.text.size() && syntax::is_blank(line_.text[wide.end])) ++wide.end;
     }
-    for (const Edit& edit : edits_)  // The blanks between two words go once.
+    for (const Edit& edit : edits_)  // Blanks between two words are removed once.
       if (edit.begin.column < wide.begin)
         wide.begin = std::max(wide.begin, static_cast<std::uint32_t>(edit.end.column));
     edits_.push_back({{number_, wide.begin}, {number_, wide.end}, {}});
   }
-  /// A word of a letter with a new value, unless it has that value.
+  /// Gives a word a new value, unless it has that value within `rounding`.
   void set(const Word& word, double value, double mm_per_unit, double rounding) {
     if (std::abs(word.value - value) * mm_per_unit > rounding)
       replace(word.span(), word.letter + number_text(value, rounding / mm_per_unit));
@@ -131,7 +131,7 @@ class LineRewrite {
 
 // --- Arcs
 
-/// By which words an arc's circle is given, in the order of the line.
+/// The words of a motion with one of these letters, in the order of the line.
 std::vector<const Word*> words_of(const LineTree& line, const Instruction& motion, dialect::LetterSet letters) {
   std::vector<const Word*> words;
   for (std::size_t i = motion.begin; i < motion.end; ++i)
@@ -140,7 +140,7 @@ std::vector<const Word*> words_of(const LineTree& line, const Instruction& motio
   return words;
 }
 
-/// The center's words, `I10 J0`, as G90 or G91 wants them.
+/// The words of the center, such as `I10 J0`, according to G90 or G91.
 std::string center_text(const BlockRecorder& done, double rounding) {
   const State& modes = done.modes();
   const Move& arc = done.motion()->move;
@@ -156,12 +156,12 @@ std::string center_text(const BlockRecorder& done, double rounding) {
 
 constexpr dialect::LetterSet kRadiusLetters = dialect::letter_bit('R');
 
-/// The letters that a rewrite takes out.
+/// The letters that a rewrite removes.
 constexpr dialect::LetterSet old_letters(Rewrite how) {
   return how == Rewrite::ArcByRadius ? dialect::kCenterLetters : kRadiusLetters;
 }
 
-/// The arc's line with its circle given the other way. Where it is given both ways, the old words only go.
+/// Writes the circle of an arc in the other notation. If the line has both notations, only removes the old words.
 void give_circle(LineRewrite& rewrite, Rewrite how, const LineTree& line, const Instruction& motion,
                  const BlockRecorder& done, double rounding) {
   const bool by_radius = how == Rewrite::ArcByRadius;
@@ -214,7 +214,7 @@ std::vector<Edit> rewrite_arcs(Rewrite how, fixes::Program& program, const execu
 
 // --- Dimensions
 
-/// Which mode a rewrite brings about.
+/// The mode that a rewrite sets.
 struct Mode {
   ModalGroup group;
   std::uint8_t number;
@@ -233,8 +233,8 @@ constexpr Mode mode_of(Rewrite how) {
   }
 }
 
-/// Lines whose dimensions are rewritten, one after another, with the machine as the old and as the new lines have left
-/// it. New increments count from where the new lines have come to, so that roundings do not add up.
+/// Rewrites the dimensions of consecutive lines, and tracks the machine state for both the old and the new lines. New
+/// increments start from the position that the new lines reached, so that roundings do not add up.
 class Dimensions {
  public:
   Dimensions(Rewrite how, fixes::Program& program, const execution::Setup& setup, std::uint64_t first,
@@ -261,7 +261,7 @@ class Dimensions {
     return execute_mode(mode_.number);
   }
 
-  /// Sets the mode back for what follows. A G09 there must still follow its motion (D23).
+  /// Resets the mode for the lines after. A G09 there must still follow its motion (D23), so that case is refused.
   bool leave() {
     const std::uint8_t wanted = old_.mode(mode_.group);
     if (!old_.ended && wanted != mode_.number) {
@@ -296,7 +296,7 @@ class Dimensions {
     return false;
   }
 
-  /// Whether B or C turn alone somewhere below: their F is in degrees, whatever the units (I.3.7).
+  /// Whether a line below turns B or C alone: its F is in degrees, whatever the units (I.3.7).
   bool turns_below() {
     for (std::uint64_t line = last_ + 1; line < program_.line_count(); ++line) {
       const LineTree tree = program_.line(line);
@@ -334,7 +334,7 @@ class Dimensions {
     return false;
   }
 
-  /// A line that has become blank goes.
+  /// Takes the edits of a line; removes the line if it has become blank.
   void take(std::uint64_t number, const LineTree& line, const LineRewrite& rewrite, const std::string& text) {
     if (!line.words.empty() && fixes::is_blank(text) && number + 1 < program_.line_count()) {
       edits_.push_back({{number, 0}, {number + 1, 0}, {}});
@@ -390,7 +390,7 @@ class Dimensions {
     }
   }
 
-  /// Of a frame: G28 has components in X, Y and Z.
+  /// Sets the origin of a frame. G28 is not affected: its X, Y and Z are components.
   static void set_origin(LineRewrite& rewrite, const LineTree& line, const Instruction& instruction, double old_scale,
                          double scale, double rounding) {
     const int number = instruction.g()->number;
@@ -399,7 +399,7 @@ class Dimensions {
       rewrite.set(*word, word->value * old_scale / scale, scale, rounding);
   }
 
-  /// Per minute and along a way: inverse time and degrees know no units.
+  /// Sets a feed rate per minute along a path; inverse time and degrees do not depend on units.
   static void set_feed(LineRewrite& rewrite, const LineTree& line, const BlockRecorder& done, double factor) {
     if (done.modes().inverse_time()) return;
     const Instruction* const motion = line.motion();

@@ -9,7 +9,7 @@ namespace isocnc::fixing {
 
 using syntax::LineTree;
 
-/// A check on its way down the text.
+/// A check of the text, from top to bottom.
 struct TextProgram::Walk {
   check::Checker checker;
   check::Outcome outcome;  // The findings, which are not used.

@@ -13,11 +13,11 @@
 
 namespace isocnc::fixing {
 
-/// A text as fixes look at it. What they ask for is found when they do, and asked for from top to bottom, a state costs
-/// no more than one check of the whole text.
+/// A text as a Program for fixes. Facts are computed on demand; if asked for from top to bottom, all states together
+/// cost no more than one check of the text.
 class TextProgram final : public fixes::Program {
  public:
-  /// Both must outlive this. `on_line` is called for each line that is asked for; it may throw to end a long search.
+  /// Both must outlive this. `on_line` is called for each line asked for; it may throw to end a long search.
   TextProgram(std::string_view text, const execution::Setup& setup, std::function<void()> on_line = {});
   ~TextProgram() override;
 
@@ -30,13 +30,13 @@ class TextProgram final : public fixes::Program {
   bool is_jumped_to(std::uint64_t label) override;
   std::optional<std::uint64_t> free_line_number() override;
 
-  /// Where the check stands before a line, up to line_count().
+  /// The frontier before a line, up to line_count().
   const check::Frontier& frontier_before(std::uint64_t line);
   const check::JumpMap& jumps();
 
-  /// Where in the text a place is.
+  /// The byte offset of a position in the text.
   std::size_t offset(const syntax::Position& position) const;
-  /// The line's terminator; on the last line that of the line above, and LF where there is none.
+  /// The line's terminator; for the last line that of the line above, or LF if there is none.
   std::string_view line_end(std::uint64_t line) const;
 
  private:
@@ -48,7 +48,7 @@ class TextProgram final : public fixes::Program {
   std::string_view text_;
   const execution::Setup& setup_;
   std::function<void()> on_line_;
-  mutable std::vector<std::size_t> starts_;  // Where lines start; found when first asked for.
+  mutable std::vector<std::size_t> starts_;  // The starts of the lines; computed on demand.
   syntax::TreeStore tree_;                   // The tree of line `parsed_`.
   std::optional<std::uint64_t> parsed_;
   std::optional<check::JumpMap> jumps_;

@@ -5,12 +5,13 @@
 
 namespace isocnc::fixing {
 
-/// Lines from one mark to the next, at the same places in all trails; and lines next to the change, which have none.
+/// The distance in lines between marks, at the same lines in all trails; and the lines next to the change without
+/// marks.
 static constexpr std::uint64_t kBetweenMarks = 8;
 static constexpr std::uint64_t kNear = 16;
-/// Lines that a trail must have passed after the place where it is met.
+/// The minimum of lines that a trail must have followed after the line where another one meets it.
 static constexpr std::uint64_t kMinLines = 5'000;
-/// Larger frontiers are not kept: they would take much memory.
+/// Larger frontiers are not kept, to save memory.
 static constexpr std::size_t kMaxGroups = 4;
 static constexpr std::size_t kMaxLabels = 8;
 

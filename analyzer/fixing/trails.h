@@ -12,11 +12,11 @@
 
 namespace isocnc::fixing {
 
-/// How much more often each code is found in one text than in another.
+/// The difference between two texts in the number of findings of each code.
 class FindingDelta {
  public:
   void count(const check::Report& report, int times) { count(report.findings, 0, times); }
-  /// Those from `first` on.
+  /// Counts the findings from index `first` on.
   void count(const std::vector<check::LocatedFinding>& findings, std::size_t first, int times) {
     for (std::size_t i = first; i < findings.size(); ++i)
       counts_[static_cast<std::size_t>(findings[i].finding.id)] += times;
@@ -35,25 +35,25 @@ class FindingDelta {
   std::array<int, dialect::kDiagnosticCount> counts_{};
 };
 
-/// The effects of a change, line by line below it: where the check then stood, and what it had found so far.
+/// The effects of a change, line by line below it: the check's frontier and the findings so far.
 class Trail {
  public:
-  /// The last part of one.
+  /// The part of a trail from some line on.
   struct Rest {
-    FindingDelta delta;           ///< The balance of what is found there.
-    std::uint64_t next_line = 0;  ///< The line after it.
-    bool has_more = false;        ///< Whether the change may still count from that line on.
+    FindingDelta delta;           ///< The difference in findings in that part.
+    std::uint64_t next_line = 0;  ///< The first line after that part.
+    bool has_more = false;        ///< Whether there may be further effects from that line on.
   };
 
-  /// Notes the check after each line below the change, in their order.
+  /// Records the check after a line below the change; lines must ascend.
   void pass(std::uint64_t next_line, const check::Frontier& frontier, const FindingDelta& so_far);
-  /// Ends with what followed the lines that it has passed.
+  /// Ends the trail; `rest` follows the recorded lines.
   void end(const FindingDelta& so_far, const Rest& rest);
 
-  /// Whether it is worth keeping: shorter ones are followed again in the same time.
+  /// Whether the trail is long enough to keep; a short one is recomputed as fast.
   bool is_long() const { return passed_ >= kLong; }
-  /// What it found from this line on, where the check stood as it does here; nothing when it did not, or when too few
-  /// lines followed.
+  /// The rest from this line on, if the trail had the same frontier there. Nothing if it had not, or if too few lines
+  /// followed.
   std::optional<Rest> rest_from(std::uint64_t line, const check::Frontier& frontier) const;
 
  private:
@@ -70,7 +70,7 @@ class Trail {
   Rest all_;
 };
 
-/// The latest trails that were long.
+/// The latest long trails.
 class Trails {
  public:
   void keep(Trail trail);

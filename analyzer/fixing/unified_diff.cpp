@@ -24,7 +24,7 @@ static void append(std::string& text, char mark, std::string_view line) {
   if (!line.ends_with('\n')) text += "\n\\ No newline at end of file\n";
 }
 
-/// Takes a line, as diff and patch know lines, off the front of `text`.
+/// Removes the first line of `text`, ended by LF as for diff and patch, and returns it.
 static std::string_view take_line(std::string_view& text) {
   const std::string_view line = text.substr(0, text.find('\n') + 1);  // npos + 1 is 0.
   const std::string_view taken = line.empty() ? text : line;
@@ -53,7 +53,7 @@ void UnifiedDiff::take(std::string_view before, std::string_view after) {
   open_after_.clear();
 }
 
-/// Lines that stand in the place of one another.
+/// Compares lines that correspond to each other.
 void UnifiedDiff::compare(std::string_view before, std::string_view after) {
   if (before == after) {
     while (!before.empty()) keep(take_line(before));
@@ -81,7 +81,7 @@ void UnifiedDiff::put_in(std::string_view line) {
   ++after_.hunk_lines;
 }
 
-/// The lines kept before the change belong to its hunk.
+/// Starts a hunk, which includes the unchanged lines before the change.
 void UnifiedDiff::begin_change() {
   has_changes_ = true;
   for (Side* const side : {&before_, &after_}) {
@@ -101,25 +101,25 @@ void UnifiedDiff::keep(std::string_view line) {
   context_.push_back(marked(line, before_.line == 0));
   ++before_.line;
   ++after_.line;
-  // Two hunks that would touch are one.
+  // Hunks that would touch are joined.
   if (in_hunk_ && context_.size() > 2 * kContext) write_hunk();
   if (!in_hunk_ && context_.size() > kContext) context_.erase(context_.begin());
 }
 
-/// `12,7`: as diff counts, a hunk without lines stands behind the line before it.
+/// Such as `12,7`. By diff's convention, an empty hunk counts from the line before it.
 std::string UnifiedDiff::Side::range() const {
   if (hunk_lines == 1) return fmt::format("{}", hunk_first + 1);
   return fmt::format("{},{}", hunk_first + (hunk_lines == 0 ? 0 : 1), hunk_lines);
 }
 
-/// A tab tells patch where a name with blanks ends.
+/// Writes the file names; a tab marks for patch the end of a name with blanks.
 void UnifiedDiff::write_names() {
   const std::string name = syntax::printable(std::exchange(name_, {}));
   const std::string_view behind = name.find(' ') == std::string::npos ? "" : "\t";
   write_(fmt::format("--- {0}{1}\n+++ {0}{1}\n", name, behind));
 }
 
-/// With the first lines behind it; what is left may stand before the next one.
+/// Writes the hunk with the first unchanged lines after it; keeps those that may precede the next hunk.
 void UnifiedDiff::write_hunk() {
   const std::size_t behind = std::min(kContext, context_.size());
   for (std::size_t i = 0; i < behind; ++i) append(hunk_, ' ', context_[i]);

@@ -8,20 +8,20 @@
 
 namespace isocnc::fixing {
 
-/// Writes a unified diff of two texts whose lines come along side by side: what is kept is a few lines. For diff and
+/// Writes a unified diff of two texts whose lines arrive in parallel; keeps only a few lines in memory. For diff and
 /// patch only LF ends a line: lines that end with CR alone are shown together with the next one that ends with LF.
 class UnifiedDiff {
  public:
-  /// Parts of the diff go to `write`. Behind a byte-order mark the first line begins with it in both texts.
+  /// Parts of the diff go to `write`. After a byte-order mark, the first line of both texts begins with it.
   UnifiedDiff(std::string name, bool has_byte_order_mark, std::function<void(std::string_view)> write)
       : name_(std::move(name)), has_byte_order_mark_(has_byte_order_mark), write_(std::move(write)) {}
 
-  /// The next lines, whole ones with their ends, as many before as after.
+  /// Adds the next lines, with their ends: the same number of lines in both texts.
   void add(std::string_view before, std::string_view after);
-  /// A line with its end that only one of the texts has.
+  /// Adds a line, with its end, that only one of the texts has.
   void remove(std::string_view line) { take(line, {}); }
   void insert(std::string_view line) { take({}, line); }
-  /// Behind the last line.
+  /// Call after the last line.
   void finish();
   bool has_changes() const { return has_changes_; }
 
@@ -38,13 +38,13 @@ class UnifiedDiff {
 
   static constexpr std::size_t kContext = 3;
 
-  std::string name_;  // Empty once it has been written.
+  std::string name_;  // The name of the file; empty after it has been written.
   const bool has_byte_order_mark_;
   std::function<void(std::string_view)> write_;
   bool has_changes_ = false;
-  /// Lines of one of the texts.
+  /// The position in one of the texts.
   struct Side {
-    std::uint64_t line = 0;  // From 0: the next one.
+    std::uint64_t line = 0;  // The next line, from 0.
     std::uint64_t hunk_first = 0;
     std::uint64_t hunk_lines = 0;
 
@@ -53,14 +53,14 @@ class UnifiedDiff {
   Side before_;
   Side after_;
 
-  // What has come since both texts last stood behind an LF.
+  // The lines since the last LF at which both texts ended together.
   std::string open_before_;
   std::string open_after_;
 
-  // The hunk that is being gathered, and the unchanged lines before or behind it.
+  // The unwritten hunk, and the unchanged lines before or after it.
   std::vector<std::string> context_;
   std::string hunk_;
-  std::string removed_;  // A run of changed lines: all old ones are shown before the new ones.
+  std::string removed_;  // A run of changed lines: all old ones come before the new ones.
   std::string added_;
   bool in_hunk_ = false;
 };
