@@ -19,20 +19,20 @@ static std::optional<ArcOfProgram> marked_arc(const Request& request) {
 
 static Habit habit_of(const ArcOfProgram& arc) { return arc.incremental ? Habit::CentersInG91 : Habit::CentersInG90; }
 
-/// How much farther a center is from one end than from the other.
+/// The difference between a center's distances from both ends of the arc.
 static double misfit(const ArcOfProgram& arc, PlanePoint center) {
   return std::abs(center.norm() - (center - arc.given.end).norm());
 }
 
-/// Whether the center may have been meant from the other origin: then what is right cannot be seen from this arc (D70).
-/// Under G91 all controls count from the start, so it takes another arc that shows the habit.
+/// Whether the center may be meant from the other origin: then this arc alone does not show the right center (D70).
+/// Under G91 all controls count from the start, so another arc must show the habit.
 static bool may_mean_other_origin(const Request& request, const ArcOfProgram& arc) {
   if (arc.readings.is_same_center) return false;
   const bool fits_other = arc.readings.nearly_fits_other(request.program.setup().arc_tolerance);
   return (fits_other && !arc.incremental) || request.program.habits().shows(habit_of(arc));
 }
 
-/// Writes a center that fits with as few decimals as let the arc fit well, at least those that are there.
+/// Writes a center with the fewest decimals with which the arc fits well, but no fewer than are written.
 static Draft fitting_center(const Request& request, const ArcOfProgram& arc, PlanePoint center) {
   const double tolerance = request.program.setup().arc_tolerance;
   if (!(center.norm() > tolerance && misfit(arc, center) < tolerance / 2)) return {};
@@ -42,14 +42,13 @@ static Draft fitting_center(const Request& request, const ArcOfProgram& arc, Pla
   return {std::move(written.edits), std::move(written.words)};
 }
 
-/// I and J count from the start on other controls, or are meant so: all centers of the program are rewritten, or none.
+/// On other controls I and J count from the start, and some authors write them so: rewrites all centers or none.
 Draft center_from_other_origin(const Request& request) {
   const std::optional<ArcOfProgram> arc = marked_arc(request);
   return arc ? habit_draft(request, habit_of(*arc)) : Draft{};
 }
 
-/// The nearest point that is as far from one end as from the other. A center that is far off may as well be right, and
-/// an end wrong.
+/// The nearest point that is equally far from both ends. If the center is far off, it may be right and an end wrong.
 Draft center_between_ends(const Request& request) {
   const std::optional<ArcOfProgram> arc = marked_arc(request);
   if (!arc || !arc->center_u || !arc->center_v || may_mean_other_origin(request, *arc)) return {};
@@ -63,13 +62,13 @@ Draft center_between_ends(const Request& request) {
   return fitting_center(request, *arc, {center.u - share * chord.u, center.v - share * chord.v});
 }
 
-/// G02 X20 I10: the other coordinate is that of the start, and the arc a half circle or a full turn.
+/// G02 X20 I10: takes the missing coordinate from the start, which gives a half circle or a full turn.
 Draft center_completed(const Request& request) {
   const std::optional<ArcOfProgram> arc = marked_arc(request);
   if (!arc || (arc->center_u != nullptr) == (arc->center_v != nullptr)) return {};
   const PlanePoint center{arc->given.center_u.value_or(0), arc->given.center_v.value_or(0)};
-  // Where both readings are the same, the arc is right in either; but that it lacks a coordinate shows how other
-  // centers may be meant.
+  // An arc with the same center in both readings is legal in either; but its missing coordinate shows how other centers
+  // may be meant.
   if (arc->readings.is_same_center && request.program.habits().leaves_open(habit_of(*arc))) return {};
   if (may_mean_other_origin(request, *arc)) return {};
   if (fitting_center(request, *arc, center).edits.empty()) return {};
@@ -82,15 +81,15 @@ Draft center_completed(const Request& request) {
   return {{inserted(request, given.end, " " + word)}, word};
 }
 
-/// R12 with a center at 10: the center gives the circle, unless it may be the center that is not as meant. With one of
-/// its coordinates alone nearly any circle fits.
+/// R12 with a center at 10: the center decides, unless the center may be the wrong one. With only one coordinate of the
+/// center nearly any circle fits.
 Draft removed_contradicting_radius(const Request& request) {
   const std::optional<ArcOfProgram> arc = marked_arc(request);
   const bool is_certain = arc && arc->readings.is_complete && !may_mean_other_origin(request, *arc);
   return is_certain ? removed_mark(request) : Draft{};
 }
 
-/// R9.999 where half the way is 10: a rounding.
+/// R9.999 for a chord of 20: a rounding error.
 Draft radius_large_enough(const Request& request) {
   const double radius = request.finding.values[0];
   const double needed = request.finding.values[1];
@@ -98,7 +97,7 @@ Draft radius_large_enough(const Request& request) {
   const Instruction* const motion = word ? owner_of(request.line, *word) : nullptr;
   if (!motion || !motion->is_motion() || !(radius > 0) || needed - radius > needed / 20) return {};
   if (request.marked().find('(') != std::string_view::npos) return {};
-  // What the word says in mm tells what a unit of it is worth.
+  // The finding's radius in mm, divided by the word's value, is the length of a unit.
   const double minimum = std::ceil(needed * word->value / radius * 1e4 - 1e-6) / 1e4;
   std::string larger = request.marked().front() + written(minimum, 4);
   return {{replaced(request, request.finding.span, larger)}, larger};

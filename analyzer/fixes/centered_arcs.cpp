@@ -14,7 +14,7 @@ using syntax::Word;
 
 namespace {
 
-/// Keeps the arcs of one line.
+/// Collects the arcs of one line.
 class ArcCollector final : public execution::Sink {
  public:
   explicit ArcCollector(double tolerance) : Sink(false), tolerance_(tolerance) {}
@@ -57,7 +57,7 @@ std::optional<ArcOfProgram> arc_on(const LineTree& line, const execution::State&
   if (line.text_of(collector.centers).find('(') != std::string_view::npos) return std::nullopt;
   for (const Word& word : line.words) {
     if (word.begin < collector.centers.begin || word.end > collector.centers.end) continue;
-    if (word.has(Word::kReported)) return std::nullopt;  // I=5
+    if (word.has(Word::kReported)) return std::nullopt;  // A word with a finding, such as I=5.
     if (word.letter == arc.plane->u_center) arc.center_u = &word;
     if (word.letter == arc.plane->v_center) arc.center_v = &word;
   }

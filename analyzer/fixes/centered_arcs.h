@@ -10,8 +10,8 @@
 
 namespace isocnc::fixes {
 
-/// An arc of the program whose circle is given by its center, as it is written and as it reads. mm, degrees; places in
-/// the plane are in the frame in force, or from the start where they say so.
+/// An arc of the program whose circle is given by its center, as written and as interpreted. mm, degrees; points in the
+/// plane are in the frame in force, unless described as relative to the start.
 struct ArcOfProgram {
   const execution::Plane* plane = nullptr;
   geometry::ArcGiven given;
@@ -19,46 +19,46 @@ struct ArcOfProgram {
   bool incremental = false;
   double mm_per_unit = 1;
   geometry::CenterReadings readings;
-  const syntax::Word* center_u = nullptr;  ///< Null: not written. Refers to the line.
+  const syntax::Word* center_u = nullptr;  ///< A word of the line; null if not written.
   const syntax::Word* center_v = nullptr;
 
-  /// A center, given from the start, as the program has to write its coordinates.
+  /// Converts a center relative to the start into the coordinates that the program must write.
   geometry::PlanePoint in_program(geometry::PlanePoint center) const {
     const geometry::PlanePoint origin = incremental ? geometry::PlanePoint{} : start;
     return {(center.u + origin.u) / mm_per_unit, (center.v + origin.v) / mm_per_unit};
   }
-  /// From the start, a center that the program writes so.
+  /// Converts a center as the program writes it into one relative to the start.
   geometry::PlanePoint from_start(geometry::PlanePoint in_program) const {
     const geometry::PlanePoint origin = incremental ? geometry::PlanePoint{} : start;
     return {in_program.u * mm_per_unit - origin.u, in_program.v * mm_per_unit - origin.v};
   }
 };
 
-/// Most decimals that a center is written with.
+/// The maximum number of decimals of a written center.
 inline constexpr int kMaxDecimals = 9;
 
-/// The line's only arc that gives its circle by a center, run from this state. Nothing where there is none, or several,
-/// where its start is not known, where its words have a finding of their own, or where a comment within them would be
-/// lost by rewriting them.
+/// The line's only arc whose circle is given by a center, executed from this state. Nothing if there is none or
+/// several, if its start is unknown, if one of its words has a finding, or if rewriting would lose a comment between
+/// them.
 std::optional<ArcOfProgram> arc_on(const syntax::LineTree& line, const execution::State& before,
                                    const execution::Setup& setup);
 
-/// Whether a line with I, J or K, run from this state, ends in an arc, or in a motion that nobody can read.
+/// Whether a line with I, J or K, executed from this state, leaves an arc in force, or a motion that is not known.
 bool may_be_arc(const syntax::LineTree& line, const execution::State& before, const execution::Setup& setup);
 
-/// How a center is rewritten: the edits of its line, and the words that will stand there.
+/// The rewriting of a center: the edits of its line, and the new words.
 struct WrittenCenter {
   std::vector<Edit> edits;
   std::string words;
 };
 
-/// Writes both coordinates of a center, given from the start, with this many decimals.
+/// Writes both coordinates of a center, given relative to the start, with this many decimals.
 WrittenCenter center_written(const ArcOfProgram& arc, std::uint64_t line, geometry::PlanePoint center, int decimals);
 
-/// Decimals with which the center is written, three at least.
+/// The number of decimals of the written center, at least three.
 int decimals_of_center(const syntax::LineTree& line, const ArcOfProgram& arc);
 
-/// The center, given from the start, as it is with its coordinates in the program rounded to so many decimals.
+/// The center, given relative to the start, after rounding its coordinates in the program to `decimals` decimals.
 geometry::PlanePoint rounded_center(const ArcOfProgram& arc, geometry::PlanePoint center, int decimals);
 
 }  // namespace isocnc::fixes

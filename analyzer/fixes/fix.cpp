@@ -16,7 +16,7 @@ namespace isocnc::fixes {
 
 using dialect::DiagnosticId;
 
-/// The rows of each code, found once: programs may have a finding on every line.
+/// The first row of each code, computed once: programs may have a finding on every line.
 static constexpr auto kFirstRows = [] {
   std::array<std::uint8_t, dialect::kDiagnosticCount> rows{};
   rows.fill(static_cast<std::uint8_t>(kFixes.size()));
@@ -50,7 +50,7 @@ std::string Edit::text_with(std::string_view line_end) const {
   return result;
 }
 
-/// The line with the edits made, which may make several of it. Nothing where they reach beyond the line.
+/// The line with the edits applied, which may be several lines. Nothing if an edit is on another line.
 static std::optional<std::string> edited_line(const Request& request, std::vector<Edit> edits) {
   const auto is_elsewhere = [&](const Edit& edit) {
     return edit.begin.line != request.number || edit.end.line != request.number;

@@ -14,12 +14,12 @@
 
 namespace isocnc::fixes {
 
-/// Replaces what stands between two places: lines and byte columns from 0, the end exclusive; a place at the start of
-/// the line behind the last terminator is the end of the program.
+/// Replaces the text between two positions: lines and byte columns from 0, the end exclusive; column 0 of the line
+/// after the last terminator is the end of the program.
 struct Edit {
   syntax::Position begin;
   syntax::Position end;
-  std::string text;  ///< `\n` is a line end, whatever the program's line ends are.
+  std::string text;  ///< `\n` is a line end, whichever kind the program uses.
 
   /// The text with the program's own line ends.
   std::string text_with(std::string_view line_end) const;
@@ -27,38 +27,39 @@ struct Edit {
   friend bool operator==(const Edit&, const Edit&) = default;
 };
 
-/// `Safe`: what the program does, or was plainly meant to do, is beyond doubt. `Unsafe`: what is most likely meant.
+/// `Safe`: it is certain what the program does or was meant to do. `Unsafe`: the fix gives the most likely meaning.
 enum class Safety : std::uint8_t { None, Safe, Unsafe };
 
-/// What an author does throughout a program, so that it is mended everywhere or nowhere (D70): what is left of it may
-/// be legal, and mean something else.
+/// A practice of the author that must be fixed throughout a program or not at all (D70): an instance that is left may
+/// be legal and mean something else.
 enum class Habit : std::uint8_t {
   None,
-  CentersInG90,  ///< Centers of arcs count from the start under G90.
-  CentersInG91,  ///< Centers are absolute under G91.
-  ForeignUnits,  ///< G20 and G21 for inches and millimeters.
-  Milliseconds,  ///< Waiting times of G04.
+  CentersInG90,  ///< Centers of arcs counted from the start under G90.
+  CentersInG91,  ///< Absolute centers under G91.
+  ForeignUnits,  ///< G20 and G21 used for inches and millimeters.
+  Milliseconds,  ///< Times of G04 in milliseconds.
 };
 inline constexpr std::size_t kHabitCount = 5;
 
-/// How a finding can be mended, as data: no file, screen or protocol is needed to make or to apply it.
+/// A fix of a finding, as data: making and applying it needs no file, screen or protocol.
 struct Fix {
   Safety safety = Safety::Unsafe;
   dialect::Text title;
-  std::string marked;  ///< What the title calls `{text}`: the program text under the finding's mark.
-  std::string what;    ///< What the title calls `{new}`.
+  std::string marked;  ///< The value of `{text}` in the title: the program text under the finding's mark.
+  std::string what;    ///< The value of `{new}` in the title.
   std::vector<Edit> edits;
-  /// With a habit, `edits` are those of the finding's own line, and mend nothing without Program::habits().
+  /// With a habit, `edits` are those of the finding's own line; they fix nothing without the others of
+  /// Program::habits().
   Habit habit = Habit::None;
 
-  /// A few words in the imperative, without a full stop.
+  /// The title: a few words in the imperative, without a period.
   std::string title_in(dialect::Language language) const;
 };
 
 class Habits;
 
-/// What a fix may have to know of the program around its line. Lines are counted as syntax::Document counts them: a
-/// terminator at the end is followed by an empty line.
+/// The facts about the program that a fix may need. Lines are counted as in syntax::Document: a terminator at the end
+/// is followed by an empty line.
 class Program {
  public:
   Program();
@@ -69,17 +70,17 @@ class Program {
   virtual const execution::Setup& setup() const = 0;
 
   virtual std::uint64_t line_count() const = 0;
-  /// Without its terminator.
+  /// The text of a line without its terminator.
   virtual std::string_view text(std::uint64_t line) = 0;
   /// Valid until the next call.
   virtual syntax::LineTree line(std::uint64_t line) = 0;
-  /// The state before a line, where all paths to it agree; lines up to line_count(), which is the end.
+  /// The state before a line, if it is the same on all paths; lines up to line_count(), the end of the program.
   virtual std::optional<execution::State> state_before(std::uint64_t line) = 0;
   /// Whether a path leads to the line.
   virtual bool is_read(std::uint64_t line) = 0;
   /// Whether a GOTO names this label.
   virtual bool is_jumped_to(std::uint64_t label) = 0;
-  /// A line number that the program does not have, another one each time.
+  /// A line number that the program does not have; each call gives a new one.
   virtual std::optional<std::uint64_t> free_line_number() = 0;
 
   virtual Habits& habits();
@@ -88,21 +89,21 @@ class Program {
   std::unique_ptr<Habits> habits_;
 };
 
-/// A finding and where it stands.
+/// A finding and its line.
 struct Place {
-  std::uint64_t line = 0;  ///< From 0.
+  std::uint64_t line = 0;  ///< The line, from 0.
   const syntax::Finding& finding;
   bool on_every_path = true;
 };
 
-/// Longer lines have lost their line ends; they may have thousands of findings, and to look through them for each would
-/// take long. They have no fix.
+/// The maximum length of a line with fixes. Longer lines have usually lost their line ends and may have thousands of
+/// findings, so that looking through them for each finding would take too long.
 inline constexpr std::size_t kLongestLine = 1'000;
 
-/// The edits of a fix, with all others that its habit takes.
+/// The edits of a fix, with all other edits of its habit.
 std::vector<Edit> all_edits(const Fix& fix, Program& program);
 
-/// The fix of a finding, when there is one.
+/// The fix of a finding, if there is one.
 std::optional<Fix> fix_of(const Place& place, Program& program);
 
 }  // namespace isocnc::fixes

@@ -7,12 +7,12 @@
 
 namespace isocnc::fixes {
 
-/// How findings of one code are mended, or why they are not.
+/// The fix of findings of one code, or the reason why there is none.
 struct FixDef {
   dialect::DiagnosticId diagnostic = dialect::kNoDiagnostic;
   Safety safety = Safety::None;
-  /// Of the fix, in the imperative; may name `{text}` (the program text under the finding's mark) and `{new}` (what the
-  /// maker writes or moves). Without a fix: the reason, as a sentence.
+  /// The title of the fix, in the imperative; may contain `{text}` (the program text under the finding's mark) and
+  /// `{new}` (the text that the maker writes or moves). Without a fix: the reason, as a sentence.
   dialect::Text title;
   Maker make = nullptr;
 };
@@ -55,8 +55,8 @@ inline constexpr Text kAboutCheck = {"It tells of the check, not of the program.
                                      "Riguarda la verifica, non il programma."};
 }  // namespace detail
 
-/// One row or more for each code, in the order in which they are tried: the first that has something to offer is the
-/// finding's fix.
+/// One or more rows for each code, in the order in which they are tried: the first that gives edits is the finding's
+/// fix.
 inline constexpr auto kFixes = [] {
   using namespace detail;
   using enum Safety;

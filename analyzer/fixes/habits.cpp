@@ -17,7 +17,7 @@ using syntax::Word;
 
 namespace {
 
-/// From here on a G04 without a decimal point may be meant in milliseconds: nobody waits for less than ten.
+/// The minimum time of a G04 without a decimal point that may be meant in milliseconds: shorter dwells are unlikely.
 constexpr double kFewMilliseconds = 10;
 
 bool has_centers(const LineTree& line, const Instruction& motion) {
@@ -38,8 +38,8 @@ bool starts_with_lost_letter(const LineTree& line) {
   return first != line.words.end() && first->letter == syntax::kNumber;
 }
 
-/// Whether a G of the line, or the number of one that has lost its letter, cannot be read: which motion and which modes
-/// are in force after it is not known. G91.1 can be read, and is another control's.
+/// Whether a G of the line cannot be read, or a number has lost its letter: the motion and modes in force after the
+/// line are then unknown. G91.1 can be read; it belongs to another control.
 bool hides_a_g(const LineTree& line) {
   return starts_with_lost_letter(line) || std::any_of(line.words.begin(), line.words.end(), [](const Word& word) {
            return word.letter == 'G' && word.has(Word::kMissing | Word::kMalformed | Word::kReported) &&
@@ -47,7 +47,7 @@ bool hides_a_g(const LineTree& line) {
          });
 }
 
-/// The center of an arc as it reads from the other origin. What adds up of numbers with few decimals has few itself.
+/// The center of an arc as read from the other origin. A sum of numbers with few decimals has few itself.
 LineRewrite with_other_center(const LineTree& line, std::uint64_t number, const ArcOfProgram& arc) {
   const PlanePoint center = arc.readings.other_center;
   int decimals = decimals_of_center(line, arc);
@@ -57,13 +57,13 @@ LineRewrite with_other_center(const LineTree& line, std::uint64_t number, const 
   return {number, std::move(written.edits), std::move(written.words)};
 }
 
-/// The arcs of a program that give their circles by centers, under one of G90 and G91, and what follows for the habit
-/// to count centers from the other origin (D70).
+/// Surveys the arcs of a program that are given by centers, under one of G90 and G91, for the habit of counting centers
+/// from the other origin (D70).
 class CenterSurvey {
  public:
   explicit CenterSurvey(double tolerance) : tolerance_(tolerance) {}
 
-  /// There is an arc of which nothing is known, or whose words cannot be changed.
+  /// Records an arc that is not known, or whose words cannot be changed.
   void add_unknown() { has_unknown_ = true; }
 
   void add(const CenterReadings& readings, LineRewrite rewrite) {
@@ -76,7 +76,7 @@ class CenterSurvey {
     }
     has_open_ |= is_legal;
     if (!readings.fits_other(tolerance_)) {
-      // What fits neither way stays a finding; what is legal, and would not be, must not stay without one.
+      // An illegal arc keeps its finding. A legal one would become illegal by rewriting, without having had a finding.
       if (is_legal) add_unknown();
       return;
     }
@@ -87,8 +87,8 @@ class CenterSurvey {
   bool is_shown() const { return is_shown_; }
   bool is_open() const { return (has_open_ || has_unknown_) && !is_contradicted_; }
 
-  /// All centers that fit from the other origin, where nothing contradicts the habit; where some arcs do, those that
-  /// fit in no other way, unless more are legal both ways.
+  /// If nothing contradicts the habit: all centers that fit from the other origin. If some arcs do: those that fit in
+  /// no other way, unless others are legal both ways.
   HabitRewrites rewrites() {
     if (!is_shown_ || has_unknown_ || (is_contradicted_ && has_open_)) return {};
     if (!is_contradicted_) return std::move(rewrites_);
@@ -100,10 +100,10 @@ class CenterSurvey {
  private:
   double tolerance_;
   HabitRewrites rewrites_;
-  std::vector<std::size_t> certain_;  // Of rewrites_: arcs that fit from the other origin alone.
+  std::vector<std::size_t> certain_;  // Indices into rewrites_ of arcs that fit from the other origin only.
   bool is_shown_ = false;
   bool is_contradicted_ = false;
-  bool has_open_ = false;  // Legal as it is written, and from the other origin at least nearly so.
+  bool has_open_ = false;  // Whether some arc is legal as written and at least nearly so from the other origin.
   bool has_unknown_ = false;
 };
 
@@ -145,7 +145,7 @@ void Habits::find_centers() {
         .rewrites = survey->rewrites(), .is_shown = survey->is_shown(), .is_open = survey->is_open()};
 }
 
-/// G20 and G21 are inches and millimeters on other controls: a program changed by half would mix them.
+/// On other controls G20 and G21 set inches and millimeters; rewriting only some of them would mix the units.
 Habits::Found Habits::find_foreign_units() {
   Found found;
   for (std::uint64_t number = 0; number < program_.line_count(); ++number) {
@@ -166,8 +166,8 @@ Habits::Found Habits::find_foreign_units() {
   return found;
 }
 
-/// G04 P500: where one waiting time is far too long for seconds, all are milliseconds, unless one has a decimal point
-/// or is too short for that.
+/// G04 P500: if one time is far too long for seconds, all are milliseconds, unless one has a decimal point or is too
+/// short for that.
 Habits::Found Habits::find_milliseconds() {
   Found found;
   for (std::uint64_t number = 0; number < program_.line_count(); ++number) {

@@ -11,31 +11,31 @@
 
 namespace isocnc::fixes {
 
-/// What is rewritten on one line.
+/// The rewriting of one line.
 struct LineRewrite {
   std::uint64_t line = 0;
-  std::vector<Edit> edits;  ///< On this line.
-  std::string what;         ///< What is written there.
+  std::vector<Edit> edits;  ///< The edits, all on this line.
+  std::string what;         ///< The new text, for the fix's title.
 };
 
-/// What a habit has to have rewritten, line by line.
+/// The rewriting that a habit needs, line by line.
 using HabitRewrites = std::vector<LineRewrite>;
 
-/// The habits of a program, found when they are first asked for, each by one look at all lines.
+/// The habits of a program. Each is found on demand, in one pass over all lines.
 class Habits {
  public:
   /// The program must outlive this.
   explicit Habits(Program& program) : program_(program) {}
 
-  /// All that has to be rewritten. Empty where the program does not show the habit, or where not all of it can be
-  /// rewritten: for instance where arcs that fit only as they are written contradict it, and others are legal both
-  /// ways.
+  /// The complete rewriting for a habit. Empty if the program does not show the habit or if not all of it can be
+  /// rewritten: for example, if some arcs are legal only as written, which contradicts the habit, and others are legal
+  /// both ways.
   const HabitRewrites& rewrites(Habit habit);
-  /// Whether a place of the program has the habit and cannot be meant otherwise.
+  /// Whether some place in the program shows the habit and has no other meaning.
   bool shows(Habit habit);
-  /// Whether places of the program are legal as they are and with the habit, and nothing contradicts it.
+  /// Whether some places in the program are legal both with and without the habit, and nothing contradicts it.
   bool leaves_open(Habit habit);
-  /// Whether a number of the program has commas between its thousands: 1,234.5.
+  /// Whether a number in the program has commas between its thousands, such as 1,234.5.
   bool separates_thousands();
 
  private:
@@ -45,7 +45,7 @@ class Habits {
     bool is_open = false;
   };
 
-  /// Valid until the next call. Program::line() may be in use by who asks for a habit.
+  /// Valid until the next call. Separate from Program::line(), whose tree the caller may still use.
   syntax::LineTree line(std::uint64_t number);
   const Found& found(Habit habit);
   void find_centers();

@@ -32,8 +32,8 @@ Edit removed(const Request& request, Span span) {
   return replaced(request, wide, {});
 }
 
-/// The line, which holds `length` bytes, with its end. Where it is the last and has none, the end of the line above
-/// goes, and blank lines between, so that the program still ends without one.
+/// Removes a line of `length` bytes with its end. For a last line without an end, removes the end of the line above and
+/// the blank lines between, so that the program still has no line end there.
 static Edit removed_line(Program& program, std::uint64_t line, std::size_t length) {
   if (line + 1 < program.line_count()) return {{line, 0}, {line + 1, 0}, {}};
   std::uint64_t above = line;

@@ -13,10 +13,10 @@ using syntax::InstructionKind;
 using syntax::LineTree;
 using syntax::Word;
 
-/// Blank lines and comments that are looked over for the block above or below.
+/// The maximum number of lines searched for the block above or below.
 static constexpr std::uint64_t kReach = 20;
 
-/// Who jumps to the line would pass over what is inserted above it.
+/// A jump to the line would skip a line inserted above it.
 static bool is_jumped_to(const LineTree& line, Program& program) {
   return line.has_label() && program.is_jumped_to(line.label);
 }
@@ -35,10 +35,10 @@ Draft m05_above(const Request& request) { return line_above(request, "M05"); }
 Draft g90_above(const Request& request) { return line_above(request, "G90"); }
 Draft g71_above(const Request& request) { return line_above(request, "G71"); }
 
-/// Lines that are looked over for the G27 that comes too late.
+/// The maximum number of lines searched for the late G27.
 static constexpr std::uint64_t kFarthestDismount = 5'000;
 
-/// G92 under a face frame whose G27 comes later: it stands too low.
+/// G92 under a face frame with its G27 further down: moves the G27 up.
 Draft later_g27_above(const Request& request) {
   Draft draft = g27_above(request);
   if (draft.edits.empty()) return {};
@@ -60,7 +60,7 @@ Draft later_g27_above(const Request& request) {
   return {};
 }
 
-/// What has to end before the program does: compensation, face frame, spindle.
+/// The blocks that must precede the end of the program: compensation off, face frame dismounted, spindle stopped.
 static std::string blocks_before_end(const State& state, const std::string& line_start) {
   std::string blocks;
   if (state.mode(ModalGroup::CutterCompensation) != 40) blocks += line_start + "G40";
@@ -79,7 +79,7 @@ Draft end_of_program(const Request& request) {
   return {{inserted(request, static_cast<std::uint32_t>(line.size()), std::move(text))}};
 }
 
-/// A line above (step -1) or below (1) that holds a block.
+/// The nearest line above (step -1) or below (1) that holds a block.
 static std::optional<std::uint64_t> block_beside(const Request& request, int step) {
   std::uint64_t number = request.number;
   for (std::uint64_t i = 0; i < kReach; ++i) {
@@ -97,7 +97,7 @@ static bool waits_for_tool(const LineTree& line) {
   });
 }
 
-/// A T alone; an M06 on the line above or below is to have it.
+/// Adds M06 before a T, unless an M06 without a T is on the line, above it or below it.
 Draft m06_before_tool(const Request& request) {
   if (waits_for_tool(request.line)) return {};
   for (const int step : {-1, 1}) {
@@ -112,7 +112,7 @@ static bool has_tool_alone(const LineTree& line) {
          line.instructions.front().kind == InstructionKind::StrayTool && line.findings.empty();
 }
 
-/// M06 on one line, T101001 alone on the next.
+/// M06 on one line, T101001 alone on the next: joins them.
 Draft tool_of_other_line(const Request& request) {
   const std::optional<std::uint64_t> number = block_beside(request, 1);
   if (!number) return {};
@@ -125,7 +125,7 @@ Draft tool_of_other_line(const Request& request) {
   return {{inserted(request, request.finding.span.end, " " + tool), removed_with_line(there, at_tool.span)}, tool};
 }
 
-/// Whether the line does what a T may be moved past: nothing that moves, mounts, jumps or ends.
+/// Whether a T may be moved past the line: it holds no motion, tool change, T, jump or end of the program.
 static bool lets_tool_pass(const LineTree& line, Program& program) {
   const auto is_blocking = [&](const Instruction& each) {
     return each.is_motion() || each.kind == InstructionKind::ToolChange || each.kind == InstructionKind::StrayTool ||
@@ -134,7 +134,7 @@ static bool lets_tool_pass(const LineTree& line, Program& program) {
   return !is_jumped_to(line, program) && std::none_of(line.instructions.begin(), line.instructions.end(), is_blocking);
 }
 
-/// T101001 alone, as other controls prepare a tool, and its M06 below.
+/// T101001 alone, as other controls prepare a tool, with its M06 below: moves the T there.
 Draft tool_to_later_change(const Request& request) {
   if (!has_tool_alone(request.line)) return {};
   for (std::uint64_t number = request.number + 1;
@@ -153,7 +153,7 @@ Draft tool_to_later_change(const Request& request) {
   return {};
 }
 
-/// G01 alone, and its coordinates on the next line.
+/// G01 alone, with its coordinates on the next line: moves the G there.
 Draft command_to_next_line(const Request& request) {
   const std::string command(request.marked());
   const std::optional<std::uint64_t> number = block_beside(request, 1);

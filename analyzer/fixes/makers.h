@@ -8,9 +8,9 @@
 
 namespace isocnc::fixes {
 
-/// What a fix is made from.
+/// The input of a maker.
 struct Request {
-  std::uint64_t number = 0;  ///< Of the line, from 0.
+  std::uint64_t number = 0;  ///< The line number, from 0.
   const syntax::Finding& finding;
   bool on_every_path = true;
   syntax::LineTree line;
@@ -19,19 +19,19 @@ struct Request {
   std::string_view marked() const { return line.text_of(finding.span); }
 };
 
-/// What a maker gives: without edits, this finding has no such fix.
+/// The result of a maker; without edits, this finding has no such fix.
 struct Draft {
   std::vector<Edit> edits;
-  std::string what = {};      ///< For the title.
-  Habit habit = Habit::None;  ///< The rest of whose rewrites belong to the edits.
+  std::string what = {};      ///< The value of `{new}` in the title.
+  Habit habit = Habit::None;  ///< The habit whose other rewrites belong to the edits.
 };
 
-/// What a habit has to have rewritten on the finding's line; nothing where it cannot be rewritten everywhere.
+/// The rewriting of the finding's line for a habit; empty unless the habit can be rewritten everywhere.
 Draft habit_draft(const Request& request, Habit habit);
 
 using Maker = Draft (*)(const Request&);
 
-// spelling.cpp: a word, or text that should be one, written as it was meant.
+// spelling.cpp: corrects a word, or text that should be a word.
 Draft zero_for_letter_o(const Request& request);
 Draft point_for_comma(const Request& request);
 Draft whole_number(const Request& request);
@@ -50,7 +50,7 @@ Draft text_as_comment(const Request& request);
 Draft capitals(const Request& request);
 Draft blank_for_tab(const Request& request);
 
-// removal.cpp: what is too much taken out.
+// removal.cpp: removes superfluous text.
 Draft removed_on_every_path(const Request& request);
 Draft removed_mark(const Request& request);
 Draft removed_repetition(const Request& request);
@@ -61,7 +61,7 @@ Draft removed_stray_center(const Request& request);
 Draft removed_first_motion(const Request& request);
 Draft removed_suppression(const Request& request);
 
-// order.cpp: what stands on the line, put where it belongs.
+// order.cpp: moves parts of a line to their right place.
 Draft on_its_own_line(const Request& request);
 Draft mode_first(const Request& request);
 Draft arguments_together(const Request& request);
@@ -73,7 +73,7 @@ Draft change_before_tool(const Request& request);
 Draft move_tool_after_change(const Request& request);
 Draft motions_on_two_lines(const Request& request);
 
-// lines.cpp: a word or a line that is missing, or stands on the neighboring line.
+// lines.cpp: adds a missing word or line, or moves one from a neighboring line.
 Draft g27_above(const Request& request);
 Draft later_g27_above(const Request& request);
 Draft g49_above(const Request& request);
@@ -87,7 +87,7 @@ Draft tool_of_other_line(const Request& request);
 Draft tool_to_later_change(const Request& request);
 Draft command_to_next_line(const Request& request);
 
-// arcs.cpp: circles that fit.
+// arcs.cpp: corrects circles that do not fit.
 Draft center_from_other_origin(const Request& request);
 Draft removed_contradicting_radius(const Request& request);
 Draft center_between_ends(const Request& request);

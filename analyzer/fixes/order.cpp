@@ -22,13 +22,13 @@ static const Instruction* marked_instruction(const Request& request) {
   return command ? owner_of(request.line, *command) : nullptr;
 }
 
-/// Takes the span from its place and writes it at another one.
+/// Moves the text of a span to another column.
 static Draft moved(const Request& request, Span span, std::uint32_t column, bool before) {
   const std::string text(request.line.text_of(span));
   return {{removed(request, span), inserted(request, column, before ? text + " " : " " + text)}, text};
 }
 
-/// A line end in place of the blanks before the word at `column`.
+/// Replaces the blanks before the word at `column` by a line end.
 static Edit line_end_before(const Request& request, std::uint32_t column) {
   const std::string_view line = request.line.text;
   std::uint32_t begin = column;
@@ -36,7 +36,7 @@ static Edit line_end_before(const Request& request, std::uint32_t column) {
   return replaced(request, {begin, column}, "\n" + std::string(indentation(line)));
 }
 
-/// Where on its line an instruction's words stand: [first, last], nothing of others between them.
+/// The words of an instruction on its line: [first, last], without words of others between them.
 struct Extent {
   std::size_t first = 0;
   std::size_t last = 0;
@@ -48,7 +48,7 @@ static std::optional<Extent> extent_of(const LineTree& line, const Instruction& 
   return Extent{instruction.begin, instruction.end - 1u};
 }
 
-/// Words that the instruction does not take show that something else was meant.
+/// Whether the instruction takes all its words; if not, something else was meant.
 static bool takes_all_its_words(const LineTree& line, const Instruction& instruction) {
   if (instruction.kind != InstructionKind::G) return true;
   for (std::size_t i = instruction.begin; i < instruction.end; ++i)
@@ -56,7 +56,7 @@ static bool takes_all_its_words(const LineTree& line, const Instruction& instruc
   return true;
 }
 
-/// F and S belong to the motion of their line, wherever they stand: they must stay with it.
+/// F and S apply to the motion of their line, wherever they are on it: they must stay with it.
 static bool speeds_stay_with_motions(const LineTree& line, Extent alone) {
   const auto part_of = [&](std::size_t word) { return word < alone.first ? 0 : 1; };
   for (const Instruction& instruction : line.instructions) {
@@ -67,7 +67,7 @@ static bool speeds_stay_with_motions(const LineTree& line, Extent alone) {
   return true;
 }
 
-/// G91 G28 Z0: who lacks its arguments may be the instruction of another control.
+/// G91 G28 Z0: an instruction that also lacks arguments may belong to another control.
 static bool has_another_finding(const Request& request) {
   const auto is_another = [&](const syntax::Finding& finding) {
     return finding.span == request.finding.span && finding.id != request.finding.id;
@@ -75,7 +75,7 @@ static bool has_another_finding(const Request& request) {
   return std::any_of(request.line.findings.begin(), request.line.findings.end(), is_another);
 }
 
-/// Whether a word has a finding of its own: what it should have been, and so what belongs to what, is not known.
+/// Whether a word has a finding: its intended form, and so the words that belong together, are unknown.
 static bool is_ambiguous(const LineTree& line, const Word& word) {
   const auto marks_it = [&](const syntax::Finding& finding) {
     return finding.span.begin < word.end && word.begin < finding.span.end;
@@ -83,7 +83,7 @@ static bool is_ambiguous(const LineTree& line, const Word& word) {
   return std::any_of(line.findings.begin(), line.findings.end(), marks_it);
 }
 
-/// G00 Z50 M02 on two lines, S5000 M03 G04 P2 G01 X5 on three: what takes effect, and in which order, stays as it is.
+/// Splits G00 Z50 M02 into two lines, S5000 M03 G04 P2 G01 X5 into three; effects and their order stay the same.
 Draft on_its_own_line(const Request& request) {
   const LineTree& line = request.line;
   const Instruction* const alone = marked_instruction(request);
@@ -99,7 +99,7 @@ Draft on_its_own_line(const Request& request) {
   if (!behind.empty() && alone->kind == InstructionKind::Function && !may_be_followed) return {};
   if (!behind.empty() && alone->kind == InstructionKind::Jump) return {};
   const auto before = line.words.first(extent->first);
-  // G92 X10 Y20=-Z146: the Z belongs to the G92.
+  // In G92 X10 Y20=-Z146 the Z belongs to the G92.
   if ((!behind.empty() && is_ambiguous(line, behind.front())) || (!before.empty() && is_ambiguous(line, before.back())))
     return {};
   Draft draft;
@@ -109,14 +109,14 @@ Draft on_its_own_line(const Request& request) {
   return draft;
 }
 
-/// G00 X2 Y3 G70.
+/// G00 X2 Y3 G70: moves the G70 to the start.
 Draft mode_first(const Request& request) {
   const Word* const first = first_word(request.line);
   if (!first || first->begin >= request.finding.span.begin) return {};
   return moved(request, request.finding.span, first->begin, true);
 }
 
-/// G1 X1 S500 Z5: the Z goes to the X. S and N may stand anywhere, so that they are no reason to move what they part.
+/// G1 X1 S500 Z5: moves the Z next to the X. S and N may be anywhere, so that alone they are no reason to move words.
 Draft arguments_together(const Request& request) {
   const LineTree& line = request.line;
   const Instruction* const motion = marked_instruction(request);
@@ -142,7 +142,7 @@ Draft arguments_together(const Request& request) {
   return draft;
 }
 
-/// X10 G1.
+/// X10 G1: moves the G1 before the X10.
 Draft command_first(const Request& request) {
   const Span command = request.finding.related;
   if (command.empty() || command.begin < request.finding.span.begin) return {};
@@ -156,7 +156,7 @@ static const Word* motion_start(const LineTree& line) {
   return &line.words[motion->kind == InstructionKind::G ? motion->command : motion->begin];
 }
 
-/// G01 X10 G41.
+/// G01 X10 G41: moves the G41 before the motion.
 Draft compensation_before_motion(const Request& request) {
   const Word* const motion = motion_start(request.line);
   if (!motion || motion->begin > request.finding.span.begin) return {};
@@ -171,20 +171,20 @@ static const Instruction* last_motion(const LineTree& line) {
   return last;
 }
 
-/// G40 G01 Y20: behind the last coordinate.
+/// G40 G01 Y20: moves the G40 after the last coordinate.
 Draft move_after_motion(const Request& request) {
   const Instruction* const motion = last_motion(request.line);
   if (!motion) return {};
   return moved(request, request.finding.span, request.line.words[motion->end - 1u].end, false);
 }
 
-/// G09 G01 X10; a rapid stops at its end by itself.
+/// G09 G01 X10: moves the G09 after a feed motion; a rapid stops at its end anyway.
 Draft move_after_feed_motion(const Request& request) {
   const Instruction* const motion = last_motion(request.line);
   return motion && !is_g(*motion, 0) ? move_after_motion(request) : Draft{};
 }
 
-/// T101001 M06.
+/// T101001 M06: moves the M06 before the T.
 Draft change_before_tool(const Request& request) {
   const LineTree& line = request.line;
   for (const Instruction& change : line.instructions) {
@@ -195,7 +195,7 @@ Draft change_before_tool(const Request& request) {
   return {};
 }
 
-/// M06 S5000 T101001.
+/// M06 S5000 T101001: moves the T next to the M06.
 Draft move_tool_after_change(const Request& request) {
   const LineTree& line = request.line;
   const Instruction* const change = marked_instruction(request);
@@ -206,7 +206,7 @@ Draft move_tool_after_change(const Request& request) {
   return {};
 }
 
-/// G00 X10 G01 Z-3 F1000.
+/// G00 X10 G01 Z-3 F1000: splits the line between the motions.
 Draft motions_on_two_lines(const Request& request) {
   const LineTree& line = request.line;
   const Instruction* const second = marked_instruction(request);

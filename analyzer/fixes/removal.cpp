@@ -15,7 +15,7 @@ using syntax::LineTree;
 using syntax::Span;
 using syntax::Word;
 
-/// A comment inside a word (`X(left)10`) is not to be lost with it.
+/// Whether the text holds a comment, such as `X(left)10`, which must not be lost.
 static bool holds_comment(std::string_view text) { return text.find('(') != std::string_view::npos; }
 
 Draft removed_mark(const Request& request) {
@@ -23,8 +23,7 @@ Draft removed_mark(const Request& request) {
   return {{removed_with_line(request, request.finding.span)}};
 }
 
-/// Whether all other words belong to what they belonged to once the marked one is gone, as the X of G01 G27 X5 does
-/// not.
+/// Whether all other words keep their commands when the marked word is removed. In G01 G27 X5 the X would not.
 static bool keeps_other_words(const Request& request) {
   const Word* const marked = word_at(request.line, request.finding.span);
   if (marked && lacks_frame_arguments(request.line, *marked)) return false;
@@ -53,7 +52,7 @@ static bool keeps_other_words(const Request& request) {
   return next == after.words.size();
 }
 
-/// What changes nothing on one path may be needed on another.
+/// A word without effect on one path may be needed on another.
 Draft removed_on_every_path(const Request& request) {
   return request.on_every_path && keeps_other_words(request) ? removed_mark(request) : Draft{};
 }
@@ -74,14 +73,14 @@ static double value_of(std::string_view word) {
   return tree.words.size() == 1 ? tree.words.front().value : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// The same word once more: X10 X10.0. Which of two different ones is meant, nobody knows.
+/// The same word again: X10 X10.0. If the values differ, the intended one is unknown.
 Draft removed_repetition(const Request& request) {
   const Span first = first_of_two(request);
   if (first.empty() || !(value_of(request.line.text_of(first)) == value_of(request.marked()))) return {};
   return removed_mark(request);
 }
 
-/// G90 G91: the first one takes no effect, as long as nothing between them runs under it.
+/// G90 G91: the first has no effect, unless an instruction between them uses it.
 Draft removed_earlier_mode(const Request& request) {
   const Span earlier = request.finding.related;
   const auto matters = [&](const Word& word) {
@@ -95,7 +94,7 @@ Draft removed_earlier_mode(const Request& request) {
   return {{removed(request, earlier)}, std::string(request.line.text_of(earlier))};
 }
 
-/// `%` and O1234, which frame the programs of other controls.
+/// `%` and O1234, which enclose programs of other controls.
 Draft removed_foreign_frame(const Request& request) {
   const std::string_view text = request.marked();
   const bool is_percent = text.find_first_not_of('%') == std::string_view::npos;
@@ -105,7 +104,7 @@ Draft removed_foreign_frame(const Request& request) {
   return removed_mark(request);
 }
 
-/// There are no canned cycles that G80 could end.
+/// G80 ends canned cycles, which this control does not have.
 Draft removed_canned_cycle_end(const Request& request) {
   const Word* const word = word_at(request.line, request.finding.span);
   return word && word->value == 80 && word->is_plain_integer() ? removed_mark(request) : Draft{};
@@ -147,7 +146,7 @@ static bool names_w190(std::string_view line) {
   return upper.find(def.code) != std::string::npos || upper.find(name) != std::string::npos;
 }
 
-/// `isolint: ignore ISO003`, or one code of several. A misspelt verb or code was meant for something.
+/// `isolint: ignore ISO003`, or one of its codes. A misspelled verb or code had a purpose, so it stays.
 Draft removed_suppression(const Request& request) {
   static constexpr std::string_view kCall = "isolint:";
   const std::string_view line = request.line.text;
@@ -155,8 +154,8 @@ Draft removed_suppression(const Request& request) {
   const std::string_view text = request.marked();
   const bool is_whole = text.size() > kCall.size() && dialect::begins_with(text, kCall);
   if (!is_whole) {
-    // Without its last code the comment would silence everything. Known codes are told one by one beside a useful one,
-    // an unknown one, or W190.
+    // Without its last code, the comment would suppress all findings. Single codes are reported if the comment also has
+    // a useful code, an unknown one, or W190.
     const std::optional<dialect::DiagnosticId> code = dialect::find_diagnostic(text);
     if (!code || names_w190(line)) return {};
     const bool has_comma = span.end < line.size() && line[span.end] == ',';

@@ -21,14 +21,14 @@ static bool holds_only(std::string_view text, std::string_view characters) {
   return text.find_first_not_of(characters) == std::string_view::npos;
 }
 
-/// The marked text with something else in its place.
+/// Replaces the marked text.
 static Draft rewritten(const Request& request, std::string text) {
   Draft draft{{replaced(request, request.finding.span, text)}};
   draft.what = std::move(text);
   return draft;
 }
 
-/// MO6 and X1O: the finding stands at the M, or at the O behind the number.
+/// MO6 and X1O: the finding is at the M, or at the O after the number.
 Draft zero_for_letter_o(const Request& request) {
   const std::string_view line = request.line.text;
   Span zeros = request.finding.span;
@@ -46,7 +46,7 @@ Draft zero_for_letter_o(const Request& request) {
   return {{replaced(request, zeros, std::string(zeros.end - zeros.begin, '0'))}};
 }
 
-/// 10,5; separators of thousands, as in 1.000,5, are left to their author, as is 1,500 where the program has 2,000.5.
+/// 10,5. Numbers with thousands separators are left to the author: 1.000,5, and 1,500 if the program has 2,000.5.
 Draft point_for_comma(const Request& request) {
   std::string text(request.marked());
   if (!holds_only(text, "0123456789,+- \t")) return {};
@@ -58,7 +58,7 @@ Draft point_for_comma(const Request& request) {
   return rewritten(request, std::move(text));
 }
 
-/// G1.0 and G-91: G1 and G91. Also for M, N, T and V.
+/// G1.0 becomes G1, G-91 becomes G91. Also for M, N, T and V.
 Draft whole_number(const Request& request) {
   const std::string_view text = request.marked();
   const char letter = syntax::upper(text.front());
@@ -84,7 +84,7 @@ Draft without_sign(const Request& request) {
   return rewritten(request, std::move(text));
 }
 
-/// X=5, which other controls read.
+/// X=5, which other controls accept.
 Draft without_equals(const Request& request) {
   const std::string_view line = request.line.text;
   const std::uint32_t at = request.finding.span.begin;
@@ -101,7 +101,7 @@ static int decimals_of(std::string_view number) {
   return static_cast<int>(std::min<std::size_t>(number.size() - point - 1, 9));
 }
 
-/// C270 is the direction of C-90.
+/// C270 is the same direction as C-90.
 Draft angle_in_range(const Request& request) {
   const double angle = std::remainder(request.finding.values[0], 360);
   if (!(std::abs(angle) <= request.finding.values[1]) || request.marked().find('(') != std::string_view::npos)
@@ -117,7 +117,7 @@ Draft comparison(const Request& request) {
   return {};
 }
 
-/// GOTO 30.
+/// GOTO 30: adds the N.
 Draft label_with_letter(const Request& request) {
   const std::string_view before = trimmed(request.line.text.substr(0, request.finding.span.begin));
   const bool is_label = !before.empty() && is_letter_o(before.back()) && request.line.jump != nullptr;
@@ -125,14 +125,14 @@ Draft label_with_letter(const Request& request) {
   return rewritten(request, "N" + std::string(request.marked()));
 }
 
-/// What other controls call inches and millimeters.
+/// G20 and G21, which set inches and millimeters on other controls.
 Draft code_of_this_control(const Request& request) {
   const Word* const word = word_at(request.line, request.finding.span);
   const bool is_unit = word && word->is_plain_integer() && (word->value == 20 || word->value == 21);
   return is_unit ? habit_draft(request, Habit::ForeignUnits) : Draft{};
 }
 
-/// G04 X2 or G04 F2, as other controls write it. X1000 without a decimal point is a second there, or a thousand.
+/// G04 X2 or G04 F2, as on other controls. There, X1000 without a decimal point may be 1 s or 1000 s.
 Draft time_by_p(const Request& request) {
   const Word* const command = word_at(request.line, request.finding.span);
   const Instruction* const dwell = command ? owner_of(request.line, *command) : nullptr;
@@ -144,7 +144,7 @@ Draft time_by_p(const Request& request) {
   return {{replaced(request, {time.begin, time.begin + 1}, "P")}, std::string(1, time.letter)};
 }
 
-/// G04 P500.
+/// G04 P500, meant in milliseconds.
 Draft seconds_of_milliseconds(const Request& request) { return habit_draft(request, Habit::Milliseconds); }
 
 Draft free_label(const Request& request) {
@@ -158,7 +158,7 @@ Draft closed_comment(const Request& request) {
   return {{inserted(request, end, ")")}};
 }
 
-/// OP 10): the text before the ) was meant as the comment; else there is one ) too many.
+/// OP 10): text before the `)` was meant as a comment; without such text, the `)` is superfluous.
 Draft opened_comment(const Request& request) {
   const syntax::ParsedLine before(request.line.text.substr(0, request.finding.span.begin));
   const syntax::LineTree tree = before.tree();
@@ -172,7 +172,7 @@ static bool is_letter(char c) {
   return (syntax::upper(c) >= 'A' && syntax::upper(c) <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
 }
 
-/// The span with the letters that it cuts off from a word, and the number behind that: PROGRA M 12.
+/// Extends the span by the letters that it cuts off from a word, and the number after that: PROGRA M 12.
 static Span whole_words(std::string_view line, Span span) {
   while (span.begin > 0 && is_letter(line[span.begin - 1])) --span.begin;
   const std::uint32_t end = span.end;
@@ -184,7 +184,7 @@ static Span whole_words(std::string_view line, Span span) {
   return span;
 }
 
-/// Words that people read, where words of the program should be.
+/// Text for people in place of words of the program.
 Draft text_as_comment(const Request& request) {
   const Span span = whole_words(request.line.text, request.finding.span);
   const std::string_view text = request.line.text_of(span);
@@ -194,7 +194,7 @@ Draft text_as_comment(const Request& request) {
   return {{inserted(request, span.begin, "("), inserted(request, span.end, ")")}};
 }
 
-/// A comment inside the marked words stays as it is.
+/// Comments between the marked words stay as they are.
 Draft capitals(const Request& request) {
   std::string text(request.marked());
   for (std::uint32_t i = 0; i < text.size(); ++i) {
@@ -205,7 +205,7 @@ Draft capitals(const Request& request) {
   return {{replaced(request, request.finding.span, std::move(text))}};
 }
 
-/// All of the line: it has one finding.
+/// Replaces all tabs of the line, which has one finding for them.
 Draft blank_for_tab(const Request& request) {
   Draft draft;
   for (std::uint32_t at = request.finding.span.begin; at < request.line.text.size(); ++at) {
