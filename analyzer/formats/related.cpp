@@ -12,7 +12,7 @@ using syntax::Instruction;
 using syntax::LineTree;
 using syntax::Word;
 
-/// How far up one finding's related place is looked for, in bytes.
+/// The maximum distance of a related place, in bytes.
 static constexpr std::size_t kReach = 1'000'000;
 
 static constexpr dialect::Text kMounted = {"the face frame was mounted here",
@@ -22,15 +22,15 @@ static constexpr dialect::Text kFirstLabel = {"the label stands here already", "
 
 namespace {
 
-/// What to look for.
+/// The target of a search.
 struct Wanted {
   dialect::Text note;
   bool mounts_face = false;
-  std::uint8_t code_row = dialect::kUnknownGCode;  ///< This very G.
+  std::uint8_t code_row = dialect::kUnknownGCode;  ///< The G to find.
   bool is_label = false;
   std::uint64_t label = 0;
 
-  /// The place on the line, or null.
+  /// The matching word on the line, or null.
   const Word* on(const LineTree& line) const {
     if (is_label) return line.has_label() && line.label == label ? line.label_word() : nullptr;
     for (const Instruction& instruction : line.instructions) {
@@ -48,7 +48,7 @@ std::optional<Wanted> wanted_by(const check::LocatedFinding& located, std::strin
     return Wanted{.note = kMounted, .mounts_face = true};
   const bool is_label = id == "duplicate-label"_diag;
   if (!is_label && id != "redundant-modal"_diag) return std::nullopt;
-  // The marked word alone: the line may be huge.
+  // Parses only the marked word: the line may be huge.
   const syntax::Span span = located.finding.span;
   const syntax::ParsedLine parsed(line_text.substr(span.begin, span.end - span.begin));
   const LineTree word = parsed.tree();

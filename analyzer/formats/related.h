@@ -9,26 +9,27 @@
 
 namespace isocnc::formats {
 
-/// The line above that a finding comes from: where the frame was mounted, the mode was set, the label first stood.
+/// The earlier line that explains a finding: where the frame was mounted, the mode was set, or the label was first
+/// defined.
 struct RelatedPlace {
-  std::uint64_t line = 0;  ///< From 0.
-  std::string_view text;   ///< Of the line.
+  std::uint64_t line = 0;  ///< The line, from 0.
+  std::string_view text;   ///< The text of the line.
   syntax::Span span;
-  dialect::Text note;  ///< What happened there.
+  dialect::Text note;  ///< The event on that line.
 };
 
-/// Looks for the related places of a file's findings, upward from each. What it finds is the nearest line above that
-/// fits, and it gives up after a bounded stretch: a help for the reader, of which no judgment depends.
+/// Finds the related places of a file's findings by searching upward from each. Takes the nearest line above that fits,
+/// and gives up after a limited distance: it is a help for the reader, and no check depends on it.
 class RelatedPlaces {
  public:
   explicit RelatedPlaces(std::string_view text) : text_(text) {}
 
-  /// `line_text` must lie in the text.
+  /// `line_text` must be part of the text.
   std::optional<RelatedPlace> of(const check::LocatedFinding& located, std::string_view line_text);
 
  private:
   std::string_view text_;
-  std::size_t bytes_left_ = 64'000'000;  // To be looked through for all findings together.
+  std::size_t bytes_left_ = 64'000'000;  // The bytes that all searches together may still read.
 };
 
 }  // namespace isocnc::formats

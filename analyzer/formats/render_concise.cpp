@@ -5,7 +5,7 @@
 
 namespace isocnc::formats {
 
-/// `pocket.iso:12:3: error: ... [ISO026]`: one line each, as compilers and grep print them.
+/// `pocket.iso:12:3: error: ... [ISO026]`: one line per finding, as compilers and grep print them.
 class ConciseRenderer final : public Renderer {
  public:
   explicit ConciseRenderer(const Style& style) : style_(style) {}

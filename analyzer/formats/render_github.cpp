@@ -5,7 +5,7 @@
 
 namespace isocnc::formats {
 
-/// With the characters escaped that end a value in a workflow command; properties end at more of them than messages.
+/// Escapes the characters that end a value in a workflow command; in properties more of them do than in messages.
 static std::string escaped(std::string_view text, bool is_property) {
   std::string result;
   for (const char c : text) {

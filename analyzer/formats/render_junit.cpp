@@ -8,8 +8,8 @@
 
 namespace isocnc::formats {
 
-/// JUnit's XML: a suite for each program, a case for each finding. Errors are failures. Warnings and notes fail
-/// nothing, as they do not in the exit status: they are cases that passed and have something to say.
+/// JUnit's XML: a suite for each program, a case for each finding. Errors are failures. Warnings and notes are passed
+/// cases with output, as they do not affect the exit status either.
 class JunitRenderer final : public Renderer {
  public:
   explicit JunitRenderer(const Style& style) : style_(style) {}
@@ -26,7 +26,7 @@ class JunitRenderer final : public Renderer {
     const std::string file = syntax::xml_escaped(plain_path(program.name));
     fmt::format_to(std::back_inserter(output.buffer()), "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n",
                    file, std::max<std::size_t>(1, program.report.findings.size()), failures);
-    // A suite without a case would count as one that was not run.
+    // A suite without cases would count as not run.
     if (program.report.findings.empty())
       output.buffer() += fmt::format("    <testcase name=\"isolint\" classname=\"{}\"/>\n", file);
     syntax::LineFinder lines(program.text);
@@ -59,7 +59,7 @@ class JunitRenderer final : public Renderer {
     out += "    </testcase>\n";
   }
 
-  /// The lines of a note, which begins with a line end.
+  /// Appends the lines of a note, which starts with a line end.
   static void lines_of(std::string_view text, std::string& out) {
     if (!text.empty()) text.remove_prefix(1);
     while (!text.empty()) {

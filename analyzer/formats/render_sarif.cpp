@@ -20,7 +20,7 @@ static std::string_view level(Severity severity) {
   return kLevels[static_cast<std::size_t>(severity)];
 }
 
-/// SARIF 2.1.0, which code scanning services and editors read. The log is written as it grows: results first, then the
+/// SARIF 2.1.0, which code scanning services and editors read. The log is written in pieces: results first, then the
 /// files that they refer to.
 class SarifRenderer final : public Renderer {
  public:
@@ -81,7 +81,7 @@ class SarifRenderer final : public Renderer {
                  {"name", def.name},
                  {"shortDescription", {{"text", def.title.in(style_.language)}}},
                  {"fullDescription", {{"text", def.explanation.in(style_.language)}}}};
-    // SARIF wants an absolute URI; the pages of a build that knows none lie beside the sources.
+    // SARIF requires an absolute URI; in a build without a site URL the rule pages are local files.
     if (const std::string url = rule_url(id); url.find("://") != std::string::npos) rule["helpUri"] = url;
     rule["help"] = {{"text", def.explanation.in(style_.language)}};
     rule["defaultConfiguration"] = {{"level", level(def.severity)}};
@@ -108,7 +108,7 @@ class SarifRenderer final : public Renderer {
             {"locations", locations}};
   }
 
-  /// The jumps that lead to the finding, and the finding.
+  /// The jumps that lead to the finding, then the finding.
   static Json code_flows(const check::LocatedFinding& located, const check::Report& report, const StepTexts& steps,
                          const ShownFinding& shown, const Json& artifact) {
     Json places = Json::array();

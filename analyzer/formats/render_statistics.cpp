@@ -8,7 +8,7 @@
 
 namespace isocnc::formats {
 
-/// How many findings of each code there are in all files, the most frequent first: as a table or as JSON.
+/// The number of findings of each code in all files, the most frequent first: as a table or as JSON.
 class StatisticsRenderer final : public Renderer {
  public:
   StatisticsRenderer(const Style& style, bool as_json) : style_(style), as_json_(as_json) {}

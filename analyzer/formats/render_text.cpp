@@ -12,7 +12,7 @@ namespace isocnc::formats {
 
 using dialect::Text;
 
-/// Longer lines are shown from shortly before the mark.
+/// The maximum width of a shown line; longer lines are shown from kContext bytes before the mark.
 static constexpr std::size_t kWidth = 110;
 static constexpr std::size_t kContext = 40;
 
@@ -23,19 +23,19 @@ static constexpr std::string_view kBlue = "\x1b[1;34m";
 static constexpr std::string_view kSeverityColors[] = {"\x1b[1;31m", "\x1b[1;33m", "\x1b[1;36m"};
 
 static constexpr Text kHelp = {"help", "aiuto"};
-/// A line that would be longer is not shown beside its help.
+/// The maximum length of a fixed line shown next to its help.
 static constexpr std::size_t kShortLine = 60;
 
 static constexpr Text kOtherPlace = {"the other place", "l'altro punto"};
 
-/// Nobody reads the help of more findings in one file; --diff shows all that can be mended.
+/// The maximum number of findings with help in one file; --diff shows all fixes.
 static constexpr std::size_t kMaxHelpedFindings = 1'000;
 
 static void append(std::string& out, std::initializer_list<std::string_view> pieces) {
   for (const std::string_view piece : pieces) out += piece;
 }
 
-/// A piece of a line that fits on the screen, and where it starts.
+/// A part of a line that fits on the screen, and its start.
 struct Excerpt {
   std::string_view text;
   std::size_t begin = 0;
@@ -56,7 +56,7 @@ static Excerpt excerpt_around(std::string_view line, std::size_t byte) {
   return excerpt;
 }
 
-/// As the best compilers print: what, where, the line with the mark beneath it, why, and what leads there.
+/// The default format: message, place, the line with the mark below it, reason, and path.
 class TextRenderer final : public Renderer {
  public:
   explicit TextRenderer(const Style& style) : style_(style) {}
@@ -108,7 +108,7 @@ class TextRenderer final : public Renderer {
     if (located.path >= 0) path(steps, report.paths[static_cast<std::size_t>(located.path)], margin, out);
   }
 
-  /// What would mend it, by which option, and what the line would be.
+  /// Prints the fix, the option that applies it, and the fixed line.
   void help(const check::LocatedFinding& located, const fixes::Fix& fix, fixing::FindingFixes& fixes,
             std::string& out) const {
     const std::string margin(fmt::format("{}", located.line + 1).size(), ' ');
@@ -122,7 +122,7 @@ class TextRenderer final : public Renderer {
     out += '\n';
   }
 
-  /// The line above that the finding comes from.
+  /// Prints the earlier line that explains the finding.
   void above(const RelatedPlace& place, std::uint64_t line, std::string_view margin, std::string& out) const {
     const auto to = std::back_inserter(out);
     const Excerpt excerpt = excerpt_around(place.text, place.span.begin);

@@ -2,7 +2,7 @@
 
 namespace isocnc::formats {
 
-/// All formats there are.
+/// All formats.
 static constexpr struct {
   std::string_view name;
   std::unique_ptr<Renderer> (*make)(const Style& style);

@@ -9,10 +9,10 @@
 
 namespace isocnc::formats {
 
-/// What `--format` takes.
+/// The values of `--format`.
 std::vector<std::string> format_names();
 
-/// The renderer of a format, or null when there is none of that name.
+/// The renderer of a format, or null if the name is unknown.
 std::unique_ptr<Renderer> make_renderer(std::string_view format, const Style& style);
 
 std::unique_ptr<Renderer> make_text_renderer(const Style& style);
@@ -24,7 +24,7 @@ std::unique_ptr<Renderer> make_gitlab_renderer(const Style& style);
 std::unique_ptr<Renderer> make_junit_renderer(const Style& style);
 std::unique_ptr<Renderer> make_checkstyle_renderer(const Style& style);
 
-/// Counts in place of findings, or null when the format has no way to tell them.
+/// A renderer of counts instead of findings, or null if the format cannot express them.
 std::unique_ptr<Renderer> make_statistics_renderer(std::string_view format, const Style& style);
 
 }  // namespace isocnc::formats

@@ -28,7 +28,7 @@ ShownFinding show(const check::LocatedFinding& located, syntax::LineFinder& line
 
 StepTexts::StepTexts(std::string_view text, const check::Report& report, dialect::Language language)
     : language_(language) {
-  for (const check::LocatedFinding& located : report.findings)  // Not all paths belong to findings that are told of.
+  for (const check::LocatedFinding& located : report.findings)  // Paths of findings that are not shown need no text.
     if (located.path >= 0)
       for (const check::PathStep& step : report.paths[static_cast<std::size_t>(located.path)])
         texts_[{step.line, step.taken}];

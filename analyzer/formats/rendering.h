@@ -16,14 +16,14 @@ namespace isocnc::formats {
 using syntax::column_of;
 using syntax::printable;
 
-/// How findings are shown.
+/// The style in which findings are shown.
 struct Style {
   dialect::Language language = dialect::Language::English;
   bool color = false;
-  bool unsafe_fixes = false;  ///< Whether --fix would make unsafe fixes, too.
+  bool unsafe_fixes = false;  ///< Whether --fix would include unsafe fixes.
 };
 
-/// A finding as the formats tell it: lines and columns from 1, columns in code points, the end exclusive.
+/// A finding as the formats show it: lines and columns from 1, columns in code points, the end exclusive.
 struct ShownFinding {
   const dialect::DiagnosticDef& def;
   dialect::Severity severity;
@@ -31,16 +31,17 @@ struct ShownFinding {
   std::uint64_t line = 0;
   std::size_t column = 0;
   std::size_t end_column = 0;
-  std::string message;  ///< May hold any byte that the program holds.
+  std::string message;  ///< The message; may hold any byte that the program holds.
 };
 ShownFinding show(const check::LocatedFinding& located, syntax::LineFinder& lines, const Style& style);
 
-/// The IF of each step that a report's paths take, in words: found once, however many findings share it.
+/// The texts of the IFs on a report's paths, each made once, however many findings share it.
 class StepTexts {
  public:
   StepTexts(std::string_view text, const check::Report& report, dialect::Language language);
   const std::string& of(const check::PathStep& step) const { return texts_.at({step.line, step.taken}); }
-  /// The path of a finding below its message, each line after a line end: nothing when every path leads to it.
+  /// The path of a finding, for the lines below its message; each line follows a line end. Empty if every path leads to
+  /// it.
   std::string note(const check::LocatedFinding& located, const check::Report& report) const;
 
  private:
@@ -48,31 +49,31 @@ class StepTexts {
   std::map<std::pair<std::uint64_t, bool>, std::string> texts_;
 };
 
-/// A program and what is to be told of it.
+/// A program and the findings to show.
 struct CheckedProgram {
   std::string_view name;
   std::string_view text;
   const check::Report& report;
-  const execution::Setup& setup;  ///< Of the check, and so of the fixes.
+  const execution::Setup& setup;  ///< The setup of the check and of the fixes.
 };
 
 /// Writes the findings of one file after another in one of the output formats.
 class Renderer {
  public:
   virtual ~Renderer() = default;
-  /// Appends to `output` whatever precedes the first file.
+  /// Appends the text before the first file to `output`.
   virtual void begin(std::string&) {}
-  /// Appends the file's findings to `output`, which is handed to `flush` whenever it has grown long.
+  /// Appends the file's findings to `output`; calls its drain() between findings.
   virtual void file(const CheckedProgram& program, class Output& output) = 0;
   virtual void end(std::string&) {}
 };
 
-/// Where rendered text goes: gathers it and hands it on in large pieces.
+/// The destination of rendered text: collects it and passes it on in large pieces.
 class Output {
  public:
   virtual ~Output() = default;
   std::string& buffer() { return buffer_; }
-  /// To be called between findings.
+  /// Call it between findings.
   void drain() {
     if (buffer_.size() >= kLarge) flush();
   }
@@ -89,15 +90,15 @@ class Output {
   std::string buffer_;
 };
 
-/// What stands before the steps of a path.
+/// The title of the steps of a path.
 inline constexpr dialect::Text kReachedThrough = {"only on this path:", "solo su questo percorso:"};
 
-/// A file's name without detours, as other tools call it: `./a/../part.iso` is `part.iso`.
+/// A file's normalized name, as other tools print it: `./a/../part.iso` becomes `part.iso`.
 std::string plain_path(std::string_view name);
 /// The plain path as a URI: relative, unless the path is absolute.
 std::string uri_of(std::string_view name);
 
-/// The page of a rule.
+/// The URL of a rule's page.
 std::string rule_url(dialect::DiagnosticId id);
 /// `line 12: IF VGPL = 1 GOTO N30 jumps` in the reader's language.
 std::string describe_step(const check::PathStep& step, std::string_view line_text, dialect::Language language);
