@@ -5,7 +5,7 @@ namespace isocnc::formatting {
 using syntax::Instruction;
 using syntax::InstructionKind;
 
-/// What the author of a line with a finding meant is for the author to say.
+/// After a line with a finding the motion is unknown, because the line may not be meant as written.
 void MotionInForce::Motion::pass(const syntax::LineTree& line) {
   for (const Instruction& instruction : line.instructions)
     if (instruction.kind == InstructionKind::G && instruction.g() != nullptr && instruction.g()->is_motion())
@@ -16,7 +16,7 @@ void MotionInForce::Motion::pass(const syntax::LineTree& line) {
 void MotionInForce::leave(const syntax::LineTree& line) {
   if (paths_.live.empty()) return;
   paths_.pass(line, [&](Motion& motion) { motion.pass(line); });
-  if (!line.findings.empty()) paths_.live.number = kUnknown;  // Nor need an M02 be meant as the end.
+  if (!line.findings.empty()) paths_.live.number = kUnknown;  // Even an M02 may not be meant as the end.
 }
 
 }  // namespace isocnc::formatting

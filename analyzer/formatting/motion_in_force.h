@@ -6,20 +6,20 @@
 
 namespace isocnc::formatting {
 
-/// Which motion G is in force before each line of a program, on all paths that lead there. Is shown all lines, in
-/// order; it judges no condition, so it follows more paths than there are.
+/// The motion G in force before each line of a program, on all paths that lead there. Needs all lines, in order. It
+/// does not evaluate conditions, so it also follows paths that are not feasible.
 class MotionInForce {
  public:
-  static constexpr std::uint8_t kUnknown = 253;     ///< An error stands before it, or paths differ.
-  static constexpr std::uint8_t kNotReached = 254;  ///< An M02 stands before it, and no jump leads there.
+  static constexpr std::uint8_t kUnknown = 253;     ///< After an error, or if paths differ.
+  static constexpr std::uint8_t kNotReached = 254;  ///< After M02, without a jump to the line.
   static constexpr std::uint8_t kNoMotion = dialect::kNoMotion;
 
-  /// Comes to the line; in_force() then answers for it.
+  /// Enters the line; in_force() then refers to the state before it.
   void enter(const syntax::LineTree& line) { paths_.arrive(line); }
-  /// Goes over the line.
+  /// Passes the line.
   void leave(const syntax::LineTree& line);
 
-  /// 0 to 3, or one of the above.
+  /// 0 to 3, or one of the constants above.
   std::uint8_t in_force() const { return paths_.live.number; }
   bool is_known() const { return in_force() <= 3; }
 

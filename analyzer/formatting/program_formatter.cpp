@@ -11,7 +11,7 @@ using syntax::InstructionKind;
 using syntax::LineChange;
 using syntax::LineTree;
 
-/// Large enough to be written in one go, small enough to stay in the cache.
+/// The bytes of a piece: enough to write at once, few enough to stay in the cache.
 static constexpr std::ptrdiff_t kPieceBytes = 64 * 1024;
 
 ProgramStyle style_by(const configuration::Format& format) {
@@ -45,8 +45,8 @@ LineChange LinesFormatter::next(const LineTree& line) {
   return change;
 }
 
-/// Only where all ways to the line agree on the motion, and where it can take what stands there: anything else has a
-/// finding whose place would change.
+/// Changes a motion only if all paths to the line agree on it and it takes all the line's words: other lines have
+/// findings, whose place would change.
 LineChange::Motion LinesFormatter::motion_change(const LineTree& line) const {
   if (!motion_.is_known() || !line.findings.empty()) return LineChange::Motion::Keep;
   const dialect::GCode& in_force = dialect::kGCodes[dialect::kGCodeRows[motion_.in_force()]];
@@ -88,7 +88,7 @@ std::optional<FormattedPiece> ProgramFormatter::next() {
   return FormattedPiece{before, after_};
 }
 
-/// Lines that stay as they are, and all line ends, are taken over together when one comes that does not.
+/// Unchanged lines, and all line ends, are copied together when a changed line comes.
 void ProgramFormatter::add_line(const LineTree& line) {
   const std::string_view formatted = lines_.written(line, lines_.next(line));
   if (formatted == line.text) return;

@@ -16,29 +16,29 @@ enum class MotionStyle : std::uint8_t {
   Keep,
   Write,
   Fold
-};  ///< Motion Gs: as written, on each line, where they change.
+};  ///< Motion Gs: as written, on each line, or only where they change.
 
-/// How a program is written.
+/// The format of a program.
 struct ProgramStyle {
   syntax::LineStyle line;
   MotionStyle motions = MotionStyle::Keep;
   std::optional<NumberStyle> numbers;
 };
 
-/// What a configuration wants programs to look like.
+/// The program format that a configuration asks for.
 ProgramStyle style_by(const configuration::Format& format);
 
-/// Writes the lines of a program as they should be written, one after another; is shown all of them, in order.
+/// Formats the lines of a program one after another; needs all of them, in order.
 class LinesFormatter {
  public:
-  /// `each_line` is asked only where lines are numbered anew.
+  /// `each_line` is called only to renumber lines.
   LinesFormatter(const ProgramStyle& style, const EachLine& each_line);
 
-  /// Why the program cannot be renumbered; no line is to be shown then.
+  /// The reason why the program cannot be renumbered; next() must not be called then.
   const std::optional<Renumbering::Obstacle>& obstacle() const { return obstacle_; }
-  /// What becomes of the next line beside its style.
+  /// The change of the next line besides its style.
   syntax::LineChange next(const syntax::LineTree& line);
-  /// The line with that change: line.text itself where it stays as it is. Valid until the next call.
+  /// The line after that change: line.text itself if nothing changes. Valid until the next call.
   std::string_view written(const syntax::LineTree& line, const syntax::LineChange& change) {
     return formatter_.format(line, change);
   }
@@ -53,7 +53,7 @@ class LinesFormatter {
   MotionInForce motion_;
 };
 
-/// Lines of a program as they stand, and as they should stand. There are as many of them, with the same ends.
+/// Lines of a program before and after formatting: the same number, with the same line ends.
 struct FormattedPiece {
   std::string_view before;
   std::string_view after;
@@ -61,15 +61,15 @@ struct FormattedPiece {
   bool is_changed() const { return before != after; }
 };
 
-/// Writes a whole program as it should be written, in pieces of whole lines, so that a program of any length takes no
-/// more memory than a short one. The program does what it did.
+/// Formats a whole program in pieces of whole lines, so that a long program takes no more memory than a short one. The
+/// effects of the program stay the same.
 class ProgramFormatter {
  public:
   ProgramFormatter(std::string_view text, const ProgramStyle& style);
 
-  /// Why the program cannot be renumbered; nothing of it is formatted then.
+  /// The reason why the program cannot be renumbered; nothing is formatted then.
   const std::optional<Renumbering::Obstacle>& obstacle() const { return lines_.obstacle(); }
-  /// The next piece, nothing behind the last; `after` is valid until the next call.
+  /// The next piece, or nothing after the last; `after` is valid until the next call.
   std::optional<FormattedPiece> next();
 
  private:
@@ -79,8 +79,8 @@ class ProgramFormatter {
   const char* next_;
   const char* const end_;
   syntax::TreeStore store_;
-  std::string after_;             // All lines of the piece up to where the first that stays as it is begins.
-  const char* copied_ = nullptr;  // Up to here the piece has been taken over.
+  std::string after_;             // The formatted piece, up to the last changed line.
+  const char* copied_ = nullptr;  // The end of the text already copied to after_.
 };
 
 }  // namespace isocnc::formatting

@@ -31,7 +31,7 @@ EachLine each_line_of(std::string_view text) {
   };
 }
 
-/// The label without blanks and letter case, which mean nothing.
+/// The label without blanks and in one letter case, as neither matters.
 static std::string label_text(std::string_view written) {
   std::string text;
   for (const char c : written)

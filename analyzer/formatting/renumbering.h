@@ -12,7 +12,7 @@
 
 namespace isocnc::formatting {
 
-/// Line numbers as they should be.
+/// The style of line numbers.
 struct NumberStyle {
   std::uint64_t start = 10;
   std::uint64_t step = 10;  ///< 1 or more.
@@ -28,7 +28,7 @@ EachLine each_line_of(std::string_view text);
 /// The new line numbers of a program, and with them the labels of its jumps.
 class Renumbering {
  public:
-  /// Why a program keeps its numbers.
+  /// The reason why a program cannot be renumbered.
   struct Obstacle {
     enum class Kind : std::uint8_t { Error, LabelMissing, LabelTwice, TooManyDigits };
 
@@ -39,11 +39,11 @@ class Renumbering {
     std::string message(dialect::Language language) const;
   };
 
-  /// Looks at the whole program to see where its jumps lead.
+  /// Reads the whole program to find the targets of its jumps.
   Renumbering(const EachLine& each_line, const NumberStyle& style);
 
   const std::optional<Obstacle>& obstacle() const { return obstacle_; }
-  /// What becomes of the next line; is shown all lines, in order, and only where there is no obstacle.
+  /// Adds the change of the next line's numbers; needs all lines, in order, and no obstacle.
   void change(const syntax::LineTree& line, syntax::LineChange& change);
 
  private:
