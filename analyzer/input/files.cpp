@@ -17,7 +17,7 @@ namespace isocnc::input {
 
 namespace fs = std::filesystem;
 
-/// A path as the user knows it and as the system does, without symlinks.
+/// A path as the user writes it, and as the system resolves it, without symlinks.
 struct Place {
   fs::path shown;
   fs::path real;
@@ -25,7 +25,7 @@ struct Place {
   Place operator/(const fs::path& name) const { return {shown / name, real / name}; }
 };
 
-/// Pipes and other things that have no path of their own keep the one they were given.
+/// Pipes and other files without a real path keep the given one.
 static Place place_of(const fs::path& path) {
   std::error_code error;
   fs::path real = fs::canonical(path, error);
@@ -33,7 +33,7 @@ static Place place_of(const fs::path& path) {
   return {path, std::move(real)};
 }
 
-/// So that a file found there is `part.iso`, not `./part.iso` or `parts//part.iso`.
+/// The prefix of files in a directory, so that one is `part.iso`, not `./part.iso` or `parts//part.iso`.
 static fs::path as_prefix(std::string directory) {
   if (fs::path(directory).lexically_normal() == ".") return {};
   while (directory.size() > 1 && directory.ends_with('/')) directory.pop_back();
@@ -50,16 +50,16 @@ static std::string problem(const fs::path& path, const std::error_code& error, d
 
 namespace {
 
-/// The search of one directory that the user named.
+/// The search of one directory given by the user.
 class Search {
  public:
   Search(const RulesOfFolder& rules, dialect::Language language) : rules_(rules), language_(language) {}
 
-  /// A symlink is passed over: in a tree that comes from elsewhere it may lead to any file, which would then be shown,
-  /// or written over, without anybody having named it.
+  /// Searches a directory, without symlinks: in a tree from elsewhere one may lead to any file, which would then be
+  /// shown or overwritten although the user has not named it.
   void search(const Place& directory, const GitIgnore& ignored) {
     const SearchRules rules = rules_(directory.real);
-    // The directory is closed before those in it are opened, however deep they go.
+    // The directory is closed before its subdirectories are opened, however deep they go.
     for (const fs::directory_entry& entry : entries(directory)) {
       const fs::path name = entry.path().filename();
       std::error_code error;
@@ -74,13 +74,13 @@ class Search {
     }
   }
 
-  /// Sorted by path.
+  /// The programs, sorted by path.
   std::vector<Place> take_programs() {
     std::sort(programs_.begin(), programs_.end(),
               [](const Place& a, const Place& b) { return a.shown.native() < b.shown.native(); });
     return std::move(programs_);
   }
-  /// Sorted by path.
+  /// The problems, sorted by path.
   std::vector<std::string> take_problems() {
     std::sort(problems_.begin(), problems_.end());
     return std::move(problems_);
@@ -101,7 +101,7 @@ class Search {
     search(directory, ignored.entering(directory.real));
   }
 
-  /// Not a pipe, which would be waited for.
+  /// Whether the entry is a regular file with one of the extensions. A pipe is not: reading it would block.
   static bool is_program(const fs::directory_entry& entry, std::span<const std::string> extensions) {
     const std::string name = entry.path().filename();
     if (std::none_of(extensions.begin(), extensions.end(),
@@ -118,7 +118,7 @@ class Search {
   std::vector<std::string> problems_;
 };
 
-/// Takes paths one after another, each file once.
+/// Collects the files of several paths, each file once.
 class Selector {
  public:
   Selector(const RulesOfFolder& rules, dialect::Language language) : rules_(rules), language_(language) {}

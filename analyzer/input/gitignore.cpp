@@ -22,18 +22,18 @@ struct Rule {
   system::Glob pattern;
   bool includes = false;          ///< `!pattern`
   bool only_directories = false;  ///< `pattern/`
-  bool whole_path = false;        ///< Of the path below the file of rules; else of its last name alone.
+  bool whole_path = false;        ///< Whether it matches the path below the rules' directory, not the last name alone.
 };
 
 }  // namespace
 
 /// The rules of one file.
 struct GitIgnore::Rules {
-  std::string prefix;  // The file's directory and a slash.
+  std::string prefix;  // The file's directory with a trailing slash.
   std::vector<Rule> rules;
   std::shared_ptr<const Rules> outer;
 
-  /// Whether `path` is ignored, where these rules say anything of it: the last one that names it decides.
+  /// Whether `path` is ignored; nothing if no rule matches it. The last rule that matches decides.
   std::optional<bool> ignored_state(std::string_view path, bool is_directory) const;
 };
 
@@ -48,7 +48,7 @@ std::optional<bool> GitIgnore::Rules::ignored_state(std::string_view path, bool 
   return std::nullopt;
 }
 
-/// Blanks at the end do not count, but for those behind a backslash.
+/// Removes blanks at the end, except those after a backslash.
 static std::string_view without_trailing_blanks(std::string_view line) {
   std::size_t end = 0;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -59,7 +59,7 @@ static std::string_view without_trailing_blanks(std::string_view line) {
   return line.substr(0, end);
 }
 
-/// None for blank lines, comments and patterns that name nothing.
+/// Returns nothing for blank lines, comments and patterns that match nothing.
 static std::optional<Rule> parse_rule(std::string_view line) {
   if (line.starts_with('#')) return std::nullopt;
   if (line.ends_with('\r')) line.remove_suffix(1);
@@ -89,10 +89,10 @@ static std::vector<Rule> parse_rules(std::string_view text) {
   return rules;
 }
 
-/// Git reads no larger files of rules either.
+/// The maximum size of a file of rules; it is git's limit too.
 static constexpr std::uintmax_t kLargestFile = 100 << 20;
 
-/// Empty when it cannot be read, as for git.
+/// The contents of a file; empty if it cannot be read, as in git.
 static std::string contents(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(file, error) || fs::file_size(file, error) > kLargestFile) return {};
@@ -105,15 +105,15 @@ static bool starts_work_tree(const fs::path& directory) {
   return fs::exists(fs::symlink_status(directory / ".git", error));
 }
 
-/// What a file of one line says behind `key`.
+/// The value after `key` in a file of one line.
 static std::string value_in(const fs::path& file, std::string_view key) {
   const std::string text = contents(file);
   if (!text.starts_with(key)) return {};
   return text.substr(key.size(), text.find_first_of("\r\n") - key.size());
 }
 
-/// The directory in which git keeps what holds for the whole repository: the work tree's `.git`, unless that is a file,
-/// which a submodule and a linked work tree have in its place.
+/// The directory where git keeps data of the whole repository: the work tree's `.git`, or the one that a `.git` file
+/// refers to, as in a submodule or linked work tree.
 static fs::path git_directory(const fs::path& work_tree) {
   const std::string elsewhere = value_in(work_tree / ".git", "gitdir: ");
   if (elsewhere.empty()) return work_tree / ".git";
@@ -133,7 +133,7 @@ GitIgnore GitIgnore::at(const fs::path& directory) {
   return rules;
 }
 
-/// Git does not follow a .gitignore that is a symlink.
+/// Skips a .gitignore that is a symlink, as git does.
 GitIgnore GitIgnore::entering(const fs::path& directory) const {
   GitIgnore rules = *this;
   if (starts_work_tree(directory)) {
