@@ -15,11 +15,11 @@
 
 namespace isocnc::lsp::rpc {
 
-/// Bytes that may wait to be read by the other side before we stop reading from it.
+/// The number of unsent bytes from which we stop reading from the other side.
 static constexpr std::size_t kMaxUnsent = std::size_t{64} << 20;
-/// A pipe that is ready takes so many bytes without waiting.
+/// The number of bytes that a pipe that is ready takes without blocking.
 static constexpr std::size_t kSurelyWritten = 4096;
-/// How long what has been sent may take to be read when the channel ends.
+/// How long the other side may take to read what was sent when the channel ends.
 static constexpr int kPatienceMs = 1000;
 
 Channel::Channel(Descriptors descriptors, Events events) : descriptors_(descriptors), events_(std::move(events)) {
@@ -47,7 +47,8 @@ void Channel::end() {
   ::close(stop_pipe_[0]);
 }
 
-/// Waits until the descriptor is ready: false when the channel is to end, with `until_deadline` only after a while.
+/// Waits until the descriptor is ready. Returns false when the channel has to end; with `until_deadline`, only once the
+/// deadline has passed as well.
 bool Channel::wait_for(int descriptor, short events, bool until_deadline) const {
   using Clock = std::chrono::steady_clock;
   std::array<pollfd, 2> polled{{{descriptor, events, 0}, {stop_pipe_[0], 0, 0}}};
@@ -68,7 +69,7 @@ bool Channel::wait_for(int descriptor, short events, bool until_deadline) const 
   }
 }
 
-/// Waits while too much is unsent; false when the channel is to end.
+/// Waits while too much is unsent. Returns false when the channel has to end.
 bool Channel::may_read() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return is_ending_ || is_broken_ || unsent_bytes_ < kMaxUnsent; });
@@ -108,7 +109,7 @@ void Channel::write_all() {
       std::unique_lock lock(mutex_);
       changed_.wait(lock, [&] { return is_ending_ || !unsent_.empty(); });
       if (unsent_.empty()) return;
-      // Short messages go together.
+      // Short messages are written together.
       text = std::move(unsent_.front());
       for (unsent_.pop_front(); !unsent_.empty() && text.size() + unsent_.front().size() <= kSurelyWritten;
            unsent_.pop_front())
@@ -130,7 +131,7 @@ void Channel::write_all() {
   }
 }
 
-/// Writes what can be written without waiting; false when nobody reads any more.
+/// Writes what can be written without blocking. Returns false when the other side no longer reads.
 bool Channel::write_some(std::string_view& bytes) const {
   ssize_t count = ::send(descriptors_.out, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
   if (count < 0 && errno == ENOTSOCK)

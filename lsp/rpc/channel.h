@@ -12,28 +12,28 @@
 
 namespace isocnc::lsp::rpc {
 
-/// Two descriptors to speak through, one to read from and one to write to; for a socket they are the same.
+/// The file descriptors to read from and to write to; for a socket they are the same.
 struct Descriptors {
   int in = 0;
   int out = 1;
 };
 
-/// Frames in and out, each direction on a thread of its own, so that nobody waits for the other side. While much has
-/// not been read by the other side, nothing more is read from it.
+/// Receives and sends frames, each direction on a thread of its own, so that the caller never waits for the other side.
+/// Reads nothing more while the other side leaves too much of what was sent unread.
 class Channel {
  public:
   struct Events {
-    std::function<void(Frame)> frame;  ///< On the reading thread.
-    std::function<void()> end;         ///< Nothing more will come, or can be said.
+    std::function<void(Frame)> frame;  ///< Called on the reading thread.
+    std::function<void()> end;         ///< Called when nothing more can be received, or sent.
   };
 
   Channel(Descriptors descriptors, Events events);
   Channel(const Channel&) = delete;
   Channel& operator=(const Channel&) = delete;
-  /// Ends both threads. What has been sent is written before, unless the other side does not read it for a second.
+  /// Ends both threads, after writing all sent messages; gives up when the other side reads nothing for a second.
   ~Channel();
 
-  /// Frames a message and sends it; any thread.
+  /// Frames a message and sends it. May be called on any thread.
   void send(std::string body);
 
  private:
@@ -46,8 +46,8 @@ class Channel {
 
   const Descriptors descriptors_;
   const Events events_;
-  int stop_pipe_[2] = {-1, -1};  // Readable once the channel is to end.
-  std::mutex mutex_;             // Guards all below.
+  int stop_pipe_[2] = {-1, -1};  // A pipe that becomes readable when the channel has to end.
+  std::mutex mutex_;             // Guards the members below.
   std::condition_variable changed_;
   std::deque<std::string> unsent_;
   std::size_t unsent_bytes_ = 0;

@@ -26,7 +26,7 @@ static std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// A length beyond all bounds counts as the largest number.
+/// A length that overflows counts as the largest number.
 static std::optional<std::size_t> number_of(std::string_view digits) {
   std::size_t number = 0;
   const char* const end = digits.data() + digits.size();
@@ -35,7 +35,7 @@ static std::optional<std::size_t> number_of(std::string_view digits) {
   return error == std::errc::result_out_of_range ? static_cast<std::size_t>(-1) : number;
 }
 
-/// What a header says of the length of its message: nothing where it does not, or says two things.
+/// The message length that a header gives; nothing if it gives none, or two that differ.
 static std::optional<std::size_t> length_in(std::string_view header) {
   std::optional<std::size_t> length;
   while (!header.empty()) {

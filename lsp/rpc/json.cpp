@@ -4,7 +4,7 @@ template class nlohmann::basic_json<>;
 
 namespace isocnc::lsp::rpc {
 
-/// Brackets within strings do not count.
+/// Ignores brackets within strings.
 static bool nests_too_deeply(std::string_view text) {
   std::size_t depth = 0;
   bool is_in_string = false;

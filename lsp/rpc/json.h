@@ -10,14 +10,15 @@ extern template class nlohmann::basic_json<>;
 
 namespace isocnc::lsp::rpc {
 
-/// Keys are looked up in a tree: a message with a hundred thousand of them costs no more than its length.
+/// Objects keep their keys in a tree: the cost of a message with 100,000 keys stays in proportion to its length.
 using Json = nlohmann::json;
 
-/// No message of the protocols nests half as deeply. The library copies and writes a value by recursion: one nested
-/// more deeply than the stack would end the process.
+/// The maximum nesting of a message: over twice what the protocols need. The library copies and writes values by
+/// recursion, so a deeply nested value could overflow the stack and end the process.
 inline constexpr std::size_t kDeepestMessage = 256;
 
-/// Of what comes from the other side. Discarded (nlohmann's word) where it is no JSON, or nested more deeply.
+/// Parses a message of the other side. Text that is not JSON, or nested more deeply than kDeepestMessage, gives a
+/// `discarded` value of nlohmann-json.
 Json parse(std::string_view text);
 
 }  // namespace isocnc::lsp::rpc

@@ -6,8 +6,8 @@
 
 namespace isocnc::lsp::rpc {
 
-/// Stands before the number of a long string, in its place. Who sends a string that looks so gets a long one of their
-/// own message.
+/// The placeholder for a long string is this text and a number. If the other side sends such a text itself, it is read
+/// as a long string of the same message, which does no harm.
 static constexpr std::string_view kPlaceholder{"\0text:", 6};
 static constexpr std::string_view kWrittenPlaceholder = "\\u0000text:";
 
@@ -16,7 +16,7 @@ static const char* find(const char* begin, const char* end, char wanted) {
   return at ? static_cast<const char*>(at) : end;
 }
 
-/// The quote that closes a string whose characters begin at `p`, or `end`.
+/// The quote that closes a string whose characters start at `begin`; `end` if there is none.
 static const char* closing_quote(const char* const begin, const char* end) {
   for (const char* quote = find(begin, end, '"'); quote != end; quote = find(quote + 1, end, '"')) {
     const char* before = quote;
@@ -26,7 +26,7 @@ static const char* closing_quote(const char* const begin, const char* end) {
   return end;
 }
 
-/// The message without the characters of its long strings, which are gathered.
+/// The message with placeholders for its long strings, which are collected in `long_strings`.
 static std::string without_long_strings(std::string_view message, std::vector<std::string_view>& long_strings) {
   std::string rest;
   const char* copied = message.data();
@@ -70,7 +70,7 @@ std::string Parsed::text(const Json& string) const {
   return is_placeholder ? long_texts_[index].read() : here;
 }
 
-/// The four hexadecimal digits behind \u; nothing where there are none.
+/// The value of the four hexadecimal digits after \u; U+FFFD if they are missing.
 static std::uint32_t code_unit(const char*& p, const char* end) {
   std::uint32_t unit = 0;
   if (end - p < 4) return 0xFFFD;
@@ -96,7 +96,7 @@ static void append_code_point(std::string& text, std::uint32_t code) {
   add(0x80 | (code & 0x3F));
 }
 
-/// Reads what stands behind \u, and the second half of a pair.
+/// Reads the digits after \u, and the second half of a surrogate pair.
 static void read_unicode(const char*& p, const char* end, std::string& text) {
   std::uint32_t code = code_unit(p, end);
   const auto is_low = [](std::uint32_t unit) { return unit >= 0xDC00 && unit < 0xE000; };

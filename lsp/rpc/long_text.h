@@ -10,15 +10,14 @@
 
 namespace isocnc::lsp::rpc {
 
-/// A string of a message, still as JSON writes it, with the message that it lies in. The text of a program may be
-/// hundreds of megabytes: it is read by whoever wants it, when and where they do, and not where messages are told
-/// apart.
+/// A string of a message, still in its JSON form, which shares ownership of the message. The text of a program may be
+/// hundreds of megabytes, so it is decoded on the thread that needs it, and not on the one that dispatches messages.
 class LongText {
  public:
   LongText(std::shared_ptr<const std::string> message, std::string_view written)
       : message_(std::move(message)), written_(written) {}
 
-  /// The text: escapes read, half surrogate pairs as U+FFFD, other bytes as they are.
+  /// Decodes the text: resolves escapes, turns half surrogate pairs into U+FFFD and keeps other bytes as they are.
   std::string read() const;
 
  private:
@@ -26,17 +25,17 @@ class LongText {
   std::string_view written_;
 };
 
-/// A message as JSON. Its long strings have been left out: a short one stands in the place of each.
+/// A message as JSON, in which a short placeholder replaces each long string.
 class Parsed {
  public:
-  /// Strings from this length on are long.
+  /// The length in bytes from which a string counts as long.
   static constexpr std::size_t kLong = 16 * 1024;
 
-  /// `json` is discarded where rpc::parse would discard it.
+  /// Where rpc::parse() gives a discarded value, so is `json`.
   static Parsed parse(std::string text);
 
   Json json;
-  /// The text of one of its strings, long or not.
+  /// The text of one of the strings in `json`, long or not.
   std::string text(const Json& string) const;
 
  private:

@@ -21,7 +21,7 @@ void Loop::post_at(std::chrono::steady_clock::time_point time, Task task) {
   task_added_.notify_one();
 }
 
-/// What was to be done later and is due now.
+/// Moves the tasks of post_at() that are due to the queue.
 void Loop::take_due(std::chrono::steady_clock::time_point now) {
   const auto end = later_.upper_bound(now);
   for (auto each = later_.begin(); each != end; ++each) tasks_.push_back(std::move(each->second));

@@ -9,16 +9,16 @@
 
 namespace isocnc::lsp::rpc {
 
-/// One thread's work: tasks that any thread may leave, done one after another in the order in which they came. Tasks
-/// are to be short, and never to wait: who has more to do does it elsewhere and leaves a task with what has come of it.
+/// An event loop: runs tasks on one thread, one after another in the order in which they were posted by any thread. A
+/// task must be short and must never wait: longer work is done on another thread, which posts a task with the result.
 class Loop {
  public:
   using Task = std::function<void()>;
 
   void post(Task task);
-  /// Not before that time.
+  /// Runs the task at that time or later.
   void post_at(std::chrono::steady_clock::time_point time, Task task);
-  /// Does tasks until stop() has been called in one of them. Where none comes for so long, `idle` is called.
+  /// Runs tasks until one of them calls stop(). When no task has arrived for `idle_after`, calls `idle`.
   void run(std::chrono::milliseconds idle_after, const Task& idle);
   void stop() { stopped_ = true; }
 
@@ -29,7 +29,7 @@ class Loop {
   std::condition_variable task_added_;
   std::deque<Task> tasks_;
   std::multimap<std::chrono::steady_clock::time_point, Task> later_;
-  bool stopped_ = false;  // Of the loop's thread.
+  bool stopped_ = false;  // Used on the loop's thread only.
 };
 
 }  // namespace isocnc::lsp::rpc

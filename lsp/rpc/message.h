@@ -24,7 +24,7 @@ enum class ErrorCode : int {
   RequestCancelled = -32800,
 };
 
-/// What a request is answered with that cannot be fulfilled.
+/// The answer to a request that cannot be fulfilled.
 class Error : public std::runtime_error {
  public:
   Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
@@ -34,25 +34,25 @@ class Error : public std::runtime_error {
   ErrorCode code_;
 };
 
-/// A call of the other side. A notification is one that wants no answer.
+/// A request or notification from the other side. A notification gets no answer.
 struct Call {
   std::optional<Json> id;  ///< A number or a string; a notification has none.
   std::string method;
-  Parsed message;  ///< All of it.
+  Parsed message;  ///< The whole message.
 
   bool is_notification() const { return !id; }
-  /// An object, an array or null.
+  /// The parameters: an object, an array or null.
   const Json& params() const;
 };
 
-/// The answer to a call of ours.
+/// The client's answer to one of our requests.
 struct Answer {
   Json id;
-  Json result;  ///< Null where there is an error.
-  Json error;   ///< Null where there is none.
+  Json result;  ///< Null if there is an error.
+  Json error;   ///< Null if there is none.
 };
 
-/// What is wrong with a message, and the id to answer with: null where it cannot be told.
+/// A message that cannot be handled: the error to answer, and the id to answer with, null if that is unknown.
 struct BadMessage {
   Json id;
   Error error;
@@ -63,13 +63,14 @@ using Message = std::variant<Call, Answer, BadMessage>;
 /// Reads the body of a frame.
 Message read_message(std::string body);
 
-/// The bodies of messages. A `result`, or `params`, is JSON already; empty params of a request are left out.
+/// Write the bodies of messages. `result` and `params` are JSON text; a request with empty `params` is sent without
+/// them.
 std::string result_message(const Json& id, std::string_view result);
 std::string error_message(const Json& id, ErrorCode code, std::string_view message);
 std::string notification_message(std::string_view method, std::string_view params);
 std::string request_message(std::int64_t id, std::string_view method, std::string_view params);
 
-/// JSON as it is sent: in as few characters as it takes, and what is no UTF-8 replaced.
+/// Writes JSON as it is sent: without blanks, and with invalid UTF-8 replaced.
 std::string write(const Json& json);
 
 }  // namespace isocnc::lsp::rpc

@@ -16,12 +16,12 @@
 
 namespace isocnc::lsp::rpc {
 
-/// How long nothing comes before the party may look whether the client is still there.
+/// The time without a message after which the peer may check whether the client still exists.
 static constexpr std::chrono::seconds kIdleInterval{3};
 
-/// All threads share one heap, which grows by so much: a heap for each would ask the system again for every page, which
-/// takes a long program a tenth of its opening. Messages, which may be some hundred kilobytes after each edit, are
-/// written in it, too, for the same reason; the text of a long program is not.
+/// All threads share one heap, which grows in large steps: with a heap per thread the system would be asked for every
+/// page again, a tenth of the time that opening a long program takes. Messages, which may have some hundred kilobytes
+/// after each edit, lie in this heap for the same reason; the text of a long program does not.
 static void prepare_heap() {
 #ifdef __GLIBC__
   // NOLINTBEGIN(concurrency-mt-unsafe): there is one thread yet.
@@ -48,7 +48,7 @@ static void prepare_heap() {
     open_channel = &channel;
     loop.run(kIdleInterval, [&] { peer->idle(); });
   }
-  // What is still being worked on was for a client that is gone: it is not waited for.
+  // Unfinished work was for a client that has left, so it is not waited for.
   std::_Exit(peer->exit_status());
 }
 

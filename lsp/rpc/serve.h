@@ -11,26 +11,27 @@
 
 namespace isocnc::lsp::rpc {
 
-/// Who speaks with a client. All on the loop's thread, which it stops when it is done.
+/// Our side of the conversation with one client. Runs on the loop's thread, and stops the loop when it is done.
 class Peer {
  public:
   virtual ~Peer() = default;
 
   virtual void receive(Frame frame) = 0;
-  /// Nothing more will come.
+  /// The client sends nothing more.
   virtual void end() = 0;
-  /// Called now and then while nothing comes.
+  /// Called at intervals while no message arrives.
   virtual void idle() {}
   virtual int exit_status() const = 0;
 };
 
-/// Takes the body of a message; any thread.
+/// Sends a message, given its body. May be called on any thread.
 using Send = std::function<void(std::string body)>;
 using MakePeer = std::function<std::unique_ptr<Peer>(Loop& loop, Send send)>;
 
-/// Lets a party speak with one client, by standard input and output or, with a port, over the first connection to it,
-/// which accept_on_loopback() waits for. Then the process ends, with the party's exit status: so this returns only
-/// where the port cannot be had. `tell` is given what people want to know of the port: `127.0.0.1:4711`, or why not.
+/// Connects a peer with one client: by standard input and output or, with a port, by the first connection that
+/// accept_on_loopback() accepts. When the peer is done, the process ends with its exit status, so this function returns
+/// only if the port cannot be opened. `report` gets a text for users: `127.0.0.1:4711`, or why the port cannot be
+/// opened.
 void serve(const std::optional<std::uint16_t>& port, const MakePeer& make_peer,
            const std::function<void(const std::string&)>& report);
 

@@ -18,7 +18,7 @@ Pool::~Pool() {
 
 void Pool::post(Task task) {
   const std::lock_guard lock(mutex_);
-  if (is_ending_) return;  // Nobody would wait for the thread that it might take.
+  if (is_ending_) return;  // A thread started now would not be joined.
   tasks_.push_back(std::move(task));
   if (tasks_.size() > waiting_ && threads_.size() < max_threads_) threads_.emplace_back([this] { work(); });
   task_added_.notify_one();
@@ -39,8 +39,8 @@ void Pool::work() {
   }
 }
 
-/// The pool's task that does a queue's. Where the pool ends before it has come to it, the queue is emptied: its tasks
-/// may hold whoever holds the strand, so that none of them would ever go.
+/// The pool's task that runs the tasks of a queue. If the pool drops it, the queue is emptied: its tasks may hold the
+/// owner of the strand, and such a cycle of shared pointers would never be freed.
 struct Strand::Turn {
   std::shared_ptr<Queue> queue;
   bool has_come = false;
@@ -50,7 +50,7 @@ struct Strand::Turn {
   Turn& operator=(const Turn&) = delete;
   ~Turn() {
     if (has_come) return;
-    std::deque<Pool::Task> dropped;  // Goes when the lock is no longer held.
+    std::deque<Pool::Task> dropped;  // Destroyed after the lock is released.
     const std::lock_guard lock(queue->mutex);
     dropped.swap(queue->tasks);
     queue->is_running = false;
@@ -63,7 +63,7 @@ void Strand::post(Pool::Task task) {
     queue_->tasks.push_back(std::move(task));
     if (std::exchange(queue_->is_running, true)) return;
   }
-  // Without the lock, which a turn takes that the pool does not take.
+  // Called without the lock, since a dropped turn takes it in its destructor.
   pool_.post([turn = std::make_shared<Turn>(queue_)] {
     turn->has_come = true;
     run(*turn->queue);

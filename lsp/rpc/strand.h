@@ -11,7 +11,7 @@
 
 namespace isocnc::lsp::rpc {
 
-/// Threads that come into being when there is work for them, up to a bound, and wait for more when it is done.
+/// A thread pool. Threads are created when there is work for them, up to a maximum, and then wait for more.
 class Pool {
  public:
   using Task = std::function<void()>;
@@ -19,17 +19,17 @@ class Pool {
   explicit Pool(std::size_t max_threads) : max_threads_(max_threads) {}
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
-  /// Waits for the tasks that have begun; the others are dropped.
+  /// Waits for the tasks that have started; the others are dropped.
   ~Pool();
 
-  /// Dropped when the pool is ending.
+  /// Runs the task on some thread; drops it if the pool is being destroyed.
   void post(Task task);
 
  private:
   void work();
 
   const std::size_t max_threads_;
-  std::mutex mutex_;  // Guards all below.
+  std::mutex mutex_;  // Guards the members below.
   std::condition_variable task_added_;
   std::deque<Task> tasks_;
   std::vector<std::thread> threads_;
@@ -37,8 +37,8 @@ class Pool {
   bool is_ending_ = false;
 };
 
-/// Tasks that are done in the order in which they come, one at a time, while those of other strands go on beside them.
-/// What only the tasks of one strand touch needs no lock.
+/// Runs its tasks one at a time, in the order of post(), and in parallel to other strands. Data that only the tasks of
+/// one strand touch needs no lock.
 class Strand {
  public:
   explicit Strand(Pool& pool) : pool_(pool), queue_(std::make_shared<Queue>()) {}
