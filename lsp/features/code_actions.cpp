@@ -5,11 +5,11 @@
 
 #include "lsp/features/feature.h"
 
-/// What the other features offer to do with some lines, put together. An edit that takes time is made when it has been
-/// chosen, by clients that ask then.
+/// Code actions: lists what the other features offer for some lines. If the client can resolve actions, an edit that
+/// takes time is made only after the user has chosen it.
 namespace isocnc::lsp::features {
 
-/// Whether a kind is another one, or stands below it: `refactor.rewrite` below `refactor`.
+/// Whether `kind` is `other` or one of its subkinds: `refactor.rewrite` is a subkind of `refactor`.
 static bool is_below(std::string_view kind, std::string_view other) {
   return kind.starts_with(other) && (kind.size() == other.size() || kind[other.size()] == '.' || other.empty());
 }
@@ -27,7 +27,7 @@ void from_json(const Json& json, ActionParams& params) {
 
 namespace {
 
-/// An action on its way, with the place of its source among all of them.
+/// An action, with the index of its source.
 struct Offer {
   Action action;
   std::size_t source = 0;
@@ -46,14 +46,14 @@ std::vector<const ActionSource*> sources() {
   return all;
 }
 
-/// Whether the client asks for an edit when it is to be made.
+/// Whether the client requests an action's edit separately, after the user has chosen the action.
 bool resolves(const Client& client) {
   const Json properties = client.capabilities.value(
       Json::json_pointer("/textDocument/codeAction/resolveSupport/properties"), Json::array());
   return std::find(properties.begin(), properties.end(), Json("edit")) != properties.end();
 }
 
-/// The edit made at once; false where there turns out to be none.
+/// Makes the edit at once. Returns false if there is nothing to edit.
 bool complete(const Snapshot& snapshot, const ActionSource& source, Action& action) {
   try {
     action.edit = source.edit(snapshot, action.data);
@@ -64,14 +64,14 @@ bool complete(const Snapshot& snapshot, const ActionSource& source, Action& acti
   }
 }
 
-/// Whether the action has an edit, or the client will ask for it. For other clients it is made at once, but only where
-/// they want these kinds of actions: not at each move of the cursor.
+/// Whether the action has an edit, or the client will ask for it. For other clients the edit is made at once, but only
+/// if they ask for this kind of action: not at each move of the cursor.
 bool is_at_hand(const Snapshot& snapshot, const ActionParams& params, const ActionSource& source, Action& action) {
   if (action.edit || resolves(snapshot.client())) return true;
   return !params.only.empty() && complete(snapshot, source, action);
 }
 
-/// Whether kinds below this one, if not itself, are wanted.
+/// Whether the client wants this kind or one of its subkinds.
 bool may_be_wanted(const ActionParams& params, std::string_view kind) {
   return params.wants(kind) || std::any_of(params.only.begin(), params.only.end(),
                                            [&](const std::string& each) { return is_below(each, kind); });

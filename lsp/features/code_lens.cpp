@@ -6,8 +6,8 @@
 #include "lsp/documents/section_times.h"
 #include "lsp/features/feature.h"
 
-/// Over each tool section: how long it takes and how far it goes, and, in editors that can, to run the program or to
-/// debug it from here.
+/// Code lenses above each tool section: its duration and path length, and, in editors that support it, commands to run
+/// or debug the program from there.
 namespace isocnc::lsp::features {
 
 using dialect::Text;
@@ -20,7 +20,7 @@ std::string describe(const documents::TimedSection& section, dialect::Language l
   return dialect::format(kTimeAndPath, language, documents::clock_text(section.seconds), section.mm / 1000);
 }
 
-/// Whether the editor knows a command of this name, as it tells in `experimental.commands.commands`.
+/// Whether the editor knows a command of this name: it lists its commands in `experimental.commands.commands`.
 bool knows(const Client& client, const char* command) {
   const Json known = client.capabilities.value(Json::json_pointer("/experimental/commands/commands"), Json::array());
   return std::find(known.begin(), known.end(), Json(command)) != known.end();

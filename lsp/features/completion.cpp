@@ -19,9 +19,8 @@
 #include "interpreter/syntax/unicode.h"
 #include "lsp/features/feature.h"
 
-/// What may be written at the cursor: codes that are legal there, the arguments that are still missing, labels, tools,
-/// registers. Whether a code is legal is not known here: each is tried on the line, and one that brings a finding is
-/// not offered.
+/// Completion: codes that are legal at the cursor, the missing arguments, labels, tools, registers. This file holds no
+/// rules of legality: each code is tried on the line, and one that causes a new finding is not offered.
 namespace isocnc::lsp::features {
 
 using dialect::Language;
@@ -37,21 +36,21 @@ namespace {
 /// The protocol's CompletionItemKind.
 enum class ItemKind { Method = 2, Function = 3, Field = 5, Variable = 6, Value = 12, Keyword = 14, Reference = 18 };
 
-/// Forward labels that are offered, and lines that are looked through for them.
+/// The maximum number of forward labels offered, and of lines searched for them.
 constexpr std::size_t kMaxLabels = 200;
 constexpr std::size_t kMaxLinesForLabels = 100'000;
 
-/// What may be completed: `written` is put in, with its placeholders where the client knows them.
+/// A completion. `written` is inserted, with its placeholders if the client supports snippets.
 struct Candidate {
   std::string label;
   ItemKind kind = ItemKind::Keyword;
-  std::string written;  ///< As a snippet: `P${1:1}`.
+  std::string written;  ///< The inserted text as a snippet: `P${1:1}`.
   std::string detail;
   std::string documentation;
-  std::optional<std::string> code = std::nullopt;  ///< `G02`: what resolve documents.
+  std::optional<std::string> code = std::nullopt;  ///< The code whose documentation is fetched by resolve: `G02`.
 };
 
-/// A snippet without its marks: `P${1:1} Q$0` is `P1 Q`.
+/// A snippet as plain text: `P${1:1} Q$0` becomes `P1 Q`.
 std::string plain(std::string_view snippet) {
   std::string text;
   for (std::size_t i = 0; i < snippet.size(); ++i) {
@@ -66,7 +65,7 @@ std::string plain(std::string_view snippet) {
   return text;
 }
 
-/// What is wrong with a line as it would be written, by kinds in order.
+/// The kinds of findings that a line would have, sorted.
 std::vector<dialect::DiagnosticId> wrong_with(const std::string& text, const execution::State* state,
                                               const Snapshot& snapshot) {
   syntax::TreeStore store;
@@ -85,14 +84,16 @@ std::vector<dialect::DiagnosticId> wrong_with(const std::string& text, const exe
   return ids;
 }
 
-/// The state in which a line is tried: what may still be written before it (a feed, a tool) counts as written.
+/// The state in which a line is tried: a feed, a tool and the like count as given, since the user may still write them
+/// above.
 execution::State lenient(execution::State state) {
   state.feed_given = state.feed_reported = true;
   state.tool_selected = state.tool_reported = true;
   return state;
 }
 
-/// Arguments to begin with. Those of an arc follow the plane and are a full circle, so that they are right anywhere.
+/// Initial arguments for a code. Those of an arc follow the plane and make a full circle, which is valid at any
+/// position.
 std::string arguments_of(const dialect::GCode& code, const execution::State& state) {
   switch (code.number) {
     case 2:
@@ -145,14 +146,14 @@ class Completer {
   }
 
  private:
-  /// Where the word before the cursor starts: letters and then digits, as `GOTO` or `G0`.
+  /// The column where the word before the cursor starts: letters and then digits, such as `GOTO` or `G0`.
   std::size_t start_of_word() const {
     std::size_t start = place_.column;
     const auto is = [&](auto&& kind) { return start > 0 && kind(static_cast<unsigned char>(line_.text[start - 1])); };
     while (is([](unsigned char c) { return syntax::is_digit(static_cast<char>(c)); })) --start;
     const std::size_t digits = start;
     while (is([](unsigned char c) { return std::isalpha(c) != 0; })) --start;
-    // Of `X1G0` the last letter alone is the word.
+    // In `X1G0` the word starts at the last letter.
     if (digits < place_.column && start < digits) return digits - 1;
     return start;
   }
@@ -169,13 +170,13 @@ class Completer {
   bool types(char letter) const { return typed().empty() || syntax::upper(typed().front()) == letter; }
   bool types_digits() const { return !typed().empty() && syntax::is_digit(typed().back()); }
 
-  /// The line with a text in the place of the word at the cursor.
+  /// The line with `text` instead of the word at the cursor.
   std::string with(std::string_view text) const {
     return fmt::format("{}{}{}{}", line_.text.substr(0, start_), text, text.empty() ? "" : " ",
                        line_.text.substr(place_.column));
   }
 
-  /// Whether it brings no kind of finding that the line does not have without it.
+  /// Whether all kinds of findings in `ids` are also in `base`, so that the added text causes no new one.
   static bool brings_nothing(const std::vector<dialect::DiagnosticId>& base,
                              const std::vector<dialect::DiagnosticId>& ids) {
     return std::includes(base.begin(), base.end(), ids.begin(), ids.end());
@@ -202,7 +203,7 @@ class Completer {
     items_.push_back(std::move(item));
   }
 
-  /// The sign of the last word before the one at the cursor; 0 without any.
+  /// The letter or sign of the last word before the one at the cursor; 0 if there is none.
   char sign_before() const {
     char sign = 0;
     for (const Word& word : line_.words)
@@ -229,7 +230,7 @@ class Completer {
     if (types('I') && !types_digits() && is_well_written("IF V1 = 0 GOTO N1")) offer_jump();
   }
 
-  /// The instruction whose words the cursor goes on with.
+  /// The instruction that the word at the cursor continues.
   const Instruction* instruction_before() const {
     const Instruction* last = nullptr;
     for (const Instruction& each : line_.instructions) {
@@ -239,10 +240,10 @@ class Completer {
     return last;
   }
 
-  /// Where paths differ nobody knows what is in force already.
+  /// If paths differ, the state is unknown, and only the notation is checked.
   bool may_be(std::string_view text) const { return has_state_ ? is_legal(text) : is_well_written(text); }
 
-  /// Whether the next word is one that the G before it would take: it has been written already.
+  /// Whether the next word has a letter of a dimension: then the G's arguments are already written.
   bool has_arguments_after() const {
     for (const Word& word : line_.words)
       if (word.begin >= place_.column) return dialect::contains(dialect::kDimensionLetters, word.letter);
@@ -254,7 +255,7 @@ class Completer {
       const std::string label = fmt::format("G{:02}", code.number);
       const std::string written = label + arguments_of(code, state_);
       const Candidate candidate{label, ItemKind::Keyword, written, std::string(code.name.in(language_)), {}, label};
-      // Which coordinates a line will have, its author knows.
+      // G00 and G01 are tried with X0: the author will choose the coordinates.
       if (may_be(code.number < 2 ? label + " X0" : plain(written))) {
         add(candidate);
       } else if (code.takes_arguments() && has_arguments_after() && is_well_written(label)) {
@@ -279,7 +280,7 @@ class Completer {
     }
   }
 
-  /// A tool that the machine has, to be changed.
+  /// An example for a T word: a tool that the machine has.
   std::string some_tool() const {
     const auto& tools = snapshot_.configuration().machine.tools;
     const std::string number = tools && !tools->empty() ? running::tool_name(tools->front().code).substr(1) : "101001";
@@ -306,7 +307,7 @@ class Completer {
     }
   }
 
-  /// Which letters the instruction takes: its own, or those of the motion in force where there is none.
+  /// The letters that the instruction takes; without an instruction, those of the motion in force.
   dialect::LetterSet letters_of(const Instruction* owner) const {
     if (owner && owner->kind == InstructionKind::G) return owner->g() ? owner->g()->arguments : 0;
     if (owner && owner->kind != InstructionKind::Continuation) return 0;
@@ -323,7 +324,7 @@ class Completer {
     offer_letter('S', state_.spindle_speed > 0 ? dialect::format_value(state_.spindle_speed) : "");
   }
 
-  /// Where the tool tip is, in the units in force; empty where that is not known.
+  /// The position of the tool tip on this axis, in the units in force; empty if unknown.
   std::string value_there(char letter) const {
     if (!has_state_ || (letter < 'X' && letter != 'B' && letter != 'C')) return "";
     const geometry::Pose& pose = state_.position;

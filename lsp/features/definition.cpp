@@ -7,8 +7,8 @@
 #include "lsp/documents/jump_paths.h"
 #include "lsp/features/feature.h"
 
-/// From a GOTO to its label, from a register to where it got its value, from coordinates alone to the G that they go on
-/// with.
+/// Go to definition: from a GOTO to its label, from a register to its assignments, from coordinates without G to the G
+/// in force.
 namespace isocnc::lsp::features {
 
 using documents::JumpPaths;
@@ -19,7 +19,7 @@ using syntax::Span;
 
 namespace {
 
-/// Where something stands; ordered, so that equal ones are told once.
+/// A line and a span; ordered, so that duplicates can be removed.
 using Spot = std::pair<std::size_t, Span>;
 
 std::vector<Spot> spans_of(const std::vector<Occurrence>& all) {
@@ -29,7 +29,7 @@ std::vector<Spot> spans_of(const std::vector<Occurrence>& all) {
   return spans;
 }
 
-/// The label that the jump leads to; those that it was meant for where it leads nowhere.
+/// The label that the jump leads to; if it leads nowhere, all labels with that number.
 std::vector<Spot> labels_of(const Snapshot& snapshot, const Occurrence& target) {
   std::vector<Spot> labels = spans_of(documents::occurrences(snapshot, target.name));
   const auto below =
@@ -37,7 +37,7 @@ std::vector<Spot> labels_of(const Snapshot& snapshot, const Occurrence& target) 
   return below == labels.end() ? labels : std::vector<Spot>{*below};
 }
 
-/// The assignments whose value may be there when the register is read; all where none can.
+/// The assignments that can reach this read of the register; if there is none, all of its assignments.
 std::vector<Spot> assignments_of(const Snapshot& snapshot, const Occurrence& read) {
   const std::vector<Occurrence> reaching = documents::assignments_reaching(snapshot, read);
   return spans_of(reaching.empty() ? documents::occurrences(snapshot, read.name) : reaching);

@@ -16,16 +16,16 @@
 #include "lsp/documents/rule_page.h"
 #include "lsp/features/feature.h"
 
-/// What isolint would tell, as the editor's Problems list: pushed after each edit, or pulled by clients that can.
+/// The findings of isolint for the editor's Problems list: pushed after each edit, or pulled by clients that can pull.
 namespace isocnc::lsp::features {
 
 using namespace dialect::literals;
 using check::LocatedFinding;
 
-/// Findings that are told of one program; a last one says how many there are.
+/// The maximum number of findings sent for one program; a last diagnostic gives the number of the others.
 static constexpr std::size_t kMaxFindings = 1000;
 
-/// Of a configuration: what is wrong with one is pushed in any case.
+/// The answer for a configuration, whose diagnostics are always pushed.
 static constexpr std::string_view kNothing = R"({"kind":"full","items":[]})";
 
 static constexpr const char* kPull = "/textDocument/diagnostic";
@@ -41,7 +41,7 @@ void from_json(const Json& json, PullParams& params) {
   params.previous_result_id = documents::member<std::string>(json, "previousResultId");
 }
 
-/// The findings of one snapshot on their way to the client.
+/// Writes the findings of one snapshot for the client.
 class DiagnosticWriter {
  public:
   explicit DiagnosticWriter(const Snapshot& snapshot)
@@ -50,7 +50,7 @@ class DiagnosticWriter {
         first_(snapshot.excerpt(kMaxFindings + 1)),
         sends_related_(snapshot.client().can("/textDocument/publishDiagnostics/relatedInformation")) {}
 
-  /// The list, as JSON: written at once, for it may be long, and is wanted after each edit.
+  /// The list as JSON text, written directly for speed: it may be long, and is sent after each edit.
   std::string all() const {
     std::string list;
     append_all(list);
@@ -93,7 +93,7 @@ class DiagnosticWriter {
     append_text(message, list);
   }
 
-  /// Most messages stand in JSON as they are.
+  /// Most messages need no escapes in JSON.
   static void append_text(const std::string& text, std::string& list) {
     const auto is_plain = [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; };
     if (!std::all_of(text.begin(), text.end(), is_plain)) {
@@ -105,7 +105,7 @@ class DiagnosticWriter {
     list += '"';
   }
 
-  /// What all findings of one kind have behind their message.
+  /// The JSON after the message, which is the same for all findings of one kind.
   static const std::string& constant_part(dialect::DiagnosticId id) {
     static const auto kConstantParts = [] {
       std::vector<std::string> parts;
@@ -135,7 +135,7 @@ class DiagnosticWriter {
     return steps;
   }
 
-  /// In the place of all further findings, at the first of them.
+  /// Appends one diagnostic for all further findings, at the place of the first of them.
   void append_rest(const LocatedFinding& next, std::string& list) const {
     static constexpr dialect::Text kRest = {"{} more findings are not shown; isolint tells them all",
                                             "altre {} segnalazioni non sono mostrate; isolint le riporta tutte"};
@@ -151,7 +151,7 @@ class DiagnosticWriter {
   const bool sends_related_;
 };
 
-/// Equal findings have equal ids, so that a client that has them need not be told again.
+/// Equal findings have equal ids, so that a client that has them does not get them again.
 std::string id_of(const std::string& items) { return fmt::format("{:x}", std::hash<std::string>()(items)); }
 
 documents::RawJson pull(const Snapshot& snapshot, const PullParams& params) {
@@ -161,7 +161,7 @@ documents::RawJson pull(const Snapshot& snapshot, const PullParams& params) {
   return {fmt::format(R"({{"kind":"full","resultId":"{}","items":{}}})", id, items)};
 }
 
-/// The same of each program of the workspace, open or not.
+/// The pulled diagnostics of each program in the workspace, open or not.
 documents::RawJson pull_each(const Snapshot& snapshot, const Json& /*params*/) {
   const std::string report = pull(snapshot, {}).text;
   const std::string version = snapshot.version() < 0 ? "null" : std::to_string(snapshot.version());
@@ -169,7 +169,7 @@ documents::RawJson pull_each(const Snapshot& snapshot, const Json& /*params*/) {
                       std::string_view(report).substr(1))};
 }
 
-/// Leaves out what the client has, and takes away what it has of programs that are gone.
+/// Leaves out what the client already has, and clears the diagnostics of removed programs.
 std::string conclude_pull(const std::string& results, const Json& params, AggregateScope scope) {
   std::map<std::string, std::string> before;
   for (const Json& each : params.value("previousResultIds", Json::array())) before[each.at("uri")] = each.at("value");
@@ -193,7 +193,7 @@ std::string conclude_pull(const std::string& results, const Json& params, Aggreg
   return rpc::write({{"items", reports}});
 }
 
-/// A client that pulls would show what is pushed a second time.
+/// A client that pulls would show pushed diagnostics a second time.
 bool is_pushed(const Client& client) { return !client.can(kPull); }
 
 void push(const Snapshot& snapshot, const Notify& notify) {

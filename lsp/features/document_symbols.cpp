@@ -11,7 +11,7 @@ using documents::Section;
 
 namespace {
 
-/// Writes the sections as the client takes them: one in the other where it can, else in a row.
+/// Writes the sections nested if the client supports that, else as a flat list.
 class SymbolWriter {
  public:
   explicit SymbolWriter(const Snapshot& snapshot) : snapshot_(snapshot), sections_(documents::outline(snapshot)) {}
@@ -42,7 +42,7 @@ class SymbolWriter {
     return {snapshot_.to_client({section.first_line, 0}), snapshot_.to_client({section.last_line, end})};
   }
 
-  /// Sections stand behind the one that holds them, so they are written as they come.
+  /// A section comes after the one that holds it, so they are written in their order.
   void write_children(int parent) {
     text_ += "[";
     while (next_ < sections_.size() && sections_[next_].parent == parent) {

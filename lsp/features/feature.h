@@ -20,50 +20,49 @@ using documents::ClientRange;
 using documents::Json;
 using documents::Snapshot;
 
-/// Work that takes long, and sees no document any more: the result, as JSON. Asked now and then whether to `stop`, it
-/// may throw rpc::Error.
+/// Long work, done without access to the document; returns the result as JSON. It calls `stop` at intervals and throws
+/// rpc::Error when that returns true.
 using BackgroundRequest = std::function<std::string(const std::function<bool()>& stop)>;
 
-/// A request about one document: which one stands in `params.textDocument.uri`, or, where an item that we have handed
-/// out comes back (resolve), in its `data.uri`. It is answered on the document's strand.
+/// A request about one document, answered on the document's strand. `params.textDocument.uri` names the document, or,
+/// when the client sends back an item that we returned (resolve), its `data.uri`.
 struct Method {
   std::string_view name;
-  /// The result, as JSON. May throw rpc::Error, and what nlohmann-json throws where the params are wrong.
+  /// Returns the result as JSON. May throw rpc::Error, and an exception of nlohmann-json if the params are wrong.
   std::string (*answer)(const Snapshot& snapshot, const Json& params) = nullptr;
-  /// In its place, for what takes long: takes with it what it needs of the snapshot. Edits and other requests go on
-  /// beside the study.
+  /// Replaces `answer` in long requests: copies what it needs of the snapshot and returns the work. Edits and other
+  /// requests continue meanwhile.
   BackgroundRequest (*begin)(const Snapshot& snapshot, const Json& params) = nullptr;
-  /// Whether `answer` is wanted of files that are not open, too: editors show tabs whose files they have not opened
-  /// yet.
+  /// Whether `answer` also serves files that are not open: editors show tabs whose files they have not opened yet.
   bool serves_closed = false;
-  /// The result for an isocnc.json, which is no program; without one the request is refused.
+  /// The result for an isocnc.json, which is not a program. If empty, the request is refused.
   std::string_view of_configuration = {};
 };
 
-/// Which results a WorkspaceRequest concludes from.
+/// Which results `WorkspaceRequest::combine` gets.
 enum class AggregateScope {
   All,
-  Some,  ///< The client is told of some programs while others are still being asked.
-  Rest,  ///< Of all, but the client has been told of each of them: what is left to say.
+  Some,  ///< The results of some programs, to be sent while others are still being asked.
+  Rest,  ///< All results, each of which the client already has: only the remainder is to be sent.
 };
 
-/// A request about the whole workspace: asked of every open document on its strand, and of the programs in the
+/// A request about the whole workspace. It is passed to every open document, on its strand, and to the programs in the
 /// workspace's folders that are not open.
 struct WorkspaceRequest {
   std::string_view name;
-  /// An array. Programs that are not open are asked without params, for what they answer is kept.
+  /// Returns an array as JSON. For programs that are not open, `params` is null, since their answers are cached.
   std::string (*answer)(const Snapshot& snapshot, const Json& params) = nullptr;
-  /// Makes of the results, put together to one array, what the client gets.
+  /// Turns the results, joined into one array, into the answer to the client.
   std::string (*combine)(const std::string& results, const Json& params, AggregateScope scope) = nullptr;
 };
 
-/// What an editor wants to know of code actions.
+/// The parameters of a request for code actions.
 struct ActionParams : documents::RangeParams {
-  std::vector<std::string> only;  ///< Kinds, with all below them; empty is all.
-  std::vector<Json> diagnostics;  ///< That it shows there.
+  std::vector<std::string> only;  ///< The wanted kinds, each with its subkinds; empty for all.
+  std::vector<Json> diagnostics;  ///< The diagnostics that the editor shows in the range.
 
   std::size_t first_line() const { return range.start.line; }
-  /// Where a selection ends at the start of a line, that line is not meant.
+  /// The last selected line. A selection that ends at the start of a line excludes that line.
   std::size_t last_line() const {
     return range.end.line - (range.end.character == 0 && range.end.line > range.start.line ? 1u : 0u);
   }
@@ -78,45 +77,44 @@ struct Action {
   std::string title;
   std::string_view kind;  ///< `quickfix`, `refactor.rewrite`, ...
   bool is_preferred = false;
-  Json diagnostics;          ///< Those of the editor that it mends; null for none.
-  std::optional<Json> edit;  ///< A WorkspaceEdit; else the source makes it of `data` when it is wanted.
+  Json diagnostics;          ///< The editor's diagnostics that the action fixes; null for none.
+  std::optional<Json> edit;  ///< A WorkspaceEdit; if absent, `ActionSource::edit` makes it from `data` on request.
   Json data;
 };
 
-/// Whoever has actions to offer: code_actions asks all of them.
+/// A provider of code actions. The feature code_actions asks all of them.
 struct ActionSource {
-  std::string_view kind;  ///< That all of its actions have.
+  std::string_view kind;  ///< The kind of all its actions.
   void (*offer)(const Snapshot& snapshot, const ActionParams& params, std::vector<Action>& actions) = nullptr;
-  /// The edit of an action that has none, of its data. Throws rpc::Error, RequestFailed, where there is none.
+  /// Makes the edit of an action from its data. Throws rpc::Error, RequestFailed, if there is nothing to edit.
   Json (*edit)(const Snapshot& snapshot, const Json& data) = nullptr;
 };
 
 /// Sends a notification: method and params, as JSON.
 using Notify = std::function<void(std::string_view method, std::string params)>;
 
-/// How the editor is asked to ask again, and the capability by which it tells that it can be.
+/// The request that makes the editor repeat its requests, and the capability by which the editor announces support.
 struct Refresh {
   std::string_view method;
   const char* capability = nullptr;
 };
 
-/// Something that the editor can do because of us. Each has a file of its name in this folder, which defines it under
-/// that name (`extern const Feature hover`); the build gathers them. A feature knows neither threads nor files nor
-/// other features.
+/// One ability of the language server. Each has a file in this folder, which defines it under the file's name (`extern
+/// const Feature hover`); the build lists them. A feature knows neither threads nor files nor other features.
 struct Feature {
-  /// Its part of ServerCapabilities, for this client.
+  /// The feature's part of ServerCapabilities, for this client.
   Json (*capabilities)(const Client& client) = nullptr;
   std::vector<Method> methods;
   std::vector<WorkspaceRequest> workspace_requests;
-  /// What `workspace/executeCommand` offers. The params are the command's first argument: an object whose `uri` names
-  /// the document. Where the result has an `edit`, the client is asked to apply it.
+  /// Commands for `workspace/executeCommand`. The params are the command's first argument: an object whose `uri` names
+  /// the document. If the result has an `edit`, the client is asked to apply it.
   std::vector<Method> commands;
   std::vector<ActionSource> actions;
-  /// Called when a document has been opened or edited and no further edit waits.
+  /// Called after a document has been opened or edited, once no further edit waits.
   void (*changed)(const Snapshot& snapshot, const Notify& notify) = nullptr;
-  /// For answers that depend on settings or the configuration: sent when these have changed.
+  /// For answers that depend on settings or the configuration: sent after these have changed.
   std::optional<Refresh> refresh;
-  /// Called when a document has been closed.
+  /// Called after a document has been closed.
   void (*closed)(const std::string& uri, const Client& client, const Notify& notify) = nullptr;
 };
 
@@ -151,7 +149,7 @@ Method on(std::string_view name) {
   return {.name = name, .answer = MethodOf<handle>::kAnswer, .begin = nullptr};
 }
 
-/// The same, of files that are not open as well, and of configurations.
+/// Like on(), but also serves files that are not open, and configurations.
 template <auto handle>
 Method on_any(std::string_view name, std::string_view of_configuration) {
   return {.name = name,
@@ -174,13 +172,13 @@ struct BackgroundRequestOf<handle> {
   static constexpr auto kStart = start_with<Params, handle>;
 };
 
-/// A method that takes long, by `BackgroundRequest handle(const Snapshot&, const Params&)`.
+/// A long method by its handler, `BackgroundRequest handle(const Snapshot&, const Params&)`.
 template <auto handle>
 Method in_background(std::string_view name) {
   return {.name = name, .answer = nullptr, .begin = BackgroundRequestOf<handle>::kStart};
 }
 
-/// A gathering by its handler, whose Result is a list.
+/// A workspace request by its handler, whose Result is a list.
 template <auto handle>
 WorkspaceRequest workspace_request(std::string_view name,
                                    std::string (*combine)(const std::string& results, const Json& params,

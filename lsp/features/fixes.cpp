@@ -13,7 +13,7 @@
 #include "lsp/documents/text_edits.h"
 #include "lsp/features/feature.h"
 
-/// How findings are mended, one by one or all that is safe, and how they are silenced.
+/// Code actions that fix findings, one by one or all safe ones together, and that silence them.
 namespace isocnc::lsp::features {
 
 using check::LocatedFinding;
@@ -25,15 +25,16 @@ using fixes::Fix;
 static constexpr std::string_view kQuickFix = "quickfix";
 static constexpr std::string_view kFixAll = "source.fixAll.isocnc";
 
-/// Findings for which actions are offered at once.
+/// The maximum number of findings for which actions are offered at once.
 static constexpr std::ptrdiff_t kMaxFixed = 50;
 
-/// Edits that are sent with an offer. More, which only a habit of the program takes, wait until they are wanted.
+/// The maximum number of edits sent with an action. Larger edits, which only fixes of a program's habit have, are made
+/// on request.
 static constexpr std::size_t kMaxEdits = 1'000;
 
 namespace {
 
-/// Findings of the lines, as many as are looked at.
+/// The findings on the lines, up to kMaxFixed.
 std::span<const LocatedFinding> findings_of(const Snapshot& snapshot, const ActionParams& params) {
   const std::vector<LocatedFinding>& all = snapshot.report().findings;
   const auto first =
@@ -43,7 +44,7 @@ std::span<const LocatedFinding> findings_of(const Snapshot& snapshot, const Acti
   return {first, std::min(behind, first + std::min(kMaxFixed, behind - first))};
 }
 
-/// The client's diagnostic of a finding.
+/// The client's diagnostic for a finding, in an array; null if the client has none.
 Json diagnostics_of(const Snapshot& snapshot, const LocatedFinding& located, const ActionParams& params) {
   const Json start = snapshot.to_client(located.line, located.finding.span).start;
   const Json code = dialect::definition(located.finding.id).code;
@@ -70,7 +71,7 @@ void offer_fixes(const Snapshot& snapshot, const ActionParams& params, std::vect
   }
 }
 
-/// All that a habit has to have rewritten, which may be much of the program.
+/// The edit that changes a habit everywhere, which may affect much of the program.
 Json rewrite_habit(const Snapshot& snapshot, const Json& data) {
   const auto habit = data.value("habit", std::size_t{0});
   if (habit >= fixes::kHabitCount) throw rpc::Error(rpc::ErrorCode::RequestFailed, "no such habit");
@@ -85,7 +86,7 @@ Json rewrite_habit(const Snapshot& snapshot, const Json& data) {
 constexpr Text kSilenceLine = {"silence {} on this line", "tacere {} su questa riga"};
 constexpr Text kSilenceFile = {"silence {} in the whole program", "tacere {} in tutto il programma"};
 
-/// Behind all that stands on the line, in its comment where it ends in one that goes on to the end of the line.
+/// Appends the suppression to the line: within its comment, if the line ends in one that runs to the end of the line.
 Edit silencing_line(const syntax::LineTree& line, std::size_t number, std::string_view code) {
   const auto is_open = [&](syntax::Span comment) {
     return comment.end == line.text.size() &&

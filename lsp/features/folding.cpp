@@ -7,7 +7,7 @@
 #include "lsp/documents/outline.h"
 #include "lsp/features/feature.h"
 
-/// What can be folded away: sections, what an IF passes over, comments, and what stands after the end.
+/// Folding ranges: sections, the lines that an IF can skip, comments, and the lines after the program end.
 namespace isocnc::lsp::features {
 namespace {
 
@@ -28,21 +28,21 @@ void to_json(Json& json, const Fold& fold) {
 
 constexpr const char* kLimit = "/textDocument/foldingRange/rangeLimit";
 
-/// How many folds the client takes.
+/// The maximum number of folds that the client accepts.
 std::size_t limit_of(const Client& client) {
   if (!client.can(kLimit)) return std::numeric_limits<std::size_t>::max();
   const Json& limit = client.capabilities.at(Json::json_pointer(kLimit));
   return limit.is_number_unsigned() ? limit.get<std::size_t>() : std::numeric_limits<std::size_t>::max();
 }
 
-/// The last line that holds anything.
+/// The last line that is not empty.
 std::size_t last_text_line(const Snapshot& snapshot) {
   std::size_t line = snapshot.document().line_count() - 1;
   while (line > 0 && snapshot.document().text_of_line(line).empty()) --line;
   return line;
 }
 
-/// Finds the folds, those that matter most first.
+/// Finds the folds, the most important first.
 class FoldFinder {
  public:
   explicit FoldFinder(const Snapshot& snapshot) : snapshot_(snapshot) {}

@@ -9,7 +9,7 @@
 #include "lsp/documents/text_edits.h"
 #include "lsp/features/feature.h"
 
-/// The program as isofmt would write it, by the configuration. Where it cannot be renumbered, the rest is done.
+/// Formats the program as isofmt does, by the configuration. If it cannot be renumbered, the rest is formatted.
 namespace isocnc::lsp::features {
 
 using documents::TextEdit;
@@ -27,7 +27,7 @@ void from_json(const Json& json, OnTypeParams& params) {
   params.character = json.at("ch");
 }
 
-/// Of lines [first, behind); the others are only looked at.
+/// The edits of the lines [first, behind); the other lines are only read.
 std::vector<TextEdit> format_lines(const Snapshot& snapshot, LinesFormatter& formatter, std::size_t first,
                                    std::size_t behind) {
   std::vector<TextEdit> edits;
@@ -53,7 +53,7 @@ documents::RawJson format(const Snapshot& snapshot, const documents::DocumentPar
   return documents::written(format_lines(snapshot, *formatter, 0, snapshot.document().line_count()));
 }
 
-/// Line numbers are the whole program's concern, and stay.
+/// Keeps line numbers, which concern the whole program.
 documents::RawJson format_range(const Snapshot& snapshot, const documents::RangeParams& params) {
   ProgramStyle style = formatting::style_by(snapshot.configuration().format);
   style.numbers.reset();
@@ -63,7 +63,7 @@ documents::RawJson format_range(const Snapshot& snapshot, const documents::Range
   return documents::written(format_lines(snapshot, formatter, params.range.start.line, behind));
 }
 
-/// All letters of a line that are no comment's.
+/// The line with all letters outside comments in upper case.
 std::string in_capitals(const syntax::LineTree& line) {
   std::string text(line.text);
   std::transform(text.begin(), text.end(), text.begin(), syntax::upper);
@@ -72,8 +72,8 @@ std::string in_capitals(const syntax::LineTree& line) {
   return text;
 }
 
-/// A line that is being written gets capitals; one that has been ended is formatted, for what is wrong with it may not
-/// be what its author still has to write.
+/// Writes the letters of the present line in upper case; after a line end, formats the line that was ended, which is no
+/// longer incomplete.
 std::vector<TextEdit> format_on_type(const Snapshot& snapshot, const OnTypeParams& params) {
   const std::size_t line = snapshot.from_client(params.position).line;
   std::optional<TextEdit> edit;
@@ -89,7 +89,7 @@ std::vector<TextEdit> format_on_type(const Snapshot& snapshot, const OnTypeParam
   return edit ? std::vector{*edit} : std::vector<TextEdit>{};
 }
 
-/// The letters that words begin with, small, and the line's end.
+/// The trigger characters: the lower-case letters with which words start, and the line end.
 Json formatting_capabilities(const Client&) {
   Json letters = Json::array();
   for (char letter = 'a'; letter <= 'z'; ++letter) letters.push_back(std::string(1, letter));

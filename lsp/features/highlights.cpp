@@ -4,7 +4,7 @@
 #include "lsp/documents/names.h"
 #include "lsp/features/feature.h"
 
-/// Marks the label or register under the cursor wherever it stands.
+/// Highlights all occurrences of the label or register under the cursor.
 namespace isocnc::lsp::features {
 namespace {
 

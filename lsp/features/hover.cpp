@@ -21,7 +21,7 @@
 #include "lsp/documents/line_run.h"
 #include "lsp/features/feature.h"
 
-/// What a word means where it stands, with the state there, and what is wrong with it.
+/// Hover: the meaning of a word in its place, the state there, and the findings on it.
 namespace isocnc::lsp::features {
 namespace {
 
@@ -32,7 +32,7 @@ using syntax::Instruction;
 using syntax::InstructionKind;
 using syntax::Word;
 
-/// Places that are named before "and others".
+/// The maximum number of places listed before "and others".
 constexpr std::size_t kMaxPlaces = 10;
 
 struct Hover {
@@ -42,7 +42,7 @@ struct Hover {
 
 void to_json(Json& json, const Hover& hover) { json = {{"contents", hover.contents}, {"range", hover.range}}; }
 
-/// Tells of one word, paragraph by paragraph.
+/// Describes one word, paragraph by paragraph.
 class HoverWriter {
  public:
   /// A word of the line.
@@ -64,7 +64,7 @@ class HoverWriter {
   void title(std::string_view meaning) {
     add(fmt::format("**{}** {}", as_written(line_.text_of(word_.span())), meaning));
   }
-  /// Of the program or its configuration.
+  /// Words of the program or its configuration, as Markdown.
   static std::string as_written(std::string_view words) { return documents::in_markdown(syntax::printable(words)); }
 
   const Instruction* instruction() const {
@@ -118,7 +118,7 @@ class HoverWriter {
     if (code->number == 4) describe_dwell();
   }
 
-  /// Of what paths do not agree on, `?` stands in its place.
+  /// Formats values that all paths agree on, and `?` for those on which they differ.
   class Agreement {
    public:
     explicit Agreement(const std::vector<LineRun>& runs) : runs_(runs) {}
@@ -194,7 +194,7 @@ class HoverWriter {
     if (agreement.is_partial) add(text(kPartial));
   }
 
-  /// The way of the tip, which a rapid that turns B or C swings; mm.
+  /// The length of the tip's path in mm. In a rapid that turns B or C the tip swings.
   double tip_length(const execution::MachineMove& move, const LineRun& run) const {
     const simulation::TimedMachine& machine = snapshot_.configuration().machine.timed;
     return motion::tip_travel(machine.motion,
@@ -202,14 +202,14 @@ class HoverWriter {
         .length;
   }
 
-  /// To the hundredth, without the machine's accelerations.
+  /// The duration of a feed move in seconds, without the machine's accelerations.
   static double seconds_at_feed(const execution::MachineMove& move) {
     const double turned = std::hypot(move.to.b - move.from.b, move.to.c - move.from.c);
     const double way = move.inverse_time ? 1 : (move.length > 0 ? move.length : turned);
     return std::round(60 * way / move.feed * 100) / 100;
   }
 
-  /// Likewise, by the axis that takes longest.
+  /// The duration of a rapid in seconds, by the axis that takes longest, without accelerations.
   double seconds_in_rapid(const execution::MachineMove& move) const {
     const geometry::Vec3 way = move.to.tip - move.from.tip;
     const std::array<double, execution::kAxisCount> ways = {way.x(), way.y(), way.z(), move.to.b - move.from.b,
@@ -241,7 +241,7 @@ class HoverWriter {
     title(kVgpl.in(language_));
   }
 
-  /// Of values: what a register, or an M's parameter, is set to or compared with.
+  /// Describes a value: what a register, or a parameter of an M, is set to or compared with.
   void describe_value() {
     static constexpr Text kCompared = {"what it is compared with", "valore di confronto"};
     static constexpr Text kSet = {"what it is set to", "valore assegnato"};
@@ -299,7 +299,7 @@ class HoverWriter {
     Text many;
   };
 
-  /// `name: 3, 7, 12 ...`: line numbers as users count.
+  /// Writes `name: 3, 7, 12 ...`, with line numbers from 1.
   void list_places(const Texts& names, const std::vector<documents::Landmark>& places) {
     if (places.empty()) return;
     std::vector<std::size_t> lines;
@@ -332,7 +332,7 @@ class HoverWriter {
     list_places(kCompared, snapshot_.index().landmarks(documents::kinds(LandmarkKind::Comparison), number));
   }
 
-  /// What a register that is compared may hold there.
+  /// The values that a compared register may have there.
   void describe_values() {
     static constexpr Text kMayBe = {"here it may be {}", "qui può valere {}"};
     static constexpr Text kValue = {"{} (line {})", "{} (riga {})"};
@@ -349,7 +349,7 @@ class HoverWriter {
     if (!values.empty()) add(text(kMayBe, fmt::format("{}", fmt::join(values, ", "))));
   }
 
-  /// The value of `V1 = 2`, whose V stands at the span.
+  /// The value in `V1 = 2`, where `command` is the span of the V.
   static const Word* value_after(const syntax::LineTree& line, syntax::Span command) {
     const auto is_value = [&](const Word& word) { return word.letter == syntax::kAssign && word.begin >= command.end; };
     const auto value = std::find_if(line.words.begin(), line.words.end(), is_value);

@@ -14,8 +14,8 @@
 #include "lsp/documents/section_times.h"
 #include "lsp/features/feature.h"
 
-/// What a line leaves unsaid: where incremental motions lead, the G that coordinates alone go on with, and when a tool
-/// section begins.
+/// Inlay hints: where incremental motions end, the G in force for coordinates without G, and when a tool section
+/// starts.
 namespace isocnc::lsp::features {
 
 using dialect::ModalGroup;
@@ -28,7 +28,7 @@ struct Hint {
   ClientPosition position;
   std::string label;
   std::string_view tooltip;
-  bool is_after = false;  ///< Behind what it belongs to, not before it.
+  bool is_after = false;  ///< Whether the hint stands after its text, not before it.
 };
 
 void to_json(Json& json, const Hint& hint) {
@@ -38,9 +38,9 @@ void to_json(Json& json, const Hint& hint) {
           {hint.is_after ? "paddingLeft" : "paddingRight", true}};
 }
 
-/// The state before each line of a stretch, where it is the same on all paths. Lines are executed once; the snapshot is
-/// asked again only where paths may part or meet. It has followed all paths from the top, with their conditions, which
-/// a syntax::ForwardPaths that starts in the middle cannot do.
+/// Follows the state before each line of a range, if it is the same on all paths. Executes each line once, and asks the
+/// snapshot again only where paths may part or meet: the snapshot has followed all paths from the top, with their
+/// conditions, which a syntax::ForwardPaths that starts in the middle cannot do.
 class StateWalk {
  public:
   StateWalk(const Snapshot& snapshot, std::size_t line)
@@ -48,11 +48,11 @@ class StateWalk {
 
   const std::optional<State>& state() const { return state_; }
 
-  /// Comes to a line, to which jumps may lead, too.
+  /// Arrives at a line, to which jumps may lead as well.
   void arrive(std::size_t line) {
     if (paths_.is_jump_target(line)) state_ = snapshot_.state_before(line);
   }
-  /// Goes over the line to the next, without the jumps that lead there.
+  /// Executes the line and goes to the next one; ignores jumps to that one.
   void step(std::size_t line, const LineTree& tree) {
     if (!state_ || tree.jump) {
       state_ = snapshot_.state_before(line + 1);
@@ -69,13 +69,13 @@ class StateWalk {
   std::optional<State> state_;
 };
 
-/// Three decimals at most: a thousandth of a millimeter is what one reads.
+/// At most three decimals: users read positions to a thousandth of a millimeter.
 std::string number_text(double value) {
   const double rounded = std::round(value * 1000) / 1000;
   return fmt::format("{}", rounded == 0 ? 0.0 : rounded);
 }
 
-/// Finds the hints of a stretch of lines.
+/// Finds the hints in a range of lines.
 class HintFinder {
  public:
   HintFinder(const Snapshot& snapshot, std::size_t first_line) : snapshot_(snapshot), walk_(snapshot, first_line) {}
@@ -103,7 +103,7 @@ class HintFinder {
                      .tooltip = kTooltip.in(snapshot_.language())});
   }
 
-  /// The coordinates that the line moves, as they would be written in G90.
+  /// Adds the end coordinates of the axes in the line, as they would be written in G90.
   void add_end_hint(std::size_t index, const LineTree& line, const syntax::Instruction& motion) {
     static constexpr dialect::Text kTooltip = {"where the motion ends, in the frame in force",
                                                "dove finisce il movimento, nel riferimento in uso"};
@@ -123,7 +123,7 @@ class HintFinder {
                      .is_after = true});
   }
 
-  /// ` X12.5`; nothing for what is no coordinate, or not known.
+  /// Text such as ` X12.5`; empty if the letter is not a coordinate, or its value is unknown.
   static std::string coordinate_text(const State& state, char letter) {
     const std::size_t axis = dialect::kAxisLetters.find(letter);
     if (axis == std::string_view::npos) return {};
@@ -138,7 +138,8 @@ class HintFinder {
   StateWalk walk_;
 };
 
-/// Programs of more lines are not timed for hints alone: those then come once the code lenses have had them timed.
+/// The maximum number of lines of a program that is timed for hints alone. The hints of longer programs appear after
+/// the code lenses have started the timing.
 constexpr std::size_t kMaxLinesToTime = 20'000;
 
 std::shared_ptr<const documents::Sections> timed_sections(const Snapshot& snapshot) {
@@ -151,7 +152,7 @@ std::shared_ptr<const documents::Sections> timed_sections(const Snapshot& snapsh
   });
 }
 
-/// Behind each M06 of the stretch the time since the program's begin.
+/// Adds, after each M06 in the range, the time since the start of the program.
 void add_section_times(const Snapshot& snapshot, std::size_t first, std::size_t last, std::vector<Hint>& hints) {
   static constexpr dialect::Text kTooltip = {"time since the beginning of the program, with VGPL 0",
                                              "tempo dall'inizio del programma, con VGPL 0"};

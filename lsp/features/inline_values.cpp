@@ -7,8 +7,8 @@
 
 #include "lsp/features/feature.h"
 
-/// What an editor shows beside the lines while a program is being debugged: the values of registers and of VGPL where
-/// they stand, as the debugger knows them.
+/// Inline values, shown beside the lines while a program is debugged: the registers and VGPL in each line, whose values
+/// the debugger supplies.
 namespace isocnc::lsp::features {
 namespace {
 
@@ -38,7 +38,7 @@ std::vector<Variable> answer_inline_values(const Snapshot& snapshot, const Inlin
     if (number % 1024 == 0) snapshot.throw_if_unwanted();
     const syntax::DocumentLine read = snapshot.document().line(number);
     const syntax::LineTree& line = *read;
-    std::set<std::string> seen;  // One value beside the line is enough.
+    std::set<std::string> seen;  // Each name is shown once per line.
     for (const syntax::Word& word : line.words) {
       const bool is_register = word.letter == 'V' && word.is_plain_integer();
       if (!is_register && word.letter != syntax::kVgpl) continue;

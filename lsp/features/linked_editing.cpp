@@ -6,7 +6,7 @@
 #include "lsp/documents/names.h"
 #include "lsp/features/feature.h"
 
-/// The number of a label or register changes in all its places while it is typed.
+/// Linked editing: the number of a label or register changes in all its places while it is typed.
 namespace isocnc::lsp::features {
 namespace {
 
@@ -16,7 +16,7 @@ struct LinkedRanges {
 
 void to_json(Json& json, const LinkedRanges& linked) { json = {{"ranges", linked.ranges}, {"wordPattern", "[0-9]+"}}; }
 
-/// None where the places are written differently (N7 and N007): the editor could not keep them equal.
+/// Nothing if the places are written differently (N7 and N007): the editor could not keep them equal.
 std::optional<LinkedRanges> answer_linked_editing(const Snapshot& snapshot, const documents::PositionParams& params) {
   const auto name = documents::name_at(snapshot, snapshot.from_client(params.position));
   if (!name) return std::nullopt;

@@ -4,7 +4,7 @@
 #include "lsp/documents/names.h"
 #include "lsp/features/feature.h"
 
-/// Where a label or a register is written.
+/// Lists the places where a label or a register is written.
 namespace isocnc::lsp::features {
 namespace {
 

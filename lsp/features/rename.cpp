@@ -12,7 +12,7 @@
 #include "lsp/documents/text_edits.h"
 #include "lsp/features/feature.h"
 
-/// Another number for a label and its GOTOs, or for a register, where that changes nothing that the program does.
+/// Renames a label and its GOTOs, or a register, if that keeps the program's behavior.
 namespace isocnc::lsp::features {
 
 using dialect::Text;
@@ -20,7 +20,7 @@ using documents::Name;
 using documents::NameKind;
 using documents::Occurrence;
 
-/// As many digits as a double holds without loss.
+/// The number of digits that a double holds without loss.
 static constexpr std::size_t kMaxDigits = 15;
 
 namespace {
@@ -56,7 +56,7 @@ Occurrence renamed_at(const Snapshot& snapshot, const ClientPosition& position) 
   refuse(snapshot, {"only line numbers and registers can be renamed", "si rinominano solo numeri di linea e registri"});
 }
 
-/// `N30`, `n30` or `30`; none where it is no number that such a name can have.
+/// Reads `N30`, `n30` or `30`; nothing if such a name cannot have that number.
 std::optional<Name> read_name(std::string_view text, NameKind kind) {
   const auto is_blank_at = [&](std::size_t at) { return syntax::is_blank(text[at]); };
   while (!text.empty() && is_blank_at(0)) text.remove_prefix(1);
@@ -72,7 +72,7 @@ std::optional<Name> read_name(std::string_view text, NameKind kind) {
   return Name{kind, number};
 }
 
-/// Two names that become one could not be told apart any more.
+/// Throws if the name is already used: two merged names could no longer be distinguished.
 void require_free(const Snapshot& snapshot, const Name& name) {
   const std::vector<Occurrence> taken = documents::occurrences(snapshot, name);
   if (taken.empty()) return;
@@ -80,7 +80,7 @@ void require_free(const Snapshot& snapshot, const Name& name) {
          taken.front().line + 1);
 }
 
-/// All places of the name. A line number that no GOTO names is just that of its line.
+/// All places to rename. A line number that no GOTO names is renamed on its own line only.
 std::vector<Occurrence> meant_with(const Snapshot& snapshot, const Occurrence& chosen) {
   std::vector<Occurrence> all = documents::occurrences(snapshot, chosen.name);
   for (const Occurrence& each : all)
@@ -88,7 +88,7 @@ std::vector<Occurrence> meant_with(const Snapshot& snapshot, const Occurrence& c
   return {chosen};
 }
 
-/// The digits alone are written anew: letter, blanks and comments stay.
+/// Replaces only the digits: letter, blanks and comments stay.
 void write(const Snapshot& snapshot, const Occurrence& place, const std::string& digits,
            std::vector<documents::TextEdit>& edits) {
   const syntax::DocumentLine read = snapshot.document().line(place.line);

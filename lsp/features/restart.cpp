@@ -12,7 +12,7 @@
 #include "lsp/documents/uri.h"
 #include "lsp/features/feature.h"
 
-/// A program that takes this one up again from a line: a new document beside it.
+/// Restart: makes a new document, a program that resumes this one from a line.
 namespace isocnc::lsp::features {
 
 using dialect::Text;
@@ -22,7 +22,7 @@ static constexpr std::string_view kKind = "refactor.rewrite.isocnc.restart";
 namespace {
 
 struct RestartParams {
-  std::uint64_t line = 0;  // From 0, as all lines of the protocol.
+  std::uint64_t line = 0;  // The line to restart from, counted from 0 as in the whole protocol.
   std::optional<double> vgpl;
 };
 
@@ -32,14 +32,14 @@ void from_json(const Json& json, RestartParams& params) {
   params.vgpl = documents::member<double>(json, "vgpl");
 }
 
-/// The file's name without its folder.
+/// The name of the file without its folder.
 std::string name_of(const Snapshot& snapshot) {
   const std::string& uri = snapshot.uri();
   const auto path = documents::path_of(uri);
   return path ? path->filename().string() : uri.substr(uri.find_last_of("/:") + 1);
 }
 
-/// `part-from-120.iso` beside `part.iso`; lines from 1, as people count.
+/// `part-from-120.iso` beside `part.iso`, with the line counted from 1.
 std::string uri_of_restart(const std::string& uri, std::uint64_t line) {
   const std::size_t name = uri.find_last_of("/:") + 1;
   const std::size_t point = uri.find_last_of('.');
@@ -48,7 +48,7 @@ std::string uri_of_restart(const std::string& uri, std::uint64_t line) {
   return fmt::format("{}-from-{}{}", uri.substr(0, stem), line + 1, uri.substr(stem));
 }
 
-/// What stands in the way, for people.
+/// The reason of the refusal, as a text for users.
 std::string why_not(const restart::RestartRefusal& refusal, dialect::Language language) {
   static constexpr Text kError = {"the program stops at line {} with an error; correct it first",
                                   "il programma si ferma alla riga {} con un errore: va prima corretto"};
@@ -71,7 +71,7 @@ std::string restart_text(const Snapshot& snapshot, const RestartParams& params) 
   return std::get<std::string>(std::move(made));
 }
 
-/// Whether the client can be told to make a document.
+/// Whether the client can create documents by an edit.
 bool makes_documents(const Client& client) {
   const Json operations =
       client.capabilities.value(Json::json_pointer("/workspace/workspaceEdit/resourceOperations"), Json::array());
@@ -102,7 +102,7 @@ Json make(const Snapshot& snapshot, const Json& data) {
   return new_document(uri_of_restart(snapshot.uri(), params.line), restart_text(snapshot, params));
 }
 
-/// The edit that makes the document, or for clients that make none the text alone.
+/// The edit that creates the document; for clients that cannot create documents, only its text.
 Json restart_here(const Snapshot& snapshot, const RestartParams& params) {
   std::string text = restart_text(snapshot, params);
   if (!makes_documents(snapshot.client())) return {{"text", std::move(text)}};

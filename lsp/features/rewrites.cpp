@@ -8,7 +8,7 @@
 #include "lsp/documents/text_edits.h"
 #include "lsp/features/feature.h"
 
-/// Other ways to write what the program does; its motions stay as they are.
+/// Code actions that write the program differently and keep its motions.
 namespace isocnc::lsp::features {
 
 using dialect::Text;
@@ -19,7 +19,8 @@ using formatting::MotionStyle;
 using formatting::NumberStyle;
 using formatting::ProgramStyle;
 
-/// Selections of so many lines are looked at before something is offered; longer ones when it has been chosen.
+/// The maximum number of lines of a selection that is examined before an action is offered; a longer one is examined
+/// after the user has chosen the action.
 static constexpr std::size_t kQuickLines = 500;
 
 namespace {
@@ -27,7 +28,7 @@ namespace {
 struct Kind {
   Rewrite how;
   std::string_view kind;
-  bool wants_selection;  ///< One line alone would only become three.
+  bool wants_selection;  ///< Whether a selection is required: a single line would only become three.
   Text title;
 };
 
@@ -97,7 +98,7 @@ Json make_rewrite(const Snapshot& snapshot, const Json& data) {
   return *edit;
 }
 
-// --- What the formatter knows
+// --- Rewrites by the formatter
 
 /// The edits of lines `first` to `last` that change more than blanks and letter case.
 std::vector<TextEdit> formatted(const Snapshot& snapshot, const ProgramStyle& style, std::size_t first,
@@ -121,7 +122,7 @@ struct StyleAction {
   std::string_view kind;
   Text title;
   ProgramStyle (*style)(const configuration::Format& format);
-  bool is_for_all;  ///< Of the program, whatever is selected.
+  bool is_for_all;  ///< Whether the action applies to the whole program, whatever is selected.
 };
 
 ProgramStyle numbering(const configuration::Format& format) {
@@ -144,7 +145,7 @@ const StyleAction kStyleActions[] = {
      true},
 };
 
-/// Offered without a look at the whole program.
+/// Offers the actions without reading the whole program.
 void offer_style_actions(const Snapshot& snapshot, const ActionParams& params, std::vector<Action>& actions) {
   for (std::size_t i = 0; i < std::size(kStyleActions); ++i) {
     const StyleAction& style_action = kStyleActions[i];

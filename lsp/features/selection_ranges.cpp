@@ -5,7 +5,7 @@
 #include "lsp/documents/outline.h"
 #include "lsp/features/feature.h"
 
-/// What a selection grows to: number, word, instruction, line, section, program.
+/// Selection ranges: a selection grows to number, word, instruction, line, section, program.
 namespace isocnc::lsp::features {
 
 using syntax::LineTree;
@@ -22,7 +22,7 @@ void from_json(const Json& json, SelectionRangeParams& params) {
   params.positions = json.at("positions").get<std::vector<ClientPosition>>();
 }
 
-/// Each holds the one before.
+/// The ranges, each of which contains the one before.
 struct Selection {
   std::vector<ClientRange> ranges;
 };
@@ -37,7 +37,7 @@ void to_json(Json& json, const Selection& selection) {
 
 bool touches(Span span, std::uint32_t column) { return span.begin <= column && column <= span.end; }
 
-/// The word that holds the column, else the one that ends there; null for none.
+/// The word that contains the column, else the one that ends there; null if there is none.
 const syntax::Word* word_at(const LineTree& line, std::uint32_t column) {
   if (const syntax::Word* const word = line.word_at(column)) return word;
   return column == 0 ? nullptr : line.word_at(column - 1);
@@ -50,7 +50,7 @@ Span instruction_span(const LineTree& line, const syntax::Word& word) {
   return all;
 }
 
-/// What there is on the line around a column, from the smallest.
+/// The spans on the line around a column, smallest first.
 std::vector<Span> spans_at(const LineTree& line, std::uint32_t column) {
   std::vector<Span> spans;
   const auto add = [&](Span span) {

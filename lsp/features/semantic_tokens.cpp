@@ -13,8 +13,8 @@
 #include "lsp/documents/names.h"
 #include "lsp/features/feature.h"
 
-/// What each word is, for the editor's colors. Tokens depend on their line alone, so that chunks that an edit has left
-/// as they were have the tokens that they had.
+/// Semantic tokens: the kind of each word, for the editor's colors. Tokens depend only on their line, so that chunks
+/// which an edit has not touched keep their tokens.
 namespace isocnc::lsp::features {
 
 using syntax::LineTree;
@@ -23,7 +23,7 @@ using syntax::Word;
 
 namespace {
 
-/// In the order of kTypes.
+/// Kinds of tokens, in the order of kTypes.
 enum class Type : std::uint8_t {
   Motion,
   Code,
@@ -39,7 +39,7 @@ enum class Type : std::uint8_t {
   Comment,
 };
 
-/// The protocol's names for them: a motion acts, any other G says how.
+/// The protocol's name of each Type: a motion is a `function`, any other G a `macro`.
 constexpr std::array kTypes = {"function", "macro",     "method",  "class",    "parameter", "property",
                                "variable", "decorator", "keyword", "operator", "number",    "comment"};
 constexpr std::array kModifiers = {"definition", "readonly"};
@@ -55,7 +55,7 @@ struct Token {
 /// The tokens of one line.
 class LineTokens {
  public:
-  /// Valid until the next call.
+  /// The tokens of the line, valid until the next call.
   const std::vector<Token>& of(const LineTree& line) {
     tokens_.clear();
     line_ = &line;
@@ -104,13 +104,13 @@ class LineTokens {
   bool is_target(const Word& word) const { return line_->jump && line_->jump->target_span == word.span(); }
   bool is_assigned(const Word& word) const { return !line_->jump || line_->jump->variable_span != word.span(); }
 
-  /// A letter or sign, and its number.
+  /// Adds a letter or sign, and its number.
   void add_split(const Word& word, Type type) {
     tokens_.push_back({{word.begin, word.begin + 1}, type});
     add({word.begin + 1, word.end}, Type::Number);
   }
 
-  /// Tokens must not overlap: a comment within a word divides it.
+  /// Adds a token. Tokens must not overlap, so a comment within a word divides it.
   void add(Span span, Type type, unsigned modifiers = 0) {
     if (line_->comments.empty()) {
       while (!span.empty() && syntax::is_blank(line_->text[span.begin])) ++span.begin;
@@ -124,14 +124,14 @@ class LineTokens {
   std::vector<Token> tokens_;
 };
 
-/// Writes tokens as the protocol wants them: five numbers each, places counted from the token before.
+/// Writes tokens in the form of the protocol: five numbers each, with the position relative to the token before.
 class Encoder {
  public:
-  /// Places count from the start of `previous_line`.
+  /// Positions are relative to the start of `previous_line`.
   explicit Encoder(const Snapshot& snapshot, std::size_t previous_line = 0)
       : snapshot_(snapshot), previous_line_(previous_line) {}
 
-  /// The tokens of a line, at most so many.
+  /// Adds the tokens of a line, at most `maximum`.
   void add(std::size_t index, const LineTree& line, std::size_t maximum = static_cast<std::size_t>(-1)) {
     const std::vector<Token>& tokens = tokens_.of(line);
     std::uint32_t unit = index == 0 ? snapshot_.to_client({0, 0}).character : 0;
@@ -184,7 +184,7 @@ class Encoder {
   std::string numbers_;
 };
 
-/// What the client has got last, so that it can be told what has changed since.
+/// The tokens last sent to the client, from which changes are computed.
 struct SentTokens {
   struct Chunk {
     std::uint64_t version = 0;
@@ -195,7 +195,7 @@ struct SentTokens {
   std::vector<Chunk> chunks;
   std::uint64_t times = 0;
 
-  /// Another name each time, also where a client never changes the version.
+  /// Sets a new id each time, even if a client never changes the version.
   void rename(std::int64_t version) { id = fmt::format("{}.{}", version, ++times); }
 };
 
@@ -234,7 +234,7 @@ documents::RawJson range(const Snapshot& snapshot, const documents::RangeParams&
   return {fmt::format(R"({{"data":{}}})", encoder.data())};
 }
 
-// --- What has changed
+// --- Changes since the last answer
 
 struct DeltaParams : documents::DocumentParams {
   std::string previous_result_id;
@@ -245,7 +245,7 @@ void from_json(const Json& json, DeltaParams& params) {
   params.previous_result_id = json.at("previousResultId");
 }
 
-/// The last line above a chunk that has tokens: from there the chunk's first token counts.
+/// The last line with tokens above a chunk: the position of the chunk's first token is relative to it.
 std::size_t last_line_with_tokens_above(const Snapshot& snapshot, std::size_t chunk) {
   LineTokens tokens;
   for (std::size_t line = snapshot.document().first_line_of_chunk(chunk); line-- > 0;) {
@@ -255,7 +255,8 @@ std::size_t last_line_with_tokens_above(const Snapshot& snapshot, std::size_t ch
   return 0;
 }
 
-/// The first token of these chunks: its place counts from a token that is another now. False where they have none.
+/// Adds the first token of the chunks from `chunk` on: the token before it has changed, and with it the relative
+/// position. Returns false if they have no token.
 bool add_first_token(const Snapshot& snapshot, std::size_t chunk, Encoder& encoder) {
   const std::size_t before = encoder.count();
   for (; chunk < snapshot.document().chunk_count(); ++chunk) {
@@ -269,7 +270,7 @@ bool add_first_token(const Snapshot& snapshot, std::size_t chunk, Encoder& encod
   return false;
 }
 
-/// One edit: the tokens of all chunks between the first and the last that have changed.
+/// One edit that replaces the tokens of all chunks from the first to the last that has changed.
 std::string edits_since(const Snapshot& snapshot, SentTokens& sent) {
   const syntax::Document& document = snapshot.document();
   const std::vector<SentTokens::Chunk>& old = sent.chunks;

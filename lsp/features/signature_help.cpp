@@ -9,7 +9,7 @@
 #include "interpreter/dialect/letters.h"
 #include "lsp/features/feature.h"
 
-/// The arguments that the instruction under the cursor takes, and which of them is being written.
+/// Signature help: the arguments of the instruction under the cursor, and the one that is being written.
 namespace isocnc::lsp::features {
 
 using dialect::Language;
@@ -22,7 +22,7 @@ using syntax::Word;
 namespace {
 
 struct Parameter {
-  std::string label;  // A part of the signature's, which comes there after the command.
+  std::string label;  // A substring of the signature's label, after the command.
   std::string documentation;
 };
 
@@ -30,7 +30,7 @@ struct Signature {
   std::string label;
   std::string documentation;
   std::vector<Parameter> parameters;
-  std::size_t active = 0;  // As many as there are parameters: none.
+  std::size_t active = 0;  // The index of the active parameter; the number of parameters for none.
 };
 
 void to_json(Json& json, const Parameter& parameter) {
@@ -49,7 +49,7 @@ Parameter parameter_of(char letter, Language language) {
   return {std::string(1, letter), std::string(dialect::meaning_of(letter).in(language))};
 }
 
-/// A command, and each letter that may follow it.
+/// A signature of a command and each letter that may follow it.
 Signature with_letters(std::string command, std::string documentation, dialect::LetterSet letters, Language language) {
   Signature signature{std::move(command), std::move(documentation), {}};
   for (const char letter : dialect::kArgumentOrder) {
@@ -60,7 +60,7 @@ Signature with_letters(std::string command, std::string documentation, dialect::
   return signature;
 }
 
-/// The word at the cursor or just before it, of this instruction but for its command.
+/// The argument of this instruction at the cursor or just before it.
 const Word* argument_at(const LineTree& line, const Instruction& instruction, std::size_t column) {
   for (std::size_t i = instruction.begin; i < instruction.end; ++i) {
     const Word& word = line.words[i];
@@ -70,7 +70,7 @@ const Word* argument_at(const LineTree& line, const Instruction& instruction, st
   return nullptr;
 }
 
-/// The parameter that is being written, or else the first that is not there.
+/// The index of the parameter that is being written, or else of the first missing one.
 std::size_t active_letter(const Signature& signature, const LineTree& line, const Instruction& instruction,
                           std::size_t column) {
   const Word* const at = argument_at(line, instruction, column);
@@ -110,7 +110,7 @@ Signature of_tool_change(Language language) {
   return {"M06 T", std::string(Text{"tool change", "cambio utensile"}.in(language)), {parameter_of('T', language)}};
 }
 
-/// A user's M, under the shop's name where it has one: P1 to P20.
+/// The signature of a user M function, under its configured name if it has one: P1 to P20.
 std::optional<Signature> of_function(const Snapshot& snapshot, const LineTree& line, const Instruction& instruction,
                                      std::size_t column) {
   static constexpr Text kUser = {"function of the machine's user", "funzione dell'utente"};
@@ -135,7 +135,7 @@ std::optional<Signature> of_function(const Snapshot& snapshot, const LineTree& l
   return signature;
 }
 
-/// IF left comparison value GOTO label: the part in which the cursor stands.
+/// The signature `IF left comparison value GOTO label`; the active parameter is the part at the cursor.
 Signature of_jump(const LineTree& line, std::size_t column, Language language) {
   static constexpr Text kJump = {"jump forward to the label where the condition holds",
                                  "salta in avanti all'etichetta se la condizione è vera"};

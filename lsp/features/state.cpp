@@ -15,7 +15,7 @@ struct StateParams : documents::DocumentParams {
 
 void from_json(const Json& json, StateParams& params) {
   from_json(json, static_cast<documents::DocumentParams&>(params));
-  // Read as the line of a position: the same numbers are right.
+  // Read as the line of a position, so that the same numbers are valid.
   params.line = Json{{"line", json.at("line")}, {"character", 0u}}.get<ClientPosition>().line;
 }
 
@@ -29,7 +29,7 @@ static_assert(std::size(kGroupNames) == dialect::kModalGroupCount);
 
 Json vector_json(const geometry::Vec3& vector) { return {{"x", vector.x()}, {"y", vector.y()}, {"z", vector.z()}}; }
 
-/// Axes whose position an error has left open are null.
+/// The position as JSON; an axis whose position is unknown because of an error is null.
 Json position_json(const execution::State& state) {
   const geometry::Pose& pose = state.position;
   const double values[] = {pose.tip.x(), pose.tip.y(), pose.tip.z(), pose.b, pose.c};

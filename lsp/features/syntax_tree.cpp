@@ -7,13 +7,13 @@
 #include "interpreter/syntax/unicode.h"
 #include "lsp/features/feature.h"
 
-/// Our own request `isocnc/syntaxTree`: the trees of some lines as text, for who wants to see how a line is read.
+/// Our own request `isocnc/syntaxTree`: the trees of some lines as text, which show how a line is parsed.
 namespace isocnc::lsp::features {
 namespace {
 
 using syntax::InstructionKind;
 
-/// Lines that are shown without a range.
+/// The maximum number of lines shown if the request has no range.
 constexpr std::size_t kMaxLines = 10'000;
 
 struct TreeParams : documents::DocumentParams {

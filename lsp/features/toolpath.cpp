@@ -13,12 +13,12 @@
 #include "lsp/documents/uri.h"
 #include "lsp/features/feature.h"
 
-/// `isocnc/toolpath`: the way of the tool tip through the whole program, and after an edit what has changed of it.
-/// Steps and points are told by how they differ from the ones before, so that an edit changes few bytes.
+/// Our own request `isocnc/toolpath`: the path of the tool tip through the whole program, and after an edit its
+/// changes. Steps and points are encoded as differences from the ones before, so that an edit changes few bytes.
 namespace isocnc::lsp::features {
 namespace {
 
-/// A recording that has been handed out.
+/// A recording that has been sent to the client.
 struct SentPath {
   std::int64_t id = 0;
   std::string steps;
@@ -26,7 +26,7 @@ struct SentPath {
   std::string turns;
 };
 
-/// The last one, which studies exchange.
+/// The last recording sent, shared by the background requests.
 struct LastSent {
   std::mutex mutex;
   std::int64_t last_id = 0;
@@ -34,7 +34,7 @@ struct LastSent {
 };
 
 struct ToolpathParams : documents::DocumentParams {
-  std::string previous;  ///< A resultId; empty without one.
+  std::string previous;  ///< The resultId of the recording that the client has; empty if none.
   double vgpl = 0;
 };
 
@@ -44,7 +44,7 @@ void from_json(const Json& json, ToolpathParams& params) {
   params.vgpl = documents::member<double>(json, "vgpl").value_or(0);
 }
 
-/// A stream, or how it differs from the one that the client has.
+/// A stream as JSON: the data, or its difference from the stream that the client has.
 std::string stream(std::string_view now, const std::string* before) {
   if (!before) return fmt::format(R"({{"data":"{}"}})", plot::base64(now));
   const auto head = static_cast<std::size_t>(
@@ -57,7 +57,7 @@ std::string stream(std::string_view now, const std::string* before) {
                      plot::base64(now.substr(head, now.size() - head - tail)));
 }
 
-/// All that the study takes with it.
+/// The data that the background request copies.
 struct Task {
   documents::TimedProgram program;
   plot::PlotSubject subject;

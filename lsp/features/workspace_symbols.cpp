@@ -9,14 +9,14 @@
 #include "lsp/documents/outline.h"
 #include "lsp/features/feature.h"
 
-/// The sections of all programs in the workspace that a user may look for.
+/// Workspace symbols: the sections of all programs in the workspace.
 namespace isocnc::lsp::features {
 namespace {
 
-/// Symbols that are told of one program: who has more in mind goes on typing.
+/// The maximum number of symbols of one program; to see others the user types more of the name.
 constexpr std::size_t kMaxSymbols = 1000;
 
-/// Without a text it asks for all there is.
+/// The text to look for; without a text, all symbols match.
 struct Query {
   std::optional<std::string> text;
 };
@@ -33,7 +33,7 @@ void to_json(Json& json, const Symbol& symbol) {
   json = {{"name", symbol.name}, {"kind", symbol.kind}, {"location", symbol.location}};
 }
 
-/// Whether the characters of the query come in the text, in their order, whatever stands between them.
+/// Whether the characters of the query occur in the text in their order, with any characters between them.
 bool fits(std::string_view text, std::string_view query) {
   std::size_t matched = 0;
   for (const char c : text)
@@ -55,7 +55,7 @@ std::vector<Symbol> answer_workspace_symbols(const Snapshot& snapshot, const Que
   return symbols;
 }
 
-/// What closed programs have answered is all that is in them: here the query is asked of it.
+/// Closed programs answer with all their symbols, so the query is applied here.
 std::string conclude_symbols(const std::string& results, const Json& params, AggregateScope scope) {
   if (scope == AggregateScope::Rest) return "[]";
   const std::string query = params.at("query");
