@@ -46,7 +46,7 @@ void AnalyzedDocument::replace(const ContentChange& change, Encoding encoding) {
   if (last < first) std::swap(first, last);
   const auto last_line = static_cast<std::uint32_t>(document_.line_count() - 1);
   if (first.line > last_line) first = {last_line, std::numeric_limits<std::uint32_t>::max()};
-  // For the client the mark is a character like any other.
+  // The client counts the mark as a character.
   if (first.line == 0 && std::exchange(has_byte_order_mark_, false)) document_.replace({}, {}, system::kByteOrderMark);
   document_.replace(from_client(first, encoding), from_client(last, encoding), change.text);
   if (first.line > 0 || !document_.text_of_line(0).starts_with(system::kByteOrderMark)) return;
@@ -76,7 +76,7 @@ const ProgramIndex& AnalyzedDocument::index() {
   return index_;
 }
 
-/// What the program's comments say to isolint.
+/// The suppressions in the program's comments.
 selection::Suppressions AnalyzedDocument::read_suppressions() {
   has_suppressions_.update(document_, [&](std::size_t chunk) {
     return selection::Suppressions::may_have_directives(document_.chunk_text(chunk));
@@ -90,7 +90,7 @@ selection::Suppressions AnalyzedDocument::read_suppressions() {
   return suppressions;
 }
 
-/// As isolint would tell it.
+/// The report as isolint would show it.
 check::Report AnalyzedDocument::shown_report() {
   return selection::shown_report(analysis_->report(), document_, read_suppressions(), settings_.program->selection);
 }
@@ -100,11 +100,11 @@ const check::Report& AnalyzedDocument::report() {
   return *report_;
 }
 
-/// Findings that are put together in no time.
+/// The number of findings up to which making the whole report takes no noticeable time.
 static constexpr std::size_t kFewFindings = 4'000;
 
-/// Whether the report has so many findings that it is not made as a whole unless somebody asks for it. Not where
-/// comments, or opinions on style, have a say in what it holds.
+/// Whether the report has so many findings that the whole is made only on request. False if suppressions or style rules
+/// affect it.
 bool AnalyzedDocument::is_long() {
   return !report_ && analysis_->finding_count() > kFewFindings && !selection::has_style(settings_.program->selection) &&
          read_suppressions().empty();

@@ -19,46 +19,47 @@
 
 namespace isocnc::lsp::documents {
 
-/// One step of a `didChange`: a range that gets another text, or without one the whole text.
+/// One step of a `didChange`: the new text of a range, or without a range of the whole document.
 struct ContentChange {
   std::optional<ClientRange> range;
   std::string text;
 };
 
-/// A program that the editor holds open: its text as it is edited, and its one analysis. Belongs to its strand; what
-/// features see of it is a Snapshot. Nothing is read, nor looked for in files, before open().
+/// A program that the editor has open: its text as it is edited, and its one analysis. Used on its strand only;
+/// features see it as a Snapshot. Reads no files before open().
 class AnalyzedDocument {
  public:
   AnalyzedDocument(std::string uri, SettingsStore& settings);
 
-  /// Takes the text in the place of all that was there.
+  /// Replaces the whole text.
   void open(std::int64_t version, std::string_view text);
-  /// Makes the changes, each in the text that the one before has left.
+  /// Applies the changes one after another, each to the text that results from the one before.
   void edit(std::int64_t version, const std::vector<ContentChange>& changes, Encoding encoding);
-  /// The configuration files may say something else now.
+  /// Reads the settings again, since configuration files may have changed.
   void reread_settings();
-  /// Brings the analysis up to date with the text. Asked now and then whether to `stop`, it may leave the rest for
-  /// the next time: false.
+  /// Brings the analysis up to date with the text. Calls `stop` at intervals; when that returns true, leaves the rest
+  /// for the next call and returns false.
   bool update(const std::function<bool()>& stop = {});
 
   const std::string& uri() const { return uri_; }
   std::int64_t version() const { return version_; }
   const syntax::Document& document() const { return document_; }
   const DocumentSettings& settings() const { return settings_; }
-  /// The rest is as of the last update.
+  /// The members below are as of the last update().
   const check::Analysis& analysis() const { return *analysis_; }
   const check::Report& report();
-  /// The first findings of the report, at least so many, and how many there are behind them.
+  /// The first findings of the report, at least `maximum` unless there are fewer, and the number of findings after
+  /// them.
   check::FirstFindings excerpt(std::size_t maximum);
-  /// The report's findings on a line; of a report with very many, without their paths and those that only the whole
-  /// program shows.
+  /// The report's findings on a line. If the report is very long, paths are missing, and so are findings that depend on
+  /// the whole program.
   std::vector<check::LocatedFinding> findings_on(std::size_t line);
   const ProgramIndex& index();
 
   ClientPosition to_client(const syntax::Position& position, Encoding encoding) const;
   syntax::Position from_client(const ClientPosition& position, Encoding encoding) const;
 
-  /// What features remember of the document: one value of each type.
+  /// Data that features keep about the document: one object of each type.
   template <class T>
   T& memory() {
     std::any& slot = memories_[std::type_index(typeid(T))];
@@ -77,12 +78,12 @@ class AnalyzedDocument {
   DocumentSettings settings_;
   std::int64_t version_ = 0;
   syntax::Document document_;
-  bool has_byte_order_mark_ = false;  // Before the text; no part of the document.
+  bool has_byte_order_mark_ = false;  // Whether the text starts with a mark; it is not part of document_.
   std::optional<check::Analysis> analysis_;
   bool is_up_to_date_ = false;
-  std::optional<check::Report> report_;  // Once somebody has asked.
+  std::optional<check::Report> report_;  // The report, made on the first request.
   ProgramIndex index_;
-  syntax::PerChunk<bool> has_suppressions_;  // To isolint, perhaps, in its comments.
+  syntax::PerChunk<bool> has_suppressions_;  // Whether a chunk may have comments that silence isolint.
   std::unordered_map<std::type_index, std::any> memories_;
 };
 

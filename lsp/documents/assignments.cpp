@@ -18,7 +18,7 @@ std::vector<Occurrence> assignments_reaching(const Snapshot& snapshot, const Occ
         return below == all.begin() || std::prev(below)->line < first ? std::nullopt
                                                                       : std::optional(std::prev(below)->line);
       });
-  // Of several on a line the last counts.
+  // If a line has several assignments, the last one counts.
   std::vector<Occurrence> reaching;
   for (const std::size_t line : lines) {
     const auto last = std::find_if(all.rbegin(), all.rend(), [&](const Occurrence& each) { return each.line == line; });

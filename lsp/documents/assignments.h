@@ -6,8 +6,8 @@
 
 namespace isocnc::lsp::documents {
 
-/// The assignments whose value may be in the register when it is read there, in the order of the program. None where
-/// no path leads from one to it.
+/// The assignments whose value the register may have at this read, in the order of the program. Empty if no path leads
+/// from an assignment to the read.
 std::vector<Occurrence> assignments_reaching(const Snapshot& snapshot, const Occurrence& read);
 
 }  // namespace isocnc::lsp::documents

@@ -37,7 +37,7 @@ bool Client::can(const char* capability) const {
   return !found.is_null() && found != Json(false);
 }
 
-/// What we write: bold words and code, and what in_markdown() has made of others' words.
+/// Removes the Markdown that the server writes: bold, code, and the escapes of in_markdown().
 static std::string without_marks(const std::string& markdown) {
   std::string text;
   for (std::size_t i = 0; i < markdown.size(); ++i) {
@@ -66,7 +66,7 @@ Language Client::language(std::optional<Language> configured) const {
   return locale.value_or(dialect::language_of_environment());
 }
 
-/// The first of the client's encodings that we know; UTF-16 where it tells none.
+/// The first of the client's encodings that we support; UTF-16 if it lists none.
 static Encoding best_encoding(const Json& capabilities) {
   const Json& wanted = find(find(capabilities, "general"), "positionEncodings");
   for (const Json& name : wanted.is_array() ? wanted : Json::array())

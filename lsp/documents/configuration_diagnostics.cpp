@@ -17,7 +17,7 @@ using configuration::Mistake;
 using dialect::Language;
 using system::SourceFile;
 
-/// Where the value, key or sign ends that begins here.
+/// The end of the value, key or sign that starts at `at`.
 static std::size_t end_of_token(std::string_view text, std::size_t at) {
   if (at >= text.size()) return at;
   const char first = text[at];

@@ -21,7 +21,7 @@ std::string_view name_of(Encoding encoding) { return kNames[static_cast<std::siz
 
 namespace {
 
-/// A character on its way along a line.
+/// One character of a line: its length in bytes and in units.
 struct Step {
   std::size_t bytes;
   std::uint32_t units;

@@ -7,18 +7,18 @@
 
 namespace isocnc::lsp::documents {
 
-/// What a client counts columns in: the units in which UTF-8, UTF-16 or UTF-32 would write the line.
+/// The unit in which a client counts columns: a code unit of UTF-8, UTF-16 or UTF-32.
 enum class Encoding : std::uint8_t { Utf8, Utf16, Utf32 };
 
-/// By its name in the protocol: `utf-16`.
+/// The encoding with this name in the protocol, such as `utf-16`.
 std::optional<Encoding> encoding_named(std::string_view name);
 std::string_view name_of(Encoding encoding);
 
-/// Units before a byte of the line. A byte that is no UTF-8 counts as one.
+/// The number of units before a byte of the line. An invalid byte counts as one unit.
 std::uint32_t units_before(std::string_view line, std::size_t byte, Encoding encoding);
 
-/// The byte at which so many units end: that of the character which they end within, and the line's end where it has
-/// fewer.
+/// The byte after this number of units. If they end within a character, the first byte of that character; if the line
+/// is shorter, its end.
 std::size_t byte_at(std::string_view line, std::uint32_t units, Encoding encoding);
 
 }  // namespace isocnc::lsp::documents

@@ -21,7 +21,7 @@ JumpPaths::JumpPaths(const Snapshot& snapshot) {
   for (const Landmark& end : index.landmarks(LandmarkKind::ProgramEnd)) after_ends_.insert(end.line + 1);
 }
 
-/// The first line of those above that can only be left downward, into this one.
+/// The first line of the run of lines above this one that can only be entered at its first line.
 std::size_t JumpPaths::run_start(std::size_t line) const {
   std::size_t start = 0;
   if (const auto jump_target = jump_targets_.lower_bound(line); jump_target != jump_targets_.begin())

@@ -9,24 +9,25 @@
 
 namespace isocnc::lsp::documents {
 
-/// The paths that a program's jumps leave it, whatever their conditions say. They are followed upward, from one line,
-/// over the jumps and ends of the index alone: syntax::ForwardPaths would have to read every line from the top.
+/// The paths through a program, with each jump both taken and not taken. Follows them upward from one line, using only
+/// the jumps and program ends of the index: syntax::ForwardPaths would have to read every line from the top.
 class JumpPaths {
  public:
   struct Jump {
-    Landmark landmark;                  ///< The label after the GOTO.
-    std::optional<std::size_t> target;  ///< The line it leads to: the first with its label below it (D50).
+    Landmark landmark;  ///< The label after the GOTO.
+    std::optional<std::size_t>
+        target;  ///< The line that the jump leads to: the first below it that has its label (D50).
   };
 
   explicit JumpPaths(const Snapshot& snapshot);
 
-  /// In the order of the program.
+  /// All jumps in the order of the program.
   const std::vector<Jump>& jumps() const { return jumps_; }
   /// Whether a jump leads to this line.
   bool is_jump_target(std::size_t line) const { return jump_targets_.contains(line); }
 
-  /// Goes up from a line on every path that leads there, until it finds something: `find(first, end)` gives the last of
-  /// what it looks for in the lines [first, end), if there is any. Returns each of them once, in their order.
+  /// Goes up from a line on every path that leads there, until it finds something: `find(first, end)` returns the last
+  /// match in the lines [first, end), if there is one. Returns each match once, in ascending order.
   template <class Find>
   auto nearest_above(std::size_t line, Find find) const {
     using Found = typename decltype(find(line, line))::value_type;
@@ -57,8 +58,8 @@ class JumpPaths {
 
   std::vector<Jump> jumps_;
   std::multimap<std::size_t, std::size_t>
-      jump_targets_;                  // The line of a label that a jump leads to; the line of the jump.
-  std::set<std::size_t> after_ends_;  // Lines below an M02: no path comes from above.
+      jump_targets_;                  // From the line that a jump leads to, to the line of the jump.
+  std::set<std::size_t> after_ends_;  // Lines directly below an M02, which no path reaches from above.
 };
 
 }  // namespace isocnc::lsp::documents

@@ -9,7 +9,7 @@
 
 namespace isocnc::lsp::documents {
 
-/// What one line does, from the state in which the program comes to it.
+/// The execution of one line from the state before it.
 struct LineRun {
   execution::State before;
   execution::State after;
@@ -18,10 +18,10 @@ struct LineRun {
   double dwell = 0;  ///< Seconds.
 };
 
-/// Nothing where no path leads to the line, or where paths come to it in different states.
+/// Executes a line. Returns nothing if no path leads to the line, or if paths reach it in different states.
 std::optional<LineRun> run_line(const Snapshot& snapshot, std::size_t line);
 
-/// From each of the states in which paths come to the line; nothing where not all of them are known.
+/// Executes a line from each state in which paths reach it. Returns an empty list if not all of these states are known.
 std::vector<LineRun> run_line_on_all_paths(const Snapshot& snapshot, std::size_t line);
 
 }  // namespace isocnc::lsp::documents

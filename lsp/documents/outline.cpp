@@ -27,7 +27,7 @@ int symbol_kind(SectionKind kind) {
   return 15;
 }
 
-/// What a comment says, without its signs and what only adorns it: `(--- ROUGHING ---)` is ROUGHING.
+/// The text of a comment without its signs and decoration: `(--- ROUGHING ---)` gives ROUGHING.
 static std::string comment_text(std::string_view comment) {
   constexpr std::string_view kAdornment = " \t;()-=*#_~+.:/\\<>|!";
   const std::size_t first = comment.find_first_not_of(kAdornment);
@@ -49,7 +49,7 @@ std::vector<CommentBlock> comment_blocks(const Snapshot& snapshot) {
 
 namespace {
 
-/// Builds the outline from the places where sections begin and end, in the order of the program.
+/// Builds the outline from the places where sections start and end, in the order of the program.
 class Builder {
  public:
   explicit Builder(const Snapshot& snapshot) : snapshot_(snapshot) {}
@@ -66,7 +66,7 @@ class Builder {
   }
 
  private:
-  enum class Order { OpensTool, OpensFace, Stands, Closes };  // Of what is on one line.
+  enum class Order { OpensTool, OpensFace, Stands, Closes };  // The order of the events on one line.
   struct Event {
     Order order = Order::Stands;
     Section section;
@@ -140,9 +140,9 @@ class Builder {
     }
   }
 
-  /// Comments are headings of their own, or, directly above a section, its beginning.
+  /// Turns comments into headings; a comment directly above a section becomes part of that section.
   void collect_comments() {
-    std::vector<std::pair<std::size_t, std::size_t>> openings;  // Head line, event.
+    std::vector<std::pair<std::size_t, std::size_t>> openings;  // Pairs of the head line and the index of the event.
     for (std::size_t i = 0; i < events_.size(); ++i)
       if (is_opening(events_[i])) openings.emplace_back(events_[i].section.head_line, i);
     for (const CommentBlock& block : comment_blocks(snapshot_)) {
@@ -163,7 +163,7 @@ class Builder {
     }
   }
 
-  /// The first line of a block that says anything.
+  /// The text of the first line of the block that is more than decoration.
   std::string title_of(const CommentBlock& block) const {
     for (std::size_t line = block.first_line; line <= block.last_line; ++line) {
       const syntax::DocumentLine read = snapshot_.document().line(line);
@@ -217,7 +217,7 @@ class Builder {
     open.reset();
   }
 
-  /// Ends at the last M02 what began above it.
+  /// Ends the open sections that started above the last M02.
   void close_above(std::size_t end) {
     for (std::optional<int>* const open : {&face_, &tool_})
       if (*open && sections_[static_cast<std::size_t>(**open)].head_line <= end) close(*open, end);
@@ -226,7 +226,7 @@ class Builder {
   const Snapshot& snapshot_;
   std::vector<Event> events_;
   std::vector<Section> sections_;
-  std::optional<int> tool_;  // The sections that are open.
+  std::optional<int> tool_;  // The index of the open tool section.
   std::optional<int> face_;
   std::optional<std::size_t> last_end_;
 };

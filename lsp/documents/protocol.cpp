@@ -15,7 +15,7 @@ std::string in_markdown(std::string_view text) {
   return escaped;
 }
 
-/// A line or column: too large counts as the largest, which is behind every end.
+/// Reads a line or column. Too large a number becomes the maximum, which is after every end.
 static std::uint32_t place_number(const Json& json) {
   if (!json.is_number_integer()) throw Json::type_error::create(302, "a whole number is wanted", &json);
   if (!json.is_number_unsigned()) throw Json::out_of_range::create(401, "the number is negative", &json);

@@ -8,14 +8,14 @@
 
 #include "lsp/rpc/json.h"
 
-/// What the messages of the language server protocol are made of, as far as features share it. What one feature alone
-/// needs stands in its own file.
+/// The types of the language server protocol that several features use. A type for one feature is in that feature's
+/// file.
 namespace isocnc::lsp::documents {
 
 using rpc::Json;
 
-/// A place as the client counts: line from 0, column in the units of the encoding that has been agreed on. Snapshot
-/// turns it into a syntax::Position and back.
+/// A position as the client counts: line from 0, column in units of the agreed encoding. Snapshot converts it to a
+/// syntax::Position and back.
 struct ClientPosition {
   std::uint32_t line = 0;
   std::uint32_t character = 0;
@@ -41,16 +41,16 @@ struct TextEdit {
   std::string new_text;
 };
 
-/// Text that may be formatted.
+/// Text in Markdown.
 struct Markdown {
   std::string text;
 };
 
-/// Words of a program or a configuration within it, which are to show as they stand. Else an image that a comment names
-/// would be fetched by the editor that shows it.
+/// Escapes text of a program or a configuration, so that Markdown shows it literally. Otherwise the editor would fetch
+/// an image that a comment names.
 std::string in_markdown(std::string_view text);
 
-/// `{"textDocument": {"uri": ...}}`, and whatever else: most requests name a document so.
+/// Parameters with a `{"textDocument": {"uri": ...}}`, by which most requests name a document.
 struct DocumentParams {
   std::string uri;
 };
@@ -63,7 +63,7 @@ struct RangeParams : DocumentParams {
   ClientRange range;
 };
 
-/// A result that is JSON already, for those too long to be built as a tree.
+/// A result as JSON text, for results too long to be built as a tree.
 struct RawJson {
   std::string text;
 };
@@ -74,15 +74,15 @@ void to_json(Json& json, const Location& location);
 void to_json(Json& json, const TextEdit& edit);
 void to_json(Json& json, const Markdown& markdown);
 
-// These throw what nlohmann-json throws where a member is missing or of the wrong kind: the caller's parameters are
-// invalid then. Numbers that no place can have are wrong, too.
+// The functions below throw an exception of nlohmann-json if a member is missing or of the wrong type: the client's
+// parameters are invalid then. Numbers that are not valid in a position are wrong as well.
 void from_json(const Json& json, ClientPosition& position);
 void from_json(const Json& json, ClientRange& range);
 void from_json(const Json& json, DocumentParams& params);
 void from_json(const Json& json, PositionParams& params);
 void from_json(const Json& json, RangeParams& params);
 
-/// A member that may be missing, or null.
+/// A member that may be missing or null.
 template <class T>
 std::optional<T> member(const Json& json, const char* key) {
   const auto found = json.find(key);

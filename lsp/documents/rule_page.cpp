@@ -9,12 +9,12 @@ namespace isocnc::lsp::documents {
 
 namespace fs = std::filesystem;
 
-/// The file that a relative page stands in, as a URI; empty where it is not found.
+/// The file of a relative page as a URI; empty if the file is not found.
 static std::string find_page(const fs::path& page) {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (error) return {};
-  // Beside bin/ where it is installed; above build/PRESET/bin where it has been built.
+  // The places of an installation (beside bin/) and of a build (above build/PRESET/bin).
   const fs::path places[] = {program.parent_path() / "../share/doc/isocnc" / page.filename(),
                              program.parent_path() / "../../.." / page};
   for (const fs::path& place : places)

@@ -6,8 +6,8 @@
 
 namespace isocnc::lsp::documents {
 
-/// The page of a rule, as isolint names it. A relative one is looked for where the program has been installed, or
-/// built, so that an editor can open it.
+/// The address of a rule's documentation page, as in isolint. A relative address is resolved to a file of the
+/// installation or the build, so that an editor can open it.
 std::string rule_page(dialect::DiagnosticId id);
 
 }  // namespace isocnc::lsp::documents

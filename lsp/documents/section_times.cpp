@@ -9,7 +9,7 @@ namespace isocnc::lsp::documents {
 
 namespace {
 
-/// Adds up what it hears of a run.
+/// Adds up the events of a run.
 struct Adder {
   void add(const simulation::TimedEvent& timed) {
     if (std::holds_alternative<running::ToolEvent>(timed.event.what)) {

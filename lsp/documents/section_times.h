@@ -11,34 +11,35 @@
 
 namespace isocnc::lsp::documents {
 
-/// A tool section, from its M06 to the next, as a run with VGPL 0 comes through it.
+/// The times of a tool section, from its M06 to the next, in a run with VGPL 0.
 struct TimedSection {
-  double start = 0;    ///< Seconds since the program's begin.
-  double seconds = 0;  ///< That it takes.
-  double mm = 0;       ///< Of the tool tip's path.
+  double start = 0;    ///< In seconds from the start of the program.
+  double seconds = 0;  ///< The duration of the section in seconds.
+  double mm = 0;       ///< The length of the tool tip's path in mm.
 };
 
-/// By the line of the M06; those that are whole. Line 0 without an M06 holds what comes before the first.
+/// The completed tool sections by the line of their M06. Line 0, unless it has an M06, stands for the part before the
+/// first.
 using Sections = std::map<std::uint64_t, TimedSection>;
 
-/// `1:02:03`, to the second.
+/// Text such as `1:02:03`, rounded to seconds.
 std::string clock_text(double seconds);
 
-/// The tool sections of one document, timed once for each version. Any thread.
+/// The tool sections of one document, timed once for each version. May be used on any thread.
 class SectionTimes {
  public:
-  /// Those of the document; lives as long as somebody holds it.
+  /// The times of the document, shared by all features that hold the pointer.
   static std::shared_ptr<SectionTimes> of(const Snapshot& snapshot);
 
-  /// What is known; null where that version has not been timed.
+  /// The known times; null if this version has not been timed.
   std::shared_ptr<const Sections> known(const Snapshot& snapshot);
-  /// Runs the program, unless that has been done. Throws as TimedProgram::run.
+  /// Runs the program, unless this version has been timed already. Throws like TimedProgram::run().
   std::shared_ptr<const Sections> time(const TimedProgram& program, const std::function<bool()>& stop);
 
  private:
   std::shared_ptr<const Sections> known(std::int64_t version, const configuration::Machine& machine);
 
-  std::mutex mutex_;  // Guards all below.
+  std::mutex mutex_;  // Guards the members below.
   std::int64_t version_ = -1;
   const configuration::Machine* machine_ = nullptr;
   std::shared_ptr<const Sections> sections_;

@@ -6,9 +6,9 @@
 
 namespace isocnc::lsp::documents {
 
-/// What has been read of the configuration files since they were last forgotten.
+/// The configuration files read since the last forget().
 struct SettingsStore::Generation {
-  std::mutex mutex;  // Guards all below.
+  std::mutex mutex;  // Guards the members below.
   configuration::Configurations found{{}, dialect::language_of_environment()};
   configuration::Configurations none{{.file = {}, .none = true}, dialect::language_of_environment()};
   selection::SettingsFinder settings{found, {}};

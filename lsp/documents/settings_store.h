@@ -9,24 +9,25 @@
 
 namespace isocnc::lsp::documents {
 
-/// How a program is checked, with its configuration. Stays as it is when the files change.
+/// How a program is checked, with its configuration. Does not change when the files change.
 struct DocumentSettings {
-  std::shared_ptr<const void> owner;  ///< Of what the others refer to.
+  std::shared_ptr<const void> owner;  ///< Keeps the objects alive that the other members point to.
   const selection::ProgramSettings* program = nullptr;
   const configuration::Configuration* configuration = nullptr;
 };
 
-/// The settings of programs by what the configuration files say. Reads each file once, until forget().
+/// The settings of programs, from the configuration files. Reads each file once, until forget().
 class SettingsStore {
  public:
   SettingsStore();
 
-  /// May read files. Programs that lie in no folder have no configuration. Any thread.
+  /// The settings of a program; may read files. A program without a path has no configuration. May be called on any
+  /// thread.
   DocumentSettings of(const std::optional<std::filesystem::path>& program);
-  /// Files may have changed. Any thread.
+  /// Drops what was read, since files may have changed. May be called on any thread.
   void forget();
-  /// Whether nobody has asked so about this configuration file since the last forget(): then it is the caller's to tell
-  /// what is wrong with it. Any thread.
+  /// True for the first call about this configuration file since the last forget(): that caller has to report the
+  /// file's findings. May be called on any thread.
   bool claim(const std::filesystem::path& file);
 
  private:

@@ -10,15 +10,15 @@
 
 namespace isocnc::lsp::documents {
 
-/// Who wants an answer, and whether they still do.
+/// Tells whether an answer is still wanted.
 struct Interest {
-  const std::atomic<bool>* cancelled = nullptr;     ///< Set once the client does not want it any more.
-  const std::atomic<int>* edits_waiting = nullptr;  ///< Edits that wait until the answer is given.
+  const std::atomic<bool>* cancelled = nullptr;     ///< Set when the client cancels the request.
+  const std::atomic<int>* edits_waiting = nullptr;  ///< The number of edits that wait for the answer.
 };
 
-/// What a feature sees of a program: one version of it, with the one analysis that all features share. Nothing of it
-/// changes while a feature looks at it, and it ends with the call: what a feature wants to keep, it copies, or leaves
-/// in memory(). No feature parses text for itself.
+/// A feature's view of a program: one version of it, with the one analysis that all features share. It does not change
+/// during the call, and is not valid afterwards: a feature copies the data it keeps, or puts it into memory(). No
+/// feature parses text itself.
 ///
 ///     text, trees     document().line(n): a LineTree with its words, findings, text
 ///     findings        report(): what isolint would tell, by line and column
@@ -29,7 +29,8 @@ struct Interest {
 ///     the reader      language(), client()
 class Snapshot {
  public:
-  /// Brings the analysis up to date; throws as give_way() does when that takes long and is not wanted any more.
+  /// Brings the analysis up to date. Throws like throw_if_unwanted() if the answer is no longer wanted before that is
+  /// done.
   Snapshot(AnalyzedDocument& document, const Client& client, const Interest& interest);
 
   const std::string& uri() const { return document_.uri(); }
@@ -37,24 +38,23 @@ class Snapshot {
 
   const syntax::Document& document() const { return document_.document(); }
   const check::Report& report() const { return document_.report(); }
-  /// The first findings of the report, at least so many, and how many there are behind them: a program may have a
-  /// hundred thousand, after each edit.
+  /// The first findings of the report, at least `maximum` unless there are fewer, and the number of findings after
+  /// them: a program may have 100,000 after each edit.
   check::FirstFindings excerpt(std::size_t maximum) const { return document_.excerpt(maximum); }
-  /// Of the report, those on a line.
+  /// The findings of the report on a line.
   std::vector<check::LocatedFinding> findings_on(std::size_t line) const { return document_.findings_on(line); }
   const check::Analysis& analysis() const { return document_.analysis(); }
-  /// Where all paths stand before a line; lines behind the end count as the end.
+  /// The states of all paths before a line; lines after the end count as the end.
   check::Frontier frontier_before(std::size_t line) const { return document_.analysis().frontier_before(line); }
-  /// Where labels, jumps, registers, tools and frames stand.
+  /// The places of labels, jumps, registers, tools and frames.
   const ProgramIndex& index() const { return document_.index(); }
-  /// The state before a line, of all that comes from above or has jumped to it, where there is only one: none where no
-  /// path leads there, or where paths differ.
+  /// The state before a line, on paths from above and by jumps. Nothing if no path leads there, or if paths differ.
   std::optional<execution::State> state_before(std::size_t line) const;
 
   const execution::Setup& setup() const { return document_.settings().program->setup; }
   const selection::Selection& selection() const { return document_.settings().program->selection; }
   const configuration::Configuration& configuration() const { return *document_.settings().configuration; }
-  /// Who keeps all three after the call, for what goes on with them.
+  /// Keeps the three objects above alive after the call, for background requests.
   std::shared_ptr<const void> settings_owner() const { return document_.settings().owner; }
 
   const Client& client() const { return client_; }
@@ -66,19 +66,20 @@ class Snapshot {
   ClientRange to_client(std::size_t line, syntax::Span span) const {
     return {to_client({line, span.begin}), to_client({line, span.end})};
   }
-  /// Places outside the document count as the nearest inside.
+  /// Converts a position of the client; one outside the document becomes the nearest inside.
   syntax::Position from_client(const ClientPosition& position) const {
     return document_.from_client(position, client_.encoding);
   }
 
-  /// What a feature remembers of this document from one request to the next; empty at first. Each type is one memory.
+  /// Data that a feature keeps about this document from one request to the next, default-constructed at first. There is
+  /// one object per type.
   template <class T>
   T& memory() const {
     return document_.memory<T>();
   }
 
-  /// To be called now and then by who takes long, once for each thousand lines or so: throws rpc::Error where the
-  /// answer is not wanted any more, or an edit waits for it.
+  /// Throws rpc::Error if the answer is no longer wanted, or an edit waits for it. Long work calls this about once per
+  /// thousand lines.
   void throw_if_unwanted() const;
 
  private:

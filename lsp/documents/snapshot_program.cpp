@@ -33,9 +33,9 @@ class HabitsOfDocument {
     if (++lines_seen_ % kLinesWithoutPause == 0) present_->throw_if_unwanted();
   }
 
-  const Snapshot* present_ = nullptr;  // Of the request that is being answered.
+  const Snapshot* present_ = nullptr;  // The snapshot of the present request.
   std::int64_t version_ = 0;
-  std::shared_ptr<const void> settings_;  // Hold the setup.
+  std::shared_ptr<const void> settings_;  // Keeps the setup alive.
   std::string text_;
   std::unique_ptr<fixing::TextProgram> program_;
   std::uint32_t lines_seen_ = 0;

@@ -8,7 +8,7 @@
 
 namespace isocnc::lsp::documents {
 
-/// A snapshot as fixes and rewrites look at it.
+/// A snapshot as the program that fixes and rewrites read.
 class SnapshotProgram final : public fixes::Program {
  public:
   explicit SnapshotProgram(const Snapshot& snapshot) : snapshot_(snapshot) {}
@@ -18,7 +18,7 @@ class SnapshotProgram final : public fixes::Program {
   std::string_view text(std::uint64_t line) override { return snapshot_.document().text_of_line(line); }
   syntax::LineTree line(std::uint64_t line) override;
   std::optional<execution::State> state_before(std::uint64_t line) override { return snapshot_.state_before(line); }
-  /// Found by one check of the whole text, and remembered until the document changes.
+  /// The habits, found by one check of the whole text and kept until the document changes.
   fixes::Habits& habits() override;
   bool is_read(std::uint64_t line) override;
   bool is_jumped_to(std::uint64_t label) override;
@@ -26,12 +26,12 @@ class SnapshotProgram final : public fixes::Program {
 
  private:
   const Snapshot& snapshot_;
-  std::optional<syntax::DocumentLine> line_;  // That has been asked for last.
+  std::optional<syntax::DocumentLine> line_;  // The line requested last.
   std::uint32_t lines_seen_ = 0;
-  std::uint64_t last_line_number_ = 0;  // That has been handed out.
+  std::uint64_t last_line_number_ = 0;  // The line number returned last by free_line_number().
 };
 
-/// All lines of the snapshot's document, which gives way now and then.
+/// Visits all lines of the snapshot's document; calls throw_if_unwanted() at intervals.
 formatting::EachLine each_line_of(const Snapshot& snapshot);
 
 }  // namespace isocnc::lsp::documents

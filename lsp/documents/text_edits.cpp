@@ -31,7 +31,7 @@ std::optional<TextEdit> line_edit(const Snapshot& snapshot, std::size_t line, st
   return TextEdit{snapshot.to_client(line, span), std::string(text.substr(head, text.size() - tail - head))};
 }
 
-/// The terminator of the program's first line; LF where it has one line only.
+/// The terminator of the program's first line; LF if the program has only one line.
 static std::string_view line_end_of(const Snapshot& snapshot) {
   const std::string_view first = snapshot.document().terminator(0);
   return first.empty() ? "\n" : first;
@@ -48,7 +48,7 @@ std::vector<TextEdit> to_client(const Snapshot& snapshot, const std::vector<Edit
 
 namespace {
 
-/// Lines of a new text on their way into the document.
+/// Collects the edits that bring the lines of a new text into the document.
 class Merge {
  public:
   explicit Merge(const Snapshot& snapshot) : snapshot_(snapshot), count_(snapshot.document().line_count()) {}
@@ -71,7 +71,7 @@ class Merge {
   }
 
  private:
-  /// Puts the new lines in the place of all old ones up to there.
+  /// Replaces all old lines up to `end` by the new lines.
   void replace_up_to(const syntax::Position& end) {
     const syntax::Position begin{next_, 0};
     if (begin != end || !fresh_.empty())
@@ -81,7 +81,7 @@ class Merge {
 
   const Snapshot& snapshot_;
   const std::size_t count_;
-  std::size_t next_ = 0;  // Line of the document.
+  std::size_t next_ = 0;  // The next line of the document.
   std::string fresh_;
   std::vector<TextEdit> edits_;
 };

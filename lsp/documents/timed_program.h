@@ -10,7 +10,7 @@
 
 namespace isocnc::lsp::documents {
 
-/// A program as it stood, and the machine that it is timed on: what a study takes with it.
+/// A copy of a program and the machine to time it on, for use in a background request.
 class TimedProgram {
  public:
   TimedProgram(const Snapshot& snapshot, double vgpl);
@@ -18,7 +18,8 @@ class TimedProgram {
   std::int64_t version() const { return version_; }
   const configuration::Machine& machine() const { return *machine_; }
 
-  /// Runs it, up to an error. Asked now and then whether to `stop`, it throws rpc::Error, RequestCancelled.
+  /// Runs the program to its end or first error. Calls `stop` at intervals and throws rpc::Error, RequestCancelled,
+  /// when that returns true.
   running::RunResult run(const std::function<bool()>& stop, simulation::Timing::Listeners listeners) const;
 
  private:

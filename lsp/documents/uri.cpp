@@ -8,7 +8,7 @@
 
 namespace isocnc::lsp::documents {
 
-/// %20 is a blank. What is no such escape stays as it is.
+/// Decodes escapes such as %20, a blank. An invalid escape stays unchanged.
 static std::string unescaped(std::string_view text) {
   std::string result;
   result.reserve(text.size());
@@ -28,7 +28,7 @@ std::optional<std::filesystem::path> path_of(std::string_view uri) {
   if (!dialect::begins_with(uri, kScheme)) return std::nullopt;
   std::string_view rest = uri.substr(kScheme.size());
   rest = rest.substr(0, rest.find_first_of("?#"));
-  // A host may stand before the path; that of this machine is mostly left out.
+  // A host may precede the path; for this machine it is usually omitted.
   const std::size_t slash = rest.find('/');
   if (slash == std::string_view::npos || (slash > 0 && rest.substr(0, slash) != "localhost")) return std::nullopt;
   const std::string path = unescaped(rest.substr(slash));

@@ -7,13 +7,13 @@
 
 namespace isocnc::lsp::documents {
 
-/// The file that a URI names: nothing where it names none, as `untitled:` does.
+/// The file that a URI names; nothing if it names none, such as an `untitled:` URI.
 std::optional<std::filesystem::path> path_of(std::string_view uri);
 
-/// Whether a URI names a configuration file: that is no program, though the editor may hold it open as well.
+/// Whether a URI names a configuration file, which is not a program although the editor may have it open.
 bool names_configuration(std::string_view uri);
 
-/// `file:///part%201.iso`, of an absolute path.
+/// The URI of an absolute path, such as `file:///part%201.iso`.
 std::string uri_of(const std::filesystem::path& path);
 
 }  // namespace isocnc::lsp::documents
