@@ -14,11 +14,11 @@
 
 namespace isocnc::lsp {
 
-/// Of documents that no editor has numbered.
+/// The version of documents that are not open in the editor.
 static constexpr std::int64_t kNoVersion = -1;
 
 std::vector<std::filesystem::path> ClosedPrograms::programs_in(const std::vector<std::filesystem::path>& folders) {
-  // A configuration may be forgotten while the search still asks it.
+  // Keep the configurations alive while the search uses them.
   std::vector<std::shared_ptr<const void>> owners;
   const auto rules = [&](const std::filesystem::path& folder) -> input::SearchRules {
     const documents::DocumentSettings settings = settings_.of(folder / "program");
@@ -29,7 +29,7 @@ std::vector<std::filesystem::path> ClosedPrograms::programs_in(const std::vector
   std::vector<std::string> paths;
   paths.reserve(folders.size());
   for (const std::filesystem::path& folder : folders) paths.push_back(folder.string());
-  // What stands in the way of reading a folder is the user's to see where the folders are shown.
+  // A folder that cannot be read is not reported: the user sees it in the editor's view of the folders.
   return input::select_files(paths, rules, dialect::Language::English).files;
 }
 
@@ -38,7 +38,7 @@ std::optional<std::string> ClosedPrograms::answer_of(const std::filesystem::path
                                                      const documents::Client& client,
                                                      const std::atomic<bool>& cancelled, const Answer& answer) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(program, error)) return std::nullopt;  // A pipe would be waited for.
+  if (!std::filesystem::is_regular_file(program, error)) return std::nullopt;  // Reading a pipe would block.
   const auto opened = system::SourceFile::open_unmapped(program, dialect::Language::English);
   const auto* const source = std::get_if<system::SourceFile>(&opened);
   if (source == nullptr) return std::nullopt;
@@ -75,7 +75,7 @@ static bool is_below(const std::filesystem::path& folder, const std::filesystem:
   return !inside.empty() && *inside.begin() != "..";
 }
 
-/// By its name, and where symlinks on the way really lead.
+/// Whether a program lies in one of the folders, both by its name and with symbolic links resolved.
 static bool is_in_one_of(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& program) {
   return std::any_of(folders.begin(), folders.end(), [&](const std::filesystem::path& folder) {
     return is_below(folder, program) && is_below(configuration::real_path(folder), configuration::real_path(program));
@@ -95,7 +95,7 @@ void ClosedPrograms::ask_one(const features::Method& method, rpc::Json params, c
   });
 }
 
-/// What is known of programs that are gone, or open now.
+/// Drops the answers of programs that have been removed, or are open now.
 void ClosedPrograms::forget_all_but(const std::set<std::string>& asked, std::string_view request) {
   std::erase_if(cache_, [&](const auto& known) {
     const auto& [name, uri] = known.first;

@@ -27,7 +27,7 @@ system::ExitStatus run(const Options& options) {
     return std::make_unique<Server>(loop, std::move(send), dialect::language_named(options.language));
   };
   rpc::serve(options.port, make, complain);
-  return system::ExitStatus::Failure;  // The port cannot be had.
+  return system::ExitStatus::Failure;  // The port cannot be opened.
 }
 
 system::ExitStatus run_main(int argc, char** argv) {
@@ -58,7 +58,7 @@ system::ExitStatus run_main(int argc, char** argv) {
   stdio.without_exclusions();
   program.add_language(options.language, {"en or it; else as the editor, the configuration\nor the locale says",
                                           "en o it; altrimenti secondo l'editor, la\nconfigurazione o il locale"});
-  // What some clients add by themselves.
+  // An option that some clients add by themselves.
   int client_process = 0;
   program.add_option("--clientProcessId", client_process, {}, {}).hidden();
   if (const auto status = program.answer(argc, argv)) return *status;

@@ -18,7 +18,7 @@ using documents::Interest;
 using documents::Snapshot;
 using rpc::Json;
 
-/// Texts of fewer bytes are open before anybody could read that they are being opened.
+/// In bytes. Shorter texts open faster than a user could read a progress message.
 static constexpr std::size_t kLongText = 16 << 20;
 
 OpenDocument::OpenDocument(rpc::Pool& pool, documents::SettingsStore& settings, std::string uri, Notifier notifier)
@@ -64,7 +64,7 @@ void OpenDocument::reconfigure(ClientPointer client) {
   post_edit([this] { document_.reread_settings(); }, std::move(client));
 }
 
-/// Only after the last of the edits that wait does anybody look at the document.
+/// Reports the change to features only after the last of the waiting edits.
 void OpenDocument::post_edit(std::function<void()> edit, ClientPointer client) {
   ++edits_waiting_;
   strand_.post([self = shared_from_this(), edit = std::move(edit), client = std::move(client)] {
@@ -107,7 +107,7 @@ void OpenDocument::report_change(const Client& client) {
     for (const features::Feature* const feature : features::all_features())
       if (feature->changed) feature->changed(snapshot, notifier_.notify);
   } catch (const rpc::Error&) {
-    return;  // An edit has come; it will be told of.
+    return;  // Another edit has arrived, and its change will be reported.
   } catch (const std::exception& error) {
     log(error);
   }
@@ -117,7 +117,7 @@ static std::string published(const std::string& uri, Json diagnostics) {
   return rpc::write({{"uri", uri}, {"diagnostics", std::move(diagnostics)}});
 }
 
-/// Tells what is wrong with the program's configuration file, once for all programs that have it.
+/// Reports the findings in the program's configuration file, once for all programs that use it.
 void OpenDocument::report_configuration(const Client& client) {
   const configuration::Configuration& found = *document_.settings().configuration;
   if (found.file.empty() || !settings_.claim(found.file)) return;
@@ -141,7 +141,7 @@ struct OpenDocument::Request {
   std::function<void(rpc::Error error)> failed;
 };
 
-/// Turns what the work throws into the request's error.
+/// Runs the work and turns an exception into the request's error.
 void OpenDocument::work_on(const std::shared_ptr<Request>& request, const std::function<void()>& work) {
   if (request->cancelled->load()) return;
   try {
@@ -168,7 +168,7 @@ void OpenDocument::ask(features::Method method, Json params, ClientPointer clien
   });
 }
 
-/// Studies of a long program are shown, as one work as long as there are any.
+/// Progress is shown for background requests of a long program, as one work while there are any.
 void OpenDocument::post_background_request(features::BackgroundRequest study, const Client& client,
                                            std::shared_ptr<Request> request) {
   static constexpr dialect::Text kRunning = {"running {}", "esecuzione di {}"};

@@ -14,22 +14,22 @@
 
 namespace isocnc::lsp {
 
-/// A document that the client holds open, and the strand on which everything about it is done: edits and requests in
-/// the order in which they came, while other documents go their own way. So there is one analysis, without a lock, and
-/// each answer is about the text that the client saw when it asked.
+/// A document that the client has open, and the strand that runs all work on it: edits and requests in the order of
+/// their arrival, in parallel to other documents. So there is one analysis, without a lock, and each answer is about
+/// the text that the client saw when it asked.
 ///
-/// The editor may also hold an isocnc.json open: then what is told of it is what is wrong with its text, saved or not.
+/// The editor may also have an isocnc.json open: then its diagnostics are about the text in the editor, saved or not.
 ///
-/// Called on the loop's thread; the work, and the answers, come on the strand.
+/// Member functions are called on the loop's thread; the work runs on the strand, and callbacks are called there.
 class OpenDocument : public std::enable_shared_from_this<OpenDocument> {
  public:
   using ClientPointer = std::shared_ptr<const documents::Client>;
 
-  /// What is wrong with a configuration file, told as diagnostics of its own.
+  /// Reports the diagnostics of a configuration file, at its own URI.
   using ReportConfiguration = std::function<void(std::string uri, std::string params)>;
 
-  /// Work on the document goes on that the user may want to see, under a title; without one it is over. No two works of
-  /// a document have the same name.
+  /// Shows the progress of some work to the user: with a title the work has started, without one it has ended. `work`
+  /// is its name, unique within the document.
   using ReportProgress = std::function<void(std::string work, std::optional<std::string> title)>;
 
   struct Notifier {
@@ -45,14 +45,14 @@ class OpenDocument : public std::enable_shared_from_this<OpenDocument> {
 
   void open(std::shared_ptr<const rpc::Call> call, const ClientPointer& client);
   void edit(std::shared_ptr<const rpc::Call> call, const ClientPointer& client);
-  /// Nobody looks at the document any more. What it still has to say is for the caller to drop.
+  /// Ends work on the document: the editor has closed it. The caller has to drop notifications that still arrive.
   void close() {
     is_closed_ = true;
     ++edits_waiting_;
   }
   /// The client's settings or the configuration files have changed.
   void reconfigure(ClientPointer client);
-  /// Whoever sets `cancelled` answers the request, too.
+  /// The code that sets `cancelled` has to answer the request itself.
   void ask(features::Method method, rpc::Json params, ClientPointer client,
            std::shared_ptr<const std::atomic<bool>> cancelled, std::function<void(std::string result)> done,
            std::function<void(rpc::Error error)> failed);
@@ -73,18 +73,19 @@ class OpenDocument : public std::enable_shared_from_this<OpenDocument> {
   void log(const std::exception& error);
 
   const std::string uri_;
-  const bool is_configuration_;  // An isocnc.json, in which no program is looked for.
+  const bool is_configuration_;  // Whether this is an isocnc.json, which is never read as a program.
   documents::SettingsStore& settings_;
   const Notifier notifier_;
   std::atomic<int> edits_waiting_ = 0;
   std::atomic<bool> is_closed_ = false;
-  bool is_long_ = false;                  // Of the strand: the text, when it was opened.
+  bool is_long_ = false;                  // Whether the text was long when opened. Used on the strand only.
   bool shows_progress_ = false;           // Of the strand.
   documents::AnalyzedDocument document_;  // Of the strand.
   rpc::Strand strand_;
-  rpc::Strand background_requests_;  // What takes long, one after another.
+  rpc::Strand background_requests_;  // Runs the background requests one after another.
   std::mutex background_mutex_;
-  int background_waiting_ = 0;  // Those that are shown, as all below: guarded by the mutex.
+  int background_waiting_ =
+      0;  // Number of unfinished requests that are shown. The mutex guards this and the next member.
   int times_shown_ = 0;
 };
 

@@ -20,7 +20,7 @@ using rpc::Call;
 using rpc::ErrorCode;
 using rpc::Json;
 
-/// Threads for documents that are all busy at once; beyond that they take turns.
+/// The maximum number of threads, each for one busy document; further documents wait for a thread.
 static constexpr std::size_t kMaxThreads = 32;
 
 Server::Server(rpc::Loop& loop, rpc::Send send, std::optional<dialect::Language> language)
@@ -67,7 +67,7 @@ void Server::receive(rpc::Frame frame) {
   if (auto* const call = std::get_if<Call>(&message)) dispatch(std::make_shared<const Call>(std::move(*call)));
 }
 
-/// Whether the call fits the phase that we are in; a request that does not is refused.
+/// Whether the call is valid in the present phase; refuses a request that is not.
 bool Server::is_allowed(const Call& call) {
   const bool is_initialize = call.method == "initialize";
   if (phase_ == Phase::Starting && !is_initialize) {
@@ -110,7 +110,7 @@ void Server::call_method(const CallPointer& call) {
 
 // --- Lifecycle
 
-/// What the server can do: its own part, and that of each feature.
+/// The server's capabilities: its own part and that of each feature.
 static Json capabilities_for(const Client& client) {
   Json all = {{"positionEncoding", documents::name_of(client.encoding)},
               {"textDocumentSync", {{"openClose", true}, {"change", 2}, {"save", {{"includeText", false}}}}},
@@ -124,7 +124,7 @@ static Json capabilities_for(const Client& client) {
   return all;
 }
 
-/// Of `initialize`; older clients know one folder.
+/// The folders in the parameters of `initialize`; older clients send a single folder.
 static std::set<std::string> folders_in(const Json& params) {
   std::set<std::string> folders;
   for (const Json& folder : documents::member<Json>(params, "workspaceFolders").value_or(Json::array()))
@@ -220,14 +220,14 @@ void Server::report_progress(const std::string& token, const std::optional<std::
   notify("$/progress", rpc::write({{"token", token}, {"value", value}}));
 }
 
-/// What the editor holds open is told by its tab.
+/// For a configuration that the editor has open, its OpenDocument reports the diagnostics.
 void Server::report_configuration(const std::string& uri, const std::string& params) {
   if (open_documents_.contains(uri)) return;
   reported_configurations_.insert(uri);
   notify("textDocument/publishDiagnostics", params);
 }
 
-/// In what clients give back to us: code lenses, completion items.
+/// The document's URI in items that clients send back: code lenses, completion items.
 static const Json::json_pointer kPlaceInData("/data/uri");
 
 OpenDocument* Server::find_document(const Json& params) const {
@@ -254,7 +254,7 @@ void Server::close(const CallPointer& call) {
   document->close();
   open_documents_.erase(uri);
   if (is_configuration) {
-    // From now on the file counts, not what was typed.
+    // From now on the text of the file counts, not that of the editor.
     reported_configurations_.insert(uri);
     return reconfigure_all();
   }
@@ -293,21 +293,21 @@ void Server::look_at_changed_files(const CallPointer& call) {
 
 void Server::reconfigure_all() {
   settings_.forget();
-  // Those that are still there will be told of again.
+  // Findings that still exist are reported again.
   for (const std::string& uri : std::exchange(reported_configurations_, {}))
     if (!open_documents_.contains(uri))
       notify("textDocument/publishDiagnostics", rpc::write({{"uri", uri}, {"diagnostics", Json::array()}}));
   reconfigure_documents();
 }
 
-/// What the editor has asked for before may be otherwise now.
+/// Updates the documents and asks the editor to repeat its requests, since earlier answers may be outdated.
 void Server::reconfigure_documents() {
   for (const auto& [uri, opened] : open_documents_) opened.document->reconfigure(client_);
   for (const features::Feature* const feature : features::all_features())
     if (feature->refresh && client_->can(feature->refresh->capability)) request(feature->refresh->method, nullptr);
 }
 
-/// The first argument names the document. Where the result has an edit, the client is asked to make it.
+/// The first argument names the document. If the result has an edit, the client is asked to apply it.
 void Server::execute_command(const CallPointer& call) {
   const Json& params = call->params();
   const std::string name = params.at("command");
@@ -347,7 +347,7 @@ void Server::ask(const features::Method& method, const CallPointer& call, Json p
   if (document && document->is_configuration() && !method.of_configuration.empty())
     return send_(rpc::result_message(*call->id, method.of_configuration));
   if (!document || document->is_configuration()) {
-    // What we have given out may be asked about when the document has just been closed: that is nobody's mistake.
+    // The client may send back an item of a document that has just been closed: that is not an error of the client.
     const bool is_of_ours = params.is_object() && params.contains(kPlaceInData);
     return refuse(*call, is_of_ours ? ErrorCode::ContentModified : ErrorCode::InvalidParams,
                   "this document is not open");
@@ -378,7 +378,7 @@ std::vector<std::filesystem::path> Server::folders_of_workspace() const {
   return folders;
 }
 
-/// No other files than those in the folders that the user has opened are read because a message names them.
+/// Reads only files in the folders that the user has opened, whatever file the message names.
 void Server::ask_closed(const features::Method& method, const CallPointer& call, const std::string& uri) {
   if (documents::names_configuration(uri)) return send_(rpc::result_message(*call->id, method.of_configuration));
   const CancelFlag cancel_flag = begin(*call);
@@ -386,7 +386,7 @@ void Server::ask_closed(const features::Method& method, const CallPointer& call,
   closed_programs_.ask_one(
       method, call->params(), uri, folders_of_workspace(), client_, cancel_flag,
       [this, id = *call->id, cancel_flag](const std::optional<std::string>& result) {
-        // The editor may have closed, or lost, what it asks about: nothing that its user would want to hear of.
+        // The file may just have been closed or removed, which is not worth a message to the user.
         loop_.post([this, id, cancel_flag,
                     body = result ? rpc::result_message(id, *result)
                                   : rpc::error_message(id, ErrorCode::ContentModified,
@@ -396,13 +396,13 @@ void Server::ask_closed(const features::Method& method, const CallPointer& call,
       });
 }
 
-/// The results of all programs, as they come in.
+/// Collects the results of all programs as they arrive.
 struct Server::Aggregate {
   std::vector<std::string> results;
   std::size_t awaited = 0;
 };
 
-/// One array of them all.
+/// Joins JSON arrays into one.
 static std::string joined(const std::vector<std::string>& arrays) {
   std::string all = "[";
   for (const std::string& array : arrays) {
@@ -414,7 +414,8 @@ static std::string joined(const std::vector<std::string>& arrays) {
   return all + "]";
 }
 
-/// Where the client has given a token for partial results: sends a program's result as soon as it is there.
+/// A function that sends each program's result as soon as it is known; empty if the client has given no token for
+/// partial results.
 std::function<void(const std::string& result)> Server::partial_result_notifier(
     const features::WorkspaceRequest& workspace_request, const CallPointer& call, const CancelFlag& cancel_flag) {
   const auto token = documents::member<Json>(call->params(), "partialResultToken");
@@ -425,7 +426,7 @@ std::function<void(const std::string& result)> Server::partial_result_notifier(
     try {
       part = workspace_request.combine(result, call->params(), features::AggregateScope::Some);
     } catch (const Json::exception&) {
-      return;  // What is wrong with the parameters is told at the end.
+      return;  // The error in the parameters is reported with the final answer.
     }
     std::string params = fmt::format(R"({{"token":{},"value":{}}})", rpc::write(token), part);
     loop_.post([this, cancel_flag, params = std::move(params)] {
@@ -446,7 +447,7 @@ void Server::ask_workspace(const features::WorkspaceRequest& workspace_request, 
   aggregate->awaited = open.size() + 1;
   const auto combine = [this, id, cancel_flag, aggregate, workspace_request, call,
                         is_reported = static_cast<bool>(report_part)] {
-    // Away from the loop: the results may be long.
+    // Runs in the pool, since the results may be long.
     pool_.post([this, id, cancel_flag, aggregate, workspace_request, call, is_reported] {
       std::string body;
       try {
@@ -473,7 +474,7 @@ void Server::ask_workspace(const features::WorkspaceRequest& workspace_request, 
   const features::Method method = {
       .name = workspace_request.name, .answer = workspace_request.answer, .begin = nullptr};
   for (const std::string& uri : open)
-    // A document that is being edited has nothing to say just now.
+    // A document that is being edited gives no results.
     open_documents_[uri].document->ask(method, call->params(), client_, cancel_flag, take_one,
                                        [take](const rpc::Error&) { take({}); });
   closed_programs_.ask({.request = workspace_request,

@@ -23,21 +23,21 @@
 
 namespace isocnc::lsp {
 
-/// The language server: the lifecycle of the protocol, and who does what. It lives on the loop's thread and does
-/// nothing there that takes time; what concerns a document is done on its OpenDocument's strand, and the answer comes back as a
+/// The language server: handles the lifecycle of the protocol and dispatches messages. It runs on the loop's thread and
+/// does only short work there; work on a document runs on the strand of its OpenDocument, and the answer returns as a
 /// task of the loop.
 class Server final : public rpc::Peer {
  public:
-  /// The language outweighs those of configurations and of the editor's own texts.
+  /// `language` takes precedence over the languages of configurations and of the editor's own texts.
   Server(rpc::Loop& loop, rpc::Send send, std::optional<dialect::Language> language = {});
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  // All on the loop's thread.
+  // Called on the loop's thread.
   void receive(rpc::Frame frame) override;
-  /// As `exit`.
+  /// Ends the server as the notification `exit` does.
   void end() override;
-  /// Ends when the process that started us is no more.
+  /// Ends the server when the process that started it no longer exists.
   void idle() override;
 
   /// 0 after `shutdown` and `exit`, 1 after any other end.
@@ -45,7 +45,7 @@ class Server final : public rpc::Peer {
 
  private:
   using CallPointer = std::shared_ptr<const rpc::Call>;
-  /// A request of the client's that has no answer yet; set when it is cancelled.
+  /// The flag of a request that has no answer yet, set when the request is cancelled.
   using CancelFlag = std::shared_ptr<std::atomic<bool>>;
   struct Aggregate;
 
@@ -53,18 +53,18 @@ class Server final : public rpc::Peer {
   bool is_allowed(const rpc::Call& call);
   void call_method(const CallPointer& call);
 
-  // Lifecycle.
+  // Messages of the lifecycle.
   void initialize(const CallPointer& call);
   void initialized(const CallPointer& call);
   void shut_down(const CallPointer& call);
   void cancel(const CallPointer& call);
   void ignore(const CallPointer&) {}
-  // Documents.
+  // Notifications about documents.
   void open(const CallPointer& call);
   void edit(const CallPointer& call);
   void close(const CallPointer& call);
   void save(const CallPointer& call);
-  // Workspace.
+  // Messages about the workspace.
   void change_folders(const CallPointer& call);
   void change_settings(const CallPointer& call);
   void look_at_changed_files(const CallPointer& call);
@@ -101,24 +101,25 @@ class Server final : public rpc::Peer {
   const std::optional<dialect::Language> language_;
   Phase phase_ = Phase::Starting;
   int exit_status_ = 1;
-  int parent_ = 0;  // The process that started us; 0 where it has not been told.
+  int parent_ = 0;  // The id of the process that started the server; 0 if unknown.
   std::shared_ptr<const documents::Client> client_ = std::make_shared<const documents::Client>();
   documents::SettingsStore settings_;
   struct Opened {
     std::shared_ptr<OpenDocument> document;
     std::size_t generation = 0;
   };
-  std::unordered_map<std::string, Opened> open_documents_;  // By URI.
+  std::unordered_map<std::string, Opened> open_documents_;  // The open documents by URI.
   std::size_t generations_ = 0;
-  std::set<std::string> reported_configurations_;             // Files of which something wrong may have been told.
-  std::unordered_map<std::string, CancelFlag> cancel_flags_;  // By id, as JSON.
+  std::set<std::string>
+      reported_configurations_;  // URIs of configuration files for which diagnostics may have been sent.
+  std::unordered_map<std::string, CancelFlag> cancel_flags_;  // The flags by request id, as JSON text.
   std::unordered_map<std::string_view, features::Method> methods_;
   std::unordered_map<std::string_view, features::WorkspaceRequest> workspace_requests_;
   std::unordered_map<std::string_view, features::Method> commands_;
   std::int64_t next_request_ = 1;
-  std::set<std::string> folders_;  // Of the workspace, by URI.
+  std::set<std::string> folders_;  // URIs of the workspace's folders.
   ClosedPrograms closed_programs_{pool_, settings_};
-  rpc::Pool pool_;  // Last: its threads end before anything else does.
+  rpc::Pool pool_;  // Last, so that its threads end before other members are destroyed.
 };
 
 }  // namespace isocnc::lsp
