@@ -9,8 +9,8 @@
 
 namespace isocnc::support {
 
-/// Runs `act` in a process of its own that is no superuser, and may write no more than so many bytes to a file: a disk
-/// that fills up. 0 when `act` says true, 1 when it says false, -1 when a signal ended it.
+/// Runs `act` in a child process without superuser rights that can write at most `max_bytes` to a file, as on a full
+/// disk. Returns 0 if `act` returns true, 1 if it returns false, -1 if a signal ended the process.
 template <class Act>
 int in_child(Act act, rlim_t max_bytes = RLIM_INFINITY) {
   const pid_t child = ::fork();
@@ -27,7 +27,7 @@ int in_child(Act act, rlim_t max_bytes = RLIM_INFINITY) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-/// Whether what runs in a child may start this program: the build may stand in a folder of the superuser's own.
+/// Whether a child process may start this program: the build may be in a folder that only the superuser can read.
 inline bool child_may_run(const char* program) {
   return in_child([&] { return ::access(program, X_OK) == 0; }) == 0;
 }

@@ -19,7 +19,7 @@ namespace isocnc::support {
 
 using lsp::rpc::Json;
 
-/// A client within the process: speaks with a party whose loop runs on a thread of its own.
+/// A client in the test process. The loop of its peer runs on a thread of its own.
 class MessageClient {
  public:
   explicit MessageClient(const lsp::rpc::MakePeer& make_peer)
@@ -34,12 +34,12 @@ class MessageClient {
   void receive(lsp::rpc::Frame frame) {
     loop_.post([this, frame = std::move(frame)]() mutable { party_->receive(std::move(frame)); });
   }
-  /// The body of a message, as it stands.
+  /// Sends the body of a message unchanged.
   void send_raw(std::string body) { receive({lsp::rpc::Frame::Problem::None, std::move(body)}); }
 
-  /// Waits for the next message that fits and takes it out of those that have come.
+  /// Waits for a message for which `fits` is true, and removes it from the received ones.
   Json wait_for(const std::function<bool(const Json&)>& fits) {
-    static constexpr std::chrono::seconds kLongest{120};  // Nothing takes this long: a test that waits for it hangs.
+    static constexpr std::chrono::seconds kLongest{120};  // Longer than any answer takes, so that a hanging test fails.
     std::unique_lock lock(mutex_);
     Json found;
     const auto take = [&] {
@@ -52,19 +52,19 @@ class MessageClient {
     if (!message_received_.wait_for(lock, kLongest, take)) throw std::runtime_error("no such message has come");
     return found;
   }
-  /// Whether a message has come that fits, and that nobody has waited for.
+  /// Whether a received message that wait_for() has not returned fits.
   bool has(const std::function<bool(const Json&)>& fits) {
     const std::lock_guard lock(mutex_);
     return std::any_of(messages_.begin(), messages_.end(), fits);
   }
 
   bool is_speaking() const { return thread_.joinable(); }
-  /// Is gone without a word: the party's exit status.
+  /// Disconnects without a message. Returns the exit status of the peer.
   int hang_up() {
     loop_.post([this] { party_->end(); });
     return wait_for_end();
   }
-  /// Waits for the party's own end: its exit status.
+  /// Waits until the peer ends by itself. Returns its exit status.
   int wait_for_end() {
     thread_.join();
     return party_->exit_status();

@@ -8,7 +8,7 @@
 
 namespace isocnc::support {
 
-/// What a program does to the machine, wherever in the text it says so; nothing where it does not run to its M02.
+/// The effects of a program on the machine, without line numbers; empty if it does not run to its M02.
 inline std::string motions_of(std::string_view text, double vgpl) {
   std::string motions;
   const running::RunResult result = running::run(text, {.vgpl = vgpl}, [&](running::Event event) {

@@ -15,18 +15,18 @@ inline geometry::PlaneCurve line(const geometry::Vec2& start, const geometry::Ve
   return {.start = start, .end = end};
 }
 
-/// From `start` about `center`, radians.
+/// The arc from `start` about `center`; `sweep` in radians.
 inline geometry::PlaneCurve arc(const geometry::Vec2& start, const geometry::Vec2& center, double sweep) {
   return {.start = start, .end = center + turned(start - center, sweep), .center = center, .sweep = sweep};
 }
 
-/// A point of the way, from 0 to 1.
+/// The point after `part`, from 0 to 1, of the curve's length.
 inline geometry::Vec2 point_on(const geometry::PlaneCurve& curve, double part) {
   if (!curve.is_arc()) return curve.start + part * (curve.end - curve.start);
   return curve.center + turned(curve.start - curve.center, part * curve.sweep);
 }
 
-/// From a point to the nearest of the curve.
+/// The distance of a point from the nearest point of the curve.
 inline double distance_from(const geometry::Vec2& point, const geometry::PlaneCurve& curve) {
   const double to_ends = std::min((point - curve.start).norm(), (point - curve.end).norm());
   if (!curve.is_arc()) {

@@ -22,13 +22,13 @@ class Random {
     return mixed ^ (mixed >> 31);
   }
 
-  /// In [low, high], both included.
+  /// A number in [low, high].
   int between(int low, int high) {
     return low + static_cast<int>(next() % (static_cast<std::uint64_t>(high - low) + 1));
   }
-  /// Below `size`, which is not 0.
+  /// A number less than `size`, which is not 0.
   std::size_t below(std::size_t size) { return static_cast<std::size_t>(next() % size); }
-  /// In [low, high).
+  /// A number in [low, high).
   double real(double low, double high) { return low + (high - low) * static_cast<double>(next() >> 11) * 0x1p-53; }
   bool one_in(int chances) { return between(1, chances) == 1; }
   char any_of(std::string_view characters) { return characters[below(characters.size())]; }
@@ -40,10 +40,10 @@ class Random {
   std::uint64_t state_;
 };
 
-/// Whether properties are tried in full: what is only seen over many programs (a limit that is reached) is asked then.
+/// Whether properties run in full. Only then do tests check what only many programs show (that a limit is reached).
 inline constexpr bool kTriesAll = ISOCNC_RUNS_FAST;
 
-/// How often to try where code runs at full speed; a quarter of that under sanitizers and without optimization.
+/// The number of tries: `count` in optimized builds, a quarter of it with sanitizers or without optimization.
 inline constexpr std::uint64_t often(std::uint64_t count) { return kTriesAll ? count : (count + 3) / 4; }
 
 /// The seeds of a property, often(count) of them, from 1. Failure messages name them.

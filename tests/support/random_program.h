@@ -9,14 +9,14 @@
 
 namespace isocnc::support {
 
-/// Writes programs of everything that the dialect has, right and wrong, line by line.
+/// Writes programs with all features of the dialect, valid and invalid, line by line.
 class RandomProgram {
  public:
   explicit RandomProgram(Random& random) : random_(random) {}
 
   /// Labels are drawn from N1 to this one: few give repeated and backward ones, many give missing ones.
   int labels = 12;
-  /// One line in so many is an IF, and one in so many ends the program.
+  /// One line in `jump_chances` is an IF, and one in `end_chances` ends the program.
   int jump_chances = 12;
   int end_chances = 60;
 
@@ -107,7 +107,7 @@ class RandomProgram {
     return text;
   }
 
-  /// A right one in G91, wherever the tool is; a wrong one in most of G90.
+  /// A half circle that is valid in G91 at any position; in G90 it is usually invalid.
   std::string half_circle() {
     const int radius = random_.between(1, 30);
     return fmt::format("G91 G{} X{} Y0 I{} J0", random_.between(2, 3), 2 * radius, radius);

@@ -8,10 +8,10 @@
 
 namespace isocnc::support {
 
-/// Whether a finding is an opinion: W101 to W189. Programs about the control's own codes say nothing of them.
+/// Whether a code is an optional lint rule: W101 to W189. Tests about the control's own codes ignore these.
 inline bool is_lint(std::string_view code) { return code >= "W101" && code < "W190"; }
 
-/// A report's findings with the paths that lead to them, one text each: equal texts mean that users are told the same.
+/// One text for each finding of a report, with the path that leads to it. Equal texts mean that users see the same.
 inline std::vector<std::string> texts_of(const check::Report& report) {
   std::vector<std::string> texts;
   for (const check::LocatedFinding& located : report.findings) {

@@ -12,8 +12,7 @@ namespace isocnc::support {
 
 inline std::string text_of(syntax::Span span) { return fmt::format("{}-{}", span.begin, span.end); }
 
-/// A finding with all that it carries. Numbers are shown so that equal texts mean equal numbers, an unknown one
-/// included.
+/// A finding with all its members. Equal texts mean equal numbers, also for an unknown number.
 inline std::string text_of(const syntax::Finding& finding) {
   std::string text = fmt::format("{} at {}", dialect::definition(finding.id).code, text_of(finding.span));
   if (!finding.related.empty()) text += " related " + text_of(finding.related);
@@ -21,7 +20,7 @@ inline std::string text_of(const syntax::Finding& finding) {
   return text;
 }
 
-/// Everything that a tree holds, so that equal texts mean equal trees.
+/// All members of a tree, so that equal texts mean equal trees.
 inline std::string text_of(const syntax::LineTree& tree) {
   std::string text = fmt::format("[{}]\n", tree.text);
   for (const syntax::Word& word : tree.words)
