@@ -1,10 +1,10 @@
-// fmt as an archive of our own, for programs that go to systems without it: Debian has it as a shared library alone.
+// fmt as a static library, for programs that run on systems without it: Debian packages it only as a shared library.
 #include <fmt/format-inl.h>
 
 FMT_BEGIN_NAMESPACE
 namespace detail {
 
-// The templates that its headers take as given elsewhere.
+// The instances of templates that the headers of fmt declare as extern.
 template FMT_API auto dragonbox::to_decimal(float) noexcept -> dragonbox::decimal_fp<float>;
 template FMT_API auto dragonbox::to_decimal(double) noexcept -> dragonbox::decimal_fp<double>;
 template FMT_API auto thousands_sep_impl<char>(locale_ref) -> thousands_sep_result<char>;

@@ -1,5 +1,6 @@
-# What is installed, and the packages that `cpack` makes of it. The component `programs` is what everybody gets; `development`, libraries and
-# headers for find_package(isocnc), is part of it where ISOCNC_DEVELOPMENT is on, and else installed by its name alone.
+# The installed files, and the packages that `cpack` makes of them. The component `programs` is for all users. The
+# component `development`, libraries and headers for find_package(isocnc), is packaged if ISOCNC_DEVELOPMENT is on;
+# otherwise it is installed only by its name.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -10,7 +11,7 @@ set(libraries fmt dialect syntax geometry motion execution system running simula
               command_line rules style fixes check selection fixing formats formatting input analyzer)
 set(packaged ${CMAKE_BINARY_DIR}/packaged)
 
-# Compressed as Debian wants it: the same bytes each time.
+# Compresses as Debian requires: the same bytes each time.
 find_program(ISOCNC_GZIP gzip)
 function(install_compressed source name destination)
   if(ISOCNC_GZIP)
@@ -33,7 +34,7 @@ foreach(program IN LISTS programs)
 endforeach()
 install(FILES scripts/completions/_isocnc DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT programs)
 
-# The license and the two changelogs under the names that Debian looks for; elsewhere they say the same.
+# The license and the two changelogs under the names that Debian requires; other packages contain them as well.
 file(READ LICENSE license)
 string(REGEX REPLACE "^[^\n]*\n\nCopyright \\(c\\) ([^\n]*)\n\n" "" license_text "${license}")
 set(holders "${CMAKE_MATCH_1}")

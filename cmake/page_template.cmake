@@ -1,8 +1,8 @@
-# Writes the page of isorun --plot FILE.html as C++ source, when something that it is made of has changed:
+# Writes the page of isorun --plot FILE.html as C++ source, if one of its inputs has changed:
 #
 #   cmake -D VIEW=toolpath-view -D OUT=page_template.cpp -D NPM=... -D NODE=... -D REQUIRED=ON|OFF -P page_template.cmake
 #
-# Where npm is missing or gets no answer, the page is empty and a warning says so; with REQUIRED that is an error.
+# If npm is missing or gets no answer, the page is empty and a warning is printed; with REQUIRED that is an error.
 
 set(empty_page "#include \"interpreter/plot/page_template.h\"
 
@@ -23,7 +23,7 @@ function(write_if_different text)
   endif()
 endfunction()
 
-# Without a page the next build tries again.
+# Writes an empty page; the next build tries again.
 function(do_without why)
   if(REQUIRED)
     message(FATAL_ERROR "isorun --plot FILE.html: ${why}")
