@@ -14,7 +14,7 @@ namespace isocnc::lsp {
 
 using rpc::Json;
 
-/// A program with what is selected in it, `[!G01 X10!]`; `[!!]` is the cursor.
+/// A program with a marked selection: `[!G01 X10!]`; `[!!]` is the cursor.
 struct SelectedProgram {
   std::string text;
   std::size_t begin = 0;
@@ -28,7 +28,7 @@ struct SelectedProgram {
   }
 };
 
-/// Lines and columns of a text as a client counts them.
+/// A text in which positions are lines and columns as a client counts them.
 class ClientText {
  public:
   explicit ClientText(std::string text, documents::Encoding encoding = documents::Encoding::Utf16)
@@ -54,13 +54,13 @@ class ClientText {
   }
   Json range(std::size_t begin, std::size_t end) const { return {{"start", place(begin)}, {"end", place(end)}}; }
 
-  /// What stands in a range.
+  /// The text in a range.
   std::string in(const Json& range) const {
     const std::size_t begin = offset(range["start"]);
     return text_.substr(begin, offset(range["end"]) - begin);
   }
 
-  /// The text with TextEdits made, which must not overlap.
+  /// The text after TextEdits, which must not overlap.
   std::string with(const Json& edits) const {
     std::vector<Edit> sorted;
     for (const Json& edit : edits)

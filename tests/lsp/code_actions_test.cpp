@@ -10,7 +10,7 @@
 #include "interpreter/restart/restart.h"
 #include "session.h"
 
-/// What an editor offers to do with a line or a selection, and what becomes of the program.
+/// Code actions for a line or a selection, and the program after them.
 namespace isocnc::lsp {
 namespace {
 
@@ -32,7 +32,7 @@ class CodeActions : public testing::Test {
  protected:
   CodeActions() { session_.start(); }
 
-  /// The program after the action whose title begins so; nothing where it is not offered.
+  /// The program after the action whose title starts with `title`; nothing if no such action is offered.
   std::optional<std::string> after(const char* marked, const std::string& title, const char* only) {
     const SelectedProgram program(marked);
     session_.open(kUri, program.text);
@@ -48,7 +48,7 @@ class CodeActions : public testing::Test {
 struct Case {
   const char* title;
   const char* before;
-  const char* after;  // Null: is not offered.
+  const char* after;  // The program after the action; null if it is not offered.
 };
 
 constexpr Case kFixes[] = {
@@ -59,7 +59,7 @@ constexpr Case kFixes[] = {
      "M06 T101001\nG01 X10 ; più isolint: ignore ISO066\nM02\n"},
     {"silence ISO066 in the whole program", "M06 T101001\r\nG01[!!] X10\r\nM02\r\n",
      ";isolint: ignore-file ISO066\r\nM06 T101001\r\nG01 X10\r\nM02\r\n"},
-    // All centers of the program, from any of their findings; the inches of other controls.
+    // A fix from one finding changes all centers of the program; the next case, the inches of other controls.
     {"write I105 J110", "M06 T101001\nG00 X110 Y110\n[!!]G02 X110 Y110 I-5 J0 F1000\nG02 X120 Y120 I10 J0\nM02\n",
      "M06 T101001\nG00 X110 Y110\nG02 X110 Y110 I105 J110 F1000\nG02 X120 Y120 I120 J110\nM02\n"},
     {"write I120 J110", "M06 T101001\nG00 X110 Y110\nG02 X110 Y110 I-5 J0 F1000\n[!!]G02 X120 Y120 I10 J0\nM02\n",
@@ -68,7 +68,7 @@ constexpr Case kFixes[] = {
      "M06 T101001\nG00 X110 Y110\nG02 X110 Y110 I-5 J0 F1000\n[!!]G02 X120 Y120 I10 J0\nG02 X126 Y118 I120 J110\nM02\n",
      nullptr},
     {"write G70", "M06 T101001\n[!!]G20\nG00 X1\nG21\nM02\n", "M06 T101001\nG70\nG00 X1\nG71\nM02\n"},
-    // The number is free in the whole program, wherever labels stand.
+    // The new number is unused in the whole program.
     {"number the line N80", "M06 T101001\nIF VGPL = 1 GOTO N5\nN5 G00 X1\n[!!]N5 G00 X2\nN73 X4\nM02\n",
      "M06 T101001\nIF VGPL = 1 GOTO N5\nN5 G00 X1\nN80 G00 X2\nN73 X4\nM02\n"},
     {"silence", "M06 T101001\n[!!]G00 X10\nM02\n", nullptr},
@@ -118,12 +118,13 @@ TEST_F(CodeActions, AllThatIsSafeIsFixedAtOnce) {
 constexpr Case kRewrites[] = {
     {"give the arc's radius", "M06 T101001\nG00 X0 Y0\nG02[!!] X10 Y10 I10 J0 F500\nM02\n",
      "M06 T101001\nG00 X0 Y0\nG02 X10 Y10 R10 F500\nM02\n"},
-    {"give the arc's radius", "M06 T101001\nG00 X0 Y0\nG02[!!] X10 Y10 I0 J10 F500\nM02\n", nullptr},  // 270 degrees.
+    {"give the arc's radius", "M06 T101001\nG00 X0 Y0\nG02[!!] X10 Y10 I0 J10 F500\nM02\n",
+     nullptr},  // An arc of 270 degrees, which a radius cannot give.
     {"give the arc's center", "M06 T101001\nG00 X0 Y0\n(è 😀) G02[!!] X10 Y10 R10 F500 ; arco\nM02\n",
      "M06 T101001\nG00 X0 Y0\n(è 😀) G02 X10 Y10 I10 J0 F500 ; arco\nM02\n"},
     {"give the arc's center", "M06 T101001\nG91 G70 G18\nG03[!!] X1 Z1 R1 F50\nM02\n",
      "M06 T101001\nG91 G70 G18\nG03 X1 Z1 I1 K0 F50\nM02\n"},
-    // A jump leads here from another place; from the same.
+    // A jump leads to the arc from a different position; then from the same position.
     {"give the arc's center", "M06 T101001\nG00 X0 Y0\nIF VGPL = 1 GOTO N5\nX5\nN5 G02[!!] X10 Y10 R10 F500\nM02\n",
      nullptr},
     {"give the arc's center", "M06 T101001\nG00 X0 Y0\nIF VGPL = 1 GOTO N5\nX0\nN5 G02[!!] X10 Y10 R10 F500\nM02\n",
@@ -131,7 +132,7 @@ constexpr Case kRewrites[] = {
     {"write the selection in incremental",
      "M06 T101001\nG00 X10 Y20\n[!G01 X15 Y20.5 F500\nG02 X25 Y20.5 I20 J20.5\n!]M02\n",
      "M06 T101001\nG00 X10 Y20\nG91\nG01 X5 Y0.5 F500\nG02 X10 Y0 I5 J0\nG90\nM02\n"},
-    // At the end of a text without a last line end; a G09 that must follow its motion.
+    // The selection ends a text without a last line end; then a G09 has to follow its motion.
     {"write the selection in incremental", "M06 T101001\nG00 X10\n[!G01 X15 F500\nX20!]",
      "M06 T101001\nG00 X10\nG91\nG01 X5 F500\nX5\nG90"},
     {"write the selection in incremental", "M06 T101001\nG00 X10\n[!G01 X15 F500\nX20\n!]\n(stop)\nG09\nM02\n",
@@ -187,7 +188,7 @@ TEST(CodeActionsResolved, AreMadeWhenTheyAreChosen) {
   EXPECT_TRUE(session.respond("codeAction/resolve", wrong).contains("error"));
 }
 
-/// What a habit has rewritten may be much of the program: it is put together when it is wanted.
+/// The fix of a habit may change much of the program, so its edits are made on request.
 TEST(CodeActionsResolved, HabitsAreRewrittenWhenTheyAreChosen) {
   Session session;
   session.start(kResolves, {{"locale", "en"}});
@@ -213,7 +214,7 @@ TEST(CodeActionsResolved, HabitsAreRewrittenWhenTheyAreChosen) {
   EXPECT_TRUE(session.respond("codeAction/resolve", wrong).contains("error"));
 }
 
-/// What would take long to try is tried when it is chosen, and may turn out not to be possible.
+/// A long rewrite is tried only after the user has chosen it, and may then be impossible.
 TEST(CodeActionsResolved, OfManyLinesAreTriedWhenTheyAreChosen) {
   Session session;
   session.start(kResolves, {{"locale", "en"}});
@@ -255,7 +256,7 @@ TEST_F(CodeActions, RenumberingIsACommandToo) {
   EXPECT_EQ(ClientText(program).with(edits), "M06 T101001\nIF VGPL = 1 GOTO N20\nN10 G00 X1\nN20 X2\nM02\n");
 }
 
-/// So many that no report of all of them is made: the line's own are found all the same.
+/// With more findings than the whole report is made for, those of the line are still found.
 TEST_F(CodeActions, AreThereAmongThousandsOfFindings) {
   std::string text = "M06 T101001\nG71\n";
   for (int i = 0; i < 5'000; ++i) text += "G71 G00 X1\n";
@@ -291,7 +292,7 @@ TEST(Restart, IsMadeByTheEditorWhereItMakesDocuments) {
   EXPECT_THAT(changes[1]["edits"][0]["newText"].get<std::string>(), testing::EndsWith("X20\nM02\n"));
 }
 
-/// The tool stands 8 mm beside the contour, and has no more than 40 mm to be raised in.
+/// The tool stands 8 mm beside the contour, and can be raised by at most 40 mm.
 TEST(Restart, IsMadeForTheConfiguredMachine) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "isols-restart";
   std::filesystem::create_directories(folder);

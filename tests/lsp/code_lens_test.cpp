@@ -3,7 +3,7 @@
 
 #include "session.h"
 
-/// What stands over each tool section.
+/// Code lenses above each tool section.
 namespace isocnc::lsp {
 namespace {
 
@@ -27,7 +27,7 @@ TEST(CodeLens, ShowsTheTimeAndPathOfEachToolSection) {
   EXPECT_EQ(title(after[1]), "not run");
 }
 
-/// As isorun says: exact stops take 0.1 s each, and a rapid that turns B swings the tip.
+/// As in isorun, an exact stop takes 0.1 s, and a rapid that turns B swings the tip.
 TEST(CodeLens, CountsExactStopsAndSwings) {
   Session session;
   session.start();
@@ -40,7 +40,7 @@ TEST(CodeLens, CountsExactStopsAndSwings) {
   const auto title = [&](const Json& lens) -> std::string {
     return session.request("codeLens/resolve", lens)["command"]["title"];
   };
-  // 8 s for the tool, 10 s for the stops; 1 mm takes from 0.036 to 0.06 s.
+  // The tool takes 8 s, the stops 10 s, and a move of 1 mm from 0.036 to 0.06 s.
   EXPECT_THAT(title(lenses[0]), testing::AllOf(testing::Ge("0:00:21"), testing::Le("0:00:25, path 0.1 m")));
   EXPECT_THAT(title(lenses[1]), testing::Not(testing::EndsWith("path 0.0 m")));
 }

@@ -9,7 +9,7 @@
 #include "client_text.h"
 #include "session.h"
 
-/// What may be written at the cursor.
+/// Completion at the cursor.
 namespace isocnc::lsp {
 namespace {
 
@@ -36,7 +36,7 @@ struct Case {
 };
 
 const std::vector<Case> kCases = {
-    // Codes, as far as the line can hold them.
+    // Only codes that are legal in the line.
     {"[!!]", {"G00", "G01", "G02", "G90", "G91", "G92", "M02", "M06", "V1", "IF", "F", "S"}, {"X", "T101001"}},
     {"G[!!]", {"G00", "G01", "G02", "G49"}, {"M02", "V1", "IF"}},
     {"g0[!!]", {"G00", "G01", "G02"}, {"M02"}},
@@ -44,10 +44,10 @@ const std::vector<Case> kCases = {
     {"G01 X10 G[!!]", {"G09"}, {"G00", "G02", "G04", "G49", "G70", "G91", "G92"}},
     {"G17 G[!!]", {"G18", "G90"}, {"G17", "G04"}},
     {"G90\nG71\n[!!]", {"G70", "G91"}, {}},
-    // What is in force already and must not be said again.
+    // Codes in force that must not be repeated are not offered.
     {"G18\n[!!]", {"G17", "G19"}, {"G18"}},
     {"G93\n[!!]", {"G94"}, {"G93"}},
-    // The arguments that are missing.
+    // Only the missing arguments are offered.
     {"G01 [!!]", {"X", "Y", "Z", "B", "C", "F", "S"}, {"I", "R", "A"}},
     {"G01 X10 Y1 [!!]", {"Z", "B", "F"}, {"X", "Y", "I"}},
     {"G02 X10 [!!]", {"Y", "I", "J", "R"}, {"X", "P"}},
@@ -55,18 +55,18 @@ const std::vector<Case> kCases = {
     {"G00 X1\nY1 [!!]", {"X", "Z"}, {"Y", "I"}},
     {"G04 [!!]", {"P"}, {"X", "Y"}},
     {"G0[!!] X10 I5", {"G00", "G01", "G02"}, {}},
-    // Labels lie below.
+    // Only labels below the line are offered.
     {"N10 G17\nIF V1 = 2 GOTO [!!]\nN20 G18\nG19\nN300 M02", {"N20", "N300"}, {"N10", "G00", "M02"}},
     {"IF V1 = 2 GOTO N3[!!]\nN20 G18\nN30 G19\nN300 M02", {"N30", "N300"}, {"N20"}},
     {"IF [!!]", {"VGPL", "V1", "V30"}, {"G00", "GOTO", "X"}},
     {"IF V1 [!!]", {"=", "<>", ">="}, {"G00", "V1"}},
     {"IF V1 = 2 [!!]", {"GOTO"}, {"G00", "V1"}},
     {"V[!!]", {"V1", "V30"}, {"G00", "VGPL"}},
-    // In comments there is nothing to complete.
+    // Nothing is offered in comments.
     {"G01 X1 ; G[!!]", {}, {"G00", "X", "Y"}},
     {"G01 (G[!!])", {}, {"G00", "X", "Y"}},
     {"(è 😀) G[!!]", {"G00"}, {"M02"}},
-    // Numbers of coordinates are nobody's to know.
+    // No number is offered for a coordinate.
     {"G01 X1[!!]", {}, {"Y", "G00", "M02"}},
 };
 
@@ -98,7 +98,7 @@ TEST(Completion, ReplacesWhatHasBeenTyped) {
   EXPECT_EQ(with_item(program, item_of(list(session, program), "G01")), "(è 😀) G01 X1\n");
 }
 
-/// Whatever is offered for a G may be taken as it is: the program has then no finding that it did not have.
+/// Each completion of a G, inserted unchanged, adds no finding to the program.
 TEST(Completion, WritesArgumentsThatAreRight) {
   for (const char* const before :
        {"", "G91\n", "G18\n", "G19 G91\n", "G70\n", "G00 X3 Y4 Z5\n", "G18\nG00 X3 Y4 Z5\n"}) {
@@ -161,7 +161,7 @@ TEST(Completion, KnowsTheMachinesToolsAndFunctions) {
   std::filesystem::remove_all(folder);
 }
 
-/// The assignment that is the nearest above tells more than any other.
+/// The nearest assignment above the cursor is preferred to all others.
 TEST(Completion, ShowsWhereARegisterIsAssigned) {
   Session session;
   session.start(Json::object(), {{"locale", "en"}});

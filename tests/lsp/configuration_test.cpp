@@ -12,7 +12,7 @@
 #include "session.h"
 #include "tests/commands/temporary_folder.h"
 
-/// What is told of isocnc.json, open or not, and what it changes.
+/// Diagnostics of isocnc.json, open or not, and the effects of its settings.
 namespace isocnc::lsp {
 namespace {
 
@@ -26,7 +26,7 @@ class ConfigurationFile : public testing::Test {
   void write(const std::string& name, std::string_view text) const { temporary_.write(name, text); }
   void start() { session_.start(Json::object(), {{"locale", "en"}}); }
 
-  /// The next diagnostics of this document: `LINE:COLUMN-COLUMN MESSAGE`, all from 0.
+  /// Waits for the next diagnostics of this document: `LINE:COLUMN-COLUMN MESSAGE`, counted from 0.
   std::vector<std::string> reported_for(const std::string& name) {
     const Json published = session_.wait_for([&](const Json& message) {
       return message.value("method", "") == "textDocument/publishDiagnostics" && message["params"]["uri"] == uri(name);
@@ -47,7 +47,7 @@ class ConfigurationFile : public testing::Test {
   Session session_;
 };
 
-/// Marked is the value, key or sign that is wrong, and no more.
+/// The range of a diagnostic is exactly the wrong value, key or sign.
 TEST_F(ConfigurationFile, MistakesAreMarkedWhileItIsTyped) {
   struct Case {
     std::string_view text;
@@ -98,7 +98,7 @@ TEST_F(ConfigurationFile, ThatIsNoTextIsReported) {
   EXPECT_THAT(reported_for("isocnc.json"), ElementsAre(HasSubstr("byte-order mark")));
   write("isocnc.json", std::string(2000, '\0'));
   session_.notify("textDocument/didSave", {{"textDocument", {{"uri", uri("isocnc.json")}}}});
-  reported_for("isocnc.json");  // Taken back.
+  reported_for("isocnc.json");  // The first notification clears the old diagnostics.
   EXPECT_THAT(reported_for("isocnc.json"), ElementsAre(HasSubstr("binary")));
 }
 
@@ -127,7 +127,7 @@ TEST_F(ConfigurationFile, NamesToolsAndFunctions) {
   EXPECT_EQ(symbols[0]["detail"], "ball nose");
 }
 
-/// Where the numbers cannot be made anew, all else is written as it should be.
+/// If a program cannot be renumbered, all else is formatted.
 TEST_F(ConfigurationFile, SetsHowProgramsAreFormatted) {
   write("isocnc.json", R"({"format": {"renumber": {"start": 100, "step": 10}}})");
   start();
@@ -143,7 +143,7 @@ TEST_F(ConfigurationFile, SetsHowProgramsAreFormatted) {
   EXPECT_EQ(formatted("b.iso", "IF VGPL=1 GOTO N9\nN3 g00X1\nN7 M02\n"), "IF VGPL = 1 GOTO N9\nN3 G00 X1\nN7 M02\n");
 }
 
-/// What is off by default, in the places where the program has it.
+/// Findings of rules that are off by default appear when the configuration selects them.
 TEST_F(ConfigurationFile, SelectsOpinionsOnStyle) {
   write("isocnc.json", R"({"lint": {"select": ["W1"]}})");
   start();

@@ -5,8 +5,8 @@
 #include "session.h"
 #include "tests/support/random_program.h"
 
-/// After any sequence of edits, with requests and cancellations between them, the server says what it says of the final
-/// text when that is opened afresh.
+/// After any sequence of edits, requests and cancellations, the server's answers equal those for the final text opened
+/// as a new document.
 namespace isocnc::lsp {
 namespace {
 
@@ -40,7 +40,7 @@ std::string utf8(const std::u16string& text) {
   return result;
 }
 
-/// A text as an editor holds it: in UTF-16, with lines that end at CR, LF or both.
+/// A text as editors represent it: in UTF-16, with lines that end at CR, LF or both.
 class EditorText {
  public:
   explicit EditorText(std::u16string text) : text_(std::move(text)) {}
@@ -60,7 +60,7 @@ class EditorText {
     for (std::size_t i = line_starts()[line]; i < text_.size() && text_[i] != u'\n' && text_[i] != u'\r'; ++i) ++length;
     return length;
   }
-  /// Never within a pair of surrogates.
+  /// A random position, never within a surrogate pair.
   std::pair<int, int> random_place(Random& random, std::size_t first_line, std::size_t lines) const {
     const std::vector<std::size_t> starts = line_starts();
     const std::size_t line = std::min(first_line + random.below(lines), starts.size() - 1);
@@ -97,7 +97,7 @@ std::u16string random_text(Random& random, support::RandomProgram& program) {
   }
 }
 
-/// Edits a document through the protocol, and asks and cancels meanwhile.
+/// Edits a document through the protocol, and sends and cancels requests meanwhile.
 class Typist {
  public:
   Typist(std::uint64_t seed, int lines) : random_(seed), program_(random_), text_(first_text(lines)) {
@@ -113,14 +113,14 @@ class Typist {
     }
   }
 
-  /// What is known of the edited document.
+  /// The server's answers about the edited document.
   Json known() { return known_of(kEdited); }
-  /// The same of its text, opened afresh.
+  /// The answers about the same text, opened as a new document.
   Json known_afresh() {
     session_.open(kFresh, utf8(text_.text()));
     return known_of(kFresh);
   }
-  /// Each request has had one answer, and not another one.
+  /// Expects exactly one answer to each request.
   void expect_answers() {
     for (const std::int64_t id : asked_) {
       const Json response = session_.response_to(id);
@@ -175,7 +175,7 @@ class Typist {
   std::vector<std::int64_t> asked_;
 };
 
-/// What is said of a document, without its name.
+/// The answers about a document, without its name.
 std::string without_name(const Json& known) {
   std::string text = known.dump();
   for (const std::string name : {kEdited, kFresh})
@@ -183,7 +183,7 @@ std::string without_name(const Json& known) {
   return text;
 }
 
-/// In shares, that several processes may take.
+/// Divided into parts, so that several processes can run them.
 class EditingProperty : public testing::TestWithParam<std::uint64_t> {};
 
 constexpr std::uint64_t kShares = 8;

@@ -23,7 +23,7 @@ TEST(Encoding, CountsTheUnitsBeforeAByte) {
     EXPECT_EQ(byte_at(line, utf16[i], Encoding::Utf16), bytes[i]);
     EXPECT_EQ(byte_at(line, i, Encoding::Utf32), bytes[i]);
   }
-  // Within a character is before it; beyond the end is the end.
+  // A position within a character becomes its start; one beyond the end becomes the end.
   EXPECT_EQ(units_before(line, 8, Encoding::Utf16), 3u);
   EXPECT_EQ(byte_at(line, 4, Encoding::Utf16), 6u);
   EXPECT_EQ(byte_at(line, 8, Encoding::Utf8), 6u);

@@ -7,7 +7,7 @@
 #include "session.h"
 #include "tests/commands/temporary_folder.h"
 
-/// What features answer about one document.
+/// Answers of features about one document.
 namespace isocnc::lsp {
 namespace {
 
@@ -19,7 +19,7 @@ Json at(int line, int column) {
   return {{"textDocument", {{"uri", kUri}}}, {"position", {{"line", line}, {"character", column}}}};
 }
 
-/// What a hover says, in English; empty where it says nothing.
+/// The text of a hover in English; empty if there is none.
 std::string hover(const std::string& text, int line, int column) {
   Session session;
   session.start(Json::object(), {{"locale", "en"}});
@@ -54,11 +54,11 @@ TEST(Hover, ExplainsEachWordWhereItStands) {
   EXPECT_THAT(hover(kProgram, 6, 14), HasSubstr("jump to it: line 7"));
   EXPECT_THAT(hover(kProgram, 7, 0), HasSubstr("jump to it: line 7"));
   EXPECT_THAT(hover(kProgram, 8, 5), HasSubstr("ISO035"));
-  EXPECT_EQ(hover(kProgram, 2, 3), "");   // A blank.
-  EXPECT_EQ(hover(kProgram, 99, 3), "");  // Behind the end.
+  EXPECT_EQ(hover(kProgram, 2, 3), "");   // No hover on a blank.
+  EXPECT_EQ(hover(kProgram, 99, 3), "");  // No hover after the end.
 }
 
-/// So many that no report of all of them is made.
+/// The program has more findings than the whole report is made for.
 TEST(Hover, ShowsTheFindingsOfALineAmongThousands) {
   std::string text = "M06 T101001\nG00 X1\n";
   for (int i = 0; i < 6'000; ++i) text += "X1 X2\n";
@@ -82,12 +82,12 @@ TEST(Hover, ShowsHowLongALineTakes) {
   const char* const kTimed = "M06 T101001\nM03 S1000\nG00 X3000 Y10\nG04 P1.5\nG93 G01 X0 F30\nG94 G01 F0 X5\nM02\n";
   EXPECT_THAT(hover(kTimed, 0, 0), HasSubstr("takes 8 s"));
   EXPECT_THAT(hover(kTimed, 1, 0), HasSubstr("takes 2 s where it changes"));
-  EXPECT_THAT(hover(kTimed, 2, 4), HasSubstr("at full rapid speed 3 s"));  // 60 m/min.
+  EXPECT_THAT(hover(kTimed, 2, 4), HasSubstr("at full rapid speed 3 s"));  // The rapid speed is 60 m/min.
   EXPECT_THAT(hover(kTimed, 3, 0), HasSubstr("waits 1.5 s"));
   EXPECT_THAT(hover(kTimed, 4, 8), HasSubstr("at the programmed feed 2 s"));
 }
 
-/// The pivot of the default machine's head is 180 mm: B90 swings the tip through a good part of a quarter turn.
+/// The pivot of the default machine's head is 180 mm: B90 swings the tip through most of a quarter turn.
 TEST(Hover, ShowsTheLengthThatTheTipIsSwung) {
   const char* const kSwings = "M06 T101001\nG00 X10 B90\nB0\nM02\n";
   EXPECT_THAT(hover(kSwings, 2, 0), testing::Not(HasSubstr("length 0 mm")));
@@ -117,7 +117,7 @@ TEST(Hover, IsPlainForEditorsThatShowPlainTextAlone) {
   EXPECT_EQ(contents({"plaintext", "markdown"}), Json({{"kind", "markdown"}, {"value", "**N5**" + ending}}));
 }
 
-/// An editor fetches the images that a text names.
+/// Unescaped, such text would make an editor fetch the images that it names.
 TEST(Hover, ShowsTheWordsOfOthersAsTheyStand) {
   const commands::TemporaryFolder folder;
   folder.write("isocnc.json", R"json({"machine": {
@@ -187,8 +187,8 @@ TEST(State, AtALabelIsThatOfAllThatJumpsThere) {
     return before.is_null() ? before : before["position"]["x"];
   };
   EXPECT_EQ(x_at_label("X20"), nullptr);
-  EXPECT_EQ(x_at_label("G00 X10 F100"), 10);  // Both ways come to the same.
-  EXPECT_EQ(x_at_label("M02"), 10);           // Only the jump leads there.
+  EXPECT_EQ(x_at_label("G00 X10 F100"), 10);  // Both paths lead to the same position.
+  EXPECT_EQ(x_at_label("M02"), 10);           // Only the jump leads to the label.
 }
 
 TEST(SyntaxTree, ShowsHowLinesAreRead) {
@@ -232,7 +232,7 @@ TEST(InlineValues, AreRegistersAndVgplUpToWhereTheProgramStands) {
   EXPECT_EQ(shown, "2:8-10 V1\n3:3-7 VGPL\n4:0-2 V2\n4:10-12 V3\n");
 }
 
-/// The jumps that lead to what is wrong.
+/// A finding lists the jumps that lead to it.
 TEST(Diagnostics, ReportThePathToWhatIsWrong) {
   Session session;
   session.start({{"textDocument", {{"publishDiagnostics", {{"relatedInformation", true}}}}}}, {{"locale", "en"}});
@@ -247,7 +247,7 @@ TEST(Diagnostics, ReportThePathToWhatIsWrong) {
                                                            "end": {"line": 2, "character": 19}})"));
 }
 
-/// An editor may leave the mark in the text.
+/// An editor may send the mark as part of the text.
 TEST(ByteOrderMark, CountsAsACharacterOfTheFirstLine) {
   Session session;
   session.start(Json::object(), {{"locale", "en"}});
@@ -284,7 +284,7 @@ TEST(Diagnostics, FollowCommentsThatSilenceThem) {
   EXPECT_EQ(session.diagnostics(kUri, 2), Json::array());
 }
 
-/// Behind the last line is its end, which may be that of the first line.
+/// A position after the last line becomes its end, which may be in the first line.
 TEST(Diagnostics, AcceptAByteOrderMarkAfterTheLastLine) {
   Session session;
   session.start();

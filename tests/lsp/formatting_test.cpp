@@ -3,7 +3,7 @@
 #include "client_text.h"
 #include "session.h"
 
-/// The program as it should be written, in as few edits as that takes.
+/// Formatting of a program, in the minimum number of edits.
 namespace isocnc::lsp {
 namespace {
 
@@ -56,7 +56,7 @@ TEST_F(Formatting, ARangeIsItsLines) {
 }
 
 struct Typed {
-  const char* text;  // With the cursor behind what has been typed.
+  const char* text;  // The program, with the cursor after the typed text.
   const char* character;
   const char* after;
 };

@@ -17,7 +17,7 @@ namespace {
 
 using Accepted = std::variant<int, std::error_code>;
 
-/// Waits for a client on a port that is free, beside what the test does.
+/// Waits for a client on a free port, in parallel to the test.
 class Listener {
  public:
   Listener() : port_(port_promise_.get_future().get()) {}

@@ -11,11 +11,10 @@
 
 namespace isocnc::lsp {
 
-/// A program with places marked in it: `|` is the cursor, `[...]` a stretch that is expected. The marks are no part of
-/// the text.
+/// A program with marked places: `|` is the cursor, `[...]` an expected range. The marks are not part of the text.
 struct MarkedProgram {
   std::string text;
-  rpc::Json cursor;  ///< As the protocol writes it: {"line", "character"}.
+  rpc::Json cursor;  ///< A position of the protocol: {"line", "character"}.
   std::vector<rpc::Json> marked_ranges;
 
   MarkedProgram(std::string_view marked, documents::Encoding encoding) {
@@ -43,7 +42,7 @@ struct MarkedProgram {
   }
 };
 
-/// The text without what no message can hold, or would end a line.
+/// The text without control characters and bytes outside ASCII, which a message cannot hold or which would end a line.
 inline std::string message_text(std::string text) {
   const auto is_strange = [](char c) {
     return static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7E;
@@ -55,7 +54,7 @@ inline std::string message_text(std::string text) {
 inline constexpr documents::Encoding kEncodings[] = {documents::Encoding::Utf8, documents::Encoding::Utf16,
                                                      documents::Encoding::Utf32};
 
-/// What a client says that wants this encoding.
+/// The capabilities of a client that requests this encoding.
 inline rpc::Json capabilities_with(documents::Encoding encoding) {
   return {{"general", {{"positionEncodings", {documents::name_of(encoding)}}}}};
 }

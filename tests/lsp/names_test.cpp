@@ -8,8 +8,8 @@
 #include "marked_program.h"
 #include "session.h"
 
-/// Labels and registers: where they come from, where they are used, and what else they could be called. In the programs
-/// `|` is the cursor, `[...]` what the editor should point at. The comments hold what takes more than one unit.
+/// Labels and registers: their definitions, uses and renaming. In the programs `|` is the cursor and `[...]` an
+/// expected range. The comments in them hold characters of several units.
 namespace isocnc::lsp {
 namespace {
 
@@ -17,7 +17,7 @@ using documents::Encoding;
 
 constexpr const char* kUri = "file:///nowhere/part.iso";
 
-/// What is answered to a request at the cursor.
+/// The answer to a request at the cursor.
 Json ask(const MarkedProgram& program, const std::string& method, Encoding encoding, const Json& more = Json::object(),
          const Json& capabilities = Json::object()) {
   Session session;
@@ -30,7 +30,7 @@ Json ask(const MarkedProgram& program, const std::string& method, Encoding encod
   return session.respond(method, params);
 }
 
-/// The ranges in an answer that is a list, or null.
+/// The ranges in an answer, which is a list or null.
 std::vector<Json> ranges_in(const Json& response) {
   std::vector<Json> ranges;
   for (const Json& each : response.at("result")) ranges.push_back(each.at("range"));
@@ -47,16 +47,17 @@ void expect_marked(const std::string& method, const std::vector<const char*>& pr
 }
 
 TEST(Definition, OfALabelIsTheLineThatTheJumpLeadsTo) {
-  expect_marked("textDocument/definition",
-                {
-                    "(é 😀) IF VGPL = 1 GOTO N|30\nG00 X1\n[N30] M02\n",
-                    "IF VGPL = 1 GOTO |N30\n(€ 😀) [n 030] M02\n",
-                    "IF VGPL = 1 GOTO N30|\n[N30] X1\nN30 M02\n",
-                    "[N30] X1\nIF VGPL = 1 GOTO N|30\nM02\n",  // Backward is meant, if wrong.
-                    "IF VGPL = 1 GOTO N|30\nM02\n",
-                    "[N1|0] M02\n",
-                    "G00 X|10\nM02\n",
-                });
+  expect_marked(
+      "textDocument/definition",
+      {
+          "(é 😀) IF VGPL = 1 GOTO N|30\nG00 X1\n[N30] M02\n",
+          "IF VGPL = 1 GOTO |N30\n(€ 😀) [n 030] M02\n",
+          "IF VGPL = 1 GOTO N30|\n[N30] X1\nN30 M02\n",
+          "[N30] X1\nIF VGPL = 1 GOTO N|30\nM02\n",  // An invalid backward jump: its label is shown all the same.
+          "IF VGPL = 1 GOTO N|30\nM02\n",
+          "[N1|0] M02\n",
+          "G00 X|10\nM02\n",
+      });
 }
 
 TEST(Definition, OfARegisterIsEveryAssignmentThatMayReachIt) {
@@ -118,7 +119,8 @@ TEST(Rename, ChangesTheNumberInAllPlacesAndNothingElse) {
       {"(😀) IF V1 = 1 GOTO N|30\nn 030 M02\n", "N45", "(😀) IF V1 = 1 GOTO N45\nn 45 M02\n"},
       {"IF V1 = 1 GOTO N30\nN3|0 M02\n", " n045 ", "IF V1 = 1 GOTO N45\nN45 M02\n"},
       {"IF V1 = 1 GOTO N3(no)0\nN3|0 M02\n", "45", "IF V1 = 1 GOTO N45(no)\nN45 M02\n"},
-      {"N10 G00 X1\nN1|0 M02\n", "20", "N10 G00 X1\nN20 M02\n"},  // No GOTO names it: just this line.
+      {"N10 G00 X1\nN1|0 M02\n", "20",
+       "N10 G00 X1\nN20 M02\n"},  // A line number that no GOTO names changes on its line only.
       {"N1|0 M02\n", "10", "N10 M02\n"},
       {"V1=2 (😀) V|1=3 V11=4\nIF V1 = 1 GOTO N30\nN30 M02\n", "V5",
        "V5=2 (😀) V5=3 V11=4\nIF V5 = 1 GOTO N30\nN30 M02\n"},

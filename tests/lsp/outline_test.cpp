@@ -13,8 +13,7 @@
 #include "tests/support/random.h"
 #include "tests/support/random_program.h"
 
-/// How a program is divided: symbols, folds, and what a selection grows to. Lines are told from 1, as a machinist reads
-/// them.
+/// The structure of a program: symbols, folds, and selection ranges. Lines are counted from 1, as machinists do.
 namespace isocnc::lsp {
 namespace {
 
@@ -31,7 +30,7 @@ std::string lines_of(const Json& range) {
   return fmt::format("{}-{}", range["start"]["line"].get<int>() + 1, range["end"]["line"].get<int>() + 1);
 }
 
-/// One line for each symbol, indented as deep as it lies.
+/// Draws one line for each symbol, indented by its depth.
 void draw(const Json& symbols, std::string& drawing, const std::string& indent = "") {
   for (const Json& symbol : symbols) {
     const std::string detail = symbol["detail"];
@@ -83,7 +82,7 @@ const Drawn kDrawn[] = {
      "16-16 note\n"},
     {"M06\nG28 I1 Q1\nG28 J1 P1\nG00 X1\n", "1-5 M06\n  2-2 G28 I1 Q1\n  3-5 G28 J1 P1\n"},
     {"(prima)\n(seconda)\n\n(terza)\nG00 X1\nM02\n", "1-2 prima\n4-4 terza\n"},
-    // Behind the first M02 a label goes on: the tool works until the last.
+    // A label continues after the first M02: the tool's section ends at the last one.
     {"M06 T101001\nIF VGPL = 1 GOTO N5\nM02\nN5 G00 X1\nM02\n\n", "1-5 T101001\n  4-4 N5\n"},
     {"M02\nM06 T101001\nG00 X1", "2-3 T101001\n"},
 };
@@ -132,7 +131,7 @@ TEST(WorkspaceSymbols, AreThoseOfAllOpenPrograms) {
   EXPECT_THAT(names("fresa"), testing::IsEmpty());
 }
 
-/// A tree that is right holds its children within itself, and each symbol its name.
+/// Expects each symbol to lie within its parent and to contain its name.
 void expect_nested(const Json& symbols, const Json& outer, const std::string& program) {
   const auto place = [](const Json& json) { return std::pair(json["line"].get<int>(), json["character"].get<int>()); };
   const auto holds = [&](const Json& a, const Json& b) {
@@ -146,7 +145,7 @@ void expect_nested(const Json& symbols, const Json& outer, const std::string& pr
   }
 }
 
-/// A program in which many sections begin and end.
+/// A program in which many sections start and end.
 std::string sections_program(support::Random& random) {
   support::RandomProgram lines(random);
   std::string text;

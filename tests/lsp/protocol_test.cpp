@@ -6,7 +6,7 @@
 
 #include "session.h"
 
-/// The protocol as such: what comes when, and what is answered to what should not have come.
+/// The protocol itself: the order of messages, and the answers to invalid ones.
 namespace isocnc::lsp {
 namespace {
 
@@ -32,7 +32,7 @@ TEST(Lifecycle, ShutdownAndExitAreCleanEverythingElseIsNot) {
 TEST(Lifecycle, RequestsOutOfPlaceAreRefused) {
   Session session;
   EXPECT_EQ(error_code(session.respond("textDocument/hover")), -32002);
-  session.open(kUri, "M02\n");  // Is dropped.
+  session.open(kUri, "M02\n");  // A notification before `initialize`, which is dropped.
   session.start();
   EXPECT_EQ(error_code(session.respond("initialize", {{"capabilities", Json::object()}})), -32600);
   EXPECT_EQ(error_code(session.respond("textDocument/hover", {{"textDocument", {{"uri", kUri}}}})), -32602);
@@ -85,7 +85,7 @@ TEST(Messages, WhatIsWrongIsAnsweredAsTheProtocolAsks) {
   EXPECT_EQ(error_code(session.response_to(nullptr)), -32700);
   session.receive({rpc::Frame::Problem::TooLong, {}});
   EXPECT_EQ(error_code(session.response_to(nullptr)), -32700);
-  // Wrong notifications have no answer, and do no harm.
+  // Invalid notifications get no answer and have no effect.
   session.send_raw(R"({"method":"no/such"})");
   session.send_raw(R"({"method":"textDocument/didOpen","params":{}})");
   session.send_raw(R"({"method":"textDocument/didChange","params":{"textDocument":{"uri":"file:///other"}}})");
@@ -120,7 +120,7 @@ TEST(Lifecycle, TheClientsFirstKnownEncodingIsTaken) {
   }
 }
 
-/// Takes what is told of one work from its begin to its end: its token.
+/// Waits for the progress of one work from start to end. Returns its token.
 Json reported_work(Session& session, const std::string& title) {
   const Json token = session.wait_for("window/workDoneProgress/create")["params"]["token"];
   const Json begin = session.wait_for("$/progress")["params"];

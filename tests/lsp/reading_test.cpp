@@ -17,7 +17,7 @@
 #include "tests/support/random.h"
 #include "tests/support/random_program.h"
 
-/// What the editor shows beside the text: colors and hints.
+/// Semantic tokens and inlay hints.
 namespace isocnc::lsp {
 namespace {
 
@@ -40,7 +40,7 @@ class Reading {
     session.open(kUri, text_.text());
   }
 
-  /// The tokens, as `function:G01 parameter:X`; a line of the program is a line here.
+  /// The tokens, such as `function:G01 parameter:X`, one line for each line of the program.
   std::string drawing_of(const std::vector<int>& data) const {
     std::string drawing;
     int line = 0;
@@ -60,7 +60,7 @@ class Reading {
     return drawing;
   }
 
-  /// The text with its hints within it, in braces.
+  /// The text with its hints inserted in braces.
   std::string with_hints() {
     Json params = document_params();
     params["range"] = lines(0, 1000);
@@ -112,7 +112,7 @@ TEST(SemanticTokens, OfARangeAreThoseOfItsLines) {
   EXPECT_EQ(reading.session.request("textDocument/semanticTokens/range", params)["data"], Json::array());
 }
 
-/// Keeps tokens as an editor does: asks for changes and makes them.
+/// Keeps tokens as an editor does: requests changes and applies them.
 class TokenClient {
  public:
   explicit TokenClient(Session& session) : session_(session) {
@@ -126,7 +126,7 @@ class TokenClient {
   }
 
   std::vector<int> data;
-  std::size_t received = 0;  ///< Numbers that have come with the last answer.
+  std::size_t received = 0;  ///< The number of numbers in the last answer.
 
  private:
   void take(const Json& answer) {
@@ -169,7 +169,7 @@ TEST(SemanticTokens, ComeAsChangesThatGiveTheSameAsAfresh) {
                                                    random.between(0, 9), random.one_in(2) ? "(è 😀)" : text(3));
       session.edit(kUri, version, {step});
       client->update();
-      if (random.one_in(2)) continue;  // One change upon the other.
+      if (random.one_in(2)) continue;  // No comparison now, so that the next changes build on these.
       const Json full = session.request("textDocument/semanticTokens/full", document_params());
       EXPECT_EQ(client->data, full["data"].get<std::vector<int>>()) << seed << " " << version;
       client.emplace(session);
@@ -197,13 +197,13 @@ TEST(InlayHints, ShowWhereIncrementalMotionsEndAndWhatIsInForce) {
       {"M06 T101001\nG90 G00 X10 Y20\nG91 G01 X5 F100\n(😀) X5.25 Y-1\nG90\nX1\nM02\n",
        "M06 T101001{0:00:00}\nG90 G00 X10 Y20\nG91 G01 X5{→ X15} F100\n(😀) {G01}X5.25 Y-1{→ X20.25 "
        "Y19}\nG90\n{G01}X1\nM02\n"},
-      // Inches stay inches; a center is no place to go to.
+      // Inches stay inches; a center is not a target position.
       {"M06 T101001\nG70 G91 G00 X1\nG02 I1 J0 X2 F10\nM02\n",
        "M06 T101001{0:00:00}\nG70 G91 G00 X1{→ X1}\nG02 I1 J0 X2{→ X3} F10\nM02\n"},
-      // The rotary axes.
+      // Rotary axes have hints as well.
       {"M06 T101001\nG91 G49\nG01 B10 C-5 F100\nB2.5\nM02\n",
        "M06 T101001\nG91 G49\nG01 B10 C-5{→ B10 C-5} F100\n{G01}B2.5{→ B12.5}\nM02\n"},
-      // Two ways lead to N5, with different Gs and ends: nothing is said there.
+      // Two paths with different Gs and positions lead to N5, so there are no hints.
       {"M06 T101001\nG91 G00 X1\nIF VGPL = 1 GOTO N5\nG01 X1 F100\nN5 X1\nY1\nM02\n",
        "M06 T101001{0:00:00}\nG91 G00 X1{→ X1}\nIF VGPL = 1 GOTO N5\nG01 X1{→ X2} F100\nN5 X1\nY1\nM02\n"},
       {"M02\nG91 G00 X1\nX1\n", "M02\nG91 G00 X1\nX1\n"},

@@ -14,7 +14,7 @@
 #include "session.h"
 #include "tests/support/random_program.h"
 
-/// Whatever is rewritten, wherever, the machine moves as it did.
+/// After any rewrite in any place, the machine moves as before.
 namespace isocnc::lsp {
 namespace {
 
@@ -25,7 +25,7 @@ using support::RandomProgram;
 
 constexpr const char* kUri = "file:///nowhere/part.iso";
 
-/// Programs that run to their end, with passes in all modes and now and then something that may be wrong.
+/// Writes programs that run to their end, with passes in all modes and sometimes a line that may be wrong.
 class RandomPart {
  public:
   explicit RandomPart(Random& random) : random_(random) {}
@@ -90,7 +90,7 @@ class RandomPart {
 
 struct RecordedRun {
   std::vector<MachineMove> moves;
-  std::vector<std::string> others;  // In their order, with how many moves came before.
+  std::vector<std::string> others;  // The other events in order, each after the number of moves before it.
 };
 
 RecordedRun run(const std::string& text, double vgpl) {
@@ -107,14 +107,15 @@ RecordedRun run(const std::string& text, double vgpl) {
   return recorded;
 }
 
-/// Of an arc's way. The center of a flat arc may be a little elsewhere where the way is not.
+/// The middle point of an arc's path. Used for comparison because equal paths of flat arcs may have slightly different
+/// centers.
 geometry::Vec3 middle(const MachineMove& arc) {
   const Eigen::AngleAxisd half(arc.sweep_deg / 2 * std::numbers::pi / 180, arc.normal);
   const double rise = (arc.to.tip - arc.from.tip).dot(arc.normal);
   return arc.center + half * (arc.from.tip - arc.center) + rise / 2 * arc.normal;
 }
 
-/// How far two motions are apart, mm and degrees; feeds in parts of them.
+/// The maximum difference between two motions: mm, degrees, and a fraction of the feed.
 double difference(const MachineMove& a, const MachineMove& b) {
   if (a.kind != b.kind || a.inverse_time != b.inverse_time || a.five_axis != b.five_axis) return 1e9;
   double maximum = std::abs(a.feed - b.feed) / std::max(1.0, a.feed);
@@ -125,7 +126,7 @@ double difference(const MachineMove& a, const MachineMove& b) {
       {maximum, (middle(a) - middle(b)).norm(), std::abs(a.radius * a.sweep_deg - b.radius * b.sweep_deg) / 57});
 }
 
-/// A place at the start of a line, or somewhere on one.
+/// A random offset at the start of a line, or within one.
 std::size_t random_place(Random& random, const std::string& text) {
   const std::size_t at = random.below(text.size());
   const std::size_t end = text.rfind('\n', at);
@@ -168,7 +169,7 @@ TEST(RewritesProperty, TheMachineMovesAsItDid) {
       }
     }
   }
-  EXPECT_EQ(made.size(), 9u);  // Each kind of rewrite, and the two of the motion G.
+  EXPECT_EQ(made.size(), 9u);  // Each kind of rewrite, and the two rewrites of the motion G.
   for (const auto& [title, times] : made) EXPECT_GT(times, 0) << title;
 }
 

@@ -21,7 +21,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// The bodies that come of a stream; a problem as its name.
+/// The bodies read from a stream, with the name of the problem for a bad frame.
 std::vector<std::string> read(const std::vector<std::string>& pieces, std::size_t longest = 100) {
   FrameReader reader(longest);
   std::deque<Frame> frames;
@@ -47,7 +47,7 @@ const FrameCase kFrameCases[] = {
     {"Content-Length: 0\r\n\r\nContent-Length: 2\r\n\r\n{}", {"", "{}"}},
     {"Content-Length: 2\r\nContent-Length: 2\r\n\r\n{}", {"{}"}},
     {"Content-Length: 5\r\n\r\n{}", {}},
-    // No length, or none that can be read: on with the next header, wherever it stands.
+    // Without a valid length, reading continues at the next header, wherever it is.
     {"X: 1\r\n\r\n{}Content-Length: 2\r\n\r\n{}", {"<no length>", "{}"}},
     {"Content-Length: -2\r\n\r\n{}{}Content-Length: 2\r\n\r\n{}", {"<no length>", "{}"}},
     {"Content-Length: 0x2\r\n\r\n{}", {"<no length>"}},
@@ -58,7 +58,7 @@ const FrameCase kFrameCases[] = {
     {"\r\n\r\n\r\nContent-Length: 2\r\n\r\n{}", {"<no length>", "{}"}},
     {"GET / HTTP/1.1\r\nHost: x\r\n\r\nCoCoContent-Length: 2\r\n\r\n{}", {"<no length>", "{}"}},
     {std::string(2 * FrameReader::kLongestHeader, 'x') + "Content-Length: 2\r\n\r\n{}", {"<no length>", "{}"}},
-    // Longer than what is taken: passed over.
+    // A message longer than the maximum is skipped.
     {"Content-Length: 101\r\n\r\n" + std::string(101, 'x') + "Content-Length: 2\r\n\r\n{}", {"<too long>", "{}"}},
     {"Content-Length: 99999999999999999999999999\r\n\r\n{}", {"<too long>"}},
 };
@@ -85,7 +85,7 @@ TEST(FrameReader, KnowsWhetherAMessageWasCutOff) {
   EXPECT_TRUE(reader.is_between_messages());
 }
 
-/// A message whose text is long, as JSON writes it.
+/// A message with a long text, given in its JSON form.
 std::string message_with(const std::string& written) { return R"({"a":[1,")" + written + R"(",{"b":"short"}]})"; }
 
 TEST(Parsed, ReadsLongStringsAsJsonDoes) {
@@ -135,7 +135,7 @@ TEST(Parsed, WhatNestsTooDeeplyIsNoneHoweverLong) {
     EXPECT_FALSE(Parsed::parse(space + nested(kDeepestMessage)).json.is_discarded());
     EXPECT_TRUE(Parsed::parse(space + nested(kDeepestMessage + 1)).json.is_discarded());
     EXPECT_TRUE(Parsed::parse(space + nested(1'000'000)).json.is_discarded());
-    // Beside one another, or within strings, there may be any number.
+    // Any number of brackets is allowed side by side, or within strings.
     std::string many = "[";
     for (std::size_t i = 0; i < kDeepestMessage; ++i) many += nested(2, R"("[{\"[{\\")") + ",";
     EXPECT_FALSE(Parsed::parse(space + many + "1]").json.is_discarded());
@@ -169,13 +169,13 @@ TEST(Strand, DoesItsTasksInTheirOrderBesideOthers) {
   }
 }
 
-/// What a task that never comes holds may hold the strand itself.
+/// A task that never runs may own the strand itself.
 TEST(Strand, IsDestroyedWithAPoolThatHasNotRunIt) {
   struct Owner {
     explicit Owner(Pool& pool) : strand(pool) {}
     Strand strand;
   };
-  std::optional<Pool> pool(std::in_place, 0);  // Without a thread it comes to nothing.
+  std::optional<Pool> pool(std::in_place, 0);  // A pool without threads, which runs no task.
   auto owner = std::make_shared<Owner>(*pool);
   const std::weak_ptr<Owner> watched = owner;
   for (int i = 0; i < 2; ++i) owner->strand.post([owner] {});
@@ -194,7 +194,7 @@ TEST(Pool, EndsWhileTasksWait) {
   EXPECT_LE(done, 100);
 }
 
-/// What a task posts while the pool is ending does not begin any more.
+/// A task that is posted while the pool is ending does not start.
 TEST(Pool, EndsWhileTasksPostOthers) {
   for (int round = 0; round < 200; ++round) {
     Pool pool(32);

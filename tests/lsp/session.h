@@ -11,22 +11,22 @@ namespace isocnc::lsp {
 
 using rpc::Json;
 
-/// A client of a Server.
+/// A test client of a Server.
 class Session : public support::MessageClient {
  public:
   Session();
 
-  /// Sends `initialize` and `initialized`; the result of the former.
+  /// Sends `initialize` and `initialized`. Returns the result of `initialize`.
   Json start(const Json& capabilities = Json::object(), const Json& more = Json::object());
 
-  /// Waits for the answer: the whole response.
+  /// Sends a request and waits. Returns the whole response.
   Json respond(const std::string& method, const Json& params = Json::object());
-  /// The result of a request that succeeds.
+  /// Sends a request that has to succeed. Returns its result.
   Json request(const std::string& method, const Json& params = Json::object());
-  /// Sends a request and does not wait; its id.
+  /// Sends a request without waiting. Returns its id.
   std::int64_t ask(const std::string& method, const Json& params = Json::object());
   Json response_to(const Json& id);
-  /// Whether an answer has come that nobody has waited for.
+  /// Whether a received answer has not been read by the test.
   bool has_response();
   void notify(const std::string& method, const Json& params = Json::object());
 
@@ -35,12 +35,12 @@ class Session : public support::MessageClient {
 
   void open(const std::string& uri, const std::string& text, int version = 1);
   void close(const std::string& uri);
-  /// Makes changes, each in the text that the one before has left.
+  /// Sends changes, each applied to the text that results from the one before.
   void edit(const std::string& uri, int version, const std::vector<Json>& changes);
-  /// The diagnostics published last of this version.
+  /// Waits for the diagnostics published for this version.
   Json diagnostics(const std::string& uri, int version);
 
-  /// Ends the server: its exit status.
+  /// Ends the server. Returns its exit status.
   int end(bool by_exit = true);
 
  private:

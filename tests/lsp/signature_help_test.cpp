@@ -3,7 +3,7 @@
 #include "client_text.h"
 #include "session.h"
 
-/// The arguments of the instruction that is being written.
+/// Signature help for the instruction that is being written.
 namespace isocnc::lsp {
 namespace {
 
@@ -11,8 +11,8 @@ constexpr const char* kUri = "file:///nowhere/part.iso";
 
 struct Case {
   const char* program;
-  const char* signature;  // Null for none.
-  const char* active;     // The parameter; empty for none of them.
+  const char* signature;  // The label of the signature; null for none.
+  const char* active;     // The active parameter; empty for none.
 };
 
 constexpr Case kCases[] = {

@@ -5,7 +5,7 @@
 
 #include "session.h"
 
-/// isocnc/toolpath: the way of the tool tip, and what an edit changes of it.
+/// isocnc/toolpath: the path of the tool tip, and its changes after an edit.
 namespace isocnc::lsp {
 namespace {
 
@@ -27,7 +27,7 @@ std::string decoded(const std::string& base64) {
   return bytes;
 }
 
-/// What a client knows of a path, kept up by what it is told.
+/// A client's copy of a path, updated by the answers.
 struct Known {
   std::string id;
   Json facts;

@@ -12,7 +12,7 @@
 #include "session.h"
 #include "tests/commands/temporary_folder.h"
 
-/// What is told of the programs in the workspace's folders, open or not.
+/// Diagnostics and symbols of the programs in the workspace's folders, open or not.
 namespace isocnc::lsp {
 namespace {
 
@@ -32,7 +32,7 @@ class Workspace : public testing::Test {
     return session_.start(kPulls, params);
   }
 
-  /// `full 2` or `unchanged`, by the program's name; what is told is known from then on.
+  /// The reports by program name: `full 2` or `unchanged`. The next call sends their ids as known.
   std::map<std::string, std::string> pull() {
     Json previous = Json::array();
     for (const auto& [uri, id] : ids_) previous.push_back({{"uri", uri}, {"value", id}});
@@ -85,7 +85,7 @@ TEST_F(Workspace, AnswersForAFileThatIsNotOpen) {
   EXPECT_EQ(pull_of("untitled:a")["error"]["code"], -32801);
 }
 
-/// The configurations that a search asks stay as long as it goes on.
+/// The configurations that a search uses stay valid until it ends.
 TEST_F(Workspace, IsSearchedWhileItsConfigurationsChange) {
   constexpr int kFolders = 60;
   for (int i = 0; i < kFolders; ++i) {
@@ -108,17 +108,17 @@ TEST_F(Workspace, DoesNotWaitForAPipe) {
   EXPECT_EQ(session_.respond("textDocument/diagnostic", document)["error"]["code"], -32801);
 }
 
-/// As after a clock that was set back.
+/// A file may have an older time than before, such as after a clock is set back.
 TEST_F(Workspace, SeesAChangeThatIsOlderThanWhatItKnows) {
   start();
   pull();
   const auto before = fs::last_write_time(folder_ / "sub/bad.iso");
-  write("sub/bad.iso", "G00 X10  \nM02\n");  // As long as it was.
+  write("sub/bad.iso", "G00 X10  \nM02\n");  // A text of the same length as before.
   fs::last_write_time(folder_ / "sub/bad.iso", before - std::chrono::hours(24));
   EXPECT_EQ(pull(), (Reported{{"good.iso", "unchanged"}, {"sub/bad.iso", "full 1"}}));
 }
 
-/// Whoever made the folder may have put symlinks there.
+/// The author of the folder may have put symbolic links into it.
 TEST_F(Workspace, IsNotLeftThroughSymlinks) {
   const commands::TemporaryFolder outside;
   outside.write("part.iso", "G00 X10mm\nM02\n");
@@ -133,7 +133,7 @@ TEST_F(Workspace, IsNotLeftThroughSymlinks) {
               name.find("bad") == std::string::npos && name.find("good") == std::string::npos)
         << name << response;
   }
-  // The folder itself may be one: it is named.
+  // The folder itself may be a symbolic link, since the user named it.
   fs::create_directory_symlink(folder_, fs::path(outside.path()) / "here");
   const std::string here = documents::uri_of(fs::path(outside.path()) / "here");
   const Json added = Json::array({{{"uri", here}, {"name", "here"}}});
@@ -229,7 +229,7 @@ TEST_F(Workspace, FindsSymbolsInAllPrograms) {
   EXPECT_EQ(found("T103003"), "");
   write("sub/panel.iso", "M06 T103003\nM02\n");
   EXPECT_EQ(found("T"), "T103003 in sub/panel.iso\n");
-  session_.open(uri("sub/panel.iso"), "M06 T104004\nM02\n");  // What is typed counts, not the file.
+  session_.open(uri("sub/panel.iso"), "M06 T104004\nM02\n");  // The text in the editor counts, not that of the file.
   EXPECT_EQ(found("T"), "T104004 in sub/panel.iso\n");
   EXPECT_TRUE(session_.respond("workspace/symbol", {{"query", 7}}).contains("error"));
 }
