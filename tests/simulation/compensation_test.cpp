@@ -22,7 +22,7 @@ using testing::ElementsAre;
 using testing::ElementsAreArray;
 using testing::IsEmpty;
 
-/// What a run with a cutter of 5 mm radius does, and is told of.
+/// The events and warnings of a run with cutter compensation.
 struct Done {
   std::vector<running::Event> events;
   std::vector<RunWarning> warnings;
@@ -45,7 +45,7 @@ Done run_with(const TimedMachine& machine, std::string_view program) {
   return done;
 }
 
-/// Behind the tool change, which is line 1.
+/// Runs the program after a tool change, which is line 1. The radius is in mm.
 Done compensated(std::string_view program, double radius = 5) {
   return run_with(machine_with(radius), "M06 T101001\n" + std::string(program) + "M02\n");
 }
@@ -63,7 +63,7 @@ std::string shown(const running::Event& event) {
                             number(move->sweep_deg));
 }
 
-/// The events, but for tool change and end.
+/// The events except tool change and end.
 std::vector<std::string> events_of(const Done& done) {
   std::vector<std::string> texts;
   for (const running::Event& event : done.events) texts.push_back(shown(event));
@@ -114,7 +114,7 @@ TEST(Compensation, StaysInsideASquare) {
   EXPECT_THAT(done.warnings, IsEmpty());
 }
 
-/// What the tip does on the lines behind the entry.
+/// The motions of the tip on the lines after the lead-in.
 struct Case {
   std::string_view name;
   std::string_view program;
@@ -202,8 +202,8 @@ INSTANTIATE_TEST_SUITE_P(
                           "6 feed X45 Y-40 Z0"}}),
     [](const auto& each) { return std::string(each.param.name); });
 
-/// An arc without compensation begins where the program says: the cutter, which stood beside the contour, goes there
-/// straight, over the contour's end.
+/// An arc without compensation starts at the programmed point: the cutter, which stood beside the contour, moves there
+/// in a straight line, over the contour's end.
 TEST(Compensation, ComesBackToWhereAnArcBegins) {
   const Done done = compensated("G00 Y30\nG41 G01 X0 Y0 F1000\nX40\nG40\nG02 X60 Y0 R10\n");
   EXPECT_THAT(events_of(done), ElementsAre("2 rapid X0 Y30 Z0", "3 feed X0 Y5 Z0", "4 feed X40 Y5 Z0",
@@ -242,7 +242,7 @@ std::vector<Vec3> ends_of_moves(const Done& done) {
   return ends;
 }
 
-/// In a face frame the tip does what it does without one, seen from the face.
+/// In a face frame the tip moves, relative to the face, as it does without a face frame.
 TEST(Compensation, IsTheSameInEveryFace) {
   struct Face {
     std::string_view program;
@@ -263,7 +263,7 @@ TEST(Compensation, IsTheSameInEveryFace) {
   }
 }
 
-/// The feed is that of the tool's center, which has the time of a path that was programmed as such.
+/// The feed applies to the tool's center, so the duration equals that of the same path programmed without compensation.
 TEST(Compensation, TakesTheTimeOfThePathThatTheToolGoes) {
   const auto seconds = [](double radius, std::string_view program) {
     const TimedMachine machine = machine_with(radius);
@@ -282,7 +282,7 @@ TEST(Compensation, TakesTheTimeOfThePathThatTheToolGoes) {
                       "G00 X-20 Y-20\nG01 X0 Y-5 F1000\nX100\nG03 X105 Y0 R5\nG01 Y100\nG03 X100 Y105 R5\n"
                       "G01 X0\nG03 X-5 Y100 R5\nG01 Y0\nG00 X-20 Y-20\n"),
               1e-6);
-  // Inverse time is that of the motion; its corner goes on at the same speed.
+  // Inverse time applies to the motion; its corner continues at the same speed.
   EXPECT_NEAR(seconds(5, "G93\nG00 Y30\nG41 G01 X0 Y0 F2\nX100 F2\nY-100 F2\nG40\n"),
               seconds(0, "G93\nG00 Y30\nG01 Y5 F2\nX100 F2\nG94\nG02 X105 Y0 R5 F200\nG93\nG01 Y-100 F2\n"), 1e-3);
 }
@@ -295,14 +295,14 @@ struct Warned {
 TEST(Compensation, WarnsOfWhatTheCutterCannotDo) {
   const Warned kCases[] = {
       {"G00 Y30\nG41 G01 X0 Y0 F1000\nX40\nG03 X44 Y4 R4\nG01 Y40\nG40\n", {"W139 5"}},
-      // From the wrong side of the contour, and off it across its end.
+      // The lead-in comes from the wrong side, and the lead-out crosses the contour's end.
       {"G00 Y-30\nG41 G01 X0 Y0 F1000\nX40\nG40\n", {"W138 3"}},
       {"G00 Y30\nG41 G01 X0 Y0 F1000\nX40\nG40\nG01 Y-30\n", {"W138 6"}},
       {"G00 Y30\nG41 G01 X0 Y0 F1000\nX40\nG40\nG00 Y-30\n", {}},
       {"G00 Y30\nG41 G01 X0 Y0 F1000\nX40\nG40\nG00 Z30\nG01 Y-30\n", {}},
-      // A change of side leads across, too.
+      // A change of side crosses the contour as well.
       {"G00 Y30\nG41 G01 X0 Y0 F1000\nX40\nG42 G01 X80\nG40\n", {"W138 4"}},
-      // An arc is no way onto a contour.
+      // An arc cannot be a lead-in.
       {"G41 G02 X20 Y0 R10 F1000\nG40\n", {"W138 2"}},
       {"G49\nG41 G01 X20 F1000\nX30 B5\nG40\n", {"W140 4"}},
       {"G28 X1 J1 P0.1 R1\nG41 G01 X20 F1000\nG40\nG27\n", {"W140 3"}},
@@ -320,8 +320,8 @@ TEST(Compensation, TakesAToolsOwnRadius) {
                                            "8 rapid X0 Y0 Z0", "9 tool", "10 feed X40 Y0 Z0"));
 }
 
-/// The control reads on when the machine has come there (I.5, I.3.11), and the contour goes on from the place beside
-/// it.
+/// The control continues to read when the machine has arrived (I.5, I.3.11), and the contour continues from the
+/// position beside it.
 TEST(Compensation, PausesWhereTheControlReadsNoFurther) {
   const std::string entry = "G00 Y30\nG41 G01 X0 Y0 F1000\nX40\n";
   for (const std::string_view stop : {"G990\n", "IF V1=1 GOTO N9\n"}) {
@@ -335,12 +335,12 @@ TEST(Compensation, PausesWhereTheControlReadsNoFurther) {
                                                "6 feed X35 Y0 Z0", "6 feed X35 Y40 Z0"));
     EXPECT_THAT(warnings_of(inside), testing::Contains("W138 4"));
   }
-  // On the way onto the contour, too.
+  // The same holds on the lead-in.
   EXPECT_THAT(events_of("G00 Y30\nG41 G01 X0 Y0 F1000\nG990\nX40\nG40\n"),
               ElementsAre("2 rapid X0 Y30 Z0", "3 feed X5 Y0 Z0", "4 update", "5 feed X0 Y5 Z0", "5 feed X40 Y5 Z0"));
 }
 
-/// A change of plane, tool or frame ends the contour where it is; the next motion leads onto the next one.
+/// A change of plane, tool or frame ends the contour at that point; the next motion is the lead-in of the next contour.
 TEST(Compensation, BeginsAnewInAnotherPlane) {
   EXPECT_THAT(events_of("G00 Y30\nG41 G01 X0 Y0 F1000\nX40\nG18\nX80\nZ-50\nG40\n"),
               ElementsAre("2 rapid X0 Y30 Z0", "3 feed X0 Y5 Z0", "4 feed X40 Y5 Z0", "6 feed X75 Y0 Z0",

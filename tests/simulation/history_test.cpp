@@ -15,7 +15,7 @@ namespace {
 using support::Random;
 using support::seeds;
 
-/// So few that they are thinned out again and again.
+/// Low limits, so that checkpoints are thinned out repeatedly.
 constexpr History::Limits kFew{.checkpoints = 5, .nearby = 3, .spacing = 8};
 
 class HistoryTest : public testing::Test {
@@ -30,7 +30,7 @@ class HistoryTest : public testing::Test {
     return *begin_;
   }
 
-  /// A fresh run to before a block, with what has been set on the way.
+  /// A new run that stops after `blocks` blocks, with VGPL set before block `set_before`.
   Simulation fresh_before(std::uint64_t blocks, int set_before = -1, double vgpl = 0) const {
     Simulation fresh = *begin_;
     while (!fresh.has_ended() && fresh.blocks() < blocks) {
@@ -165,7 +165,7 @@ TEST_F(HistoryTest, SkipsToALineAndGoesOnAsAFreshRun) {
   }
 }
 
-/// What has been set is found again by whoever comes back, and what came of the old value is forgotten.
+/// Set values are still there after a return, and the results of the old value are dropped.
 TEST_F(HistoryTest, KeepsWhatHasBeenSet) {
   History history(
       begin("M06 T101001\nG1 X10 F6000\nIF VGPL=1 GOTO N5\nX20\nN5 X30\nV1=3\nIF V1=4 GOTO N6\nX1\nN6\nM02\n"));
@@ -199,7 +199,7 @@ TEST_F(HistoryTest, HoldsAsMuchOfALongProgramAsOfAShortOne) {
   EXPECT_LT(after(20'000), 2 * after(4'000));
 }
 
-/// Else going back there would mean to go all the way again.
+/// Without copies, a return would repeat the whole run.
 TEST_F(HistoryTest, KeepsCopiesWhereNothingTakesTime) {
   std::string text = "M06 T101001\n";
   for (int i = 0; i < 1'000; ++i) text += "V1=1\n";
@@ -218,7 +218,7 @@ TEST_F(HistoryTest, HoldsNoMoreThanItsBytes) {
   EXPECT_GT(history.memory(), kBytes / 4);
 }
 
-/// However one has come to a moment, back or on, it is as in a fresh run.
+/// A moment reached by any steps, back or forward, is as in a new run.
 TEST_F(HistoryTest, WalksAsAFreshRun) {
   for (const std::uint64_t seed : seeds(25)) {
     Random random(seed);
@@ -282,7 +282,7 @@ TEST_F(HistoryTest, FindsWhatARunInOneGoFinds) {
   }
 }
 
-/// A value set somewhere on the way, by somebody who goes back and forth.
+/// A value is set during the run, between steps back and forward.
 TEST_F(HistoryTest, WalksAsAFreshRunInWhichTheSameIsSet) {
   for (const std::uint64_t seed : seeds(25)) {
     Random random(seed);

@@ -11,7 +11,7 @@
 
 namespace isocnc::simulation {
 
-/// A machine whose every thing takes time, so that there is a moment to stop in it.
+/// A machine on which every action takes time, so that a run can be stopped within each.
 inline TimedMachine machine_of_tests(bool limits_jerk = false) {
   TimedMachine machine{.motion = motion::head_router()};
   if (limits_jerk)
@@ -23,21 +23,21 @@ inline TimedMachine machine_of_tests(bool limits_jerk = false) {
   return machine;
 }
 
-/// The program begins where the machine stands.
+/// Options with which the program starts at the machine's home.
 inline running::RunOptions options_for(const TimedMachine& machine) {
   running::RunOptions options;
   options.setup.home = machine.home;
   return options;
 }
 
-/// Writes programs that run, of all that makes a machine move, wait and choose.
+/// Writes programs that run and contain everything that makes a machine move, wait and jump.
 class RandomRun {
  public:
   explicit RandomRun(support::Random& random) : random_(random) {}
 
   std::string text(int sections) {
     for (int i = 0; i < sections; ++i) section();
-    if (random_.one_in(6)) add("G02 X1");  // An error.
+    if (random_.one_in(6)) add("G02 X1");  // An arc without a center, which is an error.
     if (!random_.one_in(6)) add("M02");
     return text_;
   }
@@ -101,7 +101,8 @@ class RandomRun {
     add("G90");
   }
 
-  /// Most are wide enough for the tool; whatever is between two motions may come in it, another contour, too.
+  /// Adds a contour, usually wide enough for the tool. Any other pass may come between two motions, even another
+  /// contour.
   void compensated_contour() {
     add(random_.any_of({"G39\nG41", "G38\nG41", "G42"}));
     add(fmt::format("G1 X{} Y{} F{}", number(), number(), 500 * random_.between(1, 10)));
@@ -127,7 +128,7 @@ class RandomRun {
   int labels_ = 0;
 };
 
-/// All that can be seen of a simulation at a moment; numbers to the last bit.
+/// The whole visible state of a simulation at a moment; numbers have full precision.
 struct Shown {
   std::string text;
   execution::State state;
@@ -155,7 +156,7 @@ inline Shown shown(const Simulation& simulation) {
           .registers = simulation.run().registers};
 }
 
-/// What a simulation can be asked to do: goes on by a block, by some time, or by some of its path.
+/// Advances a simulation at random: by a block or several, by some time, or along some of the path.
 template <class Machine>
 void go_on(Machine& machine, support::Random& random, double time) {
   switch (random.between(0, 3)) {

@@ -21,7 +21,7 @@ using support::seeds;
 
 constexpr double kTiny = 1e-9;
 
-/// With what a simulation refers to.
+/// A program with the options and the machine that its simulations refer to.
 class Case {
  public:
   explicit Case(std::string text, double vgpl = 0, bool stop_at_errors = true, bool limits_jerk = false)
@@ -32,7 +32,7 @@ class Case {
     options_.vgpl = vgpl;
     options_.stop_at_errors = stop_at_errors;
   }
-  /// Of all that a program may hold, on machines of both kinds.
+  /// A random program on a machine with or without a jerk limit.
   explicit Case(Random& random)
       : Case(RandomRun(random).text(random.between(1, 3)), random.between(0, 2), true, random.one_in(4)) {}
   Simulation start() const { return Simulation(program_, options_, machine_); }
@@ -47,7 +47,7 @@ class Case {
   running::RunOptions options_;
 };
 
-/// A run from the begin to the moment at which another one is.
+/// A new run from the start to the present moment of `other`.
 Simulation fresh_at(const Case& of, const Simulation& other) {
   Simulation fresh = of.start();
   const std::uint64_t whole = other.blocks() - (other.is_in_block() ? 1 : 0);
@@ -77,7 +77,7 @@ TEST(Simulation, BeginsAtHomeBeforeTheFirstBlock) {
   EXPECT_EQ(simulation.sample().joints[motion::kZ], 400);
 }
 
-/// A tool change moves no joint, so a longer tool ends lower, once it is mounted; the next motions go on from there.
+/// A tool change moves no joint, so the tip of a longer tool is lower once it is mounted; the next motions start there.
 TEST(Simulation, ShowsWhereTheToolEnds) {
   const Case changes{
       "M06 T101001\n"
@@ -138,8 +138,8 @@ TEST(Simulation, ShowsTheToolBesideTheContour) {
   EXPECT_NEAR(simulation.sample().tip.tip.y(), 0, 0.1);
 }
 
-/// Where the tip stands after each line of a program in which somebody takes the machine over before line `change`
-/// (from 0), and leaves it as it is.
+/// The position of the tip after each line of a program, if the operator takes over the machine before line `change`
+/// (from 0) and does not move it.
 std::vector<geometry::Vec3> places_when_taken_over(const Case& of, std::uint64_t change) {
   std::vector<geometry::Vec3> places;
   auto simulation = std::make_unique<Simulation>(of.start());
@@ -152,7 +152,7 @@ std::vector<geometry::Vec3> places_when_taken_over(const Case& of, std::uint64_t
   return places;
 }
 
-/// The tool of 3 mm radius stands at X40 Y3 after the G40, and goes straight to X60 Y0; the second contour runs at Y17.
+/// The tool of 3 mm radius is at X40 Y3 after the G40, and moves straight to X60 Y0; the second contour runs at Y17.
 TEST(Simulation, MovedByHandFollowsTheSamePath) {
   const Case contours{
       "M06 T101001\n"
@@ -181,7 +181,7 @@ TEST(Simulation, MovedByHandFollowsTheSamePath) {
   }
 }
 
-/// I.4.2: an S waits for the next M03 or M04, which takes its time as the speed changes.
+/// I.4.2: an S takes effect at the next M03 or M04, which takes time because the speed changes.
 TEST(Simulation, TakenOverByHandKeepsAnSThatWaits) {
   const Case speeds{
       "M06 T101001\n"
@@ -199,7 +199,7 @@ TEST(Simulation, TakenOverByHandKeepsAnSThatWaits) {
   }
 }
 
-/// I.5: of what comes behind an IF the control knows nothing until the machine has come there.
+/// I.5: the control does not read the lines after an IF until the machine has arrived there.
 TEST(Simulation, StopsBesideTheContourAtAnIf) {
   const Case fork{
       "M06 T101001\n"
@@ -261,7 +261,7 @@ TEST(Simulation, StopsBetweenBlocks) {
   EXPECT_EQ(simulation.sample().speed, 0);
 }
 
-/// The control has read the whole program while the machine is on its first motion.
+/// The present motion is shown, although the control has already read the whole program.
 TEST(Simulation, ShowsTheMachinesPresent) {
   const Case two_lines{std::string(kTwoLines)};
   Simulation simulation = two_lines.start();
@@ -323,7 +323,7 @@ TEST(Simulation, StopsInsideADwell) {
   EXPECT_EQ(simulation.line(), 2u);
 }
 
-/// A G09 in G48 makes the machine wait until the channel is full again: that is part of its block.
+/// A G09 in G48 makes the machine wait until the look-ahead queue is full again: the wait is part of its block.
 TEST(Simulation, WaitsForTheChannelInTheBlockOfTheExactStop) {
   const Case stop{"M06 T101001\nG1 X10 F6000 G09\nX20\nM02\n"};
   Simulation simulation = stop.start();
@@ -339,7 +339,7 @@ TEST(Simulation, WaitsForTheChannelInTheBlockOfTheExactStop) {
   EXPECT_EQ(waiting.sample().speed, 0);
 }
 
-/// I.5: the control evaluates the condition when the machine has got there.
+/// I.5: the control evaluates the condition when the machine has arrived there.
 TEST(Simulation, DecidesJumpsWhenTheMachineGetsThere) {
   const Case fork{"M06 T101001\nV1=1\nG1 X100 F6000\nIF V1=2 GOTO N5\nX50\nN5 Y10\nM02\n"};
   Simulation simulation = fork.start();
@@ -378,7 +378,7 @@ TEST(Simulation, EndsAtAnErrorWhenTheMachineGetsThere) {
   EXPECT_NEAR(simulation.sample().tip.tip.x(), 100, kTiny);
 }
 
-/// Of a run in one go: what isorun makes of a program.
+/// The result of an uninterrupted run, as in isorun.
 struct Trip {
   explicit Trip(const Case& of)
       : timing(of.machine(),
@@ -397,8 +397,8 @@ struct Trip {
     timing.finish();
   }
 
-  std::vector<std::pair<motion::Stretch, std::uint64_t>> stretches;  ///< With their lines.
-  std::vector<motion::Move> moves;                                   ///< Those that take time.
+  std::vector<std::pair<motion::Stretch, std::uint64_t>> stretches;  ///< Pairs of a stretch and its line.
+  std::vector<motion::Move> moves;                                   ///< The moves that take time.
   Timing timing;
   running::RunResult result;
 };
@@ -411,7 +411,8 @@ TEST(SimulationProperty, FollowsThePathOfARunInOneGo) {
     Simulation simulation = some.start();
     for (const auto& [stretch, line] : trip.stretches) {
       const double middle = stretch.start + stretch.duration / 2;
-      if (middle <= stretch.start || middle >= stretch.start + stretch.duration) continue;  // As good as none.
+      if (middle <= stretch.start || middle >= stretch.start + stretch.duration)
+        continue;  // A stretch too short to have a moment within it.
       simulation.advance_to(middle);
       const motion::Sample expected = stretch.at(some.machine().motion.kinematics, middle);
       ASSERT_EQ(simulation.sample().joints, expected.joints) << seed << " at " << middle;
@@ -422,7 +423,7 @@ TEST(SimulationProperty, FollowsThePathOfARunInOneGo) {
   }
 }
 
-/// Traced by copies that each go through one block, as a debugger looks ahead.
+/// Each block is run on a copy, as a debugger looks ahead.
 TEST(SimulationProperty, TracesTheMotionsOfARunInOneGo) {
   for (const std::uint64_t seed : seeds(40)) {
     Random random(seed);
@@ -460,7 +461,7 @@ TEST(SimulationProperty, EndsAsARunInOneGo) {
   }
 }
 
-/// Stopped anywhere, a copy goes on by itself to the last bit as the original, and both are where a fresh run would be.
+/// After a stop at any moment, a copy continues exactly like the original, and both are in the state of a new run.
 TEST(SimulationProperty, GoesOnAsTheOriginalAndAsAFreshRun) {
   for (const std::uint64_t seed : seeds(40)) {
     Random random(seed);
@@ -488,7 +489,7 @@ TEST(SimulationProperty, GoesOnAsTheOriginalAndAsAFreshRun) {
   }
 }
 
-/// Whatever is wrong with a program, it comes to the end that it has in a run in one go.
+/// A program with any errors ends as it does in an uninterrupted run.
 TEST(SimulationProperty, RunsAnyProgram) {
   for (const std::uint64_t seed : seeds(60)) {
     Random random(seed);
@@ -504,10 +505,10 @@ TEST(SimulationProperty, RunsAnyProgram) {
   }
 }
 
-/// Where the machine is told to be, and how fast, agree: no leaps. Those of the tip are tool changes.
+/// The shown positions and speeds agree, without leaps, except that a tool change moves the tip.
 TEST(SimulationProperty, MovesAtTheSpeedThatItShows) {
   constexpr double kStep = 0.002;
-  constexpr double kMaxAcceleration = 30'000;  // Of a tip that B and C swing as well, mm/s^2.
+  constexpr double kMaxAcceleration = 30'000;  // The acceleration in mm/s^2 of a tip that B and C swing as well.
   for (const std::uint64_t seed : seeds(8)) {
     Random random(seed);
     const Case some{RandomRun(random).text(2), 1};

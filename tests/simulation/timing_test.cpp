@@ -21,7 +21,7 @@ using testing::ElementsAre;
 
 constexpr double kTiny = 1e-9;
 
-/// 100 mm/s at most, 1000 mm/s^2.
+/// A machine with a maximum of 100 mm/s and 1000 mm/s^2.
 TimedMachine slow_machine() {
   TimedMachine machine{.motion = motion::three_axis_router()};
   for (motion::AxisLimits& axis : machine.motion.axes) {
@@ -46,12 +46,12 @@ Timed time(std::string_view program, const TimedMachine& machine = slow_machine(
   return timed;
 }
 
-/// Behind the tool change.
+/// The duration in seconds of the part after the tool change.
 double seconds_of(std::string_view program) {
   return time("M06 T101001\n" + std::string(program) + "M02\n").seconds - 5;
 }
 
-/// From rest to rest over a length with this speed: 1000 mm/s^2 at both ends.
+/// The duration of a motion from rest to rest over `length` mm at `speed` mm/s, with 1000 mm/s^2 at both ends.
 double trapezoid(double length, double speed) { return length / speed + speed / 1000; }
 
 TEST(Timing, OfAMotionIsThatOfItsTrapezoid) {
@@ -65,7 +65,7 @@ TEST(Timing, OfMotionsInLineIsThatOfOneMotion) {
 }
 
 TEST(Timing, OfInverseTimeIsThatTime) {
-  // 1/0.5 min = 120 s at nearly constant speed, and the way up and down.
+  // 1/0.5 min = 120 s at nearly constant speed, plus acceleration and braking.
   const double speed = 240.0 / 120;
   EXPECT_NEAR(seconds_of("G93\nG01 X240 F0.5\n"), 120 + speed / 1000, 1e-6);
 }
@@ -86,21 +86,21 @@ TEST(Timing, MachineStandsForWhatIsNoMotion) {
   EXPECT_NEAR(seconds_of("G01 X100 F3000\nIF V1 = 1 GOTO N5\nX200\nN5\n"), 2 * parts, kTiny);
 }
 
-/// docs/isorun.md: an M03, M04 or M05 takes its 3 s where it changes what the spindle does.
+/// docs/isorun.md: an M03, M04 or M05 takes 3 s if it changes the direction or speed of the spindle.
 TEST(Timing, OfTheSpindleIsThatOfItsChanges) {
   const std::pair<std::string_view, int> programs[] = {
-      {"M05\n", 0},                                 // It stands at the start,
-      {"S1000 M03\nM05\nM05\n", 2},                 // and after an M05.
-      {"S1000 M03\nM03\nS1000 M03\n", 1},           // It turns that way, at that speed.
-      {"S1000 M04\nM04\n", 1},                      //
-      {"M03\nM03\n", 1},                            // Before any S, too.
-      {"S1000 M03\nS2000 M03\n", 2},                // Another speed,
-      {"S1000 M03\nM04\nM03\n", 3},                 // another way,
-      {"S1000 M03\nM05\nM03\n", 3},                 // from rest again.
-      {"S1000\nS2000\n", 0},                        // An S waits for its M03.
-      {"S1000 M03\nS2000\nG01 X0 F100\nM03\n", 2},  //
-      {"S1000 M03\nS2000\nS1000 M03\n", 1},         //
-      {"S1000 M03\nM100\nM03\n", 1},                // Besides the 7 s of M100.
+      {"M05\n", 0},                                 // No change: the spindle stands at the start.
+      {"S1000 M03\nM05\nM05\n", 2},                 // No change by the second M05.
+      {"S1000 M03\nM03\nS1000 M03\n", 1},           // No change: same direction and speed.
+      {"S1000 M04\nM04\n", 1},                      // No change: the same for M04.
+      {"M03\nM03\n", 1},                            // The same without any S.
+      {"S1000 M03\nS2000 M03\n", 2},                // A new speed.
+      {"S1000 M03\nM04\nM03\n", 3},                 // A new direction.
+      {"S1000 M03\nM05\nM03\n", 3},                 // A start from rest after the M05.
+      {"S1000\nS2000\n", 0},                        // No change by an S without an M03.
+      {"S1000 M03\nS2000\nG01 X0 F100\nM03\n", 2},  // A new speed at the second M03.
+      {"S1000 M03\nS2000\nS1000 M03\n", 1},         // No change: the last S is the present speed.
+      {"S1000 M03\nM100\nM03\n", 1},                // The M100, whose 7 s are added below, stops no spindle.
   };
   for (const auto& [program, changes] : programs) {
     const double functions = program.find("M100") == std::string_view::npos ? 0 : 7;
@@ -109,7 +109,7 @@ TEST(Timing, OfTheSpindleIsThatOfItsChanges) {
   EXPECT_NEAR(seconds_of("S1000 M03\nM06 T101001\nM05\nM03\n"), 3 + 5 + 3, kTiny) << "a tool change stops it";
 }
 
-/// What changes nothing still stops the axes where the control waits.
+/// An instruction without effect still stops the axes if the control waits for it.
 TEST(Timing, OfWhatChangesNothingIsThatOfTheStop) {
   const double parts = trapezoid(100, 50);
   for (const std::string_view idle : {"M05\n", "G04 P0\n", "G990\n"})
@@ -117,7 +117,8 @@ TEST(Timing, OfWhatChangesNothingIsThatOfTheStop) {
   EXPECT_NEAR(seconds_of("G01 X100 F3000\nS500\nX200\n"), trapezoid(200, 50), kTiny) << "an S alone does not";
 }
 
-/// What does not stop the machine has the time of the motion behind it; a motion that goes nowhere takes none.
+/// An event that does not stop the machine has the start time of the motion after it; a motion of zero length takes no
+/// time.
 TEST(Timing, EventsComeInOrderWithTheirTimes) {
   const Timed timed = time("M06 T101001\nG01 X100 F3000\nS500\nX100\nX200\nM02\n");
   std::vector<std::string> reported;
@@ -144,7 +145,7 @@ TEST(Timing, WaitsForTheChannelAfterTheMotion) {
   EXPECT_NEAR(timed.events[2].start - timed.events[1].start - timed.events[1].duration, 0.5, kTiny);
 }
 
-/// Any number is a feed or a dwell to a program.
+/// A program may give any number as a feed or a dwell.
 TEST(Timing, IsFiniteWhateverTheProgramSays) {
   const std::string tiny = "." + std::string(320, '0') + "1";
   const std::string huge = "1" + std::string(305, '0');
@@ -154,7 +155,7 @@ TEST(Timing, IsFiniteWhateverTheProgramSays) {
   EXPECT_TRUE(std::isfinite(timed.seconds));
 }
 
-/// However many lines follow a motion that do not move the machine.
+/// This holds for any number of lines without motion after a motion.
 TEST(Timing, HoldsNoMoreThanAControlLooksAhead) {
   const auto check = [](auto&& next) {
     std::size_t reported = 0;
@@ -182,7 +183,7 @@ TEST(Timing, HoldsNoMoreThanAControlLooksAhead) {
   check([&](std::size_t line) { return running::Event{line, nowhere}; });
 }
 
-/// Z of the tip where each motion of a program begins and ends, with home at Z500 and tools of 100 and 40 mm.
+/// The Z of the tip at the start and end of each motion, with home at Z500 and tools of 100 and 40 mm.
 std::vector<std::pair<double, double>> heights_of(std::string_view program) {
   TimedMachine machine = slow_machine();
   machine.tool_lengths = {{{1, 1, 1}, 100}, {{1, 1, 2}, 40}};
@@ -199,7 +200,7 @@ std::vector<std::pair<double, double>> heights_of(std::string_view program) {
   return heights;
 }
 
-/// Home is where the spindle nose is: the tip of a tool is lower by its length, until the program sends it somewhere.
+/// Home is a position of the spindle nose: the tip of a tool is lower by its length, until the first motion.
 TEST(Timing, AToolChangeMovesNoAxis) {
   using Heights = std::vector<std::pair<double, double>>;
   EXPECT_EQ(heights_of("M06 T101001\nG00 X50\nY20\nZ450\nX0\nM02\n"),
@@ -225,7 +226,7 @@ TEST(Timing, OfAToolChangeArcsGoRoundAtTheHeightOfTheTip) {
   EXPECT_EQ(heights, (std::vector<std::pair<double, double>>{{400, 400}, {400, 403}}));
 }
 
-/// A circle of radius 200 at 100 mm/s, which the default machine takes at that speed.
+/// The duration in seconds of a circle of 200 mm radius at 100 mm/s, a speed that the default machine reaches.
 double circle_seconds(std::string_view circle) {
   const Timed timed = time(fmt::format("M06 T101001\nG00 X200 Y0\nG04 P0\n{}\nM02\n", circle), {});
   double seconds = 0;

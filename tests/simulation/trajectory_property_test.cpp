@@ -15,8 +15,8 @@
 #include "interpreter/simulation/timing.h"
 #include "tests/support/random.h"
 
-/// What the simulated machine does with whole programs: it goes where it was sent, for as long as it says, and no joint
-/// and no feed is ever faster than allowed.
+/// Properties of simulated runs of whole programs: motions reach their ends, durations add up, and no joint or feed
+/// exceeds its limits.
 namespace isocnc::simulation {
 namespace {
 
@@ -27,7 +27,7 @@ using support::seeds;
 
 constexpr double kRelative = 1 + 1e-6;
 
-/// Programs without a mistake, with all that moves a machine or stops it.
+/// Writes valid programs with everything that moves or stops a machine.
 class RandomTrip {
  public:
   explicit RandomTrip(Random& random) : random_(random) {}
@@ -106,9 +106,9 @@ class RandomTrip {
 struct Trip {
   std::uint64_t seed = 0;
   std::string program;
-  std::vector<TimedEvent> motions;  ///< As the tags of the stretches count them.
+  std::vector<TimedEvent> motions;  ///< The motions, indexed by the tags of the stretches.
   std::vector<Stretch> stretches;
-  double reported_seconds = 0;  ///< Seconds of all events.
+  double reported_seconds = 0;  ///< The sum of all events' durations in seconds.
   double seconds = 0;
   geometry::Pose tip;
 };
@@ -157,7 +157,7 @@ class Trips : public testing::TestWithParam<motion::MachineKind> {
     }
   }
 
-  /// Planned once for all properties.
+  /// The trips, planned once for all properties.
   static const std::vector<Trip>& trips(const TimedMachine& machine) {
     static std::map<motion::MachineKind, std::vector<Trip>> kept;
     std::vector<Trip>& all = kept[GetParam()];
@@ -173,7 +173,8 @@ class Trips : public testing::TestWithParam<motion::MachineKind> {
     return all;
   }
 
-  /// At both ends of each phase of a stretch, and between, with the weights of Simpson's rule.
+  /// Calls `check` with samples at both ends of each phase of a stretch and between, and with their weights of
+  /// Simpson's rule in seconds.
   template <typename Check>
   static void for_samples(const TimedMachine& machine, const Stretch& stretch, Check&& check, int parts = 8) {
     double start = stretch.start;
@@ -228,7 +229,8 @@ TEST_P(Trips, KeepToTheFeedAndToWhatFeedMovesMay) {
   });
 }
 
-/// The speed, summed up over time, is the way: less what is cut off corners, and by the chords of arcs.
+/// The integral of the speed over time is the length of the path, less what rounded corners and the chords of arcs cut
+/// off.
 TEST_P(Trips, CoverTheirWholePath) {
   for_trips([](const TimedMachine& machine, const Trip& trip) {
     const auto swings = [](const motion::Move& move) {
@@ -253,7 +255,7 @@ TEST_P(Trips, CoverTheirWholePath) {
   });
 }
 
-/// How far the tip goes where each joint goes straight to its end, as chords between many places.
+/// The length of the tip's path if each joint moves linearly to its end, as a sum of chords.
 double swung_length(const TimedMachine& machine, const motion::Move& move) {
   constexpr int kChords = 4000;
   const motion::Kinematics& kinematics = machine.motion.kinematics;
@@ -270,7 +272,7 @@ double swung_length(const TimedMachine& machine, const motion::Move& move) {
   return sum;
 }
 
-/// docs/isorun.md: `lengthMm` is how far the tip goes, and the summary is the sum.
+/// docs/isorun.md: `lengthMm` is the length of the tip's path, and the summary has the sum.
 TEST_P(Trips, TraceTheLengthsOfTheSummary) {
   for_trips([](const TimedMachine& machine, const Trip& trip) {
     Summary summary(machine);
@@ -307,7 +309,7 @@ TEST_P(Trips, TakeTheTimesThatAreReported) {
   });
 }
 
-/// Without a jump in place or speed; only the tool is another, and then the joints stand still.
+/// Positions and speeds have no jumps; only a tool change moves the tip, while the joints stand still.
 TEST_P(Trips, NeverJump) {
   for_trips([](const TimedMachine& machine, const Trip& trip) {
     for (std::size_t i = 1; i < trip.stretches.size(); ++i) {
