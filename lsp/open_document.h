@@ -79,8 +79,8 @@ class OpenDocument : public std::enable_shared_from_this<OpenDocument> {
   std::atomic<int> edits_waiting_ = 0;
   std::atomic<bool> is_closed_ = false;
   bool is_long_ = false;                  // Whether the text was long when opened. Used on the strand only.
-  bool shows_progress_ = false;           // Of the strand.
-  documents::AnalyzedDocument document_;  // Of the strand.
+  bool shows_progress_ = false;           // Used on the strand only.
+  documents::AnalyzedDocument document_;  // Used on the strand only.
   rpc::Strand strand_;
   rpc::Strand background_requests_;  // Runs the background requests one after another.
   std::mutex background_mutex_;

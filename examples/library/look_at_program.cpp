@@ -4,9 +4,9 @@
 
 #include "analyzer/check/check_text.h"
 #include "analyzer/formats/rendering.h"
-#include "interpreter/syntax/line_finder.h"
 #include "interpreter/configuration/configurations.h"
 #include "interpreter/simulation/timed_run.h"
+#include "interpreter/syntax/line_finder.h"
 #include "interpreter/system/source_file.h"
 
 int main(int count, char** arguments) {

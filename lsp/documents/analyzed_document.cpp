@@ -103,8 +103,8 @@ const check::Report& AnalyzedDocument::report() {
 /// The number of findings up to which making the whole report takes no noticeable time.
 static constexpr std::size_t kFewFindings = 4'000;
 
-/// Whether the report has so many findings that the whole is made only on request. False if suppressions or style rules
-/// affect it.
+/// Whether the report has so many findings that it is made as a whole only on request. False if suppressions or style
+/// rules affect it.
 bool AnalyzedDocument::is_long() {
   return !report_ && analysis_->finding_count() > kFewFindings && !selection::has_style(settings_.program->selection) &&
          read_suppressions().empty();

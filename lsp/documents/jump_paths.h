@@ -57,8 +57,7 @@ class JumpPaths {
   std::size_t run_start(std::size_t line) const;
 
   std::vector<Jump> jumps_;
-  std::multimap<std::size_t, std::size_t>
-      jump_targets_;                  // From the line that a jump leads to, to the line of the jump.
+  std::multimap<std::size_t, std::size_t> jump_targets_;  // Lines of jumps by the line that they lead to.
   std::set<std::size_t> after_ends_;  // Lines directly below an M02, which no path reaches from above.
 };
 

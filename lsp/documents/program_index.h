@@ -31,7 +31,7 @@ constexpr LandmarkKinds operator|(LandmarkKind a, LandmarkKind b) {
 constexpr LandmarkKinds operator|(LandmarkKinds a, LandmarkKind b) { return static_cast<LandmarkKinds>(a | kinds(b)); }
 
 struct Landmark {
-  std::uint32_t line = 0;  ///< From 0.
+  std::uint32_t line = 0;  ///< Counted from 0.
   LandmarkKind kind = LandmarkKind::Jump;
   syntax::Span span;
   std::uint64_t number = 0;

@@ -21,7 +21,7 @@ struct Interest {
 /// feature parses text itself.
 ///
 ///     text, trees     document().line(n): a LineTree with its words, findings, text
-///     findings        report(): what isolint would tell, by line and column
+///     findings        report(): the findings of isolint, by line and column
 ///     states          state_before(n), frontier_before(n): checked from the chunk's start, a few microseconds
 ///     labels, ...     index()
 ///     configuration   setup(), selection(), configuration()

@@ -62,7 +62,7 @@ class FoldFinder {
   }
 
  private:
-  /// From the M02 after which nothing runs any more.
+  /// Finds the fold from the M02 after which no line runs.
   void find_tail() {
     for (const documents::Landmark& end : snapshot_.index().landmarks(documents::LandmarkKind::ProgramEnd)) {
       snapshot_.throw_if_unwanted();
