@@ -116,10 +116,8 @@ static void add_options(command_line::ProgramApp& program, Options& options) {
                      {"What to call standard input", "Come chiamare lo standard input"});
 
   program.begin_group({"How it is run", "Esecuzione"});
-  program
-      .add_option("--max-warnings", options.max_warnings, {"N", "N"},
-                  {"Fail when there are more warnings than N", "Fallisce se gli avvisi sono più di N"})
-      .in_range(0, 999'999'999);
+  program.add_option("--max-warnings", options.max_warnings, {"N", "N"},
+                     {"Fail when there are more warnings than N", "Fallisce se gli avvisi sono più di N"});
   program.add_flag("--exit-zero", options.exit_zero,
                    {"Do not fail because of findings", "Non fallisce per le segnalazioni"});
   program

@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cstdint>
 #include <iterator>
-#include <limits>
 #include <sstream>
 #include <type_traits>
 
@@ -100,9 +99,8 @@ ProgramOption ProgramApp::add_option(const std::string& names, Value& value, con
                                      const Text& description) {
   CLI::Option* const added = app_->add_option(names, value, text(description))->option_text(text(value_name));
   const ProgramOption option(added, language_);
-  if constexpr (std::is_same_v<Value, std::optional<std::size_t>> ||
-                std::is_same_v<Value, std::optional<std::uint16_t>>)
-    option.in_range(0, std::numeric_limits<typename Value::value_type>::max());
+  if constexpr (std::is_same_v<Value, std::optional<std::size_t>>) option.in_range(0, 999'999'999);
+  if constexpr (std::is_same_v<Value, std::optional<std::uint16_t>>) option.in_range(0, 0xffff);
   return option;
 }
 
@@ -217,21 +215,11 @@ static const CLI::Option* repeated_option(const Options& options) {
   return repeated == options.end() ? nullptr : *repeated;
 }
 
-/// The option of the command that needs a value but has none.
+/// The option at the end of the command, if it lacks the value that it takes.
 const CLI::Option* ProgramApp::option_without_value() const {
-  for (std::size_t i = 0; i < command_.size() && command_[i] != "--"; ++i) {
-    if (!command_[i].starts_with('-')) continue;
-    const CLI::Option* const option = app_->get_option_no_throw(command_[i]);
-    const bool is_last = i + 1 == command_.size();
-    if (option != nullptr && takes_value(*option) && (is_last || is_option(command_[i + 1]))) return option;
-  }
-  return nullptr;
-}
-
-/// Whether a word of the command names an option, alone or with its value.
-bool ProgramApp::is_option(const std::string& word) const {
-  return word == "--" ||
-         (word.starts_with('-') && app_->get_option_no_throw(word.substr(0, word.find('='))) != nullptr);
+  if (command_.empty() || !command_.back().starts_with('-')) return nullptr;
+  const CLI::Option* const option = app_->get_option_no_throw(command_.back());
+  return option != nullptr && takes_value(*option) ? option : nullptr;
 }
 
 /// `no such option: --frmt; did you mean --format?`

@@ -106,7 +106,6 @@ class ProgramApp {
   std::string manual_page() const;
   void speak_italian();
   const CLI::Option* option_without_value() const;
-  bool is_option(const std::string& word) const;
   std::string no_such_option(const std::string& word) const;
   std::string complaint_about(const CLI::ParseError& error) const;
 

@@ -101,7 +101,7 @@ TEST(IsolintCommand, ComplainsOfWhatDoesNotGoTogetherInEnglish) {
   EXPECT_EQ(complaint_about({"isorun"}), "isorun: FILE is required");
   EXPECT_EQ(complaint_about({"isorun", "a.iso", "b.iso"}), "isorun: unexpected argument: b.iso");
   EXPECT_EQ(complaint_about({"isolint", "--jobs"}), "isolint: --jobs: the value is missing");
-  EXPECT_EQ(complaint_about({"isolint", "--output", "--fix", "a"}), "isolint: --output: the value is missing");
+  EXPECT_EQ(complaint_about({"isolint", "a", "--output"}), "isolint: --output: the value is missing");
   EXPECT_EQ(complaint_about({"isolint", "-j", "0"}), "isolint: --jobs: 0 is not a whole number from 1 to 1024");
   EXPECT_EQ(complaint_about({"isolint", "--max-warnings", "-1"}),
             "isolint: --max-warnings: -1 is not a whole number from 0 to 999999999");
