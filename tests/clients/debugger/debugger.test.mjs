@@ -328,7 +328,7 @@ test('a client that is killed leaves no adapter behind', async () => {
 test('every request has been made', () => {
   const folder = path.join(root, 'debugger/requests');
   const commands = fs.readdirSync(folder)
-    .flatMap((file) => [...fs.readFileSync(path.join(folder, file), 'utf8').matchAll(/\.command = "(\w+)"/g)].map(([, command]) => command));
-  assert.ok(commands.length > 25);
+    .filter((file) => file.endsWith('.cpp') && file !== 'request.cpp')
+    .map((file) => fs.readFileSync(path.join(folder, file), 'utf8').match(/extern const Request \w+ =\s+on<&\w+>\("(\w+)"/)?.[1] ?? file);
   assert.deepEqual(commands.filter((command) => !asked.has(command)), []);
 });
