@@ -28,8 +28,7 @@ static Path common_decisions(const Path& a, const Path& b) {
 
 static void merge(Group& into, Group&& other) {
   into.registers.unite(std::move(other.registers));
-  into.state.knowledge &= other.state.knowledge;
-  if (into.state.tool != other.state.tool) into.state.forget(execution::State::kToolKnown);
+  execution::join(into.state, other.state);
   into.path = common_decisions(into.path, other.path);
 }
 

@@ -65,7 +65,7 @@ static std::string blocks_before_end(const State& state, const std::string& line
   std::string blocks;
   if (state.mode(ModalGroup::CutterCompensation) != 40) blocks += line_start + "G40";
   if (state.face_mounted) blocks += line_start + "G27";
-  if (state.knows(State::kClockwise | State::kCounterclockwise)) blocks += line_start + "M05";
+  if (state.spindle_turns()) blocks += line_start + "M05";
   return blocks;
 }
 

@@ -59,7 +59,7 @@ bool is_same(const State& a, const State& b, std::initializer_list<ModalGroup> b
          is_near(a.workpiece_origin, b.workpiece_origin, kSamePlace) && a.face_mounted == b.face_mounted &&
          is_near(a.face.origin, b.face.origin, kSamePlace) && a.face.axes.isApprox(b.face.axes, 1e-9) &&
          is_same_feed(feed_in_force(a), feed_in_force(b)) && a.feed_given == b.feed_given && a.tool == b.tool &&
-         a.spindle == b.spindle && a.spindle_speed == b.spindle_speed && a.ended == b.ended;
+         a.spindle_function == b.spindle_function && a.spindle_speed == b.spindle_speed && a.ended == b.ended;
 }
 
 /// Allowed errors of written numbers, in mm or degrees; tried in this order, so that short numbers come first.

@@ -2,13 +2,10 @@
 
 namespace isocnc::rules {
 
-using execution::State;
-
 /// M02 while M03 or M04 is in force.
 static void check_end_with_spindle_on(const Block& block, execution::Sink& sink) {
   const syntax::Word* const end = block.m(dialect::kProgramEnd);
-  if (end && block.after.knows(State::kClockwise | State::kCounterclockwise))
-    report(sink, "end-with-spindle-on"_diag, end->span());
+  if (end && block.after.spindle_turns()) report(sink, "end-with-spindle-on"_diag, end->span());
 }
 
 extern const Rule end_with_spindle_on = {kFunction, check_end_with_spindle_on};

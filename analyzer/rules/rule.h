@@ -17,9 +17,7 @@ struct Block {
   const execution::Setup& setup;
 
   bool compensated() const { return before.mode(dialect::ModalGroup::CutterCompensation) != 40; }
-  bool spindle_turns() const {
-    return before.knows(execution::State::kClockwise | execution::State::kCounterclockwise);
-  }
+  bool spindle_turns() const { return before.spindle_turns(); }
   /// The number of the line's motion G, written or in force; kNoMotion if nothing moves.
   std::uint8_t motion() const;
   /// Whether the line's motion cuts: G01, G02 or G03, written or in force.

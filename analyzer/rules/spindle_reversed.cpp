@@ -4,9 +4,8 @@ namespace isocnc::rules {
 
 /// M04 while M03 is in force, or the other way round.
 static void check_spindle_reversed(const Block& block, execution::Sink& sink) {
-  const syntax::Word* const against = block.before.knows(execution::State::kClockwise)          ? block.m(4)
-                                      : block.before.knows(execution::State::kCounterclockwise) ? block.m(3)
-                                                                                                : nullptr;
+  if (!block.spindle_turns()) return;
+  const syntax::Word* const against = block.m(block.before.spindle == execution::Spindle::Clockwise ? 4 : 3);
   if (against && !block.m(5)) report(sink, "spindle-reversed"_diag, against->span());
 }
 

@@ -9,7 +9,7 @@ static void check_spindle_stopped_feed(const Block& block, execution::Sink& sink
   if (!block.has_feed_move()) return;
   const int function = block.spindle_function_before(block.motion_word());
   if (function != 0 && function != 5) return;
-  const bool has_speed = !block.before.knows(State::kNoSpeed) || block.line.spindle >= 0;
+  const bool has_speed = block.before.speed_given || block.line.spindle >= 0;
   const bool never_started = has_speed && block.before.knows(State::kNotStarted) && !block.has_user_function();
   const bool stops_here = function == 5 && block.spindle_turns();
   if (stops_here || never_started || block.before.knows(State::kStopped))

@@ -75,7 +75,7 @@ void Notifier::report_position(bool is_running) {
                             {"joints", pose_json(motion::pose(sample.joints))},
                             {"programmed", pose_json(programmed_pose(state_.moment()))},
                             {"speed", sample.speed * motion::kSecondsPerMinute},
-                            {"spindle", {{"function", state.spindle}, {"speed", state.spindle_speed}}},
+                            {"spindle", {{"function", state.spindle_function}, {"speed", state.spindle_speed}}},
                             {"tool", tool_json()}});
 }
 

@@ -79,7 +79,7 @@ static double read_speed(const Moment& moment, int) {
 }
 static double read_feed(const Moment& moment, int) { return execution::feed_in_force(moment.state).number; }
 static double read_spindle_speed(const Moment& moment, int) { return moment.state.spindle_speed; }
-static double read_spindle(const Moment& moment, int) { return moment.state.spindle; }
+static double read_spindle(const Moment& moment, int) { return moment.state.spindle_function; }
 static double read_tool(const Moment& moment, int index) {
   const execution::ToolCode& tool = moment.state.tool;
   switch (index) {

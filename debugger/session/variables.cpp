@@ -144,7 +144,7 @@ class Listing {
     add_quantity("OVERRIDE");
     add_quantity("PLAYBACK");
     add_quantity("S");
-    const std::uint8_t spindle = moment_.state.spindle;
+    const std::uint8_t spindle = moment_.state.spindle_function;
     add(in_language(kSpindle), in_language(spindle == 3 ? kClockwise : spindle == 4 ? kCounterclockwise : kStopped));
   }
 

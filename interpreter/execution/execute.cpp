@@ -47,7 +47,7 @@ void pass_by(State& state) {
 void take_spindle_speed(double number, State& state) {
   if (!(number > 0)) return;  // Reported.
   state.spindle_speed = number;
-  state.forget(State::kNoSpeed);
+  state.speed_given = true;
   if (state.knows(State::kCutNotStarted)) state.learn(State::kNotStarted);
 }
 
@@ -57,8 +57,9 @@ void take_spindle_speed(double number, State& state) {
 void Executor::allow_for_lost_letter() {
   const Word* const number = line_.number_without_letter();
   if (!number) return;
-  state_.forget(State::kClockwise | State::kCounterclockwise | State::kStopped | State::kUncut | State::kNotStarted |
-                State::kCutNotStarted | State::kNoSpeed);
+  state_.spindle = Spindle::Unknown;
+  state_.speed_given = true;
+  state_.forget(State::kStopped | State::kUncut | State::kNotStarted | State::kCutNotStarted);
   const double value = number->is_plain_integer() ? number->value : -1;
   if (value >= 0 && value <= 3) return make_motion_illegible();
   if (value == dialect::kToolChange) {
@@ -236,9 +237,10 @@ void Executor::dwell(const Instruction& instruction) {
 }
 
 void Executor::function(const Instruction& instruction) {
-  if (!line_.command(instruction).known())  // An M with an illegible number (reported) may have been any M.
-    return state_.forget(State::kClockwise | State::kCounterclockwise | State::kStopped | State::kUncut |
-                         State::kNotStarted | State::kCutNotStarted);
+  if (!line_.command(instruction).known()) {  // An M with an illegible number (reported) may have been any M.
+    state_.spindle = Spindle::Unknown;
+    return state_.forget(State::kStopped | State::kUncut | State::kNotStarted | State::kCutNotStarted);
+  }
   const auto m = static_cast<int>(line_.command(instruction).value);
   if (m == dialect::kProgramEnd) {
     state_.ended = true;
@@ -265,19 +267,19 @@ void Executor::function(const Instruction& instruction) {
 }
 
 void Executor::turn_spindle(int m) {
-  const bool stops = m == 5 && state_.knows(State::kClockwise | State::kCounterclockwise);
-  state_.spindle = static_cast<std::uint8_t>(m);
-  state_.forget(State::kClockwise | State::kCounterclockwise | State::kStopped);
-  if (m != 5) state_.learn(m == 3 ? State::kClockwise : State::kCounterclockwise);
-  if (stops) state_.learn(State::kStopped);
+  state_.forget(State::kStopped);
+  if (m == 5 && state_.spindle_turns()) state_.learn(State::kStopped);
+  state_.spindle_function = static_cast<std::uint8_t>(m);
+  state_.spindle = m == 3 ? Spindle::Clockwise : m == 4 ? Spindle::Counterclockwise : Spindle::Stopped;
 }
 
 void Executor::tool_change(const Instruction& instruction) {
   state_.tool_prepared = false;
-  state_.forget(State::kClockwise | State::kCounterclockwise);  // Its effect on the spindle depends on the machine.
+  state_.spindle = Spindle::Unknown;  // Its effect on the spindle depends on the machine.
   for (const Word& word : line_.words)
     if (word.letter == 'T' && word.owner == instruction.number) return select_tool(word);
-  state_.forget(State::kUncut | State::kToolKnown);
+  state_.forget(State::kUncut);
+  state_.tool_known = false;
   state_.tool_selected = true;  // Without T, or with a T reported elsewhere, it still counts as a change.
 }
 
@@ -295,10 +297,12 @@ void Executor::stray_tool(const Instruction& instruction) {
 void Executor::select_tool(const Word& word) {
   state_.tool_selected = true;  // A wrong number counts as a tool change, too (D44).
   state_.tool = {};
-  state_.forget(State::kUncut | State::kToolKnown);
+  state_.tool_known = false;
+  state_.forget(State::kUncut);
   if (!word.is_plain_integer() || word.digits != 6) return;
   state_.tool = tool_code(static_cast<int>(word.value));
-  if (state_.tool.head != 0) state_.learn(State::kUncut | State::kToolKnown);
+  state_.tool_known = state_.tool.head != 0;
+  if (state_.tool_known) state_.learn(State::kUncut);
   const bool impossible =
       (state_.tool.head == 0 && state_.tool.holder != 0) || (state_.tool.holder == 0 && state_.tool.tool != 0);
   if (!impossible && !is_configured(state_.tool)) report("tool-not-configured"_diag, word.span());

@@ -80,7 +80,7 @@ void Executor::motion(const Instruction& instruction) {
     constexpr State::Knowledge kEnds = State::kStopped | State::kUncut | State::kNotStarted;
     if (state_.knows(State::kNotStarted)) {
       state_.forget(State::kCutNotStarted);
-      if (state_.knows(State::kNoSpeed)) state_.learn(State::kCutNotStarted);
+      if (!state_.speed_given) state_.learn(State::kCutNotStarted);
     }
     state_.forget(state_.inverse_time() ? kEnds : kEnds | State::kFeedOfInverseTime);
   }

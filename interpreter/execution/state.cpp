@@ -23,4 +23,11 @@ bool judged_alike(const State& a, const State& b) {
          a.motion_illegible == b.motion_illegible && a.ended == b.ended;
 }
 
+void join(State& into, const State& other) {
+  into.knowledge &= other.knowledge;
+  if (into.spindle != other.spindle) into.spindle = Spindle::Unknown;
+  into.speed_given |= other.speed_given;
+  into.tool_known = into.tool_known && other.tool_known && into.tool == other.tool;
+}
+
 }  // namespace isocnc::execution

@@ -29,19 +29,20 @@ struct Feed {
   friend bool operator==(const Feed&, const Feed&) = default;
 };
 
+/// What the spindle does, as far as the program shows it. Unknown after a tool change, whose effect on the spindle
+/// depends on the machine, after an M that cannot be read or a lost letter (D58), and where paths with different
+/// directions join.
+enum class Spindle : std::uint8_t { Unknown, Stopped, Clockwise, Counterclockwise };
+
 /// The machine state after some block: everything that can affect later blocks. A value: copy it to keep it, compare it
 /// to know whether two histories still differ. It holds no line numbers and no text, so an edit elsewhere does not
 /// change it. The caller that follows the jumps keeps the registers.
 struct State {
   // Facts that hold on every path to this block; where paths join, only the facts they share remain. For lint rules.
   using Knowledge = std::uint16_t;
-  static constexpr Knowledge kNoSpeed = 1;           ///< No S so far.
-  static constexpr Knowledge kClockwise = 2;         ///< M03 is in force.
-  static constexpr Knowledge kCounterclockwise = 4;  ///< M04 is in force.
-  static constexpr Knowledge kStopped = 8;           ///< M05 has stopped a turning spindle, and no feed move followed.
+  static constexpr Knowledge kStopped = 8;  ///< M05 has stopped a turning spindle, and no feed move followed.
   static constexpr Knowledge kFeedOfInverseTime = 16;   ///< The last F was given in G93; no feed move in G94 followed.
   static constexpr Knowledge kUncut = 32;               ///< No feed move and no user M since the tool change.
-  static constexpr Knowledge kToolKnown = 64;           ///< `tool` has been mounted by a tool change.
   static constexpr Knowledge kCompensationWaits = 128;  ///< G41 or G42 has been written, and no motion followed.
   /// No M03, M04 or user M has started the spindle. Cleared by the first feed move.
   static constexpr Knowledge kNotStarted = 256;
@@ -61,11 +62,14 @@ struct State {
   bool face_unplaced = false;       ///< The face was mounted at the tip (G28), whose position was unknown.
   bool dismount_tolerated = false;  ///< A G92 has dismounted the face (ISO055); a G27 after it is valid (D29).
 
-  Feed feed_per_minute;      ///< Last F under G94.
-  Feed last_feed;            ///< Last F under either mode (D43).
-  double spindle_speed = 0;  ///< Revolutions per minute; 0 before any S.
-  std::uint8_t spindle = 5;  ///< Number of the last spindle M: 3, 4 or 5.
+  Feed feed_per_minute;                ///< Last F under G94.
+  Feed last_feed;                      ///< Last F under either mode (D43).
+  double spindle_speed = 0;            ///< Revolutions per minute; 0 before any S.
+  bool speed_given = false;            ///< An S has been given on some path, or may have lost its letter (D58).
+  std::uint8_t spindle_function = 5;   ///< Number of the last spindle M: 3, 4 or 5.
+  Spindle spindle = Spindle::Stopped;  ///< Unknown where the last spindle M no longer decides.
   ToolCode tool;
+  bool tool_known = false;  ///< A tool change has mounted `tool`, on every path.
   bool tool_selected = false;
   bool tool_reported = false;  ///< ISO044 has been reported.
   bool feed_given = false;
@@ -78,13 +82,15 @@ struct State {
   bool motion_illegible = false;  ///< The last motion G is illegible, or a cycle of another control (E001).
   bool ended = false;             ///< M02 has been read.
 
-  Knowledge knowledge = kNoSpeed | kNotStarted;
+  Knowledge knowledge = kNotStarted;
 
   bool knows(Knowledge any_of) const { return (knowledge & any_of) != 0; }
   void learn(Knowledge what) { knowledge |= what; }
   void forget(Knowledge what) { knowledge &= static_cast<Knowledge>(~what); }
   std::uint8_t mode(dialect::ModalGroup group) const { return in_force[static_cast<std::size_t>(group)]; }
   void set_mode(dialect::ModalGroup group, std::uint8_t number) { in_force[static_cast<std::size_t>(group)] = number; }
+  /// Whether M03 or M04 is in force.
+  bool spindle_turns() const { return spindle == Spindle::Clockwise || spindle == Spindle::Counterclockwise; }
   bool incremental() const { return mode(dialect::ModalGroup::Distance) == 91; }
   bool five_axis() const { return mode(dialect::ModalGroup::Interpolation) == 49; }
   bool inverse_time() const { return mode(dialect::ModalGroup::FeedMode) == 93; }
@@ -108,7 +114,11 @@ State initial_state(const Setup& setup);
 Feed feed_in_force(const State& state);
 
 /// Whether all later blocks get the same findings after `a` as after `b`: the states may differ only in the values of
-/// feed, spindle speed and tool, on which no check of the dialect depends, and in `knowledge`.
+/// feed, spindle and tool, on which no check of the dialect depends, and in `knowledge`.
 bool judged_alike(const State& a, const State& b);
+
+/// Lets `into` stand for both of two states that are judged alike. Where their spindles or tools differ, they are
+/// unknown after it; feed and spindle speed remain those of `into`.
+void join(State& into, const State& other);
 
 }  // namespace isocnc::execution

@@ -105,14 +105,18 @@ bool has_same_modes(const State& a, const State& b, bool needs_motion) {
   return true;
 }
 
+/// Whether both spindles turn in the same direction, or neither is known to turn.
+bool has_same_spindle(const State& a, const State& b) {
+  return a.spindle == b.spindle || (!a.spindle_turns() && !b.spindle_turns());
+}
+
 /// Whether the rest of the program runs alike from `a` and `b` if the tip is in the same position.
 bool is_same_but_for_tip(const State& a, const State& b, bool needs_motion) {
-  constexpr State::Knowledge kTurns = State::kClockwise | State::kCounterclockwise;
   return std::abs(a.position.b - b.position.b) <= geometry::kEqualCoordinate &&
          std::abs(a.position.c - b.position.c) <= geometry::kEqualCoordinate && has_same_frames(a, b) &&
          has_same_modes(a, b, needs_motion) && a.tool == b.tool && a.tool_selected == b.tool_selected &&
          a.feed_per_minute == b.feed_per_minute && feed_in_force(a) == feed_in_force(b) &&
-         a.spindle_speed == b.spindle_speed && (a.knowledge & kTurns) == (b.knowledge & kTurns);
+         a.spindle_speed == b.spindle_speed && has_same_spindle(a, b);
 }
 
 /// The result of a trial run of a restart program.

@@ -153,10 +153,10 @@ class Preamble {
   void change_tool() {
     if (target_.tool_selected) add("M06 " + running::tool_name(target_.tool));
     // A tool change stops the spindle, so a spindle start before it has no effect after it.
-    const bool turns = target_.knows(State::kClockwise | State::kCounterclockwise);
+    const bool turns = target_.spindle_turns();
     std::string line;
     if (target_.spindle_speed > 0) line = "S" + exact(target_.spindle_speed);
-    if (turns) line += fmt::format("{}M{:02}", line.empty() ? "" : " ", target_.spindle);
+    if (turns) line += fmt::format("{}M{:02}", line.empty() ? "" : " ", target_.spindle_function);
     if (!line.empty()) add(line);
   }
 

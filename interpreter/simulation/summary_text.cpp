@@ -91,9 +91,7 @@ static std::string shown_extents(const std::array<geometry::Range, Count>& exten
 }
 
 /// The spindle function 3, 4 or 5; 5 after a tool change, which stops the spindle.
-static int spindle_function(const State& state) {
-  return state.knows(State::kClockwise | State::kCounterclockwise) ? state.spindle : 5;
-}
+static int spindle_function(const State& state) { return state.spindle_turns() ? state.spindle_function : 5; }
 
 /// The state as the codes that produce it: `S12000 M03, F4000, G01 G17 ...`.
 static std::string shown_state(const State& state) {

@@ -51,7 +51,7 @@ Json state_json(const execution::State& state) {
                {"machinePosition", knows_place ? vector_json(state.to_machine(state.position.tip)) : Json()},
                {"workpieceOrigin", vector_json(state.workpiece_origin)},
                {"faceMounted", state.face_mounted},
-               {"spindle", {{"function", state.spindle}, {"speed", state.spindle_speed}}},
+               {"spindle", {{"function", state.spindle_function}, {"speed", state.spindle_speed}}},
                {"tool", nullptr},
                {"feed", nullptr}};
   const execution::Feed feed = execution::feed_in_force(state);
