@@ -158,6 +158,7 @@ static void set_registers(Runner& runner, const running::Registers& registers) {
 Simulation Debuggee::simulation_of(const Program& program, const RunOptions& options) const {
   Runner runner(program, options);
   runner.set_state(present().run().state);
+  runner.set_tool_unused(present().run().is_tool_unused);
   runner.set_vgpl(present().vgpl());
   set_registers(runner, present().run().registers);
   return {present(), runner, machine()};
@@ -170,6 +171,7 @@ void Debuggee::take_over(const Simulation& by_hand) {
   state.exact_stop_fits = present().run().state.exact_stop_fits;  // A G09 follows a line of the program (D23).
   Runner runner = present().runner();
   runner.set_state(state);
+  runner.set_tool_unused(by_hand.run().is_tool_unused);
   set_registers(runner, by_hand.run().registers);
   begin_part(by_hand, runner, machine());
 }

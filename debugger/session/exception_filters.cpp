@@ -61,9 +61,8 @@ std::optional<Exception> ExceptionFilters::find_warning(const running::Block& bl
 }
 
 static bool is_first_cut(const running::Block& block, const BlockEffect& effect) {
-  return block.state.knows(execution::State::kUncut) &&
-         std::any_of(effect.moves.begin(), effect.moves.end(),
-                     [](const auto& move) { return move.kind != execution::MoveKind::Rapid; });
+  return block.is_tool_unused && std::any_of(effect.moves.begin(), effect.moves.end(),
+                                             [](const auto& move) { return move.kind != execution::MoveKind::Rapid; });
 }
 
 std::optional<Exception> ExceptionFilters::find_exception(const running::Block& block, const execution::Setup& setup,

@@ -20,23 +20,29 @@ namespace {
 /// Collects the effects of one block, so that a block with an error has none.
 class BlockSink final : public execution::Sink {
  public:
-  BlockSink(std::uint64_t line, std::vector<Event>& events, Registers& registers)
-      : Sink(true), line_(line), events_(events), registers_(registers) {}
+  BlockSink(std::uint64_t line, std::vector<Event>& events, RunResult& result)
+      : Sink(true), is_tool_unused(result.is_tool_unused), line_(line), events_(events), registers_(result.registers) {}
 
   std::optional<syntax::Finding> error;
+  bool is_tool_unused;  ///< After the block.
 
   void report(const syntax::Finding& finding) override {
     if (!error && is_error(finding)) error = finding;
   }
   void move(const execution::Move& move, const execution::State& state) override {
+    if (move.kind != execution::MoveKind::Rapid) is_tool_unused = false;
     add(execution::in_machine(move, state));
   }
   void dwell(double seconds) override { add(DwellEvent{seconds}); }
   void spindle_speed(double speed) override { add(SpindleSpeedEvent{speed}); }
   void function(int m, std::span<const execution::FunctionParameter> parameters) override {
+    if (dialect::is_user_function(m)) is_tool_unused = false;
     add(FunctionEvent{m, {parameters.begin(), parameters.end()}});
   }
-  void tool_change(execution::ToolCode tool) override { add(ToolEvent{tool}); }
+  void tool_change(execution::ToolCode tool) override {
+    is_tool_unused = tool.head != 0;
+    add(ToolEvent{tool});
+  }
   void frame_changed(const execution::State& state) override {
     add(FrameEvent{state.workpiece_origin, state.face_mounted, state.face});
   }
@@ -80,7 +86,8 @@ const syntax::LineTree& Runner::read_line() {
 
 std::optional<Block> Runner::next() {
   if (has_ended_ || is_at_end_of_text() || is_at_until()) return std::nullopt;
-  return Block{place_.line, read_line(), result_.state, result_.registers, vgpl_, result_.blocks};
+  return Block{place_.line, read_line(),    result_.state,         result_.registers,
+               vgpl_,       result_.blocks, result_.is_tool_unused};
 }
 
 /// Whether the next line is empty and has no error that stops the run.
@@ -117,7 +124,7 @@ void Runner::step_line() {
 }
 
 void Runner::execute_line(const syntax::LineTree& tree) {
-  BlockSink sink(place_.line, workbench_.events, result_.registers);
+  BlockSink sink(place_.line, workbench_.events, result_);
   for (const syntax::Finding& finding : tree.findings) sink.report(finding);
   const Registers registers_before = result_.registers;
   const execution::State before = result_.state;
@@ -128,6 +135,7 @@ void Runner::execute_line(const syntax::LineTree& tree) {
     result_.registers = registers_before;
     return fail(*sink.error);
   }
+  result_.is_tool_unused = sink.is_tool_unused;
   if (!tree.is_empty()) ++result_.blocks;
   if (result_.state.ended) return end(Ending::ProgramEnd, result_.line);
   const std::string_view text = program_->text();

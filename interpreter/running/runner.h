@@ -25,7 +25,8 @@ struct Block {
   const execution::State& state;  ///< State before the block.
   const Registers& registers;     ///< Values before the block.
   double vgpl = 0;
-  std::uint64_t number = 0;  ///< Number of blocks executed before this one.
+  std::uint64_t number = 0;     ///< Number of blocks executed before this one.
+  bool is_tool_unused = false;  ///< RunResult::is_tool_unused before the block.
 };
 
 /// Options of a run.
@@ -51,6 +52,7 @@ struct RunResult {
   execution::State state;  ///< State at the end.
   Registers registers{};
   std::uint64_t blocks = 0;                       ///< Number of blocks executed.
+  bool is_tool_unused = false;                    ///< A tool is mounted, and no feed move or user M has followed.
   std::optional<std::uint64_t> jumped_over_from;  ///< For Until: line (from 0) of the IF that skips the requested line.
 };
 
@@ -86,6 +88,8 @@ class Runner {
   void set_vgpl(double value) { vgpl_ = value; }
   /// Replaces the state, as if the executed blocks had led to this one.
   void set_state(const execution::State& state) { result_.state = state; }
+  /// Sets whether the tool in the machine has not been used yet.
+  void set_tool_unused(bool is_unused) { result_.is_tool_unused = is_unused; }
 
  private:
   /// Scratch memory. It is not part of the run's value, so a copy starts empty.

@@ -49,6 +49,18 @@ TEST(Runner, ExecutesLineByLine) {
   EXPECT_EQ(runner.result().registers[3], 1);
 }
 
+/// From the tool change to the first feed move or user M; a rapid and an M of the spindle do not use the tool.
+TEST(Runner, KnowsWhetherTheToolHasBeenUsed) {
+  const Program program(
+      "G00 X1\nM06 T101001\nG00 X2\nS9000 M03\nG01 X3 F100\nG00 X4\nM06 T101002\nM100\nM06 T000000\nM02\n");
+  const RunOptions options{.stop_at_errors = false};
+  Runner runner(program, options);
+  std::vector<std::uint64_t> unused_before;
+  for (; const auto block = runner.next(); runner.step())
+    if (block->is_tool_unused) unused_before.push_back(block->line + 1);
+  EXPECT_THAT(unused_before, ElementsAre(3, 4, 5, 8));
+}
+
 TEST(Runner, PassesEmptyLines) {
   const Program program("M06 T101001\n; note\n\nN7 (note)\nG1 X1 F100\n\n");
   const RunOptions options;
