@@ -14,6 +14,7 @@
 namespace isocnc::check {
 
 using namespace dialect::literals;
+using execution::BlockStep;
 using syntax::Finding;
 using syntax::LineTree;
 using syntax::PlainLine;
@@ -98,8 +99,10 @@ template <class PlainLineAt>
 std::size_t Checker::check_plain(std::size_t count, std::uint64_t line_number, Outcome& outcome,
                                  PlainLineAt plain_line_at) {
   if (frontier.live.size() != 1 || checks_moves_) return 0;
-  const execution::State& state = frontier.live[0].state;
-  execution::PlainRun run(frontier.live[0].state, setup_, suspects_centers_);
+  Group& group = frontier.live[0];
+  const execution::State& state = group.state;
+  if (group.memory.judges_plain_motions(state)) return 0;
+  execution::PlainRun run(group.state, setup_, suspects_centers_);
   PositionUse use = outcome.positions;
   std::size_t done = 0;
   for (; done < count; ++done) {
@@ -109,6 +112,7 @@ std::size_t Checker::check_plain(std::size_t count, std::uint64_t line_number, O
   }
   outcome.centers.open |= run.met_open_center();
   if (done == 0) return 0;
+  group.memory.take(run, state);
   outcome.has_text = true;
   outcome.last_text_line = line_number + done - 1;
   use.by_several |= !frontier.waiting().empty();
@@ -242,11 +246,13 @@ class Checker::LineExecution final : public execution::Sink {
     const bool is_target = line_.has_label() && checker_.jumps_.names(line_.label);
     const bool may_be_plain = (live.size() > 1 || is_target) && !checker_.checks_moves_;
     for (group_ = 0; group_ < live.size(); ++group_) {
-      execution::State& state = live[group_].state;
-      if (!may_be_plain || !run_plainly(state)) execute(state, is_wrong);
+      if (!may_be_plain || !run_plainly(live[group_])) execute(live[group_], is_wrong);
     }
   }
 
+  void step(BlockStep step, const execution::State& before) override {
+    checker_.frontier.live[group_].memory.take(step, before);
+  }
   void report(const Finding& finding) override { checker_.group_findings_.push_back({finding, group_}); }
   void centered_arc(const execution::CenteredArc& arc) override { checker_.judge_arc(arc, outcome_, *this); }
   void move(const execution::Move& move, const execution::State&) override { move_ = move; }
@@ -259,24 +265,28 @@ class Checker::LineExecution final : public execution::Sink {
     });
   }
 
-  bool run_plainly(execution::State& state) {
-    execution::PlainRun run(state, checker_.setup_, checker_.suspects_centers_);
+  bool run_plainly(Group& group) {
+    if (group.memory.judges_plain_motions(group.state)) return false;
+    execution::PlainRun run(group.state, checker_.setup_, checker_.suspects_centers_);
     if (!run.run(line_.plain())) return false;
     outcome_.centers.open |= run.met_open_center();
-    note_plain_move(line_.plain(), run, state, outcome_.positions);
+    note_plain_move(line_.plain(), run, group.state, outcome_.positions);
+    group.memory.take(run, group.state);
     return true;
   }
 
   /// Executes the line, then runs the rules, unless the line has an error in its text or in this group.
-  void execute(execution::State& state, bool is_wrong) {
+  void execute(Group& group, bool is_wrong) {
+    execution::State& state = group.state;
     const std::vector<GroupFinding>& findings = checker_.group_findings_;
     const auto first = static_cast<std::ptrdiff_t>(findings.size());
     const execution::State before = state;
+    const rules::Memory remembered = group.memory;
     move_.reset();
     execution::execute(line_, state, checker_.setup_, *this);
     const auto is_error_here = [](const GroupFinding& found) { return is_error(found.finding); };
     if (!is_wrong && std::none_of(findings.begin() + first, findings.end(), is_error_here)) {
-      rules::run_rules({line_, before, state, checker_.setup_}, *this);
+      rules::run_rules({line_, before, state, checker_.setup_}, remembered, *this);
       if (move_) rules::run_move_rules({line_, before, state, checker_.setup_}, *move_, *this);
     }
     const bool has_findings = !line_.findings.empty() || static_cast<std::ptrdiff_t>(findings.size()) > first;
@@ -426,7 +436,8 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
     const bool stays = group.registers.possible();
     may_jump |= jumps_on;
     may_stay |= stays;
-    if (jumps_on) jumping.append({group.state, std::move(where_true), stays ? decide(group.path, true) : group.path});
+    if (jumps_on)
+      jumping.append({group.state, group.memory, std::move(where_true), stays ? decide(group.path, true) : group.path});
     if (!stays) continue;
     if (jumps_on) group.path = decide(std::move(group.path), false);
     Group& place = frontier.live[staying++];

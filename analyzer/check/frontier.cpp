@@ -29,6 +29,7 @@ static Path common_decisions(const Path& a, const Path& b) {
 static void merge(Group& into, Group&& other) {
   into.registers.unite(std::move(other.registers));
   execution::join(into.state, other.state);
+  into.memory.join(other.memory);
   into.path = common_decisions(into.path, other.path);
 }
 

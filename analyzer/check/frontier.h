@@ -7,6 +7,7 @@
 
 #include "analyzer/check/registers.h"
 #include "analyzer/check/report.h"
+#include "analyzer/rules/memory.h"
 #include "interpreter/execution/state.h"
 #include "interpreter/syntax/forward_paths.h"
 
@@ -15,6 +16,7 @@ namespace isocnc::check {
 /// Paths through the program that have led to the same machine state, and so have the same findings from here on.
 struct Group {
   execution::State state;
+  rules::Memory memory;  ///< What the lint rules remember; paths that differ in it alone are joined.
   Valuations registers;
   Path path;  ///< The decisions that all of its paths share.
 

@@ -15,7 +15,9 @@ static const Rule* const kRules[] = {
 #undef ISOCNC_RULE
 };
 
-void run_rules(const Block& block, execution::Sink& sink) {
+const MemoryTable kMemoryTable{kRules};
+
+void run_rules(Block block, const Memory& memory, execution::Sink& sink) {
   unsigned concerns = (block.line.spindle >= 0 ? kSpindle : 0) | (block.line.feed >= 0 ? kFeed : 0);
   for (const syntax::Instruction& instruction : block.line.instructions) {
     switch (instruction.kind) {
@@ -34,8 +36,11 @@ void run_rules(const Block& block, execution::Sink& sink) {
     }
   }
   if (concerns == 0) return;
-  for (const Rule* const rule : kRules)
-    if ((rule->concerns & concerns) != 0) rule->check(block, sink);
+  for (std::size_t i = 0; i < std::size(kRules); ++i) {
+    if ((kRules[i]->concerns & concerns) == 0) continue;
+    block.remembered = memory.of_rule(i);
+    kRules[i]->check(block, sink);
+  }
 }
 
 bool checks_moves(const execution::Setup& setup) {

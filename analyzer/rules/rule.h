@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analyzer/rules/memory.h"
 #include "interpreter/execution/setup.h"
 #include "interpreter/execution/sink.h"
 #include "interpreter/execution/state.h"
@@ -15,7 +16,10 @@ struct Block {
   const execution::State& before;
   const execution::State& after;
   const execution::Setup& setup;
+  Facts remembered = 0;  ///< The facts of the rule's memory that hold before the line.
 
+  /// Whether a fact of the rule's memory holds before the line.
+  bool holds(Facts fact) const { return (remembered & fact) != 0; }
   bool compensated() const { return before.mode(dialect::ModalGroup::CutterCompensation) != 40; }
   bool spindle_turns() const { return before.spindle_turns(); }
   /// The number of the line's motion G, written or in force; kNoMotion if nothing moves.
@@ -45,13 +49,14 @@ inline constexpr unsigned kSpindle = 16;    ///< An S.
 inline constexpr unsigned kFeed = 32;       ///< An F.
 
 /// Checks a block that contains one of `concerns`, or the motion of a block. One file per rule, named after it, and one
-/// row in the table of diagnostics; the build collects the files. `check` is not called for plain motions without a
-/// State::knowledge fact, so a rule must not rely on seeing them; `check_move` is called for all motions with known
+/// row in the table of diagnostics; the build collects the files. `check` is not called for plain motions that end no
+/// fact of the rule's memory, so a rule must not rely on seeing them; `check_move` is called for all motions with known
 /// ends, but only where checks_moves().
 struct Rule {
   unsigned concerns = 0;
   void (*check)(const Block& block, execution::Sink& sink) = nullptr;
   void (*check_move)(const Block& block, const execution::Move& move, execution::Sink& sink) = nullptr;
+  const RuleMemory* memory = nullptr;  ///< Several rules may share one.
 };
 
 inline void report(execution::Sink& sink, dialect::DiagnosticId id, syntax::Span span, double value = 0,
@@ -59,8 +64,8 @@ inline void report(execution::Sink& sink, dialect::DiagnosticId id, syntax::Span
   sink.report({.id = id, .span = span, .related = related, .values = {value}});
 }
 
-/// Runs all rules on a block.
-void run_rules(const Block& block, execution::Sink& sink);
+/// Runs all rules on a block. `memory` is that before it.
+void run_rules(Block block, const Memory& memory, execution::Sink& sink);
 
 /// Whether rules judge each motion. This disables the fast path for plain lines, so it is on only if the setup has
 /// limits or a rule for all motions is selected.

@@ -48,7 +48,6 @@ void take_spindle_speed(double number, State& state) {
   if (!(number > 0)) return;  // Reported.
   state.spindle_speed = number;
   state.speed_given = true;
-  if (state.knows(State::kCutNotStarted)) state.learn(State::kNotStarted);
 }
 
 /// Handles a number whose letter is lost (D58). It may have been a motion (01), a tool change (06), a mode (49), else
@@ -57,9 +56,9 @@ void take_spindle_speed(double number, State& state) {
 void Executor::allow_for_lost_letter() {
   const Word* const number = line_.number_without_letter();
   if (!number) return;
+  sink_.step(BlockStep::LostLetter, state_);
   state_.spindle = Spindle::Unknown;
   state_.speed_given = true;
-  state_.forget(State::kStopped | State::kUncut | State::kNotStarted | State::kCutNotStarted);
   const double value = number->is_plain_integer() ? number->value : -1;
   if (value >= 0 && value <= 3) return make_motion_illegible();
   if (value == dialect::kToolChange) {
@@ -104,6 +103,7 @@ void Executor::run() {
   // S takes effect before the line's motion, wherever it stands (I.4.2).
   if (line_.spindle >= 0) {
     const double speed = line_.words[static_cast<std::size_t>(line_.spindle)].value;
+    if (speed > 0) sink_.step(BlockStep::SpindleSpeed, state_);
     take_spindle_speed(speed, state_);
     if (speed > 0) sink_.spindle_speed(speed);
   }
@@ -135,8 +135,9 @@ void Executor::run() {
   if (!line_.findings.empty()) blur_axes_of_late_mode();
   if (line_.feed >= 0 && !feed_move_) apply_feed_without_motion();
   state_.exact_stop_fits = feed_move_;
-  if (state_.knows(State::kCompensationWaits) && (feed_move_ || rapid_move_) && moves_in_plane())
-    state_.forget(State::kCompensationWaits);
+  const bool is_compensated = state_.mode(dialect::ModalGroup::CutterCompensation) != 40;
+  if (is_compensated && (feed_move_ || rapid_move_) && moves_in_plane())
+    sink_.step(BlockStep::CompensatedMotion, state_);
   const Instruction* const last = line_.instructions.empty() ? nullptr : &line_.instructions.back();
   state_.expects_tool = last != nullptr && last->kind == InstructionKind::ToolChange &&
                         last->end == last->command + 1 && !last->has(Instruction::kReportedElsewhere);
@@ -212,9 +213,9 @@ void Executor::set_mode(const dialect::GCode& code, const Word& word) {
     report(code.repeated, word.span());
   if (code.group == dialect::ModalGroup::CutterCompensation) {
     if (code.number == 40) {
-      state_.forget(State::kCompensationWaits);
+      sink_.step(BlockStep::CompensationOff, state_);
     } else if (state_.mode(code.group) == 40) {
-      state_.learn(State::kCompensationWaits);
+      sink_.step(BlockStep::CompensationOn, state_);
     }
   }
   state_.set_mode(code.group, static_cast<std::uint8_t>(code.number));
@@ -238,17 +239,17 @@ void Executor::dwell(const Instruction& instruction) {
 
 void Executor::function(const Instruction& instruction) {
   if (!line_.command(instruction).known()) {  // An M with an illegible number (reported) may have been any M.
+    sink_.step(BlockStep::IllegibleFunction, state_);
     state_.spindle = Spindle::Unknown;
-    return state_.forget(State::kStopped | State::kUncut | State::kNotStarted | State::kCutNotStarted);
+    return;
   }
   const auto m = static_cast<int>(line_.command(instruction).value);
   if (m == dialect::kProgramEnd) {
     state_.ended = true;
     return sink_.end();
   }
-  if (m != 5) state_.forget(State::kNotStarted | State::kCutNotStarted);
   if (dialect::is_user_function(m)) {
-    state_.forget(State::kUncut);
+    sink_.step(BlockStep::UserFunction, state_);
   } else {
     turn_spindle(m);
   }
@@ -267,8 +268,10 @@ void Executor::function(const Instruction& instruction) {
 }
 
 void Executor::turn_spindle(int m) {
-  state_.forget(State::kStopped);
-  if (m == 5 && state_.spindle_turns()) state_.learn(State::kStopped);
+  sink_.step(m != 5                   ? BlockStep::SpindleStart
+             : state_.spindle_turns() ? BlockStep::SpindleStop
+                                      : BlockStep::RepeatedStop,
+             state_);
   state_.spindle_function = static_cast<std::uint8_t>(m);
   state_.spindle = m == 3 ? Spindle::Clockwise : m == 4 ? Spindle::Counterclockwise : Spindle::Stopped;
 }
@@ -278,7 +281,7 @@ void Executor::tool_change(const Instruction& instruction) {
   state_.spindle = Spindle::Unknown;  // Its effect on the spindle depends on the machine.
   for (const Word& word : line_.words)
     if (word.letter == 'T' && word.owner == instruction.number) return select_tool(word);
-  state_.forget(State::kUncut);
+  sink_.step(BlockStep::ToolLost, state_);
   state_.tool_known = false;
   state_.tool_selected = true;  // Without T, or with a T reported elsewhere, it still counts as a change.
 }
@@ -295,14 +298,13 @@ void Executor::stray_tool(const Instruction& instruction) {
 }
 
 void Executor::select_tool(const Word& word) {
+  const bool is_legible = word.is_plain_integer() && word.digits == 6;
+  const ToolCode tool = is_legible ? tool_code(static_cast<int>(word.value)) : ToolCode{};
+  sink_.step(tool.head != 0 ? BlockStep::ToolMounted : BlockStep::ToolLost, state_);
   state_.tool_selected = true;  // A wrong number counts as a tool change, too (D44).
-  state_.tool = {};
-  state_.tool_known = false;
-  state_.forget(State::kUncut);
-  if (!word.is_plain_integer() || word.digits != 6) return;
-  state_.tool = tool_code(static_cast<int>(word.value));
-  state_.tool_known = state_.tool.head != 0;
-  if (state_.tool_known) state_.learn(State::kUncut);
+  state_.tool = tool;
+  state_.tool_known = tool.head != 0;
+  if (!is_legible) return;
   const bool impossible =
       (state_.tool.head == 0 && state_.tool.holder != 0) || (state_.tool.holder == 0 && state_.tool.tool != 0);
   if (!impossible && !is_configured(state_.tool)) report("tool-not-configured"_diag, word.span());

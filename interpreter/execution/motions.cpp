@@ -76,14 +76,8 @@ void Executor::motion(const Instruction& instruction) {
   const Span place = is_continuation ? arguments.first().span() : line_.command(instruction).span();
   (code.number == 0 ? rapid_move_ : feed_move_) = true;
   state_.tool_prepared = false;
-  if (code.number != 0) {
-    constexpr State::Knowledge kEnds = State::kStopped | State::kUncut | State::kNotStarted;
-    if (state_.knows(State::kNotStarted)) {
-      state_.forget(State::kCutNotStarted);
-      if (!state_.speed_given) state_.learn(State::kCutNotStarted);
-    }
-    state_.forget(state_.inverse_time() ? kEnds : kEnds | State::kFeedOfInverseTime);
-  }
+  if (code.number != 0)
+    sink_.step(state_.inverse_time() ? BlockStep::InverseTimeFeedMove : BlockStep::FeedMove, state_);
   if ((arguments.present() & ~code.arguments) != 0) report_strays(arguments, code);
   if ((arguments.present() & dialect::kCoordinateLetters) == 0) {
     const bool only_center = is_continuation && (arguments.present() & ~code.arguments) == 0;
@@ -124,12 +118,11 @@ void Executor::move_with_effects(const Arguments& arguments, const GCode& code, 
   sink_.move(move, state_);
 }
 
-/// Handles coordinates without a legible motion G: the named axes become unknown, and so does whether the tool has cut.
+/// Handles coordinates without a legible motion G: the named axes become unknown.
 void Executor::move_illegibly(const Arguments& arguments) {
   for (int axis = 0; axis < kAxisCount; ++axis)
     if (arguments.has(letter_of(static_cast<Axis>(axis)))) state_.unknown |= axis_bit(static_cast<Axis>(axis));
-  if (state_.motion_illegible)
-    state_.forget(State::kStopped | State::kUncut | State::kNotStarted | State::kCutNotStarted);
+  if (state_.motion_illegible) sink_.step(BlockStep::IllegibleMotion, state_);
 }
 
 /// Coordinates before any motion G belong to no instruction: one finding per line (D21).
@@ -182,7 +175,11 @@ void Executor::check_feed(Span place) {
   }
 }
 
-void Executor::take_feed() { execution::take_feed(line_.words[static_cast<std::size_t>(line_.feed)].value, state_); }
+void Executor::take_feed() {
+  const double number = line_.words[static_cast<std::size_t>(line_.feed)].value;
+  if (number > 0) sink_.step(state_.inverse_time() ? BlockStep::InverseTimeFeed : BlockStep::Feed, state_);
+  execution::take_feed(number, state_);
+}
 
 Feed Executor::feed_in_force() const {
   if (state_.inverse_time()) return line_.feed >= 0 ? state_.last_feed : Feed{};

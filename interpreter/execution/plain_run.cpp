@@ -11,9 +11,7 @@ void take_feed(double number, State& state) {
   state.feed_given = true;
   if (!(number > 0)) return;  // Reported; the feed before it stays.
   state.last_feed = {number, state.mm_per_unit()};
-  if (state.inverse_time()) return state.learn(State::kFeedOfInverseTime);
-  state.forget(State::kFeedOfInverseTime);
-  state.feed_per_minute = state.last_feed;
+  if (!state.inverse_time()) state.feed_per_minute = state.last_feed;
 }
 
 /// Whether a fast test shows that an arc is valid; Executor::arc() decides about the others.
@@ -49,6 +47,7 @@ bool PlainRun::is_sound_arc(const PlainLine& line) {
 void PlainRun::take_feed(const PlainLine& line) {
   execution::take_feed(line.words[static_cast<std::size_t>(line.feed)].value, state_);
   feed_holds_ = !state_.inverse_time();
+  has_taken_feed_ = true;
 }
 
 void PlainRun::finish() {
@@ -57,7 +56,6 @@ void PlainRun::finish() {
   state_.exact_stop_fits = mode_ != 0;
   state_.expects_tool = false;
   state_.tool_prepared = false;
-  if (feeds_) state_.forget(State::kUncut);
 }
 
 }  // namespace isocnc::execution

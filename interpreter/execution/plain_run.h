@@ -7,7 +7,7 @@
 namespace isocnc::execution {
 
 /// Executes plain lines in a row (LineTree::plain_arguments), as execute() does with a sink that wants no effects:
-/// motions that are valid and concern no lint rule on State::knowledge. Caches everything that plain lines cannot
+/// motions that are valid. Reports none of their steps. Caches everything that plain lines cannot
 /// change, so that each line is cheap. During the run only `state.position` is up to date; the destructor updates the
 /// rest.
 class PlainRun {
@@ -20,7 +20,7 @@ class PlainRun {
         scale_(state.mm_per_unit()),
         straight_(state.five_axis() ? dialect::kCoordinateLetters : dialect::kLinearLetters),
         incremental_(state.incremental()),
-        may_run_(state.tool_selected && state.unknown == 0 && !affects_rules(state)),
+        may_run_(state.tool_selected && state.unknown == 0),
         feed_holds_(state.feed_given && !state.inverse_time()),
         mode_(state.mode(dialect::ModalGroup::Motion)) {}
   PlainRun(const PlainRun&) = delete;
@@ -46,22 +46,21 @@ class PlainRun {
     if (has_feed) take_feed(line);
     mode_ = mode;
     has_run_ = true;
-    feeds_ |= mode != 0;
+    has_fed_ |= mode != 0;
     return true;
   }
 
   bool is_incremental() const { return incremental_; }
+  /// Whether there was a feed move.
+  bool has_fed() const { return has_fed_; }
+  /// Whether a feed move had an F.
+  bool has_taken_feed() const { return has_taken_feed_; }
   /// Whether the last line was an arc.
   bool was_arc() const { return mode_ > 1; }
   /// Whether there was an arc under G90 whose center could also be incremental.
   bool met_open_center() const { return met_open_center_; }
 
  private:
-  static bool affects_rules(const State& state) {
-    constexpr State::Knowledge kAlways = State::kStopped | State::kCompensationWaits | State::kNotStarted;
-    return state.knows(state.inverse_time() ? kAlways : kAlways | State::kFeedOfInverseTime);
-  }
-
   void move_axes(const syntax::PlainLine& line) {
     for (const syntax::Word& word : line.words) {
       const auto axis = static_cast<unsigned>(word.letter - 'X');
@@ -89,7 +88,8 @@ class PlainRun {
   bool feed_holds_;  ///< Whether a feed move without F is valid.
   std::uint8_t mode_;
   bool has_run_ = false;
-  bool feeds_ = false;  ///< Whether a feed move has run.
+  bool has_fed_ = false;
+  bool has_taken_feed_ = false;
   bool met_open_center_ = false;
 };
 

@@ -47,6 +47,28 @@ struct FunctionParameter {
   double value = 0;
 };
 
+/// A step of a block, for callers that remember more of earlier blocks than State does.
+enum class BlockStep : std::uint8_t {
+  LostLetter,           ///< A number whose letter is lost: it may have been any word (D58).
+  SpindleSpeed,         ///< An S.
+  SpindleStart,         ///< M03 or M04.
+  SpindleStop,          ///< M05 while the spindle turns.
+  RepeatedStop,         ///< M05 while the spindle stands, or may stand.
+  UserFunction,         ///< An M of the user.
+  IllegibleFunction,    ///< An M whose number cannot be read: it may have been any M.
+  ToolMounted,          ///< A tool change to a tool.
+  ToolLost,             ///< A tool change to no tool, or to one that cannot be read.
+  FeedMove,             ///< G01, G02 or G03 under G94; its F comes after it.
+  Feed,                 ///< An F under G94 that takes effect.
+  InverseTimeFeedMove,  ///< G01, G02 or G03 under G93; its F comes after it.
+  InverseTimeFeed,      ///< An F under G93 that takes effect.
+  IllegibleMotion,      ///< Coordinates after a motion G that cannot be read (D57).
+  CompensationOn,       ///< G41 or G42 while neither is in force.
+  CompensationOff,      ///< G40.
+  CompensatedMotion,    ///< A motion in the plane under G41 or G42; at the end of its block.
+};
+inline constexpr std::size_t kBlockStepCount = static_cast<std::size_t>(BlockStep::CompensatedMotion) + 1;
+
 /// Receives the effects and the findings of a block, in the order in which they occur. A checker uses the findings
 /// only; a simulator moves a machine.
 class Sink {
@@ -58,6 +80,8 @@ class Sink {
   bool wants_effects() const { return wants_effects_; }
   virtual void report(const syntax::Finding& finding) = 0;
 
+  /// A step of the block; `before` is the state before it.
+  virtual void step(BlockStep, const State& /*before*/) {}
   /// `state` is the one in which the motion runs: its frame, modes and spindle.
   virtual void move(const Move&, const State&) {}
   /// An arc whose circle is given by its center, correct or not. Not called for the plain arcs of a PlainRun.

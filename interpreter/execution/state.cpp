@@ -24,7 +24,6 @@ bool judged_alike(const State& a, const State& b) {
 }
 
 void join(State& into, const State& other) {
-  into.knowledge &= other.knowledge;
   if (into.spindle != other.spindle) into.spindle = Spindle::Unknown;
   into.speed_given |= other.speed_given;
   into.tool_known = into.tool_known && other.tool_known && into.tool == other.tool;

@@ -38,17 +38,6 @@ enum class Spindle : std::uint8_t { Unknown, Stopped, Clockwise, Counterclockwis
 /// to know whether two histories still differ. It holds no line numbers and no text, so an edit elsewhere does not
 /// change it. The caller that follows the jumps keeps the registers.
 struct State {
-  // Facts that hold on every path to this block; where paths join, only the facts they share remain. For lint rules.
-  using Knowledge = std::uint16_t;
-  static constexpr Knowledge kStopped = 8;  ///< M05 has stopped a turning spindle, and no feed move followed.
-  static constexpr Knowledge kFeedOfInverseTime = 16;   ///< The last F was given in G93; no feed move in G94 followed.
-  static constexpr Knowledge kUncut = 32;               ///< No feed move and no user M since the tool change.
-  static constexpr Knowledge kCompensationWaits = 128;  ///< G41 or G42 has been written, and no motion followed.
-  /// No M03, M04 or user M has started the spindle. Cleared by the first feed move.
-  static constexpr Knowledge kNotStarted = 256;
-  /// The first feed move found the spindle never started, and no S given.
-  static constexpr Knowledge kCutNotStarted = 512;
-
   geometry::Pose position;  ///< In the frame in force; 0 for unknown axes.
   AxisSet unknown = 0;      ///< Axes whose position is unknown after an error; checks that depend on them are skipped.
   std::array<std::uint8_t, dialect::kModalGroupCount> in_force = dialect::kDefaultModes;  ///< G number by group.
@@ -82,11 +71,6 @@ struct State {
   bool motion_illegible = false;  ///< The last motion G is illegible, or a cycle of another control (E001).
   bool ended = false;             ///< M02 has been read.
 
-  Knowledge knowledge = kNotStarted;
-
-  bool knows(Knowledge any_of) const { return (knowledge & any_of) != 0; }
-  void learn(Knowledge what) { knowledge |= what; }
-  void forget(Knowledge what) { knowledge &= static_cast<Knowledge>(~what); }
   std::uint8_t mode(dialect::ModalGroup group) const { return in_force[static_cast<std::size_t>(group)]; }
   void set_mode(dialect::ModalGroup group, std::uint8_t number) { in_force[static_cast<std::size_t>(group)] = number; }
   /// Whether M03 or M04 is in force.
@@ -114,7 +98,7 @@ State initial_state(const Setup& setup);
 Feed feed_in_force(const State& state);
 
 /// Whether all later blocks get the same findings after `a` as after `b`: the states may differ only in the values of
-/// feed, spindle and tool, on which no check of the dialect depends, and in `knowledge`.
+/// feed, spindle and tool, on which no check of the dialect depends.
 bool judged_alike(const State& a, const State& b);
 
 /// Lets `into` stand for both of two states that are judged alike. Where their spindles or tools differ, they are

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "analyzer/rules/memory.h"
 #include "interpreter/execution/execute.h"
 #include "interpreter/execution/plain_run.h"
 #include "interpreter/syntax/tree_store.h"
@@ -17,15 +18,19 @@ using support::RandomProgram;
 /// Counts what is wrong.
 class CountingSink final : public Sink {
  public:
-  CountingSink() : Sink(false) {}
+  explicit CountingSink(rules::Memory& memory) : Sink(false), memory_(memory) {}
   void report(const syntax::Finding&) override { ++findings; }
+  void step(BlockStep step, const State& before) override { memory_.take(step, before); }
 
   int findings = 0;
+
+ private:
+  rules::Memory& memory_;
 };
 
-/// Rows of plain lines are executed by a way of their own, which must leave the very state that execute() leaves, and
-/// pass over nothing that is wrong.
-TEST(PlainRunProperty, LeavesTheStateOfExecute) {
+/// Rows of plain lines are executed by a function of their own, which must leave the very state, and memory of the lint
+/// rules, that execute() leaves, and pass over nothing that is wrong.
+TEST(PlainRunProperty, LeavesTheStateAndTheMemoryOfExecute) {
   std::size_t rows = 0;
   std::size_t longest = 0;
   for (const std::uint64_t seed : support::seeds(1'500)) {
@@ -39,21 +44,27 @@ TEST(PlainRunProperty, LeavesTheStateOfExecute) {
     trees.append_lines(text.data(), text.data() + text.size(), text.data() + text.size());
     State state = initial_state(setup);
     State expected = state;
+    rules::Memory memory;
+    rules::Memory expected_memory;
     for (std::size_t line = 0; line < trees.size() && !state.ended;) {
       std::size_t done = 0;
       {
         PlainRun run(state, setup);
-        while (line + done < trees.size() && run.run(trees.plain(line + done))) ++done;
+        const bool is_judged = memory.judges_plain_motions(state);
+        while (!is_judged && line + done < trees.size() && run.run(trees.plain(line + done))) ++done;
+        memory.take(run, state);
       }
       rows += done > 0 ? 1 : 0;
       longest = std::max(longest, done);
-      CountingSink unheard;
+      CountingSink unheard(expected_memory);
       for (; done > 0; --done) execute(trees.tree(line++, nullptr), expected, setup, unheard);
       ASSERT_EQ(unheard.findings, 0) << "seed " << seed << ", line " << line;
       ASSERT_EQ(state, expected) << "seed " << seed << ", line " << line;
+      ASSERT_EQ(memory, expected_memory) << "seed " << seed << ", line " << line;
       if (line == trees.size()) break;
       execute(trees.tree(line++, nullptr), state, setup, unheard);
       expected = state;
+      memory = expected_memory;
     }
   }
   EXPECT_GT(rows, support::seeds(1'500).size());
@@ -70,16 +81,19 @@ TEST(LoneAssignment, AndLoneJumpLeaveTheStateOfExecute) {
     syntax::TreeStore trees;
     trees.append_lines(text.data(), text.data() + text.size(), text.data() + text.size());
     State state = initial_state(setup);
-    CountingSink unheard;
+    rules::Memory memory;
+    CountingSink unheard(memory);
     for (std::size_t line = 0; line < trees.size() && !state.ended; ++line) {
       const syntax::LineTree tree = trees.tree(line, nullptr);
       State shortened = state;
+      const rules::Memory remembered = memory;
       const bool is_lone = lone_assignment(tree).has_value() || is_lone_jump(tree);
       if (is_lone) pass_by(shortened);
       execute(tree, state, setup, unheard);
       if (!is_lone) continue;
       ++count;
       EXPECT_EQ(shortened, state) << "seed " << seed << ", line " << line;
+      EXPECT_EQ(remembered, memory) << "seed " << seed << ", line " << line;
     }
   }
   EXPECT_GT(count, 100u);
