@@ -99,7 +99,7 @@ static std::string shown(std::string_view program) {
 /// The fix of the wrong program in the table, if it has one.
 static std::optional<fixes::Fix> fix_of_wrong_program(DiagnosticId id) {
   const std::string wrong = read_marked(dialect::definition(id).wrong).text;
-  const execution::Setup setup;
+  const rules::CheckSetup setup;
   const check::Report report = selection::suppress(check::check_text(wrong, setup), wrong, {});
   fixing::FindingFixes fixes(wrong, report, setup);
   for (const check::LocatedFinding& located : report.findings)

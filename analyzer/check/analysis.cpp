@@ -12,12 +12,12 @@ namespace isocnc::check {
 /// Chunks checked between two calls of `stop`, in about a millisecond.
 static constexpr std::size_t kChunksAtOnce = 64;
 
-Analysis::Analysis(const syntax::Document& document, const execution::Setup& setup)
+Analysis::Analysis(const syntax::Document& document, const rules::CheckSetup& setup)
     : Analysis(document, setup, Unchecked{}) {
   update();
 }
 
-Analysis::Analysis(const syntax::Document& document, const execution::Setup& setup, Unchecked)
+Analysis::Analysis(const syntax::Document& document, const rules::CheckSetup& setup, Unchecked)
     : document_(document), setup_(setup) {}
 
 Frontier Analysis::before(std::size_t chunk) const {
@@ -212,7 +212,7 @@ bool Analysis::follow_text(const std::function<bool()>& stop) {
   line_count_ = document_.line_count();
   if (is_first || !jumps_stand) {
     for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].is_stale = true;
-    return check_from(0, Checker::start(setup_), stop);
+    return check_from(0, Checker::start(setup_.machine), stop);
   }
   if (has_changed && !check_from(change.first, std::move(at_change), stop)) return false;
   return check_stale(stop);

@@ -21,10 +21,10 @@ namespace isocnc::check {
 class Analysis {
  public:
   /// Both must outlive the analysis.
-  Analysis(const syntax::Document& document, const execution::Setup& setup);
+  Analysis(const syntax::Document& document, const rules::CheckSetup& setup);
   /// The same, without a first check: nothing is known before the first update().
   struct Unchecked {};
-  Analysis(const syntax::Document& document, const execution::Setup& setup, Unchecked);
+  Analysis(const syntax::Document& document, const rules::CheckSetup& setup, Unchecked);
 
   /// Brings the analysis up to date with the document, after any edits. It calls `stop` now and then; once that returns
   /// true, update() may leave the rest to the next call and return false. Until a call returns true, use no other
@@ -95,7 +95,7 @@ class Analysis {
   std::size_t pass_over(std::size_t chunk, PositionShift& shift);
 
   const syntax::Document& document_;
-  const execution::Setup& setup_;
+  const rules::CheckSetup& setup_;
   JumpMap jumps_;
   syntax::PerChunk<Row> rows_;
   std::size_t line_count_ = 0;  // Lines of the document at the last update of the jumps.

@@ -67,7 +67,7 @@ class Batch {
 /// has parsed the next batch. It continues as long as the following batch is ready; the others parse ahead.
 class Pass {
  public:
-  Pass(std::string_view text, const execution::Setup& setup, const JumpMap& jumps, bool suspects_centers, int jobs,
+  Pass(std::string_view text, const rules::CheckSetup& setup, const JumpMap& jumps, bool suspects_centers, int jobs,
        const std::function<void(std::size_t)>& on_progress)
       : on_progress_(on_progress),
         jobs_(jobs),
@@ -150,7 +150,7 @@ class Pass {
 
 }  // namespace
 
-Report check_text(std::string_view text, const execution::Setup& setup, int jobs,
+Report check_text(std::string_view text, const rules::CheckSetup& setup, int jobs,
                   const std::function<void(std::size_t)>& on_progress) {
   jobs = std::clamp<int>(jobs, 1, static_cast<int>(text.size() / kSharedBatchBytes) + 1);
   JumpMap jumps(text);

@@ -33,8 +33,8 @@ static constexpr std::uint32_t kSpreadPerLine = 32;
 /// The maximum number of labels that paths wait for at once.
 static constexpr std::size_t kMaxWaiting = 16'384;
 
-Checker::Checker(const execution::Setup& setup, const JumpMap& jumps, bool suspects_centers)
-    : frontier(start(setup)),
+Checker::Checker(const rules::CheckSetup& setup, const JumpMap& jumps, bool suspects_centers)
+    : frontier(start(setup.machine)),
       setup_(setup),
       jumps_(jumps),
       checks_moves_(rules::checks_moves(setup)),
@@ -102,7 +102,7 @@ std::size_t Checker::check_plain(std::size_t count, std::uint64_t line_number, O
   Group& group = frontier.live[0];
   const execution::State& state = group.state;
   if (group.memory.judges_plain_motions(state)) return 0;
-  execution::PlainRun run(group.state, setup_, suspects_centers_);
+  execution::PlainRun run(group.state, setup_.machine, suspects_centers_);
   PositionUse use = outcome.positions;
   std::size_t done = 0;
   for (; done < count; ++done) {
@@ -267,7 +267,7 @@ class Checker::LineExecution final : public execution::Sink {
 
   bool run_plainly(Group& group) {
     if (group.memory.judges_plain_motions(group.state)) return false;
-    execution::PlainRun run(group.state, checker_.setup_, checker_.suspects_centers_);
+    execution::PlainRun run(group.state, checker_.setup_.machine, checker_.suspects_centers_);
     if (!run.run(line_.plain())) return false;
     outcome_.centers.open |= run.met_open_center();
     note_plain_move(line_.plain(), run, group.state, outcome_.positions);
@@ -283,11 +283,13 @@ class Checker::LineExecution final : public execution::Sink {
     const execution::State before = state;
     const rules::Memory remembered = group.memory;
     move_.reset();
-    execution::execute(line_, state, checker_.setup_, *this);
+    execution::execute(line_, state, checker_.setup_.machine, *this);
     const auto is_error_here = [](const GroupFinding& found) { return is_error(found.finding); };
     if (!is_wrong && std::none_of(findings.begin() + first, findings.end(), is_error_here)) {
-      rules::run_rules({line_, before, state, checker_.setup_}, remembered, *this);
-      if (move_) rules::run_move_rules({line_, before, state, checker_.setup_}, *move_, *this);
+      const rules::CheckSetup& setup = checker_.setup_;
+      const rules::Block block{line_, before, state, setup.machine, setup.thresholds};
+      rules::run_rules(block, remembered, *this);
+      if (move_) rules::run_move_rules(block, *move_, *this);
     }
     const bool has_findings = !line_.findings.empty() || static_cast<std::ptrdiff_t>(findings.size()) > first;
     checker_.note_line(line_, before, state, has_findings, outcome_.positions);
@@ -353,7 +355,7 @@ void Checker::note_line(const LineTree& line, const execution::State& before, co
 
 /// Judges an arc whose circle is given by its center, and collects evidence on how centers are meant (D70).
 void Checker::judge_arc(const execution::CenteredArc& arc, Outcome& outcome, execution::Sink& sink) const {
-  const double tolerance = setup_.arc_tolerance;
+  const double tolerance = setup_.machine.arc_tolerance;
   const geometry::CenterReadings readings =
       geometry::read_center_in_both_modes(arc.given, arc.start, arc.incremental, tolerance);
   if (!arc.incremental) {
@@ -361,7 +363,7 @@ void Checker::judge_arc(const execution::CenteredArc& arc, Outcome& outcome, exe
     outcome.centers.open |= readings.is_legal_in_both_readings(tolerance);
   }
   if (arc.circle.problem == geometry::ArcProblem::None)
-    rules::judge_arc(arc, readings, suspects_centers_, setup_, sink);
+    rules::judge_arc(arc, readings, suspects_centers_, setup_.machine, sink);
 }
 
 /// Reports each finding once. A finding that only some groups have carries the decisions that lead to them.

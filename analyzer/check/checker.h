@@ -7,6 +7,7 @@
 
 #include "analyzer/check/frontier.h"
 #include "analyzer/check/outcome.h"
+#include "analyzer/rules/check_setup.h"
 #include "interpreter/execution/execute.h"
 #include "interpreter/syntax/document.h"
 
@@ -21,7 +22,7 @@ class Checker {
  public:
   /// With `suspects_centers`, reports W142 for arcs under G90 that are also legal with their center counted from the
   /// start. Set it after a first pass has found arcs that are legal only that way.
-  Checker(const execution::Setup& setup, const JumpMap& jumps, bool suspects_centers = false);
+  Checker(const rules::CheckSetup& setup, const JumpMap& jumps, bool suspects_centers = false);
 
   /// The frontier before the first line.
   static Frontier start(const execution::Setup& setup);
@@ -66,7 +67,7 @@ class Checker {
                  bool has_findings, PositionUse& use) const;
   void judge_arc(const execution::CenteredArc& arc, Outcome& outcome, execution::Sink& sink) const;
 
-  const execution::Setup& setup_;
+  const rules::CheckSetup& setup_;
   const JumpMap& jumps_;
   const bool checks_moves_;
   const bool suspects_centers_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "interpreter/dialect/diagnostic.h"
+#include "interpreter/dialect/lint_thresholds.h"
 #include "interpreter/execution/state.h"
 #include "interpreter/syntax/document.h"
 #include "interpreter/syntax/finding.h"
@@ -68,6 +69,7 @@ class Program {
   Program& operator=(const Program&) = delete;
 
   virtual const execution::Setup& setup() const = 0;
+  virtual const dialect::LintThresholds& thresholds() const = 0;
 
   virtual std::uint64_t line_count() const = 0;
   /// The text of a line without its terminator.

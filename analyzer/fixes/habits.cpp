@@ -182,7 +182,7 @@ Habits::Found Habits::find_milliseconds() {
       const bool may_be_milliseconds =
           time->known() && time->value >= kFewMilliseconds && text.find_first_of(".(") == std::string_view::npos;
       if (!may_be_milliseconds) return {};
-      found.is_shown |= time->value > program_.setup().advice.longest_dwell;
+      found.is_shown |= time->value > program_.thresholds().longest_dwell;
       std::string what = text.front() + written(time->value / 1000, 6);
       found.rewrites.push_back({number, {{{number, time->begin}, {number, time->end}, what}}, what});
     }

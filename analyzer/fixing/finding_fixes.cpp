@@ -20,7 +20,7 @@ static std::uint64_t first_reduced_line(const check::Report& report) {
   return std::numeric_limits<std::uint64_t>::max();
 }
 
-FindingFixes::FindingFixes(std::string_view text, const check::Report& report, const execution::Setup& setup)
+FindingFixes::FindingFixes(std::string_view text, const check::Report& report, const rules::CheckSetup& setup)
     : program_(text, setup), setup_(setup), reduced_from_(first_reduced_line(report)) {}
 
 std::optional<Fix> FindingFixes::of(const check::LocatedFinding& located) {

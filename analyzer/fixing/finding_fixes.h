@@ -28,7 +28,7 @@ struct ShownEdit {
 class FindingFixes {
  public:
   /// All must outlive this.
-  FindingFixes(std::string_view text, const check::Report& report, const execution::Setup& setup);
+  FindingFixes(std::string_view text, const check::Report& report, const rules::CheckSetup& setup);
 
   std::optional<fixes::Fix> of(const check::LocatedFinding& located);
   /// of() without fixes that a trial rejects (FixTrial): what may be offered to users. For a habit, only the edits of
@@ -46,7 +46,7 @@ class FindingFixes {
   std::size_t column(const syntax::Position& position);
 
   TextProgram program_;
-  const execution::Setup& setup_;
+  const rules::CheckSetup& setup_;
   std::optional<FixTrial> trial_;                         // Made when first needed.
   std::array<bool, fixes::kHabitCount> given_in_full_{};  // Habits already given by offered_in_full().
   std::uint64_t reduced_from_;                            // The first line from which not every path is known.

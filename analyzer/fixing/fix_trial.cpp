@@ -36,7 +36,7 @@ bool finds(const std::vector<check::LocatedFinding>& findings, dialect::Diagnost
 /// A check that continues from a frontier, and its findings.
 class Attempt {
  public:
-  Attempt(const execution::Setup& setup, const check::JumpMap& jumps, const check::Frontier& from)
+  Attempt(const rules::CheckSetup& setup, const check::JumpMap& jumps, const check::Frontier& from)
       : jumps_(jumps), checker_(setup, jumps) {
     checker_.frontier = from;
   }
@@ -140,7 +140,7 @@ static bool is_better(const FindingDelta& delta, bool found_own, const check::Lo
   return !found_own || delta.of(located.finding.id) < 0;
 }
 
-FixTrial::FixTrial(fixes::Program& program, const execution::Setup& setup, const check::JumpMap& jumps)
+FixTrial::FixTrial(fixes::Program& program, const rules::CheckSetup& setup, const check::JumpMap& jumps)
     : program_(program),
       setup_(setup),
       jumps_(jumps),

@@ -25,7 +25,7 @@ bool reads_better(const check::Report& before, const check::Report& after, fixes
 class FixTrial {
  public:
   /// All must outlive this.
-  FixTrial(fixes::Program& program, const execution::Setup& setup, const check::JumpMap& jumps);
+  FixTrial(fixes::Program& program, const rules::CheckSetup& setup, const check::JumpMap& jumps);
 
   /// `before` is the frontier before the finding's line.
   bool improves(const fixes::Fix& fix, const check::LocatedFinding& located, const check::Frontier& before);
@@ -45,7 +45,7 @@ class FixTrial {
   void spend(const check::Frontier& frontier);
 
   fixes::Program& program_;
-  const execution::Setup& setup_;
+  const rules::CheckSetup& setup_;
   const check::JumpMap& jumps_;
   RecentTrees lines_;
   Trails trails_;

@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "analyzer/check/report.h"
+#include "analyzer/rules/check_setup.h"
 #include "analyzer/selection/selection.h"
-#include "interpreter/execution/setup.h"
 
 namespace isocnc::fixing {
 
 /// What to fix, and how.
 struct FixOptions {
   const selection::Selection& selection;
-  const execution::Setup& setup;
+  const rules::CheckSetup& setup;
   bool unsafe = false;  ///< Includes unsafe fixes.
   int jobs = 1;
   /// Filter of the selected findings, for example by a baseline. Only those it returns are fixed; without a filter,

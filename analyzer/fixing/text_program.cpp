@@ -25,7 +25,7 @@ struct TextProgram::Walk {
   }
 };
 
-TextProgram::TextProgram(std::string_view text, const execution::Setup& setup, std::function<void()> on_line)
+TextProgram::TextProgram(std::string_view text, const rules::CheckSetup& setup, std::function<void()> on_line)
     : text_(text), setup_(setup), on_line_(std::move(on_line)) {}
 
 TextProgram::~TextProgram() = default;

@@ -18,10 +18,11 @@ namespace isocnc::fixing {
 class TextProgram final : public fixes::Program {
  public:
   /// Both must outlive this. `on_line` is called for each line asked for; it may throw to end a long search.
-  TextProgram(std::string_view text, const execution::Setup& setup, std::function<void()> on_line = {});
+  TextProgram(std::string_view text, const rules::CheckSetup& setup, std::function<void()> on_line = {});
   ~TextProgram() override;
 
-  const execution::Setup& setup() const override { return setup_; }
+  const execution::Setup& setup() const override { return setup_.machine; }
+  const dialect::LintThresholds& thresholds() const override { return setup_.thresholds; }
   std::uint64_t line_count() const override;
   std::string_view text(std::uint64_t line) override;
   syntax::LineTree line(std::uint64_t line) override;
@@ -46,7 +47,7 @@ class TextProgram final : public fixes::Program {
   std::uint64_t highest_line_number() const;
 
   std::string_view text_;
-  const execution::Setup& setup_;
+  const rules::CheckSetup& setup_;
   std::function<void()> on_line_;
   mutable std::vector<std::size_t> starts_;  // The starts of the lines; computed on demand.
   syntax::TreeStore tree_;                   // The tree of line `parsed_`.

@@ -7,7 +7,6 @@
 
 #include "analyzer/check/report.h"
 #include "interpreter/dialect/diagnostic.h"
-#include "interpreter/execution/setup.h"
 #include "interpreter/syntax/line_finder.h"
 #include "interpreter/syntax/unicode.h"
 
@@ -54,7 +53,7 @@ struct CheckedProgram {
   std::string_view name;
   std::string_view text;
   const check::Report& report;
-  const execution::Setup& setup;  ///< The setup of the check and of the fixes.
+  const rules::CheckSetup& setup;  ///< The setup of the check and of the fixes.
 };
 
 /// Writes the findings of one file after another in one of the output formats.

@@ -19,7 +19,7 @@ static void check_axes_nearly_orthogonal(const Block& block, execution::Sink& si
     if (cosine < geometry::kOrthogonalCosine) worst = std::max(worst, cosine);
   }
   const double angle = std::asin(worst) * 180 / std::numbers::pi;
-  if (angle > block.setup.advice.axis_angle) report(sink, "axes-nearly-orthogonal"_diag, word->span(), angle);
+  if (angle > block.thresholds.axis_angle) report(sink, "axes-nearly-orthogonal"_diag, word->span(), angle);
 }
 
 extern const Rule axes_nearly_orthogonal = {kModal, check_axes_nearly_orthogonal};

@@ -21,7 +21,7 @@ static void check_vector(const Block& block, std::string_view letters, execution
   }
   const double length = std::sqrt(square);
   const double error = std::abs(length - 1);
-  if (!is_direction && error > block.setup.advice.vector_error && error < kChosen)
+  if (!is_direction && error > block.thresholds.vector_error && error < kChosen)
     report(sink, "axes-nearly-unit"_diag, span, length);
 }
 

@@ -7,7 +7,7 @@ static void check_dwell_of_odd_length(const Block& block, execution::Sink& sink)
   if (!block.g(4)) return;
   for (const syntax::Word& word : block.line.words)
     if (word.letter == 'P' && word.owner != syntax::Word::kNoOwner &&
-        (word.value == 0 || word.value > block.setup.advice.longest_dwell))
+        (word.value == 0 || word.value > block.thresholds.longest_dwell))
       report(sink, "dwell-of-odd-length"_diag, word.span(), word.value);
 }
 

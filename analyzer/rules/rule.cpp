@@ -43,8 +43,8 @@ void run_rules(Block block, const Memory& memory, execution::Sink& sink) {
   }
 }
 
-bool checks_moves(const execution::Setup& setup) {
-  return setup.every_motion || setup.clearance || setup.limits != execution::Limits{};
+bool checks_moves(const CheckSetup& setup) {
+  return setup.every_motion || setup.machine.clearance || setup.machine.limits != execution::Limits{};
 }
 
 void run_move_rules(const Block& block, const execution::Move& move, execution::Sink& sink) {

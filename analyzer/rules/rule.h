@@ -1,7 +1,7 @@
 #pragma once
 
+#include "analyzer/rules/check_setup.h"
 #include "analyzer/rules/memory.h"
-#include "interpreter/execution/setup.h"
 #include "interpreter/execution/sink.h"
 #include "interpreter/execution/state.h"
 #include "interpreter/syntax/line_tree.h"
@@ -16,6 +16,7 @@ struct Block {
   const execution::State& before;
   const execution::State& after;
   const execution::Setup& setup;
+  const dialect::LintThresholds& thresholds;
   Facts remembered = 0;  ///< The facts of the rule's memory that hold before the line.
 
   /// Whether a fact of the rule's memory holds before the line.
@@ -69,7 +70,7 @@ void run_rules(Block block, const Memory& memory, execution::Sink& sink);
 
 /// Whether rules judge each motion. This disables the fast path for plain lines, so it is on only if the setup has
 /// limits or a rule for all motions is selected.
-bool checks_moves(const execution::Setup& setup);
+bool checks_moves(const CheckSetup& setup);
 
 /// Runs all rules on the motion of a block, given in the frame in force after the block.
 void run_move_rules(const Block& block, const execution::Move& move, execution::Sink& sink);

@@ -37,9 +37,9 @@ const ProgramSettings& SettingsFinder::of(const std::filesystem::path& program) 
   std::unique_ptr<const ProgramSettings>& settings = settings_[{&configuration, holds}];
   if (!settings) {
     const Selection selection = selection_of(configuration, holds, command_line_);
-    execution::Setup setup = configuration.machine.setup;
-    setup.every_motion = selection.shows("motion-goes-nowhere"_diag);
-    settings = std::make_unique<const ProgramSettings>(ProgramSettings{std::move(setup), selection});
+    const bool every_motion = selection.shows("motion-goes-nowhere"_diag);
+    const rules::CheckSetup setup{configuration.machine.setup, configuration.lint.thresholds, every_motion};
+    settings = std::make_unique<const ProgramSettings>(ProgramSettings{setup, selection});
   }
   return *settings;
 }

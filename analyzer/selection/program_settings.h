@@ -6,15 +6,15 @@
 #include <utility>
 #include <vector>
 
+#include "analyzer/rules/check_setup.h"
 #include "analyzer/selection/selection.h"
 #include "interpreter/configuration/configurations.h"
-#include "interpreter/execution/setup.h"
 
 namespace isocnc::selection {
 
 /// The settings with which one program is checked.
 struct ProgramSettings {
-  execution::Setup setup;
+  rules::CheckSetup setup;
   Selection selection;
 };
 

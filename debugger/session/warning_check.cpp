@@ -25,8 +25,8 @@ static Warnings find_warnings(const Debuggee& debuggee, const std::filesystem::p
   selection::SettingsFinder finder(configurations, {});
   const selection::ProgramSettings& settings = finder.of(program);
   const std::string_view text = debuggee.text().text();
-  const check::Report report =
-      selection::shown_report(check::check_text(text, debuggee.setup()), text, settings.selection);
+  const rules::CheckSetup setup{debuggee.setup(), settings.setup.thresholds, settings.setup.every_motion};
+  const check::Report report = selection::shown_report(check::check_text(text, setup), text, settings.selection);
   Warnings warnings;
   for (const check::LocatedFinding& found : report.findings)
     if (found.severity() == dialect::Severity::Warning)

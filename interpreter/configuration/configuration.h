@@ -10,6 +10,7 @@
 
 #include "interpreter/configuration/path_patterns.h"
 #include "interpreter/dialect/diagnostic.h"
+#include "interpreter/dialect/lint_thresholds.h"
 #include "interpreter/execution/setup.h"
 #include "interpreter/simulation/timing.h"
 
@@ -67,6 +68,7 @@ struct FileOverrides {
 
 struct Lint {
   CodeSelection selection;
+  dialect::LintThresholds thresholds;
   std::vector<FileOverrides> files;  ///< Later entries override earlier ones.
   /// Extensions with their dot.
   std::vector<std::string> extensions{kProgramExtensions.begin(), kProgramExtensions.end()};

@@ -336,14 +336,14 @@ static void add_options(std::vector<Key>& keys) {
          .range = range,
          .unit = unit,
          .documentation = documentation,
-         .slot = [member](Configuration& c, std::size_t) -> Slot { return &(c.machine.setup.advice.*member); }});
+         .slot = [member](Configuration& c, std::size_t) -> Slot { return &(c.lint.thresholds.*member); }});
   };
   add("longestDwell", {0, 1e6, true}, "s", "The longest G04 that is not told of (W115).",
-      &execution::AdviceThresholds::longest_dwell);
+      &dialect::LintThresholds::longest_dwell);
   add("axisAngle", {0, 1}, "degrees", "How far face axes may be from the right angle without a word (W114).",
-      &execution::AdviceThresholds::axis_angle);
+      &dialect::LintThresholds::axis_angle);
   add("vectorError", {0, 0.1}, "", "How far the length of an axis vector may be from 1 without a word (W128).",
-      &execution::AdviceThresholds::vector_error);
+      &dialect::LintThresholds::vector_error);
 }
 
 static void add_lint(std::vector<Key>& keys) {

@@ -39,13 +39,6 @@ struct Limits {
   friend bool operator==(const Limits&, const Limits&) = default;
 };
 
-/// Thresholds above which lint rules report. They do not affect the errors of the control.
-struct AdviceThresholds {
-  double longest_dwell = 120;  ///< G04, seconds.
-  double axis_angle = 1e-4;    ///< Maximum deviation of axis vectors from the right angle, degrees.
-  double vector_error = 1e-3;  ///< Maximum deviation of the length of an axis vector from 1.
-};
-
 /// The data of the machine that the checks need.
 struct Setup {
   geometry::Pose home;          ///< Machine frame.
@@ -57,9 +50,6 @@ struct Setup {
   std::optional<std::vector<int>> functions;
   /// Minimum Z of rapids in the face frame, mm.
   std::optional<double> clearance;
-  /// Whether lint rules check every motion, plain ones included.
-  bool every_motion = false;
-  AdviceThresholds advice;
 };
 
 }  // namespace isocnc::execution

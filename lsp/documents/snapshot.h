@@ -51,7 +51,8 @@ class Snapshot {
   /// The state before a line, on paths from above and by jumps. Nothing if no path leads there, or if paths differ.
   std::optional<execution::State> state_before(std::size_t line) const;
 
-  const execution::Setup& setup() const { return document_.settings().program->setup; }
+  const execution::Setup& setup() const { return check_setup().machine; }
+  const rules::CheckSetup& check_setup() const { return document_.settings().program->setup; }
   const selection::Selection& selection() const { return document_.settings().program->selection; }
   const configuration::Configuration& configuration() const { return *document_.settings().configuration; }
   /// Keeps the three objects above alive after the call, for background requests.

@@ -23,7 +23,7 @@ class HabitsOfDocument {
       version_ = snapshot.version();
       settings_ = snapshot.settings_owner();
       text_ = snapshot.document().text();
-      program_ = std::make_unique<fixing::TextProgram>(text_, snapshot.setup(), [this] { pause(); });
+      program_ = std::make_unique<fixing::TextProgram>(text_, snapshot.check_setup(), [this] { pause(); });
     }
     return program_->habits();
   }

@@ -14,6 +14,7 @@ class SnapshotProgram final : public fixes::Program {
   explicit SnapshotProgram(const Snapshot& snapshot) : snapshot_(snapshot) {}
 
   const execution::Setup& setup() const override { return snapshot_.setup(); }
+  const dialect::LintThresholds& thresholds() const override { return snapshot_.check_setup().thresholds; }
   std::uint64_t line_count() const override { return snapshot_.document().line_count(); }
   std::string_view text(std::uint64_t line) override { return snapshot_.document().text_of_line(line); }
   syntax::LineTree line(std::uint64_t line) override;

@@ -125,7 +125,7 @@ std::vector<documents::TextEdit> edits_of_all(const Snapshot& snapshot) {
     return report;
   };
   const fixing::FixedText fixed =
-      fixing::fix_text(text, {.selection = snapshot.selection(), .setup = snapshot.setup(), .finding_filter = pause});
+      fixing::fix_text(text, {.selection = snapshot.selection(), .setup = snapshot.check_setup(), .finding_filter = pause});
   return edits_to(snapshot, fixed.text, fixed.origins);
 }
 

@@ -15,7 +15,7 @@ using support::Random;
 using support::RandomProgram;
 using syntax::Document;
 
-const execution::Setup kSetup;
+const rules::CheckSetup kSetup;
 
 std::string zigzag(int count) {
   std::string text = "M06 T101001\nG90 G1 X0 Y0 Z0 F1000\n";

@@ -102,7 +102,7 @@ TEST(FixesProperty, AddNoFindingAndComeToAnEnd) {
 /// Alone, too: nobody makes all fixes of a program in an editor.
 TEST(FixesProperty, WhatIsOfferedBringsNothing) {
   std::size_t offered = 0;
-  const execution::Setup setup;
+  const rules::CheckSetup setup;
   for (const std::uint64_t seed : support::seeds(3'000)) {
     Random random(seed);
     const std::string text = random_sample(random).text;

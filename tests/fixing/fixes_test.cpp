@@ -108,7 +108,7 @@ TEST_P(FixCase, HasTheFindingBeforeAndNoneOfAnyKindAfter) {
 /// Who is offered a fix gets it.
 TEST_P(FixCase, IsOfferedWhatIsMade) {
   const Case& tested = GetParam();
-  const execution::Setup setup;
+  const rules::CheckSetup setup;
   const check::Report report = support::found_in(tested.before, tested.code);
   FindingFixes fixes(tested.before, report, setup);
   const bool is_offered =
@@ -125,7 +125,7 @@ TEST(OfferedFixes, AreTriedHoweverManyThereAre) {
     std::string text = "M06 T101001\nF500\n";
     for (int i = 0; i < 9'000; ++i) text += "G01 X" + std::to_string(i % 977) + " C" + std::to_string(i % 7 + 1) + "\n";
     text += end;
-    const execution::Setup setup;
+    const rules::CheckSetup setup;
     const check::Report report = support::found_in(text);
     FindingFixes fixes(text, report, setup);
     return std::count_if(report.findings.begin(), report.findings.end(),
@@ -145,7 +145,7 @@ TEST(OfferedFixes, AreTriedWhereTheyAreMadeWhateverItCosts) {
   }
   for (int i = 0; i < 3'000; ++i) text += "T101002\nM03\n";
   text += "M05\nM02\n";
-  const execution::Setup setup;
+  const rules::CheckSetup setup;
   const check::Report report = support::found_in(text);
   FindingFixes fixes(text, report, setup);
   EXPECT_GT(report.findings.size(), 2'999u);
@@ -166,7 +166,7 @@ TEST(ArcFixes, OfManyCentersAreMadeAtOnce) {
   std::string text = "M06 T101001\nG00 X110 Y105\nG03 X115 Y110 I0 J5 F1000\n";
   for (int i = 0; i < 20'000; ++i) text += i % 2 == 0 ? "G02 X105 Y110 I-5 J0\n" : "G02 X115 Y110 I5 J0\n";
   text += "M02\n";
-  const execution::Setup setup;
+  const rules::CheckSetup setup;
   const check::Report report = support::found_in(text);
   FindingFixes fixes(text, report, setup);
   std::size_t in_full = 0;
@@ -179,8 +179,8 @@ TEST(ArcFixes, OfManyCentersAreMadeAtOnce) {
 /// Arcs are mended by the tolerance of the machine: up to ten times as far, and to within half of it.
 TEST(ArcFixes, GoByTheToleranceOfTheMachine) {
   const auto mended = [](double tolerance, const std::string& arc) {
-    execution::Setup setup;
-    setup.arc_tolerance = tolerance;
+    rules::CheckSetup setup;
+    setup.machine.arc_tolerance = tolerance;
     const selection::Selection selection;
     const std::string text = "M06 T101001\n" + arc + " F1000\nM02\n";
     const FixedText fixed = fix_text(text, {.selection = selection, .setup = setup, .unsafe = true});
@@ -213,7 +213,7 @@ INSTANTIATE_TEST_SUITE_P(All, FixCase, testing::ValuesIn(all_cases()), [](const 
 /// The rows that made a fix for some finding of the cases, by their titles.
 TEST(FixTable, HasACaseForEachRow) {
   std::set<std::pair<dialect::DiagnosticId, std::string_view>> made;
-  const execution::Setup setup;
+  const rules::CheckSetup setup;
   for (const Case& tested : all_cases()) {
     const check::Report report = support::found_in(tested.before, tested.code);
     FindingFixes fixes(tested.before, report, setup);
@@ -261,7 +261,7 @@ TEST(FixTable, SpeaksBothLanguages) {
 
 /// What a title speaks of is there.
 TEST(FixTitles, NameWhatIsMarkedAndWhatIsNew) {
-  const execution::Setup setup;
+  const rules::CheckSetup setup;
   for (const Case& tested : all_cases()) {
     const check::Report report = support::found_in(tested.before, tested.code);
     FindingFixes fixes(tested.before, report, setup);

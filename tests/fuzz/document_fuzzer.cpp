@@ -53,7 +53,7 @@ static std::string first_text(Input& input) {
 
 static void check_document(std::string_view bytes) {
   Input input(bytes);
-  const execution::Setup setup;
+  const rules::CheckSetup setup;
   Document document(first_text(input));
   check::Analysis analysis(document, setup);
   while (!input.empty()) {

@@ -15,7 +15,7 @@ namespace isocnc::fuzz {
 
 static void check_fixes(std::string_view text, bool unsafe, double vgpl) {
   const selection::Selection selection;
-  const execution::Setup setup;
+  const rules::CheckSetup setup;
   const fixing::FixedText fixed = fixing::fix_text(text, {.selection = selection, .setup = setup, .unsafe = unsafe});
   require(fixed.origins.size() == syntax::Document(fixed.text).line_count(), "each line has its origin");
   if (fixed.fixed == 0) require(fixed.text == text, "without a fix nothing changes");

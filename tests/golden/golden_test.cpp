@@ -31,7 +31,7 @@ std::string line_of(const std::string& program, std::size_t index) {
 check::Report reported_in(const Part& part) {
   selection::Selection selection;
   EXPECT_THAT(selection.follow({.severities = part.selected}, dialect::Language::English), testing::IsEmpty());
-  execution::Setup setup = part.setup;
+  rules::CheckSetup setup{.machine = part.setup};
   setup.every_motion = !part.selected.empty();
   check::Report report = selection::with_style(check::check_text(part.program, setup), part.program, selection);
   return selection.shown(selection::suppress(std::move(report), part.program, selection));

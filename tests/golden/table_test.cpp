@@ -22,15 +22,15 @@ using analyzer::read_marked;
 using check::Report;
 
 /// The setup that the programs of the table are written for: one tool, so that ISO067 can be shown.
-execution::Setup table_setup(const DiagnosticDef& def) {
-  execution::Setup setup;
-  if (def.code == "ISO067") setup.tools = {{1, 1, 1}};
-  if (def.code == "W129") setup.functions = {100};
-  if (def.code == "W130") setup.limits.travel[0] = {0, 1000};
-  if (def.code == "W131") setup.limits.feed = 10'000;
-  if (def.code == "W132") setup.limits.rotary_speed = 3'600;
-  if (def.code == "W133") setup.limits.spindle_speed = 18'000;
-  if (def.code == "W134") setup.clearance = 5;
+rules::CheckSetup table_setup(const DiagnosticDef& def) {
+  rules::CheckSetup setup;
+  if (def.code == "ISO067") setup.machine.tools = {{1, 1, 1}};
+  if (def.code == "W129") setup.machine.functions = {100};
+  if (def.code == "W130") setup.machine.limits.travel[0] = {0, 1000};
+  if (def.code == "W131") setup.machine.limits.feed = 10'000;
+  if (def.code == "W132") setup.machine.limits.rotary_speed = 3'600;
+  if (def.code == "W133") setup.machine.limits.spindle_speed = 18'000;
+  if (def.code == "W134") setup.machine.clearance = 5;
   setup.every_motion = def.is_off;
   return setup;
 }

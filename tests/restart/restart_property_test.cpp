@@ -230,7 +230,7 @@ void expect_same_course(const std::string& program, const std::string& restarted
 /// Codes of the errors that isolint finds from a line on.
 std::multiset<std::string> errors_from(std::string_view text, std::uint64_t line, const execution::Setup& setup) {
   std::multiset<std::string> codes;
-  for (const check::LocatedFinding& located : check::check_text(text, setup).findings) {
+  for (const check::LocatedFinding& located : check::check_text(text, {setup}).findings) {
     const dialect::DiagnosticDef& def = dialect::definition(located.finding.id);
     if (def.severity == dialect::Severity::Error && located.line >= line)
       codes.emplace(def.code == "E005" ? "E004" : def.code);  // The label above is gone.

@@ -20,7 +20,7 @@ inline selection::Selection selection_with(std::string_view code) {
 /// The text after all fixes; `code` is selected as well.
 inline std::string fixed(std::string_view text, bool unsafe, std::string_view code = {}) {
   const selection::Selection selection = selection_with(code);
-  const execution::Setup setup;
+  const rules::CheckSetup setup;
   return fixing::fix_text(text, {.selection = selection, .setup = setup, .unsafe = unsafe}).text;
 }
 
