@@ -330,13 +330,12 @@ static void add_options(std::vector<Key>& keys) {
   keys.push_back({.path = "lint.options", .documentation = "From where on lint rules speak."});
   const auto add = [&](std::string_view name, Range range, std::string_view unit, std::string_view documentation,
                        auto member) {
-    keys.push_back(
-        {.path = "lint.options." + std::string(name),
-         .kind = Kind::Number,
-         .range = range,
-         .unit = unit,
-         .documentation = documentation,
-         .slot = [member](Configuration& c, std::size_t) -> Slot { return &(c.lint.thresholds.*member); }});
+    keys.push_back({.path = "lint.options." + std::string(name),
+                    .kind = Kind::Number,
+                    .range = range,
+                    .unit = unit,
+                    .documentation = documentation,
+                    .slot = [member](Configuration& c, std::size_t) -> Slot { return &(c.lint.thresholds.*member); }});
   };
   add("longestDwell", {0, 1e6, true}, "s", "The longest G04 that is not told of (W115).",
       &dialect::LintThresholds::longest_dwell);

@@ -41,7 +41,7 @@ bool PlainRun::is_sound_arc(const PlainLine& line) {
   const geometry::PlanePoint start{state_.position.tip[plane.u], state_.position.tip[plane.v]};
   if (geometry::surely_absolute(arc, start, setup_.arc_tolerance)) return true;
   met_open_center_ = true;
-  return !suspects_centers_;
+  return !leaves_open_centers_;
 }
 
 void PlainRun::take_feed(const PlainLine& line) {

@@ -12,11 +12,11 @@ namespace isocnc::execution {
 /// rest.
 class PlainRun {
  public:
-  /// With `suspects_centers`, an arc under G90 whose center could also be incremental is not plain.
-  PlainRun(State& state, const Setup& setup, bool suspects_centers = false)
+  /// With `leaves_open_centers`, an arc under G90 whose center could also be incremental is not plain.
+  PlainRun(State& state, const Setup& setup, bool leaves_open_centers = false)
       : state_(state),
         setup_(setup),
-        suspects_centers_(suspects_centers),
+        leaves_open_centers_(leaves_open_centers),
         scale_(state.mm_per_unit()),
         straight_(state.five_axis() ? dialect::kCoordinateLetters : dialect::kLinearLetters),
         incremental_(state.incremental()),
@@ -80,7 +80,7 @@ class PlainRun {
 
   State& state_;
   const Setup& setup_;
-  const bool suspects_centers_;
+  const bool leaves_open_centers_;
   const double scale_;
   const dialect::LetterSet straight_;  ///< Axes that a straight motion may move.
   const bool incremental_;

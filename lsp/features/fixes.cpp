@@ -124,8 +124,8 @@ std::vector<documents::TextEdit> edits_of_all(const Snapshot& snapshot) {
     snapshot.throw_if_unwanted();
     return report;
   };
-  const fixing::FixedText fixed =
-      fixing::fix_text(text, {.selection = snapshot.selection(), .setup = snapshot.check_setup(), .finding_filter = pause});
+  const fixing::FixedText fixed = fixing::fix_text(
+      text, {.selection = snapshot.selection(), .setup = snapshot.check_setup(), .finding_filter = pause});
   return edits_to(snapshot, fixed.text, fixed.origins);
 }
 
