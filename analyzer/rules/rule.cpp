@@ -1,7 +1,10 @@
 #include "analyzer/rules/rule.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <iterator>
 
 namespace isocnc::rules {
 
@@ -17,27 +20,44 @@ static const Rule* const kRules[] = {
 
 const MemoryTable kMemoryTable{kRules};
 
-void run_rules(Block block, const Memory& memory, execution::Sink& sink) {
-  unsigned concerns = (block.line.spindle >= 0 ? kSpindle : 0) | (block.line.feed >= 0 ? kFeed : 0);
-  for (const syntax::Instruction& instruction : block.line.instructions) {
+/// A set of rules, one bit each.
+using RuleSet = std::uint64_t;
+static_assert(std::size(kRules) <= 64);
+
+/// The rules to run on a line, by the parts that it has.
+static const std::array<RuleSet, kAllParts + 1> kConcerned = [] {
+  std::array<RuleSet, kAllParts + 1> concerned{};
+  for (unsigned parts = 0; parts <= kAllParts; ++parts)
+    for (std::size_t i = 0; i < std::size(kRules); ++i)
+      if ((kRules[i]->concerns & parts) != 0) concerned[parts] |= RuleSet{1} << i;
+  return concerned;
+}();
+
+/// The parts of a line that rules can register for.
+static unsigned parts_of(const syntax::LineTree& line) {
+  unsigned parts = (line.spindle >= 0 ? kSpindle : 0) | (line.feed >= 0 ? kFeed : 0);
+  for (const syntax::Instruction& instruction : line.instructions) {
     switch (instruction.kind) {
       case syntax::InstructionKind::Continuation:
       case syntax::InstructionKind::G:
-        concerns |= instruction.is_motion() ? kMotion : kModal;
+        parts |= instruction.is_motion() ? kMotion : kModal;
         break;
       case syntax::InstructionKind::Function:
-        concerns |= kFunction;
+        parts |= kFunction;
         break;
       case syntax::InstructionKind::ToolChange:
-        concerns |= kToolChange;
+        parts |= kToolChange;
         break;
       default:
         break;
     }
   }
-  if (concerns == 0) return;
-  for (std::size_t i = 0; i < std::size(kRules); ++i) {
-    if ((kRules[i]->concerns & concerns) == 0) continue;
+  return parts;
+}
+
+void run_rules(Block block, const Memory& memory, execution::Sink& sink) {
+  for (RuleSet rest = kConcerned[parts_of(block.line)]; rest != 0; rest &= rest - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(rest));
     block.remembered = memory.of_rule(i);
     kRules[i]->check(block, sink);
   }

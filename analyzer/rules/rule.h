@@ -48,6 +48,7 @@ inline constexpr unsigned kFunction = 4;    ///< An M other than M06.
 inline constexpr unsigned kToolChange = 8;  ///< M06.
 inline constexpr unsigned kSpindle = 16;    ///< An S.
 inline constexpr unsigned kFeed = 32;       ///< An F.
+inline constexpr unsigned kAllParts = 63;
 
 /// Checks a block that contains one of `concerns`, or the motion of a block. One file per rule, named after it, and one
 /// row in the table of diagnostics; the build collects the files. `check` is not called for plain motions that end no
