@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analyzer/fixes/line_edits.h"
+#include "interpreter/execution/execute.h"
 #include "interpreter/execution/silent_sink.h"
 
 namespace isocnc::fixes {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "analyzer/fixes/fix.h"
-#include "interpreter/execution/executor.h"
+#include "interpreter/execution/plane.h"
 #include "interpreter/geometry/arc.h"
 #include "interpreter/syntax/line_tree.h"
 

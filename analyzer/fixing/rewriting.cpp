@@ -7,7 +7,7 @@
 
 #include "analyzer/fixes/line_edits.h"
 #include "interpreter/execution/block_recorder.h"
-#include "interpreter/execution/executor.h"
+#include "interpreter/execution/plane.h"
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
 

@@ -6,24 +6,21 @@
 #include "interpreter/execution/arguments.h"
 #include "interpreter/execution/execute.h"
 #include "interpreter/execution/feed.h"
+#include "interpreter/execution/plane.h"
 #include "interpreter/geometry/arc.h"
 
 namespace isocnc::execution {
 
-/// The two axes of an arc plane and its normal, as coordinates (0 X, 1 Y, 2 Z) and letters. The normal is u x v: i x j,
-/// k x i, j x k (D40).
-struct Plane {
-  int u, v, normal;
-  char u_letter, v_letter;                  ///< Letters of the end point.
-  char u_center, v_center, stray_center;    ///< Letters of the center: I, J, K.
-  dialect::DiagnosticId stray;              ///< Diagnostic for the center letter outside the plane (D39).
-  dialect::DiagnosticId undetermined_by_u;  ///< Diagnostic where u alone does not determine the center.
-  dialect::DiagnosticId undetermined_by_v;
-};
-
-const Plane& plane_in_force(const State& state);
-
-/// Executes the instructions of one line on a state. Lives for one call of execute().
+/// Executes the instructions of one line on a state, in the order in which they take effect. Lives for one call of
+/// execute(), and is private to this folder: other modules call execute() and get the effects by their Sink.
+///
+///   run()  S first (I.4.2) -> each instruction by its kind -> F without a feed move, G09 and M06 of the next line
+///            Continuation, motion G  -> motion()             motions.cpp   move, arc, feed, rotary axes
+///            frame G                 -> mount_face() ...     frames.cpp    workpiece and face frames
+///            other G                 -> execute_g()          executor.cpp  modes, G04, G09, G990
+///            M, T, V                 -> function() ...       executor.cpp
+///
+/// Each step updates `state_`, then reports its effect and its findings to `sink_`.
 class Executor {
  public:
   Executor(const syntax::LineTree& line, State& state, const Setup& setup, Sink& sink)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "interpreter/execution/plane.h"
 #include "interpreter/geometry/helix.h"
 
 namespace isocnc::execution {
@@ -22,16 +23,10 @@ static double tilted_helix_length(double radius, double sweep, const Vec3& u, co
   return sum / (3 * kPanels);
 }
 
-/// The axis of the frame in force that is not in the arc plane.
-static int normal_of_plane(const State& state) {
-  const std::uint8_t plane = state.mode(dialect::ModalGroup::Plane);
-  return plane == 17 ? 2 : plane == 18 ? 1 : 0;
-}
-
 static void compensate(MachineMove& move, const State& state) {
   const std::uint8_t mode = state.mode(dialect::ModalGroup::CutterCompensation);
   if (mode == 40) return;
-  const int normal = normal_of_plane(state);
+  const int normal = plane_in_force(state).normal;
   const auto axis = [&](int i) { return state.direction_to_machine(Vec3::Unit((normal + i) % 3)); };
   const auto are_orthogonal = [&](int i, int j) {
     return std::abs(axis(i).dot(axis(j))) < geometry::kOrthogonalCosine;

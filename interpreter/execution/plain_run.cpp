@@ -1,5 +1,8 @@
 #include "interpreter/execution/plain_run.h"
-#include "interpreter/execution/executor.h"
+
+#include "interpreter/execution/feed.h"
+#include "interpreter/execution/plane.h"
+#include "interpreter/geometry/arc.h"
 
 namespace isocnc::execution {
 

@@ -123,8 +123,8 @@ TEST(Architecture, EveryLibraryLinksTheModulesOfItsRow) {
   }
 }
 
-/// The modules of a line of the list under "What is absent" that ends in these words.
-std::vector<std::string> modules_that(const std::string& words) {
+/// The names in backquotes on a line of the list under "What is absent" that ends in these words.
+std::vector<std::string> names_on_line_that(const std::string& words) {
   std::istringstream lines(read("docs/architecture.md"));
   for (std::string line; std::getline(lines, line);)
     if (line.starts_with("- ") && line.ends_with(words)) return quoted_in(line);
@@ -133,7 +133,7 @@ std::vector<std::string> modules_that(const std::string& words) {
 
 TEST(Architecture, QuietModulesKnowNoFileScreenThreadOrProtocol) {
   static const std::set<std::string> kLoudHeaders = {"iostream", "fstream", "filesystem", "thread", "cstdio"};
-  const std::vector<std::string> quiet = modules_that(" know no file, screen, thread or protocol, and no JSON.");
+  const std::vector<std::string> quiet = names_on_line_that(" know no file, screen, thread or protocol, and no JSON.");
   EXPECT_GT(quiet.size(), 5U);
   for (const std::string& file : sources()) {
     if (std::none_of(quiet.begin(), quiet.end(), [&](const std::string& folder) { return lies_in(file, folder); }))
@@ -143,6 +143,16 @@ TEST(Architecture, QuietModulesKnowNoFileScreenThreadOrProtocol) {
       EXPECT_FALSE(include.header.starts_with("nlohmann/")) << file << " includes " << include.header;
     }
   }
+}
+
+TEST(Architecture, PrivateHeadersAreIncludedByTheirFolderAlone) {
+  const std::vector<std::string> headers = names_on_line_that(" are private: no other folder includes them.");
+  EXPECT_GT(headers.size(), 1U);
+  for (const std::string& header : headers) EXPECT_TRUE(fs::exists(kRoot / header)) << header;
+  for (const std::string& file : sources())
+    for (const Include& include : includes_of(file))
+      if (std::find(headers.begin(), headers.end(), include.header) != headers.end())
+        EXPECT_EQ(folder_of(file), folder_of(include.header)) << file << " includes " << include.header;
 }
 
 /// So a clock that jumps cannot matter: durations are taken by the steady clock, and of files' times only whether they

@@ -1,0 +1,44 @@
+#include "interpreter/execution/execute.h"
+
+#include <limits>
+
+#include "interpreter/execution/executor.h"
+
+namespace isocnc::execution {
+
+using syntax::Instruction;
+using syntax::InstructionKind;
+
+void execute(const syntax::LineTree& line, State& state, const Setup& setup, Sink& sink) {
+  if (line.is_empty()) return;
+  Executor(line, state, setup, sink).run();
+}
+
+/// Whether the line holds one valid instruction of this kind and nothing else.
+static bool is_lone(InstructionKind kind, const syntax::LineTree& line) {
+  return line.instructions.size() == 1 && line.instructions[0].kind == kind && line.feed < 0 && line.spindle < 0 &&
+         line.findings.empty();
+}
+
+bool is_lone_jump(const syntax::LineTree& line) { return is_lone(InstructionKind::Jump, line); }
+
+std::optional<Assigned> assigned_by(const Instruction& assignment, const syntax::LineTree& line) {
+  const int reg = line.command(assignment).register_number();
+  if (reg == 0) return std::nullopt;
+  const bool has_value = assignment.end > assignment.command + 1;
+  return Assigned{reg,
+                  has_value ? line.words[assignment.command + 1u].value : std::numeric_limits<double>::quiet_NaN()};
+}
+
+std::optional<Assigned> lone_assignment(const syntax::LineTree& line) {
+  if (!is_lone(InstructionKind::Assignment, line) || line.instructions[0].end != line.instructions[0].command + 2)
+    return std::nullopt;
+  return assigned_by(line.instructions[0], line);
+}
+
+void pass_by(State& state) {
+  state.exact_stop_fits = false;
+  state.expects_tool = false;
+}
+
+}  // namespace isocnc::execution
