@@ -332,20 +332,19 @@ void Checker::note_line(const LineTree& line, const execution::State& before, co
     const bool is_g = instruction.kind == syntax::InstructionKind::G;
     const dialect::GCode* const code = is_g ? instruction.g() : nullptr;
     moves |= instruction.is_motion();
-    changes_frame |=
-        is_g && (!code || code->group == dialect::ModalGroup::Face || code->group == dialect::ModalGroup::Workpiece);
+    changes_frame |= is_g && (!code || code->is_frame());
   }
   if (!moves && !changes_frame) return;
   use.far |= is_far(after.position);
-  const bool is_clear = !has_findings && !changes_frame && !checks_moves_ && before.unknown == after.unknown &&
-                        after.mode(dialect::ModalGroup::Motion) != dialect::kNoMotion;
+  const bool is_clear =
+      !has_findings && !changes_frame && !checks_moves_ && before.unknown == after.unknown && after.motion() != nullptr;
   if (is_clear && after.incremental()) return;
   dialect::LetterSet letters = 0;
   for (const syntax::Word& word : line.words)
     if (dialect::contains(dialect::kCoordinateLetters, word.letter)) letters |= dialect::letter_bit(word.letter);
   // A straight move under G49 is legal from any start. Otherwise the start matters: for an arc, or for a rotary axis
   // that must not turn.
-  const bool is_straight = after.mode(dialect::ModalGroup::Motion) <= 1;
+  const bool is_straight = after.motion() && !after.motion()->is_arc();
   const execution::AxisSet read = !is_clear     ? kAllAxes
                                   : is_straight ? axes_of(letters & dialect::kRotaryLetters)
                                                 : kAllAxes;

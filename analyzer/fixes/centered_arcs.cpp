@@ -69,7 +69,7 @@ bool may_be_arc(const LineTree& line, const execution::State& before, const exec
   execution::SilentSink ignored;
   execution::State state = before;
   execution::execute(line, state, setup, ignored);
-  return state.mode(dialect::ModalGroup::Motion) > 1;
+  return !state.motion() || state.motion()->is_arc();
 }
 
 int decimals_of_center(const LineTree& line, const ArcOfProgram& arc) {

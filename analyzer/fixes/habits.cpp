@@ -174,7 +174,7 @@ Habits::Found Habits::find_milliseconds() {
     if (program_.text(number).find_first_of("Gg") == std::string_view::npos) continue;
     const LineTree tree = line(number);
     for (const Instruction& dwell : tree.instructions) {
-      if (dwell.kind != syntax::InstructionKind::G || !dwell.g() || dwell.g()->number != 4) continue;
+      if (!dwell.is(dialect::GRole::Dwell)) continue;
       const auto is_time = [&](const Word& word) { return word.letter == 'P' && word.owner == dwell.number; };
       const auto time = std::find_if(tree.words.begin(), tree.words.end(), is_time);
       if (time == tree.words.end() || time->value == 0 || !program_.is_read(number)) continue;

@@ -6,7 +6,6 @@
 
 namespace isocnc::fixes {
 
-using dialect::ModalGroup;
 using execution::State;
 using syntax::Instruction;
 using syntax::InstructionKind;
@@ -50,8 +49,8 @@ Draft later_g27_above(const Request& request) {
     for (const Instruction& each : line.instructions) {
       if (each.kind == InstructionKind::Jump || line.ends_program(each)) return {};
       const dialect::GCode* const code = each.kind == InstructionKind::G ? each.g() : nullptr;
-      if (!code || (code->group != ModalGroup::Face && code->group != ModalGroup::Workpiece)) continue;
-      if (code->number != 27 || line.instructions.size() > 1) return {};
+      if (!code || !code->is_frame()) continue;
+      if (code->role != dialect::GRole::DismountFace || line.instructions.size() > 1) return {};
       const syntax::Finding at_g27{.span = line.command(each).span()};
       draft.edits.push_back(removed_with_line({number, at_g27, true, line, request.program}, at_g27.span));
       return draft;
@@ -63,7 +62,7 @@ Draft later_g27_above(const Request& request) {
 /// The blocks that must precede the end of the program: compensation off, face frame dismounted, spindle stopped.
 static std::string blocks_before_end(const State& state, const std::string& line_start) {
   std::string blocks;
-  if (state.mode(ModalGroup::CutterCompensation) != 40) blocks += line_start + "G40";
+  if (state.is_compensated()) blocks += line_start + "G40";
   if (state.face_mounted) blocks += line_start + "G27";
   if (state.spindle_turns()) blocks += line_start + "M05";
   return blocks;

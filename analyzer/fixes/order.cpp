@@ -12,10 +12,6 @@ using syntax::LineTree;
 using syntax::Span;
 using syntax::Word;
 
-static bool is_g(const Instruction& instruction, int number) {
-  return instruction.kind == InstructionKind::G && instruction.g() != nullptr && instruction.g()->number == number;
-}
-
 /// The instruction whose command is marked, or null.
 static const Instruction* marked_instruction(const Request& request) {
   const Word* const command = word_at(request.line, request.finding.span);
@@ -181,7 +177,7 @@ Draft move_after_motion(const Request& request) {
 /// G09 G01 X10: moves the G09 after a feed motion; a rapid stops at its end anyway.
 Draft move_after_feed_motion(const Request& request) {
   const Instruction* const motion = last_motion(request.line);
-  return motion && !is_g(*motion, 0) ? move_after_motion(request) : Draft{};
+  return motion && !motion->is(dialect::GRole::Rapid) ? move_after_motion(request) : Draft{};
 }
 
 /// T101001 M06: moves the M06 before the T.

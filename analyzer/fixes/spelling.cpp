@@ -70,8 +70,7 @@ Draft whole_number(const Request& request) {
   if (std::count(number.begin(), number.end(), '.') > 1 || digits.size() == text.size() - 1) return {};
   int value = 0;
   std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  const bool is_known_g =
-      letter != 'G' || (value <= 999 && dialect::kGCodeRows[static_cast<std::size_t>(value)] != dialect::kUnknownGCode);
+  const bool is_known_g = letter != 'G' || dialect::g_code(static_cast<std::size_t>(value)) != nullptr;
   if (!is_known_g || (letter == 'M' && value == 0) || (letter == 'T' && digits.size() != 6)) return {};
   return rewritten(request, std::string(1, text.front()) + std::string(digits));
 }

@@ -223,13 +223,13 @@ struct Mode {
 constexpr Mode mode_of(Rewrite how) {
   switch (how) {
     case Rewrite::Incremental:
-      return {ModalGroup::Distance, 91};
+      return {ModalGroup::Distance, dialect::kIncremental};
     case Rewrite::Absolute:
-      return {ModalGroup::Distance, 90};
+      return {ModalGroup::Distance, dialect::kAbsolute};
     case Rewrite::Inches:
-      return {ModalGroup::Units, 70};
+      return {ModalGroup::Units, dialect::kInches};
     default:
-      return {ModalGroup::Units, 71};
+      return {ModalGroup::Units, dialect::kMillimeters};
   }
 }
 
@@ -291,7 +291,7 @@ class Dimensions {
       if (tree.is_empty()) continue;
       if (tree.instructions.empty()) return false;
       const Instruction& first = tree.instructions.front();
-      return first.kind == InstructionKind::G && first.g() != nullptr && first.g()->number == 9;
+      return first.is(dialect::GRole::ExactStop);
     }
     return false;
   }
@@ -393,8 +393,7 @@ class Dimensions {
   /// Sets the origin of a frame. G28 is not affected: its X, Y and Z are components.
   static void set_origin(LineRewrite& rewrite, const LineTree& line, const Instruction& instruction, double old_scale,
                          double scale, double rounding) {
-    const int number = instruction.g()->number;
-    if (number != 24 && number != 29 && number != 92) return;
+    if (!instruction.g()->takes_origin()) return;
     for (const Word* const word : words_of(line, instruction, dialect::kLinearLetters))
       rewrite.set(*word, word->value * old_scale / scale, scale, rounding);
   }

@@ -21,7 +21,7 @@ class MotionInForce {
 
   /// 0 to 3, or one of the constants above.
   std::uint8_t in_force() const { return paths_.live.number; }
-  bool is_known() const { return in_force() <= 3; }
+  bool is_known() const { return dialect::is_motion_number(in_force()); }
 
  private:
   struct Motion {

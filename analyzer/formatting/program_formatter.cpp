@@ -49,7 +49,7 @@ LineChange LinesFormatter::next(const LineTree& line) {
 /// findings, whose place would change.
 LineChange::Motion LinesFormatter::motion_change(const LineTree& line) const {
   if (!motion_.is_known() || !line.findings.empty()) return LineChange::Motion::Keep;
-  const dialect::GCode& in_force = dialect::kGCodes[dialect::kGCodeRows[motion_.in_force()]];
+  const dialect::GCode& in_force = *dialect::g_code(motion_.in_force());
   const bool writes = motions_ == MotionStyle::Write;
   const auto fits = [&](const Instruction& instruction) {
     if (writes) return instruction.kind == InstructionKind::Continuation;

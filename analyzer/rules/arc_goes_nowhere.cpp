@@ -5,8 +5,8 @@ namespace isocnc::rules {
 
 /// An arc by radius that ends where it starts has no sweep (D36); a full turn needs a center.
 static void check_arc_goes_nowhere(const Block& block, execution::Sink& sink) {
-  const std::uint8_t motion = block.motion();
-  if ((motion != 2 && motion != 3) || block.before.unknown != 0 || block.after.unknown != 0) return;
+  const dialect::GCode* const motion = block.motion();
+  if (!motion || !motion->is_arc() || block.before.unknown != 0 || block.after.unknown != 0) return;
   const syntax::Word* radius = nullptr;
   for (const syntax::Word& word : block.line.words) {
     if (word.owner == syntax::Word::kNoOwner) continue;

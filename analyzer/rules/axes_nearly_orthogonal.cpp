@@ -9,8 +9,8 @@ namespace isocnc::rules {
 
 /// Face axes that the control accepts as orthogonal, but that are not exactly so (D26).
 static void check_axes_nearly_orthogonal(const Block& block, execution::Sink& sink) {
-  const syntax::Word* word = block.g(28);
-  if (!word) word = block.g(24);
+  const syntax::Word* word = block.g(GRole::FaceAtTip);
+  if (!word) word = block.g(GRole::FaceByAxes);
   if (!word || !block.after.face_mounted || block.after.face_undefined) return;
   const geometry::Mat3& axes = block.after.face.axes;
   double worst = 0;

@@ -27,11 +27,10 @@ static void check_vector(const Block& block, std::string_view letters, execution
 
 /// The axis vectors of G24 and G28, which the control normalizes whatever their length (D26).
 static void check_axes_nearly_unit(const Block& block, execution::Sink& sink) {
-  const bool by_plane = block.g(24) != nullptr;
-  if (!by_plane && !block.g(28)) return;
-  for (const std::string_view letters :
-       {std::string_view(by_plane ? "ABC" : "XYZ"), std::string_view("IJK"), std::string_view("PQR")})
-    check_vector(block, letters, sink);
+  const GRole role = block.g(GRole::FaceByAxes) ? GRole::FaceByAxes : GRole::FaceAtTip;
+  if (!block.g(role)) return;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    check_vector(block, dialect::g_code(role).axes.substr(3 * axis, 3), sink);
 }
 
 extern const Rule axes_nearly_unit = {kModal, check_axes_nearly_unit};

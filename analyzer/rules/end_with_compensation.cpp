@@ -5,8 +5,8 @@ namespace isocnc::rules {
 /// M02 without G40 before it.
 static void check_end_with_compensation(const Block& block, execution::Sink& sink) {
   const syntax::Word* const end = block.m(dialect::kProgramEnd);
-  const int mode = block.after.mode(dialect::ModalGroup::CutterCompensation);
-  if (end && mode != 40) report(sink, "end-with-compensation"_diag, end->span(), mode);
+  if (end && block.after.is_compensated())
+    report(sink, "end-with-compensation"_diag, end->span(), block.after.mode(dialect::ModalGroup::CutterCompensation));
 }
 
 extern const Rule end_with_compensation = {kFunction, check_end_with_compensation};

@@ -17,7 +17,7 @@ static void check_feed_above_machine(const Block& block, const execution::Move& 
 
 /// An F on its own line, for the moves that follow.
 static void check_alone(const Block& block, execution::Sink& sink) {
-  if (block.motion() != dialect::kNoMotion || block.before.inverse_time()) return;
+  if (block.motion() || block.before.inverse_time()) return;
   const syntax::Word& word = block.line.words[static_cast<std::size_t>(block.line.feed)];
   const double speed = word.value * block.before.mm_per_unit();
   if (speed > block.setup.limits.feed)

@@ -11,7 +11,7 @@ static void check_rapid_below_clearance(const Block& block, const execution::Mov
   if (move.to.tip.z() >= clearance) return;
   const bool crosses = way.head<2>().cwiseAbs().maxCoeff() > geometry::kEqualCoordinate;
   // The first motion leaves the home position; that path is the machine's responsibility.
-  const bool leaves_home = block.before.mode(dialect::ModalGroup::Motion) == dialect::kNoMotion;
+  const bool leaves_home = block.before.motion() == nullptr;
   if (way.z() >= 0 && (!crosses || leaves_home)) return;
   const syntax::Word* const word = block.argument('Z');
   sink.report({.id = "rapid-below-clearance"_diag,

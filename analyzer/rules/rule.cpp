@@ -94,16 +94,15 @@ static const syntax::Instruction* motion_instruction(const syntax::LineTree& lin
   return found;
 }
 
-std::uint8_t Block::motion() const {
+const dialect::GCode* Block::motion() const {
   const syntax::Instruction* const motion = motion_instruction(line);
-  if (!motion) return dialect::kNoMotion;
-  return motion->kind == syntax::InstructionKind::G ? static_cast<std::uint8_t>(motion->g()->number)
-                                                    : before.mode(dialect::ModalGroup::Motion);
+  if (!motion) return nullptr;
+  return motion->kind == syntax::InstructionKind::G ? motion->g() : before.motion();
 }
 
 bool Block::has_feed_move() const {
-  const std::uint8_t number = motion();
-  return number != 0 && number != dialect::kNoMotion;
+  const dialect::GCode* const code = motion();
+  return code && code->is_feed_move();
 }
 
 const syntax::Word& Block::motion_word() const { return line.command(*motion_instruction(line)); }
@@ -134,10 +133,9 @@ bool Block::has_user_function() const {
   });
 }
 
-const syntax::Word* Block::g(int number) const {
+const syntax::Word* Block::g(dialect::GRole role) const {
   for (const syntax::Instruction& instruction : line.instructions)
-    if (instruction.kind == syntax::InstructionKind::G && instruction.g() && instruction.g()->number == number)
-      return &line.command(instruction);
+    if (instruction.is(role)) return &line.command(instruction);
   return nullptr;
 }
 

@@ -9,6 +9,7 @@
 namespace isocnc::rules {
 
 using namespace dialect::literals;
+using dialect::GRole;
 
 /// A line executed on one path: the input of a lint rule.
 struct Block {
@@ -21,14 +22,14 @@ struct Block {
 
   /// Whether a fact of the rule's memory holds before the line.
   bool holds(Facts fact) const { return (remembered & fact) != 0; }
-  bool compensated() const { return before.mode(dialect::ModalGroup::CutterCompensation) != 40; }
+  bool compensated() const { return before.is_compensated(); }
   bool spindle_turns() const { return before.spindle_turns(); }
-  /// The number of the line's motion G, written or in force; kNoMotion if nothing moves.
-  std::uint8_t motion() const;
+  /// The line's motion G, written or in force; null if nothing moves.
+  const dialect::GCode* motion() const;
   /// Whether the line's motion cuts: G01, G02 or G03, written or in force.
   bool has_feed_move() const;
-  /// The G of this number on the line, or null.
-  const syntax::Word* g(int number) const;
+  /// The first G of this role on the line, or null.
+  const syntax::Word* g(dialect::GRole role) const;
   /// The M of this number on the line, or null.
   const syntax::Word* m(int number) const;
   /// Whether the line has a user-defined M.

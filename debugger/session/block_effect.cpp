@@ -33,8 +33,7 @@ std::vector<geometry::Pose> points_on(const execution::Move& arc) {
 }  // namespace
 
 bool may_be_arc(const running::Block& block) {
-  const std::uint8_t motion = block.state.mode(dialect::ModalGroup::Motion);
-  if (motion != dialect::kNoMotion && motion >= 2) return true;
+  if (const dialect::GCode* const motion = block.state.motion(); motion != nullptr && motion->is_arc()) return true;
   return std::any_of(block.tree.instructions.begin(), block.tree.instructions.end(),
                      [](const syntax::Instruction& each) { return each.g() != nullptr && each.g()->is_arc(); });
 }

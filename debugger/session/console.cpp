@@ -58,8 +58,7 @@ void add_line(std::string_view line, Blocks& blocks) {
                          tree.words.front().digits > 0;
   blocks.need_g909 |= tree.spindle >= 0;
   for (const syntax::Instruction& each : tree.instructions) {
-    const dialect::GCode* const code = each.g();
-    const bool is_g909 = code != nullptr && code->number == 909;
+    const bool is_g909 = each.is(dialect::GRole::ApplyMdi);
     blocks.have_g909 |= is_g909;
     blocks.need_g909 |= !is_g909 && needs_g909(each);
   }

@@ -112,7 +112,7 @@ void Debuggee::look_ahead(const std::function<void(const motion::Move&)>& on_mov
 std::optional<Hindrance> Debuggee::hindrance() const {
   if (present().has_ended()) return Hindrance::HasEnded;
   if (present().is_in_block()) return Hindrance::InBlock;
-  if (present().run().state.mode(dialect::ModalGroup::CutterCompensation) != 40) return Hindrance::Compensation;
+  if (present().run().state.is_compensated()) return Hindrance::Compensation;
   return std::nullopt;
 }
 

@@ -64,8 +64,8 @@ static double read_register(const Moment& moment, int index) {
   return moment.registers[static_cast<std::size_t>(index)];
 }
 static double read_mode(const Moment& moment, int index) {
-  const std::uint8_t number = moment.state.in_force[static_cast<std::size_t>(index)];
-  return number == dialect::kNoMotion ? kUnknown : number;
+  const dialect::GCode* const code = moment.state.g(static_cast<ModalGroup>(index));
+  return code != nullptr ? code->number : kUnknown;
 }
 static double read_vgpl(const Moment& moment, int) { return moment.vgpl; }
 static double read_override(const Moment& moment, int) { return moment.override_percent; }

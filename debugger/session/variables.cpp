@@ -236,12 +236,13 @@ class Listing {
   }
 
   /// The line that has set the mode in force, or how else it was set.
-  std::string origin_of(ModalGroup group, std::uint8_t number) const {
+  std::string origin_of(ModalGroup group) const {
+    const std::uint8_t number = moment_.state.mode(group);
     const Journal& journal = session_.journal();
     if (const auto setting = journal.setting(group, present().blocks()))
       return setting->number == number ? line_text(setting->line) : in_language(kByHand);
     const bool is_written = (moment_.state.written & (1u << static_cast<unsigned>(group))) != 0;
-    if (dialect::kGCodes[dialect::kGCodeRows[number]].is_default && !is_written) return in_language(kDefault);
+    if (dialect::g_code(number)->is_default && !is_written) return in_language(kDefault);
     if (!journal.has_forgotten(group)) return in_language(kByHand);
     const auto line = find_setting_line(group, number);
     return line ? line_text(*line) : in_language(kLongAgo);
@@ -263,12 +264,9 @@ class Listing {
   }
 
   void add_mode(ModalGroup group) {
-    const std::uint8_t number = moment_.state.mode(group);
     std::string value = in_language(kNoMotion);
-    if (number != dialect::kNoMotion) {
-      const dialect::GCode& code = dialect::kGCodes[dialect::kGCodeRows[number]];
-      value = fmt::format("G{:02} {} ({})", number, in_language(code.name), origin_of(group, number));
-    }
+    if (const dialect::GCode* const code = moment_.state.g(group))
+      value = fmt::format("G{:02} {} ({})", code->number, in_language(code->name), origin_of(group));
     variables.push_back(
         {.name = in_language(group_meaning(group)), .value = value, .evaluate_name = std::string(group_name(group))});
   }

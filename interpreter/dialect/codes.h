@@ -27,87 +27,136 @@ enum class ModalGroup : std::uint8_t {
 
 inline constexpr std::size_t kModalGroupCount = static_cast<std::size_t>(ModalGroup::None);
 
+/// What a G does. A switch over the roles names all of them, so that the compiler lists every place to which a new role
+/// matters. All roles but `Mode` belong to one G each.
+enum class GRole : std::uint8_t {
+  Rapid,
+  Line,
+  ClockwiseArc,
+  CounterclockwiseArc,
+  Dwell,
+  ExactStop,
+  PlaneXY,
+  PlaneZX,
+  PlaneYZ,
+  FaceByAxes,  ///< Mounts a face frame, given by its origin and axes.
+  DismountFace,
+  FaceAtTip,     ///< Mounts a face frame, given by its axes; its origin is the tool tip.
+  FaceByAngles,  ///< Mounts a face frame, given by its origin and two angles.
+  CompensationOff,
+  CompensationLeft,
+  CompensationRight,
+  Workpiece,
+  Mode,        ///< Comes into force in its group; it has no further effect.
+  PendingEnd,  ///< The control waits for the next program at the end of this one.
+  ApplyMdi,
+  WaitForUpdate,
+};
+
 /// A G code: all its properties that do not depend on the state of the machine.
 struct GCode {
   std::uint16_t number = 0;
+  GRole role = GRole::Mode;
   Text name;
   ModalGroup group = ModalGroup::None;
   bool is_default = false;                 ///< Whether it is in force when a program starts.
   LetterSet arguments = 0;                 ///< Letters of its arguments.
+  std::string_view axes;                   ///< Letters of the axis vectors i, j and k of a face, three each.
   DiagnosticId alone = kNoDiagnostic;      ///< Reported when it must be alone on its line and is not.
   DiagnosticId repeated = kNoDiagnostic;   ///< Reported when written again while in force.
   DiagnosticId misplaced = kNoDiagnostic;  ///< Reported when it follows dimensions on its line.
   std::string_view section;
 
   constexpr bool is_motion() const { return group == ModalGroup::Motion; }
-  constexpr bool is_arc() const { return is_motion() && number >= 2; }
+  constexpr bool is_feed_move() const { return is_motion() && role != GRole::Rapid; }
+  constexpr bool is_arc() const { return role == GRole::ClockwiseArc || role == GRole::CounterclockwiseArc; }
   constexpr bool takes_arguments() const { return arguments != 0; }
-  constexpr bool mounts_face() const { return group == ModalGroup::Face && !is_default; }
+  constexpr bool is_frame() const { return group == ModalGroup::Face || group == ModalGroup::Workpiece; }
+  constexpr bool mounts_face() const { return group == ModalGroup::Face && role != GRole::DismountFace; }
+  /// Whether its X Y Z are the origin of a frame, in the units in force.
+  constexpr bool takes_origin() const { return is_frame() && takes_arguments() && role != GRole::FaceAtTip; }
 };
 
 /// All G codes of the dialect, by number.
 inline constexpr GCode kGCodes[] = {
     {.number = 0,
+     .role = GRole::Rapid,
      .name = {"rapid positioning", "posizionamento rapido"},
      .group = ModalGroup::Motion,
      .arguments = letters("XYZBC"),
      .section = "I.3.4.1"},
     {.number = 1,
+     .role = GRole::Line,
      .name = {"linear interpolation", "interpolazione lineare"},
      .group = ModalGroup::Motion,
      .arguments = letters("XYZBC"),
      .section = "I.3.4.2"},
     {.number = 2,
+     .role = GRole::ClockwiseArc,
      .name = {"clockwise arc or helix", "interpolazione circolare (elicoidale) oraria"},
      .group = ModalGroup::Motion,
      .arguments = letters("XYZBCIJKR"),
      .section = "I.3.4.3"},
     {.number = 3,
+     .role = GRole::CounterclockwiseArc,
      .name = {"counterclockwise arc or helix", "interpolazione circolare (elicoidale) antioraria"},
      .group = ModalGroup::Motion,
      .arguments = letters("XYZBCIJKR"),
      .section = "I.3.4.3"},
     {.number = 4,
+     .role = GRole::Dwell,
      .name = {"dwell", "attesa"},
      .arguments = letters("P"),
      .alone = "g04-not-alone"_diag,
      .section = "I.3.10"},
-    {.number = 9, .name = {"exact stop at the end of the block", "arresto a fine blocco"}, .section = "I.3.8"},
+    {.number = 9,
+     .role = GRole::ExactStop,
+     .name = {"exact stop at the end of the block", "arresto a fine blocco"},
+     .section = "I.3.8"},
     {.number = 17,
+     .role = GRole::PlaneXY,
      .name = {"arc plane XY", "piano di interpolazione XY"},
      .group = ModalGroup::Plane,
      .is_default = true,
      .repeated = "redundant-modal"_diag,
      .section = "I.3.4.3.a"},
     {.number = 18,
+     .role = GRole::PlaneZX,
      .name = {"arc plane ZX", "piano di interpolazione ZX"},
      .group = ModalGroup::Plane,
      .repeated = "redundant-modal"_diag,
      .section = "I.3.4.3.a"},
     {.number = 19,
+     .role = GRole::PlaneYZ,
      .name = {"arc plane YZ", "piano di interpolazione YZ"},
      .group = ModalGroup::Plane,
      .repeated = "redundant-modal"_diag,
      .section = "I.3.4.3.a"},
     {.number = 24,
+     .role = GRole::FaceByAxes,
      .name = {"mount a face frame: origin and axes", "faccia: origine e assi"},
      .group = ModalGroup::Face,
      .arguments = letters("XYZABCIJKPQR"),
+     .axes = "ABCIJKPQR",
      .alone = "frame-not-alone"_diag,
      .section = "I.3.2"},
     {.number = 27,
+     .role = GRole::DismountFace,
      .name = {"dismount the face frame", "smonta il sistema di riferimento di faccia"},
      .group = ModalGroup::Face,
      .is_default = true,
      .alone = "frame-not-alone"_diag,
      .section = "I.3.2"},
     {.number = 28,
+     .role = GRole::FaceAtTip,
      .name = {"mount a face frame at the tool tip: axes", "faccia con origine nella posizione corrente: assi"},
      .group = ModalGroup::Face,
      .arguments = letters("XYZIJKPQR"),
+     .axes = "XYZIJKPQR",
      .alone = "frame-not-alone"_diag,
      .section = "I.3.2"},
     {.number = 29,
+     .role = GRole::FaceByAngles,
      .name = {"mount a face frame: origin and angles", "faccia: origine e angoli"},
      .group = ModalGroup::Face,
      .arguments = letters("XYZBC"),
@@ -123,15 +172,18 @@ inline constexpr GCode kGCodes[] = {
      .group = ModalGroup::ProfileReduction,
      .section = "I.3"},
     {.number = 40,
+     .role = GRole::CompensationOff,
      .name = {"cutter compensation off", "nessuna correzione raggio fresa"},
      .group = ModalGroup::CutterCompensation,
      .is_default = true,
      .section = "I.3"},
     {.number = 41,
+     .role = GRole::CompensationLeft,
      .name = {"cutter compensation left of the profile", "correzione raggio fresa a sinistra del profilo"},
      .group = ModalGroup::CutterCompensation,
      .section = "I.3"},
     {.number = 42,
+     .role = GRole::CompensationRight,
      .name = {"cutter compensation right of the profile", "correzione raggio fresa a destra del profilo"},
      .group = ModalGroup::CutterCompensation,
      .section = "I.3"},
@@ -173,6 +225,7 @@ inline constexpr GCode kGCodes[] = {
      .misplaced = "distance-mode-after-dimensions"_diag,
      .section = "I.3.3"},
     {.number = 92,
+     .role = GRole::Workpiece,
      .name = {"workpiece frame", "sistema di riferimento di pezzo"},
      .group = ModalGroup::Workpiece,
      .is_default = true,
@@ -191,10 +244,15 @@ inline constexpr GCode kGCodes[] = {
      .repeated = "redundant-modal"_diag,
      .section = "I.3.7"},
     {.number = 200,
+     .role = GRole::PendingEnd,
      .name = {"wait for the next program at the end", "stato di attesa (pending) a fine programma"},
      .section = "I.3.12"},
-    {.number = 909, .name = {"apply MDI instructions", "applicazione istruzioni MDI"}, .section = "I.3.9"},
+    {.number = 909,
+     .role = GRole::ApplyMdi,
+     .name = {"apply MDI instructions", "applicazione istruzioni MDI"},
+     .section = "I.3.9"},
     {.number = 990,
+     .role = GRole::WaitForUpdate,
      .name = {"update the technological parameters", "aggiornamento della parametrica tecnologica"},
      .section = "I.3.11"},
 };
@@ -209,6 +267,39 @@ inline constexpr auto kGCodeRows = [] {
   for (std::size_t i = 0; i < std::size(kGCodes); ++i) rows[kGCodes[i].number] = static_cast<std::uint8_t>(i);
   return rows;
 }();
+
+/// The G code of a number; null if the dialect has none.
+constexpr const GCode* g_code(std::size_t number) {
+  const std::uint8_t row = number < kGCodeRows.size() ? kGCodeRows[number] : kUnknownGCode;
+  return row == kUnknownGCode ? nullptr : &kGCodes[row];
+}
+
+/// The G code of a role that one G has.
+constexpr const GCode& g_code(GRole role) {
+  return *std::find_if(std::begin(kGCodes), std::end(kGCodes), [&](const GCode& code) { return code.role == role; });
+}
+
+/// Numbers of modes (GRole::Mode) that a state can be asked for, or that rewrites put in force.
+inline constexpr std::uint8_t kProfileReduction = 39;
+inline constexpr std::uint8_t kFiveAxis = 49;
+inline constexpr std::uint8_t kInches = 70;
+inline constexpr std::uint8_t kMillimeters = 71;
+inline constexpr std::uint8_t kAbsolute = 90;
+inline constexpr std::uint8_t kIncremental = 91;
+inline constexpr std::uint8_t kInverseTime = 93;
+inline constexpr std::uint8_t kPerMinute = 94;
+
+/// Whether a number is that of a motion G: 0 to 3.
+constexpr bool is_motion_number(double number) {
+  constexpr auto kMotions =
+      std::count_if(std::begin(kGCodes), std::end(kGCodes), [](const GCode& code) { return code.is_motion(); });
+  return number >= 0 && number < static_cast<double>(kMotions);
+}
+static_assert(std::all_of(std::begin(kGCodes), std::end(kGCodes), [](const GCode& code) {
+  const auto is_same = [&](const GCode& other) { return other.role == code.role; };
+  const bool has_own_role = std::count_if(std::begin(kGCodes), std::end(kGCodes), is_same) == 1;
+  return is_motion_number(code.number) == code.is_motion() && (has_own_role || code.role == GRole::Mode);
+}));
 
 /// The G codes in force when a program starts, by modal group; kNoMotion where none is (I.3).
 inline constexpr std::uint8_t kNoMotion = 255;

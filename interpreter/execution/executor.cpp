@@ -6,6 +6,7 @@
 namespace isocnc::execution {
 
 using namespace dialect::literals;
+using dialect::GRole;
 using syntax::Instruction;
 using syntax::InstructionKind;
 using syntax::Word;
@@ -14,6 +15,12 @@ void take_spindle_speed(double number, State& state) {
   if (!(number > 0)) return;  // Reported.
   state.spindle_speed = number;
   state.speed_given = true;
+}
+
+/// Whether a number is that of G48 or G49.
+static bool is_interpolation_mode(double number) {
+  const dialect::GCode* const code = number >= 0 ? dialect::g_code(static_cast<std::size_t>(number)) : nullptr;
+  return code && code->group == dialect::ModalGroup::Interpolation;
 }
 
 /// Handles a number whose letter is lost (D58). It may have been a motion (01), a tool change (06), a mode (49), else
@@ -26,11 +33,11 @@ void Executor::allow_for_lost_letter() {
   state_.spindle = Spindle::Unknown;
   state_.speed_given = true;
   const double value = number->is_plain_integer() ? number->value : -1;
-  if (value >= 0 && value <= 3) return make_motion_illegible();
+  if (dialect::is_motion_number(value)) return make_motion_illegible();
   if (value == dialect::kToolChange) {
     state_.tool_selected = true;
-  } else if (value == 48 || value == 49) {
-    state_.set_mode(dialect::ModalGroup::Interpolation, 49);  // G49 allows more than G48.
+  } else if (is_interpolation_mode(value)) {
+    state_.set_mode(dialect::ModalGroup::Interpolation, dialect::kFiveAxis);  // G49 allows more than G48.
     state_.written &= static_cast<std::uint16_t>(~(1u << static_cast<unsigned>(dialect::ModalGroup::Interpolation)));
   } else {
     blur_axes_not_named();
@@ -133,28 +140,39 @@ void Executor::execute_g(const Instruction& instruction) {
     if (g.has(Word::kMalformed)) blur_axes_not_named();  // G01 -20: the letter of some axis is lost.
     return move_illegibly(arguments);
   }
-  if (code->is_motion()) {
-    motion(instruction);
-    if (!line_.command(instruction).is_plain_integer()) make_motion_illegible();  // G-1 may be no G1 (D57).
-    return;
-  }
-  switch (code->number) {
-    case 4:
+  switch (code->role) {
+    case GRole::Rapid:
+    case GRole::Line:
+    case GRole::ClockwiseArc:
+    case GRole::CounterclockwiseArc:
+      motion(instruction);
+      if (!line_.command(instruction).is_plain_integer()) make_motion_illegible();  // G-1 may be no G1 (D57).
+      return;
+    case GRole::Dwell:
       return dwell(instruction);
-    case 9:
+    case GRole::ExactStop:
       return exact_stop(instruction);
-    case 24:
-    case 28:
-    case 29:
+    case GRole::FaceByAxes:
+    case GRole::FaceAtTip:
+    case GRole::FaceByAngles:
       return mount_face(instruction, *code);
-    case 27:
+    case GRole::DismountFace:
       return dismount_face(instruction);
-    case 92:
+    case GRole::Workpiece:
       return workpiece_frame(instruction);
-    case 990:
-      return sink_.wait_for_update();
-    default:
+    case GRole::PlaneXY:
+    case GRole::PlaneZX:
+    case GRole::PlaneYZ:
+    case GRole::CompensationOff:
+    case GRole::CompensationLeft:
+    case GRole::CompensationRight:
+    case GRole::Mode:
       return set_mode(*code, line_.command(instruction));
+    case GRole::WaitForUpdate:
+      return sink_.wait_for_update();
+    case GRole::PendingEnd:
+    case GRole::ApplyMdi:
+      return;  // They concern the program after this one, and the operator.
   }
 }
 
@@ -166,13 +184,12 @@ bool Executor::may_be_motion(const Word& g, const Arguments& arguments) {
 
 /// Whether a repetition (G27 G27, G49 G49) has been reported at the first code, which must be alone on its line.
 bool Executor::repetition_is_reported(const dialect::GCode& code) const {
-  const auto is_same = [&](const Instruction& each) { return each.g() && each.g()->number == code.number; };
+  const auto is_same = [&](const Instruction& each) { return each.g() == &code; };
   return line_.has(syntax::LineTree::kAloneViolated) &&
          std::count_if(line_.instructions.begin(), line_.instructions.end(), is_same) > 1;
 }
 
 void Executor::set_mode(const dialect::GCode& code, const Word& word) {
-  if (code.group == dialect::ModalGroup::None) return;
   const auto bit = static_cast<std::uint16_t>(1u << static_cast<unsigned>(code.group));
   const bool repeats = state_.mode(code.group) == code.number && (state_.written & bit) != 0;
   if (repeats && code.repeated != dialect::kNoDiagnostic && !repetition_is_reported(code))
@@ -184,7 +201,7 @@ void Executor::set_mode(const dialect::GCode& code, const Word& word) {
       sink_.step(BlockStep::CompensationOn, state_);
     }
   }
-  state_.set_mode(code.group, static_cast<std::uint8_t>(code.number));
+  state_.set_mode(code);
   state_.written |= bit;
 }
 

@@ -63,12 +63,14 @@ class Executor {
   void workpiece_frame(const syntax::Instruction& instruction);
   void dismount_face(const syntax::Instruction& instruction);
   void mount_face(const syntax::Instruction& instruction, const dialect::GCode& code);
-  void go_home(const Arguments& arguments);
+  void go_home(const Arguments& arguments, const dialect::GCode& code);
+  bool read_face_axes(const Arguments& arguments, const dialect::GCode& code, syntax::Span place, geometry::Mat3& axes);
+  void enter_face(const geometry::Frame& face, bool is_defined, bool is_at_tip);
   void leave_face();
-  bool read_axes(const Arguments& arguments, std::string_view letters, geometry::Mat3& axes);
+  bool read_axes(const Arguments& arguments, const dialect::GCode& code, geometry::Mat3& axes);
   bool read_point(const Arguments& arguments, geometry::Vec3& point) const;
   AxisSet read_origin(const Arguments& arguments, geometry::Vec3& origin) const;
-  bool motion_is_legible() const { return state_.mode(dialect::ModalGroup::Motion) != dialect::kNoMotion; }
+  bool motion_is_legible() const { return state_.motion() != nullptr; }
   static bool may_be_motion(const syntax::Word& g, const Arguments& arguments);
   void allow_for_lost_letter();
   void make_motion_illegible();

@@ -5,6 +5,7 @@
 namespace isocnc::execution {
 
 using namespace dialect::literals;
+using dialect::GRole;
 using geometry::Frame;
 using geometry::Mat3;
 using geometry::Vec3;
@@ -23,6 +24,7 @@ void Executor::leave_face() {
   if ((state_.unknown & kLinearAxes) != 0 || state_.face_undefined || state_.face_unplaced) blur_linear_axes();
   state_.position.tip = state_.face.to_outer(state_.position.tip);
   state_.face = Frame{};
+  state_.set_mode(dialect::g_code(GRole::DismountFace));
   state_.face_mounted = false;
   state_.face_undefined = false;
   state_.face_unplaced = false;
@@ -49,7 +51,6 @@ void Executor::workpiece_frame(const Instruction& instruction) {
   if (state_.face_mounted) {
     report("workpiece-frame-under-face"_diag, line_.command(instruction).span());
     leave_face();
-    state_.set_mode(dialect::ModalGroup::Face, 27);
     state_.dismount_tolerated = true;
   }
   const Arguments arguments(line_, instruction);
@@ -67,16 +68,15 @@ void Executor::dismount_face(const Instruction& instruction) {
     report("g27-without-face"_diag, line_.command(instruction).span());
   state_.dismount_tolerated = false;
   leave_face();
-  state_.set_mode(dialect::ModalGroup::Face, 27);
   sink_.frame_changed(state_);
 }
 
-/// Reads one unit axis per three letters. A vector without direction is ISO022; a missing vector has been reported.
+/// Reads the unit axes of a face. A vector without direction is ISO022; a missing vector has been reported.
 /// False when not all axes are known.
-bool Executor::read_axes(const Arguments& arguments, std::string_view letters, Mat3& axes) {
+bool Executor::read_axes(const Arguments& arguments, const dialect::GCode& code, Mat3& axes) {
   bool complete = true;
   for (int axis = 0; axis < 3; ++axis) {
-    const std::string_view names = letters.substr(static_cast<std::size_t>(3 * axis), 3);
+    const std::string_view names = code.axes.substr(static_cast<std::size_t>(3 * axis), 3);
     const dialect::LetterSet set = dialect::letters(names);
     Vec3 vector;
     for (int i = 0; i < 3; ++i) vector[i] = arguments.value_or(names[static_cast<std::size_t>(i)], 0);
@@ -95,9 +95,9 @@ bool Executor::read_axes(const Arguments& arguments, std::string_view letters, M
 /// Handles G28 Z0 and G91 G28 Z0, with which other controls go home: no face was meant, so none is mounted, and the
 /// position of the tool is unknown. The finding is about the missing axes, or about the codes beside G28, which must be
 /// alone.
-void Executor::go_home(const Arguments& arguments) {
+void Executor::go_home(const Arguments& arguments, const dialect::GCode& code) {
   Mat3 ignored;
-  if (!line_.has(syntax::LineTree::kAloneViolated)) read_axes(arguments, "XYZIJKPQR", ignored);
+  if (!line_.has(syntax::LineTree::kAloneViolated)) read_axes(arguments, code, ignored);
   if (!state_.face_mounted) state_.dismount_tolerated = true;
   blur_linear_axes();
 }
@@ -111,40 +111,45 @@ static bool has_face_angles(const Arguments& arguments) {
   return (arguments.present() & kTaken) != 0 && is_in_range('B') && is_in_range('C');
 }
 
+/// Reads the axes of a face: those that the angles of a G29 give, else axis vectors. False when they define no face.
+bool Executor::read_face_axes(const Arguments& arguments, const dialect::GCode& code, syntax::Span place, Mat3& axes) {
+  if (code.role == GRole::FaceByAngles) {
+    if (!has_face_angles(arguments)) return false;
+    axes = geometry::axes_from_angles(arguments.value_or('B', 0), arguments.value_or('C', 0));
+    return true;
+  }
+  if (!read_axes(arguments, code, axes)) return false;
+  const bool is_flat = geometry::are_coplanar(axes);
+  if (is_flat) report("coplanar-axis-vectors"_diag, place);
+  return !is_flat;
+}
+
 void Executor::mount_face(const Instruction& instruction, const dialect::GCode& code) {
   const syntax::Span place = line_.command(instruction).span();
   const Arguments arguments(line_, instruction);
-  if (code.number == 28 && (arguments.present() & dialect::letters("IJKPQR")) == 0) return go_home(arguments);
+  const bool is_at_tip = code.role == GRole::FaceAtTip;
+  if (is_at_tip && (arguments.present() & dialect::letters("IJKPQR")) == 0) return go_home(arguments, code);
   if (state_.face_mounted && !repetition_is_reported(code)) report("face-already-mounted"_diag, place);
   leave_face();
   state_.dismount_tolerated = false;
-  const bool is_tip_known = (state_.unknown & kLinearAxes) == 0;
   Frame face;
   face.origin = state_.position.tip;
-  bool defined = true;
-  if (code.number != 28) defined = read_point(arguments, face.origin);
-  if (code.number == 29) {
-    defined = defined && has_face_angles(arguments);
-    if (defined) face.axes = geometry::axes_from_angles(arguments.value_or('B', 0), arguments.value_or('C', 0));
-  } else {
-    const bool complete = read_axes(arguments, code.number == 24 ? "ABCIJKPQR" : "XYZIJKPQR", face.axes);
-    const bool flat = complete && geometry::are_coplanar(face.axes);
-    if (flat) report("coplanar-axis-vectors"_diag, place);
-    defined = defined && complete && !flat;
-  }
-  state_.set_mode(dialect::ModalGroup::Face, static_cast<std::uint8_t>(code.number));
-  state_.face_mounted = true;
-  state_.face_undefined = !defined;
-  state_.face_unplaced = defined && code.number == 28 && !is_tip_known;
-  if (defined) {
-    state_.face = face;
-    state_.position.tip = face.to_inner(state_.position.tip);
-    if (!is_tip_known) blur_linear_axes();
-  } else {
-    state_.face = Frame{};
-    blur_linear_axes();
-  }
+  const bool has_origin = is_at_tip || read_point(arguments, face.origin);
+  const bool has_axes = read_face_axes(arguments, code, place, face.axes);
+  state_.set_mode(code);
+  enter_face(has_origin && has_axes ? face : Frame{}, has_origin && has_axes, is_at_tip);
   sink_.frame_changed(state_);
+}
+
+/// Mounts a face. The tip's coordinates become unknown if the face is not defined.
+void Executor::enter_face(const Frame& face, bool is_defined, bool is_at_tip) {
+  const bool is_tip_known = (state_.unknown & kLinearAxes) == 0;
+  state_.face = face;
+  state_.face_mounted = true;
+  state_.face_undefined = !is_defined;
+  state_.face_unplaced = is_defined && is_at_tip && !is_tip_known;
+  if (is_defined) state_.position.tip = face.to_inner(state_.position.tip);
+  if (!is_defined || !is_tip_known) blur_linear_axes();
 }
 
 }  // namespace isocnc::execution

@@ -24,16 +24,15 @@ static double tilted_helix_length(double radius, double sweep, const Vec3& u, co
 }
 
 static void compensate(MachineMove& move, const State& state) {
-  const std::uint8_t mode = state.mode(dialect::ModalGroup::CutterCompensation);
-  if (mode == 40) return;
+  if (!state.is_compensated()) return;
   const int normal = plane_in_force(state).normal;
   const auto axis = [&](int i) { return state.direction_to_machine(Vec3::Unit((normal + i) % 3)); };
   const auto are_orthogonal = [&](int i, int j) {
     return std::abs(axis(i).dot(axis(j))) < geometry::kOrthogonalCosine;
   };
   move.normal = axis(1).cross(axis(2)).normalized();
-  move.compensation = {.side = mode == 41 ? 1 : -1,
-                       .reduces = state.mode(dialect::ModalGroup::ProfileReduction) == 39,
+  move.compensation = {.side = state.compensation() == dialect::GRole::CompensationLeft ? 1 : -1,
+                       .reduces = state.reduces_profile(),
                        .plane_is_sound = are_orthogonal(0, 1) && are_orthogonal(0, 2) && are_orthogonal(1, 2)};
 }
 

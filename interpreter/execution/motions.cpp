@@ -12,6 +12,7 @@ namespace isocnc::execution {
 
 using namespace dialect::literals;
 using dialect::GCode;
+using dialect::GRole;
 using geometry::ArcProblem;
 using geometry::Vec3;
 using syntax::Instruction;
@@ -22,26 +23,26 @@ void Executor::motion(const Instruction& instruction) {
   const bool is_continuation = instruction.kind == InstructionKind::Continuation;
   const Arguments arguments(line_, instruction);
   if (!is_continuation) {
-    state_.set_mode(dialect::ModalGroup::Motion, static_cast<std::uint8_t>(instruction.g()->number));
+    state_.set_mode(*instruction.g());
     state_.motion_illegible = false;
   } else if (!motion_is_in_force(arguments)) {
     return;
   }
-  const GCode& code = dialect::kGCodes[dialect::kGCodeRows[state_.mode(dialect::ModalGroup::Motion)]];
+  const GCode& code = *state_.motion();
   const Span place = is_continuation ? arguments.first().span() : line_.command(instruction).span();
-  (code.number == 0 ? rapid_move_ : feed_move_) = true;
+  (code.is_feed_move() ? feed_move_ : rapid_move_) = true;
   state_.tool_prepared = false;
-  if (code.number != 0)
+  if (code.is_feed_move())
     sink_.step(state_.inverse_time() ? BlockStep::InverseTimeFeedMove : BlockStep::FeedMove, state_);
   if ((arguments.present() & ~code.arguments) != 0) report_strays(arguments, code);
   if ((arguments.present() & dialect::kCoordinateLetters) == 0) {
     const bool only_center = is_continuation && (arguments.present() & ~code.arguments) == 0;
     if (only_center && !has_illegible_equals()) report("missing-coordinate"_diag, place);
-    if (line_.feed >= 0 && code.number != 0) take_feed();
+    if (line_.feed >= 0 && code.is_feed_move()) take_feed();
     return;
   }
   check_first_motion(place);
-  if (code.number != 0) {
+  if (code.is_feed_move()) {
     check_feed(place);
     const bool has_only_linear = (arguments.present() & dialect::kRotaryLetters) == 0;
     if (!state_.five_axis() && (!has_only_linear || (arguments.present() & dialect::kLinearLetters) == 0)) {
@@ -57,9 +58,9 @@ void Executor::motion(const Instruction& instruction) {
 
 void Executor::move_with_effects(const Arguments& arguments, const GCode& code, Span place) {
   Move move;
-  move.kind = code.number == 0 ? MoveKind::Rapid : MoveKind::Feed;
+  move.kind = code.is_feed_move() ? MoveKind::Feed : MoveKind::Rapid;
   move.from = state_.position;
-  if (code.number != 0) {
+  if (code.is_feed_move()) {
     const Feed feed = feed_in_force();
     const bool rotary_only = (arguments.present() & dialect::kLinearLetters) == 0;
     move.inverse_time = state_.inverse_time();
@@ -144,7 +145,7 @@ Feed Executor::feed_in_force() const {
 /// Whether the motion obeys three-axis interpolation, which moves no rotary axis; a G01 under it needs a linear axis
 /// (I.3.4.2, I.3.5, D41).
 bool Executor::check_rotary_axes(const Arguments& arguments, const GCode& code, Span place) {
-  if (code.number == 1 && (arguments.present() & dialect::kLinearLetters) == 0) {
+  if (code.role == GRole::Line && (arguments.present() & dialect::kLinearLetters) == 0) {
     report("linear-coordinate-missing"_diag, place);
     return false;
   }
@@ -249,7 +250,7 @@ void Executor::arc(const Arguments& arguments, const GCode& code, Span place, Mo
     if ((state_.unknown & axis_bit(static_cast<Axis>(axis))) != 0) return std::numeric_limits<double>::quiet_NaN();
     return value - state_.position.tip[axis];
   };
-  geometry::ArcGiven given{.counterclockwise = code.number == 3};
+  geometry::ArcGiven given{.counterclockwise = code.role == GRole::CounterclockwiseArc};
   if (arguments.has(plane.u_letter)) given.end.u = offset(plane.u_letter, plane.u);
   if (arguments.has(plane.v_letter)) given.end.v = offset(plane.v_letter, plane.v);
   bool known = std::isfinite(given.end.u) && std::isfinite(given.end.v);

@@ -6,7 +6,6 @@
 
 namespace isocnc::execution {
 
-using dialect::ModalGroup;
 using syntax::PlainLine;
 using syntax::Word;
 
@@ -54,9 +53,9 @@ void PlainRun::take_feed(const PlainLine& line) {
 }
 
 void PlainRun::finish() {
-  state_.set_mode(ModalGroup::Motion, mode_);
+  state_.set_mode(*motion_);
   state_.motion_illegible = false;
-  state_.exact_stop_fits = mode_ != 0;
+  state_.exact_stop_fits = motion_->is_feed_move();
   state_.expects_tool = false;
   state_.tool_prepared = false;
 }

@@ -22,7 +22,7 @@ class PlainRun {
         incremental_(state.incremental()),
         may_run_(state.tool_selected && state.unknown == 0),
         feed_holds_(state.feed_given && !state.inverse_time()),
-        mode_(state.mode(dialect::ModalGroup::Motion)) {}
+        motion_(state.motion()) {}
   PlainRun(const PlainRun&) = delete;
   PlainRun& operator=(const PlainRun&) = delete;
   ~PlainRun() {
@@ -33,20 +33,20 @@ class PlainRun {
   /// other line.
   bool run(const syntax::PlainLine& line) {
     if (!may_run_ || !line.has_coordinates()) return false;
-    const std::uint8_t mode =
-        line.row == dialect::kUnknownGCode ? mode_ : static_cast<std::uint8_t>(dialect::kGCodes[line.row].number);
+    const dialect::GCode* const motion = line.row == dialect::kUnknownGCode ? motion_ : &dialect::kGCodes[line.row];
+    if (!motion) return false;
     const bool has_feed = line.feed >= 0;
-    if (mode == 0 ? has_feed : !has_feed && !feed_holds_) return false;
-    if (mode > 1) {
-      if (mode == dialect::kNoMotion || !is_sound_arc(line)) return false;
+    if (motion->role == dialect::GRole::Rapid ? has_feed : !has_feed && !feed_holds_) return false;
+    if (motion->is_arc()) {
+      if (!is_sound_arc(line)) return false;
     } else if ((line.arguments & ~straight_) != 0) {
       return false;
     }
     move_axes(line);
     if (has_feed) take_feed(line);
-    mode_ = mode;
+    motion_ = motion;
     has_run_ = true;
-    has_fed_ |= mode != 0;
+    has_fed_ |= motion->role != dialect::GRole::Rapid;
     return true;
   }
 
@@ -56,7 +56,7 @@ class PlainRun {
   /// Whether a feed move had an F.
   bool has_taken_feed() const { return has_taken_feed_; }
   /// Whether the last line was an arc.
-  bool was_arc() const { return mode_ > 1; }
+  bool was_arc() const { return motion_ && motion_->is_arc(); }
   /// Whether there was an arc under G90 whose center could also be incremental.
   bool met_open_center() const { return met_open_center_; }
 
@@ -85,8 +85,8 @@ class PlainRun {
   const dialect::LetterSet straight_;  ///< Axes that a straight motion may move.
   const bool incremental_;
   const bool may_run_;
-  bool feed_holds_;  ///< Whether a feed move without F is valid.
-  std::uint8_t mode_;
+  bool feed_holds_;               ///< Whether a feed move without F is valid.
+  const dialect::GCode* motion_;  ///< The motion in force, or null.
   bool has_run_ = false;
   bool has_fed_ = false;
   bool has_taken_feed_ = false;

@@ -39,14 +39,9 @@ static constexpr Plane kPlaneYZ = {.u = 1,
                                    .undetermined_by_v = "center-undetermined-g19-k"_diag};
 
 const Plane& plane_in_force(const State& state) {
-  switch (state.mode(dialect::ModalGroup::Plane)) {
-    case 18:
-      return kPlaneZX;
-    case 19:
-      return kPlaneYZ;
-    default:
-      return kPlaneXY;
-  }
+  const dialect::GRole role = state.g(dialect::ModalGroup::Plane)->role;
+  if (role == dialect::GRole::PlaneZX) return kPlaneZX;
+  return role == dialect::GRole::PlaneYZ ? kPlaneYZ : kPlaneXY;
 }
 
 }  // namespace isocnc::execution

@@ -73,12 +73,20 @@ struct State {
 
   std::uint8_t mode(dialect::ModalGroup group) const { return in_force[static_cast<std::size_t>(group)]; }
   void set_mode(dialect::ModalGroup group, std::uint8_t number) { in_force[static_cast<std::size_t>(group)] = number; }
+  void set_mode(const dialect::GCode& code) { set_mode(code.group, static_cast<std::uint8_t>(code.number)); }
+  /// The G in force of a group; null only for a motion, which no default provides.
+  const dialect::GCode* g(dialect::ModalGroup group) const { return dialect::g_code(mode(group)); }
+  const dialect::GCode* motion() const { return g(dialect::ModalGroup::Motion); }
+  dialect::GRole compensation() const { return g(dialect::ModalGroup::CutterCompensation)->role; }
+  bool is_compensated() const { return compensation() != dialect::GRole::CompensationOff; }
+  bool reduces_profile() const { return mode(dialect::ModalGroup::ProfileReduction) == dialect::kProfileReduction; }
+  bool incremental() const { return mode(dialect::ModalGroup::Distance) == dialect::kIncremental; }
+  bool five_axis() const { return mode(dialect::ModalGroup::Interpolation) == dialect::kFiveAxis; }
+  bool inverse_time() const { return mode(dialect::ModalGroup::FeedMode) == dialect::kInverseTime; }
+  bool in_inches() const { return mode(dialect::ModalGroup::Units) == dialect::kInches; }
+  double mm_per_unit() const { return in_inches() ? 25.4 : 1.0; }
   /// Whether M03 or M04 is in force.
   bool spindle_turns() const { return spindle == Spindle::Clockwise || spindle == Spindle::Counterclockwise; }
-  bool incremental() const { return mode(dialect::ModalGroup::Distance) == 91; }
-  bool five_axis() const { return mode(dialect::ModalGroup::Interpolation) == 49; }
-  bool inverse_time() const { return mode(dialect::ModalGroup::FeedMode) == 93; }
-  double mm_per_unit() const { return mode(dialect::ModalGroup::Units) == 70 ? 25.4 : 1.0; }
 
   /// Whether the place of the frame in force on the machine is known.
   bool is_frame_known() const { return workpiece_unknown == 0 && !face_undefined && !face_unplaced; }

@@ -16,6 +16,7 @@
 
 namespace isocnc::restart {
 
+using dialect::GRole;
 using dialect::ModalGroup;
 using dialect::Text;
 using execution::State;
@@ -78,7 +79,7 @@ class Preamble {
     assign_registers();
     if (target_.workpiece_origin != Vec3::Zero()) add("G92" + lengths(target_.workpiece_origin));
     change_tool();
-    if (target_.mode(ModalGroup::Motion) == dialect::kNoMotion) {
+    if (!target_.motion()) {
       mount_face();
     } else {
       comment(kApproach.in(options_.language));
@@ -134,8 +135,9 @@ class Preamble {
     const auto write = [&](int g) { first += fmt::format("{}G{}", first.empty() ? "" : " ", g); };
     if (is_written(ModalGroup::Plane)) write(target_.mode(ModalGroup::Plane));
     if (is_written(ModalGroup::Units)) write(target_.mode(ModalGroup::Units));
-    if (is_written(ModalGroup::Distance)) write(90);
-    if (is_written(ModalGroup::FeedMode) && !target_.inverse_time() && !has_only_inverse_feeds()) write(94);
+    if (is_written(ModalGroup::Distance)) write(dialect::kAbsolute);
+    if (is_written(ModalGroup::FeedMode) && !target_.inverse_time() && !has_only_inverse_feeds())
+      write(dialect::kPerMinute);
     if (differs(ModalGroup::ProfileReduction)) write(target_.mode(ModalGroup::ProfileReduction));
     if (!first.empty()) add(first);
     if (is_written(ModalGroup::Interpolation)) add(fmt::format("G{}", target_.mode(ModalGroup::Interpolation)));
@@ -170,7 +172,7 @@ class Preamble {
 
   /// Whether the tool may touch the work. A rapid without a length, such as G00 Z-5 at this depth, does not take it
   /// out.
-  bool cuts() const { return target_.mode(ModalGroup::Motion) != 0 || point_.came_in_feed; }
+  bool cuts() const { return !target_.motion() || target_.motion()->is_feed_move() || point_.came_in_feed; }
 
   /// The height at which the tool changes from rapid to feed, Z of the frame in force.
   double height() const {
@@ -248,7 +250,7 @@ class Preamble {
       const bool is_feed = feed.mm_per_unit == unit && feed.number <= minimum;
       add("G01 " + end + " F" + (is_feed ? exact(feed.number) : rounded_feed(minimum)));
     } else if (target_.last_feed.number > 0) {
-      set_feed_mode(93);
+      set_feed_mode(dialect::kInverseTime);
       add("G01 " + end + " F" + rounded_feed(options_.approach_feed / way.norm()));
     } else {
       add(end);
@@ -272,10 +274,10 @@ class Preamble {
     if (!target_.face_mounted) return;
     const syntax::ParsedLine parsed(point_.face_line);
     const syntax::LineTree& tree = parsed.tree();
-    const int g = target_.mode(ModalGroup::Face);
-    std::string line = (g == 29 ? "G29" : "G24") + lengths(target_.face.origin);
+    const GRole role = target_.g(ModalGroup::Face)->role;
+    std::string line = (role == GRole::FaceByAngles ? "G29" : "G24") + lengths(target_.face.origin);
     for (const syntax::Word& word : tree.words) {
-      const bool is_origin = g != 28 && word.letter >= 'X' && word.letter <= 'Z';
+      const bool is_origin = role != GRole::FaceAtTip && word.letter >= 'X' && word.letter <= 'Z';
       if (is_origin || word.letter == 'N' || word.letter == 'G') continue;
       const bool is_first_axis = word.letter >= 'X' && word.letter <= 'Z';
       const char letter = is_first_axis ? static_cast<char>(word.letter - 'X' + 'A') : word.letter;
@@ -295,7 +297,7 @@ class Preamble {
     const double units = target_.mm_per_unit();
     if (has_only_inverse_feeds()) {
       // In G93 an F needs a motion; this one has no length.
-      set_feed_mode(93);
+      set_feed_mode(dialect::kInverseTime);
       set_units(target_.last_feed.mm_per_unit);
       add("G91 G01 Z0 F" + exact(target_.last_feed.number));
       if (!target_.incremental()) add("G90");
@@ -308,13 +310,13 @@ class Preamble {
 
   /// Writes a motion without a length if coordinates without a G may follow. There is none for arcs (ArcContinues).
   void restore_motion() {
-    const int motion = target_.mode(ModalGroup::Motion);
-    if (!point_.continues_motion || motion > 1 || !differs(ModalGroup::Motion)) return;
-    add(fmt::format("G{:02} ", motion) + (state_.incremental() ? "Z0" : length('Z', target_.position.tip.z())));
+    const dialect::GCode* const motion = target_.motion();
+    if (!point_.continues_motion || !motion || motion->is_arc() || !differs(ModalGroup::Motion)) return;
+    add(fmt::format("G{:02} ", motion->number) + (state_.incremental() ? "Z0" : length('Z', target_.position.tip.z())));
   }
 
   void restore_rest() {
-    if (state_.inverse_time() != target_.inverse_time()) set_feed_mode(target_.inverse_time() ? 93 : 94);
+    if (state_.inverse_time() != target_.inverse_time()) set_feed_mode(target_.mode(ModalGroup::FeedMode));
     if (differs(ModalGroup::Distance)) add(fmt::format("G{}", target_.mode(ModalGroup::Distance)));
     if (point_.waits_at_end) add("G200");
   }

@@ -6,7 +6,7 @@
 
 namespace isocnc::restart {
 
-using dialect::ModalGroup;
+using dialect::GRole;
 using execution::State;
 using syntax::Instruction;
 using syntax::InstructionKind;
@@ -18,8 +18,6 @@ static std::uint32_t register_bit(int number) { return std::uint32_t{1} << stati
 static bool same_frame(const running::FrameEvent& a, const running::FrameEvent& b) {
   return a.face_mounted == b.face_mounted && a.workpiece_origin == b.workpiece_origin && a.face == b.face;
 }
-
-static bool compensates(const State& state) { return state.mode(ModalGroup::CutterCompensation) != 40; }
 
 /// Whether Z of the face frame points down in the machine; takes a State or a FrameEvent.
 template <class Frames>
@@ -111,7 +109,7 @@ void RestartSurvey::follow(const running::Event& event) {
 
 void RestartSurvey::look_at(const running::Block& block) {
   now_.state = block.state;
-  if (!compensates(block.state)) find_tip();
+  if (!block.state.is_compensated()) find_tip();
   traits_.resize(block.line + 1);
   traits_.back() = traits_of(block);
   if (block.line == line_) {
@@ -146,7 +144,7 @@ void RestartSurvey::find_tip() {
   }
   const State& state = now_.state;
   now_.is_beside_contour = course_.is_beside_contour();
-  const bool has_moved = state.mode(ModalGroup::Motion) != dialect::kNoMotion;
+  const bool has_moved = state.motion() != nullptr;
   now_.is_off_program =
       has_moved && (now_.is_beside_contour || differ(now_.machine_tip.tip, state.to_machine(state.position.tip)));
   now_.tip = now_.is_off_program ? tip_ : state.position.tip;  // As exact as in the program.
@@ -158,10 +156,8 @@ void RestartSurvey::note(const running::Block& block) {
     const syntax::Word& command = block.tree.command(instruction);
     if (instruction.kind == InstructionKind::Assignment && command.register_number() > 0)
       now_.known_registers |= register_bit(command.register_number());
-    const dialect::GCode* const g = instruction.kind == InstructionKind::G ? instruction.g() : nullptr;
-    if (g == nullptr) continue;
-    now_.waits_at_end = now_.waits_at_end || g->number == 200;
-    if (g->mounts_face()) now_.face_line = block.tree.text;
+    now_.waits_at_end |= instruction.is(GRole::PendingEnd);
+    if (instruction.g() != nullptr && instruction.g()->mounts_face()) now_.face_line = block.tree.text;
   }
   if (block.tree.jump == nullptr) return;
   const int variable = block.tree.jump->variable;
@@ -172,24 +168,22 @@ void RestartSurvey::note(const running::Block& block) {
 
 std::uint16_t RestartSurvey::traits_of(const running::Block& block) const {
   const State& state = block.state;
-  const std::uint8_t motion = state.mode(ModalGroup::Motion);
   unsigned traits = kReached;
-  if (compensates(state)) traits |= kCompensated;
+  if (state.is_compensated()) traits |= kCompensated;
   if (now_.is_off_program) traits |= kOffProgram;
   if (is_beside_by_unknown_) traits |= kUnknownRadius;
   if (changed_low_) traits |= kChangedLow;
   if (looks_down(state)) traits |= kLooksDown;
   if (!state.face_mounted && tool_points_up(state)) traits |= kPointsUp;
-  if (motion == 2 || motion == 3) traits |= kInArc;
+  if (state.motion() != nullptr && state.motion()->is_arc()) traits |= kInArc;
   if (block.tree.is_empty()) traits |= kIdle;
   if (block.tree.jump != nullptr) traits |= kJumps;
   for (const Instruction& instruction : block.tree.instructions) {
-    const dialect::GCode* const g = instruction.kind == InstructionKind::G ? instruction.g() : nullptr;
     if (instruction.kind == InstructionKind::Continuation) traits |= kContinues;
     // After M02 nothing is executed.
     if (block.tree.ends_program(instruction)) traits |= kIdle;
-    if (g != nullptr && g->is_motion()) traits |= kNamesMotion;
-    if (g != nullptr && g->number == 9 && instruction.has(Instruction::kFirst)) traits |= kStopsExactly;
+    if (instruction.g() != nullptr && instruction.g()->is_motion()) traits |= kNamesMotion;
+    if (instruction.is(GRole::ExactStop) && instruction.has(Instruction::kFirst)) traits |= kStopsExactly;
   }
   return static_cast<std::uint16_t>(traits);
 }

@@ -7,6 +7,7 @@ namespace isocnc::syntax {
 
 using namespace dialect::literals;
 using dialect::contains;
+using dialect::GRole;
 using dialect::letters;
 
 void LineParser::check() {
@@ -18,7 +19,6 @@ void LineParser::check() {
     switch (checked.kind) {
       case InstructionKind::G:
         check_g(checked);
-        check_compensation(checked);
         break;
       case InstructionKind::Continuation:
         check_motion(checked);
@@ -79,7 +79,7 @@ bool LineParser::must_be_alone(const Instruction& checked, dialect::DiagnosticId
 bool LineParser::shares_line(const Instruction& alone) const {
   const dialect::GCode* const code = alone.kind == InstructionKind::G ? alone.g() : nullptr;
   const bool is_end = alone.kind == InstructionKind::Function && word(alone.command).value == dialect::kProgramEnd;
-  const bool dwell_without_time = code != nullptr && code->number == 4 && !owns_any(alone, letters("P"));
+  const bool dwell_without_time = alone.is(GRole::Dwell) && !owns_any(alone, letters("P"));
   for (std::uint16_t i = 0; i < word_count(); ++i) {
     const Word& other = word(i);
     if (other.letter == 'N' || other.letter == kError || other.letter == kNumber || other.has(Word::kMissing)) continue;
@@ -118,26 +118,36 @@ void LineParser::check_misplaced_modes() {
 void LineParser::check_g(const Instruction& checked) {
   const dialect::GCode* const code = checked.g();
   if (!code) return;
-  if (code->is_motion()) return check_motion(checked);
-  switch (code->number) {
-    case 4:
-      check_dwell(checked);
-      break;
-    case 24:
-      check_vectors(checked, "ABC");
-      break;
-    case 28:
-      check_vectors(checked, "XYZ");
-      break;
-    case 29:
+  switch (code->role) {
+    case GRole::Rapid:
+    case GRole::Line:
+    case GRole::ClockwiseArc:
+    case GRole::CounterclockwiseArc:
+      return check_motion(checked);
+    case GRole::Dwell:
+      return check_dwell(checked);
+    case GRole::FaceByAxes:
+    case GRole::FaceAtTip:
+      return check_vectors(checked);
+    case GRole::FaceByAngles:
       check_arguments(checked, "missing-arguments"_diag);
-      check_face_angles(checked);
-      break;
-    case 92:
-      check_arguments(checked, "missing-origin"_diag);
-      break;
-    default:
-      break;
+      return check_face_angles(checked);
+    case GRole::Workpiece:
+      return check_arguments(checked, "missing-origin"_diag);
+    case GRole::CompensationOff:
+    case GRole::CompensationLeft:
+    case GRole::CompensationRight:
+      return check_compensation(checked);
+    case GRole::ExactStop:
+    case GRole::PlaneXY:
+    case GRole::PlaneZX:
+    case GRole::PlaneYZ:
+    case GRole::DismountFace:
+    case GRole::Mode:
+    case GRole::PendingEnd:
+    case GRole::ApplyMdi:
+    case GRole::WaitForUpdate:
+      return;
   }
 }
 
@@ -174,7 +184,7 @@ bool LineParser::breaker_is_reported(const Instruction& motion, std::uint16_t br
     if (word(i).letter != 'G') continue;
     if (word(i).owner == Word::kNoOwner) return true;  // G without a number, which has been reported.
     const dialect::GCode* const code = instruction(word(i).owner).g();
-    if (!code || code->number == 9 || code->group == dialect::ModalGroup::CutterCompensation ||
+    if (!code || code->role == GRole::ExactStop || code->group == dialect::ModalGroup::CutterCompensation ||
         code->misplaced != dialect::kNoDiagnostic)
       return true;
   }
@@ -223,23 +233,25 @@ void LineParser::check_motion(const Instruction& motion) {
 /// Whether a G28 is the zero return of other controls (G28 X0 Y0, D71). Its only finding is that these are not axis
 /// vectors.
 bool LineParser::is_zero_return(const Instruction& frame) const {
-  if (frame.g()->number != 28 || owns_any(frame, letters("IJKPQR")) || !owns_any(frame, letters("XYZ"))) return false;
+  if (!frame.is(GRole::FaceAtTip) || owns_any(frame, letters("IJKPQR")) || !owns_any(frame, letters("XYZ")))
+    return false;
   for (std::uint16_t i = frame.begin; i < frame.end; ++i)
     if (word(i).owner == frame.number && i != frame.command && word(i).value != 0) return false;
   return true;
 }
 
 /// G24 and G28 need at least one component of each axis (D4, D27).
-void LineParser::check_vectors(const Instruction& frame, std::string_view i_letters) {
+void LineParser::check_vectors(const Instruction& frame) {
   check_unbroken(frame);
   if (neighbor_has_arguments_of(frame)) return;
   // G91 G28 Z0: the home command of other controls. The line has been reported; missing axis vectors need no finding.
   const bool shares_line = (line_.flags & LineTree::kAloneViolated) != 0;
-  if (shares_line && frame.g()->number == 28 && !owns_any(frame, letters("IJKPQR"))) return;
+  if (shares_line && frame.is(GRole::FaceAtTip) && !owns_any(frame, letters("IJKPQR"))) return;
   if (is_zero_return(frame)) return;
-  if (!owns_any(frame, letters(i_letters))) report_missing("missing-i-vector"_diag, frame);
-  if (!owns_any(frame, letters("IJK"))) report_missing("missing-j-vector"_diag, frame);
-  if (!owns_any(frame, letters("PQR"))) report_missing("missing-k-vector"_diag, frame);
+  const std::string_view axes = frame.g()->axes;
+  if (!owns_any(frame, letters(axes.substr(0, 3)))) report_missing("missing-i-vector"_diag, frame);
+  if (!owns_any(frame, letters(axes.substr(3, 3)))) report_missing("missing-j-vector"_diag, frame);
+  if (!owns_any(frame, letters(axes.substr(6, 3)))) report_missing("missing-k-vector"_diag, frame);
 }
 
 void LineParser::check_face_angles(const Instruction& frame) {
@@ -313,10 +325,8 @@ bool LineParser::has_reported_company() const {
 
 /// G41/G42: alone or before a motion. G40: alone or after the last motion (D24).
 void LineParser::check_compensation(const Instruction& checked) {
-  const dialect::GCode* const code = checked.g();
-  if (!code || code->group != dialect::ModalGroup::CutterCompensation || stands_alone(checked)) return;
-  if (has_reported_company() || compensation_reported_) return;
-  const bool is_end = code->number == 40;
+  if (stands_alone(checked) || has_reported_company() || compensation_reported_) return;
+  const bool is_end = checked.is(GRole::CompensationOff);
   bool before_motion = false;
   bool after_motion = false;
   for (std::size_t i = 0; i < instruction_count(); ++i) {

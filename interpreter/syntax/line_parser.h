@@ -84,7 +84,7 @@ class LineParser {
   void check_misplaced_modes();
   void check_motion(const Instruction& motion);
   bool is_zero_return(const Instruction& frame) const;
-  void check_vectors(const Instruction& frame, std::string_view i_letters);
+  void check_vectors(const Instruction& frame);
   void check_face_angles(const Instruction& frame);
   void check_g(const Instruction& checked);
   void check_dwell(const Instruction& dwell);

@@ -177,7 +177,7 @@ const char* TreeStore::append_plain_assignment(const char* begin, const char* en
       if (!(number.value > 0)) return nullptr;
       line.feed = static_cast<std::int32_t>(word - words);
     } else if (role.letter == kCommand) {
-      if (command || flags != 0 || !(number.value <= 3)) return nullptr;
+      if (command || flags != 0 || !dialect::is_motion_number(number.value)) return nullptr;
       line.motion.kind = InstructionKind::G;
       line.motion.row = dialect::kGCodeRows[static_cast<std::size_t>(number.value)];
       command = word;

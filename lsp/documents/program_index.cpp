@@ -46,7 +46,7 @@ class LineReader {
   void read_g(const dialect::GCode* code, const Word& command) {
     if (!code) return;
     const auto number = static_cast<std::uint64_t>(code->number);
-    if (code->number == 92) add(LandmarkKind::WorkpieceFrame, command.span(), number);
+    if (code->role == dialect::GRole::Workpiece) add(LandmarkKind::WorkpieceFrame, command.span(), number);
     if (code->group != dialect::ModalGroup::Face) return;
     add(code->mounts_face() ? LandmarkKind::FaceFrame : LandmarkKind::FaceDismounted, command.span(), number);
   }

@@ -13,6 +13,7 @@
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/letters.h"
 #include "interpreter/execution/block_recorder.h"
+#include "interpreter/execution/plane.h"
 #include "interpreter/running/event.h"
 #include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
@@ -23,8 +24,8 @@
 /// rules of legality: each code is tried on the line, and one that causes a new finding is not offered.
 namespace isocnc::lsp::features {
 
+using dialect::GRole;
 using dialect::Language;
-using dialect::ModalGroup;
 using dialect::Text;
 using syntax::Instruction;
 using syntax::InstructionKind;
@@ -92,36 +93,51 @@ execution::State lenient(execution::State state) {
   return state;
 }
 
-/// Initial arguments for a code. Those of an arc follow the plane and make a full circle, which is valid at any
-/// position.
+/// The arguments of an arc in the plane in force: a full circle, which is valid at any position.
+std::string arguments_of_arc(const execution::State& state) {
+  const execution::Plane& plane = execution::plane_in_force(state);
+  const auto value = [&](int axis, double distance) {
+    const double here = state.incremental() ? 0 : state.position.tip[axis];
+    return dialect::format_value(here / state.mm_per_unit() + distance);
+  };
+  return fmt::format(" {}${{1:{}}} {}${{2:{}}} {}${{3:{}}} {}${{4:{}}}", plane.u_letter, value(plane.u, 0),
+                     plane.v_letter, value(plane.v, 0), plane.u_center, value(plane.u, 10), plane.v_center,
+                     value(plane.v, 0));
+}
+
+/// Initial arguments for a code.
 std::string arguments_of(const dialect::GCode& code, const execution::State& state) {
-  switch (code.number) {
-    case 2:
-    case 3: {
-      static constexpr std::array<std::string_view, 3> kByPlane[] = {
-          {"XY", "IJ", "IJ"}, {"ZX", "KI", "KI"}, {"YZ", "JK", "JK"}};
-      const auto& [ends, centers, unused] = kByPlane[state.mode(ModalGroup::Plane) - 17];
-      const auto value = [&](char letter, double distance) {
-        const int axis = letter >= 'X' ? letter - 'X' : letter - 'I';
-        const double here = state.incremental() ? 0 : state.position.tip[axis];
-        return dialect::format_value(here / state.mm_per_unit() + distance);
-      };
-      return fmt::format(" {}${{1:{}}} {}${{2:{}}} {}${{3:{}}} {}${{4:{}}}", ends[0], value(ends[0], 0), ends[1],
-                         value(ends[1], 0), centers[0], value(centers[0], 10), centers[1], value(centers[1], 0));
-    }
-    case 4:
+  switch (code.role) {
+    case GRole::ClockwiseArc:
+    case GRole::CounterclockwiseArc:
+      return arguments_of_arc(state);
+    case GRole::Dwell:
       return " P${1:1}";
-    case 24:
+    case GRole::FaceByAxes:
       return " X${1:0} Y${2:0} Z${3:0} I${4:1} J${5:0} K${6:0} P${7:0} Q${8:1} R${9:0}";
-    case 28:
+    case GRole::FaceAtTip:
       return " I${1:1} J${2:0} K${3:0} P${4:0} Q${5:1} R${6:0}";
-    case 29:
+    case GRole::FaceByAngles:
       return " X${1:0} Y${2:0} Z${3:0} B${4:0} C${5:0}";
-    case 92:
+    case GRole::Workpiece:
       return " X${1:0} Y${2:0} Z${3:0}";
-    default:
-      return "";
+    case GRole::Rapid:
+    case GRole::Line:  // The author chooses the coordinates.
+    case GRole::ExactStop:
+    case GRole::PlaneXY:
+    case GRole::PlaneZX:
+    case GRole::PlaneYZ:
+    case GRole::DismountFace:
+    case GRole::CompensationOff:
+    case GRole::CompensationLeft:
+    case GRole::CompensationRight:
+    case GRole::Mode:
+    case GRole::PendingEnd:
+    case GRole::ApplyMdi:
+    case GRole::WaitForUpdate:
+      break;
   }
+  return "";
 }
 
 class Completer {
@@ -256,7 +272,7 @@ class Completer {
       const std::string written = label + arguments_of(code, state_);
       const Candidate candidate{label, ItemKind::Keyword, written, std::string(code.name.in(language_)), {}, label};
       // G00 and G01 are tried with X0: the author will choose the coordinates.
-      if (may_be(code.number < 2 ? label + " X0" : plain(written))) {
+      if (may_be(code.is_motion() && !code.is_arc() ? label + " X0" : plain(written))) {
         add(candidate);
       } else if (code.takes_arguments() && has_arguments_after() && is_well_written(label)) {
         add({label, candidate.kind, label, candidate.detail, {}, label});
@@ -311,8 +327,7 @@ class Completer {
   dialect::LetterSet letters_of(const Instruction* owner) const {
     if (owner && owner->kind == InstructionKind::G) return owner->g() ? owner->g()->arguments : 0;
     if (owner && owner->kind != InstructionKind::Continuation) return 0;
-    const std::uint8_t motion = state_.mode(ModalGroup::Motion);
-    return motion == dialect::kNoMotion ? 0 : dialect::kGCodes[dialect::kGCodeRows[motion]].arguments;
+    return state_.motion() ? state_.motion()->arguments : 0;
   }
 
   void offer_arguments(const Instruction* owner) {

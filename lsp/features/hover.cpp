@@ -115,7 +115,7 @@ class HoverWriter {
     if (!code) return;
     title(fmt::format("{} ({})", code->name.in(language_), code->section));
     if (code->is_motion()) describe_motion();
-    if (code->number == 4) describe_dwell();
+    if (code->role == dialect::GRole::Dwell) describe_dwell();
   }
 
   /// Formats values that all paths agree on, and `?` for those on which they differ.

@@ -18,7 +18,6 @@
 /// starts.
 namespace isocnc::lsp::features {
 
-using dialect::ModalGroup;
 using execution::State;
 using syntax::LineTree;
 
@@ -96,10 +95,10 @@ class HintFinder {
   void add_motion_hint(std::size_t index, const LineTree& line, const syntax::Instruction& motion) {
     static constexpr dialect::Text kTooltip = {"the motion in force", "il movimento in presa"};
     if (!snapshot_.client().settings.shows_motion_in_force || !walk_.state()) return;
-    const std::uint8_t g = walk_.state()->mode(ModalGroup::Motion);
-    if (g == dialect::kNoMotion) return;
+    const dialect::GCode* const g = walk_.state()->motion();
+    if (!g) return;
     hints.push_back({.position = snapshot_.to_client({index, line.command(motion).begin}),
-                     .label = fmt::format("G{:02}", g),
+                     .label = fmt::format("G{:02}", g->number),
                      .tooltip = kTooltip.in(snapshot_.language())});
   }
 

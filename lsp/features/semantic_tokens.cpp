@@ -100,7 +100,7 @@ class LineTokens {
     }
   }
 
-  static bool is_motion(const Word& word) { return word.is_plain_integer() && word.value <= 3; }
+  static bool is_motion(const Word& word) { return word.is_plain_integer() && dialect::is_motion_number(word.value); }
   bool is_target(const Word& word) const { return line_->jump && line_->jump->target_span == word.span(); }
   bool is_assigned(const Word& word) const { return !line_->jump || line_->jump->variable_span != word.span(); }
 

@@ -100,10 +100,7 @@ std::optional<Signature> of_g(const dialect::GCode* code, const LineTree& line, 
 std::optional<Signature> of_continuation(const Snapshot& snapshot, std::size_t number, const LineTree& line,
                                          const Instruction& instruction, std::size_t column) {
   const auto state = snapshot.state_before(number);
-  const std::uint8_t motion = state ? state->mode(dialect::ModalGroup::Motion) : dialect::kNoMotion;
-  if (motion == dialect::kNoMotion) return std::nullopt;
-  const dialect::GCode& code = dialect::kGCodes[dialect::kGCodeRows[motion]];
-  return of_g(&code, line, instruction, column, snapshot.language());
+  return of_g(state ? state->motion() : nullptr, line, instruction, column, snapshot.language());
 }
 
 Signature of_tool_change(Language language) {

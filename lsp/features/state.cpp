@@ -43,8 +43,10 @@ Json position_json(const execution::State& state) {
 
 Json state_json(const execution::State& state) {
   Json in_force;
-  for (std::size_t i = 0; i < dialect::kModalGroupCount; ++i)
-    in_force[kGroupNames[i]] = state.in_force[i] == dialect::kNoMotion ? Json() : Json(state.in_force[i]);
+  for (std::size_t i = 0; i < dialect::kModalGroupCount; ++i) {
+    const dialect::GCode* const code = state.g(static_cast<dialect::ModalGroup>(i));
+    in_force[kGroupNames[i]] = code ? Json(code->number) : Json();
+  }
   const bool knows_place = (state.unknown & execution::kLinearAxes) == 0 && state.is_frame_known();
   Json json = {{"inForce", in_force},
                {"position", position_json(state)},
