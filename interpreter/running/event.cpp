@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <cmath>
+#include <type_traits>
+
 #include <nlohmann/json.hpp>
 
 #include "interpreter/running/vector_json.h"
@@ -12,13 +14,6 @@ using Json = nlohmann::ordered_json;
 using execution::MoveKind;
 
 namespace {
-
-template <class... Cases>
-struct Overloaded : Cases... {
-  using Cases::operator()...;
-};
-template <class... Cases>
-Overloaded(Cases...) -> Overloaded<Cases...>;
 
 void put(Json& json, const MoveEvent& move) {
   json["from"] = array(move.from);
@@ -57,29 +52,36 @@ void put(Json& json, const JumpEvent& jump) {
   json["taken"] = jump.taken;
   json["target"] = jump.target_line + 1;
 }
-void put(Json&, const UpdateEvent&) {}
-void put(Json&, const ExactStopEvent&) {}
-void put(Json&, const EndEvent&) {}
+/// Any other event says all by its kind.
+template <class What>
+void put(Json&, const What&) {
+  static_assert(std::is_empty_v<What>);
+}
+
+template <class What>
+std::string_view kind(const What&) {
+  return What::kKind;
+}
+std::string_view kind(const MoveEvent& move) {
+  constexpr std::string_view kKinds[] = {"rapid", "feed", "arc"};
+  return kKinds[static_cast<std::size_t>(move.kind)];
+}
+std::string_view kind(const FunctionEvent& function) {
+  return dialect::is_user_function(function.number) ? "m" : "spindle";
+}
 
 }  // namespace
 
 std::string_view kind_of(const Event& event) {
-  return std::visit(Overloaded{[](const MoveEvent& move) -> std::string_view {
-                                 constexpr std::string_view kKinds[] = {"rapid", "feed", "arc"};
-                                 return kKinds[static_cast<std::size_t>(move.kind)];
-                               },
-                               [](const DwellEvent&) -> std::string_view { return "dwell"; },
-                               [](const SpindleSpeedEvent&) -> std::string_view { return "spindle"; },
-                               [](const FunctionEvent& function) -> std::string_view {
-                                 return dialect::is_user_function(function.number) ? "m" : "spindle";
-                               },
-                               [](const ToolEvent&) -> std::string_view { return "tool"; },
-                               [](const FrameEvent&) -> std::string_view { return "frame"; },
-                               [](const JumpEvent&) -> std::string_view { return "jump"; },
-                               [](const UpdateEvent&) -> std::string_view { return "update"; },
-                               [](const ExactStopEvent&) -> std::string_view { return "stop"; },
-                               [](const EndEvent&) -> std::string_view { return "end"; }},
-                    event.what);
+  return std::visit([](const auto& what) { return kind(what); }, event.what);
+}
+
+bool stops_reading(const Event& event) {
+  return std::visit(
+      []<class What>(const What&) {
+        return requires { What::kStopsReading; };
+      },
+      event.what);
 }
 
 double feed_of(const MoveEvent& move) {

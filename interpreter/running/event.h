@@ -12,11 +12,18 @@
 
 namespace isocnc::running {
 
+// The effects. `kKind` is the kind in traces; a move and a function have several, for which event.cpp decides. An event
+// with `kStopsReading` makes the control execute all before it reads on (I.3.11, I.5), so no move is planned across it.
+
 using MoveEvent = execution::MachineMove;
 struct DwellEvent {
+  static constexpr std::string_view kKind = "dwell";
+
   double seconds = 0;
 };
 struct SpindleSpeedEvent {
+  static constexpr std::string_view kKind = "spindle";
+
   double speed = 0;  ///< Revolutions per minute.
 };
 struct FunctionEvent {
@@ -24,23 +31,37 @@ struct FunctionEvent {
   std::vector<execution::FunctionParameter> parameters;
 };
 struct ToolEvent {
+  static constexpr std::string_view kKind = "tool";
+
   execution::ToolCode tool;
 };
 /// A frame came into force or was removed.
 struct FrameEvent {
+  static constexpr std::string_view kKind = "frame";
+
   geometry::Vec3 workpiece_origin = geometry::Vec3::Zero();  ///< Machine frame, mm.
   bool face_mounted = false;
   geometry::Frame face;  ///< In the workpiece frame.
 };
 struct JumpEvent {
+  static constexpr std::string_view kKind = "jump";
+  static constexpr bool kStopsReading = true;
+
   bool taken = false;
   std::uint64_t target_line = 0;  ///< Line at which the program continues, from 0.
 };
 /// A G990: the run waits until the control has reread its technological parameters (I.3.11).
-struct UpdateEvent {};
+struct UpdateEvent {
+  static constexpr std::string_view kKind = "update";
+  static constexpr bool kStopsReading = true;
+};
 /// A G09: the axes stop at the end of the last motion (I.3.8). Not in traces.
-struct ExactStopEvent {};
-struct EndEvent {};
+struct ExactStopEvent {
+  static constexpr std::string_view kKind = "stop";
+};
+struct EndEvent {
+  static constexpr std::string_view kKind = "end";
+};
 
 /// One effect of a program, with its line (from 0).
 struct Event {
@@ -53,6 +74,9 @@ struct Event {
 /// Name of the event's kind in traces: `rapid`, `feed`, `arc`, `dwell`, `spindle`, `tool`, `m`, `frame`, `jump`,
 /// `update`, `end`.
 std::string_view kind_of(const Event& event);
+
+/// Whether the control executes all before the event before it reads on: at an IF and at a G990.
+bool stops_reading(const Event& event);
 
 /// The feed of a feed move as a speed: mm/min, or degrees/min where only B and C turn. 0 for rapids.
 double feed_of(const MoveEvent& move);

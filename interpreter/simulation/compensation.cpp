@@ -28,11 +28,6 @@ bool Compensation::Plane::is_upright(const running::MoveEvent& move) const {
   return flat(way).norm() <= kNowhere + geometry::kOrthogonalCosine * std::abs(normal.dot(way));
 }
 
-static bool stops_reading(const running::Event& event) {
-  return std::holds_alternative<running::JumpEvent>(event.what) ||
-         std::holds_alternative<running::UpdateEvent>(event.what);
-}
-
 static bool turns(const running::MoveEvent& move) { return move.from.b != move.to.b || move.from.c != move.to.c; }
 
 Compensation::Compensation(const TimedMachine& machine, const execution::ToolCode& tool,
@@ -56,7 +51,7 @@ void Compensation::take(const running::Event& event, const Listeners& listeners)
     end_contour(listeners);
     mount(tool->tool);
   }
-  if (stops_reading(event)) pause(listeners);
+  if (running::stops_reading(event)) pause(listeners);
   if (move == nullptr) return is_open_ ? wait(event, listeners) : listeners.event(event);
   if (is_beside_ && move->kind == MoveKind::Rapid && plane_.is_upright(*move)) contour_.forget();
   const bool is_wanted = radius_ > 0 && move->compensation.side != 0;

@@ -183,9 +183,7 @@ double Timing::seconds_of(const running::Event& event) const {
     const auto named = durations.functions.find(function->number);
     return named == durations.functions.end() ? 0 : named->second;
   }
-  const bool waits = std::holds_alternative<running::JumpEvent>(event.what) ||
-                     std::holds_alternative<running::UpdateEvent>(event.what) ||
-                     std::holds_alternative<running::EndEvent>(event.what);
+  const bool waits = running::stops_reading(event) || std::holds_alternative<running::EndEvent>(event.what);
   return waits ? 0 : -1;
 }
 
