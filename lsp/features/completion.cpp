@@ -24,7 +24,6 @@
 /// rules of legality: each code is tried on the line, and one that causes a new finding is not offered.
 namespace isocnc::lsp::features {
 
-using dialect::GRole;
 using dialect::Language;
 using dialect::Text;
 using syntax::Instruction;
@@ -105,39 +104,23 @@ std::string arguments_of_arc(const execution::State& state) {
                      value(plane.v, 0));
 }
 
-/// Initial arguments for a code.
+/// The initial value of an argument: a face has the axes of the frame below it, and a dwell a second.
+int initial_value(const dialect::GCode& code, char letter) {
+  const std::size_t at = code.axes.find(letter);
+  if (at == std::string_view::npos) return code.is_frame() ? 0 : 1;
+  return at / 3 == at % 3 ? 1 : 0;
+}
+
+/// Initial arguments for a code. The author chooses the coordinates of a straight motion.
 std::string arguments_of(const dialect::GCode& code, const execution::State& state) {
-  switch (code.role) {
-    case GRole::ClockwiseArc:
-    case GRole::CounterclockwiseArc:
-      return arguments_of_arc(state);
-    case GRole::Dwell:
-      return " P${1:1}";
-    case GRole::FaceByAxes:
-      return " X${1:0} Y${2:0} Z${3:0} I${4:1} J${5:0} K${6:0} P${7:0} Q${8:1} R${9:0}";
-    case GRole::FaceAtTip:
-      return " I${1:1} J${2:0} K${3:0} P${4:0} Q${5:1} R${6:0}";
-    case GRole::FaceByAngles:
-      return " X${1:0} Y${2:0} Z${3:0} B${4:0} C${5:0}";
-    case GRole::Workpiece:
-      return " X${1:0} Y${2:0} Z${3:0}";
-    case GRole::Rapid:
-    case GRole::Line:  // The author chooses the coordinates.
-    case GRole::ExactStop:
-    case GRole::PlaneXY:
-    case GRole::PlaneZX:
-    case GRole::PlaneYZ:
-    case GRole::DismountFace:
-    case GRole::CompensationOff:
-    case GRole::CompensationLeft:
-    case GRole::CompensationRight:
-    case GRole::Mode:
-    case GRole::PendingEnd:
-    case GRole::ApplyMdi:
-    case GRole::WaitForUpdate:
-      break;
-  }
-  return "";
+  if (code.is_arc()) return arguments_of_arc(state);
+  if (code.is_motion()) return {};
+  std::string text;
+  int count = 0;
+  for (const char letter : dialect::kArgumentOrder)
+    if (dialect::contains(code.arguments, letter))
+      text += fmt::format(" {}${{{}:{}}}", letter, ++count, initial_value(code, letter));
+  return text;
 }
 
 class Completer {
