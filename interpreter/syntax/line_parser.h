@@ -40,7 +40,7 @@ class LineParser {
   Word& add_word(char letter, const char* begin, const Number& number);
   void end_target();
 
-  // Words into instructions (structure.cpp).
+  // Words into instructions (line_parser.cpp).
   void structure();
   bool is_foreign_word(const Word& unknown) const;
   bool is_unit(const Word& first, const Word& second) const;
