@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
+#include <string_view>
 
 #include "interpreter/syntax/number.h"
 #include "interpreter/syntax/tree_store.h"
@@ -11,6 +12,22 @@ namespace isocnc::syntax {
 
 /// Parses one line into a TreeStore: first its characters into words, then its words into instructions. Reports all
 /// errors that do not depend on earlier lines: spelling, order, and codes that must be alone on their line.
+///
+/// One pass over the words finds the instructions. Its state is the argument series (D16, D17): `taker_`, the
+/// instruction that takes the next argument, and `contiguous_`, whether its series is unbroken.
+///
+///                       X Y Z ...: starts a continuation          X Y Z ...: an argument
+///                 +--------------------------------------+         F, reported text: no change
+///                 |                                      v
+///     start --> none -- G with arguments, unknown G --> open <-----------------+
+///                                                        |                     |
+///                               S N M T V IF, other G    |                     |  G with arguments,
+///                                                        v                     |  unknown G
+///                                                      broken -----------------+
+///                                                         X Y Z ...: an argument that is marked as stray
+///
+/// Beside it, `function_open_` says whether a P is a parameter of the M before it, and `after_motion_` whether a G09
+/// fits here. Each word that breaks a series ends both, unless it has no number and so has been reported.
 class LineParser {
  public:
   LineParser(TreeStore& store, const char* begin, const char* end);
@@ -42,28 +59,39 @@ class LineParser {
 
   // Words into instructions (line_parser.cpp).
   void structure();
+  bool is_assigned(std::uint16_t index) const;
+  bool stands_for_number(std::uint16_t index) const;
+  bool is_taken_by_unknown_g(std::uint16_t index) const;
+  Instruction& add_instruction(InstructionKind kind, std::uint16_t command);
+  void own(Instruction& owner, std::uint16_t index);
+
+  // Text that was meant as a comment (line_prose.cpp).
   bool is_foreign_word(const Word& unknown) const;
   bool is_unit(const Word& first, const Word& second) const;
   bool is_number_of_prose(std::uint16_t index) const;
   void join_prose();
-  bool is_assigned(std::uint16_t index) const;
-  bool stands_for_number(std::uint16_t index) const;
-  bool is_taken_by_unknown_g(std::uint16_t index) const;
-  bool lacks_value(std::uint16_t assign) const;
+
+  // Letters with numbers (line_instructions.cpp).
   void add_dimension(std::uint16_t index);
   void add_g(std::uint16_t index);
   void take_earlier_words(Instruction& g);
   void add_m(std::uint16_t index);
   void add_tool_change(std::uint16_t index);
   void add_tool(std::uint16_t index);
+  std::uint64_t label_of(const Word& number) const;
   bool add_line_number(std::uint16_t index);
   void add_feed(std::uint16_t index);
   void add_spindle_speed(std::uint16_t index);
+
+  // V and = (line_assignments.cpp).
   std::uint16_t add_assignment(std::uint16_t index);
   void own_in_place_of_value(Instruction& owner, std::uint16_t index);
+  bool lacks_value(std::uint16_t assign) const;
   bool is_equals_reported_before(std::uint16_t index) const;
   bool is_between_coordinates(std::uint16_t assign) const;
   std::uint16_t add_equals(std::uint16_t index);
+
+  // IF and GOTO (line_jumps.cpp).
   std::uint16_t add_jump(std::uint16_t index);
   std::uint16_t end_jump(std::uint16_t last);
   std::uint16_t read_condition(Jump& jump, std::uint16_t index);
@@ -72,8 +100,6 @@ class LineParser {
   void report_half_jump(std::uint16_t where, std::uint16_t end);
   std::uint16_t read_target(Jump& jump, std::uint16_t index);
   std::uint16_t add_lone_goto(std::uint16_t index);
-  Instruction& add_instruction(InstructionKind kind, std::uint16_t command);
-  void own(Instruction& owner, std::uint16_t index);
 
   // Checks of the line's instructions (line_checks.cpp).
   void check();
@@ -104,6 +130,7 @@ class LineParser {
   void take_back_within(Span span);
   void report_missing(dialect::DiagnosticId id, const Instruction& lacking);
   std::uint32_t column(const char* p) const { return static_cast<std::uint32_t>(p - begin_); }
+  std::string_view text_of(Span span) const { return {begin_ + span.begin, span.end - span.begin}; }
   Word& word(std::size_t index) { return store_.words_[line_.first_word + index]; }
   const Word& word(std::size_t index) const { return store_.words_[line_.first_word + index]; }
   std::uint16_t word_count() const { return static_cast<std::uint16_t>(store_.words_.size() - line_.first_word); }

@@ -1,0 +1,104 @@
+#include <limits>
+#include <utility>
+
+#include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/line_parser.h"
+
+namespace isocnc::syntax {
+
+using namespace dialect::literals;
+using dialect::contains;
+
+/// V25 = 78.99 (I.6). Returns the last word that belongs to it.
+std::uint16_t LineParser::add_assignment(std::uint16_t index) {
+  Instruction& added = add_instruction(InstructionKind::Assignment, index);
+  const Word& name = word(index);
+  const bool has_value = is_assigned(index);
+  const bool is_garbled = index + 1 < word_count() && word(index + 1u).letter == kError;  // V1 := 5
+  if (!name.has(Word::kMissing | Word::kReported) && !is_garbled) {
+    if (!name.is_plain_integer()) {
+      report("invalid-register-number"_diag, name.span());
+    } else if (!dialect::is_register(name.value)) {
+      report("register-out-of-range"_diag, name.span(), {name.value});
+    } else if (!has_value || word(index + 1u).has(Word::kMissing)) {
+      report_missing("register-not-assigned"_diag, added);
+    }
+  }
+  if (!has_value) return index;
+  auto last = static_cast<std::uint16_t>(index + 1);
+  own(added, last);
+  if (lacks_value(last)) own_in_place_of_value(added, ++last);
+  return last;
+}
+
+/// Handles V5=X: the word in the place of the value lacks a number as well, but the value is reported.
+void LineParser::own_in_place_of_value(Instruction& owner, std::uint16_t index) {
+  take_back("word-without-number"_diag, word(index).span());
+  own(owner, index);
+}
+
+/// Whether a `=` has no legible number but another word in its place, which belongs to the same mistake: V1=V2, V1=X5,
+/// V1==2, V1=-V2.
+bool LineParser::lacks_value(std::uint16_t assign) const {
+  static constexpr dialect::LetterSet kInPlace = dialect::kDimensionLetters | dialect::letters("FSV");
+  if (!word(assign).has(Word::kMissing) && !(word(assign).has(Word::kMalformed) && word(assign).digits == 0))
+    return false;
+  if (assign + 1 >= word_count()) return false;
+  const char letter = word(assign + 1u).letter;
+  return letter == kAssign || contains(kInPlace, letter);
+}
+
+/// Whether the error of a `=` has been reported at the words before it.
+bool LineParser::is_equals_reported_before(std::uint16_t index) const {
+  const Word& before = word(index - 1u);
+  if (before.letter == kError || before.letter == kVgpl) return true;  // #1=5
+  if (before.letter == 'P' && line_.jump >= 0) return true;            // IF ... GOTO N9 P1=2: IF must be alone.
+  return index > 1 && word(index - 2u).has(Word::kMissing);            // CR=5, VI=5: reported at the C or V.
+}
+
+/// Whether both letters around a `=` have numbers, so that the second is not the value of the first: G92 Y20= Z146
+/// (D61).
+bool LineParser::is_between_coordinates(std::uint16_t assign) const {
+  const auto is_complete = [](const Word& it) {
+    return contains(dialect::kCoordinateLetters, it.letter) && !it.has(Word::kMissing);
+  };
+  return assign > 0 && assign + 1 < word_count() && word(assign).has(Word::kMissing) &&
+         is_complete(word(assign - 1u)) && is_complete(word(assign + 1u));
+}
+
+/// Reports a `=` that follows neither a V nor an M's P (ISO058). Returns the last word that belongs to it.
+std::uint16_t LineParser::add_equals(std::uint16_t index) {
+  auto last = static_cast<std::uint16_t>(index + (lacks_value(index) && !is_between_coordinates(index) ? 1 : 0));
+  if (index > 0) {
+    Word& before = word(index - 1u);
+    if (is_equals_reported_before(index)) return last;
+    if (before.owner != Word::kNoOwner) {
+      Instruction& owner = instruction(before.owner);
+      if (owner.kind == InstructionKind::Function && before.letter == 'P') {
+        own(owner, index);
+        if (last > index) own_in_place_of_value(owner, last);
+        return last;
+      }
+      // G54 P1=2: an argument of an unknown G.
+      const bool is_reported = index - 1 != owner.command || !before.has(Word::kMissing);  // G=5 has not been reported.
+      if (owner.kind == InstructionKind::G && owner.row == dialect::kUnknownGCode && is_reported) return last;
+    }
+    const bool is_parameter = before.letter == 'P' && before.owner == Word::kNoOwner;
+    if (is_parameter && std::exchange(stray_parameter_, true)) return last;
+    if (before.has(Word::kMissing)) {
+      before.value = word(index).value;
+      before.flags = word(index).flags;
+    } else if (!word(index).has(Word::kMissing)) {
+      before.value = std::numeric_limits<double>::quiet_NaN();  // R1=10: either number may be meant (D61).
+    }
+    before.flags |= Word::kReported;
+  }
+  while (last > index && last + 1 < word_count() && word(last + 1u).has(Word::kMissing)) ++last;  // X=IC(5)
+  for (auto i = static_cast<std::uint16_t>(index + 1); i <= last; ++i)
+    take_back("word-without-number"_diag, word(i).span());
+  const Word& equals = word(index);
+  report("assignment-without-register"_diag, {equals.begin, equals.begin + 1});
+  return last;
+}
+
+}  // namespace isocnc::syntax

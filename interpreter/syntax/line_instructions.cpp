@@ -1,0 +1,259 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/line_parser.h"
+
+namespace isocnc::syntax {
+
+using namespace dialect::literals;
+using dialect::contains;
+
+void LineParser::add_dimension(std::uint16_t index) {
+  const bool names_register =
+      index > 0 && word(index - 1u).letter == 'V' && word(index - 1u).has(Word::kMissing) && is_assigned(index);
+  if (names_register) return;  // VI=5: reported at the V.
+  const char letter = word(index).letter;
+  const bool is_parameter = letter == 'P' && function_ != kNone && (function_open_ || is_assigned(index));
+  if (is_parameter) {
+    own(instruction(static_cast<std::size_t>(function_)), index);
+    needs_check_ = true;
+    return;
+  }
+  // P1=1 P2=4.5 without an M: parameters that belong to no instruction are reported once, together.
+  if (letter == 'P' && taker_ == kNone && line_.jump < 0 && is_assigned(index)) return;
+  function_open_ = false;
+  if (taker_ != kNone && !contiguous_ && instruction(static_cast<std::size_t>(taker_)).row == dialect::kUnknownGCode &&
+      instruction(static_cast<std::size_t>(taker_)).kind == InstructionKind::G)
+    taker_ = kNone;  // The arguments of an unknown G end with its series.
+  if (taker_ == kNone) {
+    after_unknown_ = index > 0 && word(index - 1u).letter == kError;
+    add_instruction(InstructionKind::Continuation, index);
+    taker_ = static_cast<int>(instruction_count()) - 1;
+    taken_ = 0;
+    contiguous_ = true;
+    dimensions_seen_ = true;
+  }
+  Instruction& taker = instruction(static_cast<std::size_t>(taker_));
+  if (!contiguous_) {
+    word(index).flags |= Word::kBreak;
+    needs_check_ = true;
+  }
+  // L X10 R0: arguments of another control's motion.
+  const bool is_of_unknown =
+      after_unknown_ && taker.kind == InstructionKind::Continuation && !contains(dialect::kCoordinateLetters, letter);
+  if (is_of_unknown) word(index).flags |= Word::kReported;
+  const dialect::LetterSet bit = dialect::letter_bit(letter);
+  // XX10: the first X has been reported, because it has no number.
+  const bool is_typed_twice = index > 0 && word(index - 1u).letter == letter && word(index - 1u).has(Word::kMissing);
+  if ((taken_ & bit) != 0 && !is_typed_twice) {
+    // It is unclear which of the two was meant: the axis becomes unknown, so that no second finding follows.
+    Span first;
+    for (std::uint16_t i = taker.begin; i < index; ++i) {
+      if (word(i).owner != taker.number || word(i).letter != letter) continue;
+      if (first.empty()) first = word(i).span();
+      word(i).value = std::numeric_limits<double>::quiet_NaN();
+    }
+    // In R1=1 R2=2 the number has been reported, so the repetition is not.
+    const bool is_reported = is_assigned(index) || word(index).has(Word::kMissing | Word::kMalformed);
+    word(index).value = std::numeric_limits<double>::quiet_NaN();
+    word(index).flags |= Word::kReported;
+    if (!is_reported) report("repeated-argument"_diag, word(index).span(), {}, first);
+  }
+  taken_ |= bit;
+  own(taker, index);
+}
+
+/// The number meant by a misspelled but clear word, such as G1.0, M+6 or G-1; otherwise NaN.
+static double meant_number(double value, double minimum) {
+  const double number = std::abs(value);
+  const bool is_plain = number >= minimum && number <= 999 && number == std::floor(number);
+  return is_plain ? number : std::numeric_limits<double>::quiet_NaN();
+}
+
+void LineParser::add_g(std::uint16_t index) {
+  const Word& written = word(index);
+  std::uint8_t row = dialect::kUnknownGCode;
+  const bool spelled_right = written.is_plain_integer() && written.value <= 999;
+  const double meant = meant_number(written.value, 0);
+  if (!std::isnan(meant)) row = dialect::kGCodeRows[static_cast<std::size_t>(meant)];
+  if (!spelled_right) {
+    if (!written.has(Word::kMissing | Word::kReported)) report("invalid-g-number"_diag, written.span());
+    word(index).flags |= Word::kReported;
+  } else if (row == dialect::kUnknownGCode) {
+    report("unsupported-g"_diag, written.span());
+  }
+  Instruction& added = add_instruction(InstructionKind::G, index);
+  added.row = row;
+  if (after_motion_) added.flags |= Instruction::kFollowsMotion;
+  after_motion_ = false;
+  function_open_ = false;
+  contiguous_ = false;
+  needs_check_ = true;
+  const dialect::GCode* const code = added.g();
+  if (!code) {
+    taker_ = added.number;
+    taken_ = 0;
+    contiguous_ = true;
+    return;
+  }
+  if (code->is_motion()) {
+    after_motion_ = true;
+    if (++motions_ == 1) {
+      first_motion_ = written.span();
+    } else {
+      report("second-motion"_diag, written.span(), {}, first_motion_);
+    }
+  }
+  if (code->misplaced != dialect::kNoDiagnostic && dimensions_seen_ && misplaced_count_ < 4)
+    misplaced_[misplaced_count_++] = index;
+  if (!code->takes_arguments()) return;
+  const bool has_dimensions = code->alone != "g04-not-alone"_diag;
+  if (has_dimensions && taker_ != kNone &&
+      instruction(static_cast<std::size_t>(taker_)).kind == InstructionKind::Continuation) {
+    take_earlier_words(added);
+  } else {
+    taken_ = 0;
+  }
+  taker_ = added.number;
+  contiguous_ = true;
+  dimensions_seen_ |= has_dimensions;
+}
+
+/// Handles `X10 G1`: arguments must follow their G (D16). One finding; the words count as arguments of the G.
+void LineParser::take_earlier_words(Instruction& g) {
+  Instruction& earlier = instruction(static_cast<std::size_t>(taker_));
+  bool reported = false;
+  for (std::uint16_t i = earlier.begin; i < earlier.end; ++i) {
+    if (word(i).owner != earlier.number) continue;
+    if (!reported && !word(i).has(Word::kMissing))
+      report("stray-argument"_diag, word(i).span(), {}, word(g.command).span());
+    reported = true;
+    word(i).flags = static_cast<std::uint8_t>((word(i).flags & ~Word::kBreak) | Word::kReported);
+    own(g, i);
+  }
+  earlier.flags |= Instruction::kReportedElsewhere;
+}
+
+/// Whether a word is a tool change without its T, so that the tool's number continues the M's number: M06 101001 (D59).
+/// `text` is the text of the word.
+static bool swallows_tool(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(" \t0", 1), text.size()));
+  if (!text.starts_with('6')) return false;
+  text.remove_prefix(1);
+  const auto digits = std::count_if(text.begin(), text.end(), is_digit);
+  const auto blanks = std::count_if(text.begin(), text.end(), is_blank);
+  if (static_cast<std::size_t>(digits + blanks) != text.size()) return false;
+  return digits == 6 || (digits > 0 && is_blank(text.front()));
+}
+
+void LineParser::add_m(std::uint16_t index) {
+  Word& written = word(index);
+  function_open_ = false;
+  const double meant = meant_number(written.value, 1);
+  const bool is_function = !std::isnan(meant);
+  if ((!written.is_plain_integer() || !is_function) && !written.has(Word::kMissing | Word::kReported))
+    report("invalid-m-number"_diag, written.span());
+  if (is_function) written.value = meant;
+  // An M without a legible number before a T is probably a tool change.
+  std::size_t next = index + 1u;
+  while (next < word_count() && word(next).letter == kError) ++next;
+  const bool before_tool = next < word_count() && word(next).letter == 'T';
+  if (meant == dialect::kToolChange || (!is_function && before_tool)) return add_tool_change(index);
+  if (!is_function && swallows_tool(text_of(written.span()))) {
+    add_instruction(InstructionKind::ToolChange, index).flags |= Instruction::kReportedElsewhere;
+    return;
+  }
+  Instruction& added = add_instruction(InstructionKind::Function, index);
+  if (!is_function) {  // It keeps its parameters, so that they get no finding.
+    added.flags |= Instruction::kReportedElsewhere;
+    word(index).value = std::numeric_limits<double>::quiet_NaN();
+  }
+  function_ = added.number;
+  function_open_ = true;
+  needs_check_ |= written.value == dialect::kProgramEnd;
+}
+
+void LineParser::add_tool_change(std::uint16_t index) {
+  Instruction& added = add_instruction(InstructionKind::ToolChange, index);
+  const std::uint16_t count = word_count();
+  auto next = static_cast<std::uint16_t>(index + 1);
+  while (next < count && word(next).letter == kError) ++next;
+  if (next < count && word(next).letter == 'T') return own(added, next);
+  // The T may be before the M06 (and has been reported) or further on; in both cases there is one finding, not two.
+  for (std::size_t i = 0; i + 1 < instruction_count(); ++i)
+    if (instruction(i).kind == InstructionKind::StrayTool) return void(added.flags |= Instruction::kReportedElsewhere);
+  report_missing("tool-change-without-tool"_diag, added);
+  for (auto i = static_cast<std::uint16_t>(index + 1); i < count; ++i) {
+    if (word(i).letter == 'M' && std::abs(word(i).value) == dialect::kToolChange) return;
+    if (word(i).letter == 'T') return void(word(i).owner = added.number);
+  }
+}
+
+void LineParser::add_tool(std::uint16_t index) {
+  check_tool_number(word(index));
+  if (word(index).owner == Word::kNoOwner) {
+    add_instruction(InstructionKind::StrayTool, index);
+  } else {
+    own(instruction(word(index).owner), index);
+  }
+}
+
+/// The value of a label, which may have any number of digits; above 15 digits, a hash of them.
+std::uint64_t LineParser::label_of(const Word& number) const {
+  if (number.digits <= 15) return static_cast<std::uint64_t>(number.value);
+  std::uint64_t hash = 14695981039346656037ULL;
+  bool leading = true;
+  bool in_comment = false;
+  for (const char c : text_of(number.span())) {
+    if (c == '(') in_comment = true;
+    if (c == ')') in_comment = false;
+    if (in_comment || !is_digit(c) || (leading && c == '0')) continue;
+    leading = false;
+    hash = (hash ^ static_cast<std::uint64_t>(c)) * 1099511628211ULL;
+  }
+  return leading ? 0 : hash | (std::uint64_t{1} << 63);
+}
+
+/// Adds a line number. Returns false if it is not valid; it has been reported and does not break a series.
+bool LineParser::add_line_number(std::uint16_t index) {
+  const Word& written = word(index);
+  if (written.has(Word::kMissing)) return false;
+  // IF VGPL = 1 THEN N10: the target of the jump, not the number of the line.
+  if (line_.jump >= 0 && !store_.jumps_[static_cast<std::size_t>(line_.jump)].has_target) return false;
+  if (!written.is_plain_integer() || (line_.flags & LineTree::kHasLabel) != 0) {
+    if (!written.has(Word::kReported)) report("invalid-line-number"_diag, written.span());
+    return false;
+  }
+  line_.flags |= LineTree::kHasLabel;
+  line_.label = label_of(written);
+  return true;
+}
+
+void LineParser::add_feed(std::uint16_t index) {
+  const Word& written = word(index);
+  if (written.value <= 0) report("feed-not-positive"_diag, written.span(), {written.value});
+  if (line_.feed < 0) {
+    line_.feed = index;
+  } else if (word(static_cast<std::size_t>(line_.feed)).has(Word::kMissing)) {
+    line_.feed = index;  // FF900: reported at the first F.
+  } else if (!written.has(Word::kMissing | Word::kMalformed)) {
+    report("repeated-feed"_diag, written.span(), {}, word(static_cast<std::size_t>(line_.feed)).span());
+  }
+}
+
+void LineParser::add_spindle_speed(std::uint16_t index) {
+  const Word& written = word(index);
+  if (written.value <= 0) report("spindle-speed-not-positive"_diag, written.span(), {written.value});
+  if (line_.spindle < 0) {
+    line_.spindle = index;
+  } else if (word(static_cast<std::size_t>(line_.spindle)).has(Word::kMissing)) {
+    line_.spindle = index;
+  } else if (!written.has(Word::kMissing | Word::kMalformed)) {
+    report("repeated-spindle-speed"_diag, written.span(), {}, word(static_cast<std::size_t>(line_.spindle)).span());
+  }
+  needs_check_ |= instruction_count() > 0;
+}
+
+}  // namespace isocnc::syntax

@@ -1,0 +1,164 @@
+#include <algorithm>
+
+#include "interpreter/syntax/characters.h"
+#include "interpreter/syntax/line_parser.h"
+
+namespace isocnc::syntax {
+
+using namespace dialect::literals;
+
+static bool is_no_word(const Word& word) { return word.letter == kError || word.has(Word::kMissing); }
+
+std::uint16_t LineParser::add_jump(std::uint16_t index) {
+  Instruction& added = add_instruction(InstructionKind::Jump, index);
+  needs_check_ = true;
+  if (line_.jump >= 0) {  // A second IF on the line: neither is alone, which is reported at the first.
+    Jump ignored{.if_span = word(index).span()};
+    return read_condition(ignored, index);
+  }
+  Jump jump;
+  jump.if_span = word(index).span();
+  const std::uint16_t last = read_condition(jump, index);
+  // An incomplete IF: the other words on the line may be the missing part.
+  if (half_jump_) added.flags |= Instruction::kReportedElsewhere;
+  for (auto i = static_cast<std::uint16_t>(index + 1); i <= last; ++i) own(added, i);
+  line_.jump = static_cast<std::int32_t>(store_.jumps_.size());
+  store_.jumps_.push_back(jump);
+  return last;
+}
+
+/// Handles text after the label that is not a word: a malformed part of the jump, up to the end of the line (GOTO N10
+/// ELSE N20). Returns the last word that belongs to the jump.
+std::uint16_t LineParser::end_jump(std::uint16_t last) {
+  const auto next = static_cast<std::uint16_t>(last + 1);
+  if (next >= word_count() || !store_.jumps_[static_cast<std::size_t>(line_.jump)].has_target) return last;
+  if (!is_no_word(word(next))) return last;
+  const Span rest = hull(word(next).span(), word(word_count() - 1u).span());
+  auto& findings = store_.findings_;
+  findings.erase(std::remove_if(findings.begin() + line_.first_finding, findings.end(),
+                                [&](const Finding& finding) { return finding.span.begin >= rest.begin; }),
+                 findings.end());
+  report("if-malformed"_diag, rest);
+  return static_cast<std::uint16_t>(word_count() - 1);
+}
+
+/// Reads the words from IF to the label, both included. One finding for a malformed condition, one for a malformed
+/// label. Returns the last word that belongs to the jump.
+std::uint16_t LineParser::read_condition(Jump& jump, std::uint16_t index) {
+  const std::uint16_t count = word_count();
+  std::uint16_t goto_at = index;
+  while (goto_at < count && word(goto_at).letter != kGoto) ++goto_at;
+  auto at = static_cast<std::uint16_t>(index + 1);
+  // Reports the words in the place of the required part, up to the part after it; without such words, an incomplete IF.
+  const auto fail = [&](std::uint16_t where, std::string_view next_letters) {
+    auto last = where;
+    while (last < goto_at && next_letters.find(word(last).letter) == std::string_view::npos) ++last;
+    if (last == where) return report_half_jump(where, goto_at);
+    report("if-malformed"_diag, hull(word(where).span(), word(last - 1u).span()));
+  };
+  bool good = false;
+  const bool has_operator = at + 1 < goto_at && word(at + 1u).letter == kOperator;
+  if (at >= goto_at || !read_variable(jump, word(at), has_operator)) {
+    fail(at, {&kOperator, 1});
+  } else if (++at >= goto_at || word(at).letter != kOperator ||
+             static_cast<Comparison>(word(at).digits) == Comparison::Invalid) {
+    fail(at, {&kNumber, 1});
+  } else if (jump.comparison = static_cast<Comparison>(word(at).digits);
+             ++at >= goto_at || word(at).letter != kNumber || word(at).has(Word::kMalformed)) {
+    fail(at, {});
+  } else if (jump.value = word(at).value; goto_at >= count) {
+    report_half_jump(static_cast<std::uint16_t>(at + 1), count);
+  } else if (++at < goto_at) {
+    fail(at, {});
+  } else {
+    good = true;
+  }
+  if (!good) jump.variable = Jump::kUnknownVariable;
+  if (goto_at < count) return read_target(jump, goto_at);
+  // Without a GOTO, the condition ends at the first word that belongs to another instruction.
+  auto last = index;
+  while (last + 1 < count) {
+    const char letter = word(last + 1u).letter;
+    if (letter != kOperator && letter != kNumber && letter != kVgpl && letter != kError && letter != 'V') break;
+    ++last;
+  }
+  return last;
+}
+
+/// The comment with a comparison between two columns of the line.
+std::optional<Span> LineParser::comparison_in_comment(std::uint32_t begin, std::uint32_t end) const {
+  for (std::size_t i = line_.first_comment; i < store_.comments_.size(); ++i) {
+    const Span comment = store_.comments_[i];
+    const std::string_view text = text_of(comment);
+    if (comment.begin >= begin && comment.end <= end && text.find_first_of("=<>") != std::string_view::npos)
+      return comment;
+  }
+  return std::nullopt;
+}
+
+/// Reports an IF that lacks a part before the word at `where`, which may be the word at `end`. Marks the text in place
+/// of the missing part (THEN, a condition in parentheses), else the word after which it is missing.
+void LineParser::report_half_jump(std::uint16_t where, std::uint16_t end) {
+  half_jump_ = true;
+  const std::uint32_t behind = where < word_count() ? word(where).begin : line_.length;
+  if (const std::optional<Span> comment = comparison_in_comment(word(where - 1u).end, behind))
+    return report("if-malformed"_diag, *comment);
+  if (where == end) return report("if-malformed"_diag, word(where - 1u).span());
+  auto last = where;
+  while (last + 1 < end && is_no_word(word(last)) && is_no_word(word(last + 1u))) ++last;
+  report("if-malformed"_diag, hull(word(where).span(), word(last).span()));
+}
+
+/// Reads the variable: a register or VGPL. A bad register number keeps its own diagnostic (D50).
+bool LineParser::read_variable(Jump& jump, const Word& written, bool has_operator) {
+  jump.variable_span = written.span();
+  if (written.letter == kVgpl) {
+    jump.variable = Jump::kVgplVariable;
+    return true;
+  }
+  if (written.letter != 'V' || written.has(Word::kMissing)) return false;
+  if (!has_operator) return true;  // V5 1 reads as V51, but the operator is reported (E003).
+  if (!written.is_plain_integer()) {
+    report("invalid-register-number"_diag, written.span());
+  } else if (!dialect::is_register(written.value)) {
+    report("register-out-of-range"_diag, written.span(), {written.value});
+  } else {
+    jump.variable = static_cast<std::int8_t>(written.value);
+  }
+  return true;
+}
+
+/// Reads the label after the GOTO at `index`.
+std::uint16_t LineParser::read_target(Jump& jump, std::uint16_t index) {
+  const auto at = static_cast<std::uint16_t>(index + 1);
+  if (at >= word_count() || word(at).letter == 'G' || word(at).letter == kIf) {
+    half_jump_ = true;
+    report("if-malformed"_diag, word(index).span());
+    return index;
+  }
+  const Word& label = word(at);
+  if (label.letter != 'N' || !label.is_plain_integer()) {
+    if (!label.has(Word::kReported)) report("if-malformed"_diag, label.span());  // N1O: reported at the O.
+    return at;
+  }
+  jump.has_target = true;
+  jump.target = label_of(label);
+  jump.target_span = label.span();
+  return at;
+}
+
+/// Handles a GOTO without IF, or a second GOTO on the line, which is reported at the first: it must be alone.
+std::uint16_t LineParser::add_lone_goto(std::uint16_t index) {
+  if (line_.jump < 0) {
+    for (std::uint16_t i = 0; i < index; ++i)  // V5 > 30 GOTO N340: the IF is missing.
+      if (word(i).letter == kError && char_class(begin_[word(i).begin]) == CharClass::Compare)
+        take_back("unknown-word"_diag, word(i).span());
+    report("if-malformed"_diag, word(index).span());
+  }
+  const auto at = static_cast<std::uint16_t>(index + 1);
+  if (at >= word_count()) return index;
+  const char letter = word(at).letter;
+  return letter == 'N' || letter == kNumber || letter == kError ? at : index;
+}
+
+}  // namespace isocnc::syntax
