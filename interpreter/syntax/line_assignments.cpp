@@ -66,32 +66,41 @@ bool LineParser::is_between_coordinates(std::uint16_t assign) const {
          is_complete(word(assign - 1u)) && is_complete(word(assign + 1u));
 }
 
+/// Whether a `=` belongs to the instruction of the word before it: to a parameter of an M, or to an argument of an
+/// unknown G, which has been reported (G54 P1=2).
+bool LineParser::own_equals(std::uint16_t index, std::uint16_t last) {
+  const Word& before = word(index - 1u);
+  if (before.owner == Word::kNoOwner) return false;
+  Instruction& owner = instruction(before.owner);
+  if (owner.kind == InstructionKind::Function && before.letter == 'P') {
+    own(owner, index);
+    if (last > index) own_in_place_of_value(owner, last);
+    return true;
+  }
+  const bool is_reported = index - 1 != owner.command || !before.has(Word::kMissing);  // G=5 has not been reported.
+  return owner.is_unknown_g() && is_reported;
+}
+
+/// X=20 is X20; in R1=10 either number may be meant (D61).
+void LineParser::spoil_word_before(std::uint16_t index) {
+  Word& before = word(index - 1u);
+  if (before.has(Word::kMissing)) {
+    before.value = word(index).value;
+    before.flags = word(index).flags;
+  } else if (!word(index).has(Word::kMissing)) {
+    before.value = std::numeric_limits<double>::quiet_NaN();
+  }
+  before.flags |= Word::kReported;
+}
+
 /// Reports a `=` that follows neither a V nor an M's P (ISO058). Returns the last word that belongs to it.
 std::uint16_t LineParser::add_equals(std::uint16_t index) {
   auto last = static_cast<std::uint16_t>(index + (lacks_value(index) && !is_between_coordinates(index) ? 1 : 0));
   if (index > 0) {
-    Word& before = word(index - 1u);
-    if (is_equals_reported_before(index)) return last;
-    if (before.owner != Word::kNoOwner) {
-      Instruction& owner = instruction(before.owner);
-      if (owner.kind == InstructionKind::Function && before.letter == 'P') {
-        own(owner, index);
-        if (last > index) own_in_place_of_value(owner, last);
-        return last;
-      }
-      // G54 P1=2: an argument of an unknown G.
-      const bool is_reported = index - 1 != owner.command || !before.has(Word::kMissing);  // G=5 has not been reported.
-      if (owner.kind == InstructionKind::G && owner.row == dialect::kUnknownGCode && is_reported) return last;
-    }
-    const bool is_parameter = before.letter == 'P' && before.owner == Word::kNoOwner;
-    if (is_parameter && std::exchange(stray_parameter_, true)) return last;
-    if (before.has(Word::kMissing)) {
-      before.value = word(index).value;
-      before.flags = word(index).flags;
-    } else if (!word(index).has(Word::kMissing)) {
-      before.value = std::numeric_limits<double>::quiet_NaN();  // R1=10: either number may be meant (D61).
-    }
-    before.flags |= Word::kReported;
+    if (is_equals_reported_before(index) || own_equals(index, last)) return last;
+    const bool is_stray_parameter = word(index - 1u).letter == 'P' && word(index - 1u).owner == Word::kNoOwner;
+    if (is_stray_parameter && std::exchange(stray_parameter_, true)) return last;
+    spoil_word_before(index);
   }
   while (last > index && last + 1 < word_count() && word(last + 1u).has(Word::kMissing)) ++last;  // X=IC(5)
   for (auto i = static_cast<std::uint16_t>(index + 1); i <= last; ++i)

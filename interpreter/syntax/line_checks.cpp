@@ -109,7 +109,7 @@ void LineParser::check_alone() {
 
 void LineParser::check_misplaced_modes() {
   if ((line_.flags & LineTree::kAloneViolated) != 0) misplaced_count_ = 0;
-  for (int i = 0; i < misplaced_count_; ++i) {
+  for (std::size_t i = 0; i < misplaced_count_; ++i) {
     const Word& mode = word(misplaced_[i]);
     report(instruction(mode.owner).g()->misplaced, mode.span());
   }
@@ -205,23 +205,30 @@ void LineParser::check_motion(const Instruction& motion) {
       broken = i;
     }
   }
-  if (broken != kNone) {
-    if (breaker_is_reported(motion, static_cast<std::uint16_t>(broken))) return;
-    if (!has_arguments) return report_missing("missing-coordinate"_diag, motion);
-    Word& stray = word(static_cast<std::size_t>(broken));
-    const bool is_reported = stray.has(Word::kMissing | Word::kReported);
-    stray.flags |= Word::kReported;
-    if (is_reported) return;
-    return report("stray-argument"_diag, stray.span(), {}, word(motion.command).span());
-  }
-  if (!is_g || owns_any(motion, dialect::kCoordinateLetters)) return;
+  if (broken != kNone) return report_broken_series(motion, static_cast<std::uint16_t>(broken), has_arguments);
+  if (is_g) check_coordinates(motion);
+}
+
+/// Reports the first argument that is separated from its motion; without other arguments, the motion lacks them all.
+void LineParser::report_broken_series(const Instruction& motion, std::uint16_t broken, bool has_arguments) {
+  if (breaker_is_reported(motion, broken)) return;
+  if (!has_arguments) return report_missing("missing-coordinate"_diag, motion);
+  Word& stray = word(broken);
+  const bool is_reported = stray.has(Word::kMissing | Word::kReported);
+  stray.flags |= Word::kReported;
+  if (!is_reported) report("stray-argument"_diag, stray.span(), {}, word(motion.command).span());
+}
+
+/// Reports a motion G without coordinates, unless a finding explains their absence.
+void LineParser::check_coordinates(const Instruction& motion) {
+  if (owns_any(motion, dialect::kCoordinateLetters)) return;
   // Stray letters without a coordinate are reported where the motion is known. A second motion G, or an unknown G that
   // has taken the arguments, has been reported already.
   if (owns_any(motion, dialect::kDimensionLetters & ~motion.g()->arguments)) return;
   if (word(motion.command).has(Word::kReported) || word(motion.command).span() != first_motion_) return;
   for (std::size_t i = motion.number + 1u; i < instruction_count(); ++i) {
     const Instruction& other = instruction(i);
-    if (other.kind == InstructionKind::G && (!other.g() || other.g()->is_motion())) return;
+    if (other.is_unknown_g() || (other.g() && other.g()->is_motion())) return;
   }
   // G00 U5: another control's axis, reported at the U.
   std::size_t next = motion.command + 1u;
@@ -331,11 +338,10 @@ void LineParser::check_compensation(const Instruction& checked) {
   bool after_motion = false;
   for (std::size_t i = 0; i < instruction_count(); ++i) {
     const Instruction& other = instruction(i);
-    const bool is_motion = other.kind == InstructionKind::Continuation
-                               ? !other.has(Instruction::kReportedElsewhere)
-                               : other.kind == InstructionKind::G && other.g() && other.g()->is_motion();
+    const bool is_motion = other.kind == InstructionKind::Continuation ? !other.has(Instruction::kReportedElsewhere)
+                                                                       : other.g() && other.g()->is_motion();
     // An unknown G may be the required motion: any G after a G41 (D62), or a G with coordinates before a G40.
-    const bool may_be_motion = other.kind == InstructionKind::G && !other.g();
+    const bool may_be_motion = other.is_unknown_g();
     if (may_be_motion) {
       before_motion |= !is_end && other.command > checked.command;
       after_motion |= other.command < checked.command && owns_any(other, dialect::kCoordinateLetters);

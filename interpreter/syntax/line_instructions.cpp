@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "interpreter/syntax/characters.h"
@@ -11,58 +12,65 @@ using namespace dialect::literals;
 using dialect::contains;
 
 void LineParser::add_dimension(std::uint16_t index) {
-  const bool names_register =
-      index > 0 && word(index - 1u).letter == 'V' && word(index - 1u).has(Word::kMissing) && is_assigned(index);
-  if (names_register) return;  // VI=5: reported at the V.
-  const char letter = word(index).letter;
-  const bool is_parameter = letter == 'P' && function_ != kNone && (function_open_ || is_assigned(index));
-  if (is_parameter) {
+  if (follows_letter(index, 'V') && is_assigned(index)) return;  // VI=5: reported at the V.
+  if (is_parameter(index)) {
     own(instruction(static_cast<std::size_t>(function_)), index);
     needs_check_ = true;
     return;
   }
   // P1=1 P2=4.5 without an M: parameters that belong to no instruction are reported once, together.
-  if (letter == 'P' && taker_ == kNone && line_.jump < 0 && is_assigned(index)) return;
+  if (word(index).letter == 'P' && taker_ == kNone && line_.jump < 0 && is_assigned(index)) return;
   function_open_ = false;
-  if (taker_ != kNone && !contiguous_ && instruction(static_cast<std::size_t>(taker_)).row == dialect::kUnknownGCode &&
-      instruction(static_cast<std::size_t>(taker_)).kind == InstructionKind::G)
-    taker_ = kNone;  // The arguments of an unknown G end with its series.
-  if (taker_ == kNone) {
-    after_unknown_ = index > 0 && word(index - 1u).letter == kError;
-    add_instruction(InstructionKind::Continuation, index);
-    taker_ = static_cast<int>(instruction_count()) - 1;
-    taken_ = 0;
-    contiguous_ = true;
-    dimensions_seen_ = true;
-  }
-  Instruction& taker = instruction(static_cast<std::size_t>(taker_));
+  // The arguments of an unknown G end with its series.
+  if (taker_ != kNone && !contiguous_ && taker().is_unknown_g()) taker_ = kNone;
+  if (taker_ == kNone) start_continuation(index);
   if (!contiguous_) {
     word(index).flags |= Word::kBreak;
     needs_check_ = true;
   }
+  take_argument(index);
+}
+
+/// Whether a word is a parameter of the last M: M100 P1=2.5.
+bool LineParser::is_parameter(std::uint16_t index) const {
+  return word(index).letter == 'P' && function_ != kNone && (function_open_ || is_assigned(index));
+}
+
+void LineParser::start_continuation(std::uint16_t index) {
+  after_unknown_ = index > 0 && word(index - 1u).letter == kError;
+  taker_ = add_instruction(InstructionKind::Continuation, index).number;
+  taken_ = 0;
+  contiguous_ = true;
+  dimensions_seen_ = true;
+}
+
+/// Gives a word to the instruction that takes the next argument.
+void LineParser::take_argument(std::uint16_t index) {
+  const char letter = word(index).letter;
   // L X10 R0: arguments of another control's motion.
   const bool is_of_unknown =
-      after_unknown_ && taker.kind == InstructionKind::Continuation && !contains(dialect::kCoordinateLetters, letter);
+      after_unknown_ && taker().kind == InstructionKind::Continuation && !contains(dialect::kCoordinateLetters, letter);
   if (is_of_unknown) word(index).flags |= Word::kReported;
-  const dialect::LetterSet bit = dialect::letter_bit(letter);
-  // XX10: the first X has been reported, because it has no number.
-  const bool is_typed_twice = index > 0 && word(index - 1u).letter == letter && word(index - 1u).has(Word::kMissing);
-  if ((taken_ & bit) != 0 && !is_typed_twice) {
-    // It is unclear which of the two was meant: the axis becomes unknown, so that no second finding follows.
-    Span first;
-    for (std::uint16_t i = taker.begin; i < index; ++i) {
-      if (word(i).owner != taker.number || word(i).letter != letter) continue;
-      if (first.empty()) first = word(i).span();
-      word(i).value = std::numeric_limits<double>::quiet_NaN();
-    }
-    // In R1=1 R2=2 the number has been reported, so the repetition is not.
-    const bool is_reported = is_assigned(index) || word(index).has(Word::kMissing | Word::kMalformed);
-    word(index).value = std::numeric_limits<double>::quiet_NaN();
-    word(index).flags |= Word::kReported;
-    if (!is_reported) report("repeated-argument"_diag, word(index).span(), {}, first);
+  if (contains(taken_, letter) && !follows_letter(index, letter)) spoil_repeated(taker(), index);
+  taken_ |= dialect::letter_bit(letter);
+  own(taker(), index);
+}
+
+/// Handles a letter that the instruction has already. It is unclear which of the two was meant: the axis becomes
+/// unknown, so that no second finding follows.
+void LineParser::spoil_repeated(const Instruction& owner, std::uint16_t index) {
+  Word& repeated = word(index);
+  Span first;
+  for (std::uint16_t i = owner.begin; i < index; ++i) {
+    if (word(i).owner != owner.number || word(i).letter != repeated.letter) continue;
+    if (first.empty()) first = word(i).span();
+    word(i).value = std::numeric_limits<double>::quiet_NaN();
   }
-  taken_ |= bit;
-  own(taker, index);
+  // In R1=1 R2=2 the number has been reported, so the repetition is not.
+  const bool is_reported = is_assigned(index) || repeated.has(Word::kMissing | Word::kMalformed);
+  repeated.value = std::numeric_limits<double>::quiet_NaN();
+  repeated.flags |= Word::kReported;
+  if (!is_reported) report("repeated-argument"_diag, repeated.span(), {}, first);
 }
 
 /// The number meant by a misspelled but clear word, such as G1.0, M+6 or G-1; otherwise NaN.
@@ -73,17 +81,7 @@ static double meant_number(double value, double minimum) {
 }
 
 void LineParser::add_g(std::uint16_t index) {
-  const Word& written = word(index);
-  std::uint8_t row = dialect::kUnknownGCode;
-  const bool spelled_right = written.is_plain_integer() && written.value <= 999;
-  const double meant = meant_number(written.value, 0);
-  if (!std::isnan(meant)) row = dialect::kGCodeRows[static_cast<std::size_t>(meant)];
-  if (!spelled_right) {
-    if (!written.has(Word::kMissing | Word::kReported)) report("invalid-g-number"_diag, written.span());
-    word(index).flags |= Word::kReported;
-  } else if (row == dialect::kUnknownGCode) {
-    report("unsupported-g"_diag, written.span());
-  }
+  const std::uint8_t row = row_of_g(index);
   Instruction& added = add_instruction(InstructionKind::G, index);
   added.row = row;
   if (after_motion_) added.flags |= Instruction::kFollowsMotion;
@@ -92,26 +90,10 @@ void LineParser::add_g(std::uint16_t index) {
   contiguous_ = false;
   needs_check_ = true;
   const dialect::GCode* const code = added.g();
-  if (!code) {
-    taker_ = added.number;
-    taken_ = 0;
-    contiguous_ = true;
-    return;
-  }
-  if (code->is_motion()) {
-    after_motion_ = true;
-    if (++motions_ == 1) {
-      first_motion_ = written.span();
-    } else {
-      report("second-motion"_diag, written.span(), {}, first_motion_);
-    }
-  }
-  if (code->misplaced != dialect::kNoDiagnostic && dimensions_seen_ && misplaced_count_ < 4)
-    misplaced_[misplaced_count_++] = index;
-  if (!code->takes_arguments()) return;
-  const bool has_dimensions = code->alone != "g04-not-alone"_diag;
-  if (has_dimensions && taker_ != kNone &&
-      instruction(static_cast<std::size_t>(taker_)).kind == InstructionKind::Continuation) {
+  if (code) note_g(*code, index);
+  if (code && !code->takes_arguments()) return;
+  const bool has_dimensions = code && code->role != dialect::GRole::Dwell;
+  if (has_dimensions && taker_ != kNone && taker().kind == InstructionKind::Continuation) {
     take_earlier_words(added);
   } else {
     taken_ = 0;
@@ -121,9 +103,38 @@ void LineParser::add_g(std::uint16_t index) {
   dimensions_seen_ |= has_dimensions;
 }
 
+/// The row of a G, also of one that is misspelled but clear. Reports what is wrong with its number.
+std::uint8_t LineParser::row_of_g(std::uint16_t index) {
+  Word& written = word(index);
+  const double meant = meant_number(written.value, 0);
+  const std::uint8_t row =
+      std::isnan(meant) ? dialect::kUnknownGCode : dialect::kGCodeRows[static_cast<std::size_t>(meant)];
+  if (written.is_plain_integer() && written.value <= 999) {
+    if (row == dialect::kUnknownGCode) report("unsupported-g"_diag, written.span());
+    return row;
+  }
+  if (!written.has(Word::kMissing | Word::kReported)) report("invalid-g-number"_diag, written.span());
+  written.flags |= Word::kReported;
+  return row;
+}
+
+/// Notes what later words and checks must know of a G: a motion, or a mode after dimensions (D15).
+void LineParser::note_g(const dialect::GCode& code, std::uint16_t index) {
+  if (code.is_motion()) {
+    after_motion_ = true;
+    if (++motions_ == 1) {
+      first_motion_ = word(index).span();
+    } else {
+      report("second-motion"_diag, word(index).span(), {}, first_motion_);
+    }
+  }
+  if (code.misplaced != dialect::kNoDiagnostic && dimensions_seen_ && misplaced_count_ < std::size(misplaced_))
+    misplaced_[misplaced_count_++] = index;
+}
+
 /// Handles `X10 G1`: arguments must follow their G (D16). One finding; the words count as arguments of the G.
 void LineParser::take_earlier_words(Instruction& g) {
-  Instruction& earlier = instruction(static_cast<std::size_t>(taker_));
+  Instruction& earlier = taker();
   bool reported = false;
   for (std::uint16_t i = earlier.begin; i < earlier.end; ++i) {
     if (word(i).owner != earlier.number) continue;

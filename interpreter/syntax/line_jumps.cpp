@@ -45,39 +45,48 @@ std::uint16_t LineParser::end_jump(std::uint16_t last) {
 /// Reads the words from IF to the label, both included. One finding for a malformed condition, one for a malformed
 /// label. Returns the last word that belongs to the jump.
 std::uint16_t LineParser::read_condition(Jump& jump, std::uint16_t index) {
-  const std::uint16_t count = word_count();
   std::uint16_t goto_at = index;
-  while (goto_at < count && word(goto_at).letter != kGoto) ++goto_at;
-  auto at = static_cast<std::uint16_t>(index + 1);
-  // Reports the words in the place of the required part, up to the part after it; without such words, an incomplete IF.
-  const auto fail = [&](std::uint16_t where, std::string_view next_letters) {
-    auto last = where;
-    while (last < goto_at && next_letters.find(word(last).letter) == std::string_view::npos) ++last;
-    if (last == where) return report_half_jump(where, goto_at);
-    report("if-malformed"_diag, hull(word(where).span(), word(last - 1u).span()));
+  while (goto_at < word_count() && word(goto_at).letter != kGoto) ++goto_at;
+  if (!read_comparison(jump, static_cast<std::uint16_t>(index + 1), goto_at)) jump.variable = Jump::kUnknownVariable;
+  return goto_at < word_count() ? read_target(jump, goto_at) : end_of_condition(index);
+}
+
+/// Reads the words from `at` to the GOTO: variable, operator, number. False if one of them, or the GOTO, is malformed
+/// or missing, which is reported.
+bool LineParser::read_comparison(Jump& jump, std::uint16_t at, std::uint16_t goto_at) {
+  const auto fail = [&](char next_letter) {
+    report_part(at, goto_at, next_letter);
+    return false;
   };
-  bool good = false;
   const bool has_operator = at + 1 < goto_at && word(at + 1u).letter == kOperator;
-  if (at >= goto_at || !read_variable(jump, word(at), has_operator)) {
-    fail(at, {&kOperator, 1});
-  } else if (++at >= goto_at || word(at).letter != kOperator ||
-             static_cast<Comparison>(word(at).digits) == Comparison::Invalid) {
-    fail(at, {&kNumber, 1});
-  } else if (jump.comparison = static_cast<Comparison>(word(at).digits);
-             ++at >= goto_at || word(at).letter != kNumber || word(at).has(Word::kMalformed)) {
-    fail(at, {});
-  } else if (jump.value = word(at).value; goto_at >= count) {
-    report_half_jump(static_cast<std::uint16_t>(at + 1), count);
-  } else if (++at < goto_at) {
-    fail(at, {});
-  } else {
-    good = true;
-  }
-  if (!good) jump.variable = Jump::kUnknownVariable;
-  if (goto_at < count) return read_target(jump, goto_at);
-  // Without a GOTO, the condition ends at the first word that belongs to another instruction.
+  if (at >= goto_at || !read_variable(jump, word(at), has_operator)) return fail(kOperator);
+  ++at;
+  if (at >= goto_at || word(at).letter != kOperator) return fail(kNumber);
+  const auto comparison = static_cast<Comparison>(word(at).digits);
+  if (comparison == Comparison::Invalid) return fail(kNumber);
+  jump.comparison = comparison;
+  ++at;
+  if (at >= goto_at || word(at).letter != kNumber || word(at).has(Word::kMalformed)) return fail('\0');
+  jump.value = word(at).value;
+  ++at;
+  if (goto_at < word_count()) return at == goto_at || fail('\0');
+  report_half_jump(at, goto_at);
+  return false;
+}
+
+/// Reports the words in the place of a required part, up to the part after it, which starts with `next_letter`, or to
+/// the GOTO; without such words, an incomplete IF.
+void LineParser::report_part(std::uint16_t where, std::uint16_t goto_at, char next_letter) {
+  auto last = where;
+  while (last < goto_at && word(last).letter != next_letter) ++last;
+  if (last == where) return report_half_jump(where, goto_at);
+  report("if-malformed"_diag, hull(word(where).span(), word(last - 1u).span()));
+}
+
+/// The last word of a condition without a GOTO: it ends at the first word that belongs to another instruction.
+std::uint16_t LineParser::end_of_condition(std::uint16_t index) const {
   auto last = index;
-  while (last + 1 < count) {
+  while (last + 1 < word_count()) {
     const char letter = word(last + 1u).letter;
     if (letter != kOperator && letter != kNumber && letter != kVgpl && letter != kError && letter != 'V') break;
     ++last;

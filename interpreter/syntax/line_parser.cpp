@@ -57,75 +57,89 @@ void LineParser::report_missing(dialect::DiagnosticId id, const Instruction& lac
 
 void LineParser::structure() {
   if (has_prose_) join_prose();
-  const std::uint16_t count = word_count();
-  for (std::uint16_t i = 0; i < count; ++i) {
-    const char letter = word(i).letter;
-    const bool is_letter_alone = word(i).has(Word::kMissing);
-    if (contains(dialect::kDimensionLetters, letter)) {
-      add_dimension(i);
-      after_motion_ = true;
-      continue;
-    }
-    switch (letter) {
-      case 'F':
-        add_feed(i);
-        continue;  // The motion's speed does not break the series (D17).
-      case 'N':
-        if (!add_line_number(i)) continue;
-        break;
-      case 'S':
-        add_spindle_speed(i);
-        after_motion_ &= is_letter_alone;
-        break;
-      case 'G':
-        if (word(i).has(Word::kMissing) && i + 1 < count && word(i + 1u).letter == 'G') continue;  // GG01
-        add_g(i);
-        continue;
-      case 'M':
-        add_m(i);
-        after_motion_ &= is_letter_alone;
-        break;
-      case 'T':
-        add_tool(i);
-        after_motion_ &= is_letter_alone;
-        break;
-      case 'V':
-        if (stands_for_number(i)) continue;
-        i = add_assignment(i);
-        after_motion_ &= is_letter_alone;
-        break;
-      case kAssign:
-        i = add_equals(i);
-        continue;
-      case kIf:
-        i = end_jump(add_jump(i));
-        after_motion_ = false;
-        break;
-      case kGoto:
-        i = add_lone_goto(i);
-        break;
-      case kVgpl:
-        report("unknown-word"_diag, word(i).span());
-        continue;
-      case kError:
-        if (is_taken_by_unknown_g(i)) take_back("unknown-word"_diag, word(i).span());
-        continue;
-      default:
-        continue;  // An error that has been reported does not break the series.
-    }
-    if (is_letter_alone) continue;  // X25S Y5: a reported letter does not break the series.
-    contiguous_ = false;
-    if (letter != 'M') function_open_ = false;
+  for (std::uint16_t i = 0; i < word_count(); ++i) i = add(i);
+}
+
+/// Adds a word to the instructions. Returns the last word that has been added with it.
+std::uint16_t LineParser::add(std::uint16_t index) {
+  const char letter = word(index).letter;
+  if (contains(dialect::kDimensionLetters, letter)) {
+    add_dimension(index);
+    after_motion_ = true;
+    return index;
   }
+  switch (letter) {
+    case 'F':
+      add_feed(index);  // The motion's speed does not break the series (D17).
+      return index;
+    case 'G':
+      // GG01: the first G has been reported, because it has no number.
+      if (index + 1 < word_count() && word(index + 1u).letter == 'G' && word(index).has(Word::kMissing)) return index;
+      add_g(index);
+      return index;
+    case kAssign:
+      return add_equals(index);
+    case kVgpl:
+      report("unknown-word"_diag, word(index).span());
+      return index;
+    case kError:
+      if (is_taken_by_unknown_g(index)) take_back("unknown-word"_diag, word(index).span());
+      return index;
+    default:
+      return add_between_series(index);
+  }
+}
+
+/// Adds a word that belongs to no argument series, and so breaks the one before it (D12, D17). A word that has been
+/// reported does not: X25S Y5.
+std::uint16_t LineParser::add_between_series(std::uint16_t index) {
+  const char letter = word(index).letter;
+  const bool is_letter_alone = word(index).has(Word::kMissing);
+  std::uint16_t last = index;
+  switch (letter) {
+    case 'N':
+      if (!add_line_number(index)) return index;
+      break;
+    case 'S':
+      add_spindle_speed(index);
+      break;
+    case 'M':
+      add_m(index);
+      break;
+    case 'T':
+      add_tool(index);
+      break;
+    case 'V':
+      if (stands_for_number(index)) return index;
+      last = add_assignment(index);
+      break;
+    case kIf:
+      last = end_jump(add_jump(index));
+      break;
+    case kGoto:
+      last = add_lone_goto(index);
+      break;
+    default:
+      return index;
+  }
+  if (letter != 'N' && letter != kGoto) after_motion_ &= is_letter_alone;
+  if (is_letter_alone) return last;
+  contiguous_ = false;
+  if (letter != 'M') function_open_ = false;
+  return last;
+}
+
+/// Whether the word before is this letter, without a number.
+bool LineParser::follows_letter(std::uint16_t index, char letter) const {
+  return index > 0 && word(index - 1u).letter == letter && word(index - 1u).has(Word::kMissing);
 }
 
 /// Whether unknown text belongs to the unknown G before it, which has been reported (G43 H1). Text inside the number of
 /// that G does not (G5O).
 bool LineParser::is_taken_by_unknown_g(std::uint16_t index) const {
   if (taker_ == kNone || !contiguous_) return false;
-  const Instruction& taker = instruction(static_cast<std::size_t>(taker_));
-  const bool spoils_number = taker.command + 1 == index && word(taker.command).has(Word::kMalformed);
-  return taker.kind == InstructionKind::G && !taker.g() && !spoils_number;
+  const bool spoils_number = taker().command + 1 == index && word(taker().command).has(Word::kMalformed);
+  return taker().is_unknown_g() && !spoils_number;
 }
 
 /// Whether a `=` follows the word.

@@ -24,10 +24,12 @@ namespace isocnc::syntax {
 ///                               S N M T V IF, other G    |                     |  G with arguments,
 ///                                                        v                     |  unknown G
 ///                                                      broken -----------------+
-///                                                         X Y Z ...: an argument that is marked as stray
+///                                                         X Y Z ...: an argument that is marked as stray;
+///                                                         after an unknown G, starts a continuation
 ///
-/// Beside it, `function_open_` says whether a P is a parameter of the M before it, and `after_motion_` whether a G09
-/// fits here. Each word that breaks a series ends both, unless it has no number and so has been reported.
+/// Beside it, `function_open_` says that a P would be a parameter of the M before it, and `after_motion_` that a G09
+/// would belong to the motion before it (D23). A letter without a number, which has been reported, changes none of
+/// this.
 class LineParser {
  public:
   LineParser(TreeStore& store, const char* begin, const char* end);
@@ -59,6 +61,9 @@ class LineParser {
 
   // Words into instructions (line_parser.cpp).
   void structure();
+  std::uint16_t add(std::uint16_t index);
+  std::uint16_t add_between_series(std::uint16_t index);
+  bool follows_letter(std::uint16_t index, char letter) const;
   bool is_assigned(std::uint16_t index) const;
   bool stands_for_number(std::uint16_t index) const;
   bool is_taken_by_unknown_g(std::uint16_t index) const;
@@ -69,11 +74,19 @@ class LineParser {
   bool is_foreign_word(const Word& unknown) const;
   bool is_unit(const Word& first, const Word& second) const;
   bool is_number_of_prose(std::uint16_t index) const;
+  std::uint16_t end_of_prose(std::uint16_t index, bool& is_odd) const;
+  void report_prose(std::uint16_t first, std::uint16_t end);
   void join_prose();
 
   // Letters with numbers (line_instructions.cpp).
   void add_dimension(std::uint16_t index);
+  bool is_parameter(std::uint16_t index) const;
+  void start_continuation(std::uint16_t index);
+  void take_argument(std::uint16_t index);
+  void spoil_repeated(const Instruction& owner, std::uint16_t index);
   void add_g(std::uint16_t index);
+  std::uint8_t row_of_g(std::uint16_t index);
+  void note_g(const dialect::GCode& code, std::uint16_t index);
   void take_earlier_words(Instruction& g);
   void add_m(std::uint16_t index);
   void add_tool_change(std::uint16_t index);
@@ -89,12 +102,17 @@ class LineParser {
   bool lacks_value(std::uint16_t assign) const;
   bool is_equals_reported_before(std::uint16_t index) const;
   bool is_between_coordinates(std::uint16_t assign) const;
+  bool own_equals(std::uint16_t index, std::uint16_t last);
+  void spoil_word_before(std::uint16_t index);
   std::uint16_t add_equals(std::uint16_t index);
 
   // IF and GOTO (line_jumps.cpp).
   std::uint16_t add_jump(std::uint16_t index);
   std::uint16_t end_jump(std::uint16_t last);
   std::uint16_t read_condition(Jump& jump, std::uint16_t index);
+  bool read_comparison(Jump& jump, std::uint16_t at, std::uint16_t goto_at);
+  void report_part(std::uint16_t where, std::uint16_t goto_at, char next_letter);
+  std::uint16_t end_of_condition(std::uint16_t index) const;
   bool read_variable(Jump& jump, const Word& written, bool has_operator);
   std::optional<Span> comparison_in_comment(std::uint32_t begin, std::uint32_t end) const;
   void report_half_jump(std::uint16_t where, std::uint16_t end);
@@ -109,6 +127,8 @@ class LineParser {
   bool neighbor_has_arguments_of(const Instruction& alone) const;
   void check_misplaced_modes();
   void check_motion(const Instruction& motion);
+  void report_broken_series(const Instruction& motion, std::uint16_t broken, bool has_arguments);
+  void check_coordinates(const Instruction& motion);
   bool is_zero_return(const Instruction& frame) const;
   void check_vectors(const Instruction& frame);
   void check_face_angles(const Instruction& frame);
@@ -138,6 +158,8 @@ class LineParser {
   const Instruction& instruction(std::size_t index) const {
     return store_.instructions_[line_.first_instruction + index];
   }
+  Instruction& taker() { return instruction(static_cast<std::size_t>(taker_)); }
+  const Instruction& taker() const { return instruction(static_cast<std::size_t>(taker_)); }
   std::size_t instruction_count() const { return store_.instructions_.size() - line_.first_instruction; }
 
   TreeStore& store_;
@@ -162,7 +184,7 @@ class LineParser {
   Span first_motion_;
   bool dimensions_seen_ = false;     ///< A G with dimensions, or a continuation, precedes (D15).
   std::uint16_t misplaced_[4] = {};  ///< G70/G71/G90/G91 after dimensions.
-  int misplaced_count_ = 0;
+  std::size_t misplaced_count_ = 0;
   bool needs_check_ = false;
   bool half_jump_ = false;              ///< A part of the IF is missing.
   bool stray_parameter_ = false;        ///< A parameter without its M has been reported.

@@ -34,36 +34,44 @@ bool LineParser::is_number_of_prose(std::uint16_t index) const {
   return letter == kNumber || (follows_letter && contains(dialect::kDimensionLetters | dialect::letters("NT"), letter));
 }
 
-/// Joins letters without numbers that were meant as a comment: one finding, not one for each letter. `X Y Z` is not
-/// joined; the text must contain something that is never valid there.
-void LineParser::join_prose() {
-  const auto is_prose = [&](std::uint16_t i) {
-    const Word& it = word(i);
+/// The end of the letters without numbers, and of text that is no word, from a word on. `is_odd`: whether they contain
+/// something that is never valid there, as `X Y Z` does not.
+std::uint16_t LineParser::end_of_prose(std::uint16_t index, bool& is_odd) const {
+  const auto is_prose = [&](const Word& it) {
     return it.letter == kError ? !is_foreign_word(it) : it.has(Word::kMissing) && it.letter >= 'A' && it.letter <= 'Z';
   };
+  dialect::LetterSet seen = 0;
+  for (; index < word_count() && is_prose(word(index)); ++index) {
+    const char letter = word(index).letter;
+    is_odd |= letter == kError || !contains(dialect::kDimensionLetters, letter) || contains(seen, letter);
+    if (letter != kError) seen |= dialect::letter_bit(letter);
+  }
+  return index;
+}
+
+/// Replaces the findings of several words by one.
+void LineParser::report_prose(std::uint16_t first, std::uint16_t end) {
+  const Span span = hull(word(first).span(), word(end - 1u).span());
+  take_back_within(span);
+  report(word(first).letter == kError ? "unknown-word"_diag : "word-without-number"_diag, span);
+}
+
+/// Joins letters without numbers that were meant as a comment: one finding, not one for each letter.
+void LineParser::join_prose() {
   for (std::uint16_t i = 0; i < word_count(); ++i) {
     if (word(i).letter == kIf) return;  // A condition has its own diagnostic.
-    dialect::LetterSet seen = 0;
     bool is_odd = false;
-    std::uint16_t last = i;
-    for (; last < word_count() && is_prose(last); ++last) {
-      const char letter = word(last).letter;
-      is_odd |= letter == kError || !contains(dialect::kDimensionLetters, letter) || contains(seen, letter);
-      if (letter != kError) seen |= dialect::letter_bit(letter);
-    }
-    const bool is_only_unit = last - i == 2 && is_unit(word(i), word(i + 1u));
-    if (!is_only_unit && (last - i < 3 || !is_odd)) {
-      i = std::max(i, last);
+    std::uint16_t end = end_of_prose(i, is_odd);
+    const bool is_only_unit = end - i == 2 && is_unit(word(i), word(i + 1u));
+    if (!is_only_unit && (end - i < 3 || !is_odd)) {
+      i = std::max(i, end);
       continue;
     }
-    if (!is_only_unit && is_number_of_prose(last)) ++last;
-    const Span span = hull(word(i).span(), word(last - 1u).span());
-    const dialect::DiagnosticId id = word(i).letter == kError ? "unknown-word"_diag : "word-without-number"_diag;
-    take_back_within(span);
-    report(id, span);
+    if (!is_only_unit && is_number_of_prose(end)) ++end;
+    report_prose(i, end);
     if (is_only_unit && word(i).letter == word(i + 1u).letter && contains(dialect::kDimensionLetters, word(i).letter))
       ++i;  // XX: the first X remains a word.
-    for (; i < last; ++i) {
+    for (; i < end; ++i) {
       word(i).letter = kError;
       word(i).value = std::numeric_limits<double>::quiet_NaN();
       word(i).flags |= Word::kReported;

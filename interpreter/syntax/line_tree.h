@@ -80,6 +80,8 @@ struct Instruction {
 
   constexpr bool has(std::uint8_t flag) const { return (flags & flag) != 0; }
   const dialect::GCode* g() const { return row == dialect::kUnknownGCode ? nullptr : &dialect::kGCodes[row]; }
+  /// Whether it is a G that the dialect does not know, or whose number is illegible.
+  bool is_unknown_g() const { return kind == InstructionKind::G && g() == nullptr; }
   /// Whether it is a G of this role.
   bool is(dialect::GRole role) const { return g() != nullptr && g()->role == role; }
   /// A motion, by its G or continued.
