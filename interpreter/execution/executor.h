@@ -1,6 +1,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <optional>
 #include <string_view>
 
 #include "interpreter/execution/arguments.h"
@@ -56,6 +57,9 @@ class Executor {
   void move_to(const Arguments& arguments);
   void move_with_effects(const Arguments& arguments, const dialect::GCode& code, syntax::Span place);
   void arc(const Arguments& arguments, const dialect::GCode& code, syntax::Span place, Move* move);
+  std::optional<geometry::ArcGiven> read_arc(const Arguments& arguments, const Plane& plane) const;
+  void report_centered_arc(const Arguments& arguments, const Plane& plane, const geometry::ArcGiven& given,
+                           const geometry::Circle& circle);
   void report_circle(const Arguments& arguments, const geometry::Circle& circle, const Plane& plane);
   bool arc_is_described(const Arguments& arguments, const Plane& plane, syntax::Span place);
 

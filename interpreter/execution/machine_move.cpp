@@ -36,6 +36,28 @@ static void compensate(MachineMove& move, const State& state) {
                        .plane_is_sound = are_orthogonal(0, 1) && are_orthogonal(0, 2) && are_orthogonal(1, 2)};
 }
 
+static double helix_length(const MachineMove& arc, const Vec3& rise, bool leans) {
+  const double sweep = std::abs(arc.sweep_deg) * std::numbers::pi / 180;
+  const double height = rise.norm();
+  if (!leans) return height == 0 ? arc.radius * sweep : std::hypot(arc.radius * sweep, height);
+  const Vec3 start = (arc.from.tip - arc.center).normalized();
+  const Vec3 side = arc.normal.cross(start) * (arc.sweep_deg < 0 ? -1 : 1);
+  return tilted_helix_length(arc.radius, sweep, start, side, rise);
+}
+
+static void add_arc(MachineMove& result, const Move& move, const State& state) {
+  const auto axis = [&](int i) { return state.direction_to_machine(Vec3::Unit((move.normal_axis + i) % 3)); };
+  const Vec3 along = axis(0);
+  result.center = state.to_machine(move.center);
+  result.normal = state.face_mounted ? axis(1).cross(axis(2)).normalized() : along;
+  result.radius = move.radius;
+  result.sweep_deg = move.sweep_deg;
+  const Vec3 rise = (move.to.tip[move.normal_axis] - move.from.tip[move.normal_axis]) * along;
+  const double height = rise.norm();
+  const bool leans = state.face_mounted && height > 0 && rise.cross(result.normal).norm() > 1e-9 * height;
+  result.length = helix_length(result, rise, leans);
+}
+
 MachineMove in_machine(const Move& move, const State& state) {
   MachineMove result;
   result.kind = move.kind;
@@ -47,24 +69,7 @@ MachineMove in_machine(const Move& move, const State& state) {
   result.five_axis = state.five_axis();
   result.placed = move.placed;
   compensate(result, state);
-  if (move.kind != MoveKind::Arc) return result;
-  const auto axis = [&](int i) { return state.direction_to_machine(Vec3::Unit((move.normal_axis + i) % 3)); };
-  const Vec3 along = axis(0);
-  result.center = state.to_machine(move.center);
-  result.normal = state.face_mounted ? axis(1).cross(axis(2)).normalized() : along;
-  result.radius = move.radius;
-  result.sweep_deg = move.sweep_deg;
-  const double sweep = std::abs(move.sweep_deg) * std::numbers::pi / 180;
-  const Vec3 rise = (move.to.tip[move.normal_axis] - move.from.tip[move.normal_axis]) * along;
-  const double height = rise.norm();
-  const bool leans = state.face_mounted && height > 0 && rise.cross(result.normal).norm() > 1e-9 * height;
-  if (leans) {
-    const Vec3 start = (result.from.tip - result.center).normalized();
-    const Vec3 side = result.normal.cross(start) * (move.sweep_deg < 0 ? -1 : 1);
-    result.length = tilted_helix_length(move.radius, sweep, start, side, rise);
-  } else {
-    result.length = height == 0 ? move.radius * sweep : std::hypot(move.radius * sweep, height);
-  }
+  if (move.kind == MoveKind::Arc) add_arc(result, move, state);
   return result;
 }
 

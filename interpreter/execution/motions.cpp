@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -238,43 +237,53 @@ void Executor::report_circle(const Arguments& arguments, const geometry::Circle&
   }
 }
 
+/// Reads the words of an arc, relative to its start; nothing if a word, or the coordinate of the start that it needs,
+/// is unknown.
+std::optional<geometry::ArcGiven> Executor::read_arc(const Arguments& arguments, const Plane& plane) const {
+  const double scale = state_.mm_per_unit();
+  bool is_known = true;
+  const auto checked = [&](double value) {
+    is_known = is_known && std::isfinite(value);
+    return value;
+  };
+  // The offset from the start. Under G91 it is the value as written, even if the start is unknown.
+  const auto offset = [&](char letter, int axis) {
+    const double value = arguments[letter] * scale;
+    if (state_.incremental()) return checked(value);
+    is_known = is_known && (state_.unknown & axis_bit(static_cast<Axis>(axis))) == 0;
+    return checked(value - state_.position.tip[axis]);
+  };
+  geometry::ArcGiven given;
+  if (arguments.has(plane.u_letter)) given.end.u = offset(plane.u_letter, plane.u);
+  if (arguments.has(plane.v_letter)) given.end.v = offset(plane.v_letter, plane.v);
+  if (arguments.has(plane.u_center)) given.center_u = offset(plane.u_center, plane.u);
+  if (arguments.has(plane.v_center)) given.center_v = offset(plane.v_center, plane.v);
+  if (arguments.has('R')) given.radius = checked(arguments['R'] * scale);
+  return is_known ? std::optional(given) : std::nullopt;
+}
+
+void Executor::report_centered_arc(const Arguments& arguments, const Plane& plane, const geometry::ArcGiven& given,
+                                   const geometry::Circle& circle) {
+  const AxisSet in_plane = axis_bit(static_cast<Axis>(plane.u)) | axis_bit(static_cast<Axis>(plane.v));
+  sink_.centered_arc({.plane = plane,
+                      .given = given,
+                      .start = {state_.position.tip[plane.u], state_.position.tip[plane.v]},
+                      .start_is_known = (state_.unknown & in_plane) == 0,
+                      .incremental = state_.incremental(),
+                      .mm_per_unit = state_.mm_per_unit(),
+                      .circle = circle,
+                      .centers = arguments.span_of(dialect::kCenterLetters)});
+}
+
 /// Checks an arc, and computes it unless `move` is null.
 void Executor::arc(const Arguments& arguments, const GCode& code, Span place, Move* move) {
   const Plane& plane = plane_in_force(state_);
   if (!arc_is_described(arguments, plane, place)) return;
-  const double scale = state_.mm_per_unit();
-  // The offset from the start. Under G91 it is the value as written, even if the start is unknown.
-  const auto offset = [&](char letter, int axis) {
-    const double value = arguments[letter] * scale;
-    if (state_.incremental()) return value;
-    if ((state_.unknown & axis_bit(static_cast<Axis>(axis))) != 0) return std::numeric_limits<double>::quiet_NaN();
-    return value - state_.position.tip[axis];
-  };
-  geometry::ArcGiven given{.counterclockwise = code.role == GRole::CounterclockwiseArc};
-  if (arguments.has(plane.u_letter)) given.end.u = offset(plane.u_letter, plane.u);
-  if (arguments.has(plane.v_letter)) given.end.v = offset(plane.v_letter, plane.v);
-  bool known = std::isfinite(given.end.u) && std::isfinite(given.end.v);
-  const auto read = [&](char letter, double value) {
-    known = known && std::isfinite(value);
-    return arguments.has(letter) ? std::optional(value) : std::nullopt;
-  };
-  if (arguments.has(plane.u_center)) given.center_u = read(plane.u_center, offset(plane.u_center, plane.u));
-  if (arguments.has(plane.v_center)) given.center_v = read(plane.v_center, offset(plane.v_center, plane.v));
-  if (arguments.has('R')) given.radius = read('R', arguments['R'] * scale);
-  if (!known) return;
-
-  const geometry::Circle circle = geometry::find_circle(given, setup_.arc_tolerance);
-  if (given.center_u || given.center_v) {
-    const AxisSet in_plane = axis_bit(static_cast<Axis>(plane.u)) | axis_bit(static_cast<Axis>(plane.v));
-    sink_.centered_arc({.plane = plane,
-                        .given = given,
-                        .start = {state_.position.tip[plane.u], state_.position.tip[plane.v]},
-                        .start_is_known = (state_.unknown & in_plane) == 0,
-                        .incremental = state_.incremental(),
-                        .mm_per_unit = scale,
-                        .circle = circle,
-                        .centers = arguments.span_of(dialect::kCenterLetters)});
-  }
+  std::optional<geometry::ArcGiven> given = read_arc(arguments, plane);
+  if (!given) return;
+  given->counterclockwise = code.role == GRole::CounterclockwiseArc;
+  const geometry::Circle circle = geometry::find_circle(*given, setup_.arc_tolerance);
+  if (given->center_u || given->center_v) report_centered_arc(arguments, plane, *given, circle);
   if (circle.problem != ArcProblem::None) return report_circle(arguments, circle, plane);
   if (!move || circle.goes_nowhere) return;
   move->kind = MoveKind::Arc;
@@ -284,7 +293,7 @@ void Executor::arc(const Arguments& arguments, const GCode& code, Span place, Mo
   move->normal_axis = plane.normal;
   move->normal = Vec3::Unit(plane.normal);
   move->radius = circle.center.norm();
-  move->sweep_deg = geometry::sweep_deg(circle.center, given.end, given.counterclockwise);
+  move->sweep_deg = geometry::sweep_deg(circle.center, given->end, given->counterclockwise);
 }
 
 }  // namespace isocnc::execution
