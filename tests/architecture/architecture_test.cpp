@@ -170,6 +170,20 @@ TEST(Architecture, OneFileKnowsTheLibraryOfCommandLines) {
       EXPECT_TRUE(!include.header.starts_with("CLI/") || file == "interpreter/command_line/program_app.cpp") << file;
 }
 
+/// So the compiler lists every place that a new role concerns.
+TEST(Architecture, NoSwitchOverTheRolesOfGsHasADefault) {
+  static const std::regex kSwitch(R"(switch \([^\n]*role\) \{[^}]*\})");
+  int count = 0;
+  for (const std::string& file : sources()) {
+    const std::string text = read(file);
+    for (std::sregex_iterator found(text.begin(), text.end(), kSwitch); found != std::sregex_iterator(); ++found) {
+      ++count;
+      EXPECT_EQ(found->str().find("default:"), std::string::npos) << file;
+    }
+  }
+  EXPECT_GT(count, 1);
+}
+
 TEST(Architecture, EveryHeaderIsReadOnce) {
   for (const std::string& file : sources()) {
     if (!file.ends_with(".h")) continue;
