@@ -17,7 +17,7 @@ namespace isocnc::lsp {
 /// The version of documents that are not open in the editor.
 static constexpr std::int64_t kNoVersion = -1;
 
-std::vector<std::filesystem::path> ClosedPrograms::programs_in(const std::vector<std::filesystem::path>& folders) {
+std::vector<std::filesystem::path> ClosedPrograms::programs_in(const Folders& folders) {
   // Keep the configurations alive while the search uses them.
   std::vector<std::shared_ptr<const void>> owners;
   const auto rules = [&](const std::filesystem::path& folder) -> input::SearchRules {
@@ -34,9 +34,9 @@ std::vector<std::filesystem::path> ClosedPrograms::programs_in(const std::vector
 }
 
 /// Nothing where the file cannot be read, or the answer is not wanted any more.
-std::optional<std::string> ClosedPrograms::answer_of(const std::filesystem::path& program, const std::string& uri,
-                                                     const documents::Client& client,
-                                                     const std::atomic<bool>& cancelled, const Answer& answer) {
+std::optional<std::string> ClosedPrograms::read_and_answer(const std::filesystem::path& program, const std::string& uri,
+                                                           const documents::Client& client,
+                                                           const std::atomic<bool>& cancelled, const Answer& answer) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(program, error)) return std::nullopt;  // Reading a pipe would block.
   const auto opened = system::SourceFile::open_unmapped(program, dialect::Language::English);
@@ -52,8 +52,8 @@ std::optional<std::string> ClosedPrograms::answer_of(const std::filesystem::path
 }
 
 /// Nothing where the file cannot be read, or the answer is not wanted any more.
-std::optional<std::string> ClosedPrograms::ask(const std::filesystem::path& program, const std::string& uri,
-                                               const WorkspaceQuery& query) {
+std::optional<std::string> ClosedPrograms::cached_answer(const std::filesystem::path& program, const std::string& uri,
+                                                         const WorkspaceQuery& query) {
   std::error_code error;
   Cause key{.written = std::filesystem::last_write_time(program, error),
             .size = error ? 0 : std::filesystem::file_size(program, error),
@@ -63,9 +63,9 @@ std::optional<std::string> ClosedPrograms::ask(const std::filesystem::path& prog
   Known& known = cache_[{std::string(query.request.name), uri}];
   if (known.key == key) return known.answer;
   known = {};
-  auto answer = answer_of(program, uri, *query.client, *query.cancelled, [&](const documents::Snapshot& snapshot) {
-    return query.request.answer(snapshot, rpc::Json::object());
-  });
+  auto answer = read_and_answer(
+      program, uri, *query.client, *query.cancelled,
+      [&](const documents::Snapshot& snapshot) { return query.request.answer(snapshot, rpc::Json::object()); });
   if (answer) known = {std::move(key), *answer};
   return answer;
 }
@@ -82,17 +82,14 @@ static bool is_in_one_of(const std::vector<std::filesystem::path>& folders, cons
   });
 }
 
-void ClosedPrograms::ask_one(const features::Method& method, rpc::Json params, const std::string& uri,
-                             std::vector<std::filesystem::path> folders, ClientPointer client,
-                             std::shared_ptr<const std::atomic<bool>> cancelled,
-                             std::function<void(std::optional<std::string> result)> done) {
-  strand_.post([this, method, params = std::move(params), uri, folders = std::move(folders), client = std::move(client),
-                cancelled = std::move(cancelled), done = std::move(done)] {
-    const auto program = documents::path_of(uri);
-    if (!program || cancelled->load() || !is_in_one_of(folders, *program)) return done(std::nullopt);
-    done(answer_of(*program, uri, *client, *cancelled,
-                   [&](const documents::Snapshot& snapshot) { return method.answer(snapshot, params); }));
-  });
+std::optional<std::string> ClosedPrograms::answer_of(const features::Method& method, const rpc::Json& params,
+                                                     const std::string& uri, const Folders& folders,
+                                                     const documents::Client& client,
+                                                     const std::atomic<bool>& cancelled) {
+  const auto program = documents::path_of(uri);
+  if (!program || cancelled.load() || !is_in_one_of(folders, *program)) return std::nullopt;
+  return read_and_answer(*program, uri, client, cancelled,
+                         [&](const documents::Snapshot& snapshot) { return method.answer(snapshot, params); });
 }
 
 /// Drops the answers of programs that have been removed, or are open now.
@@ -103,23 +100,21 @@ void ClosedPrograms::forget_all_but(const std::set<std::string>& asked, std::str
   });
 }
 
-void ClosedPrograms::ask(WorkspaceQuery query, std::function<void(std::vector<std::string> results)> done) {
-  strand_.post([this, query = std::move(query), done = std::move(done)] {
-    std::vector<std::string> results;
-    std::set<std::string> asked;
-    for (const std::filesystem::path& program : programs_in(query.folders)) {
-      if (query.cancelled->load()) return;
-      const std::string uri = documents::uri_of(program);
-      if (query.open.contains(uri)) continue;
-      asked.insert(uri);
-      auto answer = ask(program, uri, query);
-      if (!answer) continue;
-      if (query.take_one) query.take_one(*answer);
-      results.push_back(std::move(*answer));
-    }
-    forget_all_but(asked, query.request.name);
-    done(std::move(results));
-  });
+std::optional<std::vector<std::string>> ClosedPrograms::answers(const WorkspaceQuery& query) {
+  std::vector<std::string> results;
+  std::set<std::string> asked;
+  for (const std::filesystem::path& program : programs_in(query.folders)) {
+    if (query.cancelled->load()) return std::nullopt;
+    const std::string uri = documents::uri_of(program);
+    if (query.open.contains(uri)) continue;
+    asked.insert(uri);
+    auto answer = cached_answer(program, uri, query);
+    if (!answer) continue;
+    if (query.take_one) (*query.take_one)(*answer);
+    results.push_back(std::move(*answer));
+  }
+  forget_all_but(asked, query.request.name);
+  return results;
 }
 
 }  // namespace isocnc::lsp

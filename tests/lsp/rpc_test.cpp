@@ -3,16 +3,22 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "lsp/rpc/frame.h"
 #include "lsp/rpc/message.h"
+#include "lsp/rpc/on_loop.h"
 #include "lsp/rpc/strand.h"
+#include "lsp/rpc/strand_bound.h"
 #include "tests/support/random.h"
 
 namespace isocnc::lsp::rpc {
@@ -183,6 +189,38 @@ TEST(Strand, IsDestroyedWithAPoolThatHasNotRunIt) {
   EXPECT_FALSE(watched.expired());
   pool.reset();
   EXPECT_TRUE(watched.expired());
+}
+
+TEST(OnLoop, RunsOnTheThreadOfTheLoop) {
+  Loop loop;
+  std::string received;
+  std::thread::id thread;
+  const OnLoop<std::string> take(loop, [&](std::string text) {
+    received = std::move(text);
+    thread = std::this_thread::get_id();
+    loop.stop();
+  });
+  std::thread worker([&] { take("result"); });
+  loop.run(std::chrono::hours(1), [] {});
+  worker.join();
+  EXPECT_EQ(received, "result");
+  EXPECT_EQ(thread, std::this_thread::get_id());
+}
+
+TEST(StrandBound, KeepsItsValueForTheTasksThatWait) {
+  Pool pool(1);
+  std::promise<void> start;
+  std::promise<int> result;
+  {
+    StrandBound<int> value(pool, 40);
+    value.post([started = start.get_future().share()](int& bound) {
+      started.wait();
+      ++bound;
+    });
+    value.post([&](int& bound) { result.set_value(bound + 1); });
+  }
+  start.set_value();
+  EXPECT_EQ(result.get_future().get(), 42);
 }
 
 TEST(Pool, EndsWhileTasksWait) {

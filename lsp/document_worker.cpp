@@ -1,0 +1,150 @@
+#include "lsp/document_worker.h"
+
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "interpreter/configuration/configurations.h"
+#include "interpreter/dialect/format.h"
+#include "lsp/documents/configuration_diagnostics.h"
+#include "lsp/documents/uri.h"
+
+namespace isocnc::lsp {
+
+using documents::Client;
+using documents::ContentChange;
+using documents::Interest;
+using documents::Snapshot;
+using rpc::Json;
+
+/// In bytes. Shorter texts open faster than a user could read a progress message.
+static constexpr std::size_t kLongText = 16 << 20;
+
+DocumentWorker::DocumentWorker(rpc::Pool& pool, documents::SettingsStore& settings, std::string uri,
+                               DocumentNotifier notifier, std::shared_ptr<DocumentSignals> signals)
+    : uri_(uri),
+      is_configuration_(documents::names_configuration(uri)),
+      settings_(settings),
+      notifier_(std::move(notifier)),
+      signals_(std::move(signals)),
+      document_(std::move(uri), settings),
+      background_requests_(pool, notifier_.progress) {}
+
+static std::int64_t version_of(const Json& params) {
+  return documents::member<std::int64_t>(params.at("textDocument"), "version").value_or(0);
+}
+
+void DocumentWorker::open(const rpc::Call& call, const Client& client) {
+  finish_edit(
+      [&] {
+        const std::string text = call.message.text(call.params().at("textDocument").at("text"));
+        is_long_ = text.size() >= kLongText;
+        start_progress(client);
+        document_.open(version_of(call.params()), text);
+      },
+      client);
+}
+
+static std::vector<ContentChange> changes_in(const rpc::Call& call) {
+  std::vector<ContentChange> changes;
+  for (const Json& change : call.params().at("contentChanges"))
+    changes.push_back(
+        {documents::member<documents::ClientRange>(change, "range"), call.message.text(change.at("text"))});
+  return changes;
+}
+
+void DocumentWorker::edit(const rpc::Call& call, const Client& client) {
+  finish_edit([&] { document_.edit(version_of(call.params()), changes_in(call), client.encoding); }, client);
+}
+
+void DocumentWorker::reconfigure(const Client& client) {
+  finish_edit([&] { document_.reread_settings(); }, client);
+}
+
+/// Makes the edit. Reports the change to features only after the last of the waiting edits.
+void DocumentWorker::finish_edit(const std::function<void()>& edit, const Client& client) {
+  try {
+    edit();
+  } catch (const std::exception& error) {
+    log(error);
+  }
+  if (--signals_->edits_waiting == 0) report_change(client);
+  if (signals_->edits_waiting == 0 || signals_->is_closed) end_progress();
+}
+
+static std::string titled(const std::string& uri, const Client& client, const dialect::Text& title) {
+  const auto path = documents::path_of(uri);
+  return dialect::format(title, client.language({}), path ? path->filename().string() : uri);
+}
+
+bool DocumentWorker::shows_progress_to(const Client& client) const {
+  return is_long_ && client.can("/window/workDoneProgress");
+}
+
+void DocumentWorker::start_progress(const Client& client) {
+  if (!shows_progress_to(client)) return;
+  static constexpr dialect::Text kOpening = {"opening {}", "apertura di {}"};
+  notifier_.progress("opening", titled(uri_, client, kOpening));
+  is_progress_shown_ = true;
+}
+
+void DocumentWorker::end_progress() {
+  if (std::exchange(is_progress_shown_, false)) notifier_.progress("opening", std::nullopt);
+}
+
+void DocumentWorker::log(const std::exception& error) {
+  notifier_.notify("window/logMessage",
+                   rpc::write({{"type", 1}, {"message", fmt::format("{}: {}", uri_, error.what())}}));
+}
+
+void DocumentWorker::report_change(const Client& client) {
+  if (is_configuration_) return report_as_configuration(client);
+  try {
+    report_configuration(client);
+    const Snapshot snapshot(document_, client, Interest{nullptr, &signals_->edits_waiting});
+    for (const features::Feature* const feature : features::all_features())
+      if (feature->changed) feature->changed(snapshot, notifier_.notify);
+  } catch (const rpc::Error&) {
+    return;  // Another edit has arrived, and its change will be reported.
+  } catch (const std::exception& error) {
+    log(error);
+  }
+}
+
+static std::string published(const std::string& uri, Json diagnostics) {
+  return rpc::write({{"uri", uri}, {"diagnostics", std::move(diagnostics)}});
+}
+
+/// Reports the findings in the program's configuration file, once for all programs that use it.
+void DocumentWorker::report_configuration(const Client& client) {
+  const configuration::Configuration& found = *document_.settings().configuration;
+  if (found.file.empty() || !settings_.claim(found.file)) return;
+  const std::filesystem::path file = configuration::real_path(found.file);
+  const auto language = client.language(found.language);
+  notifier_.configuration(
+      documents::uri_of(file),
+      published(documents::uri_of(file), documents::configuration_diagnostics(file, client.encoding, language)));
+}
+
+void DocumentWorker::report_as_configuration(const Client& client) {
+  const std::filesystem::path folder = configuration::real_path(documents::path_of(uri_)->parent_path());
+  notifier_.notify("textDocument/publishDiagnostics",
+                   published(uri_, documents::configuration_diagnostics(document_.document().text(), folder,
+                                                                        client.encoding, client.language({}))));
+}
+
+void DocumentWorker::answer(const features::Method& method, const Json& params, const Client& client,
+                            const WorkerRequest& request) {
+  static constexpr dialect::Text kRunning = {"running {}", "esecuzione di {}"};
+  work_on(request, [&] {
+    const Snapshot snapshot(document_, client, Interest{request.cancelled.get(), &signals_->edits_waiting});
+    if (!method.begin) return request.done(method.answer(snapshot, params));
+    std::optional<std::string> title;
+    if (shows_progress_to(client)) title = titled(uri_, client, kRunning);
+    const std::shared_ptr<const std::atomic<bool>> is_closed(signals_, &signals_->is_closed);
+    background_requests_.post(method.begin(snapshot, params), request, is_closed, title);
+  });
+}
+
+}  // namespace isocnc::lsp

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "lsp/background_requests.h"
+#include "lsp/documents/analyzed_document.h"
+#include "lsp/features/feature.h"
+#include "lsp/rpc/message.h"
+#include "lsp/rpc/on_loop.h"
+#include "lsp/rpc/strand.h"
+
+namespace isocnc::lsp {
+
+/// What an open document reports to the client by itself.
+struct DocumentNotifier {
+  features::Notify notify;
+  rpc::OnLoop<std::string /*uri*/, std::string /*params*/> configuration;  ///< The diagnostics of an isocnc.json.
+  ReportProgress progress;
+};
+
+/// By these the loop's thread ends work on a document that is no longer wanted.
+struct DocumentSignals {
+  std::atomic<int> edits_waiting = 0;
+  std::atomic<bool> is_closed = false;  ///< Whether the editor has closed the document.
+};
+
+/// All work on one open document. It belongs to the document's strand (rpc::StrandBound in OpenDocument), so there is
+/// one analysis, without a lock.
+class DocumentWorker {
+ public:
+  using ClientPointer = std::shared_ptr<const documents::Client>;
+
+  DocumentWorker(rpc::Pool& pool, documents::SettingsStore& settings, std::string uri, DocumentNotifier notifier,
+                 std::shared_ptr<DocumentSignals> signals);
+
+  /// `call` is the notification `textDocument/didOpen`, and `textDocument/didChange` below.
+  void open(const rpc::Call& call, const documents::Client& client);
+  void edit(const rpc::Call& call, const documents::Client& client);
+  /// The client's settings or the configuration files have changed.
+  void reconfigure(const documents::Client& client);
+  void answer(const features::Method& method, const rpc::Json& params, const documents::Client& client,
+              const WorkerRequest& request);
+
+ private:
+  void finish_edit(const std::function<void()>& edit, const documents::Client& client);
+  void report_change(const documents::Client& client);
+  void start_progress(const documents::Client& client);
+  void end_progress();
+  bool shows_progress_to(const documents::Client& client) const;
+  void report_configuration(const documents::Client& client);
+  void report_as_configuration(const documents::Client& client);
+  void log(const std::exception& error);
+
+  const std::string uri_;
+  const bool is_configuration_;  // Whether this is an isocnc.json, which is never read as a program.
+  documents::SettingsStore& settings_;
+  const DocumentNotifier notifier_;
+  const std::shared_ptr<DocumentSignals> signals_;
+  bool is_long_ = false;  // Whether the text was long when opened.
+  bool is_progress_shown_ = false;
+  documents::AnalyzedDocument document_;
+  BackgroundRequests background_requests_;
+};
+
+}  // namespace isocnc::lsp

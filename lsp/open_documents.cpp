@@ -1,0 +1,98 @@
+#include "lsp/open_documents.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace isocnc::lsp {
+
+using rpc::Json;
+
+/// What the document's worker calls. A document that the editor has closed meanwhile notifies no more.
+DocumentNotifier OpenDocuments::notifier_of(const std::shared_ptr<const DocumentSignals>& signals) {
+  const rpc::OnLoop<std::string> send(loop_, [this, signals](std::string body) {
+    if (!signals->is_closed) outbox_.send(std::move(body));
+  });
+  const std::size_t number = ++times_opened_;
+  return {.notify = [send](std::string_view method,
+                           const std::string& params) { send(rpc::notification_message(method, params)); },
+          .configuration = {loop_, [this](const std::string& uri,
+                                          const std::string& params) { report_configuration(uri, params); }},
+          .progress = {loop_, [this, number](const std::string& work, const std::optional<std::string>& title) {
+                         report_progress(fmt::format("{} of {}", work, number), title);
+                       }}};
+}
+
+void OpenDocuments::open(const CallPointer& call, const ClientPointer& client) {
+  const Json& params = call->params().at("textDocument");
+  const std::string uri = params.at("uri");
+  if (!params.at("text").is_string()) throw Json::type_error::create(302, "the text is no string", &params);
+  std::unique_ptr<OpenDocument>& document = documents_[uri];
+  if (document) document->close();
+  const auto signals = std::make_shared<DocumentSignals>();
+  document = std::make_unique<OpenDocument>(pool_, settings_, uri, notifier_of(signals), signals);
+  document->open(call, client);
+}
+
+void OpenDocuments::close(const std::string& uri, const documents::Client& client) {
+  const auto found = documents_.find(uri);
+  if (found == documents_.end()) return;
+  found->second->close();
+  // From now on the text of a configuration's file counts, not that of the editor.
+  if (found->second->is_configuration()) reported_configurations_.insert(uri);
+  const bool is_program = !found->second->is_configuration();
+  documents_.erase(found);
+  if (!is_program) return;
+  for (const features::Feature* const feature : features::all_features())
+    if (feature->closed)
+      feature->closed(uri, client,
+                      [&](std::string_view method, const std::string& params) { outbox_.notify(method, params); });
+}
+
+static const Json::json_pointer kPlaceInData("/data/uri");
+
+bool is_item_of_ours(const Json& params) { return params.is_object() && params.contains(kPlaceInData); }
+
+OpenDocument* OpenDocuments::find(const Json& params) const {
+  if (!params.is_object()) return nullptr;
+  static const Json::json_pointer kPlaces[] = {Json::json_pointer("/textDocument/uri"), kPlaceInData,
+                                               Json::json_pointer("/item/data/uri"), Json::json_pointer("/uri")};
+  for (const Json::json_pointer& place : kPlaces) {
+    if (!params.contains(place) || !params.at(place).is_string()) continue;
+    const auto found = documents_.find(params.at(place).get_ref<const std::string&>());
+    return found == documents_.end() ? nullptr : found->second.get();
+  }
+  return nullptr;
+}
+
+std::vector<OpenDocument*> OpenDocuments::programs() const {
+  std::vector<OpenDocument*> programs;
+  for (const auto& [uri, document] : documents_)
+    if (!document->is_configuration()) programs.push_back(document.get());
+  return programs;
+}
+
+void OpenDocuments::reconfigure(const ClientPointer& client) {
+  for (const auto& [uri, document] : documents_) document->reconfigure(client);
+}
+
+void OpenDocuments::withdraw_configuration_diagnostics() {
+  for (const std::string& uri : std::exchange(reported_configurations_, {}))
+    if (!documents_.contains(uri))
+      outbox_.notify("textDocument/publishDiagnostics", rpc::write({{"uri", uri}, {"diagnostics", Json::array()}}));
+}
+
+void OpenDocuments::report_progress(const std::string& token, const std::optional<std::string>& title) {
+  if (title) outbox_.request("window/workDoneProgress/create", {{"token", token}});
+  const Json value = title ? Json{{"kind", "begin"}, {"title", *title}, {"cancellable", false}} : Json{{"kind", "end"}};
+  outbox_.notify("$/progress", rpc::write({{"token", token}, {"value", value}}));
+}
+
+/// For a configuration that the editor has open, its OpenDocument reports the diagnostics.
+void OpenDocuments::report_configuration(const std::string& uri, const std::string& params) {
+  if (documents_.contains(uri)) return;
+  reported_configurations_.insert(uri);
+  outbox_.notify("textDocument/publishDiagnostics", params);
+}
+
+}  // namespace isocnc::lsp
