@@ -42,7 +42,7 @@ void simulate(benchmark::State& state, const Case& of) {
   simulation::Simulation simulation(of.program, of.options, of.machine);
   for (auto _ : state) {
     simulation = simulation::Simulation(of.program, of.options, of.machine);
-    simulation.advance_to(std::numeric_limits<double>::infinity());
+    while (!simulation.has_ended()) simulation.step_block();
   }
   count_blocks(state, simulation.blocks());
 }

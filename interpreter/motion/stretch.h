@@ -23,11 +23,12 @@ struct Phase {
 
 /// Position and motion of the machine at one moment.
 struct Sample {
-  double time = 0;                                        ///< Time since the planner's start, s.
-  geometry::Pose tip;                                     ///< Pose of the tip, machine frame.
-  Coordinates joints = Coordinates::Zero();               ///< Positions of the joints, mm and degrees.
-  Coordinates joint_speeds = Coordinates::Zero();         ///< First derivatives in time, mm/s and degrees/s.
-  Coordinates joint_accelerations = Coordinates::Zero();  ///< Second derivatives in time, mm/s^2 and degrees/s^2.
+  double time = 0;                           ///< Time since the planner's start, s.
+  geometry::Pose tip;                        ///< Pose of the tip, machine frame.
+  Coordinates joints = Coordinates::Zero();  ///< Positions of the joints, mm and degrees.
+  /// First and second derivatives of `joints` in time. Only tests read them: they hold each axis against its limits.
+  Coordinates joint_speeds = Coordinates::Zero();         ///< mm/s and degrees/s.
+  Coordinates joint_accelerations = Coordinates::Zero();  ///< mm/s^2 and degrees/s^2.
   double speed = 0;                                       ///< Speed of the tip, mm/s; 0 where B and C alone move.
   double acceleration = 0;                                ///< Acceleration along the tip's path, mm/s^2.
 };

@@ -45,11 +45,6 @@ void History::go_to_block(std::uint64_t blocks) {
   while (!present_.has_ended() && (present_.blocks() < blocks || present_.is_in_block())) step_block();
 }
 
-void History::go_to_time(double seconds) {
-  start_from([&](const Simulation& simulation) { return simulation.time() < seconds; });
-  while (!present_.has_ended() && present_.time() < seconds) advance_in_block(seconds);
-}
-
 /// Goes to the last available simulation that satisfies the predicate, else to the program start. The predicate must
 /// hold for all earlier ones, too.
 template <class Predicate>

@@ -43,8 +43,6 @@ class History {
   void step_back();
   /// Goes back or forward to the point after `blocks` blocks, before the next one starts; at most to the end.
   void go_to_block(std::uint64_t blocks);
-  /// Goes back or forward to the first moment that is `seconds` after the program start; at most to the end.
-  void go_to_time(double seconds);
 
   /// Goes forward to the last checkpoint that is not past the line. Without a checkpoint nearer than the present
   /// nothing changes.
@@ -73,7 +71,8 @@ class History {
   void set_register(int reg, double value);
   void set_vgpl(double value);
 
-  /// Approximate memory of all checkpoints, in bytes.
+  /// Approximate memory of all checkpoints, in bytes. Public for tests and measurements, which hold it against the
+  /// limits.
   std::size_t memory() const;
 
  private:

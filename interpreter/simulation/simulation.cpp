@@ -77,10 +77,6 @@ Simulation::Simulation(const Simulation& before, const running::Runner& run, con
 
 void Simulation::step_block(const BeforeReading& before_reading) { advance_in_block(kForever, before_reading); }
 
-void Simulation::advance_to(double seconds, const BeforeReading& before_reading) {
-  while (!has_ended() && seconds > time_) advance_in_block(seconds, before_reading);
-}
-
 void Simulation::advance_in_block(double seconds, const BeforeReading& before_reading) {
   if (has_ended() || !(seconds > time_)) return;
   if (!in_block_) start_block();

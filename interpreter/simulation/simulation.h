@@ -52,9 +52,8 @@ class Simulation {
   /// Advances to the end of the block in progress or, between two blocks, of the next one. Blocks that take no time
   /// count, empty lines do not (D13). An error of the next block ends the program.
   void step_block(const BeforeReading& before_reading = {});
-  /// Advances to `seconds` after the program start, or to the end.
-  void advance_to(double seconds, const BeforeReading& before_reading = {});
-  /// Like advance_to(), but at most to the end of the block in progress or, between two blocks, of the next one.
+  /// Advances to `seconds` after the program start; at most to the end of the block in progress or, between two blocks,
+  /// of the next one.
   void advance_in_block(double seconds, const BeforeReading& before_reading = {});
   /// Advances by a length of path, in mm or degrees as in DistanceToGo; at most to the end of the path of the block in
   /// progress or, between two blocks, of the next one.
@@ -83,7 +82,7 @@ class Simulation {
   double vgpl() const { return present_.vgpl(); }
 
   /// The motion, dwell or other event in progress; null between two blocks and during blocks that take no time. Valid
-  /// until the next non-const call.
+  /// until the next non-const call. Public for tests, which compare it after steps back and forth.
   const running::Event* event() const;
   /// The current or next motion of the block in progress as the machine makes it: offset from the contour under G41 and
   /// G42, and off the program after a change to a tool of another length. Null without a motion. Valid until the next

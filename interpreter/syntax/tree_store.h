@@ -61,7 +61,8 @@ class TreeStore {
   }
   /// Number of bytes of the line's text.
   std::uint32_t length(std::size_t index) const { return lines_[index].length; }
-  /// append_line() without its fast path for plain lines: the same trees, but slower.
+  /// append_line() without its fast path for plain lines: the same trees, but slower. Public for tests, which compare
+  /// the trees.
   const char* append_any_line(const char* begin, const char* end);
 
  private:

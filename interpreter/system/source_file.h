@@ -53,6 +53,7 @@ class SourceFile {
 inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 /// Whether a line has more than `limit` bytes without its end. For short lines it reads about one byte in `limit`.
+/// Public for tests, which try it with short limits.
 bool has_line_longer_than(std::size_t limit, std::string_view text);
 
 }  // namespace isocnc::system

@@ -30,16 +30,15 @@ class FrameReader {
  public:
   /// In bytes. A program of 10 million lines, as JSON, takes a third of it.
   static constexpr std::size_t kLongestBody = std::size_t{1} << 30;
-  static constexpr std::size_t kLongestHeader = 8192;
 
   explicit FrameReader(std::size_t longest_body = kLongestBody) : longest_body_(longest_body) {}
 
   /// Reads more bytes and appends the messages that they complete.
   void read(std::string_view bytes, std::deque<Frame>& frames);
-  /// Whether the stream may end here without cutting a message off.
-  bool is_between_messages() const { return state_ == State::Header && header_.empty(); }
 
  private:
+  static constexpr std::size_t kLongestHeader = 8192;
+
   enum class State : std::uint8_t { Header, Body, Skipped, Lost };
 
   std::string_view read_header(std::string_view bytes, std::deque<Frame>& frames);

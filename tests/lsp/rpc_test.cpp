@@ -63,7 +63,7 @@ const FrameCase kFrameCases[] = {
     {"Content-Length: 2\r\nContent-Length: 3\r\n\r\n{}", {"<no length>"}},
     {"\r\n\r\n\r\nContent-Length: 2\r\n\r\n{}", {"<no length>", "{}"}},
     {"GET / HTTP/1.1\r\nHost: x\r\n\r\nCoCoContent-Length: 2\r\n\r\n{}", {"<no length>", "{}"}},
-    {std::string(2 * FrameReader::kLongestHeader, 'x') + "Content-Length: 2\r\n\r\n{}", {"<no length>", "{}"}},
+    {std::string(100'000, 'x') + "Content-Length: 2\r\n\r\n{}", {"<no length>", "{}"}},
     // A message longer than the maximum is skipped.
     {"Content-Length: 101\r\n\r\n" + std::string(101, 'x') + "Content-Length: 2\r\n\r\n{}", {"<too long>", "{}"}},
     {"Content-Length: 99999999999999999999999999\r\n\r\n{}", {"<too long>"}},
@@ -79,16 +79,6 @@ TEST(FrameReader, DoesNotCareHowTheStreamIsCut) {
     for (const char c : each.stream) bytes.emplace_back(1, c);
     EXPECT_EQ(read(bytes), each.frames) << each.stream;
   }
-}
-
-TEST(FrameReader, KnowsWhetherAMessageWasCutOff) {
-  FrameReader reader;
-  std::deque<Frame> frames;
-  EXPECT_TRUE(reader.is_between_messages());
-  reader.read("Content-Length: 2\r\n\r\n{", frames);
-  EXPECT_FALSE(reader.is_between_messages());
-  reader.read("}", frames);
-  EXPECT_TRUE(reader.is_between_messages());
 }
 
 /// A message with a long text, given in its JSON form.

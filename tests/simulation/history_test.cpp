@@ -41,12 +41,6 @@ class HistoryTest : public testing::Test {
     return fresh;
   }
 
-  Simulation fresh_at(double seconds) const {
-    Simulation fresh = *begin_;
-    fresh.advance_to(seconds);
-    return fresh;
-  }
-
  private:
   std::string text_;
   running::RunOptions options_;
@@ -226,18 +220,12 @@ TEST_F(HistoryTest, WalksAsAFreshRun) {
     Simulation end = fresh_before(1'000'000);
     for (int i = 0; i < 40; ++i) {
       const auto block = static_cast<std::uint64_t>(random.between(0, static_cast<int>(end.blocks()) + 1));
-      switch (random.between(0, 4)) {
+      switch (random.between(0, 3)) {
         case 0:
           history.go_to_block(block);
           ASSERT_EQ(shown(history.present()), shown(fresh_before(block))) << seed;
           break;
         case 1: {
-          const double seconds = random.real(0, 1.1 * end.time());
-          history.go_to_time(seconds);
-          ASSERT_EQ(shown(history.present()), shown(fresh_at(seconds))) << seed;
-          break;
-        }
-        case 2: {
           const std::uint64_t blocks = history.present().blocks();
           const bool was_stopped =
               history.present().has_ended() && history.present().run().ending == running::Ending::Error;

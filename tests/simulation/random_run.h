@@ -23,6 +23,11 @@ inline TimedMachine machine_of_tests(bool limits_jerk = false) {
   return machine;
 }
 
+/// Advances to `seconds` after the program start, or to the end.
+inline void advance_to(Simulation& simulation, double seconds) {
+  while (!simulation.has_ended() && seconds > simulation.time()) simulation.advance_in_block(seconds);
+}
+
 /// Options with which the program starts at the machine's home.
 inline running::RunOptions options_for(const TimedMachine& machine) {
   running::RunOptions options;

@@ -92,7 +92,7 @@ TEST(Simulation, ShowsWhereTheToolEnds) {
     EXPECT_NEAR(simulation.sample().tip.tip.z(), tip, kTiny) << "line " << simulation.line();
     EXPECT_NEAR(simulation.sample().joints[motion::kZ], nose, kTiny) << "line " << simulation.line();
   };
-  simulation.advance_to(4);
+  advance_to(simulation, 4);
   expect(400, 400);
   simulation.step_block();
   expect(320, 400);
@@ -230,7 +230,7 @@ TEST(Simulation, MovesWithoutStepsOfTheAccelerationWhereJerkIsLimited) {
   Simulation simulation = line.start();
   simulation.step_block();
   const double start = simulation.time();
-  simulation.advance_to(start + 0.005);
+  advance_to(simulation, start + 0.005);
   const double jerk = simulation.sample().acceleration / 0.005;
   EXPECT_GT(jerk, 0);
   EXPECT_LE(jerk, *line.machine().motion.axes[motion::kX].jerk * (1 + kTiny));
@@ -314,7 +314,7 @@ TEST(Simulation, StopsAtAnyPointOfAnArc) {
 TEST(Simulation, StopsInsideADwell) {
   const Case dwell{"M06 T101001\nG4 P2\nG1 X1 F100\nM02\n"};
   Simulation simulation = dwell.start();
-  simulation.advance_to(6.5);
+  advance_to(simulation, 6.5);
   ASSERT_NE(simulation.event(), nullptr);
   EXPECT_EQ(running::kind_of(*simulation.event()), "dwell");
   EXPECT_EQ(simulation.to_go().path, 0);
@@ -331,7 +331,7 @@ TEST(Simulation, WaitsForTheChannelInTheBlockOfTheExactStop) {
   simulation.step_block();
   const double end = simulation.time();
   Simulation waiting = stop.start();
-  waiting.advance_to(end - 0.1);
+  advance_to(waiting, end - 0.1);
   EXPECT_TRUE(waiting.is_in_block());
   EXPECT_EQ(waiting.line(), 1u);
   EXPECT_EQ(waiting.event(), nullptr);
@@ -413,7 +413,7 @@ TEST(SimulationProperty, FollowsThePathOfARunInOneGo) {
       const double middle = stretch.start + stretch.duration / 2;
       if (middle <= stretch.start || middle >= stretch.start + stretch.duration)
         continue;  // A stretch too short to have a moment within it.
-      simulation.advance_to(middle);
+      advance_to(simulation, middle);
       const motion::Sample expected = stretch.at(some.machine().motion.kinematics, middle);
       ASSERT_EQ(simulation.sample().joints, expected.joints) << seed << " at " << middle;
       ASSERT_EQ(simulation.sample().tip.tip, expected.tip.tip) << seed << " at " << middle;
@@ -450,7 +450,7 @@ TEST(SimulationProperty, EndsAsARunInOneGo) {
     const Timing& timing = trip.timing;
     const running::RunResult& result = trip.result;
     Simulation simulation = some.start();
-    simulation.advance_to(1e9);
+    advance_to(simulation, 1e9);
     EXPECT_TRUE(simulation.has_ended());
     EXPECT_EQ(simulation.time(), timing.time()) << seed;
     EXPECT_EQ(simulation.run().state, result.state) << seed;
@@ -484,7 +484,7 @@ TEST(SimulationProperty, GoesOnAsTheOriginalAndAsAFreshRun) {
     }
     const double end = simulation->time();
     simulation->step_block();
-    simulation->advance_to(2 * end + 1);
+    advance_to(*simulation, 2 * end + 1);
     EXPECT_EQ(simulation->time(), end) << seed;
   }
 }
@@ -515,7 +515,7 @@ TEST(SimulationProperty, MovesAtTheSpeedThatItShows) {
     Simulation simulation = some.start();
     motion::Sample last = simulation.sample();
     for (int step = 1; !simulation.has_ended(); ++step) {
-      simulation.advance_to(step * kStep);
+      advance_to(simulation, step * kStep);
       const motion::Sample now = simulation.sample();
       const double tolerance = kMaxAcceleration * kStep * kStep + kTiny;
       const motion::Coordinates expected = kStep * (last.joint_speeds + now.joint_speeds) / 2;
