@@ -1,0 +1,53 @@
+# Writes OUT: the file TEMPLATE, with the C++ snippets of the pages PAGES (paths in ROOT) in place of its lines
+# `//@ PAGE: HEADING`. Fails where a snippet has no such line, or a line no such snippet.
+
+cmake_minimum_required(VERSION 3.25)
+file(READ ${TEMPLATE} rest)
+set(start "\n```cpp\n")
+
+foreach(page IN LISTS PAGES)
+  file(READ ${ROOT}/${page} text)
+  set(cursor 0)
+  while(TRUE)
+    string(SUBSTRING "${text}" ${cursor} -1 tail)
+    string(FIND "${tail}" "${start}" at)
+    if(at EQUAL -1)
+      break()
+    endif()
+    math(EXPR at "${at} + ${cursor}")
+    string(SUBSTRING "${text}" 0 ${at} before)
+    math(EXPR cursor "${at} + 8")
+    string(SUBSTRING "${text}" ${cursor} -1 tail)
+    string(FIND "${tail}" "\n```" length)
+    string(SUBSTRING "${tail}" 0 ${length} snippet)
+
+    string(FIND "${before}" "\n#" heading REVERSE)
+    string(SUBSTRING "${before}" ${heading} -1 heading)
+    string(REGEX MATCH "\n#+ ([^\n]*)" heading "${heading}")
+    set(heading "${CMAKE_MATCH_1}")
+    string(REGEX REPLACE "[^\n]" "" lines "${before}")
+    string(LENGTH "${lines}" line)
+    math(EXPR line "${line} + 3")
+
+    # What a snippet leaves out.
+    string(REPLACE "\n  ...\n" "\n  return {};\n" snippet "${snippet}")
+    string(REPLACE "{ ... }" "{ return {}; }" snippet "${snippet}")
+
+    set(mark "\n//@ ${page}: ${heading}\n")
+    string(FIND "${rest}" "${mark}" place)
+    if(place EQUAL -1)
+      message(FATAL_ERROR "${page}:${line}: snippets.cpp.in has no (further) line '//@ ${page}: ${heading}'")
+    endif()
+    string(LENGTH "${mark}" length)
+    math(EXPR after "${place} + ${length}")
+    string(SUBSTRING "${rest}" 0 ${place} head)
+    string(SUBSTRING "${rest}" ${after} -1 after)
+    set(rest "${head}\n#line ${line} \"${ROOT}/${page}\"\n${snippet}\n${after}")
+  endwhile()
+endforeach()
+
+string(REGEX MATCH "\n//@ [^\n]*" unused "${rest}")
+if(unused)
+  message(FATAL_ERROR "no page has a snippet for this line of snippets.cpp.in:${unused}")
+endif()
+file(WRITE ${OUT} "${rest}")
