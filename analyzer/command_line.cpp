@@ -14,22 +14,22 @@ namespace isocnc::analyzer {
 
 using dialect::Language;
 
-Language Options::reader_language() const {
+Language LintCommandOptions::reader_language() const {
   return dialect::language_named(language).value_or(dialect::language_of_environment());
 }
 
-void Options::follow(const configuration::Configuration& configuration) {
+void LintCommandOptions::follow(const configuration::Configuration& configuration) {
   if (language.empty() && configuration.language) language = dialect::name_of(*configuration.language);
 }
 
-bool Options::wants_color() const {
+bool LintCommandOptions::wants_color() const {
   if (color != "auto") return color == "always";
   const int descriptor = prints_program() ? STDERR_FILENO : STDOUT_FILENO;
   // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody sets a variable.
   return output.empty() && isatty(descriptor) != 0 && std::getenv("NO_COLOR") == nullptr;
 }
 
-bool Options::prints_program() const { return fix && !diff && paths.size() == 1 && paths.front() == "-"; }
+bool LintCommandOptions::prints_program() const { return fix && !diff && paths.size() == 1 && paths.front() == "-"; }
 
 /// `text, concise, ...`, folded into lines that fit beside the options.
 static std::string listed(const std::vector<std::string>& names) {
@@ -45,7 +45,7 @@ static std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-static void add_options(command_line::ProgramApp& program, Options& options) {
+static void add_options(command_line::ProgramApp& program, LintCommandOptions& options) {
   static constexpr dialect::Text kCodes = {"CODES", "CODICI"};
   program.add_option(
       "PATH", options.paths, {"...", "..."},

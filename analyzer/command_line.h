@@ -10,7 +10,7 @@
 namespace isocnc::analyzer {
 
 /// The options of an isolint command.
-struct Options {
+struct LintCommandOptions {
   std::vector<std::string> paths;
   std::string format = "text";
   std::string output;  ///< The output file; empty: standard output.
@@ -34,7 +34,7 @@ struct Options {
   bool config_schema = false;
   bool config_keys = false;
   bool machine_page = false;
-  configuration::Source source;
+  configuration::ConfigurationSource source;
 
   dialect::Language reader_language() const;
   /// Uses the configuration's language from now on, unless the command line names one.
@@ -47,7 +47,7 @@ struct Options {
 
 /// The options, or the text to print instead of a check.
 struct CommandLine {
-  Options options;
+  LintCommandOptions options;
   std::optional<std::string> answer;     ///< The answer to `--help` or `--version`.
   std::optional<std::string> complaint;  ///< The error in the command.
 };

@@ -32,10 +32,10 @@ using system::SourceFile;
 
 using system::ExitStatus;
 
-enum class Mode { Check, Diff, Stdout, InPlace };
+enum class OutputMode { Check, Diff, Stdout, InPlace };
 
 /// The options as given on the command line.
-struct Options {
+struct FormatCommandOptions {
   std::vector<std::string> paths;
   bool check = false;
   bool diff = false;
@@ -49,16 +49,16 @@ struct Options {
   std::string modal;
   std::string g_digits;
   std::string language;
-  configuration::Source source;
+  configuration::ConfigurationSource source;
   std::string stdin_name = "<stdin>";
 
   Language reader_language() const {
     return dialect::language_named(language).value_or(dialect::language_of_environment());
   }
-  Mode mode() const {
-    if (check) return Mode::Check;
-    if (diff) return Mode::Diff;
-    return in_place ? Mode::InPlace : Mode::Stdout;
+  OutputMode mode() const {
+    if (check) return OutputMode::Check;
+    if (diff) return OutputMode::Diff;
+    return in_place ? OutputMode::InPlace : OutputMode::Stdout;
   }
 };
 
@@ -97,7 +97,7 @@ void override_value(std::optional<int>& value, const std::string& option) {
 }
 
 /// The configuration's style, overridden by the command line. The options must be valid.
-formatting::ProgramStyle style_from(configuration::Format format, const Options& options) {
+formatting::ProgramStyle style_from(configuration::Format format, const FormatCommandOptions& options) {
   if (options.word_order || options.no_word_order) format.word_order = options.word_order;
   override_value(format.decimals, options.decimals);
   override_value(format.g_digits, options.g_digits);
@@ -110,7 +110,7 @@ formatting::ProgramStyle style_from(configuration::Format format, const Options&
 }
 
 /// Whether the options are valid; if not, an error has been printed.
-bool check_options(const Options& options) {
+bool check_options(const FormatCommandOptions& options) {
   const Language language = options.reader_language();
   const bool renumbers = !options.renumber.empty() && options.renumber != "keep";
   if (renumbers && !read_numbers(options.renumber)) {
@@ -134,9 +134,9 @@ std::vector<std::string> decimals_choices() {
 }
 
 /// Formats programs one after another.
-class Run {
+class FormatRun {
  public:
-  Run(const Options& options, const input::FileSelection& selection)
+  FormatRun(const FormatCommandOptions& options, const input::FileSelection& selection)
       : options_(options),
         selection_(selection),
         mode_(options.mode()),
@@ -155,17 +155,18 @@ class Run {
       complain(fmt::format("<stdout>: {}", system::cannot_write(output_.error(), language_)));
       return ExitStatus::Failure;
     }
-    if (mode_ != Mode::Stdout) {
-      const Text& summary = mode_ == Mode::InPlace ? kWereChanged : kWouldBeChanged;
+    if (mode_ != OutputMode::Stdout) {
+      const Text& summary = mode_ == OutputMode::InPlace ? kWereChanged : kWouldBeChanged;
       std::cerr << dialect::format(summary, language_, changed_, read_) << '\n';
     }
     if (failed_) return ExitStatus::Failure;
-    return changed_ > 0 && (mode_ == Mode::Check || mode_ == Mode::Diff) ? ExitStatus::Findings : ExitStatus::Success;
+    return changed_ > 0 && (mode_ == OutputMode::Check || mode_ == OutputMode::Diff) ? ExitStatus::Findings
+                                                                                     : ExitStatus::Success;
   }
 
  private:
   /// Whether the output would overwrite the progress bar.
-  bool shares_terminal() const { return mode_ != Mode::InPlace && ::isatty(STDOUT_FILENO) != 0; }
+  bool shares_terminal() const { return mode_ != OutputMode::InPlace && ::isatty(STDOUT_FILENO) != 0; }
 
   void fail(std::string_view name, std::string_view why) {
     progress_.clear();
@@ -177,7 +178,7 @@ class Run {
     const bool from_stdin = file == "-";
     const std::string name = from_stdin ? options_.stdin_name : file.string();
     std::optional<system::FileReplacement> replacement;
-    if (mode_ == Mode::InPlace) replacement.emplace(file);  // Before the file is read.
+    if (mode_ == OutputMode::InPlace) replacement.emplace(file);  // Before the file is read.
     const auto opened =
         from_stdin ? SourceFile::read_stream(STDIN_FILENO, language_) : SourceFile::open(file, language_);
     if (const auto* problem = std::get_if<SourceFile::Problem>(&opened)) return fail(name, problem->message);
@@ -188,16 +189,16 @@ class Run {
       return fail(name, dialect::format(kNotRenumbered, language_, obstacle->message(language_)));
     shown_bytes_ = 0;
     switch (mode_) {
-      case Mode::Check:
+      case OutputMode::Check:
         check(formatter, name);
         break;
-      case Mode::Diff:
+      case OutputMode::Diff:
         show_difference(formatter, name, source.has_byte_order_mark());
         break;
-      case Mode::Stdout:
+      case OutputMode::Stdout:
         print(formatter, source);
         break;
-      case Mode::InPlace:
+      case OutputMode::InPlace:
         replace(formatter, source, *replacement, name);
         break;
     }
@@ -252,9 +253,9 @@ class Run {
     ++changed_;
   }
 
-  const Options& options_;
+  const FormatCommandOptions& options_;
   const input::FileSelection& selection_;
-  const Mode mode_;
+  const OutputMode mode_;
   const Language language_;
   command_line::Progress progress_;
   std::size_t shown_bytes_ = 0;  // Bytes of the file that the progress bar has counted.
@@ -265,7 +266,7 @@ class Run {
 };
 
 /// Formats the files. The first path's configuration decides the language: a command uses one language.
-ExitStatus format(Options options) {
+ExitStatus format(FormatCommandOptions options) {
   configuration::Configurations configurations(options.source, options.reader_language());
   const auto& first = configurations.of(input::place_of_program(options.paths.front(), options.stdin_name));
   if (options.language.empty() && first.language) options.language = dialect::name_of(*first.language);
@@ -281,18 +282,18 @@ ExitStatus format(Options options) {
   if (!mistakes.empty()) return ExitStatus::Failure;
   for (const std::string& problem : selection.problems) complain(problem);
   if (selection.is_refused) return ExitStatus::Failure;
-  if (options.mode() == Mode::Stdout && selection.files.size() > 1) {
+  if (options.mode() == OutputMode::Stdout && selection.files.size() > 1) {
     complain(dialect::format(kOneProgram, language, selection.files.size()));
     return ExitStatus::Failure;
   }
-  if (options.mode() == Mode::InPlace && options.paths.front() == "-") {
+  if (options.mode() == OutputMode::InPlace && options.paths.front() == "-") {
     complain(kStandardInputInPlace.in(language));
     return ExitStatus::Failure;
   }
-  return Run(options, selection).run(styles);
+  return FormatRun(options, selection).run(styles);
 }
 
-void add_options(command_line::ProgramApp& program, Options& options) {
+void add_options(command_line::ProgramApp& program, FormatCommandOptions& options) {
   program
       .add_option("PATH", options.paths, {"...", "..."},
                   {"Programs, directories (searched for .iso .nc .cnc\n.tap .ngc), or - for standard input",
@@ -350,7 +351,7 @@ void add_options(command_line::ProgramApp& program, Options& options) {
 }
 
 ExitStatus run_main(int argc, char** argv) {
-  Options options;
+  FormatCommandOptions options;
   command_line::ProgramApp program(
       argc, argv,
       {"Formats ISOCNC programs. What a program does stays as it is.",

@@ -51,9 +51,9 @@ bool complain_of(const configuration::Configurations& configurations, Language l
 }
 
 /// The output of findings and all other answers.
-class Answer final : public formats::Output {
+class LintOutput final : public formats::Output {
  public:
-  explicit Answer(const Options& options)
+  explicit LintOutput(const LintCommandOptions& options)
       : path_(options.output),
         language_(options.reader_language()),
         descriptor_(options.prints_program() ? STDERR_FILENO : STDOUT_FILENO),
@@ -80,8 +80,8 @@ class Answer final : public formats::Output {
 };
 
 /// Prints an answer other than findings.
-ExitStatus say(std::string_view text, const Options& options) {
-  Answer answer(options);
+ExitStatus say(std::string_view text, const LintCommandOptions& options) {
+  LintOutput answer(options);
   answer.buffer() += text;
   return answer.finish() ? ExitStatus::Success : ExitStatus::Failure;
 }
@@ -93,10 +93,10 @@ struct Programs {
 };
 
 /// Checks files in parallel and shows the findings in the order of the files.
-class Run {
+class LintRun {
  public:
-  Run(const Options& options, const formats::Style& style, std::unique_ptr<formats::Renderer> renderer,
-      std::optional<selection::Baseline> baseline, Programs programs)
+  LintRun(const LintCommandOptions& options, const formats::ReportStyle& style,
+          std::unique_ptr<formats::Renderer> renderer, std::optional<selection::Baseline> baseline, Programs programs)
       : options_(options),
         style_(style),
         baseline_(std::move(baseline)),
@@ -134,7 +134,7 @@ class Run {
 
  private:
   /// A program and its findings.
-  struct Checked {
+  struct CheckedFile {
     std::string name;
     std::variant<SourceFile, SourceFile::Problem> opened;
     const selection::ProgramSettings& settings;
@@ -148,7 +148,7 @@ class Run {
 
   void work() {
     for (std::size_t index = next_++; index < files_.size(); index = next_++) {
-      const Checked checked = check(files_[index], settings_[index]);
+      const CheckedFile checked = check(files_[index], settings_[index]);
       std::unique_lock lock(mutex_);
       turn_changed_.wait(lock, [&] { return turn_ == index; });
       show(checked);
@@ -157,11 +157,11 @@ class Run {
     }
   }
 
-  Checked check(const std::filesystem::path& path, const selection::ProgramSettings& settings) {
+  CheckedFile check(const std::filesystem::path& path, const selection::ProgramSettings& settings) {
     const bool from_stdin = path == "-";
     std::optional<fixing::FileFixing> fixing;
     if (options_.fix && !options_.diff && !from_stdin) fixing.emplace(path);  // Before the file is read.
-    Checked checked{
+    CheckedFile checked{
         from_stdin ? options_.stdin_name : path.string(),
         from_stdin ? SourceFile::read_stream(STDIN_FILENO, style_.language) : SourceFile::open(path, style_.language),
         settings};
@@ -187,7 +187,7 @@ class Run {
     return checked;
   }
 
-  void fix(Checked& checked) {
+  void fix(CheckedFile& checked) {
     const std::string_view text = checked.original();
     const fixing::FixOptions fix_options{.selection = checked.settings.selection,
                                          .setup = checked.settings.setup,
@@ -206,7 +206,7 @@ class Run {
     return baseline_ ? baseline_->without_known(std::move(report), name, text) : report;
   }
 
-  void show(const Checked& checked) {
+  void show(const CheckedFile& checked) {
     progress_.clear();
     if (const auto* problem = std::get_if<SourceFile::Problem>(&checked.opened)) {
       complain(fmt::format("{}: {}", checked.name, problem->message));
@@ -228,7 +228,7 @@ class Run {
     renderer_->file({checked.name, checked.text(), checked.report, checked.settings.setup}, output_);
   }
 
-  void show_difference(const Checked& checked) {
+  void show_difference(const CheckedFile& checked) {
     const auto& source = std::get<SourceFile>(checked.opened);
     has_difference_ |= fixing::write_diff(checked.name, source, *checked.fixed, [&](std::string_view text) {
       output_.buffer() += text;
@@ -274,8 +274,8 @@ class Run {
 
   static constexpr std::size_t kLargeFile = 8 * 1024 * 1024;
 
-  const Options& options_;
-  const formats::Style& style_;
+  const LintCommandOptions& options_;
+  const formats::ReportStyle& style_;
   const std::optional<selection::Baseline> baseline_;
   const std::vector<std::filesystem::path> files_;
   const std::vector<std::reference_wrapper<const selection::ProgramSettings>> settings_;
@@ -287,7 +287,7 @@ class Run {
   std::mutex mutex_;
   std::condition_variable turn_changed_;
   std::size_t turn_ = 0;  // Guarded by mutex_, like the members below.
-  Answer output_;
+  LintOutput output_;
   selection::Tally tally_;
   system::OutputFile program_{STDOUT_FILENO};  // The output of --fix -.
   std::size_t files_checked_ = 0;
@@ -309,12 +309,12 @@ class Recorder final : public formats::Renderer {
 };
 
 /// Checks, and writes all findings as a baseline, unless programs would be missing from it.
-ExitStatus record(Options options, const formats::Style& style, Programs programs, bool failed) {
+ExitStatus record(LintCommandOptions options, const formats::ReportStyle& style, Programs programs, bool failed) {
   const bool italian = style.language == Language::Italian;
   const std::string& file = options.write_baseline;
   options.exit_zero = true;  // Findings that are recorded are no failure.
   selection::Baseline baseline(file);
-  if (Run(options, style, std::make_unique<Recorder>(baseline), {}, std::move(programs)).run(failed) !=
+  if (LintRun(options, style, std::make_unique<Recorder>(baseline), {}, std::move(programs)).run(failed) !=
       ExitStatus::Success) {
     complain(fmt::format("{}: {}", file, italian ? "non scritto" : "not written"));
     return ExitStatus::Failure;
@@ -327,7 +327,7 @@ ExitStatus record(Options options, const formats::Style& style, Programs program
 }
 
 /// The programs to check; nothing, after an error message, if the check cannot start.
-std::optional<Programs> find_programs(const Options& options, configuration::Configurations& configurations,
+std::optional<Programs> find_programs(const LintCommandOptions& options, configuration::Configurations& configurations,
                                       selection::SettingsFinder& settings, bool& failed) {
   const Language language = options.reader_language();
   input::FileSelection found = input::select_programs(options.paths, configurations, language);
@@ -347,7 +347,8 @@ std::optional<Programs> find_programs(const Options& options, configuration::Con
 
 /// The reason why `written` must not be overwritten: it is one of the programs, which would lose their lines during the
 /// check, or another input. Null if it is neither.
-const dialect::Text* overwritten_input(const std::string& written, const Programs& programs, const Options& options,
+const dialect::Text* overwritten_input(const std::string& written, const Programs& programs,
+                                       const LintCommandOptions& options,
                                        configuration::Configurations& configurations) {
   static constexpr dialect::Text kProgram = {"is one of the programs to be checked",
                                              "è uno dei programmi da verificare"};
@@ -367,11 +368,11 @@ const dialect::Text* overwritten_input(const std::string& written, const Program
 }
 
 /// Checks the files. The first path's configuration decides the language: a command uses one language.
-ExitStatus check(Options options) {
+ExitStatus check(LintCommandOptions options) {
   if (options.paths.empty()) options.paths = {"."};
   configuration::Configurations configurations(options.source, options.reader_language());
   options.follow(configurations.of(input::place_of_program(options.paths.front(), options.stdin_name)));
-  const formats::Style style{
+  const formats::ReportStyle style{
       .language = options.reader_language(), .color = options.wants_color(), .unsafe_fixes = options.unsafe_fixes};
   const std::vector<std::string> problems = selection::Selection().follow(options.selection, style.language);
   for (const std::string& problem : problems) complain(problem);
@@ -404,10 +405,10 @@ ExitStatus check(Options options) {
     }
     baseline = std::get<selection::Baseline>(std::move(read));
   }
-  return Run(options, style, std::move(renderer), std::move(baseline), *std::move(programs)).run(failed);
+  return LintRun(options, style, std::move(renderer), std::move(baseline), *std::move(programs)).run(failed);
 }
 
-ExitStatus explain_code(const Options& options) {
+ExitStatus explain_code(const LintCommandOptions& options) {
   const Language language = options.reader_language();
   if (const auto id = dialect::find_diagnostic(options.explain)) return say(explain(*id, language), options);
   complain(selection::unknown_code(options.explain, language));
@@ -424,7 +425,7 @@ configuration::Configuration without_other_files(configuration::Configuration sh
 }
 
 /// Prints a configuration as its file could write it, and the file that it comes from.
-ExitStatus show_config(Options options) {
+ExitStatus show_config(LintCommandOptions options) {
   static constexpr dialect::Text kFrom = {"configuration: {}", "configurazione: {}"};
   static constexpr dialect::Text kDefaults = {"no isocnc.json: these are the defaults",
                                               "nessun isocnc.json: valgono questi valori predefiniti"};
@@ -449,7 +450,7 @@ ExitStatus show_config(Options options) {
 
 ExitStatus run_main(int argc, char** argv) {
   const CommandLine command = read_command_line(argc, argv);
-  const Options& options = command.options;
+  const LintCommandOptions& options = command.options;
   if (command.answer) return say(*command.answer, options);
   if (command.complaint) {
     command_line::complain_of_command("isolint", *command.complaint);

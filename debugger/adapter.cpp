@@ -28,11 +28,12 @@ Adapter::Adapter(lsp::rpc::Loop& loop, lsp::rpc::Send send, std::optional<dialec
       send_(std::move(send)),
       session_(
           loop, [this](std::string_view event, const Json& body) { emit(event, body); }, language) {
-  for (const requests::Request* const request : requests::all_requests()) requests_[request->command] = request->answer;
+  for (const requests::DebugRequest* const request : requests::all_requests())
+    requests_[request->command] = request->answer;
 }
 
-void Adapter::receive(lsp::rpc::Frame frame) {
-  using Problem = lsp::rpc::Frame::Problem;
+void Adapter::receive(lsp::rpc::MessageFrame frame) {
+  using Problem = lsp::rpc::MessageFrame::Problem;
   if (has_ended_) return;
   if (frame.problem != Problem::None) return complain(frame.problem == Problem::NoLength ? kNoLength : kTooLong);
   const Json message = lsp::rpc::parse(frame.body);
@@ -69,10 +70,10 @@ void Adapter::answer(const Json& request) {
 /// The capabilities: the exception filters, and the part of each request.
 Json Adapter::initialize(const Json& arguments) {
   if (is_initialized_) throw RequestError(std::string(session_.in_language(kInitialized)));
-  session_.client() = arguments.get<session::Client>();
+  session_.client() = arguments.get<session::ClientProfile>();
   is_initialized_ = true;
   Json capabilities = {{"exceptionBreakpointFilters", exception_filters()}};
-  for (const requests::Request* const request : requests::all_requests())
+  for (const requests::DebugRequest* const request : requests::all_requests())
     if (request->capabilities != nullptr) capabilities.update(request->capabilities());
   return capabilities;
 }

@@ -23,7 +23,7 @@ class Adapter final : public lsp::rpc::Peer {
   Adapter& operator=(const Adapter&) = delete;
 
   // All on the loop's thread.
-  void receive(lsp::rpc::Frame frame) override;
+  void receive(lsp::rpc::MessageFrame frame) override;
   void end() override;
 
   /// 0 after `disconnect`, 1 after any other end.

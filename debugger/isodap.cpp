@@ -16,14 +16,14 @@ namespace {
 
 namespace rpc = lsp::rpc;
 
-struct Options {
+struct DebugCommandOptions {
   std::optional<std::uint16_t> port;
   std::string language;
 };
 
 void complain(std::string_view what) { command_line::complain("isodap", what); }
 
-system::ExitStatus run(const Options& options) {
+system::ExitStatus run(const DebugCommandOptions& options) {
   const auto make = [&](rpc::Loop& loop, rpc::Send send) {
     return std::make_unique<Adapter>(loop, std::move(send), dialect::language_named(options.language));
   };
@@ -32,7 +32,7 @@ system::ExitStatus run(const Options& options) {
 }
 
 system::ExitStatus run_main(int argc, char** argv) {
-  Options options;
+  DebugCommandOptions options;
   command_line::ProgramApp program(
       argc, argv,
       {"The debug adapter for ISOCNC programs: an editor starts it and speaks with it.",

@@ -37,7 +37,7 @@ using dialect::Text;
 using system::ExitStatus;
 
 /// The options of the command line as text. Numbers are parsed later, when the language of error messages is known.
-struct Options {
+struct RunCommandOptions {
   std::string file;
   std::string trace;
   std::string samples;
@@ -52,7 +52,7 @@ struct Options {
   std::string output;
   std::optional<std::string> clearance;
   std::string approach_feed = "1000";
-  configuration::Source source;
+  configuration::ConfigurationSource source;
   std::optional<std::string> machine;
 
   Language reader_language() const {
@@ -123,13 +123,13 @@ constexpr Text kOneStandardOutput{"--trace - and --samples - both want standard 
                                   "--trace - e --samples - vogliono tutti e due lo standard output"};
 
 /// Prints an error and returns none.
-std::nullopt_t refuse(const Text& why, std::string_view value, const Options& options) {
+std::nullopt_t refuse(const Text& why, std::string_view value, const RunCommandOptions& options) {
   complain(dialect::format(why, options.reader_language(), value));
   return std::nullopt;
 }
 
 /// The options of the run; none after an error message.
-std::optional<running::RunOptions> read_run_options(const Options& options) {
+std::optional<running::RunOptions> read_run_options(const RunCommandOptions& options) {
   running::RunOptions run;
   for (const std::string& setting : options.settings)
     if (!read_register(setting, run)) return refuse(kWrongSetting, setting, options);
@@ -145,7 +145,7 @@ std::optional<running::RunOptions> read_run_options(const Options& options) {
 }
 
 /// The outputs and their destinations; none after an error message.
-std::optional<RunOutputs> read_outputs(const Options& options) {
+std::optional<RunOutputs> read_outputs(const RunCommandOptions& options) {
   constexpr double kShortest = 1e-4;
   RunOutputs outputs{.trace = options.trace,
                      .samples = options.samples,
@@ -164,7 +164,8 @@ std::optional<RunOutputs> read_outputs(const Options& options) {
 }
 
 /// The options of the restart; none after an error message.
-std::optional<restart::RestartOptions> read_restart_options(const Options& options, const running::RunOptions& run) {
+std::optional<restart::RestartOptions> read_restart_options(const RunCommandOptions& options,
+                                                            const running::RunOptions& run) {
   restart::RestartOptions restart;
   restart.run = run;
   restart.language = options.reader_language();
@@ -183,7 +184,8 @@ std::optional<restart::RestartOptions> read_restart_options(const Options& optio
 }
 
 /// Prints a finding in the format of compilers.
-void print_finding(const Options& options, std::uint64_t line, dialect::DiagnosticId id, std::string_view message) {
+void print_finding(const RunCommandOptions& options, std::uint64_t line, dialect::DiagnosticId id,
+                   std::string_view message) {
   const dialect::DiagnosticDef& def = dialect::definition(id);
   std::cerr << syntax::printable(fmt::format("{}:{}: {}: {} [{}]", options.shown_file(), line + 1,
                                              dialect::severity_name(def.severity, options.reader_language()), message,
@@ -191,11 +193,11 @@ void print_finding(const Options& options, std::uint64_t line, dialect::Diagnost
             << '\n';
 }
 
-void print_error(const Options& options, const running::RunResult& result) {
+void print_error(const RunCommandOptions& options, const running::RunResult& result) {
   print_finding(options, result.line, result.error.id, running::error_message(result, options.reader_language()));
 }
 
-void print_warning(const Options& options, const simulation::RunWarning& warning) {
+void print_warning(const RunCommandOptions& options, const simulation::RunWarning& warning) {
   print_finding(options, warning.line, warning.id,
                 dialect::message(warning.id, options.reader_language(), "", warning.values));
 }
@@ -207,7 +209,7 @@ struct NamedFile {
 };
 
 /// All files to be written, including standard output, which may be a file.
-std::vector<NamedFile> files_written(const Options& options) {
+std::vector<NamedFile> files_written(const RunCommandOptions& options) {
   std::vector<NamedFile> files;
   const auto add = [&](const std::string& file, std::string_view option) {
     if (!file.empty() && file != "-") files.push_back({file, option});
@@ -222,7 +224,7 @@ std::vector<NamedFile> files_written(const Options& options) {
 }
 
 /// Whether no file is both read and written or written twice; false after an error message.
-bool files_are_apart(const Options& options, const std::filesystem::path& configuration) {
+bool files_are_apart(const RunCommandOptions& options, const std::filesystem::path& configuration) {
   const Language language = options.reader_language();
   const NamedFile read[] = {{options.program_file(), kProgram.in(language)},
                             {configuration.string(), kConfiguration.in(language)},
@@ -256,8 +258,9 @@ running::RunResult run_with_progress(std::string_view program, running::RunOptio
   return run(program, options, on_event);
 }
 
-ExitStatus run_program(std::string_view program, const Options& options, const running::RunOptions& run_options,
-                       const RunOutputs& outputs, const simulation::TimedMachine& machine) {
+ExitStatus run_program(std::string_view program, const RunCommandOptions& options,
+                       const running::RunOptions& run_options, const RunOutputs& outputs,
+                       const simulation::TimedMachine& machine) {
   RunReport report(outputs, machine);
   std::optional<running::RunResult> result;
   if (report.is_ready()) {
@@ -271,7 +274,7 @@ ExitStatus run_program(std::string_view program, const Options& options, const r
   return result->ending == running::Ending::Error ? ExitStatus::Findings : ExitStatus::Success;
 }
 
-bool write_restart(std::string_view program, const Options& options) {
+bool write_restart(std::string_view program, const RunCommandOptions& options) {
   const bool is_file = !options.output.empty() && options.output != "-";
   std::optional<system::OutputFile> output;
   if (is_file) {
@@ -286,7 +289,7 @@ bool write_restart(std::string_view program, const Options& options) {
   return !problem;
 }
 
-ExitStatus restart(const system::SourceFile& source, const Options& options,
+ExitStatus restart(const system::SourceFile& source, const RunCommandOptions& options,
                    const restart::RestartOptions& restart_options) {
   const auto made = restart::restart_program(source.text(), restart_options);
   if (const auto* const program = std::get_if<std::string>(&made)) {
@@ -294,23 +297,23 @@ ExitStatus restart(const system::SourceFile& source, const Options& options,
     return write_restart(std::string(mark) + *program, options) ? ExitStatus::Success : ExitStatus::Failure;
   }
   const auto& refusal = std::get<restart::RestartRefusal>(made);
-  if (refusal.obstacle == restart::Obstacle::ProgramError) {
+  if (refusal.obstacle == restart::RestartObstacle::ProgramError) {
     print_error(options, refusal.run);
     return ExitStatus::Findings;
   }
   complain(fmt::format("{}: {}", options.shown_file(), message(refusal, options.reader_language())));
-  return refusal.obstacle == restart::Obstacle::NoSuchLine ? ExitStatus::Failure : ExitStatus::Findings;
+  return refusal.obstacle == restart::RestartObstacle::NoSuchLine ? ExitStatus::Failure : ExitStatus::Findings;
 }
 
 /// A machine, and the isocnc.json read for the program.
 struct FoundMachine {
-  configuration::Machine machine;
+  configuration::MachineConfiguration machine;
   std::filesystem::path configuration;  ///< Path of the isocnc.json; empty without one.
 };
 
 /// The machine for the checks; none, after an error message, if a file is invalid. The program's configuration also
 /// sets the language, unless the command line does.
-std::optional<FoundMachine> find_machine(Options& options) {
+std::optional<FoundMachine> find_machine(RunCommandOptions& options) {
   using configuration::Configurations;
   const Language language = options.reader_language();
   Configurations found(options.source, language);
@@ -329,8 +332,8 @@ std::optional<FoundMachine> find_machine(Options& options) {
   return is_right ? std::optional(FoundMachine{machine.machine, configuration.file}) : std::nullopt;
 }
 
-plot::PlotSubject plot_subject(std::string_view program, const configuration::Machine& machine,
-                               const Options& options) {
+plot::PlotSubject plot_subject(std::string_view program, const configuration::MachineConfiguration& machine,
+                               const RunCommandOptions& options) {
   return {.name = std::filesystem::path(options.shown_file()).filename().string(),
           .program = program,
           .home = machine.setup.home,
@@ -339,10 +342,10 @@ plot::PlotSubject plot_subject(std::string_view program, const configuration::Ma
           .language = options.reader_language()};
 }
 
-ExitStatus run_file(Options options) {
+ExitStatus run_file(RunCommandOptions options) {
   const std::optional<FoundMachine> found = find_machine(options);
   if (!found) return ExitStatus::Failure;
-  const configuration::Machine& machine = found->machine;
+  const configuration::MachineConfiguration& machine = found->machine;
   const Language language = options.reader_language();
   std::optional<running::RunOptions> run_options = read_run_options(options);
   if (!run_options) return ExitStatus::Failure;
@@ -369,7 +372,7 @@ ExitStatus run_file(Options options) {
 }
 
 ExitStatus run_main(int argc, char** argv) {
-  Options options;
+  RunCommandOptions options;
   command_line::ProgramApp program(
       argc, argv, {"Runs an ISOCNC program and tells what it does.", "Esegue un programma ISOCNC e dice che cosa fa."},
       {.program = "isorun",

@@ -36,7 +36,8 @@ std::vector<std::filesystem::path> ClosedPrograms::programs_in(const Folders& fo
 /// Nothing where the file cannot be read, or the answer is not wanted any more.
 std::optional<std::string> ClosedPrograms::read_and_answer(const std::filesystem::path& program, const std::string& uri,
                                                            const documents::Client& client,
-                                                           const std::atomic<bool>& cancelled, const Answer& answer) {
+                                                           const std::atomic<bool>& cancelled,
+                                                           const MakeAnswer& answer) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(program, error)) return std::nullopt;  // Reading a pipe would block.
   const auto opened = system::SourceFile::open_unmapped(program, dialect::Language::English);

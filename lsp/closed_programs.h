@@ -61,11 +61,11 @@ class ClosedPrograms {
     std::string answer;
   };
 
-  using Answer = std::function<std::string(const documents::Snapshot& snapshot)>;
+  using MakeAnswer = std::function<std::string(const documents::Snapshot& snapshot)>;
 
   std::optional<std::string> read_and_answer(const std::filesystem::path& program, const std::string& uri,
                                              const documents::Client& client, const std::atomic<bool>& cancelled,
-                                             const Answer& answer);
+                                             const MakeAnswer& answer);
   std::vector<std::filesystem::path> programs_in(const Folders& folders);
   std::optional<std::string> cached_answer(const std::filesystem::path& program, const std::string& uri,
                                            const WorkspaceQuery& query);

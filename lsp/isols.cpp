@@ -14,7 +14,7 @@
 namespace isocnc::lsp {
 namespace {
 
-struct Options {
+struct ServerOptions {
   bool stdio = false;
   std::optional<std::uint16_t> port;
   std::string language;
@@ -22,7 +22,7 @@ struct Options {
 
 void complain(std::string_view what) { command_line::complain("isols", what); }
 
-system::ExitStatus run(const Options& options) {
+system::ExitStatus run(const ServerOptions& options) {
   const auto make = [&](rpc::Loop& loop, rpc::Send send) {
     return std::make_unique<Server>(loop, std::move(send), dialect::language_named(options.language));
   };
@@ -31,7 +31,7 @@ system::ExitStatus run(const Options& options) {
 }
 
 system::ExitStatus run_main(int argc, char** argv) {
-  Options options;
+  ServerOptions options;
   command_line::ProgramApp program(
       argc, argv,
       {"The language server for ISOCNC programs: an editor starts it and speaks with it.",

@@ -51,14 +51,14 @@ const std::unordered_map<std::string_view, Server::Handler>& Server::handlers() 
   return kHandlers;
 }
 
-void Server::receive(rpc::Frame frame) {
+void Server::receive(rpc::MessageFrame frame) {
   switch (frame.problem) {
-    case rpc::Frame::Problem::NoLength:
+    case rpc::MessageFrame::Problem::NoLength:
       return outbox_.send(rpc::error_message(nullptr, ErrorCode::ParseError, "a header tells no Content-Length"));
-    case rpc::Frame::Problem::TooLong:
+    case rpc::MessageFrame::Problem::TooLong:
       return outbox_.send(
           rpc::error_message(nullptr, ErrorCode::ParseError, "the message is longer than any that is taken"));
-    case rpc::Frame::Problem::None:
+    case rpc::MessageFrame::Problem::None:
       break;
   }
   rpc::Message message = rpc::read_message(std::move(frame.body));
@@ -70,19 +70,19 @@ void Server::receive(rpc::Frame frame) {
 /// Whether the call is valid in the present phase; refuses a request that is not.
 bool Server::is_allowed(const Call& call) {
   const bool is_initialize = call.method == "initialize";
-  if (phase_ == Phase::Starting && !is_initialize) {
+  if (phase_ == LifecyclePhase::Starting && !is_initialize) {
     outbox_.refuse(call, ErrorCode::ServerNotInitialized, "initialize comes first");
     return false;
   }
-  if (phase_ == Phase::ShutDown) {
+  if (phase_ == LifecyclePhase::ShutDown) {
     outbox_.refuse(call, ErrorCode::InvalidRequest, "the server has been shut down");
     return false;
   }
-  if (phase_ == Phase::Running && is_initialize) {
+  if (phase_ == LifecyclePhase::Running && is_initialize) {
     outbox_.refuse(call, ErrorCode::InvalidRequest, "the server is initialized already");
     return false;
   }
-  return phase_ != Phase::Ended;
+  return phase_ != LifecyclePhase::Ended;
 }
 
 void Server::dispatch(const CallPointer& call) {
@@ -151,7 +151,7 @@ void Server::initialize(const CallPointer& call) {
   client_ = std::make_shared<const Client>(std::move(client));
   if (const auto parent = params.find("processId"); parent != params.end() && parent->is_number_integer())
     parent_ = *parent;
-  phase_ = Phase::Running;
+  phase_ = LifecyclePhase::Running;
   outbox_.reply(*call, {{"capabilities", capabilities_for(*client_)},
                         {"serverInfo", {{"name", "isols"}, {"version", ISOCNC_VERSION}}}});
 }
@@ -167,14 +167,14 @@ void Server::initialized(const CallPointer&) {
 
 void Server::shut_down(const CallPointer& call) {
   if (call->is_notification()) return;
-  phase_ = Phase::ShutDown;
+  phase_ = LifecyclePhase::ShutDown;
   outbox_.reply(*call, nullptr);
 }
 
 void Server::end() {
-  if (phase_ == Phase::Ended) return;
-  exit_status_ = phase_ == Phase::ShutDown ? 0 : 1;
-  phase_ = Phase::Ended;
+  if (phase_ == LifecyclePhase::Ended) return;
+  exit_status_ = phase_ == LifecyclePhase::ShutDown ? 0 : 1;
+  phase_ = LifecyclePhase::Ended;
   pending_requests_.cancel_all();
   loop_.stop();
 }

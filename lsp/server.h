@@ -34,7 +34,7 @@ class Server final : public rpc::Peer {
   Server& operator=(const Server&) = delete;
 
   // Called on the loop's thread.
-  void receive(rpc::Frame frame) override;
+  void receive(rpc::MessageFrame frame) override;
   /// Ends the server as the notification `exit` does.
   void end() override;
   /// Ends the server when the process that started it no longer exists.
@@ -77,7 +77,7 @@ class Server final : public rpc::Peer {
   rpc::OnLoop<std::string> edit_applier(const std::string& command, const PendingRequest& request);
   ClosedPrograms::Folders folders_of_workspace() const;
 
-  enum class Phase { Starting, Running, ShutDown, Ended };
+  enum class LifecyclePhase { Starting, Running, ShutDown, Ended };
   using Handler = void (Server::*)(const CallPointer& call);
 
   static const std::unordered_map<std::string_view, Handler>& handlers();
@@ -85,7 +85,7 @@ class Server final : public rpc::Peer {
   rpc::Loop& loop_;
   Outbox outbox_;
   const std::optional<dialect::Language> language_;
-  Phase phase_ = Phase::Starting;
+  LifecyclePhase phase_ = LifecyclePhase::Starting;
   int exit_status_ = 1;
   int parent_ = 0;  // The id of the process that started the server; 0 if unknown.
   std::shared_ptr<const documents::Client> client_ = std::make_shared<const documents::Client>();

@@ -12,7 +12,7 @@ using geometry::PlanePoint;
 using syntax::Instruction;
 using syntax::Word;
 
-static std::optional<ArcOfProgram> marked_arc(const Request& request) {
+static std::optional<ArcOfProgram> marked_arc(const FixRequest& request) {
   const std::optional<State> before = request.program.state_before(request.number);
   return before ? arc_on(request.line, *before, request.program.setup()) : std::nullopt;
 }
@@ -26,14 +26,14 @@ static double misfit(const ArcOfProgram& arc, PlanePoint center) {
 
 /// Whether the center may be meant from the other origin: then this arc alone does not show the right center (D70).
 /// Under G91 all controls count from the start, so another arc must show the habit.
-static bool may_mean_other_origin(const Request& request, const ArcOfProgram& arc) {
+static bool may_mean_other_origin(const FixRequest& request, const ArcOfProgram& arc) {
   if (arc.readings.is_same_center) return false;
   const bool fits_other = arc.readings.nearly_fits_other(request.program.setup().arc_tolerance);
   return (fits_other && !arc.incremental) || request.program.habits().shows(habit_of(arc));
 }
 
 /// Writes a center with the fewest decimals with which the arc fits well, but no fewer than are written.
-static Draft fitting_center(const Request& request, const ArcOfProgram& arc, PlanePoint center) {
+static Draft fitting_center(const FixRequest& request, const ArcOfProgram& arc, PlanePoint center) {
   const double tolerance = request.program.setup().arc_tolerance;
   if (!(center.norm() > tolerance && misfit(arc, center) < tolerance / 2)) return {};
   int decimals = decimals_of_center(request.line, arc);
@@ -43,13 +43,13 @@ static Draft fitting_center(const Request& request, const ArcOfProgram& arc, Pla
 }
 
 /// On other controls I and J count from the start, and some authors write them so: rewrites all centers or none.
-Draft center_from_other_origin(const Request& request) {
+Draft center_from_other_origin(const FixRequest& request) {
   const std::optional<ArcOfProgram> arc = marked_arc(request);
   return arc ? habit_draft(request, habit_of(*arc)) : Draft{};
 }
 
 /// The nearest point that is equally far from both ends. If the center is far off, it may be right and an end wrong.
-Draft center_between_ends(const Request& request) {
+Draft center_between_ends(const FixRequest& request) {
   const std::optional<ArcOfProgram> arc = marked_arc(request);
   if (!arc || !arc->center_u || !arc->center_v || may_mean_other_origin(request, *arc)) return {};
   const double tolerance = request.program.setup().arc_tolerance;
@@ -63,7 +63,7 @@ Draft center_between_ends(const Request& request) {
 }
 
 /// G02 X20 I10: takes the missing coordinate from the start, which gives a half circle or a full turn.
-Draft center_completed(const Request& request) {
+Draft center_completed(const FixRequest& request) {
   const std::optional<ArcOfProgram> arc = marked_arc(request);
   if (!arc || (arc->center_u != nullptr) == (arc->center_v != nullptr)) return {};
   const PlanePoint center{arc->given.center_u.value_or(0), arc->given.center_v.value_or(0)};
@@ -83,14 +83,14 @@ Draft center_completed(const Request& request) {
 
 /// R12 with a center at 10: the center decides, unless the center may be the wrong one. With only one coordinate of the
 /// center nearly any circle fits.
-Draft removed_contradicting_radius(const Request& request) {
+Draft removed_contradicting_radius(const FixRequest& request) {
   const std::optional<ArcOfProgram> arc = marked_arc(request);
   const bool is_certain = arc && arc->readings.is_complete && !may_mean_other_origin(request, *arc);
   return is_certain ? removed_mark(request) : Draft{};
 }
 
 /// R9.999 for a chord of 20: a rounding error.
-Draft radius_large_enough(const Request& request) {
+Draft radius_large_enough(const FixRequest& request) {
   const double radius = request.finding.values[0];
   const double needed = request.finding.values[1];
   const Word* const word = word_at(request.line, request.finding.span);

@@ -26,10 +26,10 @@ static constexpr auto kFirstRows = [] {
 }();
 static_assert(kFixes.size() < 255);
 
-Program::Program() = default;
-Program::~Program() = default;
+FixProgram::FixProgram() = default;
+FixProgram::~FixProgram() = default;
 
-Habits& Program::habits() {
+Habits& FixProgram::habits() {
   if (!habits_) habits_ = std::make_unique<Habits>(*this);
   return *habits_;
 }
@@ -51,7 +51,7 @@ std::string Edit::text_with(std::string_view line_end) const {
 }
 
 /// The line with the edits applied, which may be several lines. Nothing if an edit is on another line.
-static std::optional<std::string> edited_line(const Request& request, std::vector<Edit> edits) {
+static std::optional<std::string> edited_line(const FixRequest& request, std::vector<Edit> edits) {
   const auto is_elsewhere = [&](const Edit& edit) {
     return edit.begin.line != request.number || edit.end.line != request.number;
   };
@@ -64,7 +64,7 @@ static std::optional<std::string> edited_line(const Request& request, std::vecto
   return text;
 }
 
-bool helps(const Request& request, const std::vector<Edit>& edits) {
+bool helps(const FixRequest& request, const std::vector<Edit>& edits) {
   const std::optional<std::string> text = edited_line(request, edits);
   if (!text) return true;
   std::array<std::int16_t, dialect::kDiagnosticCount> counts{};
@@ -82,7 +82,7 @@ bool helps(const Request& request, const std::vector<Edit>& edits) {
   }
 }
 
-std::vector<Edit> all_edits(const Fix& fix, Program& program) {
+std::vector<Edit> all_edits(const Fix& fix, FixProgram& program) {
   if (fix.habit == Habit::None) return fix.edits;
   std::vector<Edit> edits;
   for (const LineRewrite& rewrite : program.habits().rewrites(fix.habit))
@@ -90,12 +90,12 @@ std::vector<Edit> all_edits(const Fix& fix, Program& program) {
   return edits;
 }
 
-std::optional<Fix> fix_of(const Place& place, Program& program) {
+std::optional<Fix> fix_of(const FindingPlace& place, FixProgram& program) {
   const DiagnosticId id = place.finding.id;
   std::size_t row = kFirstRows[static_cast<std::size_t>(id)];
   if (row == kFixes.size() || kFixes[row].make == nullptr) return std::nullopt;
   if (program.text(place.line).size() > kLongestLine) return std::nullopt;
-  const Request request{place.line, place.finding, place.on_every_path, program.line(place.line), program};
+  const FixRequest request{place.line, place.finding, place.on_every_path, program.line(place.line), program};
   for (; row < kFixes.size() && kFixes[row].diagnostic == id; ++row) {
     Draft draft = kFixes[row].make(request);
     if (draft.edits.empty() || !helps(request, draft.edits)) continue;

@@ -61,12 +61,12 @@ class Habits;
 
 /// The facts about the program that a fix may need. Lines are counted as in syntax::Document: a terminator at the end
 /// is followed by an empty line.
-class Program {
+class FixProgram {
  public:
-  Program();
-  virtual ~Program();
-  Program(const Program&) = delete;
-  Program& operator=(const Program&) = delete;
+  FixProgram();
+  virtual ~FixProgram();
+  FixProgram(const FixProgram&) = delete;
+  FixProgram& operator=(const FixProgram&) = delete;
 
   virtual const execution::Setup& setup() const = 0;
   virtual const dialect::LintThresholds& thresholds() const = 0;
@@ -92,7 +92,7 @@ class Program {
 };
 
 /// A finding and its line.
-struct Place {
+struct FindingPlace {
   std::uint64_t line = 0;  ///< The line, from 0.
   const syntax::Finding& finding;
   bool on_every_path = true;
@@ -103,9 +103,9 @@ struct Place {
 inline constexpr std::size_t kLongestLine = 1'000;
 
 /// The edits of a fix, with all other edits of its habit.
-std::vector<Edit> all_edits(const Fix& fix, Program& program);
+std::vector<Edit> all_edits(const Fix& fix, FixProgram& program);
 
 /// The fix of a finding, if there is one.
-std::optional<Fix> fix_of(const Place& place, Program& program);
+std::optional<Fix> fix_of(const FindingPlace& place, FixProgram& program);
 
 }  // namespace isocnc::fixes

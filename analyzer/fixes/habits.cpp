@@ -146,8 +146,8 @@ void Habits::find_centers() {
 }
 
 /// On other controls G20 and G21 set inches and millimeters; rewriting only some of them would mix the units.
-Habits::Found Habits::find_foreign_units() {
-  Found found;
+Habits::FoundRewrites Habits::find_foreign_units() {
+  FoundRewrites found;
   for (std::uint64_t number = 0; number < program_.line_count(); ++number) {
     if (program_.text(number).find_first_of("Gg") == std::string_view::npos) continue;
     const LineTree tree = line(number);
@@ -155,7 +155,7 @@ Habits::Found Habits::find_foreign_units() {
     for (const Word& word : tree.words) {
       if (word.letter != 'G' || !word.is_plain_integer() || (word.value != 20 && word.value != 21)) continue;
       const syntax::Finding finding{.id = "unsupported-g"_diag, .span = word.span()};
-      const Request request{number, finding, true, tree, program_};
+      const FixRequest request{number, finding, true, tree, program_};
       rewrite.what = word.value == 20 ? "G70" : "G71";
       rewrite.edits.push_back(replaced(request, word.span(), rewrite.what));
       if (!helps(request, rewrite.edits)) return {.is_shown = true};
@@ -168,8 +168,8 @@ Habits::Found Habits::find_foreign_units() {
 
 /// G04 P500: if one time is far too long for seconds, all are milliseconds, unless one has a decimal point or is too
 /// short for that.
-Habits::Found Habits::find_milliseconds() {
-  Found found;
+Habits::FoundRewrites Habits::find_milliseconds() {
+  FoundRewrites found;
   for (std::uint64_t number = 0; number < program_.line_count(); ++number) {
     if (program_.text(number).find_first_of("Gg") == std::string_view::npos) continue;
     const LineTree tree = line(number);
@@ -187,15 +187,15 @@ Habits::Found Habits::find_milliseconds() {
       found.rewrites.push_back({number, {{{number, time->begin}, {number, time->end}, what}}, what});
     }
   }
-  return found.is_shown ? found : Found{};
+  return found.is_shown ? found : FoundRewrites{};
 }
 
-const Habits::Found& Habits::found(Habit habit) {
-  std::optional<Found>& known = found_[static_cast<std::size_t>(habit)];
+const Habits::FoundRewrites& Habits::found(Habit habit) {
+  std::optional<FoundRewrites>& known = found_[static_cast<std::size_t>(habit)];
   if (known) return *known;
   switch (habit) {
     case Habit::None:
-      known = Found{};
+      known = FoundRewrites{};
       break;
     case Habit::CentersInG90:
     case Habit::CentersInG91:
@@ -233,7 +233,7 @@ bool Habits::separates_thousands() {
   return *separates_thousands_;
 }
 
-Draft habit_draft(const Request& request, Habit habit) {
+Draft habit_draft(const FixRequest& request, Habit habit) {
   const HabitRewrites& all = request.program.habits().rewrites(habit);
   const auto own = std::lower_bound(all.begin(), all.end(), request.number,
                                     [](const LineRewrite& each, std::uint64_t line) { return each.line < line; });

@@ -25,7 +25,7 @@ using HabitRewrites = std::vector<LineRewrite>;
 class Habits {
  public:
   /// The program must outlive this.
-  explicit Habits(Program& program) : program_(program) {}
+  explicit Habits(FixProgram& program) : program_(program) {}
 
   /// The complete rewriting for a habit. Empty if the program does not show the habit or if not all of it can be
   /// rewritten: for example, if some arcs are legal only as written, which contradicts the habit, and others are legal
@@ -39,7 +39,7 @@ class Habits {
   bool separates_thousands();
 
  private:
-  struct Found {
+  struct FoundRewrites {
     HabitRewrites rewrites;
     bool is_shown = false;
     bool is_open = false;
@@ -47,14 +47,14 @@ class Habits {
 
   /// Valid until the next call. Separate from Program::line(), whose tree the caller may still use.
   syntax::LineTree line(std::uint64_t number);
-  const Found& found(Habit habit);
+  const FoundRewrites& found(Habit habit);
   void find_centers();
-  Found find_foreign_units();
-  Found find_milliseconds();
+  FoundRewrites find_foreign_units();
+  FoundRewrites find_milliseconds();
 
-  Program& program_;
+  FixProgram& program_;
   syntax::TreeStore line_;
-  std::array<std::optional<Found>, kHabitCount> found_;
+  std::array<std::optional<FoundRewrites>, kHabitCount> found_;
   std::optional<bool> separates_thousands_;
 };
 

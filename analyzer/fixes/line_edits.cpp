@@ -13,15 +13,15 @@ using syntax::LineTree;
 using syntax::Span;
 using syntax::Word;
 
-Edit replaced(const Request& request, Span span, std::string text) {
+Edit replaced(const FixRequest& request, Span span, std::string text) {
   return {{request.number, span.begin}, {request.number, span.end}, std::move(text)};
 }
 
-Edit inserted(const Request& request, std::uint32_t column, std::string text) {
+Edit inserted(const FixRequest& request, std::uint32_t column, std::string text) {
   return replaced(request, {column, column}, std::move(text));
 }
 
-Edit removed(const Request& request, Span span) {
+Edit removed(const FixRequest& request, Span span) {
   const std::string_view line = request.line.text;
   Span wide = span;
   while (wide.begin > 0 && syntax::is_blank(line[wide.begin - 1])) --wide.begin;
@@ -34,7 +34,7 @@ Edit removed(const Request& request, Span span) {
 
 /// Removes a line of `length` bytes with its end. For a last line without an end, removes the end of the line above and
 /// the blank lines between, so that the program still has no line end there.
-static Edit removed_line(Program& program, std::uint64_t line, std::size_t length) {
+static Edit removed_line(FixProgram& program, std::uint64_t line, std::size_t length) {
   if (line + 1 < program.line_count()) return {{line, 0}, {line + 1, 0}, {}};
   std::uint64_t above = line;
   while (above > 0 && program.text(above - 1).empty()) --above;
@@ -42,7 +42,7 @@ static Edit removed_line(Program& program, std::uint64_t line, std::size_t lengt
   return {{0, 0}, {line, length}, {}};
 }
 
-Edit removed_with_line(const Request& request, Span span) {
+Edit removed_with_line(const FixRequest& request, Span span) {
   const std::string_view line = request.line.text;
   if (!is_blank(line.substr(0, span.begin)) || !is_blank(line.substr(span.end))) return removed(request, span);
   return removed_line(request.program, request.number, line.size());

@@ -8,16 +8,16 @@
 
 namespace isocnc::fixes {
 
-Edit replaced(const Request& request, syntax::Span span, std::string text);
-Edit inserted(const Request& request, std::uint32_t column, std::string text);
+Edit replaced(const FixRequest& request, syntax::Span span, std::string text);
+Edit inserted(const FixRequest& request, std::uint32_t column, std::string text);
 /// Removes a word with the blanks before it, or with those after it at the start of the line.
-Edit removed(const Request& request, syntax::Span span);
+Edit removed(const FixRequest& request, syntax::Span span);
 /// Like removed(), but removes the whole line if nothing else is on it.
-Edit removed_with_line(const Request& request, syntax::Span span);
+Edit removed_with_line(const FixRequest& request, syntax::Span span);
 
 /// Whether the line alone loses the finding with these edits and gains no other: a fix must not break something else.
 /// Effects of earlier lines and edits of other lines are not considered.
-bool helps(const Request& request, const std::vector<Edit>& edits);
+bool helps(const FixRequest& request, const std::vector<Edit>& edits);
 
 /// The blanks at the start of the line.
 std::string_view indentation(std::string_view line);

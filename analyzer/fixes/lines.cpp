@@ -16,29 +16,29 @@ using syntax::Word;
 static constexpr std::uint64_t kReach = 20;
 
 /// A jump to the line would skip a line inserted above it.
-static bool is_jumped_to(const LineTree& line, Program& program) {
+static bool is_jumped_to(const LineTree& line, FixProgram& program) {
   return line.has_label() && program.is_jumped_to(line.label);
 }
 
-static Draft line_above(const Request& request, std::string_view block) {
+static Draft line_above(const FixRequest& request, std::string_view block) {
   if (!request.on_every_path || is_jumped_to(request.line, request.program)) return {};
   std::string text(indentation(request.line.text));
   text += block;
   return {{inserted(request, 0, text + "\n")}, std::string(block)};
 }
 
-Draft g27_above(const Request& request) { return line_above(request, "G27"); }
-Draft g40_above(const Request& request) { return line_above(request, "G40"); }
-Draft g49_above(const Request& request) { return line_above(request, "G49"); }
-Draft m05_above(const Request& request) { return line_above(request, "M05"); }
-Draft g90_above(const Request& request) { return line_above(request, "G90"); }
-Draft g71_above(const Request& request) { return line_above(request, "G71"); }
+Draft g27_above(const FixRequest& request) { return line_above(request, "G27"); }
+Draft g40_above(const FixRequest& request) { return line_above(request, "G40"); }
+Draft g49_above(const FixRequest& request) { return line_above(request, "G49"); }
+Draft m05_above(const FixRequest& request) { return line_above(request, "M05"); }
+Draft g90_above(const FixRequest& request) { return line_above(request, "G90"); }
+Draft g71_above(const FixRequest& request) { return line_above(request, "G71"); }
 
 /// The maximum number of lines searched for the late G27.
 static constexpr std::uint64_t kFarthestDismount = 5'000;
 
 /// G92 under a face frame with its G27 further down: moves the G27 up.
-Draft later_g27_above(const Request& request) {
+Draft later_g27_above(const FixRequest& request) {
   Draft draft = g27_above(request);
   if (draft.edits.empty()) return {};
   const std::uint64_t end = std::min(request.program.line_count(), request.number + 1 + kFarthestDismount);
@@ -68,7 +68,7 @@ static std::string blocks_before_end(const State& state, const std::string& line
   return blocks;
 }
 
-Draft end_of_program(const Request& request) {
+Draft end_of_program(const FixRequest& request) {
   const std::string_view line = request.line.text;
   if (is_blank(line)) return {};
   const std::string line_start = "\n" + std::string(indentation(line));
@@ -79,7 +79,7 @@ Draft end_of_program(const Request& request) {
 }
 
 /// The nearest line above (step -1) or below (1) that holds a block.
-static std::optional<std::uint64_t> block_beside(const Request& request, int step) {
+static std::optional<std::uint64_t> block_beside(const FixRequest& request, int step) {
   std::uint64_t number = request.number;
   for (std::uint64_t i = 0; i < kReach; ++i) {
     if (step < 0 ? number == 0 : number + 1 >= request.program.line_count()) return std::nullopt;
@@ -97,7 +97,7 @@ static bool waits_for_tool(const LineTree& line) {
 }
 
 /// Adds M06 before a T, unless an M06 without a T is on the line, above it or below it.
-Draft m06_before_tool(const Request& request) {
+Draft m06_before_tool(const FixRequest& request) {
   if (waits_for_tool(request.line)) return {};
   for (const int step : {-1, 1}) {
     const std::optional<std::uint64_t> beside = block_beside(request, step);
@@ -112,20 +112,20 @@ static bool has_tool_alone(const LineTree& line) {
 }
 
 /// M06 on one line, T101001 alone on the next: joins them.
-Draft tool_of_other_line(const Request& request) {
+Draft tool_of_other_line(const FixRequest& request) {
   const std::optional<std::uint64_t> number = block_beside(request, 1);
   if (!number) return {};
   const syntax::ParsedLine parsed(request.program.text(*number));
   const LineTree below = parsed.tree();
   if (!has_tool_alone(below) || is_jumped_to(below, request.program)) return {};
   const syntax::Finding at_tool{.span = below.command(below.instructions.front()).span()};
-  const Request there{*number, at_tool, true, below, request.program};
+  const FixRequest there{*number, at_tool, true, below, request.program};
   const std::string tool(there.marked());
   return {{inserted(request, request.finding.span.end, " " + tool), removed_with_line(there, at_tool.span)}, tool};
 }
 
 /// Whether a T may be moved past the line: it holds no motion, tool change, T, jump or end of the program.
-static bool lets_tool_pass(const LineTree& line, Program& program) {
+static bool lets_tool_pass(const LineTree& line, FixProgram& program) {
   const auto is_blocking = [&](const Instruction& each) {
     return each.is_motion() || each.kind == InstructionKind::ToolChange || each.kind == InstructionKind::StrayTool ||
            each.kind == InstructionKind::Jump || line.ends_program(each);
@@ -134,7 +134,7 @@ static bool lets_tool_pass(const LineTree& line, Program& program) {
 }
 
 /// T101001 alone, as other controls prepare a tool, with its M06 below: moves the T there.
-Draft tool_to_later_change(const Request& request) {
+Draft tool_to_later_change(const FixRequest& request) {
   if (!has_tool_alone(request.line)) return {};
   for (std::uint64_t number = request.number + 1;
        number < request.program.line_count() && number <= request.number + kReach; ++number) {
@@ -153,7 +153,7 @@ Draft tool_to_later_change(const Request& request) {
 }
 
 /// G01 alone, with its coordinates on the next line: moves the G there.
-Draft command_to_next_line(const Request& request) {
+Draft command_to_next_line(const FixRequest& request) {
   const std::string command(request.marked());
   const std::optional<std::uint64_t> number = block_beside(request, 1);
   if (!number || command.find('(') != std::string::npos) return {};

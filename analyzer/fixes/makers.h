@@ -9,12 +9,12 @@
 namespace isocnc::fixes {
 
 /// The input of a maker.
-struct Request {
+struct FixRequest {
   std::uint64_t number = 0;  ///< The line number, from 0.
   const syntax::Finding& finding;
   bool on_every_path = true;
   syntax::LineTree line;
-  Program& program;
+  FixProgram& program;
 
   std::string_view marked() const { return line.text_of(finding.span); }
 };
@@ -27,71 +27,71 @@ struct Draft {
 };
 
 /// The rewriting of the finding's line for a habit; empty unless the habit can be rewritten everywhere.
-Draft habit_draft(const Request& request, Habit habit);
+Draft habit_draft(const FixRequest& request, Habit habit);
 
-using Maker = Draft (*)(const Request&);
+using Maker = Draft (*)(const FixRequest&);
 
 // spelling.cpp: corrects a word, or text that should be a word.
-Draft zero_for_letter_o(const Request& request);
-Draft point_for_comma(const Request& request);
-Draft whole_number(const Request& request);
-Draft without_sign(const Request& request);
-Draft without_equals(const Request& request);
-Draft angle_in_range(const Request& request);
-Draft comparison(const Request& request);
-Draft label_with_letter(const Request& request);
-Draft code_of_this_control(const Request& request);
-Draft time_by_p(const Request& request);
-Draft seconds_of_milliseconds(const Request& request);
-Draft free_label(const Request& request);
-Draft closed_comment(const Request& request);
-Draft opened_comment(const Request& request);
-Draft text_as_comment(const Request& request);
-Draft capitals(const Request& request);
-Draft blank_for_tab(const Request& request);
+Draft zero_for_letter_o(const FixRequest& request);
+Draft point_for_comma(const FixRequest& request);
+Draft whole_number(const FixRequest& request);
+Draft without_sign(const FixRequest& request);
+Draft without_equals(const FixRequest& request);
+Draft angle_in_range(const FixRequest& request);
+Draft comparison(const FixRequest& request);
+Draft label_with_letter(const FixRequest& request);
+Draft code_of_this_control(const FixRequest& request);
+Draft time_by_p(const FixRequest& request);
+Draft seconds_of_milliseconds(const FixRequest& request);
+Draft free_label(const FixRequest& request);
+Draft closed_comment(const FixRequest& request);
+Draft opened_comment(const FixRequest& request);
+Draft text_as_comment(const FixRequest& request);
+Draft capitals(const FixRequest& request);
+Draft blank_for_tab(const FixRequest& request);
 
 // removal.cpp: removes superfluous text.
-Draft removed_on_every_path(const Request& request);
-Draft removed_mark(const Request& request);
-Draft removed_repetition(const Request& request);
-Draft removed_earlier_mode(const Request& request);
-Draft removed_foreign_frame(const Request& request);
-Draft removed_canned_cycle_end(const Request& request);
-Draft removed_stray_center(const Request& request);
-Draft removed_first_motion(const Request& request);
-Draft removed_suppression(const Request& request);
+Draft removed_on_every_path(const FixRequest& request);
+Draft removed_mark(const FixRequest& request);
+Draft removed_repetition(const FixRequest& request);
+Draft removed_earlier_mode(const FixRequest& request);
+Draft removed_foreign_frame(const FixRequest& request);
+Draft removed_canned_cycle_end(const FixRequest& request);
+Draft removed_stray_center(const FixRequest& request);
+Draft removed_first_motion(const FixRequest& request);
+Draft removed_suppression(const FixRequest& request);
 
 // order.cpp: moves parts of a line to their right place.
-Draft on_its_own_line(const Request& request);
-Draft mode_first(const Request& request);
-Draft arguments_together(const Request& request);
-Draft command_first(const Request& request);
-Draft compensation_before_motion(const Request& request);
-Draft move_after_motion(const Request& request);
-Draft move_after_feed_motion(const Request& request);
-Draft change_before_tool(const Request& request);
-Draft move_tool_after_change(const Request& request);
-Draft motions_on_two_lines(const Request& request);
+Draft on_its_own_line(const FixRequest& request);
+Draft mode_first(const FixRequest& request);
+Draft arguments_together(const FixRequest& request);
+Draft command_first(const FixRequest& request);
+Draft compensation_before_motion(const FixRequest& request);
+Draft move_after_motion(const FixRequest& request);
+Draft move_after_feed_motion(const FixRequest& request);
+Draft change_before_tool(const FixRequest& request);
+Draft move_tool_after_change(const FixRequest& request);
+Draft motions_on_two_lines(const FixRequest& request);
 
 // lines.cpp: adds a missing word or line, or moves one from a neighboring line.
-Draft g27_above(const Request& request);
-Draft later_g27_above(const Request& request);
-Draft g49_above(const Request& request);
-Draft g40_above(const Request& request);
-Draft m05_above(const Request& request);
-Draft g90_above(const Request& request);
-Draft g71_above(const Request& request);
-Draft end_of_program(const Request& request);
-Draft m06_before_tool(const Request& request);
-Draft tool_of_other_line(const Request& request);
-Draft tool_to_later_change(const Request& request);
-Draft command_to_next_line(const Request& request);
+Draft g27_above(const FixRequest& request);
+Draft later_g27_above(const FixRequest& request);
+Draft g49_above(const FixRequest& request);
+Draft g40_above(const FixRequest& request);
+Draft m05_above(const FixRequest& request);
+Draft g90_above(const FixRequest& request);
+Draft g71_above(const FixRequest& request);
+Draft end_of_program(const FixRequest& request);
+Draft m06_before_tool(const FixRequest& request);
+Draft tool_of_other_line(const FixRequest& request);
+Draft tool_to_later_change(const FixRequest& request);
+Draft command_to_next_line(const FixRequest& request);
 
 // arcs.cpp: corrects circles that do not fit.
-Draft center_from_other_origin(const Request& request);
-Draft removed_contradicting_radius(const Request& request);
-Draft center_between_ends(const Request& request);
-Draft center_completed(const Request& request);
-Draft radius_large_enough(const Request& request);
+Draft center_from_other_origin(const FixRequest& request);
+Draft removed_contradicting_radius(const FixRequest& request);
+Draft center_between_ends(const FixRequest& request);
+Draft center_completed(const FixRequest& request);
+Draft radius_large_enough(const FixRequest& request);
 
 }  // namespace isocnc::fixes

@@ -13,19 +13,19 @@ using syntax::Span;
 using syntax::Word;
 
 /// The instruction whose command is marked, or null.
-static const Instruction* marked_instruction(const Request& request) {
+static const Instruction* marked_instruction(const FixRequest& request) {
   const Word* const command = word_at(request.line, request.finding.span);
   return command ? owner_of(request.line, *command) : nullptr;
 }
 
 /// Moves the text of a span to another column.
-static Draft moved(const Request& request, Span span, std::uint32_t column, bool before) {
+static Draft moved(const FixRequest& request, Span span, std::uint32_t column, bool before) {
   const std::string text(request.line.text_of(span));
   return {{removed(request, span), inserted(request, column, before ? text + " " : " " + text)}, text};
 }
 
 /// Replaces the blanks before the word at `column` by a line end.
-static Edit line_end_before(const Request& request, std::uint32_t column) {
+static Edit line_end_before(const FixRequest& request, std::uint32_t column) {
   const std::string_view line = request.line.text;
   std::uint32_t begin = column;
   while (begin > 0 && syntax::is_blank(line[begin - 1])) --begin;
@@ -64,7 +64,7 @@ static bool speeds_stay_with_motions(const LineTree& line, Extent alone) {
 }
 
 /// G91 G28 Z0: an instruction that also lacks arguments may belong to another control.
-static bool has_another_finding(const Request& request) {
+static bool has_another_finding(const FixRequest& request) {
   const auto is_another = [&](const syntax::Finding& finding) {
     return finding.span == request.finding.span && finding.id != request.finding.id;
   };
@@ -80,7 +80,7 @@ static bool is_ambiguous(const LineTree& line, const Word& word) {
 }
 
 /// Splits G00 Z50 M02 into two lines, S5000 M03 G04 P2 G01 X5 into three; effects and their order stay the same.
-Draft on_its_own_line(const Request& request) {
+Draft on_its_own_line(const FixRequest& request) {
   const LineTree& line = request.line;
   const Instruction* const alone = marked_instruction(request);
   if (!alone || (alone->kind == InstructionKind::G && !alone->g()) || !takes_all_its_words(line, *alone)) return {};
@@ -106,14 +106,14 @@ Draft on_its_own_line(const Request& request) {
 }
 
 /// G00 X2 Y3 G70: moves the G70 to the start.
-Draft mode_first(const Request& request) {
+Draft mode_first(const FixRequest& request) {
   const Word* const first = first_word(request.line);
   if (!first || first->begin >= request.finding.span.begin) return {};
   return moved(request, request.finding.span, first->begin, true);
 }
 
 /// G1 X1 S500 Z5: moves the Z next to the X. S and N may be anywhere, so that alone they are no reason to move words.
-Draft arguments_together(const Request& request) {
+Draft arguments_together(const FixRequest& request) {
   const LineTree& line = request.line;
   const Instruction* const motion = marked_instruction(request);
   if (!motion || !motion->is_motion()) return {};
@@ -139,7 +139,7 @@ Draft arguments_together(const Request& request) {
 }
 
 /// X10 G1: moves the G1 before the X10.
-Draft command_first(const Request& request) {
+Draft command_first(const FixRequest& request) {
   const Span command = request.finding.related;
   if (command.empty() || command.begin < request.finding.span.begin) return {};
   return moved(request, command, request.finding.span.begin, true);
@@ -153,7 +153,7 @@ static const Word* motion_start(const LineTree& line) {
 }
 
 /// G01 X10 G41: moves the G41 before the motion.
-Draft compensation_before_motion(const Request& request) {
+Draft compensation_before_motion(const FixRequest& request) {
   const Word* const motion = motion_start(request.line);
   if (!motion || motion->begin > request.finding.span.begin) return {};
   return moved(request, request.finding.span, motion->begin, true);
@@ -168,20 +168,20 @@ static const Instruction* last_motion(const LineTree& line) {
 }
 
 /// G40 G01 Y20: moves the G40 after the last coordinate.
-Draft move_after_motion(const Request& request) {
+Draft move_after_motion(const FixRequest& request) {
   const Instruction* const motion = last_motion(request.line);
   if (!motion) return {};
   return moved(request, request.finding.span, request.line.words[motion->end - 1u].end, false);
 }
 
 /// G09 G01 X10: moves the G09 after a feed motion; a rapid stops at its end anyway.
-Draft move_after_feed_motion(const Request& request) {
+Draft move_after_feed_motion(const FixRequest& request) {
   const Instruction* const motion = last_motion(request.line);
   return motion && !motion->is(dialect::GRole::Rapid) ? move_after_motion(request) : Draft{};
 }
 
 /// T101001 M06: moves the M06 before the T.
-Draft change_before_tool(const Request& request) {
+Draft change_before_tool(const FixRequest& request) {
   const LineTree& line = request.line;
   for (const Instruction& change : line.instructions) {
     const Word& command = line.command(change);
@@ -192,7 +192,7 @@ Draft change_before_tool(const Request& request) {
 }
 
 /// M06 S5000 T101001: moves the T next to the M06.
-Draft move_tool_after_change(const Request& request) {
+Draft move_tool_after_change(const FixRequest& request) {
   const LineTree& line = request.line;
   const Instruction* const change = marked_instruction(request);
   if (!change) return {};
@@ -203,7 +203,7 @@ Draft move_tool_after_change(const Request& request) {
 }
 
 /// G00 X10 G01 Z-3 F1000: splits the line between the motions.
-Draft motions_on_two_lines(const Request& request) {
+Draft motions_on_two_lines(const FixRequest& request) {
   const LineTree& line = request.line;
   const Instruction* const second = marked_instruction(request);
   const Word* const first_command = word_at(line, request.finding.related);

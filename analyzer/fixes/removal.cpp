@@ -18,13 +18,13 @@ using syntax::Word;
 /// Whether the text holds a comment, such as `X(left)10`, which must not be lost.
 static bool holds_comment(std::string_view text) { return text.find('(') != std::string_view::npos; }
 
-Draft removed_mark(const Request& request) {
+Draft removed_mark(const FixRequest& request) {
   if (holds_comment(request.marked())) return {};
   return {{removed_with_line(request, request.finding.span)}};
 }
 
 /// Whether all other words keep their commands when the marked word is removed. In G01 G27 X5 the X would not.
-static bool keeps_other_words(const Request& request) {
+static bool keeps_other_words(const FixRequest& request) {
   const Word* const marked = word_at(request.line, request.finding.span);
   if (marked && lacks_frame_arguments(request.line, *marked)) return false;
   const LineTree& before = request.line;
@@ -53,12 +53,12 @@ static bool keeps_other_words(const Request& request) {
 }
 
 /// A word without effect on one path may be needed on another.
-Draft removed_on_every_path(const Request& request) {
+Draft removed_on_every_path(const FixRequest& request) {
   return request.on_every_path && keeps_other_words(request) ? removed_mark(request) : Draft{};
 }
 
 /// The word that the marked one repeats.
-static Span first_of_two(const Request& request) {
+static Span first_of_two(const FixRequest& request) {
   if (!request.finding.related.empty()) return request.finding.related;
   const Word* const marked = word_at(request.line, request.finding.span);
   if (!marked) return {};
@@ -74,14 +74,14 @@ static double value_of(std::string_view word) {
 }
 
 /// The same word again: X10 X10.0. If the values differ, the intended one is unknown.
-Draft removed_repetition(const Request& request) {
+Draft removed_repetition(const FixRequest& request) {
   const Span first = first_of_two(request);
   if (first.empty() || !(value_of(request.line.text_of(first)) == value_of(request.marked()))) return {};
   return removed_mark(request);
 }
 
 /// G90 G91: the first has no effect, unless an instruction between them uses it.
-Draft removed_earlier_mode(const Request& request) {
+Draft removed_earlier_mode(const FixRequest& request) {
   const Span earlier = request.finding.related;
   const auto matters = [&](const Word& word) {
     if (word.begin <= earlier.begin || word.begin >= request.finding.span.begin) return false;
@@ -95,7 +95,7 @@ Draft removed_earlier_mode(const Request& request) {
 }
 
 /// `%` and O1234, which enclose programs of other controls.
-Draft removed_foreign_frame(const Request& request) {
+Draft removed_foreign_frame(const FixRequest& request) {
   const std::string_view text = request.marked();
   const bool is_percent = text.find_first_not_of('%') == std::string_view::npos;
   const bool is_number = text.size() > 1 && syntax::upper(text.front()) == 'O' &&
@@ -105,13 +105,13 @@ Draft removed_foreign_frame(const Request& request) {
 }
 
 /// G80 ends canned cycles, which this control does not have.
-Draft removed_canned_cycle_end(const Request& request) {
+Draft removed_canned_cycle_end(const FixRequest& request) {
   const Word* const word = word_at(request.line, request.finding.span);
   return word && word->value == 80 && word->is_plain_integer() ? removed_mark(request) : Draft{};
 }
 
 /// K0 in G17: the circle is given without it.
-Draft removed_stray_center(const Request& request) {
+Draft removed_stray_center(const FixRequest& request) {
   const Word* const stray = word_at(request.line, request.finding.span);
   if (!stray) return {};
   dialect::LetterSet given = 0;
@@ -124,7 +124,7 @@ Draft removed_stray_center(const Request& request) {
 }
 
 /// G00 G01 X10: the first G moves nothing.
-Draft removed_first_motion(const Request& request) {
+Draft removed_first_motion(const FixRequest& request) {
   const Span first = request.finding.related;
   const Word* const word = first.empty() ? nullptr : word_at(request.line, first);
   const Instruction* const motion = word ? owner_of(request.line, *word) : nullptr;
@@ -147,7 +147,7 @@ static bool names_w190(std::string_view line) {
 }
 
 /// `isolint: ignore ISO003`, or one of its codes. A misspelled verb or code had a purpose, so it stays.
-Draft removed_suppression(const Request& request) {
+Draft removed_suppression(const FixRequest& request) {
   static constexpr std::string_view kCall = "isolint:";
   const std::string_view line = request.line.text;
   const Span span = request.finding.span;

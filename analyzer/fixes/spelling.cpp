@@ -22,14 +22,14 @@ static bool holds_only(std::string_view text, std::string_view characters) {
 }
 
 /// Replaces the marked text.
-static Draft rewritten(const Request& request, std::string text) {
+static Draft rewritten(const FixRequest& request, std::string text) {
   Draft draft{{replaced(request, request.finding.span, text)}};
   draft.what = std::move(text);
   return draft;
 }
 
 /// MO6 and X1O: the finding is at the M, or at the O after the number.
-Draft zero_for_letter_o(const Request& request) {
+Draft zero_for_letter_o(const FixRequest& request) {
   const std::string_view line = request.line.text;
   Span zeros = request.finding.span;
   const bool follows_number = is_letter_o(line[zeros.begin]);
@@ -47,7 +47,7 @@ Draft zero_for_letter_o(const Request& request) {
 }
 
 /// 10,5. Numbers with thousands separators are left to the author: 1.000,5, and 1,500 if the program has 2,000.5.
-Draft point_for_comma(const Request& request) {
+Draft point_for_comma(const FixRequest& request) {
   std::string text(request.marked());
   if (!holds_only(text, "0123456789,+- \t")) return {};
   if (std::count(text.begin(), text.end(), ',') != 1) return {};
@@ -59,7 +59,7 @@ Draft point_for_comma(const Request& request) {
 }
 
 /// G1.0 becomes G1, G-91 becomes G91. Also for M, N, T and V.
-Draft whole_number(const Request& request) {
+Draft whole_number(const FixRequest& request) {
   const std::string_view text = request.marked();
   const char letter = syntax::upper(text.front());
   std::string_view number = trimmed(text.substr(1));
@@ -75,7 +75,7 @@ Draft whole_number(const Request& request) {
   return rewritten(request, std::string(1, text.front()) + std::string(digits));
 }
 
-Draft without_sign(const Request& request) {
+Draft without_sign(const FixRequest& request) {
   std::string text(request.marked());
   const std::size_t minus = text.find('-');
   if (minus == std::string::npos || text.find('(') != std::string::npos) return {};
@@ -84,7 +84,7 @@ Draft without_sign(const Request& request) {
 }
 
 /// X=5, which other controls accept.
-Draft without_equals(const Request& request) {
+Draft without_equals(const FixRequest& request) {
   const std::string_view line = request.line.text;
   const std::uint32_t at = request.finding.span.begin;
   const std::string_view before = trimmed(line.substr(0, at));
@@ -101,14 +101,14 @@ static int decimals_of(std::string_view number) {
 }
 
 /// C270 is the same direction as C-90.
-Draft angle_in_range(const Request& request) {
+Draft angle_in_range(const FixRequest& request) {
   const double angle = std::remainder(request.finding.values[0], 360);
   if (!(std::abs(angle) <= request.finding.values[1]) || request.marked().find('(') != std::string_view::npos)
     return {};
   return rewritten(request, request.marked().front() + written(angle, decimals_of(request.marked())));
 }
 
-Draft comparison(const Request& request) {
+Draft comparison(const FixRequest& request) {
   static constexpr std::pair<std::string_view, std::string_view> kMeant[] = {
       {"==", "="}, {"=<", "<="}, {"=>", ">="}, {"!=", "<>"}, {"><", "<>"}};
   for (const auto& [text, meant] : kMeant)
@@ -117,7 +117,7 @@ Draft comparison(const Request& request) {
 }
 
 /// GOTO 30: adds the N.
-Draft label_with_letter(const Request& request) {
+Draft label_with_letter(const FixRequest& request) {
   const std::string_view before = trimmed(request.line.text.substr(0, request.finding.span.begin));
   const bool is_label = !before.empty() && is_letter_o(before.back()) && request.line.jump != nullptr;
   if (!is_label || !holds_only(request.marked(), "0123456789")) return {};
@@ -125,14 +125,14 @@ Draft label_with_letter(const Request& request) {
 }
 
 /// G20 and G21, which set inches and millimeters on other controls.
-Draft code_of_this_control(const Request& request) {
+Draft code_of_this_control(const FixRequest& request) {
   const Word* const word = word_at(request.line, request.finding.span);
   const bool is_unit = word && word->is_plain_integer() && (word->value == 20 || word->value == 21);
   return is_unit ? habit_draft(request, Habit::ForeignUnits) : Draft{};
 }
 
 /// G04 X2 or G04 F2, as on other controls. There, X1000 without a decimal point may be 1 s or 1000 s.
-Draft time_by_p(const Request& request) {
+Draft time_by_p(const FixRequest& request) {
   const Word* const command = word_at(request.line, request.finding.span);
   const Instruction* const dwell = command ? owner_of(request.line, *command) : nullptr;
   if (!dwell || dwell->command + 2u > request.line.words.size()) return {};
@@ -144,21 +144,21 @@ Draft time_by_p(const Request& request) {
 }
 
 /// G04 P500, meant in milliseconds.
-Draft seconds_of_milliseconds(const Request& request) { return habit_draft(request, Habit::Milliseconds); }
+Draft seconds_of_milliseconds(const FixRequest& request) { return habit_draft(request, Habit::Milliseconds); }
 
-Draft free_label(const Request& request) {
+Draft free_label(const FixRequest& request) {
   const std::optional<std::uint64_t> number = request.program.free_line_number();
   if (!number || request.marked().find('(') != std::string_view::npos) return {};
   return rewritten(request, fmt::format("{}{}", request.marked().front(), *number));
 }
 
-Draft closed_comment(const Request& request) {
+Draft closed_comment(const FixRequest& request) {
   const auto end = request.finding.span.begin + static_cast<std::uint32_t>(trimmed(request.marked()).size());
   return {{inserted(request, end, ")")}};
 }
 
 /// OP 10): text before the `)` was meant as a comment; without such text, the `)` is superfluous.
-Draft opened_comment(const Request& request) {
+Draft opened_comment(const FixRequest& request) {
   const syntax::ParsedLine before(request.line.text.substr(0, request.finding.span.begin));
   const syntax::LineTree tree = before.tree();
   std::size_t first = tree.words.size();
@@ -184,7 +184,7 @@ static Span whole_words(std::string_view line, Span span) {
 }
 
 /// Text for people in place of words of the program.
-Draft text_as_comment(const Request& request) {
+Draft text_as_comment(const FixRequest& request) {
   const Span span = whole_words(request.line.text, request.finding.span);
   const std::string_view text = request.line.text_of(span);
   static constexpr std::string_view kSigns = "()%#=;";
@@ -194,7 +194,7 @@ Draft text_as_comment(const Request& request) {
 }
 
 /// Comments between the marked words stay as they are.
-Draft capitals(const Request& request) {
+Draft capitals(const FixRequest& request) {
   std::string text(request.marked());
   for (std::uint32_t i = 0; i < text.size(); ++i) {
     const auto is_here = [&](Span comment) { return comment.holds(request.finding.span.begin + i); };
@@ -205,7 +205,7 @@ Draft capitals(const Request& request) {
 }
 
 /// Replaces all tabs of the line, which has one finding for them.
-Draft blank_for_tab(const Request& request) {
+Draft blank_for_tab(const FixRequest& request) {
   Draft draft;
   for (std::uint32_t at = request.finding.span.begin; at < request.line.text.size(); ++at) {
     const auto is_here = [&](Span comment) { return comment.holds(at); };

@@ -34,9 +34,9 @@ bool finds(const std::vector<check::LocatedFinding>& findings, dialect::Diagnost
 }
 
 /// A check that continues from a frontier, and its findings.
-class Attempt {
+class TrialCheck {
  public:
-  Attempt(const rules::CheckSetup& setup, const check::JumpMap& jumps, const check::Frontier& from)
+  TrialCheck(const rules::CheckSetup& setup, const check::JumpMap& jumps, const check::Frontier& from)
       : jumps_(jumps), checker_(setup, jumps) {
     checker_.frontier = from;
   }
@@ -71,7 +71,7 @@ class Attempt {
 };
 
 /// Some consecutive lines of a program, with the edits applied.
-std::string edited_lines(fixes::Program& program, std::uint64_t first, std::uint64_t last, std::vector<Edit> edits) {
+std::string edited_lines(fixes::FixProgram& program, std::uint64_t first, std::uint64_t last, std::vector<Edit> edits) {
   std::string text;
   std::vector<std::size_t> starts;
   for (std::uint64_t line = first; line <= last; ++line) {
@@ -118,9 +118,9 @@ class TextLines {
 }  // namespace
 
 /// The checks of the program without and with a fix.
-struct FixTrial::Comparison {
-  Attempt without;
-  Attempt with;
+struct FixTrial::TrialComparison {
+  TrialCheck without;
+  TrialCheck with;
   FindingDelta delta = {};
 
   const FindingDelta& so_far() {
@@ -140,7 +140,7 @@ static bool is_better(const FindingDelta& delta, bool found_own, const check::Lo
   return !found_own || delta.of(located.finding.id) < 0;
 }
 
-FixTrial::FixTrial(fixes::Program& program, const rules::CheckSetup& setup, const check::JumpMap& jumps)
+FixTrial::FixTrial(fixes::FixProgram& program, const rules::CheckSetup& setup, const check::JumpMap& jumps)
     : program_(program),
       setup_(setup),
       jumps_(jumps),
@@ -257,7 +257,7 @@ bool FixTrial::improves(const Fix& fix, const check::LocatedFinding& located, co
   const TextLines edited(text);
   for (std::size_t i = 0; i < edited.size(); ++i)
     if (is_affected_by_jumps(edited[i])) return improves_whole_program(fix, located);
-  Comparison compared{.without = {setup_, jumps_, before}, .with = {setup_, jumps_, before}};
+  TrialComparison compared{.without = {setup_, jumps_, before}, .with = {setup_, jumps_, before}};
   for (std::uint64_t line = first; line <= last; ++line) {
     const syntax::LineTree tree = lines_[line];
     if (is_affected_by_jumps(tree)) return improves_whole_program(fix, located);
@@ -275,13 +275,13 @@ void FixTrial::spend(const check::Frontier& frontier) {
   work_budget_ -= std::min<std::uint64_t>(work_budget_, 1 + frontier.live.size());
 }
 
-bool FixTrial::follow(Comparison& compared, std::uint64_t next, const check::LocatedFinding& located) {
+bool FixTrial::follow(TrialComparison& compared, std::uint64_t next, const check::LocatedFinding& located) {
   const std::uint64_t end = program_.line_count();
   const std::uint64_t nearest = next + kNearest;
   const std::uint64_t farthest = std::min(end, next + kMaxFollowed);
   const auto is_near_end = [&] { return end - next <= kMaxBlank; };
   Trail trail;
-  std::optional<Trail::Rest> rest;
+  std::optional<Trail::TrailRest> rest;
   while (next < farthest && (work_budget_ > 0 || next < nearest) && (!compared.has_met() || is_near_end())) {
     rest = trails_.rest_from(next, compared.with.frontier());
     if (rest) break;
@@ -294,7 +294,7 @@ bool FixTrial::follow(Comparison& compared, std::uint64_t next, const check::Loc
   const FindingDelta so_far = compared.so_far();
   bool found_own = finds(compared.without.findings(), located.finding.id);
   if (!rest) {
-    rest = Trail::Rest{.next_line = next, .has_more = next < end && !compared.has_met()};
+    rest = Trail::TrailRest{.next_line = next, .has_more = next < end && !compared.has_met()};
     if (next == end) {
       rest->delta.count(compared.with.conclusion(), 1);
       const check::Report found = compared.without.conclusion();

@@ -25,7 +25,7 @@ bool reads_better(const check::Report& before, const check::Report& after, fixes
 class FixTrial {
  public:
   /// All must outlive this.
-  FixTrial(fixes::Program& program, const rules::CheckSetup& setup, const check::JumpMap& jumps);
+  FixTrial(fixes::FixProgram& program, const rules::CheckSetup& setup, const check::JumpMap& jumps);
 
   /// `before` is the frontier before the finding's line.
   bool improves(const fixes::Fix& fix, const check::LocatedFinding& located, const check::Frontier& before);
@@ -33,7 +33,7 @@ class FixTrial {
   bool improves(fixes::Habit habit);
 
  private:
-  struct Comparison;
+  struct TrialComparison;
 
   bool is_affected_by_jumps(const syntax::LineTree& line) const;
   bool improves_whole_program(const fixes::Fix& fix, const check::LocatedFinding& located);
@@ -41,10 +41,10 @@ class FixTrial {
   std::optional<check::Report> found_with(std::vector<fixes::Edit> edits);
   const check::Report* findings_of_whole();
   /// Continues both checks from this line, which is below the edits.
-  bool follow(Comparison& compared, std::uint64_t next, const check::LocatedFinding& located);
+  bool follow(TrialComparison& compared, std::uint64_t next, const check::LocatedFinding& located);
   void spend(const check::Frontier& frontier);
 
-  fixes::Program& program_;
+  fixes::FixProgram& program_;
   const rules::CheckSetup& setup_;
   const check::JumpMap& jumps_;
   RecentTrees lines_;

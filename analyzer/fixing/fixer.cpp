@@ -31,7 +31,7 @@ constexpr std::size_t kWorkPerByte = 40;
 constexpr int kMaxGuesses = 4;
 
 /// A fix that may be applied.
-struct Candidate {
+struct FixCandidate {
   check::LocatedFinding located;
   std::vector<Edit> edits;  // The edits, sorted.
   fixes::Habit habit = fixes::Habit::None;
@@ -138,7 +138,7 @@ class LineFollower {
 };
 
 /// The result of applying candidates together.
-struct Trial {
+struct FixBatch {
   Version version;
   LineMap lines;
   bool is_good = false;
@@ -156,7 +156,7 @@ class Fixer {
 
   FixedText run() {
     while (work_budget_ > 0) {
-      const std::vector<Candidate> all = candidates();
+      const std::vector<FixCandidate> all = candidates();
       if (!all.empty()) {
         make_some_of(all);
       } else if (undone_.empty() || !changed_since_undone_) {
@@ -190,8 +190,8 @@ class Fixer {
   }
 
   /// The fixes that can be applied together, in the order of the program. The rewrites of a habit are applied alone.
-  std::vector<Candidate> candidates() const {
-    std::vector<Candidate> all;
+  std::vector<FixCandidate> candidates() const {
+    std::vector<FixCandidate> all;
     FindingFixes fixes(present_.text, present_.found, options_.setup);
     Taken taken;
     for (const check::LocatedFinding& located : present_.to_fix.findings) {
@@ -210,11 +210,11 @@ class Fixer {
     return all;
   }
 
-  Trial made(const std::vector<Candidate>& candidates) {
+  FixBatch made(const std::vector<FixCandidate>& candidates) {
     std::vector<Edit> edits;
-    for (const Candidate& candidate : candidates)
+    for (const FixCandidate& candidate : candidates)
       edits.insert(edits.end(), candidate.edits.begin(), candidate.edits.end());
-    Trial trial;
+    FixBatch trial;
     std::string text = edited(present_.text, edits, TextProgram(present_.text, options_.setup));
     trial.version = checked(std::move(text));
     trial.lines = LineFollower(present_.origins).follow(edits);
@@ -238,10 +238,10 @@ class Fixer {
   }
 
   /// Applies as many candidates as a few attempts allow; at least one is applied, or one is given up.
-  void make_some_of(std::vector<Candidate> all) {
-    Trial trial = made(all);
+  void make_some_of(std::vector<FixCandidate> all) {
+    FixBatch trial = made(all);
     for (int i = 0; i < kMaxGuesses && !trial.is_good && work_budget_ > 0; ++i) {
-      std::vector<Candidate> unsuspected = without_suspects(all, trial);
+      std::vector<FixCandidate> unsuspected = without_suspects(all, trial);
       if (unsuspected.empty() || unsuspected.size() == all.size()) break;
       all = std::move(unsuspected);
       trial = made(all);
@@ -252,14 +252,14 @@ class Fixer {
       trial = made(all);
     }
     if (trial.is_good) return accept(std::move(trial));
-    for (const Candidate& candidate : all) {
+    for (const FixCandidate& candidate : all) {
       undone_.insert(key_of(candidate.located));
       undone_habits_[static_cast<std::size_t>(candidate.habit)] = true;
     }
   }
 
   /// Removes the candidates that are nearest above the new findings.
-  std::vector<Candidate> without_suspects(const std::vector<Candidate>& all, const Trial& trial) const {
+  std::vector<FixCandidate> without_suspects(const std::vector<FixCandidate>& all, const FixBatch& trial) const {
     const auto place = [](std::uint64_t line, dialect::DiagnosticId id) {
       return line << 8 | static_cast<std::uint64_t>(id);
     };
@@ -267,7 +267,7 @@ class Fixer {
     for (const check::LocatedFinding& located : present_.found.findings)
       ++expected[place(trial.lines.new_lines[located.line], located.finding.id)];
     std::vector<std::uint64_t> first_lines;
-    for (const Candidate& candidate : all) {
+    for (const FixCandidate& candidate : all) {
       const check::LocatedFinding& located = candidate.located;
       --expected[place(trial.lines.new_lines[located.line], located.finding.id)];
       const std::uint64_t above = first_lines.empty() ? 0 : first_lines.back();
@@ -279,14 +279,14 @@ class Fixer {
       const auto behind = std::upper_bound(first_lines.begin(), first_lines.end(), located.line);
       if (behind != first_lines.begin()) suspected[static_cast<std::size_t>(behind - first_lines.begin()) - 1] = true;
     }
-    std::vector<Candidate> unsuspected;
+    std::vector<FixCandidate> unsuspected;
     for (std::size_t i = 0; i < all.size(); ++i)
       if (!suspected[i]) unsuspected.push_back(all[i]);
     return unsuspected;
   }
 
   /// The first line that the candidate changes or inserts.
-  static std::uint64_t first_new_line(const Candidate& candidate, const LineMap& lines) {
+  static std::uint64_t first_new_line(const FixCandidate& candidate, const LineMap& lines) {
     std::uint64_t first = lines.new_lines[candidate.located.line];
     for (const Edit& edit : candidate.edits) {
       const bool is_above = edit.begin.column == 0;
@@ -309,7 +309,7 @@ class Fixer {
     }
   }
 
-  void accept(Trial trial) {
+  void accept(FixBatch trial) {
     std::set<FindingKey> undone;
     for (const auto& [line, id, begin] : undone_) undone.emplace(trial.lines.new_lines[line], id, begin);
     undone_ = std::move(undone);

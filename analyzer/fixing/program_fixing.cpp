@@ -20,9 +20,9 @@ std::optional<std::string> FileFixing::finish(const SourceFile& source, const Fi
 }
 
 /// Reads a text line by line, with line ends; empty after the last.
-class LineReader {
+class TextLineReader {
  public:
-  explicit LineReader(std::string_view text) : rest_(text) {}
+  explicit TextLineReader(std::string_view text) : rest_(text) {}
   std::string_view next() {
     const char* const end = rest_.data() + rest_.size();
     const char* const behind = syntax::skip_line_end(syntax::find_line_end(rest_.data(), end), end);
@@ -38,8 +38,8 @@ class LineReader {
 bool write_diff(const std::string& name, const SourceFile& source, const FixedText& fixed,
                 std::function<void(std::string_view)> write) {
   UnifiedDiff diff(name, source.has_byte_order_mark(), std::move(write));
-  LineReader before(source.text());
-  LineReader after(fixed.text);
+  TextLineReader before(source.text());
+  TextLineReader after(fixed.text);
   std::uint64_t next = 0;  // The next line of the old text.
   for (const std::uint64_t origin : fixed.origins) {
     const std::string_view line = after.next();

@@ -3,7 +3,7 @@
 namespace isocnc::fixing {
 
 syntax::LineTree RecentTrees::operator[](std::uint64_t line) {
-  Parsed& parsed = parsed_[line % kMaxTrees];
+  KeptTree& parsed = parsed_[line % kMaxTrees];
   const std::string_view text = program_.text(line);
   if (parsed.line != line) {
     parsed.store.clear();

@@ -12,7 +12,7 @@ namespace isocnc::fixing {
 /// A cache of the trees of a program's lines, for repeated passes over the same lines.
 class RecentTrees {
  public:
-  explicit RecentTrees(fixes::Program& program) : program_(program) {}
+  explicit RecentTrees(fixes::FixProgram& program) : program_(program) {}
 
   /// Valid until the next call.
   syntax::LineTree operator[](std::uint64_t line);
@@ -20,13 +20,13 @@ class RecentTrees {
  private:
   static constexpr std::size_t kMaxTrees = 256;
 
-  struct Parsed {
+  struct KeptTree {
     std::optional<std::uint64_t> line;
     syntax::TreeStore store;
   };
 
-  fixes::Program& program_;
-  std::array<Parsed, kMaxTrees> parsed_;  ///< The trees, each at its line number modulo kMaxTrees.
+  fixes::FixProgram& program_;
+  std::array<KeptTree, kMaxTrees> parsed_;  ///< The trees, each at its line number modulo kMaxTrees.
 };
 
 }  // namespace isocnc::fixing

@@ -79,9 +79,9 @@ std::string number_text(double value, double rounding) {
 }
 
 /// The rewritten words of one line.
-class LineRewrite {
+class LineRewriter {
  public:
-  LineRewrite(std::uint64_t number, const LineTree& line) : number_(number), line_(line) {}
+  LineRewriter(std::uint64_t number, const LineTree& line) : number_(number), line_(line) {}
 
   /// Replaces a word. Blanks inside it are lost; a comment inside it must not be, so has_comment() reports that.
   void replace(Span span, std::string text) {
@@ -162,7 +162,7 @@ constexpr dialect::LetterSet old_letters(Rewrite how) {
 }
 
 /// Writes the circle of an arc in the other notation. If the line has both notations, only removes the old words.
-void give_circle(LineRewrite& rewrite, Rewrite how, const LineTree& line, const Instruction& motion,
+void give_circle(LineRewriter& rewrite, Rewrite how, const LineTree& line, const Instruction& motion,
                  const BlockRecorder& done, double rounding) {
   const bool by_radius = how == Rewrite::ArcByRadius;
   const std::vector<const Word*> old = words_of(line, motion, old_letters(how));
@@ -179,7 +179,7 @@ void give_circle(LineRewrite& rewrite, Rewrite how, const LineTree& line, const 
   for (std::size_t i = is_there ? 0 : 1; i < old.size(); ++i) rewrite.remove(old[i]->span());
 }
 
-std::vector<Edit> rewrite_arc(Rewrite how, fixes::Program& program, const execution::Setup& setup,
+std::vector<Edit> rewrite_arc(Rewrite how, fixes::FixProgram& program, const execution::Setup& setup,
                               std::uint64_t number) {
   const LineTree line = program.line(number);
   const Instruction* const motion = line.motion();
@@ -190,7 +190,7 @@ std::vector<Edit> rewrite_arc(Rewrite how, fixes::Program& program, const execut
   if (done.has_error() || !done.motion() || done.motion()->move.kind != MoveKind::Arc) return {};
   if (how == Rewrite::ArcByRadius && std::abs(done.motion()->move.sweep_deg) > 180 + 1e-6) return {};
   for (const double rounding : kRadiusRoundings) {
-    LineRewrite rewrite(number, line);
+    LineRewriter rewrite(number, line);
     give_circle(rewrite, how, line, *motion, done, rounding);
     if (rewrite.has_comment()) return {};
     const syntax::ParsedLine parsed(rewrite.text());
@@ -202,8 +202,8 @@ std::vector<Edit> rewrite_arc(Rewrite how, fixes::Program& program, const execut
   return {};
 }
 
-std::vector<Edit> rewrite_arcs(Rewrite how, fixes::Program& program, const execution::Setup& setup, std::uint64_t first,
-                               std::uint64_t last) {
+std::vector<Edit> rewrite_arcs(Rewrite how, fixes::FixProgram& program, const execution::Setup& setup,
+                               std::uint64_t first, std::uint64_t last) {
   std::vector<Edit> all;
   for (std::uint64_t line = first; line <= last; ++line) {
     const std::vector<Edit> edits = rewrite_arc(how, program, setup, line);
@@ -215,12 +215,12 @@ std::vector<Edit> rewrite_arcs(Rewrite how, fixes::Program& program, const execu
 // --- Dimensions
 
 /// The mode that a rewrite sets.
-struct Mode {
+struct ModeChange {
   ModalGroup group;
   std::uint8_t number;
 };
 
-constexpr Mode mode_of(Rewrite how) {
+constexpr ModeChange mode_of(Rewrite how) {
   switch (how) {
     case Rewrite::Incremental:
       return {ModalGroup::Distance, dialect::kIncremental};
@@ -237,7 +237,7 @@ constexpr Mode mode_of(Rewrite how) {
 /// increments start from the position that the new lines reached, so that roundings do not add up.
 class Dimensions {
  public:
-  Dimensions(Rewrite how, fixes::Program& program, const execution::Setup& setup, std::uint64_t first,
+  Dimensions(Rewrite how, fixes::FixProgram& program, const execution::Setup& setup, std::uint64_t first,
              std::uint64_t last)
       : mode_(mode_of(how)), program_(program), setup_(setup), first_(first), last_(last) {}
 
@@ -316,7 +316,7 @@ class Dimensions {
     old_ = done.state();
     if (done.has_error() || old_.unknown != 0) return false;
     for (const double rounding : kRoundings) {
-      LineRewrite rewrite(number, line);
+      LineRewriter rewrite(number, line);
       const bool has_changed = set_numbers(rewrite, line, done, before, rounding);
       remove_modes(rewrite, line);
       if (rewrite.has_comment()) return false;
@@ -335,7 +335,7 @@ class Dimensions {
   }
 
   /// Takes the edits of a line; removes the line if it has become blank.
-  void take(std::uint64_t number, const LineTree& line, const LineRewrite& rewrite, const std::string& text) {
+  void take(std::uint64_t number, const LineTree& line, const LineRewriter& rewrite, const std::string& text) {
     if (!line.words.empty() && fixes::is_blank(text) && number + 1 < program_.line_count()) {
       edits_.push_back({{number, 0}, {number + 1, 0}, {}});
       return;
@@ -344,13 +344,13 @@ class Dimensions {
     edits_.insert(edits_.end(), edits.begin(), edits.end());
   }
 
-  void remove_modes(LineRewrite& rewrite, const LineTree& line) const {
+  void remove_modes(LineRewriter& rewrite, const LineTree& line) const {
     for (const Instruction& instruction : line.instructions)
       if (instruction.kind == InstructionKind::G && instruction.g() != nullptr && instruction.g()->group == mode_.group)
         rewrite.remove(line.command(instruction).span());
   }
 
-  bool set_numbers(LineRewrite& rewrite, const LineTree& line, const BlockRecorder& done, const State& before,
+  bool set_numbers(LineRewriter& rewrite, const LineTree& line, const BlockRecorder& done, const State& before,
                    double rounding) const {
     const State& modes = done.modes();
     const double old_scale = modes.mm_per_unit();
@@ -369,7 +369,7 @@ class Dimensions {
     return !rewrite.edits().empty();
   }
 
-  void set_motion(LineRewrite& rewrite, const LineTree& line, const Instruction& instruction, const Move& motion,
+  void set_motion(LineRewriter& rewrite, const LineTree& line, const Instruction& instruction, const Move& motion,
                   double scale, double old_scale, bool incremental, double rounding) const {
     const auto from_start = [&](double value, double start) { return incremental ? value - start : value; };
     for (const Word* const word : words_of(line, instruction, dialect::kDimensionLetters)) {
@@ -391,7 +391,7 @@ class Dimensions {
   }
 
   /// Sets the origin of a frame. G28 is not affected: its X, Y and Z are components.
-  static void set_origin(LineRewrite& rewrite, const LineTree& line, const Instruction& instruction, double old_scale,
+  static void set_origin(LineRewriter& rewrite, const LineTree& line, const Instruction& instruction, double old_scale,
                          double scale, double rounding) {
     if (!instruction.g()->takes_origin()) return;
     for (const Word* const word : words_of(line, instruction, dialect::kLinearLetters))
@@ -399,7 +399,7 @@ class Dimensions {
   }
 
   /// Sets a feed rate per minute along a path; inverse time and degrees do not depend on units.
-  static void set_feed(LineRewrite& rewrite, const LineTree& line, const BlockRecorder& done, double factor) {
+  static void set_feed(LineRewriter& rewrite, const LineTree& line, const BlockRecorder& done, double factor) {
     if (done.modes().inverse_time()) return;
     const Instruction* const motion = line.motion();
     if (motion && words_of(line, *motion, dialect::kLinearLetters).empty()) return;
@@ -408,8 +408,8 @@ class Dimensions {
     rewrite.set(feed, value, 1, std::abs(value) * 1e-7);
   }
 
-  const Mode mode_;
-  fixes::Program& program_;
+  const ModeChange mode_;
+  fixes::FixProgram& program_;
   const execution::Setup& setup_;
   const std::uint64_t first_;
   const std::uint64_t last_;
@@ -421,7 +421,7 @@ class Dimensions {
 
 }  // namespace
 
-std::optional<std::vector<Edit>> rewrite(Rewrite how, fixes::Program& program, const execution::Setup& setup,
+std::optional<std::vector<Edit>> rewrite(Rewrite how, fixes::FixProgram& program, const execution::Setup& setup,
                                          std::uint64_t first, std::uint64_t last) {
   last = std::min(last, program.line_count() - 1);
   if (first > last) return std::nullopt;

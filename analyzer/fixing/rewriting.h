@@ -29,7 +29,7 @@ inline constexpr double kSameArc = 1e-4;
 /// ones, and leave the machine in the same state. Nothing if that fails, if nothing changes, if the state before a line
 /// differs between paths, or if a line has an error. Modes (the last four rewrites) are set before the lines and reset
 /// after them; for these, no jump may lead out of the lines or into them.
-std::optional<std::vector<fixes::Edit>> rewrite(Rewrite how, fixes::Program& program, const execution::Setup& setup,
+std::optional<std::vector<fixes::Edit>> rewrite(Rewrite how, fixes::FixProgram& program, const execution::Setup& setup,
                                                 std::uint64_t first, std::uint64_t last);
 
 }  // namespace isocnc::fixing

@@ -15,7 +15,7 @@ namespace isocnc::fixing {
 
 /// A text as a Program for fixes. Facts are computed on demand; if asked for from top to bottom, all states together
 /// cost no more than one check of the text.
-class TextProgram final : public fixes::Program {
+class TextProgram final : public fixes::FixProgram {
  public:
   /// Both must outlive this. `on_line` is called for each line asked for; it may throw to end a long search.
   TextProgram(std::string_view text, const rules::CheckSetup& setup, std::function<void()> on_line = {});

@@ -26,17 +26,18 @@ void Trail::pass(std::uint64_t next_line, const check::Frontier& frontier, const
   marks_.push_back({next_line, frontier, so_far});
 }
 
-void Trail::end(const FindingDelta& so_far, const Rest& rest) {
+void Trail::end(const FindingDelta& so_far, const TrailRest& rest) {
   all_ = rest;
   all_.delta += so_far;
 }
 
-std::optional<Trail::Rest> Trail::rest_from(std::uint64_t line, const check::Frontier& frontier) const {
+std::optional<Trail::TrailRest> Trail::rest_from(std::uint64_t line, const check::Frontier& frontier) const {
   if (line % kBetweenMarks != 0 || (all_.has_more && all_.next_line < line + kMinLines)) return std::nullopt;
-  const auto mark = std::lower_bound(marks_.begin(), marks_.end(), line,
-                                     [](const Mark& each, std::uint64_t wanted) { return each.next_line < wanted; });
+  const auto mark =
+      std::lower_bound(marks_.begin(), marks_.end(), line,
+                       [](const TrailMark& each, std::uint64_t wanted) { return each.next_line < wanted; });
   if (mark == marks_.end() || mark->next_line != line || mark->frontier != frontier) return std::nullopt;
-  Rest rest = all_;
+  TrailRest rest = all_;
   rest.delta -= mark->so_far;
   return rest;
 }
@@ -46,9 +47,9 @@ void Trails::keep(Trail trail) {
   trails_.push_back(std::move(trail));
 }
 
-std::optional<Trail::Rest> Trails::rest_from(std::uint64_t line, const check::Frontier& frontier) const {
+std::optional<Trail::TrailRest> Trails::rest_from(std::uint64_t line, const check::Frontier& frontier) const {
   for (const Trail& trail : trails_)
-    if (std::optional<Trail::Rest> rest = trail.rest_from(line, frontier)) return rest;
+    if (std::optional<Trail::TrailRest> rest = trail.rest_from(line, frontier)) return rest;
   return std::nullopt;
 }
 

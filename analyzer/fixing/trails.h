@@ -39,7 +39,7 @@ class FindingDelta {
 class Trail {
  public:
   /// The part of a trail from some line on.
-  struct Rest {
+  struct TrailRest {
     FindingDelta delta;           ///< The difference in findings in that part.
     std::uint64_t next_line = 0;  ///< The first line after that part.
     bool has_more = false;        ///< Whether there may be further effects from that line on.
@@ -48,16 +48,16 @@ class Trail {
   /// Records the check after a line below the change; lines must ascend.
   void pass(std::uint64_t next_line, const check::Frontier& frontier, const FindingDelta& so_far);
   /// Ends the trail; `rest` follows the recorded lines.
-  void end(const FindingDelta& so_far, const Rest& rest);
+  void end(const FindingDelta& so_far, const TrailRest& rest);
 
   /// Whether the trail is long enough to keep; a short one is recomputed as fast.
   bool is_long() const { return passed_ >= kLong; }
   /// The rest from this line on, if the trail had the same frontier there. Nothing if it had not, or if too few lines
   /// followed.
-  std::optional<Rest> rest_from(std::uint64_t line, const check::Frontier& frontier) const;
+  std::optional<TrailRest> rest_from(std::uint64_t line, const check::Frontier& frontier) const;
 
  private:
-  struct Mark {
+  struct TrailMark {
     std::uint64_t next_line = 0;
     check::Frontier frontier;
     FindingDelta so_far;
@@ -66,15 +66,15 @@ class Trail {
   static constexpr std::uint64_t kLong = 200;
 
   std::uint64_t passed_ = 0;
-  std::vector<Mark> marks_;
-  Rest all_;
+  std::vector<TrailMark> marks_;
+  TrailRest all_;
 };
 
 /// The latest long trails.
 class Trails {
  public:
   void keep(Trail trail);
-  std::optional<Trail::Rest> rest_from(std::uint64_t line, const check::Frontier& frontier) const;
+  std::optional<Trail::TrailRest> rest_from(std::uint64_t line, const check::Frontier& frontier) const;
 
  private:
   static constexpr std::size_t kMaxTrails = 4;

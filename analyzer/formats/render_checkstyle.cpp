@@ -9,7 +9,7 @@ namespace isocnc::formats {
 /// Checkstyle's XML, which Jenkins, reviewdog and editors read.
 class CheckstyleRenderer final : public Renderer {
  public:
-  explicit CheckstyleRenderer(const Style& style) : style_(style) {}
+  explicit CheckstyleRenderer(const ReportStyle& style) : style_(style) {}
 
   void begin(std::string& output) override {
     output += "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<checkstyle version=\"4.3\">\n";
@@ -31,10 +31,10 @@ class CheckstyleRenderer final : public Renderer {
   }
 
  private:
-  Style style_;
+  ReportStyle style_;
 };
 
-std::unique_ptr<Renderer> make_checkstyle_renderer(const Style& style) {
+std::unique_ptr<Renderer> make_checkstyle_renderer(const ReportStyle& style) {
   return std::make_unique<CheckstyleRenderer>(style);
 }
 

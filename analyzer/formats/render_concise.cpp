@@ -8,7 +8,7 @@ namespace isocnc::formats {
 /// `pocket.iso:12:3: error: ... [ISO026]`: one line per finding, as compilers and grep print them.
 class ConciseRenderer final : public Renderer {
  public:
-  explicit ConciseRenderer(const Style& style) : style_(style) {}
+  explicit ConciseRenderer(const ReportStyle& style) : style_(style) {}
 
   void file(const CheckedProgram& program, Output& output) override {
     const std::string name = printable(program.name);
@@ -22,9 +22,11 @@ class ConciseRenderer final : public Renderer {
   }
 
  private:
-  Style style_;
+  ReportStyle style_;
 };
 
-std::unique_ptr<Renderer> make_concise_renderer(const Style& style) { return std::make_unique<ConciseRenderer>(style); }
+std::unique_ptr<Renderer> make_concise_renderer(const ReportStyle& style) {
+  return std::make_unique<ConciseRenderer>(style);
+}
 
 }  // namespace isocnc::formats

@@ -22,7 +22,7 @@ static std::string escaped(std::string_view text, bool is_property) {
 /// Workflow commands, which GitHub shows as annotations of the lines: `::error file=...,line=...::message`.
 class GithubRenderer final : public Renderer {
  public:
-  explicit GithubRenderer(const Style& style) : style_(style) {}
+  explicit GithubRenderer(const ReportStyle& style) : style_(style) {}
 
   void file(const CheckedProgram& program, Output& output) override {
     static constexpr std::string_view kCommands[] = {"error", "warning", "notice"};
@@ -41,9 +41,11 @@ class GithubRenderer final : public Renderer {
   }
 
  private:
-  Style style_;
+  ReportStyle style_;
 };
 
-std::unique_ptr<Renderer> make_github_renderer(const Style& style) { return std::make_unique<GithubRenderer>(style); }
+std::unique_ptr<Renderer> make_github_renderer(const ReportStyle& style) {
+  return std::make_unique<GithubRenderer>(style);
+}
 
 }  // namespace isocnc::formats

@@ -7,12 +7,12 @@
 
 namespace isocnc::formats {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// GitLab's Code Quality report: one array of issues.
 class GitlabRenderer final : public Renderer {
  public:
-  explicit GitlabRenderer(const Style& style) : style_(style) {}
+  explicit GitlabRenderer(const ReportStyle& style) : style_(style) {}
 
   void begin(std::string& output) override { output += "["; }
   void end(std::string& output) override { output += first_ ? "]\n" : "\n]\n"; }
@@ -27,23 +27,26 @@ class GitlabRenderer final : public Renderer {
       const selection::Fingerprint print = fingerprints.next(located.finding.id, shown.line_text);
       const std::string all =
           fmt::format("{}\n{}\n{:016x}\n{}", path, shown.def.code, print.line_hash, print.occurrence);
-      const Json issue = {{"description", fmt::format("{}: {}", shown.def.code, shown.message)},
-                          {"check_name", shown.def.code},
-                          {"fingerprint", fmt::format("{:016x}", selection::hash_on(selection::kHashStart, all))},
-                          {"severity", kSeverities[static_cast<std::size_t>(shown.severity)]},
-                          {"location", {{"path", path}, {"lines", {{"begin", shown.line}, {"end", shown.line}}}}}};
+      const OrderedJson issue = {
+          {"description", fmt::format("{}: {}", shown.def.code, shown.message)},
+          {"check_name", shown.def.code},
+          {"fingerprint", fmt::format("{:016x}", selection::hash_on(selection::kHashStart, all))},
+          {"severity", kSeverities[static_cast<std::size_t>(shown.severity)]},
+          {"location", {{"path", path}, {"lines", {{"begin", shown.line}, {"end", shown.line}}}}}};
       output.buffer() += first_ ? "\n  " : ",\n  ";
       first_ = false;
-      output.buffer() += issue.dump(-1, ' ', false, Json::error_handler_t::replace);
+      output.buffer() += issue.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
       output.drain();
     }
   }
 
  private:
-  Style style_;
+  ReportStyle style_;
   bool first_ = true;
 };
 
-std::unique_ptr<Renderer> make_gitlab_renderer(const Style& style) { return std::make_unique<GitlabRenderer>(style); }
+std::unique_ptr<Renderer> make_gitlab_renderer(const ReportStyle& style) {
+  return std::make_unique<GitlabRenderer>(style);
+}
 
 }  // namespace isocnc::formats

@@ -6,12 +6,12 @@
 
 namespace isocnc::formats {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// One array of objects, as docs/isolint.md describes them; columns from 1 in code points, ends exclusive.
 class JsonRenderer final : public Renderer {
  public:
-  explicit JsonRenderer(const Style& style) : style_(style) {}
+  explicit JsonRenderer(const ReportStyle& style) : style_(style) {}
 
   void begin(std::string& output) override { output += "["; }
   void end(std::string& output) override { output += first_ ? "]\n" : "\n]\n"; }
@@ -23,17 +23,17 @@ class JsonRenderer final : public Renderer {
     for (const check::LocatedFinding& located : program.report.findings) {
       output.buffer() += first_ ? "\n  " : ",\n  ";
       first_ = false;
-      const Json object = to_json(program.name, lines, located, program.report, steps, fixes);
-      output.buffer() += object.dump(-1, ' ', false, Json::error_handler_t::replace);
+      const OrderedJson object = to_json(program.name, lines, located, program.report, steps, fixes);
+      output.buffer() += object.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
       output.drain();
     }
   }
 
  private:
-  Json to_json(std::string_view name, syntax::LineFinder& lines, const check::LocatedFinding& located,
-               const check::Report& report, const StepTexts& steps, fixing::FindingFixes& fixes) const {
+  OrderedJson to_json(std::string_view name, syntax::LineFinder& lines, const check::LocatedFinding& located,
+                      const check::Report& report, const StepTexts& steps, fixing::FindingFixes& fixes) const {
     const ShownFinding shown = show(located, lines, style_);
-    Json object;
+    OrderedJson object;
     object["file"] = name;
     object["line"] = shown.line;
     object["column"] = shown.column;
@@ -47,17 +47,17 @@ class JsonRenderer final : public Renderer {
     object["fix"] = fix_of(located, fixes);
     object["path"] = nullptr;
     if (located.path >= 0) {
-      object["path"] = Json::array();
+      object["path"] = OrderedJson::array();
       for (const check::PathStep& step : report.paths[static_cast<std::size_t>(located.path)])
         object["path"].push_back({{"line", step.line + 1}, {"text", steps.of(step)}});
     }
     return object;
   }
 
-  Json fix_of(const check::LocatedFinding& located, fixing::FindingFixes& fixes) const {
+  OrderedJson fix_of(const check::LocatedFinding& located, fixing::FindingFixes& fixes) const {
     const std::optional<fixes::Fix> fix = fixes.offered_in_full(located);
     if (!fix) return nullptr;
-    Json edits = Json::array();
+    OrderedJson edits = OrderedJson::array();
     for (const fixing::ShownEdit& edit : fixes.shown(*fix))
       edits.push_back({{"line", edit.line},
                        {"column", edit.column},
@@ -67,10 +67,10 @@ class JsonRenderer final : public Renderer {
     return {{"title", fix->title_in(style_.language)}, {"safe", fix->safety == fixes::Safety::Safe}, {"edits", edits}};
   }
 
-  Style style_;
+  ReportStyle style_;
   bool first_ = true;
 };
 
-std::unique_ptr<Renderer> make_json_renderer(const Style& style) { return std::make_unique<JsonRenderer>(style); }
+std::unique_ptr<Renderer> make_json_renderer(const ReportStyle& style) { return std::make_unique<JsonRenderer>(style); }
 
 }  // namespace isocnc::formats

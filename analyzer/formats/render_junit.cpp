@@ -12,7 +12,7 @@ namespace isocnc::formats {
 /// cases with output, as they do not affect the exit status either.
 class JunitRenderer final : public Renderer {
  public:
-  explicit JunitRenderer(const Style& style) : style_(style) {}
+  explicit JunitRenderer(const ReportStyle& style) : style_(style) {}
 
   void begin(std::string& output) override {
     output += "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"isolint\">\n";
@@ -69,9 +69,11 @@ class JunitRenderer final : public Renderer {
     }
   }
 
-  Style style_;
+  ReportStyle style_;
 };
 
-std::unique_ptr<Renderer> make_junit_renderer(const Style& style) { return std::make_unique<JunitRenderer>(style); }
+std::unique_ptr<Renderer> make_junit_renderer(const ReportStyle& style) {
+  return std::make_unique<JunitRenderer>(style);
+}
 
 }  // namespace isocnc::formats

@@ -11,9 +11,11 @@ namespace isocnc::formats {
 
 using dialect::DiagnosticId;
 using dialect::Severity;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-static std::string dumped(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+static std::string dumped(const OrderedJson& json) {
+  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+}
 
 static std::string_view level(Severity severity) {
   static constexpr std::string_view kLevels[] = {"error", "warning", "note"};
@@ -24,7 +26,7 @@ static std::string_view level(Severity severity) {
 /// files that they refer to.
 class SarifRenderer final : public Renderer {
  public:
-  explicit SarifRenderer(const Style& style) : style_(style) {}
+  explicit SarifRenderer(const ReportStyle& style) : style_(style) {}
 
   void begin(std::string& output) override {
     output +=
@@ -43,7 +45,7 @@ class SarifRenderer final : public Renderer {
   }
 
   void file(const CheckedProgram& program, Output& output) override {
-    const Json artifact = {{"uri", uri_of(program.name)}, {"index", artifacts_.size()}};
+    const OrderedJson artifact = {{"uri", uri_of(program.name)}, {"index", artifacts_.size()}};
     artifacts_.push_back({{"location", {{"uri", uri_of(program.name)}}}, {"roles", {"analysisTarget"}}});
     syntax::LineFinder lines(program.text);
     const StepTexts steps(program.text, program.report, style_.language);
@@ -53,13 +55,13 @@ class SarifRenderer final : public Renderer {
       output.buffer() += first_ ? "\n" : ",\n";
       first_ = false;
       const ShownFinding shown = show(located, lines, style_);
-      Json object = result(shown, located.finding.id, artifact);
+      OrderedJson object = result(shown, located.finding.id, artifact);
       const selection::Fingerprint print = fingerprints.next(located.finding.id, shown.line_text);
       object["partialFingerprints"]["primaryLocationLineHash"] =
           fmt::format("{:016x}:{}", print.line_hash, print.occurrence);
       if (located.path >= 0) object["codeFlows"] = code_flows(located, program.report, steps, shown, artifact);
       if (const std::optional<fixes::Fix> fix = fixes.offered_in_full(located))
-        object["fixes"] = Json::array({fix_of(*fix, fixes, artifact)});
+        object["fixes"] = OrderedJson::array({fix_of(*fix, fixes, artifact)});
       output.buffer() += dumped(object);
       output.drain();
     }
@@ -75,12 +77,12 @@ class SarifRenderer final : public Renderer {
   }
 
  private:
-  Json rule(DiagnosticId id) const {
+  OrderedJson rule(DiagnosticId id) const {
     const dialect::DiagnosticDef& def = dialect::definition(id);
-    Json rule = {{"id", def.code},
-                 {"name", def.name},
-                 {"shortDescription", {{"text", def.title.in(style_.language)}}},
-                 {"fullDescription", {{"text", def.explanation.in(style_.language)}}}};
+    OrderedJson rule = {{"id", def.code},
+                        {"name", def.name},
+                        {"shortDescription", {{"text", def.title.in(style_.language)}}},
+                        {"fullDescription", {{"text", def.explanation.in(style_.language)}}}};
     // SARIF requires an absolute URI; in a build without a site URL the rule pages are local files.
     if (const std::string url = rule_url(id); url.find("://") != std::string::npos) rule["helpUri"] = url;
     rule["help"] = {{"text", def.explanation.in(style_.language)}};
@@ -89,7 +91,7 @@ class SarifRenderer final : public Renderer {
     return rule;
   }
 
-  static Json location(const ShownFinding& shown, const Json& artifact) {
+  static OrderedJson location(const ShownFinding& shown, const OrderedJson& artifact) {
     return {{"artifactLocation", artifact},
             {"region",
              {{"startLine", shown.line},
@@ -98,8 +100,8 @@ class SarifRenderer final : public Renderer {
               {"endColumn", shown.end_column}}}};
   }
 
-  static Json result(const ShownFinding& shown, DiagnosticId id, const Json& artifact) {
-    Json locations = Json::array();
+  static OrderedJson result(const ShownFinding& shown, DiagnosticId id, const OrderedJson& artifact) {
+    OrderedJson locations = OrderedJson::array();
     locations.push_back({{"physicalLocation", location(shown, artifact)}});
     return {{"ruleId", shown.def.code},
             {"ruleIndex", static_cast<std::size_t>(id)},
@@ -109,24 +111,24 @@ class SarifRenderer final : public Renderer {
   }
 
   /// The jumps that lead to the finding, then the finding.
-  static Json code_flows(const check::LocatedFinding& located, const check::Report& report, const StepTexts& steps,
-                         const ShownFinding& shown, const Json& artifact) {
-    Json places = Json::array();
-    const auto add = [&](const Json& place, std::string_view text) {
+  static OrderedJson code_flows(const check::LocatedFinding& located, const check::Report& report,
+                                const StepTexts& steps, const ShownFinding& shown, const OrderedJson& artifact) {
+    OrderedJson places = OrderedJson::array();
+    const auto add = [&](const OrderedJson& place, std::string_view text) {
       places.push_back({{"location", {{"physicalLocation", place}, {"message", {{"text", text}}}}}});
     };
     for (const check::PathStep& step : report.paths[static_cast<std::size_t>(located.path)])
       add({{"artifactLocation", artifact}, {"region", {{"startLine", step.line + 1}}}}, steps.of(step));
     add(location(shown, artifact), shown.message);
-    Json thread_flows = Json::array();
+    OrderedJson thread_flows = OrderedJson::array();
     thread_flows.push_back({{"locations", places}});
-    Json flows = Json::array();
+    OrderedJson flows = OrderedJson::array();
     flows.push_back({{"threadFlows", thread_flows}});
     return flows;
   }
 
-  Json fix_of(const fixes::Fix& fix, fixing::FindingFixes& fixes, const Json& artifact) const {
-    Json replacements = Json::array();
+  OrderedJson fix_of(const fixes::Fix& fix, fixing::FindingFixes& fixes, const OrderedJson& artifact) const {
+    OrderedJson replacements = OrderedJson::array();
     for (const fixing::ShownEdit& edit : fixes.shown(fix))
       replacements.push_back({{"deletedRegion",
                                {{"startLine", edit.line},
@@ -134,15 +136,18 @@ class SarifRenderer final : public Renderer {
                                 {"endLine", edit.end_line},
                                 {"endColumn", edit.end_column}}},
                               {"insertedContent", {{"text", edit.text}}}});
-    const Json change = {{"artifactLocation", artifact}, {"replacements", replacements}};
-    return {{"description", {{"text", fix.title_in(style_.language)}}}, {"artifactChanges", Json::array({change})}};
+    const OrderedJson change = {{"artifactLocation", artifact}, {"replacements", replacements}};
+    return {{"description", {{"text", fix.title_in(style_.language)}}},
+            {"artifactChanges", OrderedJson::array({change})}};
   }
 
-  Style style_;
+  ReportStyle style_;
   bool first_ = true;
-  std::vector<Json> artifacts_;
+  std::vector<OrderedJson> artifacts_;
 };
 
-std::unique_ptr<Renderer> make_sarif_renderer(const Style& style) { return std::make_unique<SarifRenderer>(style); }
+std::unique_ptr<Renderer> make_sarif_renderer(const ReportStyle& style) {
+  return std::make_unique<SarifRenderer>(style);
+}
 
 }  // namespace isocnc::formats

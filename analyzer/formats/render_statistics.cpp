@@ -11,7 +11,7 @@ namespace isocnc::formats {
 /// The number of findings of each code in all files, the most frequent first: as a table or as JSON.
 class StatisticsRenderer final : public Renderer {
  public:
-  StatisticsRenderer(const Style& style, bool as_json) : style_(style), as_json_(as_json) {}
+  StatisticsRenderer(const ReportStyle& style, bool as_json) : style_(style), as_json_(as_json) {}
 
   void file(const CheckedProgram& program, Output&) override { tally_.add(program.report); }
 
@@ -51,12 +51,12 @@ class StatisticsRenderer final : public Renderer {
     return array.dump(2) + "\n";
   }
 
-  Style style_;
+  ReportStyle style_;
   bool as_json_;
   selection::Tally tally_;
 };
 
-std::unique_ptr<Renderer> make_statistics_renderer(std::string_view format, const Style& style) {
+std::unique_ptr<Renderer> make_statistics_renderer(std::string_view format, const ReportStyle& style) {
   if (format != "text" && format != "concise" && format != "json") return nullptr;
   return std::make_unique<StatisticsRenderer>(style, format == "json");
 }

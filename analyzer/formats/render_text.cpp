@@ -59,7 +59,7 @@ static Excerpt excerpt_around(std::string_view line, std::size_t byte) {
 /// The default format: message, place, the line with the mark below it, reason, and path.
 class TextRenderer final : public Renderer {
  public:
-  explicit TextRenderer(const Style& style) : style_(style) {}
+  explicit TextRenderer(const ReportStyle& style) : style_(style) {}
 
   void file(const CheckedProgram& program, Output& output) override {
     const std::string name = printable(program.name);
@@ -139,7 +139,7 @@ class TextRenderer final : public Renderer {
 
   /// `^^^^` under the finding, `----` under the other place on the same line.
   std::string underline(const Excerpt& excerpt, const syntax::Finding& finding, std::string_view color) const {
-    struct Mark {
+    struct UnderlineMark {
       std::size_t begin, end;
       char sign;
     };
@@ -148,16 +148,17 @@ class TextRenderer final : public Renderer {
         return std::min(std::max(byte, excerpt.begin), excerpt.begin + excerpt.text.size()) - excerpt.begin;
       };
       const std::size_t begin = column_of(excerpt.text, clip(span.begin)) - 1;
-      return Mark{begin, std::max(begin + 1, column_of(excerpt.text, clip(span.end)) - 1), sign};
+      return UnderlineMark{begin, std::max(begin + 1, column_of(excerpt.text, clip(span.end)) - 1), sign};
     };
-    std::vector<Mark> marks = {mark(finding.span, '^')};
+    std::vector<UnderlineMark> marks = {mark(finding.span, '^')};
     const bool related_shown = !finding.related.empty() && finding.related.begin >= excerpt.begin &&
                                finding.related.end <= excerpt.begin + excerpt.text.size();
     if (related_shown) marks.push_back(mark(finding.related, '-'));
-    std::sort(marks.begin(), marks.end(), [](const Mark& a, const Mark& b) { return a.begin < b.begin; });
+    std::sort(marks.begin(), marks.end(),
+              [](const UnderlineMark& a, const UnderlineMark& b) { return a.begin < b.begin; });
     std::string result(excerpt.cut_left ? 3 : 0, ' ');
     std::size_t at = 0;
-    for (const Mark& each : marks) {
+    for (const UnderlineMark& each : marks) {
       if (each.begin < at) continue;
       result.append(each.begin - at, ' ');
       result += each.sign == '^' ? color : paint(kBlue);
@@ -179,9 +180,9 @@ class TextRenderer final : public Renderer {
       fmt::format_to(std::back_inserter(out), "{}     {}: {}\n", margin, step.line + 1, texts.of(step));
   }
 
-  Style style_;
+  ReportStyle style_;
 };
 
-std::unique_ptr<Renderer> make_text_renderer(const Style& style) { return std::make_unique<TextRenderer>(style); }
+std::unique_ptr<Renderer> make_text_renderer(const ReportStyle& style) { return std::make_unique<TextRenderer>(style); }
 
 }  // namespace isocnc::formats

@@ -12,7 +12,7 @@
 
 namespace isocnc::formats {
 
-ShownFinding show(const check::LocatedFinding& located, syntax::LineFinder& lines, const Style& style) {
+ShownFinding show(const check::LocatedFinding& located, syntax::LineFinder& lines, const ReportStyle& style) {
   const syntax::Finding& finding = located.finding;
   const std::string_view line = lines.line(located.line);
   const std::string_view marked = line.substr(finding.span.begin, finding.span.end - finding.span.begin);

@@ -16,7 +16,7 @@ using syntax::column_of;
 using syntax::printable;
 
 /// The style in which findings are shown.
-struct Style {
+struct ReportStyle {
   dialect::Language language = dialect::Language::English;
   bool color = false;
   bool unsafe_fixes = false;  ///< Whether --fix would include unsafe fixes.
@@ -32,7 +32,7 @@ struct ShownFinding {
   std::size_t end_column = 0;
   std::string message;  ///< The message; may hold any byte that the program holds.
 };
-ShownFinding show(const check::LocatedFinding& located, syntax::LineFinder& lines, const Style& style);
+ShownFinding show(const check::LocatedFinding& located, syntax::LineFinder& lines, const ReportStyle& style);
 
 /// The texts of the IFs on a report's paths, each made once, however many findings share it.
 class StepTexts {

@@ -24,17 +24,17 @@ class MotionInForce {
   bool is_known() const { return dialect::is_motion_number(in_force()); }
 
  private:
-  struct Motion {
+  struct MotionWords {
     std::uint8_t number = kNotReached;
 
     bool empty() const { return number == kNotReached; }
-    void join(Motion&& other) {
+    void join(MotionWords&& other) {
       if (number != other.number) number = kUnknown;
     }
     void pass(const syntax::LineTree& line);
   };
 
-  syntax::ForwardPaths<Motion> paths_{Motion{kNoMotion}};
+  syntax::ForwardPaths<MotionWords> paths_{MotionWords{kNoMotion}};
 };
 
 }  // namespace isocnc::formatting

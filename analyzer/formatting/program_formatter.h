@@ -35,7 +35,7 @@ class LinesFormatter {
   LinesFormatter(const ProgramStyle& style, const EachLine& each_line);
 
   /// The reason why the program cannot be renumbered; next() must not be called then.
-  const std::optional<Renumbering::Obstacle>& obstacle() const { return obstacle_; }
+  const std::optional<Renumbering::RenumberingObstacle>& obstacle() const { return obstacle_; }
   /// The change of the next line besides its style.
   syntax::LineChange next(const syntax::LineTree& line);
   /// The line after that change: line.text itself if nothing changes. Valid until the next call.
@@ -49,7 +49,7 @@ class LinesFormatter {
   MotionStyle motions_;
   syntax::Formatter formatter_;
   std::optional<Renumbering> numbers_;
-  std::optional<Renumbering::Obstacle> obstacle_;
+  std::optional<Renumbering::RenumberingObstacle> obstacle_;
   MotionInForce motion_;
 };
 
@@ -68,7 +68,7 @@ class ProgramFormatter {
   ProgramFormatter(std::string_view text, const ProgramStyle& style);
 
   /// The reason why the program cannot be renumbered; nothing is formatted then.
-  const std::optional<Renumbering::Obstacle>& obstacle() const { return lines_.obstacle(); }
+  const std::optional<Renumbering::RenumberingObstacle>& obstacle() const { return lines_.obstacle(); }
   /// The next piece, or nothing after the last; `after` is valid until the next call.
   std::optional<FormattedPiece> next();
 

@@ -21,7 +21,7 @@ static constexpr Text kObstacles[] = {
     {"line {0} would have a number of more than 15 digits", "la linea {0} avrebbe un numero di più di 15 cifre"},
 };
 
-std::string Renumbering::Obstacle::message(dialect::Language language) const {
+std::string Renumbering::RenumberingObstacle::message(dialect::Language language) const {
   return dialect::format(kObstacles[static_cast<std::size_t>(kind)], language, line + 1, label);
 }
 
@@ -48,32 +48,32 @@ Renumbering::Renumbering(const EachLine& each_line, const NumberStyle& style) : 
   for (const auto& [label, jump] : labels_)
     if (!jump.is_defined && (!obstacle_ || jump.jump_line < obstacle_->line)) {
       obstacle_.reset();
-      refuse(Obstacle::Kind::LabelMissing, jump.jump_line, jump.text);
+      refuse(RenumberingObstacle::Kind::LabelMissing, jump.jump_line, jump.text);
     }
   next_ = style.start;
 }
 
-void Renumbering::refuse(Obstacle::Kind kind, std::uint64_t line, std::string label) {
+void Renumbering::refuse(RenumberingObstacle::Kind kind, std::uint64_t line, std::string label) {
   if (!obstacle_) obstacle_ = {kind, line, std::move(label)};
 }
 
 void Renumbering::read_jump(std::uint64_t number, const LineTree& line) {
   const auto names_a_line = [](const syntax::Word& word) { return word.letter == 'N' || word.letter == syntax::kGoto; };
   if (!line.findings.empty() && std::any_of(line.words.begin(), line.words.end(), names_a_line))
-    return refuse(Obstacle::Kind::Error, number);
+    return refuse(RenumberingObstacle::Kind::Error, number);
   if (line.jump == nullptr || !line.jump->has_target) return;
-  labels_.try_emplace(line.jump->target, Label{label_text(line.text_of(line.jump->target_span)), number});
+  labels_.try_emplace(line.jump->target, NumberedLabel{label_text(line.text_of(line.jump->target_span)), number});
 }
 
 void Renumbering::number_label(std::uint64_t number, const LineTree& line) {
   if (!is_numbered(line)) return;
-  if (next_ > syntax::kMaxLineNumber) return refuse(Obstacle::Kind::TooManyDigits, number);
+  if (next_ > syntax::kMaxLineNumber) return refuse(RenumberingObstacle::Kind::TooManyDigits, number);
   const std::uint64_t is_now = next_;
   next_ += style_.step;
   const auto named = line.has_label() ? labels_.find(line.label) : labels_.end();
   if (named == labels_.end()) return;
-  Label& label = named->second;
-  if (label.is_defined) return refuse(Obstacle::Kind::LabelTwice, number, label.text);
+  NumberedLabel& label = named->second;
+  if (label.is_defined) return refuse(RenumberingObstacle::Kind::LabelTwice, number, label.text);
   label.is_defined = true;
   label.number = is_now;
 }

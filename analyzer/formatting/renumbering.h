@@ -29,7 +29,7 @@ EachLine each_line_of(std::string_view text);
 class Renumbering {
  public:
   /// The reason why a program cannot be renumbered.
-  struct Obstacle {
+  struct RenumberingObstacle {
     enum class Kind : std::uint8_t { Error, LabelMissing, LabelTwice, TooManyDigits };
 
     Kind kind = Kind::Error;
@@ -42,12 +42,12 @@ class Renumbering {
   /// Reads the whole program to find the targets of its jumps.
   Renumbering(const EachLine& each_line, const NumberStyle& style);
 
-  const std::optional<Obstacle>& obstacle() const { return obstacle_; }
+  const std::optional<RenumberingObstacle>& obstacle() const { return obstacle_; }
   /// Adds the change of the next line's numbers; needs all lines, in order, and no obstacle.
   void change(const syntax::LineTree& line, syntax::LineChange& change);
 
  private:
-  struct Label {
+  struct NumberedLabel {
     std::string text;
     std::uint64_t jump_line = 0;
     std::uint64_t number = 0;  // The new number.
@@ -57,12 +57,12 @@ class Renumbering {
   void read_jump(std::uint64_t number, const syntax::LineTree& line);
   void number_label(std::uint64_t number, const syntax::LineTree& line);
   bool is_numbered(const syntax::LineTree& line) const;
-  void refuse(Obstacle::Kind kind, std::uint64_t line, std::string label = {});
+  void refuse(RenumberingObstacle::Kind kind, std::uint64_t line, std::string label = {});
 
   NumberStyle style_;
   std::uint64_t next_;
-  std::unordered_map<std::uint64_t, Label> labels_;  // The labels that jumps name.
-  std::optional<Obstacle> obstacle_;
+  std::unordered_map<std::uint64_t, NumberedLabel> labels_;  // The labels that jumps name.
+  std::optional<RenumberingObstacle> obstacle_;
 };
 
 }  // namespace isocnc::formatting

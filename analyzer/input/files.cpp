@@ -18,15 +18,15 @@ namespace isocnc::input {
 namespace fs = std::filesystem;
 
 /// A path as the user writes it, and as the system resolves it, without symlinks.
-struct Place {
+struct NamedPath {
   fs::path shown;
   fs::path real;
 
-  Place operator/(const fs::path& name) const { return {shown / name, real / name}; }
+  NamedPath operator/(const fs::path& name) const { return {shown / name, real / name}; }
 };
 
 /// Pipes and other files without a real path keep the given one.
-static Place place_of(const fs::path& path) {
+static NamedPath place_of(const fs::path& path) {
   std::error_code error;
   fs::path real = fs::canonical(path, error);
   if (error) real = path;
@@ -57,7 +57,7 @@ class Search {
 
   /// Searches a directory, without symlinks: in a tree from elsewhere one may lead to any file, which would then be
   /// shown or overwritten although the user has not named it.
-  void search(const Place& directory, const GitIgnore& ignored) {
+  void search(const NamedPath& directory, const GitIgnore& ignored) {
     const SearchRules rules = rules_(directory.real);
     // The directory is closed before its subdirectories are opened, however deep they go.
     for (const fs::directory_entry& entry : entries(directory)) {
@@ -75,9 +75,9 @@ class Search {
   }
 
   /// The programs, sorted by path.
-  std::vector<Place> take_programs() {
+  std::vector<NamedPath> take_programs() {
     std::sort(programs_.begin(), programs_.end(),
-              [](const Place& a, const Place& b) { return a.shown.native() < b.shown.native(); });
+              [](const NamedPath& a, const NamedPath& b) { return a.shown.native() < b.shown.native(); });
     return std::move(programs_);
   }
   /// The problems, sorted by path.
@@ -87,7 +87,7 @@ class Search {
   }
 
  private:
-  std::vector<fs::directory_entry> entries(const Place& directory) {
+  std::vector<fs::directory_entry> entries(const NamedPath& directory) {
     std::vector<fs::directory_entry> result;
     std::error_code error;
     for (fs::directory_iterator at(directory.real, error); !error && at != fs::end(at); at.increment(error))
@@ -96,7 +96,7 @@ class Search {
     return result;
   }
 
-  void enter(const Place& directory, const GitIgnore& ignored) {
+  void enter(const NamedPath& directory, const GitIgnore& ignored) {
     if (directory.real.filename().native().starts_with(".git") || ignored.ignores(directory.real, true)) return;
     search(directory, ignored.entering(directory.real));
   }
@@ -114,7 +114,7 @@ class Search {
 
   const RulesOfFolder& rules_;
   dialect::Language language_;
-  std::vector<Place> programs_;
+  std::vector<NamedPath> programs_;
   std::vector<std::string> problems_;
 };
 
@@ -139,14 +139,14 @@ class Selector {
 
  private:
   void select_directory(const std::string& path) {
-    const Place directory{as_prefix(path), place_of(path).real};
+    const NamedPath directory{as_prefix(path), place_of(path).real};
     Search search(rules_, language_);
     search.search(directory, GitIgnore::at(directory.real));
-    for (Place& program : search.take_programs()) add(std::move(program));
+    for (NamedPath& program : search.take_programs()) add(std::move(program));
     for (std::string& text : search.take_problems()) selection_.problems.push_back(std::move(text));
   }
 
-  void add(Place file) {
+  void add(NamedPath file) {
     if (taken_.insert(file.real.native()).second) selection_.files.push_back(std::move(file.shown));
   }
 

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Rule {
+struct IgnoreRule {
   system::Glob pattern;
   bool includes = false;          ///< `!pattern`
   bool only_directories = false;  ///< `pattern/`
@@ -28,16 +28,16 @@ struct Rule {
 }  // namespace
 
 /// The rules of one file.
-struct GitIgnore::Rules {
+struct GitIgnore::IgnoreRules {
   std::string prefix;  // The file's directory with a trailing slash.
-  std::vector<Rule> rules;
-  std::shared_ptr<const Rules> outer;
+  std::vector<IgnoreRule> rules;
+  std::shared_ptr<const IgnoreRules> outer;
 
   /// Whether `path` is ignored; nothing if no rule matches it. The last rule that matches decides.
   std::optional<bool> ignored_state(std::string_view path, bool is_directory) const;
 };
 
-std::optional<bool> GitIgnore::Rules::ignored_state(std::string_view path, bool is_directory) const {
+std::optional<bool> GitIgnore::IgnoreRules::ignored_state(std::string_view path, bool is_directory) const {
   if (!path.starts_with(prefix)) return std::nullopt;
   const std::string_view below = path.substr(prefix.size());
   const std::string_view name = path.substr(path.rfind('/') + 1);
@@ -60,11 +60,11 @@ static std::string_view without_trailing_blanks(std::string_view line) {
 }
 
 /// Returns nothing for blank lines, comments and patterns that match nothing.
-static std::optional<Rule> parse_rule(std::string_view line) {
+static std::optional<IgnoreRule> parse_rule(std::string_view line) {
   if (line.starts_with('#')) return std::nullopt;
   if (line.ends_with('\r')) line.remove_suffix(1);
   line = without_trailing_blanks(line);
-  Rule rule;
+  IgnoreRule rule;
   rule.includes = line.starts_with('!');
   if (rule.includes) line.remove_prefix(1);
   rule.only_directories = line.ends_with('/');
@@ -78,12 +78,12 @@ static std::optional<Rule> parse_rule(std::string_view line) {
   return rule;
 }
 
-static std::vector<Rule> parse_rules(std::string_view text) {
+static std::vector<IgnoreRule> parse_rules(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  std::vector<Rule> rules;
+  std::vector<IgnoreRule> rules;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
-    if (std::optional<Rule> rule = parse_rule(text.substr(0, end))) rules.push_back(std::move(*rule));
+    if (std::optional<IgnoreRule> rule = parse_rule(text.substr(0, end))) rules.push_back(std::move(*rule));
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return rules;
@@ -147,12 +147,13 @@ GitIgnore GitIgnore::entering(const fs::path& directory) const {
 
 GitIgnore GitIgnore::with(std::string_view text, const fs::path& directory) const {
   GitIgnore rules;
-  rules.innermost_ = std::make_shared<const Rules>(Rules{(directory / "").native(), parse_rules(text), innermost_});
+  rules.innermost_ =
+      std::make_shared<const IgnoreRules>(IgnoreRules{(directory / "").native(), parse_rules(text), innermost_});
   return rules;
 }
 
 bool GitIgnore::ignores(const fs::path& path, bool is_directory) const {
-  for (const Rules* rules = innermost_.get(); rules; rules = rules->outer.get())
+  for (const IgnoreRules* rules = innermost_.get(); rules; rules = rules->outer.get())
     if (const std::optional<bool> ignored_state = rules->ignored_state(path.native(), is_directory))
       return *ignored_state;
   return false;

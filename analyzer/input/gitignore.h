@@ -28,9 +28,9 @@ class GitIgnore {
   bool ignores(const std::filesystem::path& path, bool is_directory) const;
 
  private:
-  struct Rules;
+  struct IgnoreRules;
 
-  std::shared_ptr<const Rules> innermost_;  // Null outside of work trees.
+  std::shared_ptr<const IgnoreRules> innermost_;  // Null outside of work trees.
 };
 
 }  // namespace isocnc::input

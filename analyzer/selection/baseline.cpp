@@ -33,7 +33,7 @@ std::string Baseline::name_of(std::string_view program) const {
 
 void Baseline::add(std::string_view program, std::string_view text, const check::Report& report) {
   if (report.findings.empty()) return;
-  Counts& counts = programs_[name_of(program)];
+  LineCounts& counts = programs_[name_of(program)];
   syntax::LineFinder lines(text);
   Fingerprints fingerprints;
   for (const check::LocatedFinding& located : report.findings) {
@@ -84,18 +84,18 @@ class BaselineReader final : public nlohmann::json_sax<nlohmann::json> {
   bool binary(binary_t&) override { return misplaced(); }
 
   bool number_unsigned(number_unsigned_t value) override {
-    if (place_ == Place::Finding && key_ == "count" && value > 0) {
+    if (place_ == JsonLevel::Finding && key_ == "count" && value > 0) {
       count_ = value;
       return true;
     }
-    if (place_ != Place::Top || key_ != "version") return misplaced();
+    if (place_ != JsonLevel::Top || key_ != "version") return misplaced();
     version_ = value;
     return value == kVersion ||
            fail({"no version of baselines that is known here", "versione di baseline sconosciuta"});
   }
 
   bool string(string_t& value) override {
-    if (place_ != Place::Finding) return misplaced();
+    if (place_ != JsonLevel::Finding) return misplaced();
     if (key_ == "file") {
       file_ = value;
       return true;
@@ -114,12 +114,12 @@ class BaselineReader final : public nlohmann::json_sax<nlohmann::json> {
   }
 
   bool start_object(std::size_t) override {
-    if (place_ == Place::Outside && !version_) {
-      place_ = Place::Top;
+    if (place_ == JsonLevel::Outside && !version_) {
+      place_ = JsonLevel::Top;
       return true;
     }
-    if (place_ != Place::Findings) return misplaced();
-    place_ = Place::Finding;
+    if (place_ != JsonLevel::Findings) return misplaced();
+    place_ = JsonLevel::Finding;
     file_.reset();
     code_.reset();
     line_.reset();
@@ -135,19 +135,19 @@ class BaselineReader final : public nlohmann::json_sax<nlohmann::json> {
     const auto is_one_of = [&](const auto& keys) {
       return std::find(std::begin(keys), std::end(keys), key_) != std::end(keys);
     };
-    if (place_ == Place::Top ? is_one_of(kTopKeys) : is_one_of(kFindingKeys)) return true;
+    if (place_ == JsonLevel::Top ? is_one_of(kTopKeys) : is_one_of(kFindingKeys)) return true;
     static constexpr Text kUnknown = {"unknown key: ", "chiave sconosciuta: "};
     mistake_ = std::string(kUnknown.in(language_)) + key_;
     return false;
   }
 
   bool end_object() override {
-    if (place_ == Place::Top) {
-      place_ = Place::Outside;
+    if (place_ == JsonLevel::Top) {
+      place_ = JsonLevel::Outside;
       if (!version_) return missing("version");
       return has_findings_ || missing("findings");
     }
-    place_ = Place::Findings;
+    place_ = JsonLevel::Findings;
     if (!file_) return missing("file");
     if (!code_) return missing("code");
     if (!line_) return missing("line");
@@ -157,14 +157,14 @@ class BaselineReader final : public nlohmann::json_sax<nlohmann::json> {
   }
 
   bool start_array(std::size_t) override {
-    if (place_ != Place::Top || key_ != "findings") return misplaced();
-    place_ = Place::Findings;
+    if (place_ != JsonLevel::Top || key_ != "findings") return misplaced();
+    place_ = JsonLevel::Findings;
     has_findings_ = true;
     return true;
   }
 
   bool end_array() override {
-    place_ = Place::Top;
+    place_ = JsonLevel::Top;
     return true;
   }
 
@@ -181,14 +181,14 @@ class BaselineReader final : public nlohmann::json_sax<nlohmann::json> {
   }
 
  private:
-  enum class Place : std::uint8_t { Outside, Top, Findings, Finding };
+  enum class JsonLevel : std::uint8_t { Outside, Top, Findings, Finding };
 
   bool fail(const Text& why) {
     mistake_ = why.in(language_);
     return false;
   }
   bool misplaced() {
-    if (place_ == Place::Outside || place_ == Place::Findings)
+    if (place_ == JsonLevel::Outside || place_ == JsonLevel::Findings)
       return fail({"an object was expected here", "qui ci vuole un oggetto"});
     static constexpr Text kWrong = {"not a value of {}", "non è un valore di {}"};
     mistake_ = dialect::format(kWrong, language_, key_);
@@ -202,7 +202,7 @@ class BaselineReader final : public nlohmann::json_sax<nlohmann::json> {
 
   Baseline& baseline_;
   const Language language_;
-  Place place_ = Place::Outside;
+  JsonLevel place_ = JsonLevel::Outside;
   std::string key_;
   std::optional<std::uint64_t> version_;
   bool has_findings_ = false;

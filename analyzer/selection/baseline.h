@@ -32,12 +32,12 @@ class Baseline {
   friend class BaselineReader;
 
   /// The number of findings per code and line text.
-  using Counts = std::map<std::pair<dialect::DiagnosticId, std::uint64_t>, std::uint64_t>;
+  using LineCounts = std::map<std::pair<dialect::DiagnosticId, std::uint64_t>, std::uint64_t>;
 
   std::string name_of(std::string_view program) const;
 
   std::filesystem::path folder_;
-  std::map<std::string, Counts> programs_;
+  std::map<std::string, LineCounts> programs_;
 };
 
 }  // namespace isocnc::selection

@@ -30,11 +30,11 @@ class SettingsFinder {
 
  private:
   /// The configuration, and which of its overrides for some files apply.
-  using Key = std::pair<const configuration::Configuration*, std::vector<bool>>;
+  using SettingsKey = std::pair<const configuration::Configuration*, std::vector<bool>>;
 
   configuration::Configurations& configurations_;
   const SelectionOptions command_line_;
-  std::map<Key, std::unique_ptr<const ProgramSettings>> settings_;
+  std::map<SettingsKey, std::unique_ptr<const ProgramSettings>> settings_;
 };
 
 }  // namespace isocnc::selection

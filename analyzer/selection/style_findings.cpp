@@ -12,7 +12,7 @@ static style::IsWanted wanted_by(const Selection& selection) {
   return [&](dialect::DiagnosticId id) { return selection.shows(id); };
 }
 
-bool has_style(const Selection& selection) { return !style::Reader(wanted_by(selection)).is_idle(); }
+bool has_style(const Selection& selection) { return !style::StyleReader(wanted_by(selection)).is_idle(); }
 
 static check::Report with_remarks(check::Report report, const std::vector<style::StyleFinding>& style_findings) {
   if (style_findings.empty()) return report;
@@ -30,7 +30,7 @@ check::Report with_style(check::Report report, std::string_view text, const Sele
 }
 
 check::Report with_style(check::Report report, const syntax::Document& document, const Selection& selection) {
-  style::Reader reader(wanted_by(selection));
+  style::StyleReader reader(wanted_by(selection));
   if (reader.is_idle()) return report;
   syntax::ChunkTrees trees;
   for (std::size_t chunk = 0; chunk < document.chunk_count(); ++chunk) {

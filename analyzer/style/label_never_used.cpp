@@ -6,9 +6,9 @@ namespace isocnc::style {
 
 /// A line number that no GOTO names, in a program that has jumps and numbers only few lines: there a number is meant as
 /// a label.
-class LabelNeverUsed final : public Rule {
+class LabelNeverUsed final : public StyleRule {
  public:
-  void read(const Line& line, std::vector<StyleFinding>& style_findings) override {
+  void read(const StyleLine& line, std::vector<StyleFinding>& style_findings) override {
     static_cast<void>(style_findings);
     if (!line.tree.is_empty()) ++blocks_;
     if (const syntax::Word* const word = line.tree.label_word())
@@ -18,18 +18,18 @@ class LabelNeverUsed final : public Rule {
 
   void end(std::vector<StyleFinding>& style_findings) override {
     if (targets_.empty() || 2 * labels_.size() >= blocks_) return;
-    for (const Label& label : labels_)
+    for (const WrittenLabel& label : labels_)
       if (!targets_.contains(label.label))
         style_findings.push_back({label.line, {.id = "label-never-used"_diag, .span = label.span}});
   }
 
  private:
-  struct Label {
+  struct WrittenLabel {
     std::uint64_t label;
     std::uint64_t line;
     syntax::Span span;
   };
-  std::vector<Label> labels_;
+  std::vector<WrittenLabel> labels_;
   std::unordered_set<std::uint64_t> targets_;
   std::size_t blocks_ = 0;
 };

@@ -4,9 +4,9 @@ namespace isocnc::style {
 
 /// A line number that is not greater than the one before. This covers repeated numbers: between two equal ones, one
 /// must fail to grow.
-class LineNumberNotGrowing final : public Rule {
+class LineNumberNotGrowing final : public StyleRule {
  public:
-  void read(const Line& line, std::vector<StyleFinding>& style_findings) override {
+  void read(const StyleLine& line, std::vector<StyleFinding>& style_findings) override {
     const syntax::Word* const word = line.tree.label_word();
     if (!word) return;
     if (word->value <= last_) {

@@ -7,9 +7,9 @@ namespace isocnc::style {
 static bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
 
 /// Lower-case letters outside comments (D8): one finding a line, from the first such letter to the last.
-class LowerCase final : public Rule {
+class LowerCase final : public StyleRule {
  public:
-  void read(const Line& line, std::vector<StyleFinding>& style_findings) override {
+  void read(const StyleLine& line, std::vector<StyleFinding>& style_findings) override {
     syntax::Span span;
     for (const syntax::Word& word : line.tree.words)
       for (std::uint32_t at = word.begin; at < word.end; ++at)

@@ -3,9 +3,9 @@
 namespace isocnc::style {
 
 /// The first line end that differs from those above; the lines after it are not reported.
-class MixedLineEnds final : public Rule {
+class MixedLineEnds final : public StyleRule {
  public:
-  void read(const Line& line, std::vector<StyleFinding>& style_findings) override {
+  void read(const StyleLine& line, std::vector<StyleFinding>& style_findings) override {
     if (reported_ || line.terminator.empty()) return;
     if (first_.empty()) first_ = line.terminator;
     if (line.terminator == first_) return;

@@ -6,9 +6,9 @@
 namespace isocnc::style {
 
 /// A register that is assigned and that no IF compares, reported at its first V.
-class RegisterNeverRead final : public Rule {
+class RegisterNeverRead final : public StyleRule {
  public:
-  void read(const Line& line, std::vector<StyleFinding>& style_findings) override {
+  void read(const StyleLine& line, std::vector<StyleFinding>& style_findings) override {
     static_cast<void>(style_findings);
     if (line.tree.jump && line.tree.jump->variable > 0)
       is_read_[static_cast<std::size_t>(line.tree.jump->variable)] = true;

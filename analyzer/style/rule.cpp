@@ -16,7 +16,7 @@ static const StyleRuleRow* const kRules[] = {
 };
 
 /// Whether the control reads a line: after M02, only from a label on that a jump above names (D47).
-class Reader::Liveness {
+class StyleReader::Liveness {
  public:
   bool is_read(const syntax::LineTree& line) {
     paths_.arrive(line);
@@ -36,25 +36,25 @@ class Reader::Liveness {
   syntax::ForwardPaths<Reach> paths_{Reach{true}};
 };
 
-Reader::Reader(const IsWanted& is_wanted) : liveness_(std::make_unique<Liveness>()) {
+StyleReader::StyleReader(const IsWanted& is_wanted) : liveness_(std::make_unique<Liveness>()) {
   for (const StyleRuleRow* const row : kRules)
     if (is_wanted(row->id)) rules_.push_back(row->make());
 }
 
-Reader::~Reader() = default;
+StyleReader::~StyleReader() = default;
 
-void Reader::read(const Line& line) {
+void StyleReader::read(const StyleLine& line) {
   if (!liveness_->is_read(line.tree)) return;
-  for (const std::unique_ptr<Rule>& rule : rules_) rule->read(line, style_findings_);
+  for (const std::unique_ptr<StyleRule>& rule : rules_) rule->read(line, style_findings_);
 }
 
-std::vector<StyleFinding> Reader::finish() {
-  for (const std::unique_ptr<Rule>& rule : rules_) rule->end(style_findings_);
+std::vector<StyleFinding> StyleReader::finish() {
+  for (const std::unique_ptr<StyleRule>& rule : rules_) rule->end(style_findings_);
   return std::move(style_findings_);
 }
 
 std::vector<StyleFinding> read_program(std::string_view text, const IsWanted& is_wanted) {
-  Reader reader(is_wanted);
+  StyleReader reader(is_wanted);
   if (reader.is_idle()) return {};
   std::uint64_t number = 0;
   syntax::each_tree(text, [&](const syntax::LineTree& tree, std::string_view terminator) {

@@ -13,7 +13,7 @@ namespace isocnc::style {
 using namespace dialect::literals;
 
 /// A line as written, executed or not.
-struct Line {
+struct StyleLine {
   std::uint64_t number = 0;  ///< The line number, from 0.
   const syntax::LineTree& tree;
   std::string_view terminator;  ///< CR, LF or CRLF; empty at the end of the program.
@@ -25,11 +25,11 @@ struct StyleFinding {
 };
 
 /// A rule on how a program is written. All are off by default, and then cost nothing.
-class Rule {
+class StyleRule {
  public:
-  virtual ~Rule() = default;
+  virtual ~StyleRule() = default;
   /// Reads the next line.
-  virtual void read(const Line& line, std::vector<StyleFinding>& style_findings) = 0;
+  virtual void read(const StyleLine& line, std::vector<StyleFinding>& style_findings) = 0;
   /// Called after the last line.
   virtual void end(std::vector<StyleFinding>&) {}
 };
@@ -37,33 +37,33 @@ class Rule {
 /// A rule's row, defined in the file named after the rule.
 struct StyleRuleRow {
   dialect::DiagnosticId id;
-  std::unique_ptr<Rule> (*make)();
+  std::unique_ptr<StyleRule> (*make)();
 };
 
 template <class R>
 constexpr StyleRuleRow rule(dialect::DiagnosticId id) {
-  return {id, [] { return std::unique_ptr<Rule>(std::make_unique<R>()); }};
+  return {id, [] { return std::unique_ptr<StyleRule>(std::make_unique<R>()); }};
 }
 
 /// Whether a rule is selected.
 using IsWanted = std::function<bool(dialect::DiagnosticId)>;
 
 /// Passes a program's lines, from the top, to the selected rules.
-class Reader {
+class StyleReader {
  public:
-  explicit Reader(const IsWanted& is_wanted);
-  ~Reader();
+  explicit StyleReader(const IsWanted& is_wanted);
+  ~StyleReader();
 
   /// Whether no rule is selected.
   bool is_idle() const { return rules_.empty(); }
-  void read(const Line& line);
+  void read(const StyleLine& line);
   /// The findings of the rules, unsorted.
   std::vector<StyleFinding> finish();
 
  private:
   class Liveness;
 
-  std::vector<std::unique_ptr<Rule>> rules_;
+  std::vector<std::unique_ptr<StyleRule>> rules_;
   std::unique_ptr<Liveness> liveness_;
   std::vector<StyleFinding> style_findings_;
 };

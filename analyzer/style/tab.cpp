@@ -3,9 +3,9 @@
 namespace isocnc::style {
 
 /// The first tab of a line outside comments.
-class TabRule final : public Rule {
+class TabRule final : public StyleRule {
  public:
-  void read(const Line& line, std::vector<StyleFinding>& style_findings) override {
+  void read(const StyleLine& line, std::vector<StyleFinding>& style_findings) override {
     std::size_t at = line.tree.text.find('\t');
     for (const syntax::Span comment : line.tree.comments)
       if (at != std::string_view::npos && comment.holds(static_cast<std::uint32_t>(at)))

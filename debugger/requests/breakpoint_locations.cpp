@@ -45,7 +45,7 @@ static LocationsBody answer_breakpoint_locations(Session& session, const Locatio
 
 static Json breakpoint_locations_capabilities() { return {{"supportsBreakpointLocationsRequest", true}}; }
 
-extern const Request breakpoint_locations =
+extern const DebugRequest breakpoint_locations =
     on<&answer_breakpoint_locations>("breakpointLocations", breakpoint_locations_capabilities);
 
 }  // namespace isocnc::debugger::requests

@@ -21,6 +21,6 @@ static void answer_cancel(Session& session, const CancelArguments& arguments) {
 
 static Json cancel_capabilities() { return {{"supportsCancelRequest", true}}; }
 
-extern const Request cancel = on<&answer_cancel>("cancel", cancel_capabilities);
+extern const DebugRequest cancel = on<&answer_cancel>("cancel", cancel_capabilities);
 
 }  // namespace isocnc::debugger::requests

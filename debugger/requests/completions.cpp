@@ -73,6 +73,6 @@ static CompletionsBody answer_completions(Session& session, const CompletionArgu
 
 static Json completions_capabilities() { return {{"supportsCompletionsRequest", true}}; }
 
-extern const Request completions = on<&answer_completions>("completions", completions_capabilities);
+extern const DebugRequest completions = on<&answer_completions>("completions", completions_capabilities);
 
 }  // namespace isocnc::debugger::requests

@@ -7,7 +7,7 @@ static void answer_configuration_done(Session& session) { session.configuration_
 
 static Json configuration_done_capabilities() { return {{"supportsConfigurationDoneRequest", true}}; }
 
-extern const Request configuration_done =
+extern const DebugRequest configuration_done =
     on<&answer_configuration_done>("configurationDone", configuration_done_capabilities);
 
 }  // namespace isocnc::debugger::requests

@@ -46,6 +46,6 @@ static DataInfoBody answer_data_breakpoint_info(Session& session, const DataInfo
   return {.id = {}, .description = name.empty() ? std::string(session.in_language(kUnwatchable)) : problem->message};
 }
 
-extern const Request data_breakpoint_info = on<&answer_data_breakpoint_info>("dataBreakpointInfo");
+extern const DebugRequest data_breakpoint_info = on<&answer_data_breakpoint_info>("dataBreakpointInfo");
 
 }  // namespace isocnc::debugger::requests

@@ -47,6 +47,6 @@ static Json evaluate_capabilities() {
   return {{"supportsEvaluateForHovers", true}, {"supportsClipboardContext", true}};
 }
 
-extern const Request evaluate = on<&answer_evaluate>("evaluate", evaluate_capabilities);
+extern const DebugRequest evaluate = on<&answer_evaluate>("evaluate", evaluate_capabilities);
 
 }  // namespace isocnc::debugger::requests

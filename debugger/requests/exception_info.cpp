@@ -33,6 +33,6 @@ static ExceptionBody answer_exception_info(Session& session) {
 
 static Json exception_info_capabilities() { return {{"supportsExceptionInfoRequest", true}}; }
 
-extern const Request exception_info = on<&answer_exception_info>("exceptionInfo", exception_info_capabilities);
+extern const DebugRequest exception_info = on<&answer_exception_info>("exceptionInfo", exception_info_capabilities);
 
 }  // namespace isocnc::debugger::requests

@@ -24,6 +24,6 @@ static void answer_go_to(Session& session, const GotoArguments& arguments) {
   session.go_to_line(line);
 }
 
-extern const Request go_to = on<&answer_go_to>("goto");
+extern const DebugRequest go_to = on<&answer_go_to>("goto");
 
 }  // namespace isocnc::debugger::requests

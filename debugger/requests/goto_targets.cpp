@@ -43,6 +43,6 @@ static GotoTargetsBody answer_goto_targets(Session& session, const GotoTargetsAr
 
 static Json goto_targets_capabilities() { return {{"supportsGotoTargetsRequest", true}}; }
 
-extern const Request goto_targets = on<&answer_goto_targets>("gotoTargets", goto_targets_capabilities);
+extern const DebugRequest goto_targets = on<&answer_goto_targets>("gotoTargets", goto_targets_capabilities);
 
 }  // namespace isocnc::debugger::requests

@@ -5,6 +5,6 @@ namespace isocnc::debugger::requests {
 /// Reads the program; the run begins when the client has set its breakpoints.
 static void answer_launch(Session& session, const session::LaunchOptions& options) { session.launch(options); }
 
-extern const Request launch = on<&answer_launch>("launch");
+extern const DebugRequest launch = on<&answer_launch>("launch");
 
 }  // namespace isocnc::debugger::requests

@@ -10,6 +10,6 @@ static Json answer_loaded_sources(Session& session) {
 
 static Json loaded_sources_capabilities() { return {{"supportsLoadedSourcesRequest", true}}; }
 
-extern const Request loaded_sources = on<&answer_loaded_sources>("loadedSources", loaded_sources_capabilities);
+extern const DebugRequest loaded_sources = on<&answer_loaded_sources>("loadedSources", loaded_sources_capabilities);
 
 }  // namespace isocnc::debugger::requests

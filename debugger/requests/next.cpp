@@ -7,6 +7,6 @@ static void answer_next(Session& session, const session::StepArguments& argument
 
 static Json next_capabilities() { return {{"supportsSteppingGranularity", true}}; }
 
-extern const Request next = on<&answer_next>("next", next_capabilities);
+extern const DebugRequest next = on<&answer_next>("next", next_capabilities);
 
 }  // namespace isocnc::debugger::requests

@@ -5,6 +5,6 @@ namespace isocnc::debugger::requests {
 /// Stops the machine where it is.
 static void answer_pause(Session& session) { session.pause(); }
 
-extern const Request pause = on<&answer_pause>("pause");
+extern const DebugRequest pause = on<&answer_pause>("pause");
 
 }  // namespace isocnc::debugger::requests

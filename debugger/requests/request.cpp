@@ -2,17 +2,17 @@
 
 namespace isocnc::debugger::requests {
 
-#define ISOCNC_REQUEST(name) extern const Request name;
+#define ISOCNC_REQUEST(name) extern const DebugRequest name;
 #include <requests.inc>
 #undef ISOCNC_REQUEST
 
-static const Request* const kRequests[] = {
+static const DebugRequest* const kRequests[] = {
 #define ISOCNC_REQUEST(name) &(name),
 #include <requests.inc>
 #undef ISOCNC_REQUEST
 };
 
-std::span<const Request* const> all_requests() { return kRequests; }
+std::span<const DebugRequest* const> all_requests() { return kRequests; }
 
 static constexpr dialect::Text kNoLine{"there is no line {}", "non c'è nessuna riga {}"};
 static constexpr dialect::Text kBadHits{"a hit condition is a number, or one behind =, >, >=, <, <= or %, not {}",

@@ -24,9 +24,9 @@ using session::required;
 using session::Session;
 
 /// Something that a client can ask for. Each has a file of its name in this folder, which defines it under that name
-/// (`extern const Request step_back`); the build gathers them. A request knows no thread, no channel and no other
+/// (`extern const DebugRequest step_back`); the build gathers them. A request knows no thread, no channel and no other
 /// request: it takes arguments, asks the session, and returns the body of the response.
-struct Request {
+struct DebugRequest {
   std::string_view command;
   /// The body of the response, null for none. Throws RequestError, and what nlohmann-json throws where the arguments
   /// are wrong.
@@ -66,12 +66,12 @@ struct AnswerOf<handle> {
 /// A request by its handler, `Body handle(Session&)` or `Body handle(Session&, const Arguments&)`, where Arguments can
 /// be read from JSON and Body, unless it is void, written as JSON.
 template <auto handle>
-constexpr Request on(std::string_view command, Json (*capabilities)() = nullptr) {
+constexpr DebugRequest on(std::string_view command, Json (*capabilities)() = nullptr) {
   return {.command = command, .answer = AnswerOf<handle>::answer, .capabilities = capabilities};
 }
 
 /// All requests, in the order of their files' names.
-std::span<const Request* const> all_requests();
+std::span<const DebugRequest* const> all_requests();
 
 /// As the launch wants it, and in hexadecimal where the request does.
 session::ValueFormat format_of(const Session& session, const session::FormatArguments& arguments);

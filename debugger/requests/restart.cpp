@@ -20,6 +20,6 @@ static void answer_restart(Session& session, const RestartArguments& arguments) 
 
 static Json restart_capabilities() { return {{"supportsRestartRequest", true}}; }
 
-extern const Request restart = on<&answer_restart>("restart", restart_capabilities);
+extern const DebugRequest restart = on<&answer_restart>("restart", restart_capabilities);
 
 }  // namespace isocnc::debugger::requests

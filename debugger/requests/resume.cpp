@@ -8,6 +8,6 @@ static Json answer_resume(Session& session) {
   return {{"allThreadsContinued", true}};
 }
 
-extern const Request resume = on<&answer_resume>("continue");
+extern const DebugRequest resume = on<&answer_resume>("continue");
 
 }  // namespace isocnc::debugger::requests

@@ -5,6 +5,6 @@ namespace isocnc::debugger::requests {
 /// Back to the last place at which the run would have stopped, or to its start.
 static void answer_reverse_continue(Session& session) { session.reverse(); }
 
-extern const Request reverse_continue = on<&answer_reverse_continue>("reverseContinue");
+extern const DebugRequest reverse_continue = on<&answer_reverse_continue>("reverseContinue");
 
 }  // namespace isocnc::debugger::requests

@@ -16,6 +16,6 @@ static Json answer_scopes(Session& session) {
   return {{"scopes", scopes}};
 }
 
-extern const Request scopes = on<&answer_scopes>("scopes");
+extern const DebugRequest scopes = on<&answer_scopes>("scopes");
 
 }  // namespace isocnc::debugger::requests

@@ -82,6 +82,6 @@ static Json set_breakpoints_capabilities() {
           {"supportsLogPoints", true}};
 }
 
-extern const Request set_breakpoints = on<&answer_set_breakpoints>("setBreakpoints", set_breakpoints_capabilities);
+extern const DebugRequest set_breakpoints = on<&answer_set_breakpoints>("setBreakpoints", set_breakpoints_capabilities);
 
 }  // namespace isocnc::debugger::requests

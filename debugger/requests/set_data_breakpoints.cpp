@@ -45,7 +45,7 @@ static BreakpointsBody answer_set_data_breakpoints(Session& session, const SetDa
 
 static Json set_data_breakpoints_capabilities() { return {{"supportsDataBreakpoints", true}}; }
 
-extern const Request set_data_breakpoints =
+extern const DebugRequest set_data_breakpoints =
     on<&answer_set_data_breakpoints>("setDataBreakpoints", set_data_breakpoints_capabilities);
 
 }  // namespace isocnc::debugger::requests

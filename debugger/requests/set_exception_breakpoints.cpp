@@ -37,6 +37,6 @@ static BreakpointsBody answer_set_exception_breakpoints(Session& session, const 
   return body;
 }
 
-extern const Request set_exception_breakpoints = on<&answer_set_exception_breakpoints>("setExceptionBreakpoints");
+extern const DebugRequest set_exception_breakpoints = on<&answer_set_exception_breakpoints>("setExceptionBreakpoints");
 
 }  // namespace isocnc::debugger::requests

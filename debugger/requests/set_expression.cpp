@@ -31,6 +31,6 @@ static session::ValueBody answer_set_expression(Session& session, const SetExpre
 
 static Json set_expression_capabilities() { return {{"supportsSetExpression", true}}; }
 
-extern const Request set_expression = on<&answer_set_expression>("setExpression", set_expression_capabilities);
+extern const DebugRequest set_expression = on<&answer_set_expression>("setExpression", set_expression_capabilities);
 
 }  // namespace isocnc::debugger::requests

@@ -49,7 +49,7 @@ static BreakpointsBody answer_set_function_breakpoints(Session& session,
 
 static Json set_function_breakpoints_capabilities() { return {{"supportsFunctionBreakpoints", true}}; }
 
-extern const Request set_function_breakpoints =
+extern const DebugRequest set_function_breakpoints =
     on<&answer_set_function_breakpoints>("setFunctionBreakpoints", set_function_breakpoints_capabilities);
 
 }  // namespace isocnc::debugger::requests

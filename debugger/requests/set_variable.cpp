@@ -35,6 +35,6 @@ static session::ValueBody answer_set_variable(Session& session, const SetVariabl
 
 static Json set_variable_capabilities() { return {{"supportsSetVariable", true}}; }
 
-extern const Request set_variable = on<&answer_set_variable>("setVariable", set_variable_capabilities);
+extern const DebugRequest set_variable = on<&answer_set_variable>("setVariable", set_variable_capabilities);
 
 }  // namespace isocnc::debugger::requests

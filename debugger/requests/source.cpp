@@ -24,6 +24,6 @@ static SourceBody answer_source(Session& session, const session::SourceArguments
   return {program};
 }
 
-extern const Request source = on<&answer_source>("source");
+extern const DebugRequest source = on<&answer_source>("source");
 
 }  // namespace isocnc::debugger::requests

@@ -68,7 +68,7 @@ static std::vector<StackFrame> stack_of(Session& session) {
   if (const auto segment = present.segment())
     frames.push_back({session.in_language(kSegment, segment->number + 1, segment->count), present.line()});
   frames.push_back({name_of(session, present.line()), present.line()});
-  for (const session::Journal::Jump& jump : session.journal().jumps(present.blocks())) {
+  for (const session::Journal::TakenJump& jump : session.journal().jumps(present.blocks())) {
     if (frames.size() > kMaxJumps) break;
     frames.push_back({session.in_language(kJump, session.client().to_client_line(jump.from)), jump.from, true});
   }
@@ -85,6 +85,6 @@ static Json answer_stack_trace(Session& session, const StackArguments& arguments
 
 static Json stack_trace_capabilities() { return {{"supportsDelayedStackTraceLoading", true}}; }
 
-extern const Request stack_trace = on<&answer_stack_trace>("stackTrace", stack_trace_capabilities);
+extern const DebugRequest stack_trace = on<&answer_stack_trace>("stackTrace", stack_trace_capabilities);
 
 }  // namespace isocnc::debugger::requests

@@ -9,6 +9,6 @@ static void answer_step_back(Session& session, const session::StepArguments& arg
 
 static Json step_back_capabilities() { return {{"supportsStepBack", true}}; }
 
-extern const Request step_back = on<&answer_step_back>("stepBack", step_back_capabilities);
+extern const DebugRequest step_back = on<&answer_step_back>("stepBack", step_back_capabilities);
 
 }  // namespace isocnc::debugger::requests

@@ -5,6 +5,6 @@ namespace isocnc::debugger::requests {
 /// One instruction of a block; on an arc in G49 one of the lines that it is driven as.
 static void answer_step_in(Session& session) { session.step(session::Step::Instruction); }
 
-extern const Request step_in = on<&answer_step_in>("stepIn");
+extern const DebugRequest step_in = on<&answer_step_in>("stepIn");
 
 }  // namespace isocnc::debugger::requests

@@ -5,6 +5,6 @@ namespace isocnc::debugger::requests {
 /// To the end of the tool's section, or of the frame.
 static void answer_step_out(Session& session) { session.step_out(); }
 
-extern const Request step_out = on<&answer_step_out>("stepOut");
+extern const DebugRequest step_out = on<&answer_step_out>("stepOut");
 
 }  // namespace isocnc::debugger::requests

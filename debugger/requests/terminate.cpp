@@ -7,6 +7,6 @@ static void answer_terminate(Session& session) { session.terminate(); }
 
 static Json terminate_capabilities() { return {{"supportsTerminateRequest", true}}; }
 
-extern const Request terminate = on<&answer_terminate>("terminate", terminate_capabilities);
+extern const DebugRequest terminate = on<&answer_terminate>("terminate", terminate_capabilities);
 
 }  // namespace isocnc::debugger::requests

@@ -9,6 +9,6 @@ static Json answer_threads(Session& session) {
   return {{"threads", {{{"id", 1}, {"name", session.in_language(kMachine)}}}}};
 }
 
-extern const Request threads = on<&answer_threads>("threads");
+extern const DebugRequest threads = on<&answer_threads>("threads");
 
 }  // namespace isocnc::debugger::requests

@@ -49,6 +49,6 @@ static VariablesBody answer_variables(Session& session, const VariablesArguments
 
 static Json variables_capabilities() { return {{"supportsValueFormattingOptions", true}}; }
 
-extern const Request variables = on<&answer_variables>("variables", variables_capabilities);
+extern const DebugRequest variables = on<&answer_variables>("variables", variables_capabilities);
 
 }  // namespace isocnc::debugger::requests

@@ -66,11 +66,11 @@ static Moment moment_before(const running::Block& block) {
 /// Breakpoints in its line, or on its codes.
 bool BackwardSearch::stops_before(const running::Block& block) {
   Breakpoints& breakpoints = state_.breakpoints;
-  Breakpoints::Outcome outcome;
+  Breakpoints::BreakpointOutcome outcome;
   if (breakpoints.has_line(block.line))
-    breakpoints.judge_line(moment_before(block), block.number, Direction::Backward, outcome);
+    breakpoints.judge_line(moment_before(block), block.number, RunDirection::Backward, outcome);
   if (breakpoints.has_functions())
-    breakpoints.judge_functions(block.tree, moment_before(block), block.number, Direction::Backward, outcome);
+    breakpoints.judge_functions(block.tree, moment_before(block), block.number, RunDirection::Backward, outcome);
   return !outcome.stopped.empty();
 }
 
@@ -82,8 +82,8 @@ bool BackwardSearch::changes_data(const running::Block& block) {
   breakpoints.start_trail(moment_before(block), trail_);
   breakpoints.read_arc(effect, after, trail_);
   breakpoints.read_data(after, trail_);
-  Breakpoints::Outcome outcome;
-  breakpoints.judge_data(trail_, after, block.number, Direction::Backward, outcome);
+  Breakpoints::BreakpointOutcome outcome;
+  breakpoints.judge_data(trail_, after, block.number, RunDirection::Backward, outcome);
   return !effect.has_error && !outcome.stopped.empty();
 }
 

@@ -54,11 +54,11 @@ void Breakpoints::set_lines(std::vector<LineBreakpoint> breakpoints, std::uint64
   }
 }
 
-void Breakpoints::reach(Breakpoint& breakpoint, const Moment& moment, std::uint64_t block, Direction direction,
-                        Outcome& outcome) {
+void Breakpoints::reach(Breakpoint& breakpoint, const Moment& moment, std::uint64_t block, RunDirection direction,
+                        BreakpointOutcome& outcome) {
   const BreakpointRules& rules = breakpoint.rules;
   if (rules.condition && !rules.condition->holds_at(moment)) return;
-  if (direction == Direction::Backward && rules.message) return;
+  if (direction == RunDirection::Backward && rules.message) return;
   if (rules.hits && !rules.hits->admits(breakpoint.counter.count(block))) return;
   if (rules.message) {
     outcome.messages.push_back(rules.message->at(moment));
@@ -67,13 +67,14 @@ void Breakpoints::reach(Breakpoint& breakpoint, const Moment& moment, std::uint6
   }
 }
 
-void Breakpoints::judge_line(const Moment& moment, std::uint64_t block, Direction direction, Outcome& outcome) {
+void Breakpoints::judge_line(const Moment& moment, std::uint64_t block, RunDirection direction,
+                             BreakpointOutcome& outcome) {
   const auto [begin, end] = lines_.equal_range(moment.line);
   for (auto each = begin; each != end; ++each) reach(each->second, moment, block, direction, outcome);
 }
 
 void Breakpoints::judge_functions(const syntax::LineTree& tree, const Moment& moment, std::uint64_t block,
-                                  Direction direction, Outcome& outcome) {
+                                  RunDirection direction, BreakpointOutcome& outcome) {
   for (FunctionBreakpoint& each : functions_)
     if (each.code.is_in(tree)) reach(each, moment, block, direction, outcome);
 }
@@ -103,8 +104,8 @@ void Breakpoints::read_arc(const BlockEffect& effect, const Moment& moment, Valu
   }
 }
 
-void Breakpoints::judge_data(const ValueTrail& trail, const Moment& moment, std::uint64_t block, Direction direction,
-                             Outcome& outcome) {
+void Breakpoints::judge_data(const ValueTrail& trail, const Moment& moment, std::uint64_t block, RunDirection direction,
+                             BreakpointOutcome& outcome) {
   // Other breakpoints may have been set since the trail was begun.
   if (data_.empty() || trail.width != data_.size() || trail.values.size() % trail.width != 0) return;
   for (std::size_t i = 0; i < data_.size(); ++i)

@@ -12,7 +12,7 @@ namespace isocnc::debugger::session {
 struct BlockEffect;
 
 /// The direction in which a run comes to a block. Log points are silent on the way backward.
-enum class Direction : std::uint8_t { Forward, Backward };
+enum class RunDirection : std::uint8_t { Forward, Backward };
 
 /// All breakpoints of a session. A block without any costs the look at one bit.
 class Breakpoints {
@@ -30,19 +30,19 @@ class Breakpoints {
   bool has_thresholds() const;
 
   /// What comes of the breakpoints that a block, or a change, has reached.
-  struct Outcome {
+  struct BreakpointOutcome {
     std::vector<std::int64_t> stopped;  ///< Ids of breakpoints that the run stops at.
     std::vector<std::string> messages;  ///< Messages of log points.
   };
 
   // The breakpoints that a block reaches, in its line, by its codes, or by the values that it changes. They are added
   // to `outcome`.
-  void judge_line(const Moment& moment, std::uint64_t block, Direction direction, Outcome& outcome);
-  void judge_functions(const syntax::LineTree& tree, const Moment& moment, std::uint64_t block, Direction direction,
-                       Outcome& outcome);
+  void judge_line(const Moment& moment, std::uint64_t block, RunDirection direction, BreakpointOutcome& outcome);
+  void judge_functions(const syntax::LineTree& tree, const Moment& moment, std::uint64_t block, RunDirection direction,
+                       BreakpointOutcome& outcome);
   /// `moment` is the last of the trail.
-  void judge_data(const ValueTrail& trail, const Moment& moment, std::uint64_t block, Direction direction,
-                  Outcome& outcome);
+  void judge_data(const ValueTrail& trail, const Moment& moment, std::uint64_t block, RunDirection direction,
+                  BreakpointOutcome& outcome);
 
   /// Begins a trail with the values of the moment before a block.
   void start_trail(const Moment& moment, ValueTrail& trail) const;
@@ -58,8 +58,8 @@ class Breakpoints {
   void forget_hits_from(std::uint64_t block);
 
  private:
-  static void reach(Breakpoint& breakpoint, const Moment& moment, std::uint64_t block, Direction direction,
-                    Outcome& outcome);
+  static void reach(Breakpoint& breakpoint, const Moment& moment, std::uint64_t block, RunDirection direction,
+                    BreakpointOutcome& outcome);
 
   std::multimap<std::uint64_t, LineBreakpoint> lines_;
   std::vector<std::uint64_t> bits_;  ///< A bit for each line, set where it has breakpoints.

@@ -5,7 +5,7 @@
 
 namespace isocnc::debugger::session {
 
-void from_json(const Json& json, Client& client) {
+void from_json(const Json& json, ClientProfile& client) {
   client.lines_start_at_1 = member<bool>(json, "linesStartAt1").value_or(true);
   client.columns_start_at_1 = member<bool>(json, "columnsStartAt1").value_or(true);
   client.supports_invalidated = member<bool>(json, "supportsInvalidatedEvent").value_or(false);

@@ -11,7 +11,7 @@ namespace isocnc::debugger::session {
 using lsp::rpc::Json;
 
 /// The editor at the other end, as `initialize` describes it.
-struct Client {
+struct ClientProfile {
   bool lines_start_at_1 = true;
   bool columns_start_at_1 = true;
   bool supports_invalidated = false;
@@ -33,6 +33,6 @@ struct Client {
 };
 
 /// Of the arguments of `initialize`. Throws ArgumentError.
-void from_json(const Json& json, Client& client);
+void from_json(const Json& json, ClientProfile& client);
 
 }  // namespace isocnc::debugger::session

@@ -152,7 +152,7 @@ class ExpressionCompiler {
     add({.operation = Operation::Number, .number = value});
   }
 
-  void add(const Expression::Instruction& instruction) { result_.code_.push_back(instruction); }
+  void add(const Expression::StackInstruction& instruction) { result_.code_.push_back(instruction); }
 
   std::string_view text_;
   Language language_;
@@ -198,7 +198,7 @@ double Expression::at(const Moment& moment) const {
   // At most one operand waits for each level of nesting and each rank of operators.
   std::array<double, 2 * kMaxDepth + 16> stack{};
   std::size_t size = 0;
-  for (const Instruction& each : code_) {
+  for (const StackInstruction& each : code_) {
     switch (each.operation) {
       case Operation::Number:
         stack[size++] = each.number;

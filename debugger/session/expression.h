@@ -67,7 +67,7 @@ class Expression {
     Or,
   };
   /// An instruction of a stack machine.
-  struct Instruction {
+  struct StackInstruction {
     Operation operation = Operation::Number;
     double number = 0;
     const Quantity* quantity = nullptr;
@@ -75,7 +75,7 @@ class Expression {
 
   static double apply(Operation operation, double left, double right);
 
-  std::vector<Instruction> code_;
+  std::vector<StackInstruction> code_;
 };
 
 struct Expression::Formatted {

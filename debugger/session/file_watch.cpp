@@ -12,16 +12,16 @@ FileWatch::FileWatch(std::filesystem::path file) : file_(std::move(file)) {
   if (!error) time_ = time;
 }
 
-std::optional<FileWatch::Change> FileWatch::find_change() {
+std::optional<FileWatch::FileChange> FileWatch::find_change() {
   if (has_changed_) return std::nullopt;
   std::error_code error;
   const auto time = std::filesystem::last_write_time(file_, error);
   if (!error && time_ && time == *time_) return std::nullopt;
   has_changed_ = true;
-  return error ? Change::Removed : Change::Modified;
+  return error ? FileChange::Removed : FileChange::Modified;
 }
 
-std::optional<FileWatch::Change> FileWatch::find_change_now_and_then() {
+std::optional<FileWatch::FileChange> FileWatch::find_change_now_and_then() {
   if (has_changed_ || Clock::now() - last_look_ < kBetweenLooks) return std::nullopt;
   last_look_ = Clock::now();
   return find_change();

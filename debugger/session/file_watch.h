@@ -10,15 +10,15 @@ namespace isocnc::debugger::session {
 /// Notices that a file has changed since the watch was made. Only the first change counts.
 class FileWatch {
  public:
-  enum class Change : std::uint8_t { Modified, Removed };
+  enum class FileChange : std::uint8_t { Modified, Removed };
 
   FileWatch() = default;
   explicit FileWatch(std::filesystem::path file);
 
   /// The first change, the first time that it is found.
-  std::optional<Change> find_change();
+  std::optional<FileChange> find_change();
   /// The same, but looks at the file once a second at most.
-  std::optional<Change> find_change_now_and_then();
+  std::optional<FileChange> find_change_now_and_then();
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -52,14 +52,14 @@ void Journal::forget_from(std::uint64_t block) {
   functions_.erase(end_before(functions_, block), functions_.end());
 }
 
-std::optional<Journal::Setting> Journal::setting(dialect::ModalGroup group, std::uint64_t block) const {
+std::optional<Journal::ModeSetting> Journal::setting(dialect::ModalGroup group, std::uint64_t block) const {
   const auto& settings = settings_[static_cast<std::size_t>(group)];
   const auto end = end_before(settings, block);
   if (end == settings.begin()) return std::nullopt;
   return *std::prev(end);
 }
 
-std::vector<Journal::Jump> Journal::jumps(std::uint64_t block) const {
+std::vector<Journal::TakenJump> Journal::jumps(std::uint64_t block) const {
   return {std::make_reverse_iterator(end_before(jumps_, block)), jumps_.rend()};
 }
 

@@ -25,12 +25,12 @@ class Journal {
     std::uint16_t written = 0;
   };
   /// Where a member of a modal group has come into force, or has been written for the first time.
-  struct Setting {
+  struct ModeSetting {
     std::uint64_t block = 0;
     std::uint64_t line = 0;
     std::uint8_t number = 0;  ///< Number of the G.
   };
-  struct Jump {
+  struct TakenJump {
     std::uint64_t block = 0;  ///< Blocks executed before the IF.
     std::uint64_t from = 0;   ///< Lines, from 0.
     std::uint64_t to = 0;
@@ -48,19 +48,19 @@ class Journal {
 
   // What had been noted before a block.
   /// The last setting; none where the program has set nothing, or it is forgotten.
-  std::optional<Setting> setting(dialect::ModalGroup group, std::uint64_t block) const;
+  std::optional<ModeSetting> setting(dialect::ModalGroup group, std::uint64_t block) const;
   /// Whether settings of the group have been forgotten, as there were too many.
   bool has_forgotten(dialect::ModalGroup group) const { return has_forgotten_[static_cast<std::size_t>(group)]; }
   /// The latest first.
-  std::vector<Jump> jumps(std::uint64_t block) const;
+  std::vector<TakenJump> jumps(std::uint64_t block) const;
   /// The last call with parameters of each M, the latest first.
   std::vector<Function> functions(std::uint64_t block) const;
 
  private:
   std::uint64_t known_ = 0;  ///< Blocks before this one have been noted.
-  std::array<std::deque<Setting>, dialect::kModalGroupCount> settings_;
+  std::array<std::deque<ModeSetting>, dialect::kModalGroupCount> settings_;
   std::array<bool, dialect::kModalGroupCount> has_forgotten_{};
-  std::deque<Jump> jumps_;
+  std::deque<TakenJump> jumps_;
   std::deque<Function> functions_;
 };
 

@@ -22,7 +22,7 @@ static std::string mistakes_of(const Configurations& read, Language language) {
 
 static ProgramText read_program(const std::filesystem::path& file, Language language) {
   auto text = ProgramText::read(file, language);
-  if (const auto* const problem = std::get_if<ProgramText::Problem>(&text))
+  if (const auto* const problem = std::get_if<ProgramText::ReadError>(&text))
     throw RequestError(fmt::format("{}: {}", file.string(), problem->message));
   return std::get<ProgramText>(std::move(text));
 }

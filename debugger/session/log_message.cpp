@@ -33,7 +33,7 @@ std::variant<LogMessage, ExpressionProblem> LogMessage::compile(std::string_view
 
 std::string LogMessage::at(const Moment& moment) const {
   std::string text;
-  for (const Piece& piece : pieces_) {
+  for (const MessagePart& piece : pieces_) {
     text += piece.text;
     if (piece.value) text += show_value(piece.value->expression.at(moment), piece.value->format);
   }

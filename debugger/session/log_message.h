@@ -18,11 +18,11 @@ class LogMessage {
   std::string at(const Moment& moment) const;
 
  private:
-  struct Piece {
+  struct MessagePart {
     std::string text;
     std::optional<Expression::Formatted> value;  ///< Shown after the text.
   };
-  std::vector<Piece> pieces_;
+  std::vector<MessagePart> pieces_;
 };
 
 }  // namespace isocnc::debugger::session

@@ -115,7 +115,7 @@ void Notifier::report_omissions() {
   if (omitted_ > 0) report_output("console", state_.in_language(kOmitted, std::exchange(omitted_, 0)));
 }
 
-void Notifier::report_messages(const Breakpoints::Outcome& outcome, std::uint64_t line) {
+void Notifier::report_messages(const Breakpoints::BreakpointOutcome& outcome, std::uint64_t line) {
   for (const std::string& message : outcome.messages) report_output("console", message, line);
 }
 
@@ -125,9 +125,9 @@ void Notifier::report_moved_breakpoint(const Json& breakpoint) {
   emit_("breakpoint", {{"reason", "changed"}, {"breakpoint", breakpoint}});
 }
 
-void Notifier::report_file_change(FileWatch::Change change) {
+void Notifier::report_file_change(FileWatch::FileChange change) {
   report_output("important", std::string(state_.in_language(kFileChanged)));
-  const bool is_removed = change == FileWatch::Change::Removed;
+  const bool is_removed = change == FileWatch::FileChange::Removed;
   emit_("loadedSource", {{"reason", is_removed ? "removed" : "changed"}, {"source", state_.source()}});
 }
 

@@ -41,11 +41,11 @@ class Notifier {
   /// How many of these lines have been left out since the last call.
   void report_omissions();
   /// Messages of log points. None is left out.
-  void report_messages(const Breakpoints::Outcome& outcome, std::uint64_t line);
+  void report_messages(const Breakpoints::BreakpointOutcome& outcome, std::uint64_t line);
 
   /// The breakpoint, a `Breakpoint` of the protocol, lies elsewhere than before.
   void report_moved_breakpoint(const Json& breakpoint);
-  void report_file_change(FileWatch::Change change);
+  void report_file_change(FileWatch::FileChange change);
 
   /// A search or run starts that may report its progress.
   void start_progress();

@@ -26,14 +26,14 @@ ProgramText::ProgramText(std::string text) : text_(std::move(text)) {
 }
 
 /// Reads the file into memory: if it were mapped, the text would be lost when the file is cut short.
-std::variant<ProgramText, ProgramText::Problem> ProgramText::read(const std::filesystem::path& file,
-                                                                  dialect::Language language) {
+std::variant<ProgramText, ProgramText::ReadError> ProgramText::read(const std::filesystem::path& file,
+                                                                    dialect::Language language) {
   // Not blocking, so that a pipe without a writer is read as an empty file.
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor < 0) return Problem{system::cannot_read(errno, language)};
+  if (descriptor < 0) return ReadError{system::cannot_read(errno, language)};
   const auto opened = system::SourceFile::read_stream(descriptor, language);
   ::close(descriptor);
-  if (const auto* const problem = std::get_if<system::SourceFile::Problem>(&opened)) return Problem{problem->message};
+  if (const auto* const problem = std::get_if<system::SourceFile::Problem>(&opened)) return ReadError{problem->message};
   return ProgramText(std::string(std::get<system::SourceFile>(opened).text()));
 }
 

@@ -18,12 +18,12 @@ namespace isocnc::debugger::session {
 class ProgramText {
  public:
   /// Why a file cannot be read, for people.
-  struct Problem {
+  struct ReadError {
     std::string message;
   };
 
   explicit ProgramText(std::string text);
-  static std::variant<ProgramText, Problem> read(const std::filesystem::path& file, dialect::Language language);
+  static std::variant<ProgramText, ReadError> read(const std::filesystem::path& file, dialect::Language language);
 
   std::string_view text() const { return text_; }
   std::uint64_t line_count() const { return line_count_; }

@@ -4,7 +4,7 @@
 
 namespace isocnc::debugger::session {
 
-PageArguments::Range PageArguments::of(std::size_t size) const {
+PageArguments::PageRange PageArguments::of(std::size_t size) const {
   const auto all = static_cast<std::int64_t>(size);
   const std::int64_t begin = std::clamp<std::int64_t>(start, 0, all);
   const std::int64_t end = count > 0 && count < all - begin ? begin + count : all;

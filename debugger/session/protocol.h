@@ -28,11 +28,11 @@ struct PageArguments {
   std::int64_t start = 0;
   std::int64_t count = 0;
 
-  struct Range {
+  struct PageRange {
     std::size_t begin = 0;
     std::size_t end = 0;
   };
-  Range of(std::size_t size) const;
+  PageRange of(std::size_t size) const;
 };
 
 /// `{"granularity": "instruction"}`: how far a step goes.

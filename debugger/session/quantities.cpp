@@ -133,12 +133,12 @@ static bool set_playback(Session& session, int, double value) {
 
 namespace {
 
-struct Group {
+struct QuantityGroup {
   std::string_view name;
   dialect::Text meaning;
 };
 
-constexpr std::array<Group, dialect::kModalGroupCount> kGroups{{
+constexpr std::array<QuantityGroup, dialect::kModalGroupCount> kGroups{{
     {"MOTION", {"motion", "movimento"}},
     {"PLANE", {"arc plane", "piano di interpolazione"}},
     {"FACE", {"face frame", "sistema di riferimento di faccia"}},

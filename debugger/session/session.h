@@ -25,8 +25,8 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  Client& client() { return state_.client; }
-  const Client& client() const { return state_.client; }
+  ClientProfile& client() { return state_.client; }
+  const ClientProfile& client() const { return state_.client; }
   dialect::Language language() const { return state_.language(); }
   std::string_view in_language(const dialect::Text& text) const { return state_.in_language(text); }
   template <class Value, class... Values>

@@ -19,7 +19,7 @@ namespace isocnc::debugger::session {
 
 /// What the parts of a session share: the client, the program that is debugged, and what its run stops at.
 struct SessionState {
-  Client client;
+  ClientProfile client;
   std::optional<dialect::Language> commanded_language;  ///< Of the command line; overrules all others.
   LaunchOptions launch_options;
   configuration::Configuration configuration;

@@ -44,12 +44,12 @@ std::optional<Stop> StopCheck::judge_breakpoints() {
   const std::uint64_t line = state_.debuggee->present().line();
   const std::uint64_t number = state_.debuggee->present().blocks();
   if (!breakpoints.has_line(line) && !breakpoints.has_functions()) return std::nullopt;
-  Breakpoints::Outcome at_line;
-  Breakpoints::Outcome at_code;
-  if (breakpoints.has_line(line)) breakpoints.judge_line(state_.moment(), number, Direction::Forward, at_line);
+  Breakpoints::BreakpointOutcome at_line;
+  Breakpoints::BreakpointOutcome at_code;
+  if (breakpoints.has_line(line)) breakpoints.judge_line(state_.moment(), number, RunDirection::Forward, at_line);
   if (breakpoints.has_functions())
     if (const auto block = state_.debuggee->next())
-      breakpoints.judge_functions(block->tree, state_.moment(), number, Direction::Forward, at_code);
+      breakpoints.judge_functions(block->tree, state_.moment(), number, RunDirection::Forward, at_code);
   report_messages(at_line, line);
   report_messages(at_code, line);
   if (at_line.stopped.empty() && at_code.stopped.empty()) return std::nullopt;
@@ -100,8 +100,8 @@ std::optional<Stop> StopCheck::after_block(std::uint64_t block) {
   if (!breakpoints.has_data() || state_.launch_options.no_debug) return std::nullopt;
   const Moment now = state_.moment();
   breakpoints.read_data(now, trail_);
-  Breakpoints::Outcome outcome;
-  breakpoints.judge_data(trail_, now, block, Direction::Forward, outcome);
+  Breakpoints::BreakpointOutcome outcome;
+  breakpoints.judge_data(trail_, now, block, RunDirection::Forward, outcome);
   report_messages(outcome, now.line);
   if (outcome.stopped.empty()) return std::nullopt;
   return Stop{.reason = "data breakpoint",
@@ -120,7 +120,7 @@ Stop StopCheck::at_error() {
           .details = {{"text", state_.exception->code}, {"description", state_.exception->message}}};
 }
 
-void StopCheck::report_messages(const Breakpoints::Outcome& outcome, std::uint64_t line) {
+void StopCheck::report_messages(const Breakpoints::BreakpointOutcome& outcome, std::uint64_t line) {
   notifier_.report_messages(outcome, line);
   message_count_ += outcome.messages.size();
 }

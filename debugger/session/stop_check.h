@@ -54,7 +54,7 @@ class StopCheck {
   std::optional<Stop> judge_exceptions();
   std::optional<Exception> find_exception() const;
   std::optional<Exception> find_coming_overtravel() const;
-  void report_messages(const Breakpoints::Outcome& outcome, std::uint64_t line);
+  void report_messages(const Breakpoints::BreakpointOutcome& outcome, std::uint64_t line);
 
   SessionState& state_;
   Notifier& notifier_;

@@ -277,12 +277,12 @@ class Listing {
 };
 
 /// A reference, and the function that lists its variables.
-struct Place {
+struct VariableList {
   std::int64_t reference = 0;
   void (Listing::*list)();
 };
 
-constexpr Place kPlaces[] = {
+constexpr VariableList kPlaces[] = {
     {kPosition, &Listing::list_position},
     {kModes, &Listing::list_modes},
     {kFeedAndSpindle, &Listing::list_feed_and_spindle},
@@ -313,7 +313,7 @@ std::vector<Variable> variables_of(const Session& session, std::int64_t referenc
     listing.list_function(static_cast<int>(reference - kFunctions));
     return listing.variables;
   }
-  for (const Place& place : kPlaces) {
+  for (const VariableList& place : kPlaces) {
     if (place.reference != reference) continue;
     (listing.*place.list)();
     return listing.variables;

@@ -20,7 +20,7 @@ int main(int count, char** arguments) {
   const std::string_view text = std::get<system::SourceFile>(opened).text();
 
   configuration::Configurations configurations({}, language);  // The isocnc.json above the program.
-  const configuration::Machine& machine = configurations.of(arguments[1]).machine;
+  const configuration::MachineConfiguration& machine = configurations.of(arguments[1]).machine;
 
   syntax::LineFinder lines(text);
   for (const check::LocatedFinding& located : check::check_text(text, machine.setup).findings) {

@@ -174,7 +174,7 @@ std::optional<system::ExitStatus> ProgramApp::answer(int argc, const char* const
   return std::nullopt;
 }
 
-using Options = std::vector<const CLI::Option*>;
+using OptionList = std::vector<const CLI::Option*>;
 
 static bool is_given(const CLI::Option& option) { return option.count() > 0; }
 
@@ -182,7 +182,7 @@ static bool is_given(const CLI::Option& option) { return option.count() > 0; }
 using Pair = std::pair<const CLI::Option*, const CLI::Option*>;
 
 /// The first two given options that exclude each other.
-static std::optional<Pair> excluded_pair(const Options& options) {
+static std::optional<Pair> excluded_pair(const OptionList& options) {
   for (const CLI::Option* const option : options)
     if (is_given(*option))
       for (const CLI::Option* const other : option->get_excludes())
@@ -191,7 +191,7 @@ static std::optional<Pair> excluded_pair(const Options& options) {
 }
 
 /// The first given option whose required option is missing, with that option.
-static std::optional<Pair> lonely_pair(const Options& options) {
+static std::optional<Pair> lonely_pair(const OptionList& options) {
   for (const CLI::Option* const option : options)
     if (is_given(*option))
       for (const CLI::Option* const needed : option->get_needs())
@@ -199,7 +199,7 @@ static std::optional<Pair> lonely_pair(const Options& options) {
   return std::nullopt;
 }
 
-static const CLI::Option* missing_option(const Options& options) {
+static const CLI::Option* missing_option(const OptionList& options) {
   const auto missing = std::find_if(options.begin(), options.end(), [](const CLI::Option* option) {
     return option->get_required() && !is_given(*option);
   });
@@ -207,7 +207,7 @@ static const CLI::Option* missing_option(const Options& options) {
 }
 
 /// The first option with one value that is given several.
-static const CLI::Option* repeated_option(const Options& options) {
+static const CLI::Option* repeated_option(const OptionList& options) {
   const auto repeated = std::find_if(options.begin(), options.end(), [](const CLI::Option* option) {
     return takes_value(*option) &&
            option->results().size() > static_cast<std::size_t>(option->get_items_expected_max());
@@ -246,7 +246,7 @@ std::string ProgramApp::complaint_about(const CLI::ParseError& error) const {
   static constexpr Text kNoValue = {"{}: the value is missing", "{}: manca il valore"};
   const std::vector<std::string> unexpected = app_->remaining();
   if (!unexpected.empty() && unexpected.front().starts_with('-')) return no_such_option(unexpected.front());
-  const Options options = std::as_const(*app_).get_options();
+  const OptionList options = std::as_const(*app_).get_options();
   if (dynamic_cast<const CLI::ExcludesError*>(&error) != nullptr) {
     if (const auto pair = excluded_pair(options))
       return dialect::format(kExclude, language_, pair->first->get_name(), pair->second->get_name());

@@ -2,7 +2,7 @@
 
 namespace isocnc::command_line {
 
-void add_source_options(command_line::ProgramApp& program, configuration::Source& source,
+void add_source_options(command_line::ProgramApp& program, configuration::ConfigurationSource& source,
                         const dialect::Text& description) {
   const command_line::ProgramOption config =
       program.add_option("--config", source.file, command_line::kFileValue, description);

@@ -7,7 +7,7 @@
 namespace isocnc::command_line {
 
 /// Adds `--config FILE` with this description, and `--no-config`.
-void add_source_options(command_line::ProgramApp& program, configuration::Source& source,
+void add_source_options(command_line::ProgramApp& program, configuration::ConfigurationSource& source,
                         const dialect::Text& description);
 
 }  // namespace isocnc::command_line

@@ -13,13 +13,13 @@ std::array<double, execution::kAxisCount> default_rapids() {
   return rapids;
 }
 
-const Tool* Machine::find_tool(const execution::ToolCode& code) const {
+const Tool* MachineConfiguration::find_tool(const execution::ToolCode& code) const {
   if (!tools) return nullptr;
   const auto found = std::find_if(tools->begin(), tools->end(), [&](const Tool& tool) { return tool.code == code; });
   return found == tools->end() ? nullptr : &*found;
 }
 
-const NamedFunction* Machine::find_function(double number) const {
+const NamedFunction* MachineConfiguration::find_function(double number) const {
   if (!functions) return nullptr;
   const auto found = std::find_if(functions->begin(), functions->end(),
                                   [&](const NamedFunction& function) { return function.number == number; });

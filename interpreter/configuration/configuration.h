@@ -37,7 +37,7 @@ struct NamedFunction {
 /// Rapids of the default machine, mm/min and degrees/min.
 std::array<double, execution::kAxisCount> default_rapids();
 
-struct Machine {
+struct MachineConfiguration {
   execution::Setup setup;  ///< Tools and functions are copies of the members below.
   /// The machine's motion. Travel, rapids and kind are copies from `setup` and the members below, as are tools and
   /// functions.
@@ -97,7 +97,7 @@ struct Format {
 
 /// The content of an isocnc.json. Omitted keys, or all without a file, have their defaults.
 struct Configuration {
-  Machine machine;
+  MachineConfiguration machine;
   Lint lint;
   Format format;
   std::optional<dialect::Language> language;

@@ -33,7 +33,8 @@ static fs::path shown_path(const fs::path& file) {
   return error || relative.empty() || *relative.begin() == ".." ? file : relative;
 }
 
-Configurations::Configurations(Source source, Language language) : source_(std::move(source)), language_(language) {}
+Configurations::Configurations(ConfigurationSource source, Language language)
+    : source_(std::move(source)), language_(language) {}
 
 const Configuration& Configurations::in_folder(const fs::path& folder) {
   const auto [known, is_new] = asked_.try_emplace(folder.native(), &none_);

@@ -17,7 +17,7 @@ namespace isocnc::configuration {
 inline constexpr std::string_view kFileName = "isocnc.json";
 
 /// The choice of configuration by a command.
-struct Source {
+struct ConfigurationSource {
   std::optional<std::string> file;  ///< The file for all programs; without it, the nearest one above each program.
   bool none = false;                ///< Use no configuration.
 };
@@ -26,7 +26,7 @@ struct Source {
 class Configurations {
  public:
   /// `language` is the language of system errors about files.
-  Configurations(Source source, dialect::Language language);
+  Configurations(ConfigurationSource source, dialect::Language language);
   Configurations(const Configurations&) = delete;
   Configurations& operator=(const Configurations&) = delete;
 
@@ -48,7 +48,7 @@ class Configurations {
   const Configuration& nearest(const std::filesystem::path& folder);
   const Configuration& load(const std::filesystem::path& file, const std::filesystem::path& shown);
 
-  const Source source_;
+  const ConfigurationSource source_;
   const dialect::Language language_;
   const Configuration none_;
   std::vector<std::unique_ptr<File>> files_;

@@ -16,13 +16,13 @@ static constexpr std::string_view kModal[] = {"keep", "write", "fold"};
 static constexpr std::string_view kMachineKinds[] = {"three-axis", "head", "table"};
 
 /// Larger than any machine, and small enough to compute with.
-static constexpr Range kLength = {-1e6, 1e6};
-static constexpr Range kAngle = {-1e5, 1e5};
+static constexpr NumberRange kLength = {-1e6, 1e6};
+static constexpr NumberRange kAngle = {-1e5, 1e5};
 /// The minimum is slower than any machine, and fast enough that a program ends.
-static constexpr Range kSpeed = {1, 1e7};
-static constexpr Range kAcceleration = {1, 1e6};
+static constexpr NumberRange kSpeed = {1, 1e7};
+static constexpr NumberRange kAcceleration = {1, 1e6};
 /// The minimum is a tenth of a micron.
-static constexpr Range kRounding = {1e-4, 10};
+static constexpr NumberRange kRounding = {1e-4, 10};
 
 std::optional<int> function_number(std::string_view name) {
   if (name.size() < 2 || name.size() > 4 || name.front() != 'M') return std::nullopt;
@@ -33,18 +33,18 @@ std::optional<int> function_number(std::string_view name) {
 }
 
 /// The keys of an axis, for its home or its travel.
-struct Axis {
+struct AxisKeys {
   std::string_view letter;
   bool is_rotary;
   std::size_t index;
 
   std::string_view unit() const { return is_rotary ? "degrees" : "mm"; }
-  Range range() const { return is_rotary ? kAngle : kLength; }
+  NumberRange range() const { return is_rotary ? kAngle : kLength; }
 };
-static constexpr std::array<Axis, 5> kAxes = {
+static constexpr std::array<AxisKeys, 5> kAxes = {
     {{"X", false, 0}, {"Y", false, 1}, {"Z", false, 2}, {"B", true, 3}, {"C", true, 4}}};
 
-static double& home_of(Configuration& configuration, const Axis& axis) {
+static double& home_of(Configuration& configuration, const AxisKeys& axis) {
   geometry::Pose& home = configuration.machine.setup.home;
   if (axis.is_rotary) return axis.letter == "B" ? home.b : home.c;
   return home.tip[static_cast<Eigen::Index>(axis.index)];
@@ -55,13 +55,13 @@ static std::string lower(std::string_view letter) { return {static_cast<char>(le
 static void add_home(std::vector<Key>& keys) {
   keys.push_back({.path = "machine.home",
                   .documentation = "Where the spindle nose stands when a program begins, in machine coordinates."});
-  for (const Axis& axis : kAxes)
+  for (const AxisKeys& axis : kAxes)
     keys.push_back({.path = "machine.home." + lower(axis.letter),
                     .kind = Kind::Number,
                     .range = axis.range(),
                     .unit = axis.unit(),
                     .documentation = "The coordinate at home.",
-                    .slot = [axis](Configuration& c, std::size_t) -> Slot { return &home_of(c, axis); }});
+                    .slot = [axis](Configuration& c, std::size_t) -> ValueSlot { return &home_of(c, axis); }});
 }
 
 static std::optional<Objection> min_above_max(const execution::Travel& travel) {
@@ -72,7 +72,7 @@ static std::optional<Objection> min_above_max(const execution::Travel& travel) {
 static void add_axes(std::vector<Key>& keys) {
   keys.push_back({.path = "machine.axes",
                   .documentation = "From where to where the axes go, in machine coordinates (W130), and how fast."});
-  for (const Axis& axis : kAxes) {
+  for (const AxisKeys& axis : kAxes) {
     const std::string path = "machine.axes." + std::string(axis.letter);
     const auto travel = [axis](Configuration& c) -> execution::Travel& {
       return c.machine.setup.limits.travel[axis.index];
@@ -87,25 +87,26 @@ static void add_axes(std::vector<Key>& keys) {
                     .range = axis.range(),
                     .unit = axis.unit(),
                     .documentation = "The least coordinate.",
-                    .slot = [travel](Configuration& c, std::size_t) -> Slot { return &travel(c).minimum; }});
+                    .slot = [travel](Configuration& c, std::size_t) -> ValueSlot { return &travel(c).minimum; }});
     keys.push_back({.path = path + ".max",
                     .kind = Kind::Number,
                     .range = axis.range(),
                     .unit = axis.unit(),
                     .documentation = "The greatest coordinate.",
-                    .slot = [travel](Configuration& c, std::size_t) -> Slot { return &travel(c).maximum; }});
-    keys.push_back({.path = path + ".rapid",
-                    .kind = Kind::Number,
-                    .range = kSpeed,
-                    .unit = axis.is_rotary ? "degrees/min" : "mm/min",
-                    .documentation = "How fast the axis goes at most, in rapid and in feed.",
-                    .slot = [axis](Configuration& c, std::size_t) -> Slot { return &c.machine.rapids[axis.index]; }});
+                    .slot = [travel](Configuration& c, std::size_t) -> ValueSlot { return &travel(c).maximum; }});
+    keys.push_back(
+        {.path = path + ".rapid",
+         .kind = Kind::Number,
+         .range = kSpeed,
+         .unit = axis.is_rotary ? "degrees/min" : "mm/min",
+         .documentation = "How fast the axis goes at most, in rapid and in feed.",
+         .slot = [axis](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.rapids[axis.index]; }});
     keys.push_back({.path = path + ".acceleration",
                     .kind = Kind::Number,
                     .range = kAcceleration,
                     .unit = axis.is_rotary ? "degrees/s^2" : "mm/s^2",
                     .documentation = "How fast the axis gathers and loses speed at most.",
-                    .slot = [axis](Configuration& c, std::size_t) -> Slot {
+                    .slot = [axis](Configuration& c, std::size_t) -> ValueSlot {
                       return &c.machine.timed.motion.axes[axis.index].acceleration;
                     }});
     keys.push_back({.path = path + ".jerk",
@@ -113,7 +114,7 @@ static void add_axes(std::vector<Key>& keys) {
                     .range = {0, 1e7, true},
                     .unit = axis.is_rotary ? "degrees/s^3" : "mm/s^3",
                     .documentation = "How fast the acceleration of the axis changes at most; without it, at once.",
-                    .slot = [axis](Configuration& c, std::size_t) -> Slot {
+                    .slot = [axis](Configuration& c, std::size_t) -> ValueSlot {
                       return &c.machine.timed.motion.axes[axis.index].jerk;
                     }});
   }
@@ -125,46 +126,48 @@ static void add_limits(std::vector<Key>& keys) {
                   .range = kSpeed,
                   .unit = "mm/min",
                   .documentation = "The greatest feed rate (W131).",
-                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.setup.limits.feed; }});
-  keys.push_back({.path = "machine.maxRotarySpeed",
-                  .kind = Kind::Number,
-                  .range = kSpeed,
-                  .unit = "degrees/min",
-                  .documentation = "How fast B and C turn at most (W132).",
-                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.setup.limits.rotary_speed; }});
-  keys.push_back({.path = "machine.maxSpindleSpeed",
-                  .kind = Kind::Number,
-                  .range = kSpeed,
-                  .unit = "rev/min",
-                  .documentation = "The greatest S (W133).",
-                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.setup.limits.spindle_speed; }});
+                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.setup.limits.feed; }});
+  keys.push_back(
+      {.path = "machine.maxRotarySpeed",
+       .kind = Kind::Number,
+       .range = kSpeed,
+       .unit = "degrees/min",
+       .documentation = "How fast B and C turn at most (W132).",
+       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.setup.limits.rotary_speed; }});
+  keys.push_back(
+      {.path = "machine.maxSpindleSpeed",
+       .kind = Kind::Number,
+       .range = kSpeed,
+       .unit = "rev/min",
+       .documentation = "The greatest S (W133).",
+       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.setup.limits.spindle_speed; }});
   keys.push_back({.path = "machine.tolerances", .documentation = "How exact the control wants programs to be."});
   keys.push_back({.path = "machine.tolerances.arc",
                   .kind = Kind::Number,
                   .range = {1e-6, 10},
                   .unit = "mm",
                   .documentation = "How far the given points of an arc may be from a circle (ISO029, ISO030, ISO031).",
-                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.setup.arc_tolerance; }});
+                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.setup.arc_tolerance; }});
   keys.push_back(
       {.path = "machine.tolerances.chord",
        .kind = Kind::Number,
        .range = kRounding,
        .unit = "mm",
        .documentation = "How far the lines that replace an arc in G49 may be from it (I.3.4.3.a).",
-       .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.timed.motion.chord_tolerance; }});
+       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.timed.motion.chord_tolerance; }});
   keys.push_back(
       {.path = "machine.tolerances.corner",
        .kind = Kind::Number,
        .range = kRounding,
        .unit = "mm",
        .documentation = "How far from the programmed path the tip may round a corner.",
-       .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.timed.motion.corner_tolerance; }});
+       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.timed.motion.corner_tolerance; }});
   keys.push_back({.path = "machine.clearance",
                   .kind = Kind::Number,
                   .range = kLength,
                   .unit = "mm",
                   .documentation = "The Z of the face frame below which no rapid should go (W134).",
-                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.setup.clearance; }});
+                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.setup.clearance; }});
 }
 
 static geometry::Vec3& head_offset(Configuration& configuration, bool is_spindle) {
@@ -187,7 +190,7 @@ static void add_point(std::vector<Key>& keys, const std::string& path, std::stri
          .range = kLength,
          .unit = "mm",
          .documentation = documentation,
-         .slot = [point, which, axis](Configuration& c, std::size_t) -> Slot { return &point(c, which)[axis]; }});
+         .slot = [point, which, axis](Configuration& c, std::size_t) -> ValueSlot { return &point(c, which)[axis]; }});
 }
 
 static void add_kinematics(std::vector<Key>& keys) {
@@ -196,14 +199,14 @@ static void add_kinematics(std::vector<Key>& keys) {
                   .kind = Kind::Choice,
                   .choices = kMachineKinds,
                   .documentation = "No rotary axes; a head that C turns and B tilts; a table that B tilts and C turns.",
-                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.kind; }});
+                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.kind; }});
   keys.push_back(
       {.path = "machine.kinematics.pivot",
        .kind = Kind::Number,
        .range = {0, 1e4},
        .unit = "mm",
        .documentation = "Head: from the B axis down to the spindle nose, with B at 0.",
-       .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.timed.motion.kinematics.pivot; }});
+       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.timed.motion.kinematics.pivot; }});
   add_point(keys, "machine.kinematics.bFromC", "Head: from the C axis to the B axis, with B and C at 0.", head_offset,
             false);
   add_point(keys, "machine.kinematics.spindleFromB", "Head: from the B axis to the spindle axis, with B and C at 0.",
@@ -216,13 +219,14 @@ static void add_kinematics(std::vector<Key>& keys) {
 
 static void add_times(std::vector<Key>& keys) {
   const auto add = [&](std::string_view name, std::string_view documentation, auto member) {
-    keys.push_back(
-        {.path = "machine.times." + std::string(name),
-         .kind = Kind::Number,
-         .range = {0, 1e5},
-         .unit = "s",
-         .documentation = documentation,
-         .slot = [member](Configuration& c, std::size_t) -> Slot { return &(c.machine.timed.durations.*member); }});
+    keys.push_back({.path = "machine.times." + std::string(name),
+                    .kind = Kind::Number,
+                    .range = {0, 1e5},
+                    .unit = "s",
+                    .documentation = documentation,
+                    .slot = [member](Configuration& c, std::size_t) -> ValueSlot {
+                      return &(c.machine.timed.durations.*member);
+                    }});
   };
   keys.push_back({.path = "machine.times", .documentation = "How long the machine takes for what is no motion."});
   add("toolChange", "An M06, from rest to rest; also of the tool that is mounted.",
@@ -242,20 +246,20 @@ static std::optional<Objection> tool_twice(const Configuration& configuration, s
 }
 
 static void add_tools(std::vector<Key>& keys) {
-  const auto add = [&](std::string_view name, Range range, std::string_view documentation, auto member) {
+  const auto add = [&](std::string_view name, NumberRange range, std::string_view documentation, auto member) {
     keys.push_back({.path = "machine.tools[]." + std::string(name),
                     .kind = Kind::Integer,
                     .range = range,
                     .documentation = documentation,
                     .is_required = true,
-                    .slot = [member](Configuration& c, std::size_t index) -> Slot {
+                    .slot = [member](Configuration& c, std::size_t index) -> ValueSlot {
                       return &((*c.machine.tools)[index].code.*member);
                     }});
   };
   keys.push_back({.path = "machine.tools",
                   .kind = Kind::Objects,
                   .documentation = "The tools that the machine has; without this list M06 takes any (ISO067).",
-                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.tools; },
+                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.tools; },
                   .objection = tool_twice});
   add("head", {1, 9}, "The head: the first digit of the T.", &execution::ToolCode::head);
   add("holder", {1, 99}, "The holder: the second and third digit.", &execution::ToolCode::holder);
@@ -263,19 +267,19 @@ static void add_tools(std::vector<Key>& keys) {
   keys.push_back({.path = "machine.tools[].name",
                   .kind = Kind::Text,
                   .documentation = "What the shop calls the tool.",
-                  .slot = [](Configuration& c, std::size_t i) -> Slot { return &(*c.machine.tools)[i].name; }});
+                  .slot = [](Configuration& c, std::size_t i) -> ValueSlot { return &(*c.machine.tools)[i].name; }});
   keys.push_back({.path = "machine.tools[].length",
                   .kind = Kind::Number,
                   .range = {0, 1e4, true},
                   .unit = "mm",
                   .documentation = "From the spindle nose to the tip.",
-                  .slot = [](Configuration& c, std::size_t i) -> Slot { return &(*c.machine.tools)[i].length; }});
+                  .slot = [](Configuration& c, std::size_t i) -> ValueSlot { return &(*c.machine.tools)[i].length; }});
   keys.push_back({.path = "machine.tools[].radius",
                   .kind = Kind::Number,
                   .range = {0, 1e4, true},
                   .unit = "mm",
                   .documentation = "The radius of what cuts, by which G41 and G42 lead the tool beside the contour.",
-                  .slot = [](Configuration& c, std::size_t i) -> Slot { return &(*c.machine.tools)[i].radius; }});
+                  .slot = [](Configuration& c, std::size_t i) -> ValueSlot { return &(*c.machine.tools)[i].radius; }});
 }
 
 static std::optional<Objection> function_twice(const Configuration& configuration, std::size_t index) {
@@ -291,51 +295,57 @@ static void add_functions(std::vector<Key>& keys) {
                   .kind = Kind::Named,
                   .text = TextKind::Function,
                   .documentation = "The M functions of the shop, each by its M: \"M100\" (W129).",
-                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.machine.functions; },
+                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.functions; },
                   .objection = function_twice});
-  keys.push_back({.path = "machine.functions.*.name",
-                  .kind = Kind::Text,
-                  .documentation = "What the function does.",
-                  .slot = [](Configuration& c, std::size_t i) -> Slot { return &(*c.machine.functions)[i].name; }});
-  keys.push_back({.path = "machine.functions.*.time",
-                  .kind = Kind::Number,
-                  .range = {0, 1e5},
-                  .unit = "s",
-                  .documentation = "How long the machine waits for it.",
-                  .slot = [](Configuration& c, std::size_t i) -> Slot { return &(*c.machine.functions)[i].seconds; }});
+  keys.push_back(
+      {.path = "machine.functions.*.name",
+       .kind = Kind::Text,
+       .documentation = "What the function does.",
+       .slot = [](Configuration& c, std::size_t i) -> ValueSlot { return &(*c.machine.functions)[i].name; }});
+  keys.push_back(
+      {.path = "machine.functions.*.time",
+       .kind = Kind::Number,
+       .range = {0, 1e5},
+       .unit = "s",
+       .documentation = "How long the machine waits for it.",
+       .slot = [](Configuration& c, std::size_t i) -> ValueSlot { return &(*c.machine.functions)[i].seconds; }});
 }
 
 using SelectionGetter = CodeSelection& (*)(Configuration& configuration, std::size_t index);
 
 static void add_selection_keys(std::vector<Key>& keys, const std::string& path, SelectionGetter selection) {
-  keys.push_back({.path = path + ".select",
-                  .kind = Kind::Texts,
-                  .text = TextKind::Code,
-                  .documentation = "Shows these codes alone: codes, names, beginnings of codes, ALL.",
-                  .slot = [selection](Configuration& c, std::size_t i) -> Slot { return &selection(c, i).select; }});
-  keys.push_back({.path = path + ".ignore",
-                  .kind = Kind::Texts,
-                  .text = TextKind::Code,
-                  .documentation = "Does not show these codes.",
-                  .slot = [selection](Configuration& c, std::size_t i) -> Slot { return &selection(c, i).ignore; }});
-  keys.push_back({.path = path + ".severity",
-                  .kind = Kind::Severities,
-                  .text = TextKind::Code,
-                  .choices = kSeverities,
-                  .documentation = "How much codes weigh.",
-                  .slot = [selection](Configuration& c, std::size_t i) -> Slot { return &selection(c, i).severity; }});
+  keys.push_back(
+      {.path = path + ".select",
+       .kind = Kind::Texts,
+       .text = TextKind::Code,
+       .documentation = "Shows these codes alone: codes, names, beginnings of codes, ALL.",
+       .slot = [selection](Configuration& c, std::size_t i) -> ValueSlot { return &selection(c, i).select; }});
+  keys.push_back(
+      {.path = path + ".ignore",
+       .kind = Kind::Texts,
+       .text = TextKind::Code,
+       .documentation = "Does not show these codes.",
+       .slot = [selection](Configuration& c, std::size_t i) -> ValueSlot { return &selection(c, i).ignore; }});
+  keys.push_back(
+      {.path = path + ".severity",
+       .kind = Kind::Severities,
+       .text = TextKind::Code,
+       .choices = kSeverities,
+       .documentation = "How much codes weigh.",
+       .slot = [selection](Configuration& c, std::size_t i) -> ValueSlot { return &selection(c, i).severity; }});
 }
 
 static void add_options(std::vector<Key>& keys) {
   keys.push_back({.path = "lint.options", .documentation = "From where on lint rules speak."});
-  const auto add = [&](std::string_view name, Range range, std::string_view unit, std::string_view documentation,
+  const auto add = [&](std::string_view name, NumberRange range, std::string_view unit, std::string_view documentation,
                        auto member) {
-    keys.push_back({.path = "lint.options." + std::string(name),
-                    .kind = Kind::Number,
-                    .range = range,
-                    .unit = unit,
-                    .documentation = documentation,
-                    .slot = [member](Configuration& c, std::size_t) -> Slot { return &(c.lint.thresholds.*member); }});
+    keys.push_back(
+        {.path = "lint.options." + std::string(name),
+         .kind = Kind::Number,
+         .range = range,
+         .unit = unit,
+         .documentation = documentation,
+         .slot = [member](Configuration& c, std::size_t) -> ValueSlot { return &(c.lint.thresholds.*member); }});
   };
   add("longestDwell", {0, 1e6, true}, "s", "The longest G04 that is not told of (W115).",
       &dialect::LintThresholds::longest_dwell);
@@ -352,14 +362,14 @@ static void add_lint(std::vector<Key>& keys) {
   keys.push_back({.path = "lint.files",
                   .kind = Kind::Objects,
                   .documentation = "What holds for some programs alone; the later outweighs the earlier.",
-                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.lint.files; }});
+                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.lint.files; }});
   keys.push_back({.path = "lint.files[].paths",
                   .kind = Kind::Texts,
                   .text = TextKind::Pattern,
                   .documentation = "Which programs: patterns of paths from the folder of this file.",
                   .is_required = true,
                   .is_never_empty = true,
-                  .slot = [](Configuration& c, std::size_t i) -> Slot { return &c.lint.files[i].paths; }});
+                  .slot = [](Configuration& c, std::size_t i) -> ValueSlot { return &c.lint.files[i].paths; }});
   add_selection_keys(keys, "lint.files[]",
                      [](Configuration& c, std::size_t i) -> CodeSelection& { return c.lint.files[i].selection; });
   keys.push_back({.path = "lint.extensions",
@@ -367,12 +377,12 @@ static void add_lint(std::vector<Key>& keys) {
                   .text = TextKind::Extension,
                   .documentation = "What the names of programs end in; a search of a folder takes these files.",
                   .is_never_empty = true,
-                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.lint.extensions; }});
+                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.lint.extensions; }});
   keys.push_back({.path = "lint.exclude",
                   .kind = Kind::Texts,
                   .text = TextKind::Pattern,
                   .documentation = "What a search passes over: patterns of paths from the folder of this file.",
-                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.lint.exclude; }});
+                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.lint.exclude; }});
 }
 
 static void add_format(std::vector<Key>& keys) {
@@ -380,39 +390,39 @@ static void add_format(std::vector<Key>& keys) {
   keys.push_back({.path = "format.wordOrder",
                   .kind = Kind::Boolean,
                   .documentation = "N first, arguments in the usual order, then F; as --word-order.",
-                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.word_order; }});
+                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.word_order; }});
   keys.push_back({.path = "format.decimals",
                   .kind = Kind::Integer,
                   .range = {0, Format::kMaxDecimals},
                   .documentation = "Drops zeros from numbers that need no more decimals than this; as --decimals.",
-                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.decimals; }});
+                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.decimals; }});
   keys.push_back({.path = "format.gDigits",
                   .kind = Kind::Integer,
                   .range = {1, 2},
                   .documentation = "1 writes G1, 2 writes G01; as --g-digits.",
-                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.g_digits; }});
+                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.g_digits; }});
   keys.push_back({.path = "format.modal",
                   .kind = Kind::Choice,
                   .choices = kModal,
                   .documentation = "Motion Gs on each line, where they change, or as written; as --modal.",
-                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.modal; }});
+                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.modal; }});
   keys.push_back({.path = "format.renumber",
                   .documentation = "Gives lines new numbers; as --renumber.",
-                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.renumber; }});
+                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.renumber; }});
   keys.push_back({.path = "format.renumber.start",
                   .kind = Kind::Integer,
                   .range = {0, Renumber::kMaxNumber},
                   .documentation = "The first number.",
-                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.renumber->start; }});
+                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.renumber->start; }});
   keys.push_back({.path = "format.renumber.step",
                   .kind = Kind::Integer,
                   .range = {1, Renumber::kMaxNumber},
                   .documentation = "From one number to the next.",
-                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.renumber->step; }});
+                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.renumber->step; }});
   keys.push_back({.path = "format.renumber.allLines",
                   .kind = Kind::Boolean,
                   .documentation = "Numbers all lines that hold a block; as --renumber-all.",
-                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.format.renumber->all_lines; }});
+                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.renumber->all_lines; }});
 }
 
 static std::vector<Key> make_keys() {
@@ -423,7 +433,7 @@ static std::vector<Key> make_keys() {
                   .kind = Kind::Choice,
                   .choices = dialect::kLanguageNames,
                   .documentation = "The language of messages; as --lang.",
-                  .slot = [](Configuration& c, std::size_t) -> Slot { return &c.language; }});
+                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.language; }});
   keys.push_back({.path = "machine", .documentation = "The machine that programs are written for."});
   add_home(keys);
   add_axes(keys);

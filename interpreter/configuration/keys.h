@@ -34,14 +34,14 @@ enum class KeyKind : std::uint8_t {
 enum class TextKind : std::uint8_t { Any, Code, Pattern, Extension, Function };
 
 /// The range of a key's numbers.
-struct Range {
+struct NumberRange {
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
   bool exclusive_minimum = false;  ///< `minimum` itself is not in the range.
 };
 
 /// The storage of a key's value, written by the reader and read by --show-config.
-using Slot =
+using ValueSlot =
     std::variant<std::monostate, double*, std::optional<double>*, int*, std::optional<int>*, bool*, std::string*,
                  std::optional<dialect::Language>*, std::vector<std::string>*,
                  std::vector<std::pair<std::string, std::string>>*, std::optional<std::vector<Tool>>*,
@@ -59,14 +59,14 @@ struct Key {
   std::string path;  ///< For example `machine.tools[].head`.
   KeyKind kind = KeyKind::Object;
   TextKind text = TextKind::Any;
-  Range range;
+  NumberRange range;
   std::string_view unit;
   std::span<const std::string_view> choices;
   std::string_view documentation;
   bool is_required = false;
   bool is_never_empty = false;  ///< The list must have an element.
   /// For keys of list elements, `index` is the index of the element.
-  std::function<Slot(Configuration& configuration, std::size_t index)> slot;
+  std::function<ValueSlot(Configuration& configuration, std::size_t index)> slot;
   std::function<std::optional<Objection>(const Configuration& configuration, std::size_t index)> objection;
 
   /// The last part of the path: `head`.

@@ -17,33 +17,33 @@
 namespace isocnc::configuration {
 
 using dialect::Text;
-using Json = JsonValue::Kind;
+using JsonKind = JsonValue::Kind;
 
 static constexpr Text kKinds[] = {
     {"null", "null"},  {"true or false", "true o false"}, {"a number", "un numero"},
     {"text", "testo"}, {"a list [ ]", "una lista [ ]"},   {"an object { }", "un oggetto { }"},
 };
-static const Text& name_of(Json kind) { return kKinds[static_cast<std::size_t>(kind)]; }
+static const Text& name_of(JsonKind kind) { return kKinds[static_cast<std::size_t>(kind)]; }
 
-static Json json_of(KeyKind kind) {
+static JsonKind json_of(KeyKind kind) {
   switch (kind) {
     case KeyKind::Number:
     case KeyKind::Integer:
-      return Json::Number;
+      return JsonKind::Number;
     case KeyKind::Boolean:
-      return Json::Boolean;
+      return JsonKind::Boolean;
     case KeyKind::Text:
     case KeyKind::Choice:
-      return Json::String;
+      return JsonKind::String;
     case KeyKind::Objects:
     case KeyKind::Texts:
-      return Json::List;
+      return JsonKind::List;
     case KeyKind::Object:
     case KeyKind::Named:
     case KeyKind::Severities:
       break;
   }
-  return Json::Object;
+  return JsonKind::Object;
 }
 
 /// The mistake in a text, with a suggested correction.
@@ -107,13 +107,13 @@ static std::optional<std::string> meant_key(std::string_view written, const std:
 namespace {
 
 /// Compares a tree of values with the table of keys, and stores the valid ones in their slots.
-class Reader {
+class ConfigurationReader {
  public:
-  Reader(std::string_view text, ReadConfiguration& result) : text_(text), result_(result) {}
+  ConfigurationReader(std::string_view text, ReadConfiguration& result) : text_(text), result_(result) {}
 
   void read(const JsonValue& root) {
-    if (root.kind == Json::Object) return read_members(root, nullptr, "", 0);
-    complain(root.at, "", mistakes::kWrongKind, {name_of(root.kind), name_of(Json::Object)});
+    if (root.kind == JsonKind::Object) return read_members(root, nullptr, "", 0);
+    complain(root.at, "", mistakes::kWrongKind, {name_of(root.kind), name_of(JsonKind::Object)});
   }
 
  private:
@@ -132,7 +132,7 @@ class Reader {
   void read_value(const Key& key, const JsonValue& value, const std::string& path, std::size_t index) {
     if (value.kind != json_of(key.kind))
       return complain(value.at, path, mistakes::kWrongKind, {name_of(value.kind), name_of(json_of(key.kind))});
-    const Slot slot = key.slot ? key.slot(result_.configuration, index) : Slot();
+    const ValueSlot slot = key.slot ? key.slot(result_.configuration, index) : ValueSlot();
     switch (key.kind) {
       case KeyKind::Object:
         if (const auto* const renumber = std::get_if<std::optional<Renumber>*>(&slot)) (*renumber)->emplace();
@@ -216,13 +216,13 @@ class Reader {
     return !fault;
   }
 
-  void read_objects(const Key& key, const JsonValue& list, const std::string& path, const Slot& slot) {
+  void read_objects(const Key& key, const JsonValue& list, const std::string& path, const ValueSlot& slot) {
     if (const auto* const tools = std::get_if<std::optional<std::vector<Tool>>*>(&slot)) (*tools)->emplace();
     for (std::size_t i = 0; i < list.elements.size() && !is_full(); ++i) {
       const JsonValue& element = list.elements[i];
       const std::string below = fmt::format("{}[{}]", path, i);
-      if (element.kind != Json::Object) {
-        complain(element.at, below, mistakes::kWrongKind, {name_of(element.kind), name_of(Json::Object)});
+      if (element.kind != JsonKind::Object) {
+        complain(element.at, below, mistakes::kWrongKind, {name_of(element.kind), name_of(JsonKind::Object)});
         continue;
       }
       read_object(key, element, below, add_element(slot));
@@ -230,7 +230,7 @@ class Reader {
   }
 
   /// Adds an element to the list and returns its index.
-  static std::size_t add_element(const Slot& slot) {
+  static std::size_t add_element(const ValueSlot& slot) {
     if (const auto* const tools = std::get_if<std::optional<std::vector<Tool>>*>(&slot)) {
       (*tools)->value().emplace_back();
       return (*tools)->value().size() - 1;
@@ -240,15 +240,15 @@ class Reader {
     return files.size() - 1;
   }
 
-  void read_named(const Key& key, const JsonValue& object, const std::string& path, const Slot& slot) {
+  void read_named(const Key& key, const JsonValue& object, const std::string& path, const ValueSlot& slot) {
     std::vector<NamedFunction>& functions = std::get<std::optional<std::vector<NamedFunction>>*>(slot)->emplace();
     SeenKeys seen;
     for (const JsonMember& member : object.members) {
       if (is_full()) return;
       const std::string below = path + "." + member.key;
       if (is_duplicate(member, seen, below) || !is_right(key.text, member.key, member.at, below)) continue;
-      if (member.value.kind != Json::Object) {
-        complain(member.value.at, below, mistakes::kWrongKind, {name_of(member.value.kind), name_of(Json::Object)});
+      if (member.value.kind != JsonKind::Object) {
+        complain(member.value.at, below, mistakes::kWrongKind, {name_of(member.value.kind), name_of(JsonKind::Object)});
         continue;
       }
       functions.push_back({.number = *function_number(member.key)});
@@ -256,13 +256,13 @@ class Reader {
     }
   }
 
-  void read_number(const Key& key, const JsonValue& value, const std::string& path, const Slot& slot) {
+  void read_number(const Key& key, const JsonValue& value, const std::string& path, const ValueSlot& slot) {
     const double number = value.number;
     const std::string written = fmt::format("{}", number);
     const auto limit = [&](double bound) -> Named {
       return fmt::format("{}{}{}", bound, key.unit.empty() ? "" : " ", key.unit);
     };
-    const Range& range = key.range;
+    const NumberRange& range = key.range;
     if (key.kind == KeyKind::Integer && std::floor(number) != number)
       return complain(value.at, path, mistakes::kNotWhole, {written});
     if (range.exclusive_minimum && !(number > range.minimum))
@@ -285,7 +285,7 @@ class Reader {
     return false;
   }
 
-  void read_choice(const Key& key, const JsonValue& value, const std::string& path, const Slot& slot) {
+  void read_choice(const Key& key, const JsonValue& value, const std::string& path, const ValueSlot& slot) {
     if (!is_chosen(key, value, path)) return;
     if (const auto* const language = std::get_if<std::optional<dialect::Language>*>(&slot)) {
       **language = dialect::language_named(value.string);
@@ -300,8 +300,8 @@ class Reader {
     for (std::size_t i = 0; i < list.elements.size() && !is_full(); ++i) {
       const JsonValue& element = list.elements[i];
       const std::string below = fmt::format("{}[{}]", path, i);
-      if (element.kind != Json::String) {
-        complain(element.at, below, mistakes::kWrongKind, {name_of(element.kind), name_of(Json::String)});
+      if (element.kind != JsonKind::String) {
+        complain(element.at, below, mistakes::kWrongKind, {name_of(element.kind), name_of(JsonKind::String)});
       } else if (is_right(key.text, element.string, element.at, below)) {
         const bool lacks_point = key.text == TextKind::Extension && !element.string.starts_with('.');
         texts.push_back((lacks_point ? "." : "") + element.string);
@@ -319,8 +319,8 @@ class Reader {
       const std::optional<dialect::DiagnosticId> id = dialect::find_diagnostic(member.key);
       const std::string_view name = id ? dialect::definition(*id).code : member.key;
       if (is_duplicate(member, name, seen, below) || !is_right(key.text, member.key, member.at, below)) continue;
-      if (member.value.kind != Json::String) {
-        complain(member.value.at, below, mistakes::kWrongKind, {name_of(member.value.kind), name_of(Json::String)});
+      if (member.value.kind != JsonKind::String) {
+        complain(member.value.at, below, mistakes::kWrongKind, {name_of(member.value.kind), name_of(JsonKind::String)});
       } else if (is_chosen(key, member.value, below)) {
         severities.emplace_back(member.key, member.value.string);
       }
@@ -334,7 +334,7 @@ class Reader {
 }  // namespace
 
 /// Sets the members of the simulated machine, in its units.
-static void derive_motion(Machine& machine) {
+static void derive_motion(MachineConfiguration& machine) {
   motion::Machine& motion = machine.timed.motion;
   motion.kinematics.kind = machine.kind == "head"    ? motion::MachineKind::Head
                            : machine.kind == "table" ? motion::MachineKind::Table
@@ -359,7 +359,7 @@ static void derive_motion(Machine& machine) {
 
 /// Sets the members derived from others.
 static void derive(Configuration& configuration, const std::filesystem::path& folder) {
-  Machine& machine = configuration.machine;
+  MachineConfiguration& machine = configuration.machine;
   if (machine.tools) {
     machine.setup.tools.emplace();
     for (const Tool& tool : *machine.tools) machine.setup.tools->push_back(tool.code);
@@ -381,7 +381,7 @@ ReadConfiguration read_configuration(std::string_view text, const std::filesyste
     result.mistakes.push_back(*mistake);
     return result;
   }
-  Reader(text, result).read(std::get<JsonValue>(parsed));
+  ConfigurationReader(text, result).read(std::get<JsonValue>(parsed));
   std::stable_sort(result.mistakes.begin(), result.mistakes.end(),
                    [](const Mistake& a, const Mistake& b) { return a.at < b.at; });
   derive(result.configuration, folder);

@@ -53,7 +53,7 @@ static std::optional<ordered_json> value_in(const T* /*objects*/) {
 
 static ordered_json object_of(Configuration& configuration, const Key* key, std::size_t index);
 
-static std::optional<ordered_json> list_of(Configuration& configuration, const Key& key, const Slot& slot) {
+static std::optional<ordered_json> list_of(Configuration& configuration, const Key& key, const ValueSlot& slot) {
   ordered_json list = ordered_json::array();
   if (const auto* const tools = std::get_if<std::optional<std::vector<Tool>>*>(&slot)) {
     if (!**tools) return std::nullopt;
@@ -65,7 +65,7 @@ static std::optional<ordered_json> list_of(Configuration& configuration, const K
   return list;
 }
 
-static std::optional<ordered_json> named_of(Configuration& configuration, const Key& key, const Slot& slot) {
+static std::optional<ordered_json> named_of(Configuration& configuration, const Key& key, const ValueSlot& slot) {
   const auto& functions = *std::get<std::optional<std::vector<NamedFunction>>*>(slot);
   if (!functions) return std::nullopt;
   ordered_json object = ordered_json::object();
@@ -75,7 +75,7 @@ static std::optional<ordered_json> named_of(Configuration& configuration, const 
 }
 
 static std::optional<ordered_json> value_of(Configuration& configuration, const Key& key, std::size_t index) {
-  const Slot slot = key.slot ? key.slot(configuration, index) : Slot();
+  const ValueSlot slot = key.slot ? key.slot(configuration, index) : ValueSlot();
   if (const auto* const renumber = std::get_if<std::optional<Renumber>*>(&slot); renumber && !**renumber)
     return std::nullopt;
   if (key.kind == KeyKind::Objects) return list_of(configuration, key, slot);
@@ -130,7 +130,7 @@ static ordered_json code_schema() {
 }
 
 static void add_range(const Key& key, ordered_json& schema) {
-  const Range& range = key.range;
+  const NumberRange& range = key.range;
   if (std::isfinite(range.minimum))
     schema[range.exclusive_minimum ? "exclusiveMinimum" : "minimum"] = number(range.minimum);
   if (std::isfinite(range.maximum)) schema["maximum"] = number(range.maximum);
@@ -228,7 +228,7 @@ static std::string kind_of(const Key& key) {
   }
   std::string kind(kNames[static_cast<std::size_t>(key.kind)]);
   if (!key.unit.empty()) kind += fmt::format(", {}", key.unit);
-  const Range& range = key.range;
+  const NumberRange& range = key.range;
   if (std::isfinite(range.minimum))
     kind += fmt::format(", {}{} to {}", range.exclusive_minimum ? "above " : "", range.minimum, range.maximum);
   return kind;

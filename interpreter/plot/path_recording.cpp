@@ -10,7 +10,7 @@
 
 namespace isocnc::plot {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// Flags in the first byte of a step, besides its kind. For each flag that is set a number follows, in this order.
 enum StepBits : std::uint8_t {
@@ -24,9 +24,9 @@ enum StepBits : std::uint8_t {
 PathRecording::PathRecording(const PlotSubject& subject, const simulation::TimedMachine& machine)
     : subject_(subject), machine_(machine), home_(place({.pose = subject.home})), last_(home_) {}
 
-PathRecording::Place PathRecording::place(const ToolpathPoint& point) {
+PathRecording::RecordedPoint PathRecording::place(const ToolpathPoint& point) {
   const geometry::Pose& pose = point.pose;
-  Place result;
+  RecordedPoint result;
   for (int axis = 0; axis < 3; ++axis) result.tip[static_cast<std::size_t>(axis)] = in_units(pose.tip[axis], 1e-3);
   result.b = in_units(pose.b, 1e-4);
   result.c = in_units(pose.c, 1e-4);
@@ -60,7 +60,7 @@ void PathRecording::add(const ToolpathStep& step) {
 }
 
 /// Writes the difference to the last point.
-void PathRecording::add(const Place& place, double time) {
+void PathRecording::add(const RecordedPoint& place, double time) {
   for (std::size_t axis = 0; axis < 3; ++axis) points_.put_signed(place.tip[axis] - last_.tip[axis]);
   points_.put(static_cast<std::uint64_t>(std::max<std::int64_t>(0, in_units(time - last_time_, 1e-8))));
   points_.put_signed(place.speed - last_.speed);
@@ -75,10 +75,10 @@ void PathRecording::add(const Place& place, double time) {
 }
 
 /// Infinite ends become null.
-static Json range(const motion::AxisLimits& axis) { return Json::array({axis.minimum, axis.maximum}); }
+static OrderedJson range(const motion::AxisLimits& axis) { return OrderedJson::array({axis.minimum, axis.maximum}); }
 
-static Json tool_of(const std::optional<execution::ToolCode>& tool, const std::vector<PlotTool>& known) {
-  Json json = {{"name", nullptr}, {"length", nullptr}, {"radius", nullptr}};
+static OrderedJson tool_of(const std::optional<execution::ToolCode>& tool, const std::vector<PlotTool>& known) {
+  OrderedJson json = {{"name", nullptr}, {"length", nullptr}, {"radius", nullptr}};
   if (!tool) return json;
   json["name"] = shown_tool(*tool, known);
   for (const PlotTool& each : known) {
@@ -92,16 +92,16 @@ static Json tool_of(const std::optional<execution::ToolCode>& tool, const std::v
 std::string PathRecording::facts(const Toolpath& path, const running::RunResult& result) const {
   static constexpr std::string_view kEndings[] = {"end", "error", "until"};
   const bool is_three_axis = machine_.motion.kinematics.kind == motion::MachineKind::ThreeAxis;
-  Json json = {{"version", 1},
-               {"name", subject_.name},
-               {"language", dialect::name_of(subject_.language)},
-               {"ending", kEndings[static_cast<std::size_t>(result.ending)]},
-               {"endLine", result.line},
-               {"turnsTool", !is_three_axis},
-               {"home", Json::array({home_.tip[0], home_.tip[1], home_.tip[2], home_.b, home_.c})},
-               {"tools", Json::array()},
-               {"frames", Json::array()},
-               {"travel", Json::array()}};
+  OrderedJson json = {{"version", 1},
+                      {"name", subject_.name},
+                      {"language", dialect::name_of(subject_.language)},
+                      {"ending", kEndings[static_cast<std::size_t>(result.ending)]},
+                      {"endLine", result.line},
+                      {"turnsTool", !is_three_axis},
+                      {"home", OrderedJson::array({home_.tip[0], home_.tip[1], home_.tip[2], home_.b, home_.c})},
+                      {"tools", OrderedJson::array()},
+                      {"frames", OrderedJson::array()},
+                      {"travel", OrderedJson::array()}};
   for (const auto& tool : path.tools()) json["tools"].push_back(tool_of(tool, subject_.tools));
   for (const ToolpathFrame& each : path.frames())
     json["frames"].push_back({{"line", each.line},
@@ -110,7 +110,7 @@ std::string PathRecording::facts(const Toolpath& path, const running::RunResult&
                               {"j", running::array(geometry::Vec3(each.frame.axes.col(1)))},
                               {"k", running::array(geometry::Vec3(each.frame.axes.col(2)))}});
   for (const motion::AxisLimits& axis : machine_.motion.axes) json["travel"].push_back(range(axis));
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
 }  // namespace isocnc::plot

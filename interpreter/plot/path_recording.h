@@ -27,23 +27,23 @@ class PathRecording {
 
  private:
   /// A point in the units of the recording: µm, 0.0001 degrees, 0.001 mm/s, 0.001 mm/min.
-  struct Place {
+  struct RecordedPoint {
     std::array<std::int64_t, 3> tip{};
     std::int64_t b = 0;
     std::int64_t c = 0;
     std::int64_t speed = 0;
   };
 
-  static Place place(const ToolpathPoint& point);
-  void add(const Place& place, double time);
+  static RecordedPoint place(const ToolpathPoint& point);
+  void add(const RecordedPoint& place, double time);
 
   const PlotSubject& subject_;
   const simulation::TimedMachine& machine_;
   PackedBytes steps_;
   PackedBytes points_;
   PackedBytes turns_;
-  Place home_;
-  Place last_;
+  RecordedPoint home_;
+  RecordedPoint last_;
   /// Times are stored as differences to the previous point, in units of 10 ns, so that a shift at the start changes
   /// only one number.
   double last_time_ = 0;

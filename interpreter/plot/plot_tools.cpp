@@ -2,7 +2,7 @@
 
 namespace isocnc::plot {
 
-std::vector<PlotTool> plot_tools(const configuration::Machine& machine) {
+std::vector<PlotTool> plot_tools(const configuration::MachineConfiguration& machine) {
   std::vector<PlotTool> tools;
   if (machine.tools)
     for (const configuration::Tool& tool : *machine.tools)

@@ -8,6 +8,6 @@
 namespace isocnc::plot {
 
 /// The machine's tools, as a picture names and draws them.
-std::vector<PlotTool> plot_tools(const configuration::Machine& machine);
+std::vector<PlotTool> plot_tools(const configuration::MachineConfiguration& machine);
 
 }  // namespace isocnc::plot

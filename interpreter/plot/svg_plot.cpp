@@ -65,7 +65,7 @@ double SvgPlot::View::scale() const {
   return kDrawnSize / std::max({maximum.x - minimum.x, maximum.y - minimum.y, kMinExtent});
 }
 
-void SvgPlot::View::draw(const Style& style, const Vec3& from, const Vec3& to) {
+void SvgPlot::View::draw(const PathStyle& style, const Vec3& from, const Vec3& to) {
   const Point begin = project(from);
   const Point end = project(to);
   include(begin);

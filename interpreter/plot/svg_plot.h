@@ -26,7 +26,7 @@ class SvgPlot final : public Picture {
     double y = 0;
   };
   /// A drawing style: kind of step and tool. Sorted by drawing order.
-  using Style = std::pair<StepKind, std::size_t>;
+  using PathStyle = std::pair<StepKind, std::size_t>;
 
   /// The content of one view; y increases downward.
   struct View {
@@ -34,13 +34,13 @@ class SvgPlot final : public Picture {
     Point minimum;
     Point maximum;
     bool is_empty = true;
-    std::map<Style, std::string> paths;       ///< Attribute `d` of the paths.
+    std::map<PathStyle, std::string> paths;   ///< Attribute `d` of the paths.
     std::map<std::size_t, std::string> dots;  ///< Feed moves that appear as a point, by tool.
-    Style last{};                             ///< Style of the path at the pen.
+    PathStyle last{};                         ///< Style of the path at the pen.
     Point pen;
 
     void include(const Point& point);
-    void draw(const Style& style, const geometry::Vec3& from, const geometry::Vec3& to);
+    void draw(const PathStyle& style, const geometry::Vec3& from, const geometry::Vec3& to);
     double scale() const;
   };
 

@@ -120,21 +120,21 @@ bool is_same_but_for_tip(const State& a, const State& b, bool needs_motion) {
 }
 
 /// The result of a trial run of a restart program.
-struct Trial {
+struct RestartTrial {
   bool is_proved = false;                        ///< It reaches the line in the same state, and ends like the original.
   std::optional<motion::Overtravel> overtravel;  ///< The first one before the line.
 };
 
 /// Runs the restart program as the control would, from home.
-Trial try_program(std::string_view program, std::uint64_t preamble_lines, const RestartSurvey& survey,
-                  const RestartOptions& options) {
+RestartTrial try_program(std::string_view program, std::uint64_t preamble_lines, const RestartSurvey& survey,
+                         const RestartOptions& options) {
   const RestartPoint& point = survey.point();
   // If the tip is off the program, the restart starts from another programmed position; runs_alike() checks the rest.
   const auto is_same = [&](const State& a, const State& b) {
     return is_same_but_for_tip(a, b, point.continues_motion) &&
            (point.is_off_program || is_near(a.position.tip, b.position.tip));
   };
-  Trial trial;
+  RestartTrial trial;
   simulation::MachineCourse course(options.machine, options.run.setup.home);
   bool comes_to_state = false;
   running::RunOptions run_options = options.run;
@@ -160,26 +160,26 @@ Trial try_program(std::string_view program, std::uint64_t preamble_lines, const 
 }
 
 /// The motions of the machine from a line on.
-class Rest {
+class RemainingRun {
  public:
-  struct Motion {
+  struct RemainingMotion {
     std::uint64_t line = 0;  // Counted from the start line.
     execution::MoveKind kind = execution::MoveKind::Rapid;
     motion::Move move;
   };
 
-  Rest(std::string_view text, const RestartOptions& options, std::uint64_t line)
+  RemainingRun(std::string_view text, const RestartOptions& options, std::uint64_t line)
       : line_(line), program_(text), runner_(program_, options.run), course_(options.machine, options.run.setup.home) {
     while (!runner_.has_ended() && runner_.place().line < line) step();
   }
-  Rest(const Rest&) = delete;
-  Rest& operator=(const Rest&) = delete;
+  RemainingRun(const RemainingRun&) = delete;
+  RemainingRun& operator=(const RemainingRun&) = delete;
 
   /// The next motion with a length or a turn.
-  std::optional<Motion> next() {
+  std::optional<RemainingMotion> next() {
     while (motions_.empty() && !runner_.has_ended()) step();
     if (motions_.empty()) return std::nullopt;
-    const Motion first = motions_.front();
+    const RemainingMotion first = motions_.front();
     motions_.pop_front();
     return first;
   }
@@ -203,7 +203,7 @@ class Rest {
   simulation::MachineCourse course_;
   const simulation::MachineCourse::Listeners listeners_{
       .move = [this](const running::Event& event, const motion::Move& move) { add(event, move); }, .frame = {}};
-  std::deque<Motion> motions_;
+  std::deque<RemainingMotion> motions_;
 };
 
 bool is_near(const motion::Feed& a, const motion::Feed& b) {
@@ -216,7 +216,7 @@ bool is_near(const geometry::Pose& a, const geometry::Pose& b) {
          std::abs(a.c - b.c) <= geometry::kEqualCoordinate;
 }
 
-bool is_same(const Rest::Motion& a, const Rest::Motion& b) {
+bool is_same(const RemainingRun::RemainingMotion& a, const RemainingRun::RemainingMotion& b) {
   if (a.line != b.line || a.kind != b.kind || a.move.is_arc != b.move.is_arc) return false;
   if (!is_near(a.move.from, b.move.from) || !is_near(a.move.to, b.move.to)) return false;
   if (!is_near(a.move.feed, b.move.feed) || a.move.splits_arcs != b.move.splits_arcs) return false;
@@ -227,8 +227,8 @@ bool is_same(const Rest::Motion& a, const Rest::Motion& b) {
 /// Whether the machine makes the same motions in a restart program as in the original.
 bool runs_alike(std::string_view text, std::string_view program, std::uint64_t preamble_lines,
                 const RestartOptions& options) {
-  Rest original(text, options, options.line);
-  Rest restarted(program, options, preamble_lines);
+  RemainingRun original(text, options, options.line);
+  RemainingRun restarted(program, options, preamble_lines);
   for (;;) {
     const auto wanted = original.next();
     const auto found = restarted.next();
@@ -238,26 +238,26 @@ bool runs_alike(std::string_view text, std::string_view program, std::uint64_t p
 }
 
 /// A restart program, or the obstacle to it.
-struct Attempt {
+struct RestartAttempt {
   std::string program;
-  Obstacle obstacle = Obstacle::None;
+  RestartObstacle obstacle = RestartObstacle::None;
   std::optional<motion::Overtravel> overtravel;
 };
 
-Attempt attempt(std::string_view text, const RestartOptions& options, const RestartSurvey& survey) {
-  Attempt made{.program = {}, .obstacle = survey.obstacle(options.line), .overtravel = {}};
-  if (made.obstacle != Obstacle::None) return made;
+RestartAttempt attempt(std::string_view text, const RestartOptions& options, const RestartSurvey& survey) {
+  RestartAttempt made{.program = {}, .obstacle = survey.obstacle(options.line), .overtravel = {}};
+  if (made.obstacle != RestartObstacle::None) return made;
   const RestartPoint& point = survey.point();
   made.program = restart_preamble(point, options, line_end_of(text));
   const std::uint64_t preamble_lines = count_lines(made.program);
   made.program += text.substr(find_line(text, options.line).offset);
-  const Trial trial = try_program(made.program, preamble_lines, survey, options);
+  const RestartTrial trial = try_program(made.program, preamble_lines, survey, options);
   if (point.is_off_program && !(trial.is_proved && runs_alike(text, made.program, preamble_lines, options))) {
-    made.obstacle = point.is_beside_contour ? Obstacle::OnContour : Obstacle::OffProgram;
+    made.obstacle = point.is_beside_contour ? RestartObstacle::OnContour : RestartObstacle::OffProgram;
   } else if (!trial.is_proved) {
-    made.obstacle = Obstacle::NotProved;
+    made.obstacle = RestartObstacle::NotProved;
   } else if (trial.overtravel) {
-    made.obstacle = Obstacle::BeyondTravel;
+    made.obstacle = RestartObstacle::BeyondTravel;
     made.overtravel = trial.overtravel;
   }
   return made;
@@ -279,7 +279,7 @@ class Proposals {
     RestartOptions there = options_;
     there.line = line;
     const RestartSurvey survey(text_, there.run, there.machine, line);
-    return attempt(text_, there, survey).obstacle == Obstacle::None;
+    return attempt(text_, there, survey).obstacle == RestartObstacle::None;
   }
 
  private:
@@ -299,41 +299,42 @@ void propose_lines(std::string_view text, const RestartOptions& options, const R
     if (below.fits(line)) refusal.behind = line;
 }
 
-RestartRefusal refuse(const Attempt& made, std::string_view text, const RestartOptions& options,
+RestartRefusal refuse(const RestartAttempt& made, std::string_view text, const RestartOptions& options,
                       const RestartSurvey& survey) {
-  const Obstacle obstacle = made.obstacle;
+  const RestartObstacle obstacle = made.obstacle;
   RestartRefusal refusal{.obstacle = obstacle, .line = options.line};
   refusal.cause = survey.line_of_cause(options.line);
   refusal.run = survey.run();
   refusal.has_choices = survey.has_choices();
   const State& state = survey.point().state;
-  refusal.g = state.mode(obstacle == Obstacle::Compensation ? ModalGroup::CutterCompensation : ModalGroup::Motion);
+  refusal.g =
+      state.mode(obstacle == RestartObstacle::Compensation ? ModalGroup::CutterCompensation : ModalGroup::Motion);
   if (made.overtravel) refusal.overtravel = *made.overtravel;
   // Only a trial of each line would show whether the travel suffices.
-  if (obstacle != Obstacle::ProgramError && obstacle != Obstacle::BeyondTravel)
+  if (obstacle != RestartObstacle::ProgramError && obstacle != RestartObstacle::BeyondTravel)
     propose_lines(text, options, survey, refusal);
   return refusal;
 }
 
-const Text& reason(Obstacle obstacle) {
+const Text& reason(RestartObstacle obstacle) {
   switch (obstacle) {
-    case Obstacle::Compensation:
+    case RestartObstacle::Compensation:
       return kCompensation;
-    case Obstacle::OnContour:
+    case RestartObstacle::OnContour:
       return kOnContour;
-    case Obstacle::RadiusUnknown:
+    case RestartObstacle::RadiusUnknown:
       return kRadiusUnknown;
-    case Obstacle::OffProgram:
+    case RestartObstacle::OffProgram:
       return kOffProgram;
-    case Obstacle::FrameChangedLow:
+    case RestartObstacle::FrameChangedLow:
       return kChangedLow;
-    case Obstacle::FaceLooksDown:
+    case RestartObstacle::FaceLooksDown:
       return kLooksDown;
-    case Obstacle::ToolPointsUp:
+    case RestartObstacle::ToolPointsUp:
       return kPointsUp;
-    case Obstacle::ExactStop:
+    case RestartObstacle::ExactStop:
       return kExactStop;
-    case Obstacle::ArcContinues:
+    case RestartObstacle::ArcContinues:
       return kArcContinues;
     default:
       return kNotProved;
@@ -343,13 +344,13 @@ const Text& reason(Obstacle obstacle) {
 std::string problem(const RestartRefusal& refusal, Language language) {
   const auto say = [&](const Text& text, auto... values) { return dialect::format(text, language, values...); };
   switch (refusal.obstacle) {
-    case Obstacle::NoSuchLine:
+    case RestartObstacle::NoSuchLine:
       return say(kNoSuchLine, refusal.line + 1, refusal.cause);
-    case Obstacle::AfterProgramEnd:
+    case RestartObstacle::AfterProgramEnd:
       return say(kAfterProgramEnd, refusal.line + 1, refusal.cause + 1);
-    case Obstacle::JumpedOver:
+    case RestartObstacle::JumpedOver:
       return say(kJumpedOver, refusal.line + 1, refusal.cause + 1);
-    case Obstacle::BeyondTravel:
+    case RestartObstacle::BeyondTravel:
       return say(kUnsafe, refusal.line + 1,
                  say(kBeyondTravel, dialect::kAxisLetters[refusal.overtravel.axis], refusal.overtravel.position,
                      refusal.overtravel.limit));
@@ -362,16 +363,17 @@ std::string problem(const RestartRefusal& refusal, Language language) {
 
 std::variant<std::string, RestartRefusal> restart_program(std::string_view text, const RestartOptions& options) {
   if (!find_line(text, options.line).is_there)
-    return RestartRefusal{.obstacle = Obstacle::NoSuchLine, .line = options.line, .cause = count_lines(text)};
+    return RestartRefusal{.obstacle = RestartObstacle::NoSuchLine, .line = options.line, .cause = count_lines(text)};
   const RestartSurvey survey(text, options.run, options.machine, options.line);
-  Attempt made = attempt(text, options, survey);
-  if (made.obstacle != Obstacle::None) return refuse(made, text, options, survey);
+  RestartAttempt made = attempt(text, options, survey);
+  if (made.obstacle != RestartObstacle::None) return refuse(made, text, options, survey);
   return std::move(made.program);
 }
 
 std::string message(const RestartRefusal& refusal, Language language) {
   std::string text = problem(refusal, language);
-  const bool is_not_run = refusal.obstacle == Obstacle::AfterProgramEnd || refusal.obstacle == Obstacle::JumpedOver;
+  const bool is_not_run =
+      refusal.obstacle == RestartObstacle::AfterProgramEnd || refusal.obstacle == RestartObstacle::JumpedOver;
   if (is_not_run && refusal.has_choices) text += kChoice.in(language);
   const auto add = [&](const Text& nearest, auto... lines) {
     text += "; " + dialect::format(nearest, language, (lines + 1)...);

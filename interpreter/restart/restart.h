@@ -12,7 +12,7 @@ namespace isocnc::restart {
 
 /// The reason why there is no restart program, and the nearest lines with one. Lines from 0.
 struct RestartRefusal {
-  Obstacle obstacle = Obstacle::None;
+  RestartObstacle obstacle = RestartObstacle::None;
   std::uint64_t line = 0;               ///< The requested line.
   std::uint64_t cause = 0;              ///< The IF or M02 that skips the line; for NoSuchLine the number of lines.
   bool has_choices = false;             ///< Another VGPL or register might lead to other lines.

@@ -192,21 +192,22 @@ bool RestartSurvey::has(std::uint64_t line, std::uint16_t trait) const {
   return line < traits_.size() && (traits_[line] & trait) != 0;
 }
 
-Obstacle RestartSurvey::obstacle(std::uint64_t line) const {
-  if (run_.ending == running::Ending::Error) return Obstacle::ProgramError;
-  if (!has(line, kReached)) return line < traits_.size() ? Obstacle::JumpedOver : Obstacle::AfterProgramEnd;
-  if (has(line, kCompensated)) return Obstacle::Compensation;
-  if (has(line, kUnknownRadius)) return Obstacle::RadiusUnknown;
-  if (has(line, kChangedLow)) return Obstacle::FrameChangedLow;
-  if (has(line, kLooksDown)) return Obstacle::FaceLooksDown;
-  if (has(line, kPointsUp)) return Obstacle::ToolPointsUp;
-  if (exact_stop_follows(line)) return Obstacle::ExactStop;
-  if (has(line, kInArc) && continues_motion(line)) return Obstacle::ArcContinues;
-  return Obstacle::None;
+RestartObstacle RestartSurvey::obstacle(std::uint64_t line) const {
+  if (run_.ending == running::Ending::Error) return RestartObstacle::ProgramError;
+  if (!has(line, kReached))
+    return line < traits_.size() ? RestartObstacle::JumpedOver : RestartObstacle::AfterProgramEnd;
+  if (has(line, kCompensated)) return RestartObstacle::Compensation;
+  if (has(line, kUnknownRadius)) return RestartObstacle::RadiusUnknown;
+  if (has(line, kChangedLow)) return RestartObstacle::FrameChangedLow;
+  if (has(line, kLooksDown)) return RestartObstacle::FaceLooksDown;
+  if (has(line, kPointsUp)) return RestartObstacle::ToolPointsUp;
+  if (exact_stop_follows(line)) return RestartObstacle::ExactStop;
+  if (has(line, kInArc) && continues_motion(line)) return RestartObstacle::ArcContinues;
+  return RestartObstacle::None;
 }
 
 bool RestartSurvey::is_safe(std::uint64_t line) const {
-  return line < traits_.size() && !has(line, kIdle) && obstacle(line) == Obstacle::None;
+  return line < traits_.size() && !has(line, kIdle) && obstacle(line) == RestartObstacle::None;
 }
 
 std::uint64_t RestartSurvey::line_of_cause(std::uint64_t line) const {

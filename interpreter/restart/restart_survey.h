@@ -14,7 +14,7 @@
 namespace isocnc::restart {
 
 /// The obstacle to a restart before a line.
-enum class Obstacle : std::uint8_t {
+enum class RestartObstacle : std::uint8_t {
   None,
   NoSuchLine,       ///< The program is shorter.
   ProgramError,     ///< The program does not run to its M02.
@@ -94,7 +94,7 @@ class RestartSurvey {
   RestartSurvey& operator=(const RestartSurvey&) = delete;
 
   const running::RunResult& run() const { return run_; }
-  Obstacle obstacle(std::uint64_t line) const;
+  RestartObstacle obstacle(std::uint64_t line) const;
   /// The line of the IF or M02 by which a line is not run.
   std::uint64_t line_of_cause(std::uint64_t line) const;
   /// Whether the line can be proposed: it has no obstacle and a block with an effect.

@@ -10,12 +10,12 @@
 
 namespace isocnc::running {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 using execution::MoveKind;
 
 namespace {
 
-void put(Json& json, const MoveEvent& move) {
+void put(OrderedJson& json, const MoveEvent& move) {
   json["from"] = array(move.from);
   json["to"] = array(move.to);
   if (move.kind == MoveKind::Arc) {
@@ -26,20 +26,20 @@ void put(Json& json, const MoveEvent& move) {
   }
   json["lengthMm"] = move.length;
 }
-void put(Json& json, const DwellEvent& dwell) { json["seconds"] = dwell.seconds; }
-void put(Json& json, const SpindleSpeedEvent& spindle) { json["speed"] = spindle.speed; }
-void put(Json& json, const FunctionEvent& function) {
+void put(OrderedJson& json, const DwellEvent& dwell) { json["seconds"] = dwell.seconds; }
+void put(OrderedJson& json, const SpindleSpeedEvent& spindle) { json["speed"] = spindle.speed; }
+void put(OrderedJson& json, const FunctionEvent& function) {
   json["number"] = function.number;
   if (function.parameters.empty()) return;
   for (const execution::FunctionParameter& parameter : function.parameters)
     json["parameters"]["P" + std::to_string(parameter.number)] = parameter.value;
 }
-void put(Json& json, const ToolEvent& event) {
+void put(OrderedJson& json, const ToolEvent& event) {
   json["head"] = event.tool.head;
   json["holder"] = event.tool.holder;
   json["tool"] = event.tool.tool;
 }
-void put(Json& json, const FrameEvent& frame) {
+void put(OrderedJson& json, const FrameEvent& frame) {
   json["workpiece"] = array(frame.workpiece_origin);
   json["face"] = nullptr;
   if (!frame.face_mounted) return;
@@ -48,13 +48,13 @@ void put(Json& json, const FrameEvent& frame) {
                   {"j", array(geometry::Vec3(frame.face.axes.col(1)))},
                   {"k", array(geometry::Vec3(frame.face.axes.col(2)))}};
 }
-void put(Json& json, const JumpEvent& jump) {
+void put(OrderedJson& json, const JumpEvent& jump) {
   json["taken"] = jump.taken;
   json["target"] = jump.target_line + 1;
 }
 /// Any other event says all by its kind.
 template <class What>
-void put(Json&, const What&) {
+void put(OrderedJson&, const What&) {
   static_assert(std::is_empty_v<What>);
 }
 
@@ -97,7 +97,7 @@ std::string tool_name(const execution::ToolCode& tool) {
 std::string to_json(const Event& event) { return to_json(event, {}); }
 
 std::string to_json(const Event& event, std::span<const std::pair<std::string_view, double>> more) {
-  Json json;
+  OrderedJson json;
   json["line"] = event.line + 1;
   json["kind"] = kind_of(event);
   std::visit([&](const auto& what) { put(json, what); }, event.what);

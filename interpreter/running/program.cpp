@@ -7,7 +7,7 @@
 
 namespace isocnc::running {
 
-std::optional<Place> Program::jump_target(const Place& jump, std::uint64_t label) const {
+std::optional<LinePlace> Program::jump_target(const LinePlace& jump, std::uint64_t label) const {
   {
     const std::lock_guard lock(mutex_);
     const auto known = jump_targets_.find(jump.offset);
@@ -16,7 +16,7 @@ std::optional<Place> Program::jump_target(const Place& jump, std::uint64_t label
   const char* const begin = text_.data() + jump.offset;
   const char* const end = text_.data() + text_.size();
   const std::size_t length = std::string_view(begin, end).find_first_of("\r\n");
-  std::optional<Place> found;
+  std::optional<LinePlace> found;
   if (length != std::string_view::npos) {
     const char* const below = syntax::skip_line_end(begin + length, end);
     found = find_label(label, {jump.line + 1, static_cast<std::size_t>(below - text_.data())},
@@ -26,11 +26,11 @@ std::optional<Place> Program::jump_target(const Place& jump, std::uint64_t label
   return jump_targets_.emplace(jump.offset, found).first->second;
 }
 
-bool Program::has_label_above(const Place& jump, std::uint64_t label) const {
+bool Program::has_label_above(const LinePlace& jump, std::uint64_t label) const {
   return find_label(label, {}, jump.line + 1).has_value();
 }
 
-std::optional<Place> Program::find_label(std::uint64_t label, Place from, std::uint64_t end_line) const {
+std::optional<LinePlace> Program::find_label(std::uint64_t label, LinePlace from, std::uint64_t end_line) const {
   syntax::TreeStore store;
   const char* p = text_.data() + from.offset;
   const char* const end = text_.data() + text_.size();
@@ -38,7 +38,7 @@ std::optional<Place> Program::find_label(std::uint64_t label, Place from, std::u
     store.clear();
     const char* const line_end = store.append_line(p, end);
     const syntax::LineTree tree = store.tree(0, p);
-    if (tree.has_label() && tree.label == label) return Place{line, static_cast<std::size_t>(p - text_.data())};
+    if (tree.has_label() && tree.label == label) return LinePlace{line, static_cast<std::size_t>(p - text_.data())};
     p = syntax::skip_line_end(line_end, end);
   }
   return std::nullopt;

@@ -10,11 +10,11 @@
 namespace isocnc::running {
 
 /// The start of a line of a program.
-struct Place {
+struct LinePlace {
   std::uint64_t line = 0;  ///< From 0.
   std::size_t offset = 0;  ///< Offset of the line's first byte.
 
-  friend bool operator==(const Place&, const Place&) = default;
+  friend bool operator==(const LinePlace&, const LinePlace&) = default;
 };
 
 /// The text of a program and the targets of its jumps. Each target is searched once, when a run first takes the jump.
@@ -27,17 +27,17 @@ class Program {
   std::string_view text() const { return text_; }
 
   /// The first line below the jump's that has the label (D50).
-  std::optional<Place> jump_target(const Place& jump, std::uint64_t label) const;
+  std::optional<LinePlace> jump_target(const LinePlace& jump, std::uint64_t label) const;
 
   /// Whether the jump's line, or one above it, has the label (E005).
-  bool has_label_above(const Place& jump, std::uint64_t label) const;
+  bool has_label_above(const LinePlace& jump, std::uint64_t label) const;
 
  private:
-  std::optional<Place> find_label(std::uint64_t label, Place from, std::uint64_t end_line) const;
+  std::optional<LinePlace> find_label(std::uint64_t label, LinePlace from, std::uint64_t end_line) const;
 
   std::string_view text_;
   mutable std::mutex mutex_;
-  mutable std::map<std::size_t, std::optional<Place>> jump_targets_;  ///< Targets by the offset of the jump.
+  mutable std::map<std::size_t, std::optional<LinePlace>> jump_targets_;  ///< Targets by the offset of the jump.
 };
 
 }  // namespace isocnc::running

@@ -140,16 +140,16 @@ void Runner::execute_line(const syntax::LineTree& tree) {
   if (result_.state.ended) return end(Ending::ProgramEnd, result_.line);
   const std::string_view text = program_->text();
   const char* const below = syntax::skip_line_end(workbench_.line_end, text.data() + text.size());
-  const Place from = std::exchange(place_, {place_.line + 1, static_cast<std::size_t>(below - text.data())});
+  const LinePlace from = std::exchange(place_, {place_.line + 1, static_cast<std::size_t>(below - text.data())});
   workbench_.holds_line = false;
   if (tree.jump != nullptr && tree.jump->has_target) branch(*tree.jump, from);
 }
 
 /// Jumps to a line below with the label, or ends the run with an error (E004, E005).
-void Runner::branch(const syntax::Jump& jump, const Place& from) {
+void Runner::branch(const syntax::Jump& jump, const LinePlace& from) {
   const bool is_taken = holds(jump);
   if (is_taken) {
-    const std::optional<Place> jump_target = program_->jump_target(from, jump.target);
+    const std::optional<LinePlace> jump_target = program_->jump_target(from, jump.target);
     if (!jump_target) {
       const bool above = program_->has_label_above(from, jump.target);
       return fail({.id = above ? "backward-jump"_diag : "label-not-found"_diag, .span = jump.target_span});

@@ -78,7 +78,7 @@ class Runner {
   std::span<const Event> events() const { return workbench_.events; }
 
   /// Start of the next line.
-  const Place& place() const { return place_; }
+  const LinePlace& place() const { return place_; }
   /// The result so far; `ending` and `line` are valid after the end of the run.
   const RunResult& result() const { return result_; }
   double vgpl() const { return vgpl_; }
@@ -117,14 +117,14 @@ class Runner {
   bool empty_line_comes();
   void step_line();
   void execute_line(const syntax::LineTree& tree);
-  void branch(const syntax::Jump& jump, const Place& from);
+  void branch(const syntax::Jump& jump, const LinePlace& from);
   bool holds(const syntax::Jump& jump) const;
   void end(Ending ending, std::uint64_t line);
   void fail(const syntax::Finding& error);
 
   const Program* program_;
   const RunOptions* options_;
-  Place place_;
+  LinePlace place_;
   bool has_ended_ = false;
   double vgpl_;
   RunResult result_;

@@ -17,12 +17,12 @@ static constexpr std::size_t kMaxEventsBetween = 1000;  // Events between two el
 static constexpr std::size_t kLinesKept =
     2 * (geometry::ContourOffset::kLookBack + geometry::ContourOffset::kLookAhead);
 
-Vec3 Compensation::Plane::point(const Vec2& flat, double height) const {
+Vec3 Compensation::ContourPlane::point(const Vec2& flat, double height) const {
   return flat.x() * u + flat.y() * v + height * normal;
 }
 
 /// Tolerates axes as far from the right angle as the dialect allows (D26).
-bool Compensation::Plane::is_upright(const running::MoveEvent& move) const {
+bool Compensation::ContourPlane::is_upright(const running::MoveEvent& move) const {
   if (move.kind == MoveKind::Arc) return false;
   const Vec3 way = move.to.tip - move.from.tip;
   return flat(way).norm() <= kNowhere + geometry::kOrthogonalCosine * std::abs(normal.dot(way));
@@ -214,7 +214,7 @@ void Compensation::go(std::uint64_t line, const running::MoveEvent& move, const 
 }
 
 std::size_t Compensation::memory() const {
-  return waiting_.size() * sizeof(Waiting) + lines_.size() * sizeof(std::uint64_t) + contour_.memory();
+  return waiting_.size() * sizeof(HeldEvent) + lines_.size() * sizeof(std::uint64_t) + contour_.memory();
 }
 
 std::uint64_t Compensation::line_of(std::uint64_t element) const {

@@ -59,7 +59,7 @@ class Compensation {
 
  private:
   /// Axes and normal of the arc plane, in the machine frame.
-  struct Plane {
+  struct ContourPlane {
     geometry::Vec3 u = geometry::Vec3::UnitX();
     geometry::Vec3 v = geometry::Vec3::UnitY();
     geometry::Vec3 normal = geometry::Vec3::UnitZ();
@@ -71,7 +71,7 @@ class Compensation {
   };
 
   /// An event that has not been passed on: an element of the contour, or an event after one.
-  struct Waiting {
+  struct HeldEvent {
     running::Event event;
     std::uint64_t element = 0;
     bool is_element = false;
@@ -94,13 +94,13 @@ class Compensation {
 
   const TimedMachine* machine_;
   double radius_ = 0;  // Radius of the mounted tool, mm.
-  Plane plane_;
+  ContourPlane plane_;
   geometry::ContourOffset contour_{1};
   bool is_open_ = false;    // The contour has not ended.
   bool is_paused_ = false;  // All events of the contour have been passed on.
   bool is_beside_ = false;  // The tip is off the programmed position.
   geometry::Pose tip_;      // Position of the tip while it is off the program.
-  std::deque<Waiting> waiting_;
+  std::deque<HeldEvent> waiting_;
   std::deque<std::uint64_t> lines_;  // Lines of the last elements.
   std::uint64_t elements_ = 0;
 };

@@ -6,7 +6,7 @@
 
 namespace isocnc::simulation {
 
-History::History(const Simulation& begin, const Limits& limits)
+History::History(const Simulation& begin, const CheckpointLimits& limits)
     : limits_(limits), present_(begin), spacing_(limits.spacing) {
   add_checkpoint(begin);
 }
@@ -171,8 +171,8 @@ void History::set_register(int reg, double value) { set({present_.blocks(), reg,
 
 void History::set_vgpl(double value) { set({present_.blocks(), 0, value}); }
 
-void History::set(const Setting& setting) {
-  const auto is_later = [&](const Setting& other) { return other.blocks > setting.blocks; };
+void History::set(const RegisterSetting& setting) {
+  const auto is_later = [&](const RegisterSetting& other) { return other.blocks > setting.blocks; };
   settings_.erase(std::find_if(settings_.begin(), settings_.end(), is_later), settings_.end());
   settings_.push_back(setting);
   while (checkpoints_.size() > 1 && is_after_present(*checkpoints_.back().simulation)) {
@@ -186,7 +186,9 @@ void History::set(const Setting& setting) {
 /// Applies the settings that were made after exactly `blocks` blocks had started.
 template <class Run>
 void History::apply_settings(Run& run, std::uint64_t blocks) const {
-  const auto comes_before = [](const Setting& setting, std::uint64_t number) { return setting.blocks < number; };
+  const auto comes_before = [](const RegisterSetting& setting, std::uint64_t number) {
+    return setting.blocks < number;
+  };
   for (auto setting = std::lower_bound(settings_.begin(), settings_.end(), blocks, comes_before);
        setting != settings_.end() && setting->blocks == blocks; ++setting) {
     if (setting->variable == 0) {

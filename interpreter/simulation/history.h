@@ -19,15 +19,15 @@ namespace isocnc::simulation {
 class History {
  public:
   /// Limits of the checkpoints that are kept.
-  struct Limits {
+  struct CheckpointLimits {
     std::size_t checkpoints = 65536;
     std::size_t bytes = std::size_t{256} << 20;
     std::size_t nearby = 64;      ///< Additional checkpoints around the present.
     std::uint64_t spacing = 256;  ///< Minimum Simulation::work() between two checkpoints.
   };
 
-  explicit History(const Simulation& begin) : History(begin, Limits{}) {}
-  History(const Simulation& begin, const Limits& limits);
+  explicit History(const Simulation& begin) : History(begin, CheckpointLimits{}) {}
+  History(const Simulation& begin, const CheckpointLimits& limits);
 
   const Simulation& present() const { return present_; }
 
@@ -77,7 +77,7 @@ class History {
 
  private:
   /// A register, or VGPL (0), set by a user.
-  struct Setting {
+  struct RegisterSetting {
     std::uint64_t blocks = 0;
     int variable = 0;
     double value = 0;
@@ -90,7 +90,7 @@ class History {
 
   bool is_after_present(const Simulation& checkpoint) const;
   void add_checkpoint(const Simulation& simulation);
-  void set(const Setting& setting);
+  void set(const RegisterSetting& setting);
   template <class Run>
   void apply_settings(Run& run, std::uint64_t blocks) const;
   template <class Predicate>
@@ -99,14 +99,14 @@ class History {
   void keep_nearby();
   void thin_out();
 
-  Limits limits_;
+  CheckpointLimits limits_;
   Simulation present_;
   std::vector<Checkpoint> checkpoints_;  ///< The first is the start of the program.
   std::vector<Checkpoint> thinned_out_;  ///< Freed a few at a time, since freeing all at once would delay the run.
   std::size_t bytes_ = 0;                ///< Memory of checkpoints_.
   std::uint64_t spacing_;                ///< Current minimum work between two checkpoints.
   std::map<std::uint64_t, Simulation> nearby_;  ///< Checkpoints around the present, keyed by their work.
-  std::vector<Setting> settings_;               ///< In the order of their blocks.
+  std::vector<RegisterSetting> settings_;       ///< In the order of their blocks.
 };
 
 }  // namespace isocnc::simulation

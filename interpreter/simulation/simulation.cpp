@@ -307,7 +307,7 @@ void Simulation::forget_past() {
 
 std::size_t Simulation::memory() const {
   return sizeof(*this) + compensation_.memory() + timing_.memory() +
-         pieces_.size() * (sizeof(Piece) + sizeof(TimedEvent));
+         pieces_.size() * (sizeof(TimelinePiece) + sizeof(TimedEvent));
 }
 
 }  // namespace isocnc::simulation

@@ -112,17 +112,17 @@ class Simulation {
              const running::MoveEvent* beside);
 
   /// A stretch of a motion, or an event for which the machine stands still.
-  struct Piece {
+  struct TimelinePiece {
     double start = 0;
     double end = 0;
     std::shared_ptr<const TimedEvent> cause;  ///< Its duration is not known yet.
     std::optional<motion::Stretch> stretch;
   };
 
-  const Piece* piece() const { return passed_ < pieces_.size() ? &pieces_[passed_] : nullptr; }
+  const TimelinePiece* piece() const { return passed_ < pieces_.size() ? &pieces_[passed_] : nullptr; }
   /// The current stretch; null while the machine stands.
   const motion::Stretch* stretch() const;
-  bool is_of_block(const Piece* piece) const { return piece != nullptr && piece->cause->event.line <= line_; }
+  bool is_of_block(const TimelinePiece* piece) const { return piece != nullptr && piece->cause->event.line <= line_; }
   void start_block();
   void continue_block(double seconds, const BeforeReading& before_reading);
   void pass_piece();
@@ -138,8 +138,8 @@ class Simulation {
   running::Runner ahead_;    ///< The run up to the last block the control has read.
   Compensation compensation_;
   Timing timing_;
-  std::vector<Piece> pieces_;  ///< Pieces with known times.
-  std::size_t passed_ = 0;     ///< Number of pieces that the machine has completed.
+  std::vector<TimelinePiece> pieces_;  ///< Pieces with known times.
+  std::size_t passed_ = 0;             ///< Number of pieces that the machine has completed.
   std::optional<motion::Stretch> last_stretch_;
   /// Last motion with a completed stretch, possibly from before the constructor; or null.
   std::shared_ptr<const TimedEvent> last_motion_;

@@ -13,7 +13,7 @@ namespace isocnc::simulation {
 using dialect::Language;
 using dialect::Text;
 using execution::State;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// `1 h 02 min 03.4 s`, `2 min 03.4 s`, `3.4 s`: the same in both languages.
 static std::string shown_time(double seconds) {
@@ -138,23 +138,25 @@ std::string Summary::text(Language language) const {
 static constexpr std::string_view kWorkKeys[] = {"rapids",      "feeds",   "arcs",      "dwells",
                                                  "toolChanges", "spindle", "functions", "exactStops"};
 
-static Json json_of(const Times& times) {
-  Json json;
+static OrderedJson json_of(const Times& times) {
+  OrderedJson json;
   for (std::size_t work = 0; work < times.size(); ++work) json[std::string(kWorkKeys[work])] = times[work];
   return json;
 }
 
 template <std::size_t Count>
-static Json json_of(const std::array<geometry::Range, Count>& extents) {
-  Json json;
+static OrderedJson json_of(const std::array<geometry::Range, Count>& extents) {
+  OrderedJson json;
   for (std::size_t axis = 0; axis < Count; ++axis)
     json[std::string(1, dialect::kAxisLetters[axis])] = {extents[axis].minimum, extents[axis].maximum};
   return json;
 }
 
-static Json json_of(const geometry::Vec3& vector) { return Json::array({vector.x(), vector.y(), vector.z()}); }
+static OrderedJson json_of(const geometry::Vec3& vector) {
+  return OrderedJson::array({vector.x(), vector.y(), vector.z()});
+}
 
-static Json json_of(const FrameExtents& each) {
+static OrderedJson json_of(const FrameExtents& each) {
   return {{"line", each.line + 1},
           {"kind", each.is_face ? "face" : "workpiece"},
           {"origin", json_of(each.frame.origin)},
@@ -164,7 +166,7 @@ static Json json_of(const FrameExtents& each) {
           {"extents", json_of(each.extents)}};
 }
 
-static Json error_of(const running::RunResult& result, Language language) {
+static OrderedJson error_of(const running::RunResult& result, Language language) {
   if (result.ending != running::Ending::Error) return nullptr;
   const dialect::DiagnosticDef& def = dialect::definition(result.error.id);
   return {{"line", result.line + 1},
@@ -173,7 +175,7 @@ static Json error_of(const running::RunResult& result, Language language) {
           {"message", running::error_message(result, language)}};
 }
 
-static Json json_of(const RunWarning& warning, Language language) {
+static OrderedJson json_of(const RunWarning& warning, Language language) {
   const dialect::DiagnosticDef& def = dialect::definition(warning.id);
   return {{"line", warning.line + 1},
           {"code", def.code},
@@ -181,62 +183,63 @@ static Json json_of(const RunWarning& warning, Language language) {
           {"message", dialect::message(warning.id, language, "", warning.values)}};
 }
 
-static Json json_of(const State& state) {
-  Json modes = Json::array();
+static OrderedJson json_of(const State& state) {
+  OrderedJson modes = OrderedJson::array();
   for (const std::uint8_t g : state.in_force)
     if (g != dialect::kNoMotion) modes.push_back(fmt::format("G{:02}", g));
-  return {{"tool", state.tool_selected ? Json(running::tool_name(state.tool)) : Json()},
+  return {{"tool", state.tool_selected ? OrderedJson(running::tool_name(state.tool)) : OrderedJson()},
           {"spindle", {{"speed", state.spindle_speed}, {"m", spindle_function(state)}}},
-          {"feed", state.last_feed.number > 0 ? Json(feed_in_force(state).number) : Json()},
+          {"feed", state.last_feed.number > 0 ? OrderedJson(feed_in_force(state).number) : OrderedJson()},
           {"modes", modes}};
 }
 
 std::string Summary::json(std::string_view file, Language language) const {
   static constexpr std::string_view kResults[] = {"end", "error", "until"};
   static constexpr std::string_view kLimits[] = {"feed", "rotarySpeed", "spindleSpeed"};
-  Json json = {{"file", file},
-               {"result", kResults[static_cast<std::size_t>(result_.ending)]},
-               {"line", result_.line + 1},
-               {"jumpedOverFrom", result_.jumped_over_from ? Json(*result_.jumped_over_from + 1) : Json()},
-               {"error", error_of(result_, language)},
-               {"seconds", seconds_},
-               {"times", json_of(times_)},
-               {"blocks", result_.blocks}};
+  OrderedJson json = {
+      {"file", file},
+      {"result", kResults[static_cast<std::size_t>(result_.ending)]},
+      {"line", result_.line + 1},
+      {"jumpedOverFrom", result_.jumped_over_from ? OrderedJson(*result_.jumped_over_from + 1) : OrderedJson()},
+      {"error", error_of(result_, language)},
+      {"seconds", seconds_},
+      {"times", json_of(times_)},
+      {"blocks", result_.blocks}};
   for (std::size_t kind = 0; kind < moves_.size(); ++kind)
     json[std::string(kWorkKeys[kind])] = {
         {"count", moves_[kind].count}, {"lengthMm", moves_[kind].mm}, {"seconds", times_[kind]}};
-  json["extents"] = extents_ ? json_of(*extents_) : Json();
-  json["frames"] = Json::array();
+  json["extents"] = extents_ ? json_of(*extents_) : OrderedJson();
+  json["frames"] = OrderedJson::array();
   for (const FrameExtents& each : frames_.frames()) json["frames"].push_back(json_of(each));
   json["framesLeftOut"] = frames_.left_out();
-  json["tools"] = Json::array();
+  json["tools"] = OrderedJson::array();
   for (const ToolShare& share : tools_)
-    json["tools"].push_back({{"tool", share.tool ? Json(running::tool_name(*share.tool)) : Json()},
+    json["tools"].push_back({{"tool", share.tool ? OrderedJson(running::tool_name(*share.tool)) : OrderedJson()},
                              {"seconds", sum(share.times)},
                              {"times", json_of(share.times)},
                              {"feedMm", share.feed_mm},
                              {"rapidMm", share.rapid_mm}});
-  json["outsideTravel"] = Json::array();
+  json["outsideTravel"] = OrderedJson::array();
   for (std::size_t i = 0; i < breaches_.size(); ++i)
     if (const auto& breach = breaches_[i])
       json["outsideTravel"].push_back({{"axis", std::string(1, dialect::kAxisLetters[i / 2])},
                                        {"line", breach->line + 1},
                                        {"farthest", breach->farthest},
                                        {"limit", breach->limit}});
-  json["aboveLimits"] = Json::array();
+  json["aboveLimits"] = OrderedJson::array();
   for (std::size_t i = 0; i < excesses_.size(); ++i)
     if (const auto& excess = excesses_[i])
       json["aboveLimits"].push_back({{"limit", kLimits[i]},
                                      {"line", excess->line + 1},
                                      {"most", excess->maximum},
                                      {"allowed", limit_of(static_cast<Limit>(i))}});
-  json["warnings"] = Json::array();
+  json["warnings"] = OrderedJson::array();
   for (const RunWarning& warning : warnings_) json["warnings"].push_back(json_of(warning, language));
   const geometry::Pose pose = final_pose();
   json["final"] = {pose.tip.x(), pose.tip.y(), pose.tip.z(), pose.b, pose.c};
   json["finalJoints"] = {joints_[0], joints_[1], joints_[2], joints_[3], joints_[4]};
   json["finalState"] = json_of(result_.state);
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace) + '\n';
 }
 
 }  // namespace isocnc::simulation

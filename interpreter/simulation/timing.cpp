@@ -100,9 +100,9 @@ void Timing::take(const running::Event& event) {
   enqueue(event);
 }
 
-Timing::Waiting& Timing::enqueue(const running::Event& event) {
+Timing::WaitingEvent& Timing::enqueue(const running::Event& event) {
   if (waiting_.size() >= kMaxWaiting) come_to_rest();
-  Waiting& waiting = waiting_.emplace_back();
+  WaitingEvent& waiting = waiting_.emplace_back();
   waiting.timed.event = event;
   waiting.motion = motions_;
   return waiting;
@@ -111,7 +111,7 @@ Timing::Waiting& Timing::enqueue(const running::Event& event) {
 /// Plans the motion that was held back for a possible G09.
 void Timing::push_motion() {
   if (!std::exchange(holds_motion_, false)) return;
-  Waiting& waiting = waiting_.back();
+  WaitingEvent& waiting = waiting_.back();
   const running::MoveEvent& move = std::get<running::MoveEvent>(waiting.timed.event.what);
   motion::Move planned = planned_move(move, *machine_, position_.tool_length());
   planned.tag = waiting.motion;
@@ -132,16 +132,16 @@ void Timing::take_stretches() {
 }
 
 void Timing::take_stretch(const motion::Stretch& stretch) {
-  const auto goes_before = [&](const Waiting& waiting) {
+  const auto goes_before = [&](const WaitingEvent& waiting) {
     return waiting.motion < stretch.tag || (waiting.motion == stretch.tag && !waiting.is_motion);
   };
   while (!waiting_.empty() && goes_before(waiting_.front())) {
-    Waiting& first = waiting_.front();
+    WaitingEvent& first = waiting_.front();
     if (!first.has_begun) first.timed.start = stretch.start;
     report_first();
   }
   if (waiting_.empty()) return;
-  Waiting& moving = waiting_.front();
+  WaitingEvent& moving = waiting_.front();
   if (!std::exchange(moving.has_begun, true)) moving.timed.start = stretch.start;
   if (listeners_.stretch) listeners_.stretch(stretch, moving.timed);
   moving.timed.duration = stretch.start + stretch.duration - moving.timed.start;

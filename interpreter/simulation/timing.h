@@ -103,7 +103,7 @@ class Timing {
   }
 
   /// Heap memory in bytes, without the object itself.
-  std::size_t memory() const { return waiting_.size() * sizeof(Waiting) + planner_.memory(); }
+  std::size_t memory() const { return waiting_.size() * sizeof(WaitingEvent) + planner_.memory(); }
 
   /// Total time in seconds of all events reported.
   double time() const { return planner_.time(); }
@@ -115,14 +115,14 @@ class Timing {
 
  private:
   /// An event without a known time.
-  struct Waiting {
+  struct WaitingEvent {
     TimedEvent timed;
     std::uint64_t motion = 0;  ///< Number of this motion or, for other events, of the next motion.
     bool is_motion = false;
     bool has_begun = false;
   };
 
-  Waiting& enqueue(const running::Event& event);
+  WaitingEvent& enqueue(const running::Event& event);
   void push_motion();
   void take_stretches();
   void take_stretch(const motion::Stretch& stretch);
@@ -136,7 +136,7 @@ class Timing {
   const TimedMachine* machine_;  ///< Must outlive this object.
   Listeners listeners_;
   motion::Planner planner_;
-  Fifo<Waiting> waiting_;
+  Fifo<WaitingEvent> waiting_;
   std::uint64_t motions_ = 0;
   bool holds_motion_ = false;  ///< The last of waiting_ is a motion that a G09 may follow.
   bool stops_exactly_ = false;

@@ -25,15 +25,15 @@ std::size_t index(char c) { return static_cast<unsigned char>(c); }
 /// Reads a pattern from left to right. A malformed pattern, which matches nothing, gives no pieces.
 class GlobReader {
   using ByteSet = Glob::ByteSet;
-  using Piece = Glob::Piece;
+  using GlobPiece = Glob::GlobPiece;
 
  public:
   explicit GlobReader(std::string_view text) : text_(text) {}
 
-  std::optional<std::vector<Piece>> read(bool whole_path) {
-    std::vector<Piece> pieces;
+  std::optional<std::vector<GlobPiece>> read(bool whole_path) {
+    std::vector<GlobPiece> pieces;
     while (!at_end()) {
-      const std::optional<Piece> piece = read_piece(whole_path);
+      const std::optional<GlobPiece> piece = read_piece(whole_path);
       if (!piece) return std::nullopt;
       pieces.push_back(*piece);
     }
@@ -51,22 +51,22 @@ class GlobReader {
     return true;
   }
 
-  std::optional<Piece> read_piece(bool whole_path) {
-    if (sees('*')) return Piece{read_stars(whole_path), {}};
-    if (take_if('?')) return Piece{Piece::Kind::Byte, ~only('/')};
+  std::optional<GlobPiece> read_piece(bool whole_path) {
+    if (sees('*')) return GlobPiece{read_stars(whole_path), {}};
+    if (take_if('?')) return GlobPiece{GlobPiece::Kind::Byte, ~only('/')};
     const std::optional<ByteSet> bytes = take_if('[') ? read_set() : read_byte();
     if (!bytes) return std::nullopt;
-    return Piece{Piece::Kind::Byte, *bytes};
+    return GlobPiece{GlobPiece::Kind::Byte, *bytes};
   }
 
-  Piece::Kind read_stars(bool whole_path) {
+  GlobPiece::Kind read_stars(bool whole_path) {
     const bool starts_name = at_ == 0 || text_[at_ - 1] == '/';
     const std::size_t begin = at_;
     while (take_if('*')) {
     }
-    if (!whole_path || at_ - begin < 2 || !starts_name) return Piece::Kind::Star;
-    if (at_end()) return Piece::Kind::Everything;
-    return take_if('/') ? Piece::Kind::Directories : Piece::Kind::Star;
+    if (!whole_path || at_ - begin < 2 || !starts_name) return GlobPiece::Kind::Star;
+    if (at_end()) return GlobPiece::Kind::Everything;
+    return take_if('/') ? GlobPiece::Kind::Directories : GlobPiece::Kind::Star;
   }
 
   /// Reads a byte or escaped byte; none if nothing follows the backslash.
@@ -142,14 +142,14 @@ class GlobReader {
 /// Matches a pattern with a text. A star first matches nothing and extends only when the rest does not fit. Only the
 /// last star extends, since it can match everything that an earlier one could.
 class GlobMatch {
-  using Piece = Glob::Piece;
+  using GlobPiece = Glob::GlobPiece;
 
  public:
-  GlobMatch(const std::vector<Piece>& pattern, std::string_view text) : pattern_(pattern), text_(text) {}
+  GlobMatch(const std::vector<GlobPiece>& pattern, std::string_view text) : pattern_(pattern), text_(text) {}
 
   bool found() {
     while (piece_ < pattern_.size() || at_ < text_.size()) {
-      if (piece_ < pattern_.size() && pattern_[piece_].kind == Piece::Kind::Everything) return true;
+      if (piece_ < pattern_.size() && pattern_[piece_].kind == GlobPiece::Kind::Everything) return true;
       if (!step() && !lengthen_star() && !lengthen_directories()) return false;
     }
     return true;
@@ -164,15 +164,15 @@ class GlobMatch {
 
   bool step() {
     if (piece_ == pattern_.size()) return false;
-    const Piece& piece = pattern_[piece_];
-    if (piece.kind == Piece::Kind::Byte) {
+    const GlobPiece& piece = pattern_[piece_];
+    if (piece.kind == GlobPiece::Kind::Byte) {
       if (at_ == text_.size() || !piece.bytes[index(text_[at_])]) return false;
       ++at_;
       ++piece_;
       return true;
     }
     ++piece_;
-    if (piece.kind == Piece::Kind::Directories) {
+    if (piece.kind == GlobPiece::Kind::Directories) {
       directories_ = {piece_, at_};
       star_.reset();
     } else {
@@ -202,7 +202,7 @@ class GlobMatch {
     return true;
   }
 
-  const std::vector<Piece>& pattern_;
+  const std::vector<GlobPiece>& pattern_;
   std::string_view text_;
   std::size_t piece_ = 0;
   std::size_t at_ = 0;
@@ -211,7 +211,7 @@ class GlobMatch {
 };
 
 std::optional<Glob> Glob::parse(std::string_view pattern, bool whole_path) {
-  std::optional<std::vector<Piece>> pieces = GlobReader(pattern).read(whole_path);
+  std::optional<std::vector<GlobPiece>> pieces = GlobReader(pattern).read(whole_path);
   if (!pieces) return std::nullopt;
   Glob glob;
   glob.pieces_ = std::move(*pieces);

@@ -24,7 +24,7 @@ class Glob {
 
   using ByteSet = std::bitset<256>;
 
-  struct Piece {
+  struct GlobPiece {
     enum class Kind : std::uint8_t {
       Byte,         ///< One of `bytes`.
       Star,         ///< `*`: any bytes but slashes.
@@ -36,7 +36,7 @@ class Glob {
     ByteSet bytes;
   };
 
-  std::vector<Piece> pieces_;
+  std::vector<GlobPiece> pieces_;
 };
 
 }  // namespace isocnc::system

@@ -22,12 +22,12 @@ std::string_view name_of(Encoding encoding) { return kNames[static_cast<std::siz
 namespace {
 
 /// One character of a line: its length in bytes and in units.
-struct Step {
+struct CharacterStep {
   std::size_t bytes;
   std::uint32_t units;
 };
 
-Step step_at(std::string_view rest, Encoding encoding) {
+CharacterStep step_at(std::string_view rest, Encoding encoding) {
   const std::size_t bytes = std::max<std::size_t>(1, syntax::sequence_length(rest));
   if (encoding == Encoding::Utf8) return {bytes, static_cast<std::uint32_t>(bytes)};
   return {bytes, encoding == Encoding::Utf16 && bytes == 4 ? 2u : 1u};
@@ -40,7 +40,7 @@ std::uint32_t units_before(std::string_view line, std::size_t byte, Encoding enc
   if (encoding == Encoding::Utf8) return static_cast<std::uint32_t>(byte);
   std::uint32_t units = 0;
   for (std::size_t at = 0; at < byte;) {
-    const Step step = step_at(line.substr(at), encoding);
+    const CharacterStep step = step_at(line.substr(at), encoding);
     if (at + step.bytes > byte) break;
     at += step.bytes;
     units += step.units;
@@ -51,7 +51,7 @@ std::uint32_t units_before(std::string_view line, std::size_t byte, Encoding enc
 std::size_t byte_at(std::string_view line, std::uint32_t units, Encoding encoding) {
   std::size_t at = 0;
   for (std::uint32_t passed = 0; at < line.size() && passed < units;) {
-    const Step step = step_at(line.substr(at), encoding);
+    const CharacterStep step = step_at(line.substr(at), encoding);
     if (passed + step.units > units) break;
     passed += step.units;
     at += step.bytes;

@@ -11,7 +11,7 @@ JumpPaths::JumpPaths(const Snapshot& snapshot) {
     std::vector<std::size_t>& lines = entry->second;
     if (is_new) lines = index.lines_of_label(landmark.number);
     const auto target = std::upper_bound(lines.begin(), lines.end(), landmark.line);
-    Jump jump{landmark, std::nullopt};
+    ResolvedJump jump{landmark, std::nullopt};
     if (target != lines.end()) {
       jump.target = *target;
       jump_targets_.emplace(*target, landmark.line);

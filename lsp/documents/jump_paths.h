@@ -13,7 +13,7 @@ namespace isocnc::lsp::documents {
 /// the jumps and program ends of the index: syntax::ForwardPaths would have to read every line from the top.
 class JumpPaths {
  public:
-  struct Jump {
+  struct ResolvedJump {
     Landmark landmark;  ///< The label after the GOTO.
     std::optional<std::size_t>
         target;  ///< The line that the jump leads to: the first below it that has its label (D50).
@@ -22,7 +22,7 @@ class JumpPaths {
   explicit JumpPaths(const Snapshot& snapshot);
 
   /// All jumps in the order of the program.
-  const std::vector<Jump>& jumps() const { return jumps_; }
+  const std::vector<ResolvedJump>& jumps() const { return jumps_; }
   /// Whether a jump leads to this line.
   bool is_jump_target(std::size_t line) const { return jump_targets_.contains(line); }
 
@@ -56,7 +56,7 @@ class JumpPaths {
   bool ends_before(std::size_t line) const { return after_ends_.contains(line); }
   std::size_t run_start(std::size_t line) const;
 
-  std::vector<Jump> jumps_;
+  std::vector<ResolvedJump> jumps_;
   std::multimap<std::size_t, std::size_t> jump_targets_;  // Lines of jumps by the line that they lead to.
   std::set<std::size_t> after_ends_;  // Lines directly below an M02, which no path reaches from above.
 };

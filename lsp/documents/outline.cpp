@@ -57,7 +57,7 @@ class Builder {
   std::vector<Section> build() {
     collect();
     sort();
-    for (Event& event : events_) take(event);
+    for (OutlineEvent& event : events_) take(event);
     if (last_end_) close_above(*last_end_);
     const std::size_t last = snapshot_.document().line_count() - 1;
     close(face_, last);
@@ -66,13 +66,13 @@ class Builder {
   }
 
  private:
-  enum class Order { OpensTool, OpensFace, Stands, Closes };  // The order of the events on one line.
-  struct Event {
-    Order order = Order::Stands;
+  enum class EventOrder { OpensTool, OpensFace, Stands, Closes };  // The order of the events on one line.
+  struct OutlineEvent {
+    EventOrder order = EventOrder::Stands;
     Section section;
   };
 
-  static bool is_opening(const Event& event) { return event.order <= Order::OpensFace; }
+  static bool is_opening(const OutlineEvent& event) { return event.order <= EventOrder::OpensFace; }
 
   static Section section_at(SectionKind kind, const Landmark& landmark) {
     return {.kind = kind,
@@ -100,7 +100,7 @@ class Builder {
   }
 
   void sort() {
-    std::stable_sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) {
+    std::stable_sort(events_.begin(), events_.end(), [](const OutlineEvent& a, const OutlineEvent& b) {
       return std::pair(a.section.first_line, a.order) < std::pair(b.section.first_line, b.order);
     });
   }
@@ -111,20 +111,20 @@ class Builder {
         Section section = section_at(SectionKind::Tool, landmark);
         section.title = landmark.number == 0 ? "M06" : fmt::format("T{:06}", landmark.number);
         section.detail = tool_name(landmark.number);
-        return add(Order::OpensTool, std::move(section));
+        return add(EventOrder::OpensTool, std::move(section));
       }
       case LandmarkKind::FaceFrame:
       case LandmarkKind::WorkpieceFrame: {
         const bool is_face = landmark.kind == LandmarkKind::FaceFrame;
         Section section = section_at(is_face ? SectionKind::Face : SectionKind::Workpiece, landmark);
         section.title = instruction_text(landmark);
-        return add(is_face ? Order::OpensFace : Order::Stands, std::move(section));
+        return add(is_face ? EventOrder::OpensFace : EventOrder::Stands, std::move(section));
       }
       case LandmarkKind::ProgramEnd:
         last_end_ = landmark.line;
         return;
       default:
-        return add(Order::Closes, section_at(SectionKind::Face, landmark));
+        return add(EventOrder::Closes, section_at(SectionKind::Face, landmark));
     }
   }
 
@@ -136,7 +136,7 @@ class Builder {
       if (!word) continue;
       Section section = section_at(SectionKind::Label, {static_cast<std::uint32_t>(line), {}, word->span(), label});
       section.title = fmt::format("N{}", label);
-      add(Order::Stands, std::move(section));
+      add(EventOrder::Stands, std::move(section));
     }
   }
 
@@ -158,7 +158,7 @@ class Builder {
             SectionKind::Heading, {static_cast<std::uint32_t>(block.first_line), LandmarkKind::Comment, block.head, 0});
         section.last_line = block.last_line;
         section.title = title;
-        add(Order::Stands, std::move(section));
+        add(EventOrder::Stands, std::move(section));
       }
     }
   }
@@ -193,20 +193,20 @@ class Builder {
     return syntax::printable(tree.text_of(all));
   }
 
-  void add(Order order, Section section) { events_.push_back({order, std::move(section)}); }
+  void add(EventOrder order, Section section) { events_.push_back({order, std::move(section)}); }
 
-  void take(Event& event) {
+  void take(OutlineEvent& event) {
     Section& section = event.section;
     if (last_end_ && section.first_line > *last_end_) close_above(*last_end_);
-    if (event.order == Order::Closes) return close(face_, section.head_line);
+    if (event.order == EventOrder::Closes) return close(face_, section.head_line);
     if (is_opening(event)) {
       const std::size_t above = section.first_line == 0 ? 0 : section.first_line - 1;
       close(face_, above);
-      if (event.order == Order::OpensTool) close(tool_, above);
+      if (event.order == EventOrder::OpensTool) close(tool_, above);
     }
     section.parent = face_ ? *face_ : tool_.value_or(-1);
     const int index = static_cast<int>(sections_.size());
-    if (is_opening(event)) (event.order == Order::OpensTool ? tool_ : face_) = index;
+    if (is_opening(event)) (event.order == EventOrder::OpensTool ? tool_ : face_) = index;
     sections_.push_back(std::move(section));
   }
 
@@ -224,7 +224,7 @@ class Builder {
   }
 
   const Snapshot& snapshot_;
-  std::vector<Event> events_;
+  std::vector<OutlineEvent> events_;
   std::vector<Section> sections_;
   std::optional<int> tool_;  // The index of the open tool section.
   std::optional<int> face_;

@@ -10,9 +10,9 @@ using syntax::LineTree;
 using syntax::Word;
 
 /// The landmarks of one line, in the order of its columns.
-class LineReader {
+class LandmarkReader {
  public:
-  LineReader(const LineTree& tree, std::uint32_t line, std::vector<Landmark>& landmarks)
+  LandmarkReader(const LineTree& tree, std::uint32_t line, std::vector<Landmark>& landmarks)
       : tree_(tree), line_(line), landmarks_(landmarks) {}
 
   void read() {
@@ -76,15 +76,15 @@ class LineReader {
   std::vector<Landmark>& landmarks_;
 };
 
-ProgramIndex::Chunk ProgramIndex::read_chunk(const syntax::ChunkTrees& trees) {
-  Chunk read;
+ProgramIndex::IndexChunk ProgramIndex::read_chunk(const syntax::ChunkTrees& trees) {
+  IndexChunk read;
   for (std::size_t i = 0; i < trees.size(); ++i) {
     const LineTree tree = trees[i];
     if (tree.has_label()) {
       read.min_label = std::min(read.min_label, tree.label);
       read.max_label = std::max(read.max_label, tree.label);
     }
-    if (tree.plain_arguments == 0) LineReader(tree, static_cast<std::uint32_t>(i), read.landmarks).read();
+    if (tree.plain_arguments == 0) LandmarkReader(tree, static_cast<std::uint32_t>(i), read.landmarks).read();
   }
   read.landmarks.shrink_to_fit();
   return read;

@@ -58,19 +58,19 @@ class ProgramIndex {
   std::uint64_t highest_label() const;
 
  private:
-  struct Chunk {
+  struct IndexChunk {
     std::uint64_t min_label = std::numeric_limits<std::uint64_t>::max();
     std::uint64_t max_label = 0;
     std::vector<Landmark> landmarks;  // Landmarks, with lines counted from the start of the chunk.
   };
 
-  static Chunk read_chunk(const syntax::ChunkTrees& trees);
+  static IndexChunk read_chunk(const syntax::ChunkTrees& trees);
 
   template <class IsWanted>
   std::vector<Landmark> select(IsWanted is_wanted) const;
 
   const syntax::Document* document_ = nullptr;
-  syntax::PerChunk<Chunk> chunks_;
+  syntax::PerChunk<IndexChunk> chunks_;
 };
 
 }  // namespace isocnc::lsp::documents

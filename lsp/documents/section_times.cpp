@@ -39,7 +39,8 @@ std::shared_ptr<SectionTimes> SectionTimes::of(const Snapshot& snapshot) {
   return times;
 }
 
-std::shared_ptr<const Sections> SectionTimes::known(std::int64_t version, const configuration::Machine& machine) {
+std::shared_ptr<const Sections> SectionTimes::known(std::int64_t version,
+                                                    const configuration::MachineConfiguration& machine) {
   const std::lock_guard lock(mutex_);
   return version == version_ && &machine == machine_ ? sections_ : nullptr;
 }

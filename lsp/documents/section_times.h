@@ -37,11 +37,11 @@ class SectionTimes {
   std::shared_ptr<const Sections> time(const TimedProgram& program, const std::function<bool()>& stop);
 
  private:
-  std::shared_ptr<const Sections> known(std::int64_t version, const configuration::Machine& machine);
+  std::shared_ptr<const Sections> known(std::int64_t version, const configuration::MachineConfiguration& machine);
 
   std::mutex mutex_;  // Guards the members below.
   std::int64_t version_ = -1;
-  const configuration::Machine* machine_ = nullptr;
+  const configuration::MachineConfiguration* machine_ = nullptr;
   std::shared_ptr<const Sections> sections_;
 };
 

@@ -9,7 +9,7 @@
 namespace isocnc::lsp::documents {
 
 /// A snapshot as the program that fixes and rewrites read.
-class SnapshotProgram final : public fixes::Program {
+class SnapshotProgram final : public fixes::FixProgram {
  public:
   explicit SnapshotProgram(const Snapshot& snapshot) : snapshot_(snapshot) {}
 

@@ -16,7 +16,7 @@ class TimedProgram {
   TimedProgram(const Snapshot& snapshot, double vgpl);
 
   std::int64_t version() const { return version_; }
-  const configuration::Machine& machine() const { return *machine_; }
+  const configuration::MachineConfiguration& machine() const { return *machine_; }
 
   /// Runs the program to its end or first error. Calls `stop` at intervals and throws rpc::Error, RequestCancelled,
   /// when that returns true.
@@ -25,7 +25,7 @@ class TimedProgram {
  private:
   std::string text_;
   std::shared_ptr<const void> settings_owner_;
-  const configuration::Machine* machine_;
+  const configuration::MachineConfiguration* machine_;
   running::RunOptions options_;
   std::int64_t version_;
 };

@@ -41,7 +41,7 @@ constexpr std::size_t kMaxLabels = 200;
 constexpr std::size_t kMaxLinesForLabels = 100'000;
 
 /// A completion. `written` is inserted, with its placeholders if the client supports snippets.
-struct Candidate {
+struct CompletionCandidate {
   std::string label;
   ItemKind kind = ItemKind::Keyword;
   std::string written;  ///< The inserted text as a snippet: `P${1:1}`.
@@ -187,7 +187,7 @@ class Completer {
     return brings_nothing(base_of_text_, wrong_with(with(text), nullptr, snapshot_));
   }
 
-  void add(Candidate candidate) {
+  void add(CompletionCandidate candidate) {
     const bool has_snippets = snapshot_.client().can("/textDocument/completion/completionItem/snippetSupport");
     const bool is_snippet = has_snippets && candidate.written.find('$') != std::string::npos;
     const ClientRange range = {snapshot_.to_client({place_.line, start_}), snapshot_.to_client(place_)};
@@ -253,7 +253,8 @@ class Completer {
     for (const dialect::GCode& code : dialect::kGCodes) {
       const std::string label = fmt::format("G{:02}", code.number);
       const std::string written = label + arguments_of(code, state_);
-      const Candidate candidate{label, ItemKind::Keyword, written, std::string(code.name.in(language_)), {}, label};
+      const CompletionCandidate candidate{label, ItemKind::Keyword, written, std::string(code.name.in(language_)), {},
+                                          label};
       // G00 and G01 are tried with X0: the author will choose the coordinates.
       if (may_be(code.is_motion() && !code.is_arc() ? label + " X0" : plain(written))) {
         add(candidate);

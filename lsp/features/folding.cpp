@@ -54,7 +54,7 @@ class FoldFinder {
     }
     find_tail();
     const documents::JumpPaths paths(snapshot_);
-    for (const documents::JumpPaths::Jump& jump : paths.jumps())
+    for (const documents::JumpPaths::ResolvedJump& jump : paths.jumps())
       if (jump.target) add(jump.landmark.line, *jump.target - 1);
     for (const documents::CommentBlock& block : documents::comment_blocks(snapshot_))
       add(block.first_line, block.last_line, "comment");

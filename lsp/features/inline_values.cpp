@@ -12,12 +12,12 @@
 namespace isocnc::lsp::features {
 namespace {
 
-struct Variable {
+struct InlineVariable {
   ClientRange range;
   std::string name;
 };
 
-void to_json(Json& json, const Variable& variable) {
+void to_json(Json& json, const InlineVariable& variable) {
   json = {{"range", variable.range}, {"variableName", variable.name}, {"caseSensitiveLookup", false}};
 }
 
@@ -30,8 +30,8 @@ void from_json(const Json& json, InlineValueParams& params) {
   params.stopped_line = json.at("context").at("stoppedLocation").get<ClientRange>().end.line;
 }
 
-std::vector<Variable> answer_inline_values(const Snapshot& snapshot, const InlineValueParams& params) {
-  std::vector<Variable> variables;
+std::vector<InlineVariable> answer_inline_values(const Snapshot& snapshot, const InlineValueParams& params) {
+  std::vector<InlineVariable> variables;
   const std::size_t first = snapshot.from_client(params.range.start).line;
   const std::size_t last = std::min(snapshot.from_client(params.range.end).line, params.stopped_line);
   for (std::size_t number = first; number <= last; ++number) {

@@ -52,7 +52,7 @@ std::string uri_of_restart(const std::string& uri, std::uint64_t line) {
 std::string why_not(const restart::RestartRefusal& refusal, dialect::Language language) {
   static constexpr Text kError = {"the program stops at line {} with an error; correct it first",
                                   "il programma si ferma alla riga {} con un errore: va prima corretto"};
-  if (refusal.obstacle == restart::Obstacle::ProgramError)
+  if (refusal.obstacle == restart::RestartObstacle::ProgramError)
     return dialect::format(kError, language, refusal.run.line + 1);
   return message(refusal, language);
 }

@@ -25,14 +25,14 @@ static constexpr std::size_t kQuickLines = 500;
 
 namespace {
 
-struct Kind {
+struct RewriteAction {
   Rewrite how;
   std::string_view kind;
   bool wants_selection;  ///< Whether a selection is required: a single line would only become three.
   Text title;
 };
 
-constexpr Kind kRewriteActions[] = {
+constexpr RewriteAction kRewriteActions[] = {
     {Rewrite::ArcByRadius,
      "refactor.rewrite.isocnc.arc",
      false,
@@ -76,7 +76,7 @@ std::optional<Json> try_rewrite(const Snapshot& snapshot, Rewrite how, std::size
 
 void offer_rewrites(const Snapshot& snapshot, const ActionParams& params, std::vector<Action>& actions) {
   for (std::size_t i = 0; i < std::size(kRewriteActions); ++i) {
-    const Kind& kind = kRewriteActions[i];
+    const RewriteAction& kind = kRewriteActions[i];
     if (!params.wants(kind.kind) || (kind.wants_selection && !params.is_selection())) continue;
     Action action{.title = std::string(kind.title.in(snapshot.language())),
                   .kind = kind.kind,

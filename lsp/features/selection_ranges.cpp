@@ -23,11 +23,11 @@ void from_json(const Json& json, SelectionRangeParams& params) {
 }
 
 /// The ranges, each of which contains the one before.
-struct Selection {
+struct SelectionRange {
   std::vector<ClientRange> ranges;
 };
 
-void to_json(Json& json, const Selection& selection) {
+void to_json(Json& json, const SelectionRange& selection) {
   for (auto range = selection.ranges.rbegin(); range != selection.ranges.rend(); ++range) {
     Json inner = {{"range", *range}};
     if (!json.is_null()) inner["parent"] = std::move(json);
@@ -77,17 +77,17 @@ std::vector<Span> spans_at(const LineTree& line, std::uint32_t column) {
   return spans;
 }
 
-std::vector<Selection> answer_selection_ranges(const Snapshot& snapshot, const SelectionRangeParams& params) {
+std::vector<SelectionRange> answer_selection_ranges(const Snapshot& snapshot, const SelectionRangeParams& params) {
   const std::vector<documents::Section> sections = documents::outline(snapshot);
   const auto lines = [&](std::size_t first, std::size_t last) {
     return ClientRange{snapshot.to_client({first, 0}),
                        snapshot.to_client({last, snapshot.document().text_of_line(last).size()})};
   };
-  std::vector<Selection> selections;
+  std::vector<SelectionRange> selections;
   for (const ClientPosition& position : params.positions) {
     snapshot.throw_if_unwanted();
     const syntax::Position place = snapshot.from_client(position);
-    Selection selection;
+    SelectionRange selection;
     const auto add = [&](const ClientRange& range) {
       if (selection.ranges.empty() || selection.ranges.back() != range) selection.ranges.push_back(range);
     };

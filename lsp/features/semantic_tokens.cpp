@@ -186,20 +186,20 @@ class Encoder {
 
 /// The tokens last sent to the client, from which changes are computed.
 struct SentTokens {
-  struct Chunk {
+  struct TokenChunk {
     std::uint64_t version = 0;
     std::size_t tokens = 0;
   };
 
   std::string id;
-  std::vector<Chunk> chunks;
+  std::vector<TokenChunk> chunks;
   std::uint64_t times = 0;
 
   /// Sets a new id each time, even if a client never changes the version.
   void rename(std::int64_t version) { id = fmt::format("{}.{}", version, ++times); }
 };
 
-std::size_t sum_of_tokens(const std::vector<SentTokens::Chunk>& chunks, std::size_t first, std::size_t behind) {
+std::size_t sum_of_tokens(const std::vector<SentTokens::TokenChunk>& chunks, std::size_t first, std::size_t behind) {
   std::size_t sum = 0;
   for (std::size_t i = first; i < behind; ++i) sum += chunks[i].tokens;
   return sum;
@@ -207,7 +207,7 @@ std::size_t sum_of_tokens(const std::vector<SentTokens::Chunk>& chunks, std::siz
 
 documents::RawJson all_tokens(const Snapshot& snapshot) {
   Encoder encoder(snapshot);
-  std::vector<SentTokens::Chunk> chunks;
+  std::vector<SentTokens::TokenChunk> chunks;
   for (std::size_t chunk = 0; chunk < snapshot.document().chunk_count(); ++chunk) {
     snapshot.throw_if_unwanted();
     const std::size_t before = encoder.count();
@@ -273,7 +273,7 @@ bool add_first_token(const Snapshot& snapshot, std::size_t chunk, Encoder& encod
 /// One edit that replaces the tokens of all chunks from the first to the last that has changed.
 std::string edits_since(const Snapshot& snapshot, SentTokens& sent) {
   const syntax::Document& document = snapshot.document();
-  const std::vector<SentTokens::Chunk>& old = sent.chunks;
+  const std::vector<SentTokens::TokenChunk>& old = sent.chunks;
   const std::size_t count = document.chunk_count();
   const std::size_t common = std::min(count, old.size());
   std::size_t head = 0;
@@ -282,7 +282,7 @@ std::string edits_since(const Snapshot& snapshot, SentTokens& sent) {
   std::size_t tail = 0;
   while (tail < common - head && old[old.size() - 1 - tail].version == document.chunk_version(count - 1 - tail)) ++tail;
 
-  std::vector<SentTokens::Chunk> chunks(old.begin(), old.begin() + static_cast<std::ptrdiff_t>(head));
+  std::vector<SentTokens::TokenChunk> chunks(old.begin(), old.begin() + static_cast<std::ptrdiff_t>(head));
   Encoder encoder(snapshot, head < count ? last_line_with_tokens_above(snapshot, head) : 0);
   for (std::size_t chunk = head; chunk < count - tail; ++chunk) {
     snapshot.throw_if_unwanted();

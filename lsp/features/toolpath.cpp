@@ -58,7 +58,7 @@ std::string stream(std::string_view now, const std::string* before) {
 }
 
 /// The data that the background request copies.
-struct Task {
+struct ToolpathTask {
   documents::TimedProgram program;
   plot::PlotSubject subject;
   std::string previous;
@@ -67,7 +67,7 @@ struct Task {
   std::string study(const std::function<bool()>& stop);
 };
 
-std::string Task::study(const std::function<bool()>& stop) {
+std::string ToolpathTask::study(const std::function<bool()>& stop) {
   const simulation::TimedMachine& machine = program.machine().timed;
   plot::PathRecording recording(subject, machine);
   plot::Toolpath path(machine, subject.home, [&](const plot::ToolpathStep& step) { recording.add(step); });
@@ -95,16 +95,17 @@ BackgroundRequest begin(const Snapshot& snapshot, const ToolpathParams& params) 
   auto& last = snapshot.memory<std::shared_ptr<LastSent>>();
   if (!last) last = std::make_shared<LastSent>();
   const auto path = documents::path_of(snapshot.uri());
-  const configuration::Machine& machine = snapshot.configuration().machine;
-  const auto task = std::make_shared<Task>(Task{.program = documents::TimedProgram(snapshot, params.vgpl),
-                                                .subject = {.name = path ? path->filename().string() : snapshot.uri(),
-                                                            .program = {},
-                                                            .home = machine.setup.home,
-                                                            .tools = plot::plot_tools(machine),
-                                                            .page = {},
-                                                            .language = snapshot.language()},
-                                                .previous = params.previous,
-                                                .last = last});
+  const configuration::MachineConfiguration& machine = snapshot.configuration().machine;
+  const auto task =
+      std::make_shared<ToolpathTask>(ToolpathTask{.program = documents::TimedProgram(snapshot, params.vgpl),
+                                                  .subject = {.name = path ? path->filename().string() : snapshot.uri(),
+                                                              .program = {},
+                                                              .home = machine.setup.home,
+                                                              .tools = plot::plot_tools(machine),
+                                                              .page = {},
+                                                              .language = snapshot.language()},
+                                                  .previous = params.previous,
+                                                  .last = last});
   return [task](const std::function<bool()>& stop) { return task->study(stop); };
 }
 

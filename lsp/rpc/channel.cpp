@@ -78,7 +78,7 @@ bool Channel::may_read() {
 
 void Channel::read_all() {
   FrameReader reader;
-  std::deque<Frame> frames;
+  std::deque<MessageFrame> frames;
   std::string buffer(std::size_t{256} << 10, '\0');
   while (may_read() && wait_for(descriptors_.in, POLLIN, false)) {
     const ssize_t count = ::read(descriptors_.in, buffer.data(), buffer.size());

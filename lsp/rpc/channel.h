@@ -23,8 +23,8 @@ struct Descriptors {
 class Channel {
  public:
   struct Events {
-    std::function<void(Frame)> frame;  ///< Called on the reading thread.
-    std::function<void()> end;         ///< Called when nothing more can be received, or sent.
+    std::function<void(MessageFrame)> frame;  ///< Called on the reading thread.
+    std::function<void()> end;                ///< Called when nothing more can be received, or sent.
   };
 
   Channel(Descriptors descriptors, Events events);

@@ -52,19 +52,19 @@ static std::optional<std::size_t> length_in(std::string_view header) {
   return length;
 }
 
-void FrameReader::read(std::string_view bytes, std::deque<Frame>& frames) {
+void FrameReader::read(std::string_view bytes, std::deque<MessageFrame>& frames) {
   while (!bytes.empty()) {
     switch (state_) {
-      case State::Header:
+      case ReadState::Header:
         bytes = read_header(bytes, frames);
         break;
-      case State::Body:
+      case ReadState::Body:
         bytes = read_body(bytes, frames);
         break;
-      case State::Skipped:
+      case ReadState::Skipped:
         bytes = skip(bytes);
         break;
-      case State::Lost:
+      case ReadState::Lost:
         bytes = find_header(bytes);
         break;
     }
@@ -72,7 +72,7 @@ void FrameReader::read(std::string_view bytes, std::deque<Frame>& frames) {
 }
 
 /// Reads up to the empty line that ends a header. Lines should end with CR and LF; LF will do.
-std::string_view FrameReader::read_header(std::string_view bytes, std::deque<Frame>& frames) {
+std::string_view FrameReader::read_header(std::string_view bytes, std::deque<MessageFrame>& frames) {
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     header_.push_back(bytes[i]);
     if (bytes[i] == '\n' && (header_.ends_with("\n\r\n") || header_.ends_with("\n\n"))) {
@@ -81,37 +81,37 @@ std::string_view FrameReader::read_header(std::string_view bytes, std::deque<Fra
     }
     if (header_.size() < kLongestHeader) continue;
     header_.clear();
-    state_ = State::Lost;
-    frames.push_back({Frame::Problem::NoLength, {}});
+    state_ = ReadState::Lost;
+    frames.push_back({MessageFrame::Problem::NoLength, {}});
     return bytes.substr(i + 1);
   }
   return {};
 }
 
-void FrameReader::start_body(std::deque<Frame>& frames) {
+void FrameReader::start_body(std::deque<MessageFrame>& frames) {
   const auto length = length_in(header_);
   header_.clear();
   length_ = length.value_or(0);
   if (!length) {
-    state_ = State::Lost;
-    frames.push_back({Frame::Problem::NoLength, {}});
+    state_ = ReadState::Lost;
+    frames.push_back({MessageFrame::Problem::NoLength, {}});
   } else if (length_ > longest_body_) {
-    state_ = State::Skipped;
-    frames.push_back({Frame::Problem::TooLong, {}});
+    state_ = ReadState::Skipped;
+    frames.push_back({MessageFrame::Problem::TooLong, {}});
   } else if (length_ == 0) {
     frames.push_back({});
   } else {
-    state_ = State::Body;
+    state_ = ReadState::Body;
   }
 }
 
-std::string_view FrameReader::read_body(std::string_view bytes, std::deque<Frame>& frames) {
+std::string_view FrameReader::read_body(std::string_view bytes, std::deque<MessageFrame>& frames) {
   const std::size_t taken = std::min(bytes.size(), length_ - body_.size());
   body_.append(bytes.substr(0, taken));
   if (body_.size() == length_) {
-    frames.push_back({Frame::Problem::None, std::move(body_)});
+    frames.push_back({MessageFrame::Problem::None, std::move(body_)});
     body_.clear();
-    state_ = State::Header;
+    state_ = ReadState::Header;
   }
   return bytes.substr(taken);
 }
@@ -119,7 +119,7 @@ std::string_view FrameReader::read_body(std::string_view bytes, std::deque<Frame
 std::string_view FrameReader::skip(std::string_view bytes) {
   const std::size_t taken = std::min(bytes.size(), length_);
   length_ -= taken;
-  if (length_ == 0) state_ = State::Header;
+  if (length_ == 0) state_ = ReadState::Header;
   return bytes.substr(taken);
 }
 
@@ -131,7 +131,7 @@ std::string_view FrameReader::find_header(std::string_view bytes) {
     if (matched_ < kLengthField.size()) continue;
     matched_ = 0;
     header_ = kLengthField;
-    state_ = State::Header;
+    state_ = ReadState::Header;
     return bytes.substr(i + 1);
   }
   return {};

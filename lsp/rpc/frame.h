@@ -9,7 +9,7 @@
 namespace isocnc::lsp::rpc {
 
 /// The body of one message, or the reason why there is none.
-struct Frame {
+struct MessageFrame {
   enum class Problem : std::uint8_t {
     None,
     NoLength,  ///< The header has no valid Content-Length, so that the end of the message is unknown.
@@ -34,21 +34,21 @@ class FrameReader {
   explicit FrameReader(std::size_t longest_body = kLongestBody) : longest_body_(longest_body) {}
 
   /// Reads more bytes and appends the messages that they complete.
-  void read(std::string_view bytes, std::deque<Frame>& frames);
+  void read(std::string_view bytes, std::deque<MessageFrame>& frames);
 
  private:
   static constexpr std::size_t kLongestHeader = 8192;
 
-  enum class State : std::uint8_t { Header, Body, Skipped, Lost };
+  enum class ReadState : std::uint8_t { Header, Body, Skipped, Lost };
 
-  std::string_view read_header(std::string_view bytes, std::deque<Frame>& frames);
-  std::string_view read_body(std::string_view bytes, std::deque<Frame>& frames);
+  std::string_view read_header(std::string_view bytes, std::deque<MessageFrame>& frames);
+  std::string_view read_body(std::string_view bytes, std::deque<MessageFrame>& frames);
   std::string_view skip(std::string_view bytes);
   std::string_view find_header(std::string_view bytes);
-  void start_body(std::deque<Frame>& frames);
+  void start_body(std::deque<MessageFrame>& frames);
 
   const std::size_t longest_body_;
-  State state_ = State::Header;
+  ReadState state_ = ReadState::Header;
   std::string header_;
   std::string body_;
   std::size_t length_ = 0;   // Length of the body, or the number of bytes left to skip.

@@ -35,7 +35,7 @@ static std::string without_long_strings(std::string_view message, std::vector<st
     const char* const begin = quote + 1;
     const char* const closing = closing_quote(begin, end);
     if (closing == end) break;
-    if (static_cast<std::size_t>(closing - begin) >= Parsed::kLong) {
+    if (static_cast<std::size_t>(closing - begin) >= ParsedMessage::kLong) {
       rest.append(copied, begin);
       rest.append(kWrittenPlaceholder).append(std::to_string(long_strings.size()));
       long_strings.emplace_back(begin, static_cast<std::size_t>(closing - begin));
@@ -47,8 +47,8 @@ static std::string without_long_strings(std::string_view message, std::vector<st
   return rest;
 }
 
-Parsed Parsed::parse(std::string text) {
-  Parsed parsed;
+ParsedMessage ParsedMessage::parse(std::string text) {
+  ParsedMessage parsed;
   if (text.size() < kLong) {
     parsed.json = rpc::parse(text);
     return parsed;
@@ -60,7 +60,7 @@ Parsed Parsed::parse(std::string text) {
   return parsed;
 }
 
-std::string Parsed::text(const Json& string) const {
+std::string ParsedMessage::text(const Json& string) const {
   const auto& here = string.get_ref<const std::string&>();
   if (!here.starts_with(kPlaceholder)) return here;
   std::size_t index = 0;

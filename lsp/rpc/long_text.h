@@ -26,13 +26,13 @@ class LongText {
 };
 
 /// A message as JSON, in which a short placeholder replaces each long string.
-class Parsed {
+class ParsedMessage {
  public:
   /// The length in bytes from which a string counts as long.
   static constexpr std::size_t kLong = 16 * 1024;
 
   /// Where rpc::parse() gives a discarded value, so is `json`.
-  static Parsed parse(std::string text);
+  static ParsedMessage parse(std::string text);
 
   Json json;
   /// The text of one of the strings in `json`, long or not.

@@ -15,7 +15,7 @@ static bool is_id(const Json& id) { return id.is_number() || id.is_string(); }
 static Message bad(const Json& id, ErrorCode code, const char* what) { return BadMessage{id, Error(code, what)}; }
 
 Message read_message(std::string body) {
-  Parsed message = Parsed::parse(std::move(body));
+  ParsedMessage message = ParsedMessage::parse(std::move(body));
   const Json& json = message.json;
   if (json.is_discarded()) return bad(nullptr, ErrorCode::ParseError, "the message is no JSON, or nested too deeply");
   if (!json.is_object()) return bad(nullptr, ErrorCode::InvalidRequest, "the message is no object");
@@ -28,7 +28,7 @@ Message read_message(std::string body) {
     const bool has_error = json.contains("error") && json["error"].is_object();
     if (!has_id || (!has_result && !has_error))
       return bad(known_id, ErrorCode::InvalidRequest, "the message has neither a method nor a result");
-    return Answer{*id, has_error ? Json() : json["result"], has_error ? json["error"] : Json()};
+    return Response{*id, has_error ? Json() : json["result"], has_error ? json["error"] : Json()};
   }
   if (!method->is_string()) return bad(known_id, ErrorCode::InvalidRequest, "the method is no string");
   if (has_id && known_id.is_null()) return bad(nullptr, ErrorCode::InvalidRequest, "the id is no number or string");

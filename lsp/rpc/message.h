@@ -38,7 +38,7 @@ class Error : public std::runtime_error {
 struct Call {
   std::optional<Json> id;  ///< A number or a string; a notification has none.
   std::string method;
-  Parsed message;  ///< The whole message.
+  ParsedMessage message;  ///< The whole message.
 
   bool is_notification() const { return !id; }
   /// The parameters: an object, an array or null.
@@ -46,7 +46,7 @@ struct Call {
 };
 
 /// The client's answer to one of our requests.
-struct Answer {
+struct Response {
   Json id;
   Json result;  ///< Null if there is an error.
   Json error;   ///< Null if there is none.
@@ -58,7 +58,7 @@ struct BadMessage {
   Error error;
 };
 
-using Message = std::variant<Call, Answer, BadMessage>;
+using Message = std::variant<Call, Response, BadMessage>;
 
 /// Reads the body of a frame.
 Message read_message(std::string body);

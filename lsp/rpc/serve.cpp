@@ -41,7 +41,7 @@ static void prepare_heap() {
   {
     Channel channel(descriptors,
                     {.frame =
-                         [&](Frame frame) {
+                         [&](MessageFrame frame) {
                            loop.post([&, frame = std::move(frame)]() mutable { peer->receive(std::move(frame)); });
                          },
                      .end = [&] { loop.post([&] { peer->end(); }); }});

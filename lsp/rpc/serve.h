@@ -16,7 +16,7 @@ class Peer {
  public:
   virtual ~Peer() = default;
 
-  virtual void receive(Frame frame) = 0;
+  virtual void receive(MessageFrame frame) = 0;
   /// The client sends nothing more.
   virtual void end() = 0;
   /// Called at intervals while no message arrives.

@@ -41,14 +41,14 @@ void Pool::work() {
 
 /// The pool's task that runs the tasks of a queue. If the pool drops it, the queue is emptied: its tasks may hold the
 /// owner of the strand, and such a cycle of shared pointers would never be freed.
-struct Strand::Turn {
+struct Strand::StrandTurn {
   std::shared_ptr<Queue> queue;
   bool has_come = false;
 
-  explicit Turn(std::shared_ptr<Queue> of) : queue(std::move(of)) {}
-  Turn(const Turn&) = delete;
-  Turn& operator=(const Turn&) = delete;
-  ~Turn() {
+  explicit StrandTurn(std::shared_ptr<Queue> of) : queue(std::move(of)) {}
+  StrandTurn(const StrandTurn&) = delete;
+  StrandTurn& operator=(const StrandTurn&) = delete;
+  ~StrandTurn() {
     if (has_come) return;
     std::deque<Pool::Task> dropped;  // Destroyed after the lock is released.
     const std::lock_guard lock(queue->mutex);
@@ -64,7 +64,7 @@ void Strand::post(Pool::Task task) {
     if (std::exchange(queue_->is_running, true)) return;
   }
   // Called without the lock, since a dropped turn takes it in its destructor.
-  pool_.post([turn = std::make_shared<Turn>(queue_)] {
+  pool_.post([turn = std::make_shared<StrandTurn>(queue_)] {
     turn->has_come = true;
     run(*turn->queue);
   });

@@ -51,7 +51,7 @@ class Strand {
     std::deque<Pool::Task> tasks;
     bool is_running = false;
   };
-  struct Turn;
+  struct StrandTurn;
 
   static void run(Queue& queue);
 

@@ -17,7 +17,7 @@ static constexpr const char* kProgram =
     "G48\nG94\nG00 Z50 B0 C0\nM05\nM06 T102002\nM03 S9000\nG04 P0.5\nG29 B90 C90\nG01 X5 Y5 Z5 F99999\nG27\nM05\nM02\n";
 
 /// Whatever machine a file describes, a program on it takes a time that is a number, and has its summary.
-static void run_on(const configuration::Machine& machine, bool is_summed_up) {
+static void run_on(const configuration::MachineConfiguration& machine, bool is_summed_up) {
   simulation::Summary summary(machine.timed);
   double last = 0;
   simulation::Timing timing(machine.timed, {.event = [&](const simulation::TimedEvent& timed) {

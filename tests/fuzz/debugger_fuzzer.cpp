@@ -138,7 +138,7 @@ class Feeder {
 
   void send(const std::string& command, const Json& arguments) {
     const Json message = {{"seq", ++asked_}, {"type", "request"}, {"command", command}, {"arguments", arguments}};
-    adapter_.receive({lsp::rpc::Frame::Problem::None, message.dump()});
+    adapter_.receive({lsp::rpc::MessageFrame::Problem::None, message.dump()});
   }
 
   void check(const std::string& body) {

@@ -30,13 +30,13 @@ using testing::IsEmpty;
 /// The bodies read from a stream, with the name of the problem for a bad frame.
 std::vector<std::string> read(const std::vector<std::string>& pieces, std::size_t longest = 100) {
   FrameReader reader(longest);
-  std::deque<Frame> frames;
+  std::deque<MessageFrame> frames;
   for (const std::string& piece : pieces) reader.read(piece, frames);
   std::vector<std::string> bodies;
-  for (const Frame& frame : frames)
-    bodies.push_back(frame.problem == Frame::Problem::None       ? frame.body
-                     : frame.problem == Frame::Problem::NoLength ? "<no length>"
-                                                                 : "<too long>");
+  for (const MessageFrame& frame : frames)
+    bodies.push_back(frame.problem == MessageFrame::Problem::None       ? frame.body
+                     : frame.problem == MessageFrame::Problem::NoLength ? "<no length>"
+                                                                        : "<too long>");
   return bodies;
 }
 
@@ -84,16 +84,16 @@ TEST(FrameReader, DoesNotCareHowTheStreamIsCut) {
 /// A message with a long text, given in its JSON form.
 std::string message_with(const std::string& written) { return R"({"a":[1,")" + written + R"(",{"b":"short"}]})"; }
 
-TEST(Parsed, ReadsLongStringsAsJsonDoes) {
+TEST(ParsedMessage, ReadsLongStringsAsJsonDoes) {
   support::Random random(1);
   for (int i = 0; i < 200; ++i) {
     std::string written;
-    while (written.size() < Parsed::kLong)
+    while (written.size() < ParsedMessage::kLong)
       written += random.any_of({"G01 X1", "\\n", "\\r\\n", "\\\\", "\\\"", "\\/", "\\t", "\\b\\f", "\\u00e0",
                                 "\xC3\xA0", "\\ud83d\\ude00", "\xF0\x9F\x98\x80", "\\u0000", "\\u20AC"});
     const std::string message = message_with(written);
     const Json expected = Json::parse(message);
-    const Parsed parsed = Parsed::parse(message);
+    const ParsedMessage parsed = ParsedMessage::parse(message);
     ASSERT_FALSE(parsed.json.is_discarded());
     EXPECT_LT(parsed.json.dump().size(), 100u);
     EXPECT_EQ(parsed.text(parsed.json["a"][1]), expected["a"][1].get<std::string>());
@@ -101,8 +101,8 @@ TEST(Parsed, ReadsLongStringsAsJsonDoes) {
   }
 }
 
-TEST(Parsed, HalfACharacterIsReplacedInALongString) {
-  const std::string padding(Parsed::kLong, 'x');
+TEST(ParsedMessage, HalfACharacterIsReplacedInALongString) {
+  const std::string padding(ParsedMessage::kLong, 'x');
   const std::pair<std::string, std::string> kCases[] = {
       {"\\ud800", "\xEF\xBF\xBD"},
       {"\\udc00\\ud800", "\xEF\xBF\xBD\xEF\xBF\xBD"},
@@ -110,31 +110,31 @@ TEST(Parsed, HalfACharacterIsReplacedInALongString) {
       {"\\u12", "\xEF\xBF\xBD\x31\x32"},
   };
   for (const auto& [written, text] : kCases) {
-    const Parsed parsed = Parsed::parse(message_with(padding + written));
+    const ParsedMessage parsed = ParsedMessage::parse(message_with(padding + written));
     EXPECT_EQ(parsed.text(parsed.json["a"][1]), padding + text) << written;
   }
 }
 
-TEST(Parsed, WhatIsNoJsonIsNoneHoweverLong) {
-  const std::string padding(Parsed::kLong, 'x');
+TEST(ParsedMessage, WhatIsNoJsonIsNoneHoweverLong) {
+  const std::string padding(ParsedMessage::kLong, 'x');
   for (const std::string& text : {"\"" + padding, padding, "{\"a\":\"" + padding + "\"", "[\"" + padding + "\"]]"})
-    EXPECT_TRUE(Parsed::parse(text).json.is_discarded());
+    EXPECT_TRUE(ParsedMessage::parse(text).json.is_discarded());
 }
 
 std::string nested(std::size_t depth, const std::string& innermost = "1") {
   return std::string(depth, '[') + innermost + std::string(depth, ']');
 }
 
-TEST(Parsed, WhatNestsTooDeeplyIsNoneHoweverLong) {
-  const std::string padding(Parsed::kLong, ' ');
+TEST(ParsedMessage, WhatNestsTooDeeplyIsNoneHoweverLong) {
+  const std::string padding(ParsedMessage::kLong, ' ');
   for (const std::string& space : {std::string(), padding}) {
-    EXPECT_FALSE(Parsed::parse(space + nested(kDeepestMessage)).json.is_discarded());
-    EXPECT_TRUE(Parsed::parse(space + nested(kDeepestMessage + 1)).json.is_discarded());
-    EXPECT_TRUE(Parsed::parse(space + nested(1'000'000)).json.is_discarded());
+    EXPECT_FALSE(ParsedMessage::parse(space + nested(kDeepestMessage)).json.is_discarded());
+    EXPECT_TRUE(ParsedMessage::parse(space + nested(kDeepestMessage + 1)).json.is_discarded());
+    EXPECT_TRUE(ParsedMessage::parse(space + nested(1'000'000)).json.is_discarded());
     // Any number of brackets is allowed side by side, or within strings.
     std::string many = "[";
     for (std::size_t i = 0; i < kDeepestMessage; ++i) many += nested(2, R"("[{\"[{\\")") + ",";
-    EXPECT_FALSE(Parsed::parse(space + many + "1]").json.is_discarded());
+    EXPECT_FALSE(ParsedMessage::parse(space + many + "1]").json.is_discarded());
   }
 }
 

@@ -205,8 +205,8 @@ void try_lines(const std::string& program, RestartOptions options, bool is_uprig
       continue;
     }
     const auto& refusal = std::get<RestartRefusal>(made);
-    EXPECT_NE(refusal.obstacle, Obstacle::NotProved) << options.line + 1 << '\n' << program;
-    if (refusal.obstacle == Obstacle::OnContour || refusal.obstacle == Obstacle::OffProgram)
+    EXPECT_NE(refusal.obstacle, RestartObstacle::NotProved) << options.line + 1 << '\n' << program;
+    if (refusal.obstacle == RestartObstacle::OnContour || refusal.obstacle == RestartObstacle::OffProgram)
       ++tally.refused_off_program;
     for (const auto& proposed : {refusal.before, refusal.behind}) {
       RestartOptions there = options;

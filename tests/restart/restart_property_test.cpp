@@ -307,7 +307,7 @@ std::pair<int, int> try_lines(const std::string& program, const running::RunOpti
       continue;
     }
     const auto& refusal = std::get<RestartRefusal>(made);
-    EXPECT_NE(refusal.obstacle, Obstacle::NotProved) << options.line + 1 << '\n' << program;
+    EXPECT_NE(refusal.obstacle, RestartObstacle::NotProved) << options.line + 1 << '\n' << program;
     for (const auto& proposed : {refusal.before, refusal.behind}) {
       if (!proposed) continue;
       options.line = *proposed;

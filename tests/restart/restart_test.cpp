@@ -173,7 +173,7 @@ TEST(Restart, OfAProgramInErrorReportsTheError) {
   for (const std::uint64_t line : {0u, 2u}) {
     const auto made = restart_program("M06 T101001\nG01\nM02\n", {.line = line});
     const auto& refusal = std::get<RestartRefusal>(made);
-    EXPECT_EQ(refusal.obstacle, Obstacle::ProgramError);
+    EXPECT_EQ(refusal.obstacle, RestartObstacle::ProgramError);
     EXPECT_EQ(refusal.run.line, 1u);
   }
 }

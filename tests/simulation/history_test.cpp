@@ -16,7 +16,7 @@ using support::Random;
 using support::seeds;
 
 /// Low limits, so that checkpoints are thinned out repeatedly.
-constexpr History::Limits kFew{.checkpoints = 5, .nearby = 3, .spacing = 8};
+constexpr History::CheckpointLimits kFew{.checkpoints = 5, .nearby = 3, .spacing = 8};
 
 class HistoryTest : public testing::Test {
  protected:

@@ -31,11 +31,11 @@ class MessageClient {
     if (is_speaking()) hang_up();
   }
 
-  void receive(lsp::rpc::Frame frame) {
+  void receive(lsp::rpc::MessageFrame frame) {
     loop_.post([this, frame = std::move(frame)]() mutable { party_->receive(std::move(frame)); });
   }
   /// Sends the body of a message unchanged.
-  void send_raw(std::string body) { receive({lsp::rpc::Frame::Problem::None, std::move(body)}); }
+  void send_raw(std::string body) { receive({lsp::rpc::MessageFrame::Problem::None, std::move(body)}); }
 
   /// Waits for a message for which `fits` is true, and removes it from the received ones.
   Json wait_for(const std::function<bool(const Json&)>& fits) {
