@@ -94,7 +94,7 @@ for (const name of ['start-here.iso', 'isocnc.json']) editor.add(name, join(root
 for (const name of ['pocket.iso', 'five-axis.iso']) editor.add(name, join(root, 'examples', name));
 editor.add('plate.iso', plate);
 editor.add('registers.iso', registers);
-// Never opened: what is told of it comes from tasks.
+// Never opened: what is reported of it comes from tasks.
 editor.add('closed.iso', 'G71 G90\nG05 X1\nM02\n');
 editor.add('program.tap', 'G71 G90\nM06 T101001\nM02\n');
 editor.add('notes.tap', 'feeds to try\nM06 T101001\n');
@@ -156,7 +156,7 @@ test('the colors of the dialect are there', async () => {
   assert.equal(colors.length, 3);
 });
 
-test('a hover tells what a word means, and what is wrong', async () => {
+test('a hover shows what a word means, and what is wrong', async () => {
   await editor.focus();
   await editor.goTo(16, 22);
   await editor.press('Control+k', 'Control+i');
@@ -285,8 +285,8 @@ test('a click on a move reveals its line', async () => {
   const place = await frame.evaluate(() => {
     const { path, view } = globalThis.isocnc;
     // The middle of a long side of the pocket: line 15, X186 Y84.
-    const { begin, end } = path.stepsOf(15);
-    const [from, to] = [path.tipOf(path.stepBegin[begin]), path.tipOf(path.stepBegin[end])];
+    const { start, end } = path.stepsOf(15);
+    const [from, to] = [path.tipOf(path.stepStart[start]), path.tipOf(path.stepStart[end])];
     return view.project(from.map((value, i) => (value + to[i]) / 2));
   });
   await frame.locator('#stage').click({ position: place });
@@ -294,7 +294,7 @@ test('a click on a move reveals its line', async () => {
   // The same move is made in both passes.
   const isThere = await frame.evaluate((number) => {
     const { path } = globalThis.isocnc;
-    const at = (index) => path.tipOf(path.stepBegin[path.stepsOf(index).end]).slice(0, 2).join();
+    const at = (index) => path.tipOf(path.stepStart[path.stepsOf(index).end]).slice(0, 2).join();
     return at(number - 1) === at(15);
   }, line);
   assert.ok(isThere, `line ${line}`);
@@ -302,16 +302,16 @@ test('a click on a move reveals its line', async () => {
 
 test('the toolpath follows what is typed', async () => {
   const before = await generation();
-  const furthest = async () => (await editor.toolpath()).evaluate(() => globalThis.isocnc.path.work.most[0]);
-  const most = await furthest();
+  const furthest = async () => (await editor.toolpath()).evaluate(() => globalThis.isocnc.path.work.max[0]);
+  const reached = await furthest();
   await editor.focus();
   await editor.goTo(25);
   await editor.press('End');
   await page.keyboard.type('5');
   await eventually(generation, 'no other toolpath comes', (now) => now > before);
-  await eventually(furthest, 'the toolpath stays', (now) => now > most + 500);
+  await eventually(furthest, 'the toolpath stays', (now) => now > reached + 500);
   await editor.press('Control+z');
-  await eventually(furthest, 'the toolpath does not come back', (now) => Math.abs(now - most) < 1e-6);
+  await eventually(furthest, 'the toolpath does not come back', (now) => Math.abs(now - reached) < 1e-6);
 });
 
 test('the run plays, and keys move through it', async () => {
@@ -349,8 +349,8 @@ test('five axes have their tool turned, in the light theme', async () => {
   const isInSight = () =>
     frame.evaluate(() => {
       const { path, view } = globalThis.isocnc;
-      const { least, most } = path.work;
-      const { x, y } = view.project(least.map((value, i) => (value + most[i]) / 2));
+      const { min, max } = path.work;
+      const { x, y } = view.project(min.map((value, i) => (value + max[i]) / 2));
       return x > 0 && y > 0 && x < view.canvas.clientWidth && y < view.canvas.clientHeight;
     });
   await eventually(isInSight, 'the program is out of sight');
@@ -382,7 +382,7 @@ test('the plot of a program is written where the user says', async () => {
   await editor.press('Enter');
   const written = join(editor.workspace, 'plate.html');
   await eventually(() => existsSync(written), 'nothing is written');
-  await eventually(() => editor.texts('.notification-toast'), 'it is not told', (texts) => texts.some((text) => /Written: plate\.html/.test(text)));
+  await eventually(() => editor.texts('.notification-toast'), 'it is not reported', (texts) => texts.some((text) => /Written: plate\.html/.test(text)));
   assert.match(readFileSync(written, 'utf8'), /<!doctype html>/i);
   await editor.command('Notifications: Clear All Notifications');
 });
@@ -420,7 +420,7 @@ test('a task lists the problems of programs that are not open', async () => {
     'there is no task',
   );
   // The terminal comes to the front with the task.
-  await eventually(() => editor.texts('.terminal-wrapper.active .xterm-rows'), 'the task tells nothing', (texts) => /closed\.iso:2:1/.test(texts.join()));
+  await eventually(() => editor.texts('.terminal-wrapper.active .xterm-rows'), 'the task reports nothing', (texts) => /closed\.iso:2:1/.test(texts.join()));
   await editor.command('Problems: Focus on Problems View');
   await eventually(problems, 'the task finds nothing', (rows) => rows.some((row) => /^closed\.iso/.test(row)));
   await hidePanel();
@@ -504,8 +504,8 @@ test('the console carries out MDI blocks, and changes registers', withDebugger, 
     await page.keyboard.type(entered);
     await editor.press('Enter');
   }
-  const told = () => editor.texts('.repl .monaco-list-row');
-  await eventually(told, 'X is not 70, where the MDI block leads', (rows) => rows.some((row) => /^70(\.0*)?$/.test(row.trim())));
+  const rows = () => editor.texts('.repl .monaco-list-row');
+  await eventually(rows, 'X is not 70, where the MDI block leads', (texts) => texts.some((row) => /^70(\.0*)?$/.test(row.trim())));
   await unfold('Registers');
   await eventually(variables, 'V1 is not 3', (rows) => rows.some((row) => /V1\D.*3/.test(row)));
   await editor.press('Shift+F5');
@@ -535,13 +535,13 @@ test('the walkthrough is about the program that was looked at before', async () 
 });
 
 // They need a server of their own, and come after all that needs the real one.
-test('a server that is missing or too old is told of', async () => {
+test('a server that is missing or too old is reported', async () => {
   await editor.open('plate.iso');
   writeSettings({ 'isocnc.path': '/nowhere' });
-  await eventually(notices, 'nothing is told', (texts) => texts.some((text) => text.includes('There is no isols in /nowhere, the folder that isocnc.path names.')));
+  await eventually(notices, 'nothing is reported', (texts) => texts.some((text) => text.includes('There is no isols in /nowhere, the folder that isocnc.path names.')));
   await editor.command('Notifications: Clear All Notifications');
   writeSettings({ 'isocnc.path': program('old', 'isols', oldServer) });
-  await eventually(notices, 'nothing is told', (texts) => texts.some((text) => /isols 0\.0\.9 is older than this extension/.test(text)));
+  await eventually(notices, 'nothing is reported', (texts) => texts.some((text) => /isols 0\.0\.9 is older than this extension/.test(text)));
   await editor.command('Notifications: Clear All Notifications');
 });
 

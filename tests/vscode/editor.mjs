@@ -23,7 +23,7 @@ async function freePort() {
   return port;
 }
 
-/** Asks until the answer is right; the last answer or error is told when it never is. */
+/** Asks until the answer is right; reports the last answer or error if it never is. */
 export async function eventually(ask, what, isRight = Boolean) {
   const end = Date.now() + patience;
   for (let last; ; await sleep(60)) {

@@ -49,7 +49,7 @@ function pageFile() {
   return file;
 }
 
-/** What the page has been told, as the panel tells it; data in base64. */
+/** A message to the page as the panel sends it; data in base64. */
 export const wholePath = (resultId, { facts, steps, points, turns }, language = 'en') => ({
   type: 'path',
   resultId,
@@ -86,11 +86,11 @@ export async function openPage() {
 }
 
 /** Tells the page something; the time in ms that it has taken. */
-export const tell = (page, message) =>
+export const postMessage = (page, message) =>
   page.evaluate((sent) => {
     const bytes = (text) => Uint8Array.from(atob(text), (each) => each.charCodeAt(0));
     for (const patch of Object.values(sent.patches ?? {})) patch.data = bytes(patch.data);
-    const begin = performance.now();
+    const start = performance.now();
     window.dispatchEvent(new MessageEvent('message', { data: sent }));
-    return performance.now() - begin;
+    return performance.now() - start;
   }, message);

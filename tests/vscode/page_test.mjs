@@ -1,10 +1,10 @@
-// The page of the toolpath's panel, with an editor that is played: what it says and does when it is told something, in all
+// The page of the toolpath's panel, with a simulated editor: what it shows and does when it receives a message, in all
 // themes.
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { module } from './modules.mjs';
-import { openPage, recordingOf, tell as tellPage, wholePath, without } from './page.mjs';
+import { openPage, recordingOf, postMessage, wholePath, without } from './page.mjs';
 
 const { applied } = await module('toolpath/streams');
 
@@ -25,13 +25,13 @@ M02
 let browser;
 let page;
 let problems = [];
-const tell = (message) => tellPage(page, message);
+const post = (message) => postMessage(page, message);
 const said = () => page.evaluate(() => globalThis.said.splice(0));
 const drawn = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 const now = () =>
   page.evaluate(() => {
     const { path, player } = globalThis.isocnc;
-    return { line: path.stepLine[player.step] + 1, tip: path.at(player.time).tip, most: path.work.most };
+    return { line: path.stepLine[player.step] + 1, tip: path.at(player.time).tip, max: path.work.max };
   });
 
 before(async () => {
@@ -45,22 +45,22 @@ const shown = { skip: without };
 
 test('it says that it is ready, and what has gone wrong', shown, async () => {
   assert.deepEqual(await said(), [{ type: 'ready' }]);
-  await tell({ type: 'problem', message: 'no isols <b>' });
+  await post({ type: 'problem', message: 'no isols <b>' });
   assert.equal(await page.locator('.problem').innerText(), 'no isols <b>');
 });
 
-test('it shows a path, and lights the lines up that it is told', shown, async () => {
-  await tell(wholePath('1', recordingOf(square(200))));
+test('it shows a path, and highlights the lines that a message names', shown, async () => {
+  await post(wholePath('1', recordingOf(square(200))));
   assert.equal(await page.locator('.problem').count(), 0);
-  await tell({ type: 'lines', first: 5, last: 5 });
+  await post({ type: 'lines', first: 5, last: 5 });
   // The corner is rounded by the look-ahead.
   assert.ok((await now()).tip.every((value, i) => Math.abs(value - [300, 100, 0][i]) < 0.1), String((await now()).tip));
   const one = await page.locator('#totals').innerText();
-  await tell({ type: 'lines', first: 5, last: 7 });
+  await post({ type: 'lines', first: 5, last: 7 });
   const three = await page.locator('#totals').innerText();
   assert.match(three, /selection/);
   assert.notEqual(three, one);
-  await tell({ type: 'lines', first: 2, last: 2 });
+  await post({ type: 'lines', first: 2, last: 2 });
   assert.deepEqual((await now()).line, 8, 'a line without a move leaves the tool where it is');
 });
 
@@ -76,15 +76,15 @@ test('it takes in what an edit has changed, and asks again where it has somethin
       return [name, { ...patch, data: patch.data.toString('base64') }];
     }),
   );
-  await tell({ type: 'path', resultId: '2', previousResultId: '1', facts: next.facts, language: 'en', patches });
-  assert.deepEqual((await now()).most.slice(0, 2), [400, 420]);
+  await post({ type: 'path', resultId: '2', previousResultId: '1', facts: next.facts, language: 'en', patches });
+  assert.deepEqual((await now()).max.slice(0, 2), [400, 420]);
   assert.deepEqual(await said(), []);
-  await tell({ type: 'path', resultId: '9', previousResultId: '8', facts: next.facts, language: 'en', patches });
+  await post({ type: 'path', resultId: '9', previousResultId: '8', facts: next.facts, language: 'en', patches });
   assert.deepEqual(await said(), [{ type: 'resend' }]);
-  assert.deepEqual((await now()).most.slice(0, 2), [400, 420]);
+  assert.deepEqual((await now()).max.slice(0, 2), [400, 420]);
 });
 
-test('a click on a move tells its line', shown, async () => {
+test('a click on a move reports its line', shown, async () => {
   await page.getByRole('button', { name: 'Top', exact: true }).click();
   await drawn();
   const position = await page.evaluate(() => globalThis.isocnc.view.project([250, 100, 0]));
@@ -94,22 +94,22 @@ test('a click on a move tells its line', shown, async () => {
 });
 
 test('the tool goes where the debugger has it', shown, async () => {
-  await tell({ type: 'pose', line: 5, tip: [270, 100, 0], b: 0, c: 0 });
+  await post({ type: 'pose', line: 5, tip: [270, 100, 0], b: 0, c: 0 });
   const { line, tip } = await now();
   assert.equal(line, 6);
   assert.ok(Math.abs(tip[0] - 270) < 0.01, String(tip));
   const before = await page.locator('#stage').screenshot();
   // Beside the path: the tool is there all the same.
-  await tell({ type: 'pose', line: 5, tip: [250, 300, 0], b: 0, c: 0 });
+  await post({ type: 'pose', line: 5, tip: [250, 300, 0], b: 0, c: 0 });
   await drawn();
   assert.notDeepEqual(await page.locator('#stage').screenshot(), before);
 });
 
-test('the stock has the size that it is told', shown, async () => {
+test('the stock has the size that a message gives', shown, async () => {
   await page.getByRole('button', { name: 'Iso', exact: true }).click();
   await drawn();
   const before = await page.locator('#stage').screenshot();
-  await tell({ type: 'stock', size: [320, 350, 40] });
+  await post({ type: 'stock', size: [320, 350, 40] });
   await drawn();
   assert.notDeepEqual(await page.locator('#stage').screenshot(), before);
 });
@@ -129,7 +129,7 @@ test('it has the colors of the theme', shown, async () => {
 });
 
 test('it speaks Italian', shown, async () => {
-  await tell(wholePath('3', recordingOf(square(200)), 'it'));
+  await post(wholePath('3', recordingOf(square(200)), 'it'));
   assert.match(await page.locator('#totals').innerText(), /tempo/);
 });
 
@@ -149,7 +149,7 @@ test('all can be done by keys', shown, async () => {
 });
 
 test('a program that does not move yet shows its tool', shown, async () => {
-  await tell({ ...wholePath('still', recordingOf('M06 T101001\nM02\n')), program: 'still' });
+  await post({ ...wholePath('still', recordingOf('M06 T101001\nM02\n')), program: 'still' });
   const [tip, above] = await page.evaluate(() => [[0, 0, 0], [0, 0, 120]].map((place) => globalThis.isocnc.view.project(place)));
   const { width, height } = await page.evaluate(() => globalThis.isocnc.view.canvas.getBoundingClientRect().toJSON());
   for (const { x, y } of [tip, above]) assert.ok(x > 0 && x < width && y > 0 && y < height, `${x} ${y} in ${width} ${height}`);

@@ -1,4 +1,4 @@
-/** Colors of the path. All sets are told apart with every kind of color vision, by lightness where hues fail. */
+/** Colors of the path. All sets can be distinguished with every kind of color vision, by lightness where hues fail. */
 import { Kind, type Toolpath } from './toolpath';
 
 export type Theme = 'light' | 'dark' | 'contrastLight' | 'contrastDark';
@@ -104,15 +104,15 @@ function gradient(stops: Color[], part: number): Color {
   return [mix(0), mix(1), mix(2)];
 }
 
-export function feedRange(path: Toolpath): { least: number; most: number } | null {
-  let [least, most] = [Infinity, -Infinity];
+export function feedRange(path: Toolpath): { min: number; max: number } | null {
+  let [min, max] = [Infinity, -Infinity];
   for (let step = 0; step < path.stepCount; ++step) {
     const feed = path.stepFeed[step];
     if (!(feed > 0)) continue;
-    least = Math.min(least, feed);
-    most = Math.max(most, feed);
+    min = Math.min(min, feed);
+    max = Math.max(max, feed);
   }
-  return least <= most ? { least, most } : null;
+  return min <= max ? { min, max } : null;
 }
 
 /** The color of each step. */
@@ -130,9 +130,9 @@ export function stepColors(path: Toolpath, mode: Mode, theme: Theme): (step: num
     case 'feed': {
       const range = feedRange(path);
       if (!range) return () => palette.neutral;
-      const width = range.most - range.least || 1;
+      const width = range.max - range.min || 1;
       return (step) =>
-        path.stepFeed[step] > 0 ? gradient(palette.feed, (path.stepFeed[step] - range.least) / width) : palette.neutral;
+        path.stepFeed[step] > 0 ? gradient(palette.feed, (path.stepFeed[step] - range.min) / width) : palette.neutral;
     }
   }
 }

@@ -10,6 +10,6 @@ export function clock(seconds: number): string {
 export const feed = (value: number) => String(Number(value.toPrecision(5)));
 
 /** mm as m from ten meters on. */
-export const way = (mm: number) => (mm < 10_000 ? `${mm.toFixed(0)} mm` : `${(mm / 1000).toFixed(1)} m`);
+export const lengthText = (mm: number) => (mm < 10_000 ? `${mm.toFixed(0)} mm` : `${(mm / 1000).toFixed(1)} m`);
 
 export const coordinate = (value: number) => (Math.abs(value) < 0.0005 ? 0 : value).toFixed(3);

@@ -5,7 +5,7 @@ import type { Tool, Toolpath, Vector } from './toolpath';
 
 const { degToRad } = THREE.MathUtils;
 
-/** Where a machine's file tells nothing of a tool: enough to be seen, and drawn more translucent. */
+/** Where a machine's file does not describe a tool: large enough to be seen, and drawn more translucent. */
 const unknownLength = (sceneSize: number) => Math.max(60, 0.09 * sceneSize);
 
 /** Its tip is at the origin, its axis along z. */
@@ -58,7 +58,7 @@ export class ToolModel {
 }
 
 /** What carries the tool: the spindle along its axis, and the fork that C alone turns. Of the size of common heads, since no
- * file tells theirs. */
+ * file gives theirs. */
 export class HeadModel {
   readonly object = new THREE.Group();
   private readonly material = new THREE.MeshStandardMaterial({ roughness: 0.7, metalness: 0.2, transparent: true, opacity: 0.2 });
@@ -138,18 +138,18 @@ export function frames(path: Toolpath, theme: Theme): THREE.Group {
 }
 
 export interface Box {
-  least: Vector;
-  most: Vector;
+  min: Vector;
+  max: Vector;
 }
 
 /** Whether the machine's linear axes have ends. */
-export const hasTravel = (path: Toolpath) => path.facts.travel.slice(0, 3).every(([least, most]) => least !== null && most !== null);
+export const hasTravel = (path: Toolpath) => path.facts.travel.slice(0, 3).every(([min, max]) => min !== null && max !== null);
 
 /** A box around where the tip of an upright tool can go; null where an axis has no end. */
 export function travelBox(path: Toolpath): Box | null {
   if (!hasTravel(path)) return null;
   const linear = path.facts.travel.slice(0, 3);
-  return { least: linear.map(([least]) => least) as Vector, most: linear.map(([, most]) => most) as Vector };
+  return { min: linear.map(([min]) => min) as Vector, max: linear.map(([, max]) => max) as Vector };
 }
 
 export function travel(path: Toolpath, theme: Theme): THREE.LineSegments | null {
@@ -162,29 +162,29 @@ export function stock(box: Box | null, theme: Theme): THREE.LineSegments | null 
   return box && edges(box, palettes[theme].neutral);
 }
 
-function edges({ least, most }: Box, color: Color): THREE.LineSegments {
-  const size = new THREE.Vector3(...most).sub(new THREE.Vector3(...least));
+function edges({ min, max }: Box, color: Color): THREE.LineSegments {
+  const size = new THREE.Vector3(...max).sub(new THREE.Vector3(...min));
   const geometry = new THREE.EdgesGeometry(new THREE.BoxGeometry(size.x, size.y, size.z));
   const lines = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: number(color) }));
-  lines.position.set(...least).addScaledVector(size, 0.5);
+  lines.position.set(...min).addScaledVector(size, 0.5);
   return lines;
 }
 
-/** A length of 1, 2 or 5 and zeros, at least so long. */
-export function roundLength(least: number): number {
-  const power = 10 ** Math.floor(Math.log10(least));
-  return [1, 2, 5, 10].map((digit) => digit * power).find((length) => length >= least * (1 - 1e-9))!;
+/** The shortest length of 1, 2 or 5 and zeros that is not below the given one. */
+export function roundLength(min: number): number {
+  const power = 10 ** Math.floor(Math.log10(min));
+  return [1, 2, 5, 10].map((digit) => digit * power).find((length) => length >= min * (1 - 1e-9))!;
 }
 
 /** Squares under the path, of about a twentieth of it. */
-export function grid(least: THREE.Vector3, most: THREE.Vector3, theme: Theme): THREE.LineSegments {
-  const cell = roundLength(Math.max(most.x - least.x, most.y - least.y, 20) / 20);
+export function grid(min: THREE.Vector3, max: THREE.Vector3, theme: Theme): THREE.LineSegments {
+  const cell = roundLength(Math.max(max.x - min.x, max.y - min.y, 20) / 20);
   const floor = (value: number) => Math.floor(value / cell - 1) * cell;
   const ceiling = (value: number) => Math.ceil(value / cell + 1) * cell;
   const places: number[] = [];
-  const [x0, x1, y0, y1] = [floor(least.x), ceiling(most.x), floor(least.y), ceiling(most.y)];
-  for (let i = 0; x0 + i * cell <= x1 + cell / 2; ++i) places.push(x0 + i * cell, y0, least.z, x0 + i * cell, y1, least.z);
-  for (let i = 0; y0 + i * cell <= y1 + cell / 2; ++i) places.push(x0, y0 + i * cell, least.z, x1, y0 + i * cell, least.z);
+  const [x0, x1, y0, y1] = [floor(min.x), ceiling(max.x), floor(min.y), ceiling(max.y)];
+  for (let i = 0; x0 + i * cell <= x1 + cell / 2; ++i) places.push(x0 + i * cell, y0, min.z, x0 + i * cell, y1, min.z);
+  for (let i = 0; y0 + i * cell <= y1 + cell / 2; ++i) places.push(x0, y0 + i * cell, min.z, x1, y0 + i * cell, min.z);
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', new THREE.Float32BufferAttribute(places, 3));
   const lines = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: number(palettes[theme].grid) }));

@@ -15,10 +15,10 @@ function entry(color: Color, text: string, isDashed = false): HTMLElement {
   return element('div', { className: 'entry' }, sample(color, isDashed), text);
 }
 
-function scale(stops: Color[], least: string, most: string): HTMLElement[] {
+function scale(stops: Color[], min: string, max: string): HTMLElement[] {
   const bar = element('div', { className: 'scale' });
   bar.style.background = `linear-gradient(to right, ${stops.map(css).join(', ')})`;
-  return [bar, element('div', { className: 'ends' }, element('span', {}, least), element('span', {}, most))];
+  return [bar, element('div', { className: 'ends' }, element('span', {}, min), element('span', {}, max))];
 }
 
 export function legend(path: Toolpath, mode: Mode, theme: Theme, texts: Texts): HTMLElement[] {
@@ -42,7 +42,7 @@ export function legend(path: Toolpath, mode: Mode, theme: Theme, texts: Texts): 
       const range = feedRange(path);
       const noFeed = entry(palette.neutral, texts.noFeed, true);
       if (!range) return [noFeed];
-      return [...scale(palette.feed, shownFeed(range.least), `${shownFeed(range.most)} ${texts.unit}`), noFeed];
+      return [...scale(palette.feed, shownFeed(range.min), `${shownFeed(range.max)} ${texts.unit}`), noFeed];
     }
     case 'time':
       return [...scale(palette.time, clock(0), clock(path.seconds)), dashed];

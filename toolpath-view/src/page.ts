@@ -28,8 +28,8 @@ class Page {
   });
   private readonly program = new ProgramText(takeBytes('program'));
   private readonly list = new ProgramList(byId('program'), this.program, (line) => {
-    const { begin, end } = this.path.stepsOf(line);
-    return end > begin;
+    const { start, end } = this.path.stepsOf(line);
+    return end > start;
   });
   private readonly panel: Panel;
   private language: Language = this.facts.language;

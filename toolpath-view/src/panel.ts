@@ -2,7 +2,7 @@
  * fills the elements of page.html. */
 import { modes, type Color, type Mode, type Theme } from './colors';
 import { byId, element } from './elements';
-import { clock, coordinate, feed, way } from './format';
+import { clock, coordinate, feed, lengthText } from './format';
 import { hasTravel } from './furniture';
 import { icon } from './icons';
 import { legend } from './legend';
@@ -70,8 +70,8 @@ export class Panel {
     this.view?.take(path);
     byId<HTMLInputElement>('scrubber').max = String(path.seconds);
     this.player.take(path);
-    const { begin, end } = path.stepsOf(line);
-    if (end > begin && !this.player.isPlaying) this.player.seekStep(end - 1);
+    const { start, end } = path.stepsOf(line);
+    if (end > start && !this.player.isPlaying) this.player.seekStep(end - 1);
     this.write();
   }
 
@@ -88,17 +88,17 @@ export class Panel {
 
   /** Lights the moves of these lines up, and brings the tool to the end of the last one. */
   choose(first: number, last = first): void {
-    const [begin, end] = [this.path.stepsOf(first).begin, this.path.stepsOf(last).end];
-    this.select(last > first && end > begin ? { begin, end } : null);
-    if (end > begin) this.player.seekStep(end - 1);
+    const [start, end] = [this.path.stepsOf(first).start, this.path.stepsOf(last).end];
+    this.select(last > first && end > start ? { start, end } : null);
+    if (end > start) this.player.seekStep(end - 1);
   }
 
   /** Brings the tool to a line above or below, the next on which something is done. */
   walk(direction: 1 | -1): void {
     const { path, player } = this;
     if (player.step < 0) return;
-    const { begin, end } = path.stepsOf(path.stepLine[player.step]);
-    const step = direction > 0 ? end : begin - 1;
+    const { start, end } = path.stepsOf(path.stepLine[player.step]);
+    const step = direction > 0 ? end : start - 1;
     if (step >= 0 && step < path.stepCount) this.choose(path.stepLine[step]);
   }
 
@@ -109,7 +109,7 @@ export class Panel {
     this.select(null);
     this.player.seek(this.path.timeNear(line, tip));
     const steps = this.path.stepsOf(line);
-    if (steps.end > steps.begin) this.view?.select(steps);
+    if (steps.end > steps.start) this.view?.select(steps);
     this.view?.pose(tip, b, c);
   }
 
@@ -180,7 +180,7 @@ export class Panel {
     const isAtEnd = step >= 0 && this.player.time >= this.path.endOf(step) - 1e-9;
     if (direction > 0 && step >= 0 && !isAtEnd) return step;
     do step += direction;
-    while (step > 0 && step < this.path.stepCount - 1 && this.path.stepBegin[step] === this.path.stepBegin[step + 1]);
+    while (step > 0 && step < this.path.stepCount - 1 && this.path.stepStart[step] === this.path.stepStart[step + 1]);
     return step;
   }
 
@@ -221,13 +221,13 @@ export class Panel {
   private writeTotals(): void {
     const { texts, path } = this;
     const totals = this.selected ? totalsOf(path, this.selected) : this.totals;
-    const { least, most } = totals.extents ?? path;
-    const extents = ['X', 'Y', 'Z'].map((axis, i) => `${axis} ${coordinate(least[i])}…${coordinate(most[i])}`);
+    const { min, max } = totals.extents ?? path;
+    const extents = ['X', 'Y', 'Z'].map((axis, i) => `${axis} ${coordinate(min[i])}…${coordinate(max[i])}`);
     const rows: [string, string][] = [
       [this.selected ? texts.selection : texts.cycleTime, clock(totals.seconds)],
       [texts.moves, String(totals.moves)],
-      [texts.cut, way(totals.cut)],
-      [texts.rapidWay, way(totals.rapid)],
+      [texts.cut, lengthText(totals.cut)],
+      [texts.rapidPath, lengthText(totals.rapid)],
     ];
     if (totals.moves > 0) rows.push([texts.extents, extents.join('  ')]);
     byId('totals').replaceChildren(...rows.map(([name, value]) => element('div', {}, element('dt', {}, name), element('dd', {}, value))));
@@ -268,7 +268,7 @@ export class Panel {
   }
 
   private writeLegend(): void {
-    const squares = this.view ? [element('div', { className: 'ends' }, this.texts.squares.replace('{}', way(this.view.cell)))] : [];
+    const squares = this.view ? [element('div', { className: 'ends' }, this.texts.squares.replace('{}', lengthText(this.view.cell)))] : [];
     byId('legend').replaceChildren(...legend(this.path, this.mode, this.theme, this.texts), ...squares);
   }
 
@@ -402,13 +402,13 @@ interface Totals {
   seconds: number;
   cut: number;
   rapid: number;
-  extents: { least: Vector; most: Vector } | null;
+  extents: { min: Vector; max: Vector } | null;
 }
 
-function totalsOf(path: Toolpath, steps: Steps = { begin: 0, end: path.stepCount }): Totals {
+function totalsOf(path: Toolpath, steps: Steps = { start: 0, end: path.stepCount }): Totals {
   const totals = { moves: 0, seconds: 0, cut: 0, rapid: 0, extents: path.extents((kind) => kind !== Kind.Wait, steps) };
-  for (let step = steps.begin; step < steps.end; ++step) if (path.stepKind[step] !== Kind.Wait) ++totals.moves;
-  const [first, last] = [path.stepBegin[steps.begin], path.stepBegin[steps.end]];
+  for (let step = steps.start; step < steps.end; ++step) if (path.stepKind[step] !== Kind.Wait) ++totals.moves;
+  const [first, last] = [path.stepStart[steps.start], path.stepStart[steps.end]];
   for (let point = first + 1; point <= last; ++point) {
     const kind = path.stepKind[path.pointStep[point]];
     if (kind === Kind.Rapid) totals.rapid += path.lengthTo(point);

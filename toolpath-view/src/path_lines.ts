@@ -5,10 +5,10 @@ import { Kind, type Toolpath } from './toolpath';
 import type { Color } from './colors';
 
 const vertexShader = /* glsl */ `
-  in vec3 begin;
+  in vec3 start;
   in vec3 end;
   in vec4 style;     // Color, and in w: 0 hidden, 0.5 dashed, 0.75 solid, 1 thick.
-  in float run;      // Way since the begin of the move, mm.
+  in float run;      // Length since the start of the move, mm.
   uniform vec2 viewport;
   uniform float width;
   uniform float thickWidth;
@@ -16,13 +16,13 @@ const vertexShader = /* glsl */ `
   flat out float pixels;
   flat out float millimeters;
   flat out float before;
-  flat out float done;  // Part of the line that the tool has gone.
+  flat out float done;  // Part of the line that the tool has passed.
   out vec2 local;       // Pixels along and across.
   uniform int reached;
   uniform float reachedPart;
 
   void main() {
-    vec4 a = projectionMatrix * modelViewMatrix * vec4(begin, 1.0);
+    vec4 a = projectionMatrix * modelViewMatrix * vec4(start, 1.0);
     vec4 b = projectionMatrix * modelViewMatrix * vec4(end, 1.0);
     vec2 from = a.xy / a.w * viewport * 0.5;
     vec2 to = b.xy / b.w * viewport * 0.5;
@@ -32,7 +32,7 @@ const vertexShader = /* glsl */ `
     local = vec2(position.x * pixels + (position.x * 2.0 - 1.0) * reach, position.y * reach);
     vec2 place = from + along * local.x + vec2(-along.y, along.x) * local.y;
     lineStyle = style;
-    millimeters = distance(begin, end);
+    millimeters = distance(start, end);
     before = run;
     done = gl_InstanceID < reached ? 1.0 : gl_InstanceID == reached ? reachedPart : 0.0;
     vec4 nearest = position.x < 0.5 ? a : b;
@@ -74,7 +74,7 @@ const fragmentShader = /* glsl */ `
 /** Two triangles for each line. */
 const corners = new Float32Array([0, -1, 0, 0, 1, 0, 1, -1, 0, 1, 1, 0]);
 const triangles = [0, 2, 1, 1, 2, 3];
-const mostWide = 100_000;
+const maxWideLines = 100_000;
 
 /** Without instances, which renderers in software draw one by one. A line has the style of the point where it ends. */
 const thinVertexShader = /* glsl */ `
@@ -119,9 +119,9 @@ function wideGeometry(places: Float32Array, style: THREE.BufferAttribute, run: F
   const geometry = new THREE.InstancedBufferGeometry();
   geometry.setAttribute('position', new THREE.BufferAttribute(corners, 3));
   geometry.setIndex(triangles);
-  // Each line begins where the one before ends: one buffer serves as both.
+  // Each line starts where the one before ends: one buffer serves as both.
   const shared = new THREE.InstancedInterleavedBuffer(places, 3);
-  geometry.setAttribute('begin', new THREE.InterleavedBufferAttribute(shared, 3, 0));
+  geometry.setAttribute('start', new THREE.InterleavedBufferAttribute(shared, 3, 0));
   geometry.setAttribute('end', new THREE.InterleavedBufferAttribute(shared, 3, 3));
   geometry.setAttribute('style', style);
   geometry.setAttribute('run', new THREE.InstancedBufferAttribute(run, 1));
@@ -161,7 +161,7 @@ export class PathLines {
       places[3 * i + 1] = path.tips[at + 1] - center.y;
       places[3 * i + 2] = path.tips[at + 2] - center.z;
     }
-    const isThin = count > mostWide;
+    const isThin = count > maxWideLines;
     // Per line; where thin, per point that a line leads to.
     const run = new Float32Array(isThin ? count + 1 : count);
     this.style = isThin

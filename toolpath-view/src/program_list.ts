@@ -13,7 +13,7 @@ export class ProgramList {
   private current = -1;
   private isDue = false;
 
-  /** `moves` tells whether something is done on a line. */
+  /** `moves`: whether something is done on a line. */
   constructor(
     private readonly container: HTMLElement,
     private readonly program: ProgramText,
@@ -68,13 +68,13 @@ export class ProgramList {
   private draw(): void {
     this.isDue = false;
     const first = this.first;
-    const begin = Math.max(0, Math.floor(first) - 3);
+    const start = Math.max(0, Math.floor(first) - 3);
     const end = Math.min(this.program.lineCount, Math.ceil(first + this.container.clientHeight / lineHeight) + 3);
     const elements: HTMLElement[] = [];
-    for (let line = begin; line < end; ++line) elements.push(this.element(line));
+    for (let line = start; line < end; ++line) elements.push(this.element(line));
     this.lines.replaceChildren(...elements);
-    this.lines.style.transform = `translateY(${(begin - first) * lineHeight}px)`;
-    const current = elements[this.current - begin];
+    this.lines.style.transform = `translateY(${(start - first) * lineHeight}px)`;
+    const current = elements[this.current - start];
     if (current) this.container.setAttribute('aria-activedescendant', current.id);
     else this.container.removeAttribute('aria-activedescendant');
   }

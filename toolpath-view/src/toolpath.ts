@@ -18,7 +18,7 @@ export interface FrameFact {
   k: Vector;
 }
 
-/** What is told beside the path. */
+/** Facts about the program and the machine, beside the path. */
 export interface Facts {
   version: number;
   name: string;
@@ -43,9 +43,9 @@ export interface Recording {
   turns: Uint8Array;
 }
 
-/** Steps one after another, `end` behind the last. */
+/** Steps one after another, `end` after the last. */
 export interface Steps {
-  begin: number;
+  start: number;
   end: number;
 }
 
@@ -53,7 +53,7 @@ export interface Steps {
 export interface Place {
   /** The point that the tool is on the way to. */
   point: number;
-  /** How much of the way it has gone, 0 to 1. */
+  /** The part of the path to it that it has passed, 0 to 1. */
   part: number;
   /** -1 where nothing is done at all. */
   step: number;
@@ -64,7 +64,7 @@ export interface Place {
   speed: number;
 }
 
-/** Reads numbers of seven bits a byte, the least first. */
+/** Reads numbers of seven bits a byte, the lowest first. */
 class Reader {
   private at = 0;
   constructor(private readonly bytes: Uint8Array) {}
@@ -90,7 +90,7 @@ class Reader {
 
 const Bits = { kind: 0x03, otherLine: 0x04, otherTool: 0x08, otherFeed: 0x10, pause: 0x20, pointCount: 0x40 };
 
-/** Steps are what the machine did for one block. Step s runs over the points stepBegin[s] to stepBegin[s + 1]; a point
+/** Steps are what the machine did for one block. Step s runs over the points stepStart[s] to stepStart[s + 1]; a point
  * belongs to the step that leads to it. */
 export class Toolpath {
   readonly facts: Facts;
@@ -100,7 +100,7 @@ export class Toolpath {
   readonly stepTool: Uint32Array;
   /** mm/min; degrees/min where B and C alone turn. */
   readonly stepFeed: Float64Array;
-  readonly stepBegin: Uint32Array;
+  readonly stepStart: Uint32Array;
 
   readonly pointCount: number;
   /** X, Y, Z of each. */
@@ -111,10 +111,10 @@ export class Toolpath {
   readonly speeds: Float32Array;
   readonly pointStep: Uint32Array;
 
-  readonly least: Vector;
-  readonly most: Vector;
+  readonly min: Vector;
+  readonly max: Vector;
   /** Of feed moves and arcs alone. */
-  readonly work: { least: Vector; most: Vector } | null;
+  readonly work: { min: Vector; max: Vector } | null;
 
   constructor(recording: Recording) {
     this.facts = recording.facts;
@@ -125,7 +125,7 @@ export class Toolpath {
     this.stepKind = new Uint8Array(size.steps);
     this.stepTool = new Uint32Array(size.steps);
     this.stepFeed = new Float64Array(size.steps);
-    this.stepBegin = new Uint32Array(size.steps + 1);
+    this.stepStart = new Uint32Array(size.steps + 1);
     this.tips = new Float64Array(3 * size.points);
     this.turned = new Float32Array(recording.turns.length > 0 || this.facts.home[3] || this.facts.home[4] ? 2 * size.points : 0);
     this.times = new Float64Array(size.points);
@@ -134,8 +134,8 @@ export class Toolpath {
     this.read(recording);
     this.work = this.extents((kind) => kind === Kind.Feed || kind === Kind.Arc);
     const whole = this.extents((kind) => kind !== Kind.Wait);
-    this.least = whole?.least ?? this.tipOf(0);
-    this.most = whole?.most ?? this.tipOf(0);
+    this.min = whole?.min ?? this.tipOf(0);
+    this.max = whole?.max ?? this.tipOf(0);
   }
 
   get seconds(): number {
@@ -146,7 +146,7 @@ export class Toolpath {
   }
   /** When a step is done. */
   endOf(step: number): number {
-    return this.times[this.stepBegin[step + 1]];
+    return this.times[this.stepStart[step + 1]];
   }
   lengthTo(point: number): number {
     const at = 3 * point;
@@ -159,36 +159,36 @@ export class Toolpath {
 
   at(time: number): Place {
     const point = this.pointAt(time);
-    const begin = point - 1;
-    const duration = this.times[point] - this.times[begin];
-    const u = duration > 0 ? Math.min(1, Math.max(0, (time - this.times[begin]) / duration)) : 1;
-    const [v0, v1] = [this.speeds[begin], this.speeds[point]];
+    const start = point - 1;
+    const duration = this.times[point] - this.times[start];
+    const u = duration > 0 ? Math.min(1, Math.max(0, (time - this.times[start]) / duration)) : 1;
+    const [v0, v1] = [this.speeds[start], this.speeds[point]];
     const part = v0 + v1 > 0 ? (u * (2 * v0 + u * (v1 - v0))) / (v0 + v1) : u;
     return { ...this.on(point, part), speed: v0 + u * (v1 - v0) };
   }
 
-  /** When the tool has gone this part of the way to a point. */
+  /** When the tool has passed this part of the path to a point. */
   timeOn(point: number, part: number): number {
-    const [begin, end] = [this.times[point - 1], this.times[point]];
+    const [start, end] = [this.times[point - 1], this.times[point]];
     const [v0, v1] = [this.speeds[point - 1], this.speeds[point]];
     const sum = v0 + v1;
-    if (sum === 0 || v0 === v1) return begin + part * (end - begin);
+    if (sum === 0 || v0 === v1) return start + part * (end - start);
     const root = Math.sqrt(Math.max(0, v0 * v0 + part * sum * (v1 - v0)));
-    return begin + ((root - v0) / (v1 - v0)) * (end - begin);
+    return start + ((root - v0) / (v1 - v0)) * (end - start);
   }
 
-  /** Steps of a line, the last behind the others; lines never run twice. */
+  /** Steps of a line, in their order; lines never run twice. */
   stepsOf(line: number): Steps {
-    const begin = lowerBound(this.stepLine, line, this.stepCount);
-    return { begin, end: lowerBound(this.stepLine, line + 1, this.stepCount) };
+    const start = lowerBound(this.stepLine, line, this.stepCount);
+    return { start, end: lowerBound(this.stepLine, line + 1, this.stepCount) };
   }
 
   /** When the tool is nearest to a place while a line is carried out; where nothing is done on it, when it comes there. */
   timeNear(line: number, tip: Vector): number {
-    const { begin, end } = this.stepsOf(line);
-    if (begin === end) return begin > 0 ? this.endOf(begin - 1) : 0;
-    let best = { distance: Infinity, time: this.times[this.stepBegin[end]] };
-    for (let point = this.stepBegin[begin] + 1; point <= this.stepBegin[end]; ++point) {
+    const { start, end } = this.stepsOf(line);
+    if (start === end) return start > 0 ? this.endOf(start - 1) : 0;
+    let best = { distance: Infinity, time: this.times[this.stepStart[end]] };
+    for (let point = this.stepStart[start] + 1; point <= this.stepStart[end]; ++point) {
       const [from, to] = [this.tipOf(point - 1), this.tipOf(point)];
       const way = to.map((value, i) => value - from[i]);
       const square = way.reduce((sum, value) => sum + value * value, 0);
@@ -203,8 +203,8 @@ export class Toolpath {
   private on(point: number, part: number): Omit<Place, 'speed'> {
     const mix = (values: Float64Array | Float32Array, stride: number, i: number) => {
       const end = values[stride * point + i];
-      const begin = values[stride * (point - 1) + i];
-      return part === 1 ? end : begin + part * (end - begin);
+      const start = values[stride * (point - 1) + i];
+      return part === 1 ? end : start + part * (end - start);
     };
     const tip: Vector = [mix(this.tips, 3, 0), mix(this.tips, 3, 1), mix(this.tips, 3, 2)];
     const turns = this.turned.length > 0;
@@ -249,7 +249,7 @@ export class Toolpath {
       this.stepKind[step] = head & Bits.kind;
       this.stepTool[step] = tool;
       this.stepFeed[step] = feed / 1e3;
-      this.stepBegin[step] = point - 1;
+      this.stepStart[step] = point - 1;
       if (head & Bits.pause) {
         at.time += steps.next();
         put(step);
@@ -268,28 +268,28 @@ export class Toolpath {
         put(step);
       }
     }
-    this.stepBegin[this.stepCount] = point - 1;
+    this.stepStart[this.stepCount] = point - 1;
     if (point < this.pointCount) put(0);
   }
 
   /** Of where those of the steps go whose kind `includes` names. */
   extents(
     includes: (kind: number) => boolean,
-    steps: Steps = { begin: 0, end: this.stepCount },
-  ): { least: Vector; most: Vector } | null {
-    const [least, most]: Vector[] = [
+    steps: Steps = { start: 0, end: this.stepCount },
+  ): { min: Vector; max: Vector } | null {
+    const [min, max]: Vector[] = [
       [Infinity, Infinity, Infinity],
       [-Infinity, -Infinity, -Infinity],
     ];
-    for (let point = this.stepBegin[steps.begin] + 1; point <= this.stepBegin[steps.end]; ++point) {
+    for (let point = this.stepStart[steps.start] + 1; point <= this.stepStart[steps.end]; ++point) {
       if (!includes(this.stepKind[this.pointStep[point]])) continue;
       for (let at = 3 * point - 3; at < 3 * point + 3; ++at) {
         const value = this.tips[at];
-        if (value < least[at % 3]) least[at % 3] = value;
-        if (value > most[at % 3]) most[at % 3] = value;
+        if (value < min[at % 3]) min[at % 3] = value;
+        if (value > max[at % 3]) max[at % 3] = value;
       }
     }
-    return least[0] <= most[0] ? { least, most } : null;
+    return min[0] <= max[0] ? { min, max } : null;
   }
 }
 

@@ -15,7 +15,7 @@ const looks: Record<Look, Vector> = { iso: [-1, -1, 0.816], top: [0, -1e-5, 1], 
 
 const near = 9; // Pixels within which a click hits a line.
 const frameSize = 44; // Pixels.
-const nothing: Steps = { begin: -1, end: -1 };
+const nothing: Steps = { start: -1, end: -1 };
 
 export interface Hit {
   point: number;
@@ -54,7 +54,7 @@ export class ToolpathView {
   /** Pixels at the right that something else covers. */
   private covered = 0;
   private isDue = false;
-  private isGone = false;
+  private isDisposed = false;
 
   /** Throws where there is no WebGL 2. */
   constructor(
@@ -68,7 +68,7 @@ export class ToolpathView {
     this.renderer = new THREE.WebGLRenderer({ antialias: true });
     const canvas = this.renderer.domElement;
     container.append(canvas);
-    this.center = new THREE.Vector3(...path.least).add(new THREE.Vector3(...path.most)).multiplyScalar(0.5);
+    this.center = new THREE.Vector3(...path.min).add(new THREE.Vector3(...path.max)).multiplyScalar(0.5);
     this.size = sizeOf(path);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -137,7 +137,7 @@ export class ToolpathView {
     this.setTime(this.time);
   }
 
-  /** The stock's corners; null where nobody knows them. */
+  /** The stock's corners; null where they are unknown. */
   setStock(box: Box | null): void {
     this.stockKnown = box;
     this.furnish();
@@ -174,7 +174,7 @@ export class ToolpathView {
     this.pose(place.tip, place.b, place.c);
     if (this.travel) this.travel.position.z = this.travel.userData.height - (tool.length ?? 0);
     this.lines.set({ reached: place.point - 1, reachedPart: place.part, aheadOpacity: this.shown.ahead ? 0.28 : 0 });
-    this.light(this.selected ?? { begin: place.step, end: place.step + 1 });
+    this.light(this.selected ?? { start: place.step, end: place.step + 1 });
     this.invalidate();
   }
 
@@ -198,8 +198,8 @@ export class ToolpathView {
 
   /** Brings what is cut into view, or with `whole` all of the path, from where one looks. */
   fit(whole = false): void {
-    const { least, most } = whole || !this.path.work ? this.path : this.path.work;
-    const middle = new THREE.Vector3(...least).add(new THREE.Vector3(...most)).multiplyScalar(0.5).sub(this.center);
+    const { min, max } = whole || !this.path.work ? this.path : this.path.work;
+    const middle = new THREE.Vector3(...min).add(new THREE.Vector3(...max)).multiplyScalar(0.5).sub(this.center);
     const offset = this.camera.position.clone().sub(this.controls.target);
     this.controls.target.copy(middle);
     this.camera.position.copy(middle).add(offset.setLength(2 * this.size + 1000));
@@ -208,7 +208,7 @@ export class ToolpathView {
     const [right, up] = [new THREE.Vector3(), new THREE.Vector3()];
     this.camera.matrixWorld.extractBasis(right, up, new THREE.Vector3());
     const extent = (direction: THREE.Vector3) =>
-      [0, 1, 2].reduce((sum, i) => sum + Math.abs(direction.getComponent(i)) * (most[i] - least[i]), 0);
+      [0, 1, 2].reduce((sum, i) => sum + Math.abs(direction.getComponent(i)) * (max[i] - min[i]), 0);
     const { clientWidth, clientHeight } = this.container;
     const free = Math.max(clientWidth - this.covered, clientWidth / 4) / Math.max(1, clientHeight);
     // Where nothing is cut yet, there is the tool to see, and not its inside.
@@ -278,7 +278,7 @@ export class ToolpathView {
   }
 
   dispose(): void {
-    this.isGone = true;
+    this.isDisposed = true;
     this.resizing.disconnect();
     this.controls.dispose();
     this.lines.dispose();
@@ -305,8 +305,8 @@ export class ToolpathView {
     this.frames = frames(this.path, this.theme);
     this.travel = travel(this.path, this.theme);
     if (this.travel) this.travel.userData.height = this.travel.position.z;
-    const { least, most } = this.path.work ?? this.path;
-    this.grid = grid(new THREE.Vector3(...least), new THREE.Vector3(...most), this.theme);
+    const { min, max } = this.path.work ?? this.path;
+    this.grid = grid(new THREE.Vector3(...min), new THREE.Vector3(...max), this.theme);
     this.stock = stock(this.stockKnown ?? this.path.work, this.theme);
     for (const each of [this.frames, this.travel, this.grid, this.stock]) if (each) this.world.add(each);
     if (this.stock) this.stock.visible = this.shown.stock;
@@ -316,17 +316,17 @@ export class ToolpathView {
   }
 
   private light(steps: Steps): void {
-    if (steps.begin === this.litSteps.begin && steps.end === this.litSteps.end) return;
+    if (steps.start === this.litSteps.start && steps.end === this.litSteps.end) return;
     this.litSteps = steps;
     if (this.lit) {
       this.scene.remove(this.lit.mesh);
       this.lit.dispose();
       this.lit = null;
     }
-    if (steps.begin < 0 || steps.begin >= steps.end) return;
-    const [begin, end] = [this.path.stepBegin[steps.begin], this.path.stepBegin[steps.end]];
-    if (begin === end) return;
-    this.lit = new PathLines(this.path, this.center, begin, end);
+    if (steps.start < 0 || steps.start >= steps.end) return;
+    const [start, end] = [this.path.stepStart[steps.start], this.path.stepStart[steps.end]];
+    if (start === end) return;
+    this.lit = new PathLines(this.path, this.center, start, end);
     this.lit.alwaysInFront = true;
     this.lit.paint(() => palettes[this.theme].highlight, (kind) => this.isShown(kind));
     this.scene.add(this.lit.mesh);
@@ -368,7 +368,7 @@ export class ToolpathView {
     if (this.isDue) return;
     this.isDue = true;
     requestAnimationFrame(() => {
-      if (this.isDue && !this.isGone) this.draw();
+      if (this.isDue && !this.isDisposed) this.draw();
     });
   }
 
@@ -385,14 +385,14 @@ export class ToolpathView {
   }
 }
 
-const sizeOf = (path: Toolpath) => Math.max(Math.hypot(...path.most.map((value, i) => value - path.least[i])), 20);
+const sizeOf = (path: Toolpath) => Math.max(Math.hypot(...path.max.map((value, i) => value - path.min[i])), 20);
 
 /** Clicks, not the ends of drags. */
 function listenForClicks(canvas: HTMLCanvasElement, onClick: (x: number, y: number) => void): void {
-  let begin = { x: 0, y: 0 };
-  canvas.addEventListener('pointerdown', (event) => (begin = { x: event.clientX, y: event.clientY }));
+  let start = { x: 0, y: 0 };
+  canvas.addEventListener('pointerdown', (event) => (start = { x: event.clientX, y: event.clientY }));
   canvas.addEventListener('pointerup', (event) => {
-    if (event.button !== 0 || Math.hypot(event.clientX - begin.x, event.clientY - begin.y) > 4) return;
+    if (event.button !== 0 || Math.hypot(event.clientX - start.x, event.clientY - start.y) > 4) return;
     const box = canvas.getBoundingClientRect();
     onClick(event.clientX - box.left, event.clientY - box.top);
   });

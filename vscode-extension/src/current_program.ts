@@ -21,7 +21,7 @@ export function currentProgram(): vscode.TextDocument | undefined {
   return last && !last.isClosed ? last : undefined;
 }
 
-/** Whether a program lies in a file; the user is told where it does not, or where there is none. */
+/** Whether a program lies in a file; if it does not, or there is none, the user gets a message. */
 export function isInFile(program: vscode.TextDocument | undefined): program is vscode.TextDocument {
   if (program?.languageId !== 'isocnc') {
     void adviseOpen();

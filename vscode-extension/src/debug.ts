@@ -15,7 +15,7 @@ export function activate(context: vscode.ExtensionContext, environment: Environm
     vscode.debug.registerDebugAdapterDescriptorFactory(type, {
       createDebugAdapterDescriptor: () => {
         const isodap = environment.find('isodap');
-        // The provider has told the user already.
+        // The provider has shown a message already.
         if (!isodap) throw new Error(vscode.l10n.t('There is no isodap.'));
         return new vscode.DebugAdapterExecutable(isodap, ['--lang', language()]);
       },
@@ -76,7 +76,7 @@ async function debugProgram(place?: Place | vscode.Uri): Promise<void> {
   if (program) await start(program, { stopOnEntry: true });
 }
 
-/** Begins at a line, in the state that a run to it has. */
+/** Starts at a line, in the state that a run to it has. */
 async function debugFrom(place?: Place | vscode.Uri): Promise<void> {
   const program = await programOf(place);
   const isLens = place && !(place instanceof vscode.Uri);
@@ -114,5 +114,5 @@ async function runMdi(): Promise<void> {
 /** What a hover asks the debugger for. */
 function expression(document: vscode.TextDocument, { line, character }: vscode.Position): vscode.EvaluatableExpression | undefined {
   const found = expressionAt(document.lineAt(line).text, character);
-  return found ? new vscode.EvaluatableExpression(new vscode.Range(line, found.begin, line, found.end), found.name) : undefined;
+  return found ? new vscode.EvaluatableExpression(new vscode.Range(line, found.start, line, found.end), found.name) : undefined;
 }

@@ -51,7 +51,7 @@ export class Environment {
     return findProgram(name, places, isExecutable);
   }
 
-  /** The program; where there is none, the user is told. */
+  /** The program; if there is none, the user gets a message. */
   async need(name: ProgramName): Promise<string | null> {
     const file = this.find(name);
     if (!file) await adviseMissing(name);
@@ -63,13 +63,13 @@ export class Environment {
   }
 }
 
-/** Tells that a program is missing, and where its folder is set. */
+/** Reports that a program is missing, and where its folder is set. */
 export async function adviseMissing(name: ProgramName): Promise<void> {
   const folder = settings().get('path', '');
-  const told = folder
+  const message = folder
     ? vscode.l10n.t('There is no {0} in {1}, the folder that isocnc.path names.', name, folder)
     : vscode.l10n.t('{0} did not come with this extension, and is not on the PATH. Name its folder in isocnc.path.', name);
   const open = vscode.l10n.t('Open Settings');
-  if ((await vscode.window.showErrorMessage(told, open)) === open)
+  if ((await vscode.window.showErrorMessage(message, open)) === open)
     await vscode.commands.executeCommand('workbench.action.openSettings', 'isocnc.path');
 }

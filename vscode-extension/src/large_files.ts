@@ -1,21 +1,21 @@
-/** Programs that are too long for extensions: VS Code shows them, and hands them to nobody. */
+/** Programs that are too long for extensions: VS Code shows them, and passes them to no extension. */
 import { extname } from 'node:path';
 import * as vscode from 'vscode';
 import type { Environment } from './environment';
 import { checkFile } from './tasks';
 
 /** What VS Code calls a text that it does not synchronize. */
-const mostBytes = 50 * 1024 * 1024;
+const maxBytes = 50 * 1024 * 1024;
 
 export function activate(context: vscode.ExtensionContext, environment: Environment): void {
-  const told = new Set<string>();
+  const notified = new Set<string>();
   const look = async () => {
     const input = vscode.window.tabGroups.activeTabGroup.activeTab?.input;
     if (!(input instanceof vscode.TabInputText)) return;
     const { uri } = input;
-    if (uri.scheme !== 'file' || told.has(uri.fsPath) || !environment.endings.includes(extname(uri.fsPath).toLowerCase())) return;
-    if ((await sizeOf(uri)) <= mostBytes || told.has(uri.fsPath)) return;
-    told.add(uri.fsPath);
+    if (uri.scheme !== 'file' || notified.has(uri.fsPath) || !environment.endings.includes(extname(uri.fsPath).toLowerCase())) return;
+    if ((await sizeOf(uri)) <= maxBytes || notified.has(uri.fsPath)) return;
+    notified.add(uri.fsPath);
     await advise(environment, uri);
   };
   context.subscriptions.push(vscode.window.tabGroups.onDidChangeTabs(look));

@@ -19,21 +19,21 @@ export function toolChangeBeside(
 
 export interface Expression {
   /** Column of the first character. */
-  begin: number;
+  start: number;
   end: number;
   name: string;
 }
 
 const expressions = /v\s*g\s*p\s*l|v\s*\d+|[xyzbcfst](?=\s*[-+.\d])/gi;
 
-/** What a debugger can tell the value of, at a column: registers, axes, feed, speed, tool. */
+/** What a debugger knows the value of, at a column: registers, axes, feed, speed, tool. */
 export function expressionAt(line: string, column: number): Expression | null {
   const text = code(line);
   for (const found of text.matchAll(expressions)) {
     const number = /^\s*[-+]?[\d.\s]*/.exec(text.slice(found.index + found[0].length))![0].trimEnd();
     const end = found.index + found[0].length + (found[0].length === 1 ? number.length : 0);
     if (column >= found.index && column < Math.max(end, found.index + 1))
-      return { begin: found.index, end, name: found[0].replace(/\s/g, '').toUpperCase().replace(/^V0+(?=\d)/, 'V') };
+      return { start: found.index, end, name: found[0].replace(/\s/g, '').toUpperCase().replace(/^V0+(?=\d)/, 'V') };
   }
   return null;
 }

@@ -1,4 +1,4 @@
-/** The programs that the extension starts: where they are, and which version they tell. */
+/** The programs that the extension starts: where they are, and which version they report. */
 import { join } from 'node:path';
 
 export type ProgramName = 'isols' | 'isolint' | 'isorun' | 'isofmt' | 'isodap';
@@ -24,7 +24,7 @@ export function findProgram(
   return folders.filter(Boolean).map((folder) => join(folder, file)).find(exists) ?? null;
 }
 
-/** Whether a version is older than a wanted one. Unreadable ones are: nobody knows what they can do. */
+/** Whether a version is older than a wanted one. Unreadable ones are: what they can do is unknown. */
 export function isOlder(version: string | undefined, wanted: string): boolean {
   const numbers = (text: string) => /^(\d+)\.(\d+)\.(\d+)/.exec(text)?.slice(1).map(Number);
   const [have, want] = [numbers(version ?? ''), numbers(wanted)];

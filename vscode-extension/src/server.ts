@@ -24,7 +24,7 @@ class CommandsFeature implements StaticFeature {
   clear(): void {}
 }
 
-/** What the server is told when it starts, and not again. */
+/** What the server gets when it starts, and not again. */
 const atStart = ['isocnc.path', 'isocnc.workspaceDiagnostics'];
 
 function serverSettings() {
@@ -65,7 +65,7 @@ export class Server implements vscode.Disposable {
   async start(): Promise<void> {
     const command = this.environment.find('isols');
     if (!command) {
-      this.tell('missing');
+      this.setState('missing');
       void adviseMissing('isols');
       return;
     }
@@ -84,7 +84,7 @@ export class Server implements vscode.Disposable {
     );
     client.registerFeature(new CommandsFeature());
     client.onDidChangeState(({ newState }) => {
-      if (this.client === client && newState !== State.Running) this.tell(newState === State.Starting ? 'starting' : 'stopped');
+      if (this.client === client && newState !== State.Running) this.setState(newState === State.Starting ? 'starting' : 'stopped');
       else if (this.client === client) void this.greet();
     });
     this.client = client;
@@ -95,7 +95,7 @@ export class Server implements vscode.Disposable {
     } catch (error) {
       this.output.error(String(error));
       if (this.client !== client) return;
-      this.tell('stopped');
+      this.setState('stopped');
       await this.adviseStopped();
     }
   }
@@ -105,7 +105,7 @@ export class Server implements vscode.Disposable {
     const restart = ++this.restarts;
     const client = this.client;
     this.client = null;
-    this.tell('stopped');
+    this.setState('stopped');
     await client?.dispose().catch((error: unknown) => this.output.warn(String(error)));
     if (restart === this.restarts) await this.start();
   }
@@ -130,7 +130,7 @@ export class Server implements vscode.Disposable {
     for (const each of [...this.subscriptions, this.changed, this.output, this.trace]) each.dispose();
   }
 
-  private tell(state: ServerState): void {
+  private setState(state: ServerState): void {
     this.current = state;
     this.changed.fire(state);
   }
@@ -139,13 +139,13 @@ export class Server implements vscode.Disposable {
   private async greet(): Promise<void> {
     const wanted = this.environment.version;
     if (!isOlder(this.version, wanted)) {
-      this.tell('running');
+      this.setState('running');
       return;
     }
-    this.tell('outdated');
-    const told = vscode.l10n.t('isols {0} is older than this extension, {1}: some of it will not work.', this.version ?? '?', wanted);
+    this.setState('outdated');
+    const message = vscode.l10n.t('isols {0} is older than this extension, {1}: some of it will not work.', this.version ?? '?', wanted);
     const open = vscode.l10n.t('Open Settings');
-    if ((await vscode.window.showWarningMessage(told, open)) === open)
+    if ((await vscode.window.showWarningMessage(message, open)) === open)
       await vscode.commands.executeCommand('workbench.action.openSettings', 'isocnc.path');
   }
 

@@ -6,7 +6,7 @@ import { currentProgram, isInFile } from './current_program';
 import { language, type Environment } from './environment';
 import { programTask } from './tasks';
 
-/** What a code lens tells of its place. */
+/** What a code lens says about its place. */
 export interface Place {
   uri: string;
   line: number;

@@ -1,4 +1,4 @@
-/** What the status bar tells: the server's state, and the program's cycle time. */
+/** What the status bar shows: the server's state, and the program's cycle time. */
 import * as vscode from 'vscode';
 import { clock } from '../../toolpath-view/src/format';
 import { settings } from './environment';
@@ -7,7 +7,7 @@ import type { ToolpathSource } from './toolpath/source';
 
 const selector = { language: 'isocnc' };
 /** Longer programs are run for their cycle time only where their toolpath is shown. */
-const mostCharacters = 2_000_000;
+const maxCharacters = 2_000_000;
 
 export function activate(context: vscode.ExtensionContext, server: Server, source: ToolpathSource): void {
   const language = vscode.languages.createLanguageStatusItem('isocnc.server', selector);
@@ -61,7 +61,7 @@ class CycleTime implements vscode.Disposable {
       return;
     }
     const known = this.source.latest(document.uri);
-    const isShort = document.offsetAt(document.lineAt(document.lineCount - 1).range.end) < mostCharacters;
+    const isShort = document.offsetAt(document.lineAt(document.lineCount - 1).range.end) < maxCharacters;
     this.source.watch(this, isShort ? document : null);
     if (!known) {
       this.item.hide();

@@ -6,11 +6,11 @@ const opened = 'testDrive';
 
 export function activate(context: vscode.ExtensionContext): void {
   context.subscriptions.push(vscode.commands.registerCommand('isocnc.openTestDrive', () => open(context)));
-  void begin(context);
+  void start(context);
 }
 
-/** The window has been opened for the test drive: its first program is what to begin with. */
-async function begin({ globalState }: vscode.ExtensionContext): Promise<void> {
+/** The window has been opened for the test drive: its first program is the one to start with. */
+async function start({ globalState }: vscode.ExtensionContext): Promise<void> {
   const folder = vscode.workspace.workspaceFolders?.[0].uri;
   if (!folder || globalState.get(opened) !== folder.toString()) return;
   await globalState.update(opened, undefined);

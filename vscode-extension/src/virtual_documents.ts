@@ -1,4 +1,4 @@
-/** What the server tells of a program, as documents beside it that follow the cursor: the state, the syntax tree. */
+/** What the server reports of a program, as documents beside it that follow the cursor: the state, the syntax tree. */
 import { basename } from 'node:path';
 import * as vscode from 'vscode';
 import type { Server } from './server';

@@ -8,14 +8,14 @@ import { Client, isolint, root, uriOf } from './client.mjs';
 const severities = ['error', 'warning', 'info'];
 
 /** A diagnostic in isolint's words: its columns count in code points. */
-const told = (diagnostic) => ({
+const fromServer = (diagnostic) => ({
   line: diagnostic.range.start.line + 1,
   column: diagnostic.range.start.character + 1,
   code: diagnostic.code,
   severity: severities[diagnostic.severity - 1],
   message: diagnostic.message,
 });
-const toldByIsolint = ({ line, column, code, severity, message }) => ({ line, column, code, severity, message });
+const fromIsolint = ({ line, column, code, severity, message }) => ({ line, column, code, severity, message });
 
 const examples = ['examples', 'examples/broken', 'examples/machine']
   .flatMap((folder) => readdirSync(path.join(root, folder)).map((name) => path.join(root, folder, name)))
@@ -26,7 +26,7 @@ test('the Problems list says of every example what isolint says', async () => {
   assert.equal(client.initialized.capabilities.positionEncoding, 'utf-32');
   for (const file of examples) {
     const found = await client.diagnostics(client.openFile(file));
-    assert.deepEqual(found.map(told), isolint(file).map(toldByIsolint), file);
+    assert.deepEqual(found.map(fromServer), isolint(file).map(fromIsolint), file);
   }
   assert.equal(await client.stop(), 0);
 });
@@ -83,7 +83,7 @@ test('the configuration beside a program counts, and its changes', async () => {
   assert.equal(await client.stop(), 0);
 });
 
-test('mistakes in the configuration are told in place, saved or not', async () => {
+test('mistakes in the configuration are reported in place, saved or not', async () => {
   const folder = mkdtempSync(path.join(os.tmpdir(), 'isols-'));
   const configuration = path.join(folder, 'isocnc.json');
   const program = path.join(folder, 'part.iso');

@@ -23,7 +23,7 @@ for (const [line, is] of [
   ['M06 T12', false],
   ['Dear sirs,', false],
 ])
-  test(`${line} ${is ? 'begins' : 'does not begin'} a program`, () => assert.equal(firstLine.test(line), is));
+  test(`${line} ${is ? 'starts' : 'does not start'} a program`, () => assert.equal(firstLine.test(line), is));
 
 test('a word is a letter with its number', () => {
   const word = new RegExp(configuration.wordPattern, 'g');

@@ -25,7 +25,7 @@ test('what the line changes is marked', () => {
   assert.match(row(text, 'tool'), /^ {2}tool\s+T101001\s+T101001$/);
 });
 
-test('what is not known is told so', () => {
+test('what is not known is shown as such', () => {
   assert.match(row(lines({ before: null, after: state(1, null) }), 'motion'), /\?\s+-$/);
   assert.match(lines({ before: null, after: null }).join(' '), /No path leads here/);
 });

@@ -5,13 +5,13 @@ import { module } from '../modules.mjs';
 const { applied, patched, whole } = await module('toolpath/streams');
 const bytes = (...values) => Uint8Array.from(values);
 
-/** How one stream differs from another, as isols tells it. */
+/** How one stream differs from another, as isols reports it. */
 function difference(old, now) {
-  const most = Math.min(old.length, now.length);
+  const shared = Math.min(old.length, now.length);
   let start = 0;
-  while (start < most && old[start] === now[start]) ++start;
+  while (start < shared && old[start] === now[start]) ++start;
   let tail = 0;
-  while (tail < most - start && old.at(-1 - tail) === now.at(-1 - tail)) ++tail;
+  while (tail < shared - start && old.at(-1 - tail) === now.at(-1 - tail)) ++tail;
   return { start, removed: old.length - start - tail, data: now.slice(start, now.length - tail) };
 }
 

@@ -125,7 +125,7 @@ class ToolpathPanel implements vscode.Disposable {
     const { start, end } = selections[0];
     // A selection that ends before a line's first character does not hold that line.
     const last = end.character === 0 && end.line > start.line ? end.line - 1 : end.line;
-    // While it is debugged, the debugger tells where the tool is.
+    // While it is debugged, the debugger reports where the tool is.
     if (vscode.debug.activeDebugSession?.configuration.program === this.document.fileName) return;
     const isEcho = start.line === this.picked && last === this.picked;
     this.picked = -1;

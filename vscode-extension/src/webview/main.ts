@@ -31,7 +31,7 @@ class Page {
       case 'path':
         return this.take(message);
       case 'problem':
-        return this.tell(message.message);
+        return this.showProblem(message.message);
       case 'lines':
         if (!this.panel?.player.isPlaying) this.panel?.choose(message.first, message.last);
         return;
@@ -57,7 +57,7 @@ class Page {
     this.placeStock();
     if (message.program !== this.program) this.panel.view?.fit();
     this.program = message.program;
-    this.tell('');
+    this.showProblem('');
     // For tests, which look from outside.
     Object.assign(window, { isocnc: { path: this.path, view: this.panel.view, player: this.panel.player } });
     document.documentElement.dataset.ready = String(Number(document.documentElement.dataset.ready ?? 0) + 1);
@@ -79,11 +79,11 @@ class Page {
     const zero = this.path?.facts.frames.find(({ i, j, k }) => i[0] === 1 && j[1] === 1 && k[2] === 1)?.origin ?? [0, 0, 0];
     const size = this.stock;
     this.panel?.view?.setStock(
-      size && { least: [zero[0], zero[1], zero[2] - size[2]], most: [zero[0] + size[0], zero[1] + size[1], zero[2]] },
+      size && { min: [zero[0], zero[1], zero[2] - size[2]], max: [zero[0] + size[0], zero[1] + size[1], zero[2]] },
     );
   }
 
-  private tell(problem: string): void {
+  private showProblem(problem: string): void {
     if (problem && !this.panel) byId('stage').replaceChildren(element('p', { className: 'problem' }, problem));
     else if (problem) byId('outcome').textContent = problem;
   }

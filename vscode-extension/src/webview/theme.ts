@@ -1,4 +1,4 @@
-/** VS Code's theme, as it tells a webview: classes of the body, colors as CSS variables. */
+/** VS Code's theme, as a webview gets it: classes of the body, colors as CSS variables. */
 import type { Color, Theme } from '../../../toolpath-view/src/colors';
 
 export function themeOf(body: HTMLElement): Theme {
