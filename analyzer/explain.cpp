@@ -12,7 +12,7 @@
 #include "analyzer/fixing/finding_fixes.h"
 #include "analyzer/selection/suppressions.h"
 #include "interpreter/configuration/show.h"
-#include "interpreter/syntax/unicode.h"
+#include "interpreter/text/unicode.h"
 
 namespace isocnc::analyzer {
 
@@ -64,7 +64,7 @@ static std::string folded(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find(' ', at), text.size());
     const std::string_view word = text.substr(at, end - at);
-    const std::size_t width = syntax::column_of(word, word.size()) - 1;
+    const std::size_t width = text::column_of(word, word.size()) - 1;
     if (column > 0 && column + 1 + width > 78) {
       result += '\n';
       column = 0;

@@ -17,11 +17,11 @@
 #include "interpreter/configuration/configurations.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/locale.h"
-#include "interpreter/syntax/unicode.h"
 #include "interpreter/system/output_file.h"
 #include "interpreter/system/replace_file.h"
 #include "interpreter/system/source_file.h"
 #include "interpreter/system/system_texts.h"
+#include "interpreter/text/unicode.h"
 
 namespace isocnc::analyzer {
 namespace {
@@ -218,7 +218,7 @@ class FormatRun {
     while (const auto piece = next_piece(formatter)) {
       if (!piece->is_changed()) continue;
       ++changed_;
-      return output_.write(syntax::printable(name) + '\n');
+      return output_.write(text::printable(name) + '\n');
     }
   }
 

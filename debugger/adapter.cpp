@@ -8,8 +8,8 @@
 
 namespace isocnc::debugger {
 
+using dap::RequestError;
 using dialect::Text;
-using session::RequestError;
 
 static constexpr Text kNoLength{"a header tells no Content-Length", "un'intestazione non riporta Content-Length"};
 static constexpr Text kTooLong{"the message is longer than any that is taken",
@@ -23,7 +23,7 @@ static constexpr Text kUnknown{"there is no request {}", "non c'è nessuna richi
 static constexpr Text kNotUnderstood{"the arguments of {} cannot be read: {}",
                                      "gli argomenti di {} non si possono leggere: {}"};
 
-Adapter::Adapter(lsp::rpc::Loop& loop, lsp::rpc::Send send, std::optional<dialect::Language> language)
+Adapter::Adapter(rpc::Loop& loop, rpc::Send send, std::optional<dialect::Language> language)
     : loop_(loop),
       send_(std::move(send)),
       session_(
@@ -32,11 +32,11 @@ Adapter::Adapter(lsp::rpc::Loop& loop, lsp::rpc::Send send, std::optional<dialec
     requests_[request->command] = request->answer;
 }
 
-void Adapter::receive(lsp::rpc::MessageFrame frame) {
-  using Problem = lsp::rpc::MessageFrame::Problem;
+void Adapter::receive(rpc::MessageFrame frame) {
+  using Problem = rpc::MessageFrame::Problem;
   if (has_ended_) return;
   if (frame.problem != Problem::None) return complain(frame.problem == Problem::NoLength ? kNoLength : kTooLong);
-  const Json message = lsp::rpc::parse(frame.body);
+  const Json message = rpc::parse(frame.body);
   if (!message.is_object()) return complain(kNoJson);
   const auto type = message.find("type");
   if (type != message.end() && *type == "response") return;  // The adapter sends no requests.
@@ -70,7 +70,7 @@ void Adapter::answer(const Json& request) {
 /// The capabilities: the exception filters, and the part of each request.
 Json Adapter::initialize(const Json& arguments) {
   if (is_initialized_) throw RequestError(std::string(session_.in_language(kInitialized)));
-  session_.client() = arguments.get<session::ClientProfile>();
+  session_.client() = arguments.get<dap::ClientProfile>();
   is_initialized_ = true;
   Json capabilities = {{"exceptionBreakpointFilters", exception_filters()}};
   for (const requests::DebugRequest* const request : requests::all_requests())
@@ -81,9 +81,9 @@ Json Adapter::initialize(const Json& arguments) {
 /// All filters, of which the default ones are turned on.
 Json Adapter::exception_filters() {
   Json filters = Json::array();
-  for (std::size_t i = 0; i < session::kExceptionFilterCount; ++i) {
-    const auto filter = static_cast<session::ExceptionFilter>(i);
-    const session::ExceptionFilterDef& def = session::definition(filter);
+  for (std::size_t i = 0; i < breakpoints::kExceptionFilterCount; ++i) {
+    const auto filter = static_cast<breakpoints::ExceptionFilter>(i);
+    const breakpoints::ExceptionFilterDef& def = breakpoints::definition(filter);
     filters.push_back({{"filter", def.name},
                        {"label", session_.in_language(def.label)},
                        {"description", session_.in_language(def.description)},
@@ -135,7 +135,7 @@ void Adapter::complain(const Text& what) {
 
 void Adapter::send(Json message) {
   message["seq"] = ++seq_;
-  send_(lsp::rpc::write(message));
+  send_(rpc::write(message));
 }
 
 }  // namespace isocnc::debugger

@@ -11,19 +11,19 @@
 
 namespace isocnc::debugger {
 
-using session::Json;
+using rpc::Json;
 
 /// The debug adapter: reads messages, lets requests answer them, and sends responses and events. It lives on the
 /// loop's thread, as its Session does.
-class Adapter final : public lsp::rpc::Peer {
+class Adapter final : public rpc::Peer {
  public:
   /// `language` overrules those of configurations and of the client.
-  Adapter(lsp::rpc::Loop& loop, lsp::rpc::Send send, std::optional<dialect::Language> language = {});
+  Adapter(rpc::Loop& loop, rpc::Send send, std::optional<dialect::Language> language = {});
   Adapter(const Adapter&) = delete;
   Adapter& operator=(const Adapter&) = delete;
 
   // All on the loop's thread.
-  void receive(lsp::rpc::MessageFrame frame) override;
+  void receive(rpc::MessageFrame frame) override;
   void end() override;
 
   /// 0 after `disconnect`, 1 after any other end.
@@ -40,8 +40,8 @@ class Adapter final : public lsp::rpc::Peer {
   void complain(const dialect::Text& what);
   void send(Json message);
 
-  lsp::rpc::Loop& loop_;
-  const lsp::rpc::Send send_;
+  rpc::Loop& loop_;
+  const rpc::Send send_;
   session::Session session_;
   std::unordered_map<std::string_view, Json (*)(session::Session&, const Json&)> requests_;
   std::int64_t seq_ = 0;

@@ -14,8 +14,6 @@
 namespace isocnc::debugger {
 namespace {
 
-namespace rpc = lsp::rpc;
-
 struct DebugCommandOptions {
   std::optional<std::uint16_t> port;
   std::string language;

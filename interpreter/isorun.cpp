@@ -23,10 +23,10 @@
 #include "interpreter/running/error_message.h"
 #include "interpreter/running/runner.h"
 #include "interpreter/syntax/number.h"
-#include "interpreter/syntax/unicode.h"
 #include "interpreter/system/output_file.h"
 #include "interpreter/system/same_file.h"
 #include "interpreter/system/source_file.h"
+#include "interpreter/text/unicode.h"
 
 namespace isocnc::interpreter {
 namespace {
@@ -187,9 +187,9 @@ std::optional<restart::RestartOptions> read_restart_options(const RunCommandOpti
 void print_finding(const RunCommandOptions& options, std::uint64_t line, dialect::DiagnosticId id,
                    std::string_view message) {
   const dialect::DiagnosticDef& def = dialect::definition(id);
-  std::cerr << syntax::printable(fmt::format("{}:{}: {}: {} [{}]", options.shown_file(), line + 1,
-                                             dialect::severity_name(def.severity, options.reader_language()), message,
-                                             def.code))
+  std::cerr << text::printable(fmt::format("{}:{}: {}: {} [{}]", options.shown_file(), line + 1,
+                                           dialect::severity_name(def.severity, options.reader_language()), message,
+                                           def.code))
             << '\n';
 }
 

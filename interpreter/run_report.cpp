@@ -87,7 +87,7 @@ void RunReport::sample_rest(double until) {
 }
 
 void RunReport::write(const motion::Sample& sample) {
-  const motion::Coordinates& joints = sample.joints;
+  const kinematics::Coordinates& joints = sample.joints;
   const geometry::Pose& tip = sample.tip;
   samples_->write(fmt::format(
       "{{\"t\":{:.6f},\"tip\":[{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}],\"joints\":[{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}],"

@@ -10,7 +10,7 @@
 #include "interpreter/system/source_file.h"
 #include "lsp/documents/analyzed_document.h"
 #include "lsp/documents/snapshot.h"
-#include "lsp/documents/uri.h"
+#include "lsp/protocol/uri.h"
 
 namespace isocnc::lsp {
 
@@ -35,7 +35,7 @@ std::vector<std::filesystem::path> ClosedPrograms::programs_in(const Folders& fo
 
 /// Nothing where the file cannot be read, or the answer is not wanted any more.
 std::optional<std::string> ClosedPrograms::read_and_answer(const std::filesystem::path& program, const std::string& uri,
-                                                           const documents::Client& client,
+                                                           const protocol::Client& client,
                                                            const std::atomic<bool>& cancelled,
                                                            const MakeAnswer& answer) {
   std::error_code error;
@@ -85,9 +85,9 @@ static bool is_in_one_of(const std::vector<std::filesystem::path>& folders, cons
 
 std::optional<std::string> ClosedPrograms::answer_of(const features::Method& method, const rpc::Json& params,
                                                      const std::string& uri, const Folders& folders,
-                                                     const documents::Client& client,
+                                                     const protocol::Client& client,
                                                      const std::atomic<bool>& cancelled) {
-  const auto program = documents::path_of(uri);
+  const auto program = protocol::path_of(uri);
   if (!program || cancelled.load() || !is_in_one_of(folders, *program)) return std::nullopt;
   return read_and_answer(*program, uri, client, cancelled,
                          [&](const documents::Snapshot& snapshot) { return method.answer(snapshot, params); });
@@ -106,7 +106,7 @@ std::optional<std::vector<std::string>> ClosedPrograms::answers(const WorkspaceQ
   std::set<std::string> asked;
   for (const std::filesystem::path& program : programs_in(query.folders)) {
     if (query.cancelled->load()) return std::nullopt;
-    const std::string uri = documents::uri_of(program);
+    const std::string uri = protocol::uri_of(program);
     if (query.open.contains(uri)) continue;
     asked.insert(uri);
     auto answer = cached_answer(program, uri, query);

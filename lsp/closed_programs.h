@@ -23,7 +23,7 @@ namespace isocnc::lsp {
 /// read again only if it or a configuration file has changed. It belongs to a strand (rpc::StrandBound in Server).
 class ClosedPrograms {
  public:
-  using ClientPointer = std::shared_ptr<const documents::Client>;
+  using ClientPointer = std::shared_ptr<const protocol::Client>;
   using Folders = std::vector<std::filesystem::path>;
   struct WorkspaceQuery {
     features::WorkspaceRequest request;
@@ -40,7 +40,7 @@ class ClosedPrograms {
   /// The answer of one program. Nothing if the program is in none of the folders, or its file cannot be read, or the
   /// request has been cancelled.
   std::optional<std::string> answer_of(const features::Method& method, const rpc::Json& params, const std::string& uri,
-                                       const Folders& folders, const documents::Client& client,
+                                       const Folders& folders, const protocol::Client& client,
                                        const std::atomic<bool>& cancelled);
   /// The answers of all programs, in the order of the paths, without those whose file cannot be read. Nothing if the
   /// request has been cancelled.
@@ -64,7 +64,7 @@ class ClosedPrograms {
   using MakeAnswer = std::function<std::string(const documents::Snapshot& snapshot)>;
 
   std::optional<std::string> read_and_answer(const std::filesystem::path& program, const std::string& uri,
-                                             const documents::Client& client, const std::atomic<bool>& cancelled,
+                                             const protocol::Client& client, const std::atomic<bool>& cancelled,
                                              const MakeAnswer& answer);
   std::vector<std::filesystem::path> programs_in(const Folders& folders);
   std::optional<std::string> cached_answer(const std::filesystem::path& program, const std::string& uri,

@@ -8,14 +8,15 @@
 #include "interpreter/configuration/configurations.h"
 #include "interpreter/dialect/format.h"
 #include "lsp/documents/configuration_diagnostics.h"
-#include "lsp/documents/uri.h"
+#include "lsp/feature_list.h"
+#include "lsp/protocol/uri.h"
 
 namespace isocnc::lsp {
 
-using documents::Client;
 using documents::ContentChange;
 using documents::Interest;
 using documents::Snapshot;
+using protocol::Client;
 using rpc::Json;
 
 /// In bytes. Shorter texts open faster than a user could read a progress message.
@@ -24,7 +25,7 @@ static constexpr std::size_t kLongText = 16 << 20;
 DocumentWorker::DocumentWorker(rpc::Pool& pool, documents::SettingsStore& settings, std::string uri,
                                DocumentNotifier notifier, std::shared_ptr<DocumentSignals> signals)
     : uri_(uri),
-      is_configuration_(documents::names_configuration(uri)),
+      is_configuration_(protocol::names_configuration(uri)),
       settings_(settings),
       notifier_(std::move(notifier)),
       signals_(std::move(signals)),
@@ -32,7 +33,7 @@ DocumentWorker::DocumentWorker(rpc::Pool& pool, documents::SettingsStore& settin
       background_requests_(pool, notifier_.progress) {}
 
 static std::int64_t version_of(const Json& params) {
-  return documents::member<std::int64_t>(params.at("textDocument"), "version").value_or(0);
+  return protocol::member<std::int64_t>(params.at("textDocument"), "version").value_or(0);
 }
 
 void DocumentWorker::open(const rpc::Call& call, const Client& client) {
@@ -49,8 +50,7 @@ void DocumentWorker::open(const rpc::Call& call, const Client& client) {
 static std::vector<ContentChange> changes_in(const rpc::Call& call) {
   std::vector<ContentChange> changes;
   for (const Json& change : call.params().at("contentChanges"))
-    changes.push_back(
-        {documents::member<documents::ClientRange>(change, "range"), call.message.text(change.at("text"))});
+    changes.push_back({protocol::member<protocol::ClientRange>(change, "range"), call.message.text(change.at("text"))});
   return changes;
 }
 
@@ -74,7 +74,7 @@ void DocumentWorker::finish_edit(const std::function<void()>& edit, const Client
 }
 
 static std::string titled(const std::string& uri, const Client& client, const dialect::Text& title) {
-  const auto path = documents::path_of(uri);
+  const auto path = protocol::path_of(uri);
   return dialect::format(title, client.language({}), path ? path->filename().string() : uri);
 }
 
@@ -103,7 +103,7 @@ void DocumentWorker::report_change(const Client& client) {
   try {
     report_configuration(client);
     const Snapshot snapshot(document_, client, Interest{nullptr, &signals_->edits_waiting});
-    for (const features::Feature* const feature : features::all_features())
+    for (const features::Feature* const feature : all_features())
       if (feature->changed) feature->changed(snapshot, notifier_.notify);
   } catch (const rpc::Error&) {
     return;  // Another edit has arrived, and its change will be reported.
@@ -123,12 +123,12 @@ void DocumentWorker::report_configuration(const Client& client) {
   const std::filesystem::path file = configuration::real_path(found.file);
   const auto language = client.language(found.language);
   notifier_.configuration(
-      documents::uri_of(file),
-      published(documents::uri_of(file), documents::configuration_diagnostics(file, client.encoding, language)));
+      protocol::uri_of(file),
+      published(protocol::uri_of(file), documents::configuration_diagnostics(file, client.encoding, language)));
 }
 
 void DocumentWorker::report_as_configuration(const Client& client) {
-  const std::filesystem::path folder = configuration::real_path(documents::path_of(uri_)->parent_path());
+  const std::filesystem::path folder = configuration::real_path(protocol::path_of(uri_)->parent_path());
   notifier_.notify("textDocument/publishDiagnostics",
                    published(uri_, documents::configuration_diagnostics(document_.document().text(), folder,
                                                                         client.encoding, client.language({}))));

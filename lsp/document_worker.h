@@ -32,27 +32,27 @@ struct DocumentSignals {
 /// one analysis, without a lock.
 class DocumentWorker {
  public:
-  using ClientPointer = std::shared_ptr<const documents::Client>;
+  using ClientPointer = std::shared_ptr<const protocol::Client>;
 
   DocumentWorker(rpc::Pool& pool, documents::SettingsStore& settings, std::string uri, DocumentNotifier notifier,
                  std::shared_ptr<DocumentSignals> signals);
 
   /// `call` is the notification `textDocument/didOpen`, and `textDocument/didChange` below.
-  void open(const rpc::Call& call, const documents::Client& client);
-  void edit(const rpc::Call& call, const documents::Client& client);
+  void open(const rpc::Call& call, const protocol::Client& client);
+  void edit(const rpc::Call& call, const protocol::Client& client);
   /// The client's settings or the configuration files have changed.
-  void reconfigure(const documents::Client& client);
-  void answer(const features::Method& method, const rpc::Json& params, const documents::Client& client,
+  void reconfigure(const protocol::Client& client);
+  void answer(const features::Method& method, const rpc::Json& params, const protocol::Client& client,
               const WorkerRequest& request);
 
  private:
-  void finish_edit(const std::function<void()>& edit, const documents::Client& client);
-  void report_change(const documents::Client& client);
-  void start_progress(const documents::Client& client);
+  void finish_edit(const std::function<void()>& edit, const protocol::Client& client);
+  void report_change(const protocol::Client& client);
+  void start_progress(const protocol::Client& client);
   void end_progress();
-  bool shows_progress_to(const documents::Client& client) const;
-  void report_configuration(const documents::Client& client);
-  void report_as_configuration(const documents::Client& client);
+  bool shows_progress_to(const protocol::Client& client) const;
+  void report_configuration(const protocol::Client& client);
+  void report_as_configuration(const protocol::Client& client);
   void log(const std::exception& error);
 
   const std::string uri_;

@@ -2,14 +2,14 @@
 
 #include <utility>
 
-#include "lsp/documents/uri.h"
+#include "lsp/protocol/uri.h"
 
 namespace isocnc::lsp {
 
 OpenDocument::OpenDocument(rpc::Pool& pool, documents::SettingsStore& settings, std::string uri,
                            DocumentNotifier notifier, std::shared_ptr<DocumentSignals> signals)
     : uri_(std::move(uri)),
-      is_configuration_(documents::names_configuration(uri_)),
+      is_configuration_(protocol::names_configuration(uri_)),
       signals_(std::move(signals)),
       worker_(pool, pool, settings, uri_, std::move(notifier), signals_) {}
 

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "lsp/feature_list.h"
+
 namespace isocnc::lsp {
 
 using rpc::Json;
@@ -34,7 +36,7 @@ void OpenDocuments::open(const CallPointer& call, const ClientPointer& client) {
   document->open(call, client);
 }
 
-void OpenDocuments::close(const std::string& uri, const documents::Client& client) {
+void OpenDocuments::close(const std::string& uri, const protocol::Client& client) {
   const auto found = documents_.find(uri);
   if (found == documents_.end()) return;
   found->second->close();
@@ -43,7 +45,7 @@ void OpenDocuments::close(const std::string& uri, const documents::Client& clien
   const bool is_program = !found->second->is_configuration();
   documents_.erase(found);
   if (!is_program) return;
-  for (const features::Feature* const feature : features::all_features())
+  for (const features::Feature* const feature : all_features())
     if (feature->closed)
       feature->closed(uri, client,
                       [&](std::string_view method, const std::string& params) { outbox_.notify(method, params); });

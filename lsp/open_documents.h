@@ -24,7 +24,7 @@ class OpenDocuments {
 
   /// `call` is the notification `textDocument/didOpen`.
   void open(const CallPointer& call, const ClientPointer& client);
-  void close(const std::string& uri, const documents::Client& client);
+  void close(const std::string& uri, const protocol::Client& client);
   bool contains(const std::string& uri) const { return documents_.contains(uri); }
   /// The document that the parameters of a call name; null if they name none that is open.
   OpenDocument* find(const rpc::Json& params) const;

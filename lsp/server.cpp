@@ -9,12 +9,12 @@
 #include <fmt/format.h>
 
 #include "interpreter/configuration/configurations.h"
-#include "lsp/documents/uri.h"
+#include "lsp/protocol/uri.h"
 #include "lsp/workspace_aggregate.h"
 
 namespace isocnc::lsp {
 
-using documents::Client;
+using protocol::Client;
 using rpc::Call;
 using rpc::ErrorCode;
 using rpc::Json;
@@ -24,7 +24,7 @@ static constexpr std::size_t kMaxThreads = 32;
 
 Server::Server(rpc::Loop& loop, rpc::Send send, std::optional<dialect::Language> language)
     : loop_(loop), outbox_(std::move(send)), language_(language), pool_(kMaxThreads) {
-  for (const features::Feature* const feature : features::all_features()) {
+  for (const features::Feature* const feature : all_features()) {
     for (const features::Method& method : feature->methods) methods_[method.name] = method;
     for (const features::WorkspaceRequest& workspace_request : feature->workspace_requests)
       workspace_requests_[workspace_request.name] = workspace_request;
@@ -120,11 +120,11 @@ void Server::call_method(const CallPointer& call) {
 
 /// The server's capabilities: its own part and that of each feature.
 static Json capabilities_for(const Client& client) {
-  Json all = {{"positionEncoding", documents::name_of(client.encoding)},
+  Json all = {{"positionEncoding", protocol::name_of(client.encoding)},
               {"textDocumentSync", {{"openClose", true}, {"change", 2}, {"save", {{"includeText", false}}}}},
               {"workspace", {{"workspaceFolders", {{"supported", true}, {"changeNotifications", true}}}}}};
   Json commands = Json::array();
-  for (const features::Feature* const feature : features::all_features()) {
+  for (const features::Feature* const feature : all_features()) {
     if (feature->capabilities) all.update(feature->capabilities(client), true);
     for (const features::Method& command : feature->commands) commands.push_back(command.name);
   }
@@ -135,9 +135,9 @@ static Json capabilities_for(const Client& client) {
 /// The folders in the parameters of `initialize`; older clients send a single folder.
 static std::set<std::string> folders_in(const Json& params) {
   std::set<std::string> folders;
-  for (const Json& folder : documents::member<Json>(params, "workspaceFolders").value_or(Json::array()))
+  for (const Json& folder : protocol::member<Json>(params, "workspaceFolders").value_or(Json::array()))
     folders.insert(folder.at("uri").get<std::string>());
-  if (const auto root = documents::member<std::string>(params, "rootUri"); root && !params.contains("workspaceFolders"))
+  if (const auto root = protocol::member<std::string>(params, "rootUri"); root && !params.contains("workspaceFolders"))
     folders.insert(*root);
   return folders;
 }
@@ -145,7 +145,7 @@ static std::set<std::string> folders_in(const Json& params) {
 void Server::initialize(const CallPointer& call) {
   if (call->is_notification()) return;
   const Json& params = call->params();
-  Client client = documents::read_client(params);
+  Client client = protocol::read_client(params);
   client.commanded = language_;
   folders_ = folders_in(params);
   client_ = std::make_shared<const Client>(std::move(client));
@@ -203,7 +203,7 @@ void Server::close(const CallPointer& call) {
 
 void Server::save(const CallPointer& call) {
   const Json& params = call->params();
-  if (documents::names_configuration(params.at("textDocument").at("uri").get<std::string>())) reconfigure_all();
+  if (protocol::names_configuration(params.at("textDocument").at("uri").get<std::string>())) reconfigure_all();
 }
 
 // --- Workspace
@@ -218,14 +218,14 @@ void Server::change_settings(const CallPointer& call) {
   const Json& params = call->params();
   Client changed = *client_;
   const Json settings = params.is_object() && params.contains("settings") ? params["settings"] : Json();
-  changed.settings = documents::read_settings(settings.is_object() ? settings.value("isocnc", settings) : settings);
+  changed.settings = protocol::read_settings(settings.is_object() ? settings.value("isocnc", settings) : settings);
   client_ = std::make_shared<const Client>(std::move(changed));
   reconfigure_documents();
 }
 
 void Server::look_at_changed_files(const CallPointer& call) {
   for (const Json& change : call->params().at("changes"))
-    if (documents::names_configuration(change.at("uri").get<std::string>())) return reconfigure_all();
+    if (protocol::names_configuration(change.at("uri").get<std::string>())) return reconfigure_all();
 }
 
 void Server::reconfigure_all() {
@@ -237,7 +237,7 @@ void Server::reconfigure_all() {
 /// Updates the documents and asks the editor to repeat its requests, since earlier answers may be outdated.
 void Server::reconfigure_documents() {
   open_documents_.reconfigure(client_);
-  for (const features::Feature* const feature : features::all_features())
+  for (const features::Feature* const feature : all_features())
     if (feature->refresh && client_->can(feature->refresh->capability))
       outbox_.request(feature->refresh->method, nullptr);
 }
@@ -283,13 +283,13 @@ void Server::ask(const features::Method& method, const CallPointer& call, Json p
 ClosedPrograms::Folders Server::folders_of_workspace() const {
   ClosedPrograms::Folders folders;
   for (const std::string& uri : folders_)
-    if (const auto path = documents::path_of(uri)) folders.push_back(*path);
+    if (const auto path = protocol::path_of(uri)) folders.push_back(*path);
   return folders;
 }
 
 /// Reads only files in the folders that the user has opened, whatever file the message names.
 void Server::ask_closed(const features::Method& method, const CallPointer& call, const std::string& uri) {
-  if (documents::names_configuration(uri)) return outbox_.send(rpc::result_message(*call->id, method.of_configuration));
+  if (protocol::names_configuration(uri)) return outbox_.send(rpc::result_message(*call->id, method.of_configuration));
   const auto request = pending_requests_.add(*call);
   if (!request) return;
   closed_programs_.post([method, call, uri, folders = folders_of_workspace(), client = client_,

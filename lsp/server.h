@@ -9,12 +9,12 @@
 #include <unordered_map>
 
 #include "lsp/closed_programs.h"
-#include "lsp/documents/client.h"
 #include "lsp/documents/settings_store.h"
-#include "lsp/features/feature.h"
+#include "lsp/feature_list.h"
 #include "lsp/open_documents.h"
 #include "lsp/outbox.h"
 #include "lsp/pending_requests.h"
+#include "lsp/protocol/client.h"
 #include "lsp/rpc/message.h"
 #include "lsp/rpc/on_loop.h"
 #include "lsp/rpc/serve.h"
@@ -88,7 +88,7 @@ class Server final : public rpc::Peer {
   LifecyclePhase phase_ = LifecyclePhase::Starting;
   int exit_status_ = 1;
   int parent_ = 0;  // The id of the process that started the server; 0 if unknown.
-  std::shared_ptr<const documents::Client> client_ = std::make_shared<const documents::Client>();
+  std::shared_ptr<const protocol::Client> client_ = std::make_shared<const protocol::Client>();
   std::set<std::string> folders_;  // URIs of the workspace's folders.
   std::unordered_map<std::string_view, features::Method> methods_;
   std::unordered_map<std::string_view, features::WorkspaceRequest> workspace_requests_;

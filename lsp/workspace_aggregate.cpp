@@ -13,7 +13,7 @@ using rpc::Json;
 
 /// The client's token for partial results.
 static std::optional<Json> part_token_of(const rpc::Call& call) {
-  return documents::member<Json>(call.params(), "partialResultToken");
+  return protocol::member<Json>(call.params(), "partialResultToken");
 }
 
 WorkspaceAggregate::WorkspaceAggregate(features::WorkspaceRequest workspace_request,

@@ -8,9 +8,9 @@
 #include "analyzer/check/checker.h"
 #include "analyzer/check/conclusion.h"
 #include "analyzer/check/side_by_side.h"
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/line_finder.h"
 #include "interpreter/syntax/tree_store.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::check {
 
@@ -59,7 +59,7 @@ class Batch {
  private:
   /// The end of the line that starts at `p`, after its terminator.
   const char* after_line(std::size_t index, const char* p) const {
-    return syntax::skip_line_end(p + trees.length(index), text + size);
+    return text::skip_line_end(p + trees.length(index), text + size);
   }
 };
 
@@ -101,7 +101,7 @@ class Pass {
       if (finished_ || next_ == end_) return;
       const char* const begin = next_;
       const auto size = std::min<std::ptrdiff_t>(batch_bytes_, end_ - begin);
-      next_ = syntax::skip_line_end(syntax::find_line_end(begin + size, end_), end_);
+      next_ = text::skip_line_end(text::find_line_end(begin + size, end_), end_);
       const char* const batch_end = next_;
       Slot& mine = slot(taken_++);
       lock.unlock();

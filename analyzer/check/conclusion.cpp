@@ -5,8 +5,8 @@
 #include <unordered_set>
 #include <utility>
 
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::check {
 
@@ -66,8 +66,8 @@ static void add_unassigned_registers(const std::vector<PlacedOutcome>& outcomes,
 static syntax::Span without_blanks(std::string_view text) {
   std::size_t begin = 0;
   std::size_t end = text.size();
-  while (begin < end && syntax::is_blank(text[begin])) ++begin;
-  while (end > begin && syntax::is_blank(text[end - 1])) --end;
+  while (begin < end && text::is_blank(text[begin])) ++begin;
+  while (end > begin && text::is_blank(text[end - 1])) --end;
   return {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
 }
 

@@ -10,8 +10,8 @@
 #include <emmintrin.h>
 #endif
 
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::check {
 
@@ -56,9 +56,9 @@ class LineCounter {
 
 /// Whether the O at `offset` may end the word GOTO.
 static bool may_belong_to_goto(std::string_view text, std::size_t offset) {
-  while (offset > 0 && syntax::is_blank(text[offset - 1])) --offset;
+  while (offset > 0 && text::is_blank(text[offset - 1])) --offset;
   if (offset == 0) return false;
-  const char before = syntax::upper(text[offset - 1]);
+  const char before = text::upper(text[offset - 1]);
   return before == 'G' || before == ')';
 }
 
@@ -75,11 +75,11 @@ struct PlainLabel {
 };
 
 static PlainLabel plain_label(const char* p, const char* end) {
-  if (end - p < 20 || *p != 'N' || !syntax::is_digit(p[1])) return {};
+  if (end - p < 20 || *p != 'N' || !text::is_digit(p[1])) return {};
   std::uint64_t label = 0;
   const char* at = p + 1;
-  for (; at - p <= 15 && syntax::is_digit(*at); ++at) label = label * 10 + static_cast<std::uint64_t>(*at - '0');
-  const bool is_plain = *at == ' ' && syntax::char_class(at[1]) == syntax::CharClass::Letter;
+  for (; at - p <= 15 && text::is_digit(*at); ++at) label = label * 10 + static_cast<std::uint64_t>(*at - '0');
+  const bool is_plain = *at == ' ' && text::char_class(at[1]) == text::CharClass::Letter;
   return {label, is_plain ? at + 1 : nullptr};
 }
 
@@ -125,7 +125,7 @@ static void scan_events(std::string_view text, Take take) {
   PlainLabel label;
   for (const char* p = next_event_letter(text.data(), end);;) {
     const char* begin = p;
-    while (begin != text.data() && !syntax::is_line_end(begin[-1])) --begin;
+    while (begin != text.data() && !text::is_line_end(begin[-1])) --begin;
     if (labelled && (p == end || begin != labelled))
       take(JumpEvent{.kind = JumpEvent::Kind::Label, .label = label.number}, labelled);
     if (p == end) return;
@@ -160,7 +160,7 @@ static std::vector<JumpMap::Site> sites_in(std::string_view text) {
       continue;
     }
     const char* begin = p;
-    while (begin != text.data() && !syntax::is_line_end(begin[-1])) --begin;
+    while (begin != text.data() && !text::is_line_end(begin[-1])) --begin;
     store.clear();
     p = store.append_line(begin, end);
     const syntax::LineTree tree = store.tree(0, begin);

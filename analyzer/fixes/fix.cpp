@@ -9,8 +9,8 @@
 #include "analyzer/fixes/habits.h"
 #include "analyzer/fixes/line_edits.h"
 #include "interpreter/dialect/format.h"
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::fixes {
 
@@ -78,7 +78,7 @@ bool helps(const FixRequest& request, const std::vector<Edit>& edits) {
     for (const syntax::Finding& finding : line.findings)
       if (--counts[static_cast<std::size_t>(finding.id)] < 0) return false;
     if (line_end == end) return true;
-    p = syntax::skip_line_end(line_end, end);
+    p = text::skip_line_end(line_end, end);
   }
 }
 

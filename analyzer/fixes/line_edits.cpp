@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "interpreter/syntax/characters.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::fixes {
 
@@ -24,10 +24,10 @@ Edit inserted(const FixRequest& request, std::uint32_t column, std::string text)
 Edit removed(const FixRequest& request, Span span) {
   const std::string_view line = request.line.text;
   Span wide = span;
-  while (wide.begin > 0 && syntax::is_blank(line[wide.begin - 1])) --wide.begin;
+  while (wide.begin > 0 && text::is_blank(line[wide.begin - 1])) --wide.begin;
   if (wide.begin == 0) {  // The indentation stays.
     wide = span;
-    while (wide.end < line.size() && syntax::is_blank(line[wide.end])) ++wide.end;
+    while (wide.end < line.size() && text::is_blank(line[wide.end])) ++wide.end;
   }
   return replaced(request, wide, {});
 }
@@ -49,18 +49,18 @@ Edit removed_with_line(const FixRequest& request, Span span) {
 }
 
 bool is_blank(std::string_view text) {
-  return std::all_of(text.begin(), text.end(), [](char c) { return syntax::is_blank(c); });
+  return std::all_of(text.begin(), text.end(), [](char c) { return text::is_blank(c); });
 }
 
 std::string_view indentation(std::string_view line) {
   std::size_t blanks = 0;
-  while (blanks < line.size() && syntax::is_blank(line[blanks])) ++blanks;
+  while (blanks < line.size() && text::is_blank(line[blanks])) ++blanks;
   return line.substr(0, blanks);
 }
 
 std::string_view trimmed(std::string_view text) {
   text.remove_prefix(indentation(text).size());
-  while (!text.empty() && syntax::is_blank(text.back())) text.remove_suffix(1);
+  while (!text.empty() && text::is_blank(text.back())) text.remove_suffix(1);
   return text;
 }
 

@@ -2,7 +2,7 @@
 #include <optional>
 
 #include "analyzer/fixes/line_edits.h"
-#include "interpreter/syntax/characters.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::fixes {
 
@@ -28,7 +28,7 @@ static Draft moved(const FixRequest& request, Span span, std::uint32_t column, b
 static Edit line_end_before(const FixRequest& request, std::uint32_t column) {
   const std::string_view line = request.line.text;
   std::uint32_t begin = column;
-  while (begin > 0 && syntax::is_blank(line[begin - 1])) --begin;
+  while (begin > 0 && text::is_blank(line[begin - 1])) --begin;
   return replaced(request, {begin, column}, "\n" + std::string(indentation(line)));
 }
 

@@ -4,8 +4,8 @@
 
 #include "analyzer/fixes/line_edits.h"
 #include "interpreter/dialect/any_case.h"
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::fixes {
 
@@ -98,7 +98,7 @@ Draft removed_earlier_mode(const FixRequest& request) {
 Draft removed_foreign_frame(const FixRequest& request) {
   const std::string_view text = request.marked();
   const bool is_percent = text.find_first_not_of('%') == std::string_view::npos;
-  const bool is_number = text.size() > 1 && syntax::upper(text.front()) == 'O' &&
+  const bool is_number = text.size() > 1 && text::upper(text.front()) == 'O' &&
                          text.find_first_not_of("0123456789", 1) == std::string_view::npos;
   if ((!is_percent && !is_number) || request.line.words.size() > 1) return {};
   return removed_mark(request);
@@ -140,9 +140,9 @@ static bool is_one_of(std::string_view word, std::initializer_list<std::string_v
 static bool names_w190(std::string_view line) {
   const dialect::DiagnosticDef& def = dialect::definition("useless-suppression"_diag);
   std::string upper(line);
-  std::transform(upper.begin(), upper.end(), upper.begin(), syntax::upper);
+  std::transform(upper.begin(), upper.end(), upper.begin(), text::upper);
   std::string name(def.name);
-  std::transform(name.begin(), name.end(), name.begin(), syntax::upper);
+  std::transform(name.begin(), name.end(), name.begin(), text::upper);
   return upper.find(def.code) != std::string::npos || upper.find(name) != std::string::npos;
 }
 

@@ -6,8 +6,8 @@
 
 #include "analyzer/fixes/habits.h"
 #include "analyzer/fixes/line_edits.h"
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/prose.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::fixes {
 
@@ -15,7 +15,7 @@ using syntax::Instruction;
 using syntax::Span;
 using syntax::Word;
 
-static bool is_letter_o(char c) { return syntax::upper(c) == 'O'; }
+static bool is_letter_o(char c) { return text::upper(c) == 'O'; }
 
 static bool holds_only(std::string_view text, std::string_view characters) {
   return text.find_first_not_of(characters) == std::string_view::npos;
@@ -34,7 +34,7 @@ Draft zero_for_letter_o(const FixRequest& request) {
   Span zeros = request.finding.span;
   const bool follows_number = is_letter_o(line[zeros.begin]);
   if (follows_number) {
-    const bool continues = zeros.begin > 0 && (syntax::is_digit(line[zeros.begin - 1]) || line[zeros.begin - 1] == '.');
+    const bool continues = zeros.begin > 0 && (text::is_digit(line[zeros.begin - 1]) || line[zeros.begin - 1] == '.');
     if (!continues || !holds_only(request.marked(), "Oo0123456789.")) return {};
   } else {
     if (request.marked().size() != 1) return {};
@@ -52,7 +52,7 @@ Draft point_for_comma(const FixRequest& request) {
   if (!holds_only(text, "0123456789,+- \t")) return {};
   if (std::count(text.begin(), text.end(), ',') != 1) return {};
   const auto behind =
-      std::count_if(text.begin() + static_cast<std::ptrdiff_t>(text.find(',')), text.end(), syntax::is_digit);
+      std::count_if(text.begin() + static_cast<std::ptrdiff_t>(text.find(',')), text.end(), text::is_digit);
   if (behind == 3 && request.program.habits().separates_thousands()) return {};
   std::replace(text.begin(), text.end(), ',', '.');
   return rewritten(request, std::move(text));
@@ -61,7 +61,7 @@ Draft point_for_comma(const FixRequest& request) {
 /// G1.0 becomes G1, G-91 becomes G91. Also for M, N, T and V.
 Draft whole_number(const FixRequest& request) {
   const std::string_view text = request.marked();
-  const char letter = syntax::upper(text.front());
+  const char letter = text::upper(text.front());
   std::string_view number = trimmed(text.substr(1));
   if (!number.empty() && (number.front() == '-' || number.front() == '+')) number.remove_prefix(1);
   const std::size_t point = std::min(number.find('.'), number.size());
@@ -89,8 +89,8 @@ Draft without_equals(const FixRequest& request) {
   const std::uint32_t at = request.finding.span.begin;
   const std::string_view before = trimmed(line.substr(0, at));
   const std::string_view behind = trimmed(line.substr(at + 1));
-  if (before.empty() || syntax::char_class(before.back()) != syntax::CharClass::Letter) return {};
-  if (behind.empty() || !syntax::is_number_char(behind.front())) return {};
+  if (before.empty() || text::char_class(before.back()) != text::CharClass::Letter) return {};
+  if (behind.empty() || !text::is_number_char(behind.front())) return {};
   return {{replaced(request, {at, at + 1}, {})}};
 }
 
@@ -168,7 +168,7 @@ Draft opened_comment(const FixRequest& request) {
 }
 
 static bool is_letter(char c) {
-  return (syntax::upper(c) >= 'A' && syntax::upper(c) <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
+  return (text::upper(c) >= 'A' && text::upper(c) <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
 }
 
 /// Extends the span by the letters that it cuts off from a word, and the number after that: PROGRA M 12.
@@ -178,8 +178,8 @@ static Span whole_words(std::string_view line, Span span) {
   while (span.end < line.size() && is_letter(line[span.end])) ++span.end;
   if (span.end == end) return span;
   std::uint32_t number = span.end;
-  while (number < line.size() && syntax::is_blank(line[number])) ++number;
-  while (number < line.size() && syntax::is_digit(line[number])) span.end = ++number;
+  while (number < line.size() && text::is_blank(line[number])) ++number;
+  while (number < line.size() && text::is_digit(line[number])) span.end = ++number;
   return span;
 }
 
@@ -199,7 +199,7 @@ Draft capitals(const FixRequest& request) {
   for (std::uint32_t i = 0; i < text.size(); ++i) {
     const auto is_here = [&](Span comment) { return comment.holds(request.finding.span.begin + i); };
     if (std::none_of(request.line.comments.begin(), request.line.comments.end(), is_here))
-      text[i] = syntax::upper(text[i]);
+      text[i] = text::upper(text[i]);
   }
   return {{replaced(request, request.finding.span, std::move(text))}};
 }

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "interpreter/dialect/diagnostic_id.h"
-#include "interpreter/syntax/unicode.h"
+#include "interpreter/text/unicode.h"
 
 namespace isocnc::fixing {
 
@@ -54,7 +54,7 @@ std::size_t FindingFixes::column(const Position& position) {
     counted_columns_ = 1;
   }
   const std::string_view passed = program_.text(position.line).substr(counted_bytes_, position.column - counted_bytes_);
-  counted_columns_ += syntax::column_of(passed, passed.size()) - 1;
+  counted_columns_ += text::column_of(passed, passed.size()) - 1;
   counted_bytes_ = position.column;
   return counted_columns_;
 }

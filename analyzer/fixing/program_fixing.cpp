@@ -1,7 +1,7 @@
 #include "analyzer/fixing/program_fixing.h"
 
 #include "analyzer/fixing/unified_diff.h"
-#include "interpreter/syntax/characters.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::fixing {
 
@@ -25,7 +25,7 @@ class TextLineReader {
   explicit TextLineReader(std::string_view text) : rest_(text) {}
   std::string_view next() {
     const char* const end = rest_.data() + rest_.size();
-    const char* const behind = syntax::skip_line_end(syntax::find_line_end(rest_.data(), end), end);
+    const char* const behind = text::skip_line_end(text::find_line_end(rest_.data(), end), end);
     const std::string_view line = rest_.substr(0, static_cast<std::size_t>(behind - rest_.data()));
     rest_.remove_prefix(line.size());
     return line;

@@ -8,8 +8,8 @@
 #include "analyzer/fixes/line_edits.h"
 #include "interpreter/execution/block_recorder.h"
 #include "interpreter/execution/plane.h"
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::fixing {
 
@@ -92,10 +92,10 @@ class LineRewriter {
   void remove(Span span) {
     has_comment_ |= line_.text_of(span).find('(') != std::string_view::npos;
     Span wide = span;
-    while (wide.begin > 0 && syntax::is_blank(line_.text[wide.begin - 1])) --wide.begin;
+    while (wide.begin > 0 && text::is_blank(line_.text[wide.begin - 1])) --wide.begin;
     if (wide.begin == 0) {  // The indentation stays.
       wide = span;
-      while (wide.end < line_.text.size() && syntax::is_blank(line_.text[wide.end])) ++wide.end;
+      while (wide.end < line_.text.size() && text::is_blank(line_.text[wide.end])) ++wide.end;
     }
     for (const Edit& edit : edits_)  // Blanks between two words are removed once.
       if (edit.begin.column < wide.begin)

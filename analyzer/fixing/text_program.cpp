@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/formatter.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::fixing {
 
@@ -35,9 +35,9 @@ const std::vector<std::size_t>& TextProgram::starts() const {
   const char* const end = text_.data() + text_.size();
   starts_.push_back(0);
   for (const char* p = text_.data(); p != end;) {
-    const char* const line_end = syntax::find_line_end(p, end);
+    const char* const line_end = text::find_line_end(p, end);
     if (line_end == end) break;
-    p = syntax::skip_line_end(line_end, end);
+    p = text::skip_line_end(line_end, end);
     starts_.push_back(static_cast<std::size_t>(p - text_.data()));
   }
   return starts_;

@@ -5,16 +5,16 @@
 
 #include <fmt/format.h>
 
-#include "interpreter/syntax/characters.h"
-#include "interpreter/syntax/unicode.h"
 #include "interpreter/system/source_file.h"
+#include "interpreter/text/characters.h"
+#include "interpreter/text/unicode.h"
 
 namespace isocnc::fixing {
 
 /// The first line of `text` with its end.
 static std::string_view first_line(std::string_view text) {
   const char* const end = text.data() + text.size();
-  const char* const behind = syntax::skip_line_end(syntax::find_line_end(text.data(), end), end);
+  const char* const behind = text::skip_line_end(text::find_line_end(text.data(), end), end);
   return text.substr(0, static_cast<std::size_t>(behind - text.data()));
 }
 
@@ -114,7 +114,7 @@ std::string UnifiedDiff::Side::range() const {
 
 /// Writes the file names; a tab marks for patch the end of a name with blanks.
 void UnifiedDiff::write_names() {
-  const std::string name = syntax::printable(std::exchange(name_, {}));
+  const std::string name = text::printable(std::exchange(name_, {}));
   const std::string_view behind = name.find(' ') == std::string::npos ? "" : "\t";
   write_(fmt::format("--- {0}{1}\n+++ {0}{1}\n", name, behind));
 }

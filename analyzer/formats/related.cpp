@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::formats {
 
@@ -62,7 +62,7 @@ std::string_view line_above(std::string_view text, std::size_t begin) {
   std::size_t end = begin - 1;
   if (end > 0 && text[end] == '\n' && text[end - 1] == '\r') --end;
   std::size_t start = end;
-  while (start > 0 && !syntax::is_line_end(text[start - 1])) --start;
+  while (start > 0 && !text::is_line_end(text[start - 1])) --start;
   return text.substr(start, end - start);
 }
 

@@ -2,7 +2,7 @@
 
 #include "analyzer/formats/renderers.h"
 #include "interpreter/dialect/diagnostic_id.h"
-#include "interpreter/syntax/xml.h"
+#include "interpreter/text/xml.h"
 
 namespace isocnc::formats {
 
@@ -18,13 +18,13 @@ class CheckstyleRenderer final : public Renderer {
 
   void file(const CheckedProgram& program, Output& output) override {
     syntax::LineFinder lines(program.text);
-    output.buffer() += fmt::format("  <file name=\"{}\">\n", syntax::xml_escaped(plain_path(program.name)));
+    output.buffer() += fmt::format("  <file name=\"{}\">\n", text::xml_escaped(plain_path(program.name)));
     for (const check::LocatedFinding& located : program.report.findings) {
       const ShownFinding shown = show(located, lines, style_);
       fmt::format_to(std::back_inserter(output.buffer()),
                      "    <error line=\"{}\" column=\"{}\" severity=\"{}\" message=\"{}\" source=\"isolint.{}\"/>\n",
                      shown.line, shown.column, dialect::severity_name(shown.severity, dialect::Language::English),
-                     syntax::xml_escaped(shown.message), shown.def.code);
+                     text::xml_escaped(shown.message), shown.def.code);
       output.drain();
     }
     output.buffer() += "  </file>\n";

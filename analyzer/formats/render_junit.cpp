@@ -4,7 +4,7 @@
 
 #include "analyzer/formats/renderers.h"
 #include "interpreter/dialect/diagnostic_id.h"
-#include "interpreter/syntax/xml.h"
+#include "interpreter/text/xml.h"
 
 namespace isocnc::formats {
 
@@ -23,7 +23,7 @@ class JunitRenderer final : public Renderer {
     const auto failures =
         std::count_if(program.report.findings.begin(), program.report.findings.end(),
                       [&](const auto& located) { return located.severity() == dialect::Severity::Error; });
-    const std::string file = syntax::xml_escaped(plain_path(program.name));
+    const std::string file = text::xml_escaped(plain_path(program.name));
     fmt::format_to(std::back_inserter(output.buffer()), "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n",
                    file, std::max<std::size_t>(1, program.report.findings.size()), failures);
     // A suite without cases would count as not run.
@@ -41,7 +41,7 @@ class JunitRenderer final : public Renderer {
  private:
   void one(std::string_view file, const ShownFinding& shown, std::string_view path, std::string& out) const {
     const auto to = std::back_inserter(out);
-    const std::string message = syntax::xml_escaped(shown.message);
+    const std::string message = text::xml_escaped(shown.message);
     const std::string body =
         fmt::format("{}:{}:{}: {}: {} [{}]", file, shown.line, shown.column,
                     dialect::severity_name(shown.severity, style_.language), message, shown.def.code);
@@ -64,7 +64,7 @@ class JunitRenderer final : public Renderer {
     if (!text.empty()) text.remove_prefix(1);
     while (!text.empty()) {
       const std::size_t end = std::min(text.find('\n'), text.size());
-      out += "\n" + syntax::xml_escaped(text.substr(0, end));
+      out += "\n" + text::xml_escaped(text.substr(0, end));
       text.remove_prefix(std::min(end + 1, text.size()));
     }
   }

@@ -6,7 +6,7 @@
 #include "analyzer/formats/related.h"
 #include "analyzer/formats/renderers.h"
 #include "interpreter/dialect/diagnostic_id.h"
-#include "interpreter/syntax/unicode.h"
+#include "interpreter/text/unicode.h"
 
 namespace isocnc::formats {
 
@@ -44,7 +44,7 @@ struct Excerpt {
 };
 
 static Excerpt excerpt_around(std::string_view line, std::size_t byte) {
-  const auto is_inside = [&](std::size_t at) { return at < line.size() && syntax::is_inside_character(line[at]); };
+  const auto is_inside = [&](std::size_t at) { return at < line.size() && text::is_inside_character(line[at]); };
   Excerpt excerpt;
   if (line.size() > kWidth && byte > kContext + kContext / 2) excerpt.begin = byte - kContext;
   while (excerpt.begin > 0 && is_inside(excerpt.begin)) --excerpt.begin;

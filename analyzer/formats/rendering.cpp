@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "interpreter/dialect/diagnostic_id.h"
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::formats {
 

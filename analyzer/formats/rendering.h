@@ -8,12 +8,12 @@
 #include "analyzer/check/report.h"
 #include "interpreter/dialect/diagnostic.h"
 #include "interpreter/syntax/line_finder.h"
-#include "interpreter/syntax/unicode.h"
+#include "interpreter/text/unicode.h"
 
 namespace isocnc::formats {
 
-using syntax::column_of;
-using syntax::printable;
+using text::column_of;
+using text::printable;
 
 /// The style in which findings are shown.
 struct ReportStyle {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "interpreter/syntax/characters.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::formatting {
 
@@ -80,7 +80,7 @@ std::optional<FormattedPiece> ProgramFormatter::next() {
     store_.clear();
     const char* const line_end = store_.append_line(next_, end_);
     add_line(store_.tree(0, next_));
-    next_ = syntax::skip_line_end(line_end, end_);
+    next_ = text::skip_line_end(line_end, end_);
   }
   const std::string_view before(begin, static_cast<std::size_t>(next_ - begin));
   if (copied_ == begin) return FormattedPiece{before, before};

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "interpreter/dialect/format.h"
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/each_tree.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::formatting {
 
@@ -35,7 +35,7 @@ EachLine each_line_of(std::string_view text) {
 static std::string label_text(std::string_view written) {
   std::string text;
   for (const char c : written)
-    if (syntax::is_digit(c) || syntax::upper(c) == 'N') text += syntax::upper(c);
+    if (text::is_digit(c) || text::upper(c) == 'N') text += text::upper(c);
   return text;
 }
 

@@ -11,9 +11,9 @@
 #include "analyzer/selection/selection.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/syntax/line_finder.h"
-#include "interpreter/syntax/unicode.h"
 #include "interpreter/system/counted_bytes.h"
 #include "interpreter/system/source_file.h"
+#include "interpreter/text/unicode.h"
 
 namespace isocnc::selection {
 
@@ -28,7 +28,7 @@ static constexpr std::uint64_t kVersion = 1;
 Baseline::Baseline(const fs::path& file) : folder_(fs::absolute(file).lexically_normal().parent_path()) {}
 
 std::string Baseline::name_of(std::string_view program) const {
-  return syntax::printable(fs::absolute(program).lexically_normal().lexically_relative(folder_).generic_string());
+  return text::printable(fs::absolute(program).lexically_normal().lexically_relative(folder_).generic_string());
 }
 
 void Baseline::add(std::string_view program, std::string_view text, const check::Report& report) {

@@ -1,6 +1,6 @@
 #include "analyzer/selection/fingerprint.h"
 
-#include "interpreter/syntax/characters.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::selection {
 
@@ -18,7 +18,7 @@ Fingerprint Fingerprints::next(dialect::DiagnosticId id, std::string_view line) 
     line_ = line;
     line_hash_ = kHashStart;
     for (const char c : line)
-      if (!syntax::is_blank(c)) line_hash_ = hash_on(line_hash_, c);
+      if (!text::is_blank(c)) line_hash_ = hash_on(line_hash_, c);
   }
   return {.line_hash = line_hash_, .occurrence = ++seen_[{line_hash_, id}]};
 }

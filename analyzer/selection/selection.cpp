@@ -8,7 +8,7 @@
 #include "interpreter/dialect/code_set.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/near_names.h"
-#include "interpreter/syntax/characters.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::selection {
 
@@ -25,8 +25,8 @@ struct SeverityOverride {
 };
 
 static std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && syntax::is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && syntax::is_blank(text.back())) text.remove_suffix(1);
+  while (!text.empty() && text::is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && text::is_blank(text.back())) text.remove_suffix(1);
   return text;
 }
 

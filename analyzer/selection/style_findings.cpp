@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "analyzer/style/rule.h"
-#include "interpreter/syntax/characters.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::selection {
 
@@ -39,7 +39,7 @@ check::Report with_style(check::Report report, const syntax::Document& document,
     for (std::size_t i = 0; i < trees.size() && !rest.empty(); ++i) {
       const syntax::LineTree tree = trees[i];
       const char* const line_end = rest.data() + tree.text.size();
-      const char* const next = syntax::skip_line_end(line_end, rest.data() + rest.size());
+      const char* const next = text::skip_line_end(line_end, rest.data() + rest.size());
       const std::string_view terminator(line_end, static_cast<std::size_t>(next - line_end));
       reader.read({document.first_line_of_chunk(chunk) + i, tree, terminator});
       rest.remove_prefix(tree.text.size() + terminator.size());

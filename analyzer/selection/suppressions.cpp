@@ -4,8 +4,8 @@
 #include <cstring>
 
 #include "interpreter/dialect/any_case.h"
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::selection {
 
@@ -30,10 +30,10 @@ Suppressions::Suppressions(std::string_view text) {
   const char* line = text.data();
   std::uint64_t number = 0;
   for (std::size_t call = find_call(text, 0); call != std::string_view::npos;) {
-    const char* line_end = syntax::find_line_end(line, end);
+    const char* line_end = text::find_line_end(line, end);
     while (line_end < text.data() + call) {
-      line = syntax::skip_line_end(line_end, end);
-      line_end = syntax::find_line_end(line, end);
+      line = text::skip_line_end(line_end, end);
+      line_end = text::find_line_end(line, end);
       ++number;
     }
     read_line(number, {line, static_cast<std::size_t>(line_end - line)});
@@ -62,7 +62,7 @@ void Suppressions::read_line(std::uint64_t number, std::string_view line) {
 
 /// The next word in [begin, end) of the line, between blanks, commas and parentheses; empty at the end.
 static syntax::Span next_word(std::string_view line, std::uint32_t begin, std::uint32_t end) {
-  const auto separates = [](char c) { return syntax::is_blank(c) || c == ','; };
+  const auto separates = [](char c) { return text::is_blank(c) || c == ','; };
   while (begin < end && separates(line[begin])) ++begin;
   std::uint32_t behind = begin;
   while (behind < end && !separates(line[behind]) && line[behind] != '(' && line[behind] != ')') ++behind;

@@ -1,6 +1,6 @@
 #include "debugger/requests/request.h"
 
-namespace isocnc::debugger::requests {
+namespace isocnc::requests {
 
 /// Maximum number of lines in a response.
 static constexpr std::size_t kMaxLocations = 10000;
@@ -8,7 +8,7 @@ static constexpr std::size_t kMaxLocations = 10000;
 namespace {
 
 struct LocationArguments {
-  session::SourceArguments source;
+  dap::SourceArguments source;
   std::int64_t line = 0;
   std::optional<std::int64_t> end_line;
 };
@@ -20,7 +20,7 @@ struct LocationsBody {
 void from_json(const Json& json, LocationArguments& arguments) {
   arguments.line = required<std::int64_t>(json, "line");
   arguments.end_line = member<std::int64_t>(json, "endLine");
-  arguments.source = json.get<session::SourceArguments>();
+  arguments.source = json.get<dap::SourceArguments>();
 }
 
 void to_json(Json& json, const LocationsBody& body) {
@@ -32,7 +32,7 @@ void to_json(Json& json, const LocationsBody& body) {
 
 /// Lines that do something.
 static LocationsBody answer_breakpoint_locations(Session& session, const LocationArguments& arguments) {
-  const session::ProgramText& program = session.debuggee().text();
+  const debuggee::ProgramText& program = session.debuggee().text();
   const std::uint64_t first = to_line(session, arguments.line);
   const std::uint64_t last = arguments.end_line ? to_line(session, *arguments.end_line) : first;
   LocationsBody body;
@@ -48,4 +48,4 @@ static Json breakpoint_locations_capabilities() { return {{"supportsBreakpointLo
 extern const DebugRequest breakpoint_locations =
     on<&answer_breakpoint_locations>("breakpointLocations", breakpoint_locations_capabilities);
 
-}  // namespace isocnc::debugger::requests
+}  // namespace isocnc::requests

@@ -1,6 +1,6 @@
 #include "debugger/requests/request.h"
 
-namespace isocnc::debugger::requests {
+namespace isocnc::requests {
 
 namespace {
 
@@ -23,4 +23,4 @@ static Json cancel_capabilities() { return {{"supportsCancelRequest", true}}; }
 
 extern const DebugRequest cancel = on<&answer_cancel>("cancel", cancel_capabilities);
 
-}  // namespace isocnc::debugger::requests
+}  // namespace isocnc::requests

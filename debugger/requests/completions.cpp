@@ -6,7 +6,7 @@
 #include "debugger/requests/request.h"
 #include "interpreter/dialect/any_case.h"
 
-namespace isocnc::debugger::requests {
+namespace isocnc::requests {
 
 namespace {
 
@@ -48,7 +48,7 @@ static bool is_name_character(char c) { return std::isalnum(static_cast<unsigned
 
 static std::vector<CompletionItem> all_completions(const Session& session) {
   std::vector<CompletionItem> all;
-  for (const session::Quantity& each : session::all_quantities())
+  for (const expressions::Quantity& each : expressions::all_quantities())
     all.push_back({std::string(each.name), session.in_language(each.meaning), "variable"});
   for (const dialect::GCode& code : dialect::kGCodes)
     all.push_back({fmt::format("G{:02}", code.number), session.in_language(code.name), "function"});
@@ -75,4 +75,4 @@ static Json completions_capabilities() { return {{"supportsCompletionsRequest", 
 
 extern const DebugRequest completions = on<&answer_completions>("completions", completions_capabilities);
 
-}  // namespace isocnc::debugger::requests
+}  // namespace isocnc::requests

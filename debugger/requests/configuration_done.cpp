@@ -1,6 +1,6 @@
 #include "debugger/requests/request.h"
 
-namespace isocnc::debugger::requests {
+namespace isocnc::requests {
 
 /// The client has set its breakpoints: the run may begin.
 static void answer_configuration_done(Session& session) { session.configuration_done(); }
@@ -10,4 +10,4 @@ static Json configuration_done_capabilities() { return {{"supportsConfigurationD
 extern const DebugRequest configuration_done =
     on<&answer_configuration_done>("configurationDone", configuration_done_capabilities);
 
-}  // namespace isocnc::debugger::requests
+}  // namespace isocnc::requests

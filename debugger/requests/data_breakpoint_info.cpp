@@ -1,7 +1,7 @@
 #include "debugger/requests/request.h"
 #include "debugger/session/variables.h"
 
-namespace isocnc::debugger::requests {
+namespace isocnc::requests {
 
 static constexpr dialect::Text kUnwatchable{"this cannot be watched", "non si può sorvegliare"};
 
@@ -40,12 +40,12 @@ static std::string expression_of(const Session& session, const std::string& name
 static DataInfoBody answer_data_breakpoint_info(Session& session, const DataInfoArguments& arguments) {
   const std::string name =
       arguments.reference > 0 ? expression_of(session, arguments.name, arguments.reference) : arguments.name;
-  const auto watched = session::WatchedValue::compile(name, session.language());
-  const auto* const problem = std::get_if<session::ExpressionProblem>(&watched);
+  const auto watched = expressions::WatchedValue::compile(name, session.language());
+  const auto* const problem = std::get_if<expressions::ExpressionProblem>(&watched);
   if (problem == nullptr) return {.id = name, .description = name};
   return {.id = {}, .description = name.empty() ? std::string(session.in_language(kUnwatchable)) : problem->message};
 }
 
 extern const DebugRequest data_breakpoint_info = on<&answer_data_breakpoint_info>("dataBreakpointInfo");
 
-}  // namespace isocnc::debugger::requests
+}  // namespace isocnc::requests

@@ -1,15 +1,15 @@
 #include "debugger/requests/request.h"
 #include "debugger/session/console.h"
-#include "interpreter/syntax/characters.h"
+#include "interpreter/text/characters.h"
 
-namespace isocnc::debugger::requests {
+namespace isocnc::requests {
 
 namespace {
 
 struct EvaluateArguments {
   std::string expression;
   std::string context;  ///< `repl`, `hover`, `watch`.
-  session::FormatArguments format;
+  dap::FormatArguments format;
 };
 
 struct EvaluateBody {
@@ -19,7 +19,7 @@ struct EvaluateBody {
 void from_json(const Json& json, EvaluateArguments& arguments) {
   arguments.expression = required<std::string>(json, "expression");
   arguments.context = member<std::string>(json, "context").value_or("watch");
-  arguments.format = json.get<session::FormatArguments>();
+  arguments.format = json.get<dap::FormatArguments>();
 }
 
 void to_json(Json& json, const EvaluateBody& body) { json = {{"result", body.result}, {"variablesReference", 0}}; }
@@ -27,16 +27,16 @@ void to_json(Json& json, const EvaluateBody& body) { json = {{"result", body.res
 }  // namespace
 
 /// `X10.5` under the mouse: the present X.
-static std::string hovered(const Session& session, const std::string& word, const session::ValueFormat& format) {
-  if (session::find_quantity(word) == nullptr && word.size() > 1 &&
-      session::find_quantity(word.substr(0, 1)) != nullptr && syntax::is_number_char(word[1]))
+static std::string hovered(const Session& session, const std::string& word, const expressions::ValueFormat& format) {
+  if (expressions::find_quantity(word) == nullptr && word.size() > 1 &&
+      expressions::find_quantity(word.substr(0, 1)) != nullptr && text::is_number_char(word[1]))
     return session::evaluate(session, word.substr(0, 1), format);
   return session::evaluate(session, word, format);
 }
 
 /// An expression; in the console also blocks to be run by hand.
 static EvaluateBody answer_evaluate(Session& session, const EvaluateArguments& arguments) {
-  const session::ValueFormat format = format_of(session, arguments.format);
+  const expressions::ValueFormat format = format_of(session, arguments.format);
   session.debuggee();
   if (arguments.context == "repl") return {session::enter(session, arguments.expression)};
   if (arguments.context == "hover") return {hovered(session, arguments.expression, format)};
@@ -49,4 +49,4 @@ static Json evaluate_capabilities() {
 
 extern const DebugRequest evaluate = on<&answer_evaluate>("evaluate", evaluate_capabilities);
 
-}  // namespace isocnc::debugger::requests
+}  // namespace isocnc::requests

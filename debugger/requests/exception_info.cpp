@@ -1,6 +1,6 @@
 #include "debugger/requests/request.h"
 
-namespace isocnc::debugger::requests {
+namespace isocnc::requests {
 
 static constexpr dialect::Text kNone{"nothing but breakpoints has stopped the program",
                                      "a fermare il programma non è stata un'eccezione"};
@@ -8,12 +8,12 @@ static constexpr dialect::Text kNone{"nothing but breakpoints has stopped the pr
 namespace {
 
 struct ExceptionBody {
-  const session::Exception& exception;
+  const breakpoints::Exception& exception;
 };
 
 void to_json(Json& json, const ExceptionBody& body) {
-  const session::Exception& exception = body.exception;
-  const bool is_error = exception.filter == session::ExceptionFilter::Errors;
+  const breakpoints::Exception& exception = body.exception;
+  const bool is_error = exception.filter == breakpoints::ExceptionFilter::Errors;
   json = {{"exceptionId", exception.code},
           {"description", exception.message},
           {"breakMode", is_error ? "unhandled" : "always"},
@@ -35,4 +35,4 @@ static Json exception_info_capabilities() { return {{"supportsExceptionInfoReque
 
 extern const DebugRequest exception_info = on<&answer_exception_info>("exceptionInfo", exception_info_capabilities);
 
-}  // namespace isocnc::debugger::requests
+}  // namespace isocnc::requests

@@ -1,6 +1,6 @@
 #include "debugger/requests/request.h"
 
-namespace isocnc::debugger::requests {
+namespace isocnc::requests {
 
 static constexpr dialect::Text kNoTarget{"there is no such target", "non c'è un tale punto di arrivo"};
 
@@ -26,4 +26,4 @@ static void answer_go_to(Session& session, const GotoArguments& arguments) {
 
 extern const DebugRequest go_to = on<&answer_go_to>("goto");
 
-}  // namespace isocnc::debugger::requests
+}  // namespace isocnc::requests

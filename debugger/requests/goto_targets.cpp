@@ -1,6 +1,6 @@
 #include "debugger/requests/request.h"
 
-namespace isocnc::debugger::requests {
+namespace isocnc::requests {
 
 static constexpr dialect::Text kLine{"line {}", "riga {}"};
 
@@ -34,7 +34,7 @@ void to_json(Json& json, const GotoTargetsBody& body) {
 
 /// The block of a line, or the first one after it.
 static GotoTargetsBody answer_goto_targets(Session& session, const GotoTargetsArguments& arguments) {
-  const session::ProgramText& program = session.debuggee().text();
+  const debuggee::ProgramText& program = session.debuggee().text();
   const auto line = program.executable_line(to_line(session, arguments.line));
   if (!line) return {};
   const std::int64_t shown = session.client().to_client_line(*line);
@@ -45,4 +45,4 @@ static Json goto_targets_capabilities() { return {{"supportsGotoTargetsRequest",
 
 extern const DebugRequest goto_targets = on<&answer_goto_targets>("gotoTargets", goto_targets_capabilities);
 
-}  // namespace isocnc::debugger::requests
+}  // namespace isocnc::requests

@@ -1,6 +1,6 @@
 #include "debugger/requests/request.h"
 
-namespace isocnc::debugger::requests {
+namespace isocnc::requests {
 
 /// The program, which is the only source.
 static Json answer_loaded_sources(Session& session) {
@@ -12,4 +12,4 @@ static Json loaded_sources_capabilities() { return {{"supportsLoadedSourcesReque
 
 extern const DebugRequest loaded_sources = on<&answer_loaded_sources>("loadedSources", loaded_sources_capabilities);
 
-}  // namespace isocnc::debugger::requests
+}  // namespace isocnc::requests

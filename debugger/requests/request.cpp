@@ -1,6 +1,6 @@
 #include "debugger/requests/request.h"
 
-namespace isocnc::debugger::requests {
+namespace isocnc::requests {
 
 #define ISOCNC_REQUEST(name) extern const DebugRequest name;
 #include <requests.inc>
@@ -19,8 +19,8 @@ static constexpr dialect::Text kBadHits{"a hit condition is a number, or one beh
                                         "una condizione sul numero di passaggi è un numero, o un numero dopo =, >, >=, "
                                         "<, <= o %, non {}"};
 
-session::ValueFormat format_of(const Session& session, const session::FormatArguments& arguments) {
-  session::ValueFormat format = session.launch_options().format;
+expressions::ValueFormat format_of(const Session& session, const dap::FormatArguments& arguments) {
+  expressions::ValueFormat format = session.launch_options().format;
   if (arguments.is_hexadecimal) format.is_hexadecimal = true;
   return format;
 }
@@ -33,8 +33,8 @@ std::uint64_t to_line(const Session& session, std::int64_t line) {
 
 /// What has been compiled. Throws RequestError for a mistake.
 template <class Compiled>
-static Compiled compiled_or_throw(std::variant<Compiled, session::ExpressionProblem> result) {
-  if (const auto* const problem = std::get_if<session::ExpressionProblem>(&result))
+static Compiled compiled_or_throw(std::variant<Compiled, expressions::ExpressionProblem> result) {
+  if (const auto* const problem = std::get_if<expressions::ExpressionProblem>(&result))
     throw RequestError(problem->message);
   return std::get<Compiled>(std::move(result));
 }
@@ -44,20 +44,20 @@ static bool is_given(const std::optional<std::string>& rule) {
   return rule && rule->find_first_not_of(" \t") != std::string::npos;
 }
 
-session::BreakpointRules compile_rules(const Session& session, const session::RuleArguments& arguments) {
+breakpoints::BreakpointRules compile_rules(const Session& session, const dap::RuleArguments& arguments) {
   const auto& [condition, hits, message] = arguments;
-  session::BreakpointRules rules;
+  breakpoints::BreakpointRules rules;
   rules.text = condition.value_or("") + "\n" + hits.value_or("") + "\n" + message.value_or("") + "\n";
   if (is_given(condition))
-    rules.condition = compiled_or_throw(session::Expression::compile(*condition, session.language()));
+    rules.condition = compiled_or_throw(expressions::Expression::compile(*condition, session.language()));
   if (is_given(hits)) {
-    rules.hits = session::HitCondition::read(*hits);
+    rules.hits = breakpoints::HitCondition::read(*hits);
     if (!rules.hits) throw RequestError(session.in_language(kBadHits, *hits));
   }
   if (is_given(message))
-    rules.message =
-        compiled_or_throw(session::LogMessage::compile(*message, session.launch_options().format, session.language()));
+    rules.message = compiled_or_throw(
+        expressions::LogMessage::compile(*message, session.launch_options().format, session.language()));
   return rules;
 }
 
-}  // namespace isocnc::debugger::requests
+}  // namespace isocnc::requests

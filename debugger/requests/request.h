@@ -9,18 +9,18 @@
 #include <utility>
 #include <vector>
 
-#include "debugger/session/protocol.h"
+#include "debugger/dap/protocol.h"
 #include "debugger/session/session.h"
 
-namespace isocnc::debugger::requests {
+namespace isocnc::requests {
 
-using session::BreakpointBody;
-using session::BreakpointsBody;
-using session::Item;
-using session::Json;
-using session::member;
-using session::RequestError;
-using session::required;
+using dap::BreakpointBody;
+using dap::BreakpointsBody;
+using dap::Item;
+using dap::member;
+using dap::RequestError;
+using dap::required;
+using rpc::Json;
 using session::Session;
 
 /// Something that a client can ask for. Each has a file of its name in this folder, which defines it under that name
@@ -74,13 +74,13 @@ constexpr DebugRequest on(std::string_view command, Json (*capabilities)() = nul
 std::span<const DebugRequest* const> all_requests();
 
 /// As the launch wants it, and in hexadecimal where the request does.
-session::ValueFormat format_of(const Session& session, const session::FormatArguments& arguments);
+expressions::ValueFormat format_of(const Session& session, const dap::FormatArguments& arguments);
 
 /// A line of the client, from 0. Throws RequestError for one that cannot be.
 std::uint64_t to_line(const Session& session, std::int64_t line);
 
 /// Throws RequestError where one of the rules cannot be read.
-session::BreakpointRules compile_rules(const Session& session, const session::RuleArguments& arguments);
+breakpoints::BreakpointRules compile_rules(const Session& session, const dap::RuleArguments& arguments);
 
 /// The breakpoints that are asked for, each with an id, and the response. One for which `make` throws RequestError is
 /// left out, and the response says why.
@@ -102,4 +102,4 @@ std::pair<std::vector<Breakpoint>, BreakpointsBody> make_breakpoints(
   return made;
 }
 
-}  // namespace isocnc::debugger::requests
+}  // namespace isocnc::requests

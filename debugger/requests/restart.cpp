@@ -1,6 +1,6 @@
 #include "debugger/requests/request.h"
 
-namespace isocnc::debugger::requests {
+namespace isocnc::requests {
 
 namespace {
 
@@ -9,7 +9,7 @@ struct RestartArguments {
 };
 
 void from_json(const Json& json, RestartArguments& arguments) {
-  const Json* const options = session::find_member(json, "arguments");
+  const Json* const options = dap::find_member(json, "arguments");
   if (options != nullptr && options->is_object()) arguments.options = options->get<session::LaunchOptions>();
 }
 
@@ -22,4 +22,4 @@ static Json restart_capabilities() { return {{"supportsRestartRequest", true}}; 
 
 extern const DebugRequest restart = on<&answer_restart>("restart", restart_capabilities);
 
-}  // namespace isocnc::debugger::requests
+}  // namespace isocnc::requests

@@ -1,6 +1,6 @@
 #include "debugger/requests/request.h"
 
-namespace isocnc::debugger::requests {
+namespace isocnc::requests {
 
 /// Up to the next stop.
 static Json answer_resume(Session& session) {
@@ -10,4 +10,4 @@ static Json answer_resume(Session& session) {
 
 extern const DebugRequest resume = on<&answer_resume>("continue");
 
-}  // namespace isocnc::debugger::requests
+}  // namespace isocnc::requests

@@ -1,7 +1,7 @@
 #include "debugger/requests/request.h"
 #include "debugger/session/variables.h"
 
-namespace isocnc::debugger::requests {
+namespace isocnc::requests {
 
 /// The same for each frame: there is one machine.
 static Json answer_scopes(Session& session) {
@@ -18,4 +18,4 @@ static Json answer_scopes(Session& session) {
 
 extern const DebugRequest scopes = on<&answer_scopes>("scopes");
 
-}  // namespace isocnc::debugger::requests
+}  // namespace isocnc::requests

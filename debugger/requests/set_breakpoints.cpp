@@ -1,6 +1,6 @@
 #include "debugger/requests/request.h"
 
-namespace isocnc::debugger::requests {
+namespace isocnc::requests {
 
 static constexpr dialect::Text kOtherFile{"this is not the program that is debugged",
                                           "non è il programma in esecuzione"};
@@ -10,22 +10,22 @@ namespace {
 
 struct LineBreakpointArguments {
   std::int64_t line = 0;
-  Item<session::RuleArguments> rules;  ///< Wrong ones leave the breakpoint in its line, unverified.
+  Item<dap::RuleArguments> rules;  ///< Wrong ones leave the breakpoint in its line, unverified.
 };
 
 struct SetBreakpointsArguments {
-  session::SourceArguments source;
+  dap::SourceArguments source;
   std::vector<Item<LineBreakpointArguments>> breakpoints;
 };
 
 void from_json(const Json& json, LineBreakpointArguments& arguments) {
   arguments.line = required<std::int64_t>(json, "line");
-  arguments.rules = json.get<Item<session::RuleArguments>>();
+  arguments.rules = json.get<Item<dap::RuleArguments>>();
 }
 
 /// Older clients send lines alone.
 void from_json(const Json& json, SetBreakpointsArguments& arguments) {
-  arguments.source = json.get<session::SourceArguments>();
+  arguments.source = json.get<dap::SourceArguments>();
   auto breakpoints = member<std::vector<Item<LineBreakpointArguments>>>(json, "breakpoints");
   if (breakpoints || json.contains("breakpoints")) {
     arguments.breakpoints = std::move(breakpoints).value_or(std::vector<Item<LineBreakpointArguments>>());
@@ -37,8 +37,9 @@ void from_json(const Json& json, SetBreakpointsArguments& arguments) {
 
 }  // namespace
 
-static session::SourceBreakpoint make_source_breakpoint(Session& session, const Item<LineBreakpointArguments>& item) {
-  session::SourceBreakpoint breakpoint;
+static breakpoints::SourceBreakpoint make_source_breakpoint(Session& session,
+                                                            const Item<LineBreakpointArguments>& item) {
+  breakpoints::SourceBreakpoint breakpoint;
   breakpoint.id = session.new_breakpoint_id();
   const LineBreakpointArguments& arguments = item.get();
   breakpoint.wanted_line = to_line(session, arguments.line);
@@ -50,7 +51,7 @@ static session::SourceBreakpoint make_source_breakpoint(Session& session, const 
   return breakpoint;
 }
 
-static BreakpointBody body_of(const Session& session, const session::SourceBreakpoint& breakpoint) {
+static BreakpointBody body_of(const Session& session, const breakpoints::SourceBreakpoint& breakpoint) {
   BreakpointBody body{.id = breakpoint.id,
                       .is_verified = breakpoint.line.has_value(),
                       .message = breakpoint.problem,
@@ -69,9 +70,9 @@ static BreakpointsBody answer_set_breakpoints(Session& session, const SetBreakpo
     body.breakpoints.assign(arguments.breakpoints.size(), {.id = {}, .message = message, .line = {}, .source = {}});
     return body;
   }
-  std::vector<session::SourceBreakpoint> breakpoints;
+  std::vector<breakpoints::SourceBreakpoint> breakpoints;
   for (const auto& each : arguments.breakpoints) breakpoints.push_back(make_source_breakpoint(session, each));
-  for (const session::SourceBreakpoint& each : session.set_source_breakpoints(std::move(breakpoints)))
+  for (const breakpoints::SourceBreakpoint& each : session.set_source_breakpoints(std::move(breakpoints)))
     body.breakpoints.push_back(body_of(session, each));
   return body;
 }
@@ -84,4 +85,4 @@ static Json set_breakpoints_capabilities() {
 
 extern const DebugRequest set_breakpoints = on<&answer_set_breakpoints>("setBreakpoints", set_breakpoints_capabilities);
 
-}  // namespace isocnc::debugger::requests
+}  // namespace isocnc::requests

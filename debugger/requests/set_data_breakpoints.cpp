@@ -1,12 +1,12 @@
 #include "debugger/requests/request.h"
 
-namespace isocnc::debugger::requests {
+namespace isocnc::requests {
 
 namespace {
 
 struct DataBreakpointArguments {
   std::string expression;
-  session::RuleArguments rules;
+  dap::RuleArguments rules;
 };
 
 struct SetDataBreakpointsArguments {
@@ -15,7 +15,7 @@ struct SetDataBreakpointsArguments {
 
 void from_json(const Json& json, DataBreakpointArguments& arguments) {
   arguments.expression = required<std::string>(json, "dataId");
-  arguments.rules = json.get<session::RuleArguments>();
+  arguments.rules = json.get<dap::RuleArguments>();
 }
 
 void from_json(const Json& json, SetDataBreakpointsArguments& arguments) {
@@ -25,18 +25,18 @@ void from_json(const Json& json, SetDataBreakpointsArguments& arguments) {
 
 }  // namespace
 
-static session::DataBreakpoint make_data_breakpoint(const Session& session, const DataBreakpointArguments& arguments,
-                                                    std::int64_t id) {
-  auto watched = session::WatchedValue::compile(arguments.expression, session.language());
-  if (const auto* const problem = std::get_if<session::ExpressionProblem>(&watched))
+static breakpoints::DataBreakpoint make_data_breakpoint(const Session& session,
+                                                        const DataBreakpointArguments& arguments, std::int64_t id) {
+  auto watched = expressions::WatchedValue::compile(arguments.expression, session.language());
+  if (const auto* const problem = std::get_if<expressions::ExpressionProblem>(&watched))
     throw RequestError(problem->message);
   return {{.id = id, .rules = compile_rules(session, arguments.rules), .counter = {}},
-          std::get<session::WatchedValue>(std::move(watched))};
+          std::get<expressions::WatchedValue>(std::move(watched))};
 }
 
 /// Values that change (`V3`, `MOTION`, `F`), or that cross a threshold (`Z = 0`).
 static BreakpointsBody answer_set_data_breakpoints(Session& session, const SetDataBreakpointsArguments& arguments) {
-  auto [breakpoints, body] = make_breakpoints<session::DataBreakpoint, DataBreakpointArguments>(
+  auto [breakpoints, body] = make_breakpoints<breakpoints::DataBreakpoint, DataBreakpointArguments>(
       session, arguments.breakpoints,
       [&](const DataBreakpointArguments& each, std::int64_t id) { return make_data_breakpoint(session, each, id); });
   session.breakpoints().set_data(std::move(breakpoints));
@@ -48,4 +48,4 @@ static Json set_data_breakpoints_capabilities() { return {{"supportsDataBreakpoi
 extern const DebugRequest set_data_breakpoints =
     on<&answer_set_data_breakpoints>("setDataBreakpoints", set_data_breakpoints_capabilities);
 
-}  // namespace isocnc::debugger::requests
+}  // namespace isocnc::requests

@@ -1,6 +1,6 @@
 #include "debugger/requests/request.h"
 
-namespace isocnc::debugger::requests {
+namespace isocnc::requests {
 
 static constexpr dialect::Text kNoFilter{"there is no filter {}", "non c'è nessun filtro {}"};
 
@@ -21,7 +21,7 @@ void from_json(const Json& json, FilterArguments& arguments) {
 }  // namespace
 
 static BreakpointBody turn_on(Session& session, const std::string& name) {
-  const auto filter = session::find_exception_filter(name);
+  const auto filter = breakpoints::find_exception_filter(name);
   if (!filter) return {.id = {}, .message = session.in_language(kNoFilter, name), .line = {}, .source = {}};
   session.exception_filters().turn_on(*filter);
   return {.id = {}, .is_verified = true, .message = {}, .line = {}, .source = {}};
@@ -33,10 +33,10 @@ static BreakpointsBody answer_set_exception_breakpoints(Session& session, const 
   BreakpointsBody body;
   for (const std::string& name : arguments.names) body.breakpoints.push_back(turn_on(session, name));
   if (session.launch_options().break_on_warnings)
-    session.exception_filters().turn_on(session::ExceptionFilter::Warnings);
+    session.exception_filters().turn_on(breakpoints::ExceptionFilter::Warnings);
   return body;
 }
 
 extern const DebugRequest set_exception_breakpoints = on<&answer_set_exception_breakpoints>("setExceptionBreakpoints");
 
-}  // namespace isocnc::debugger::requests
+}  // namespace isocnc::requests

@@ -1,6 +1,6 @@
 #include "debugger/requests/request.h"
 
-namespace isocnc::debugger::requests {
+namespace isocnc::requests {
 
 static constexpr dialect::Text kOther{"there is no such source", "non c'è un tale sorgente"};
 static constexpr dialect::Text kTooLong{"the program is too long to be sent", "il programma è troppo lungo da inviare"};
@@ -17,7 +17,7 @@ void to_json(Json& json, const SourceBody& body) { json = {{"content", body.cont
 }  // namespace
 
 /// The program as it is being run, even if its file has changed.
-static SourceBody answer_source(Session& session, const session::SourceArguments& arguments) {
+static SourceBody answer_source(Session& session, const dap::SourceArguments& arguments) {
   const std::string_view program = session.debuggee().text().text();
   if (!session.is_program(arguments.path)) throw RequestError(std::string(session.in_language(kOther)));
   if (program.size() > kMaxLength) throw RequestError(std::string(session.in_language(kTooLong)));
@@ -26,4 +26,4 @@ static SourceBody answer_source(Session& session, const session::SourceArguments
 
 extern const DebugRequest source = on<&answer_source>("source");
 
-}  // namespace isocnc::debugger::requests
+}  // namespace isocnc::requests

@@ -1,9 +1,9 @@
 #include <algorithm>
 
 #include "debugger/requests/request.h"
-#include "interpreter/syntax/unicode.h"
+#include "interpreter/text/unicode.h"
 
-namespace isocnc::debugger::requests {
+namespace isocnc::requests {
 
 static constexpr dialect::Text kSegment{"segment {} of {}", "segmento {} di {}"};
 static constexpr dialect::Text kJump{"jump from line {}", "salto dalla riga {}"};
@@ -15,7 +15,7 @@ static constexpr std::size_t kMaxJumps = 200;
 namespace {
 
 struct StackArguments {
-  session::PageArguments page;
+  dap::PageArguments page;
 };
 
 /// A frame of the stack. Its id is its place in the stack, from 1.
@@ -34,19 +34,19 @@ void from_json(const Json& json, StackArguments& arguments) {
 
 /// The text of the line, without the blanks around it.
 static std::string name_of(const Session& session, std::uint64_t line) {
-  std::string name = syntax::printable(session.debuggee().text().line(line));
+  std::string name = text::printable(session.debuggee().text().line(line));
   name.erase(0, name.find_first_not_of(' '));
   name.erase(name.find_last_not_of(' ') + 1);
   if (name.empty()) return std::string(session.in_language(kEnd));
   if (name.size() <= kMaxName) return name;
   std::size_t end = kMaxName;
-  while (syntax::is_inside_character(name[end])) --end;
+  while (text::is_inside_character(name[end])) --end;
   return name.substr(0, end) + "…";
 }
 
 /// After the last line the last one is shown.
 static Json frame_json(const Session& session, std::size_t id, const StackFrame& frame) {
-  const session::ProgramText& program = session.debuggee().text();
+  const debuggee::ProgramText& program = session.debuggee().text();
   const std::uint64_t line = std::min(frame.line, std::max<std::uint64_t>(program.line_count(), 1) - 1);
   const std::string_view text = program.line(line);
   const std::size_t begin = std::min(text.find_first_not_of(" \t"), text.size());
@@ -54,9 +54,9 @@ static Json frame_json(const Session& session, std::size_t id, const StackFrame&
                {"name", frame.name},
                {"source", session.source()},
                {"line", session.client().to_client_line(line)},
-               {"column", session.client().to_client_column(syntax::column_of(text, begin) - 1)},
+               {"column", session.client().to_client_column(text::column_of(text, begin) - 1)},
                {"endLine", session.client().to_client_line(line)},
-               {"endColumn", session.client().to_client_column(syntax::column_of(text, text.size()) - 1)}};
+               {"endColumn", session.client().to_client_column(text::column_of(text, text.size()) - 1)}};
   if (frame.is_jump) json["presentationHint"] = "subtle";
   return json;
 }
@@ -68,7 +68,7 @@ static std::vector<StackFrame> stack_of(Session& session) {
   if (const auto segment = present.segment())
     frames.push_back({session.in_language(kSegment, segment->number + 1, segment->count), present.line()});
   frames.push_back({name_of(session, present.line()), present.line()});
-  for (const session::Journal::TakenJump& jump : session.journal().jumps(present.blocks())) {
+  for (const debuggee::Journal::TakenJump& jump : session.journal().jumps(present.blocks())) {
     if (frames.size() > kMaxJumps) break;
     frames.push_back({session.in_language(kJump, session.client().to_client_line(jump.from)), jump.from, true});
   }
@@ -87,4 +87,4 @@ static Json stack_trace_capabilities() { return {{"supportsDelayedStackTraceLoad
 
 extern const DebugRequest stack_trace = on<&answer_stack_trace>("stackTrace", stack_trace_capabilities);
 
-}  // namespace isocnc::debugger::requests
+}  // namespace isocnc::requests

@@ -1,6 +1,6 @@
 #include "debugger/requests/request.h"
 
-namespace isocnc::debugger::requests {
+namespace isocnc::requests {
 
 /// Ends the run.
 static void answer_terminate(Session& session) { session.terminate(); }
@@ -9,4 +9,4 @@ static Json terminate_capabilities() { return {{"supportsTerminateRequest", true
 
 extern const DebugRequest terminate = on<&answer_terminate>("terminate", terminate_capabilities);
 
-}  // namespace isocnc::debugger::requests
+}  // namespace isocnc::requests

@@ -1,6 +1,6 @@
 #include "debugger/requests/request.h"
 
-namespace isocnc::debugger::requests {
+namespace isocnc::requests {
 
 static constexpr dialect::Text kMachine{"machine", "macchina"};
 
@@ -11,4 +11,4 @@ static Json answer_threads(Session& session) {
 
 extern const DebugRequest threads = on<&answer_threads>("threads");
 
-}  // namespace isocnc::debugger::requests
+}  // namespace isocnc::requests

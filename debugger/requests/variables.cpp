@@ -1,15 +1,15 @@
 #include "debugger/session/variables.h"
 #include "debugger/requests/request.h"
 
-namespace isocnc::debugger::requests {
+namespace isocnc::requests {
 
 namespace {
 
 struct VariablesArguments {
   std::int64_t reference = 0;
-  session::FormatArguments format;
+  dap::FormatArguments format;
   bool wants_indexed = false;
-  session::PageArguments page;
+  dap::PageArguments page;
 };
 
 struct VariablesBody {
@@ -18,7 +18,7 @@ struct VariablesBody {
 
 void from_json(const Json& json, VariablesArguments& arguments) {
   arguments.reference = required<std::int64_t>(json, "variablesReference");
-  arguments.format = json.get<session::FormatArguments>();
+  arguments.format = json.get<dap::FormatArguments>();
   arguments.wants_indexed = member<std::string>(json, "filter") == "indexed";
   arguments.page.start = member<std::int64_t>(json, "start").value_or(0);
   arguments.page.count = member<std::int64_t>(json, "count").value_or(0);
@@ -51,4 +51,4 @@ static Json variables_capabilities() { return {{"supportsValueFormattingOptions"
 
 extern const DebugRequest variables = on<&answer_variables>("variables", variables_capabilities);
 
-}  // namespace isocnc::debugger::requests
+}  // namespace isocnc::requests

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "debugger/session/block_effect.h"
+#include "debugger/debuggee/block_effect.h"
 
-namespace isocnc::debugger::session {
+namespace isocnc::session {
 
 /// Blocks of a window, and of one in which motions are planned.
 static constexpr std::uint64_t kWindow = 8192;
@@ -37,9 +37,9 @@ std::optional<BackwardSearch::Hit> BackwardSearch::search_window() {
 }
 
 std::optional<std::uint64_t> BackwardSearch::find_overtravel_from(std::uint64_t block) const {
-  const Debuggee& debuggee = *state_.debuggee;
-  return debuggee.find_motion_back(block, searched_from_, [&](const motion::Move& move) {
-    return find_overtravel(move, debuggee.machine(), state_.language()).has_value();
+  const debuggee::Debuggee& debuggee = *state_.debuggee;
+  return debuggee.find_motion_back(block, searched_from_, [&](const kinematics::Move& move) {
+    return breakpoints::find_overtravel(move, debuggee.machine(), state_.language()).has_value();
   });
 }
 
@@ -52,39 +52,41 @@ std::optional<BackwardSearch::Hit> BackwardSearch::judge(const running::Block& b
   const bool is_stop = stops_before(block);
   if (changes_data(block)) return Hit{.block = block.number + 1, .is_change = true};
   if (is_stop) return Hit{.block = block.number};
-  const Debuggee& debuggee = *state_.debuggee;
-  const ExceptionFilters& filters = state_.exception_filters;
+  const debuggee::Debuggee& debuggee = *state_.debuggee;
+  const breakpoints::ExceptionFilters& filters = state_.exception_filters;
   if (filters.judge_blocks() && filters.find_exception(block, debuggee.setup(), state_.language()))
     return Hit{.block = block.number};
   return std::nullopt;
 }
 
-static Moment moment_before(const running::Block& block) {
+static expressions::Moment moment_before(const running::Block& block) {
   return {.state = block.state, .registers = block.registers, .vgpl = block.vgpl, .line = block.line};
 }
 
 /// Breakpoints in its line, or on its codes.
 bool BackwardSearch::stops_before(const running::Block& block) {
-  Breakpoints& breakpoints = state_.breakpoints;
-  Breakpoints::BreakpointOutcome outcome;
+  breakpoints::Breakpoints& breakpoints = state_.breakpoints;
+  breakpoints::Breakpoints::BreakpointOutcome outcome;
   if (breakpoints.has_line(block.line))
-    breakpoints.judge_line(moment_before(block), block.number, RunDirection::Backward, outcome);
+    breakpoints.judge_line(moment_before(block), block.number, breakpoints::RunDirection::Backward, outcome);
   if (breakpoints.has_functions())
-    breakpoints.judge_functions(block.tree, moment_before(block), block.number, RunDirection::Backward, outcome);
+    breakpoints.judge_functions(block.tree, moment_before(block), block.number, breakpoints::RunDirection::Backward,
+                                outcome);
   return !outcome.stopped.empty();
 }
 
 bool BackwardSearch::changes_data(const running::Block& block) {
-  Breakpoints& breakpoints = state_.breakpoints;
+  breakpoints::Breakpoints& breakpoints = state_.breakpoints;
   if (!breakpoints.has_data() || block.number + 1 >= start_) return false;
-  const BlockEffect effect = effect_of(block, state_.debuggee->setup());
-  const Moment after{.state = effect.state, .registers = effect.registers, .vgpl = block.vgpl, .line = block.line};
+  const debuggee::BlockEffect effect = debuggee::effect_of(block, state_.debuggee->setup());
+  const expressions::Moment after{
+      .state = effect.state, .registers = effect.registers, .vgpl = block.vgpl, .line = block.line};
   breakpoints.start_trail(moment_before(block), trail_);
   breakpoints.read_arc(effect, after, trail_);
   breakpoints.read_data(after, trail_);
-  Breakpoints::BreakpointOutcome outcome;
-  breakpoints.judge_data(trail_, after, block.number, RunDirection::Backward, outcome);
+  breakpoints::Breakpoints::BreakpointOutcome outcome;
+  breakpoints.judge_data(trail_, after, block.number, breakpoints::RunDirection::Backward, outcome);
   return !effect.has_error && !outcome.stopped.empty();
 }
 
-}  // namespace isocnc::debugger::session
+}  // namespace isocnc::session

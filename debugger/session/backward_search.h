@@ -5,7 +5,7 @@
 
 #include "debugger/session/session_state.h"
 
-namespace isocnc::debugger::session {
+namespace isocnc::session {
 
 /// Searches the past for the last place at which a run would have stopped, a window of blocks at a time. Log points are
 /// silent.
@@ -34,7 +34,7 @@ class BackwardSearch {
   SessionState& state_;
   std::uint64_t start_ = 0;          ///< Blocks that had begun when the search did.
   std::uint64_t searched_from_ = 0;  ///< The blocks from this one on have been searched.
-  ValueTrail trail_;
+  expressions::ValueTrail trail_;
 };
 
-}  // namespace isocnc::debugger::session
+}  // namespace isocnc::session

@@ -2,10 +2,10 @@
 
 #include <utility>
 
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
+#include "interpreter/text/characters.h"
 
-namespace isocnc::debugger::session {
+namespace isocnc::session {
 
 using dialect::Text;
 using syntax::InstructionKind;
@@ -17,16 +17,17 @@ static constexpr Text kWaits{"waits for G909", "in attesa di G909"};
 static constexpr Text kTooLong{"this is too long to be run by hand", "troppo lungo per essere eseguito a mano"};
 
 /// Throws RequestError where the text is not an expression.
-static Expression::Formatted compile_or_throw(const Session& session, std::string_view text,
-                                              const ValueFormat& format) {
-  auto compiled = compile_formatted(text, format, session.language());
-  if (const auto* const problem = std::get_if<ExpressionProblem>(&compiled)) throw RequestError(problem->message);
-  return std::get<Expression::Formatted>(std::move(compiled));
+static expressions::Expression::Formatted compile_or_throw(const Session& session, std::string_view text,
+                                                           const expressions::ValueFormat& format) {
+  auto compiled = expressions::compile_formatted(text, format, session.language());
+  if (const auto* const problem = std::get_if<expressions::ExpressionProblem>(&compiled))
+    throw dap::RequestError(problem->message);
+  return std::get<expressions::Expression::Formatted>(std::move(compiled));
 }
 
-std::string evaluate(const Session& session, std::string_view text, const ValueFormat& format) {
-  const Expression::Formatted formatted = compile_or_throw(session, text, format);
-  return show_value(formatted.expression.at(session.moment()), formatted.format);
+std::string evaluate(const Session& session, std::string_view text, const expressions::ValueFormat& format) {
+  const expressions::Expression::Formatted formatted = compile_or_throw(session, text, format);
+  return expressions::show_value(formatted.expression.at(session.moment()), formatted.format);
 }
 
 double number_of(const Session& session, std::string_view text) {
@@ -68,15 +69,16 @@ Blocks read_blocks(std::string_view text) {
   Blocks blocks;
   const char* const end = text.data() + text.size();
   for (const char* p = text.data(); p != end;) {
-    const char* const line_end = syntax::find_line_end(p, end);
+    const char* const line_end = text::find_line_end(p, end);
     add_line({p, static_cast<std::size_t>(line_end - p)}, blocks);
-    p = syntax::skip_line_end(line_end, end);
+    p = text::skip_line_end(line_end, end);
   }
   return blocks;
 }
 
 bool is_expression(const Session& session, std::string_view text) {
-  return std::holds_alternative<Expression::Formatted>(compile_formatted(text, {}, session.language()));
+  return std::holds_alternative<expressions::Expression::Formatted>(
+      expressions::compile_formatted(text, {}, session.language()));
 }
 
 }  // namespace
@@ -88,11 +90,11 @@ std::string enter(Session& session, std::string_view text) {
   if (!is_block) return evaluate(session, text, session.launch_options().format);
   session.stopped_debuggee();
   std::string all = std::exchange(session.waiting_blocks(), {}) + std::string(text) + "\n";
-  if (all.size() > kMaxLength) throw RequestError(std::string(session.in_language(kTooLong)));
+  if (all.size() > kMaxLength) throw dap::RequestError(std::string(session.in_language(kTooLong)));
   const bool are_first = all.size() == text.size() + 1;
   if (blocks.have_g909 || (are_first && !blocks.need_g909)) return session.run_by_hand(all);
   session.waiting_blocks() = std::move(all);
   return std::string(session.in_language(kWaits));
 }
 
-}  // namespace isocnc::debugger::session
+}  // namespace isocnc::session

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace isocnc::debugger::session {
+namespace isocnc::session {
 
 using dialect::Text;
 
@@ -21,7 +21,7 @@ static std::string tool_change_text(const running::ToolEvent& change, const Sess
 static std::string function_text(const running::FunctionEvent& call, const SessionState& state) {
   std::string text = fmt::format("M{:02}", call.number);
   for (const execution::FunctionParameter& each : call.parameters)
-    text += fmt::format(" P{}={}", each.number, show_value(each.value));
+    text += fmt::format(" P{}={}", each.number, expressions::show_value(each.value));
   const configuration::NamedFunction* const named = state.configuration.machine.find_function(call.number);
   if (named && !named->name.empty()) text += fmt::format(" ({})", named->name);
   return text;
@@ -30,10 +30,10 @@ static std::string function_text(const running::FunctionEvent& call, const Sessi
 std::string event_text(const running::Event& event, const SessionState& state) {
   if (const auto* const change = std::get_if<running::ToolEvent>(&event.what)) return tool_change_text(*change, state);
   if (const auto* const speed = std::get_if<running::SpindleSpeedEvent>(&event.what))
-    return state.in_language(kSpindleSpeed, show_value(speed->speed));
+    return state.in_language(kSpindleSpeed, expressions::show_value(speed->speed));
   if (const auto* const call = std::get_if<running::FunctionEvent>(&event.what)) return function_text(*call, state);
   if (std::holds_alternative<running::UpdateEvent>(event.what)) return std::string(state.in_language(kUpdate));
   return {};
 }
 
-}  // namespace isocnc::debugger::session
+}  // namespace isocnc::session

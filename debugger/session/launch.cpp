@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "debugger/session/request_error.h"
+#include "debugger/dap/request_error.h"
 #include "interpreter/configuration/configurations.h"
 
-namespace isocnc::debugger::session {
+namespace isocnc::session {
 
 using configuration::Configuration;
 using configuration::Configurations;
@@ -20,11 +20,11 @@ static std::string mistakes_of(const Configurations& read, Language language) {
   return all;
 }
 
-static ProgramText read_program(const std::filesystem::path& file, Language language) {
-  auto text = ProgramText::read(file, language);
-  if (const auto* const problem = std::get_if<ProgramText::ReadError>(&text))
-    throw RequestError(fmt::format("{}: {}", file.string(), problem->message));
-  return std::get<ProgramText>(std::move(text));
+static debuggee::ProgramText read_program(const std::filesystem::path& file, Language language) {
+  auto text = debuggee::ProgramText::read(file, language);
+  if (const auto* const problem = std::get_if<debuggee::ProgramText::ReadError>(&text))
+    throw dap::RequestError(fmt::format("{}: {}", file.string(), problem->message));
+  return std::get<debuggee::ProgramText>(std::move(text));
 }
 
 static running::RunOptions run_options(const LaunchOptions& launch, const Configuration& configuration) {
@@ -43,10 +43,10 @@ Launch launch(const LaunchOptions& options, std::optional<Language> commanded, L
   if (options.machine) configuration.machine = given.in_folder(folder).machine;
   const Language language = commanded.value_or(configuration.language.value_or(clients));
   for (const Configurations* const read : {&found, &given})
-    if (const std::string mistakes = mistakes_of(*read, language); !mistakes.empty()) throw RequestError(mistakes);
-  return {Debuggee(read_program(options.program, language), run_options(options, configuration),
-                   configuration.machine.timed),
+    if (const std::string mistakes = mistakes_of(*read, language); !mistakes.empty()) throw dap::RequestError(mistakes);
+  return {debuggee::Debuggee(read_program(options.program, language), run_options(options, configuration),
+                             configuration.machine.timed),
           std::move(configuration)};
 }
 
-}  // namespace isocnc::debugger::session
+}  // namespace isocnc::session

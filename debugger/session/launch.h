@@ -2,15 +2,15 @@
 
 #include <optional>
 
-#include "debugger/session/debuggee.h"
+#include "debugger/debuggee/debuggee.h"
 #include "debugger/session/launch_options.h"
 #include "interpreter/configuration/configuration.h"
 
-namespace isocnc::debugger::session {
+namespace isocnc::session {
 
 /// A program that is ready to run, and its configuration.
 struct Launch {
-  Debuggee debuggee;
+  debuggee::Debuggee debuggee;
   configuration::Configuration configuration;
 };
 
@@ -18,4 +18,4 @@ struct Launch {
 /// configuration, else that of the client.
 Launch launch(const LaunchOptions& options, std::optional<dialect::Language> commanded, dialect::Language clients);
 
-}  // namespace isocnc::debugger::session
+}  // namespace isocnc::session

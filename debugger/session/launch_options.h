@@ -7,10 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "debugger/session/client.h"
-#include "debugger/session/expression.h"
+#include "debugger/dap/client.h"
+#include "debugger/expressions/expression.h"
 
-namespace isocnc::debugger::session {
+namespace isocnc::session {
+
+using rpc::Json;
 
 /// The arguments of a launch.
 struct LaunchOptions {
@@ -23,10 +25,10 @@ struct LaunchOptions {
   double vgpl = 0;
   std::vector<std::pair<int, double>> registers;
   std::optional<std::uint64_t> start_line;  ///< Line from 0, to which the run goes without stopping.
-  ValueFormat format;                       ///< Format of all values that are shown.
+  expressions::ValueFormat format;          ///< Format of all values that are shown.
 };
 
 /// Unknown members are ignored, as clients add members of their own. Throws ArgumentError.
 void from_json(const Json& arguments, LaunchOptions& options);
 
-}  // namespace isocnc::debugger::session
+}  // namespace isocnc::session

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "debugger/session/event_text.h"
-#include "interpreter/motion/numbers.h"
+#include "interpreter/kinematics/numbers.h"
 
-namespace isocnc::debugger::session {
+namespace isocnc::session {
 
 using dialect::Text;
 using namespace std::chrono_literals;
@@ -72,9 +72,9 @@ void Notifier::report_position(bool is_running) {
                             {"time", present.time()},
                             {"running", is_running},
                             {"tip", pose_json(sample.tip)},
-                            {"joints", pose_json(motion::pose(sample.joints))},
-                            {"programmed", pose_json(programmed_pose(state_.moment()))},
-                            {"speed", sample.speed * motion::kSecondsPerMinute},
+                            {"joints", pose_json(kinematics::pose(sample.joints))},
+                            {"programmed", pose_json(expressions::programmed_pose(state_.moment()))},
+                            {"speed", sample.speed * kinematics::kSecondsPerMinute},
                             {"spindle", {{"function", state.spindle_function}, {"speed", state.spindle_speed}}},
                             {"tool", tool_json()}});
 }
@@ -115,7 +115,7 @@ void Notifier::report_omissions() {
   if (omitted_ > 0) report_output("console", state_.in_language(kOmitted, std::exchange(omitted_, 0)));
 }
 
-void Notifier::report_messages(const Breakpoints::BreakpointOutcome& outcome, std::uint64_t line) {
+void Notifier::report_messages(const breakpoints::Breakpoints::BreakpointOutcome& outcome, std::uint64_t line) {
   for (const std::string& message : outcome.messages) report_output("console", message, line);
 }
 
@@ -125,9 +125,9 @@ void Notifier::report_moved_breakpoint(const Json& breakpoint) {
   emit_("breakpoint", {{"reason", "changed"}, {"breakpoint", breakpoint}});
 }
 
-void Notifier::report_file_change(FileWatch::FileChange change) {
+void Notifier::report_file_change(debuggee::FileWatch::FileChange change) {
   report_output("important", std::string(state_.in_language(kFileChanged)));
-  const bool is_removed = change == FileWatch::FileChange::Removed;
+  const bool is_removed = change == debuggee::FileWatch::FileChange::Removed;
   emit_("loadedSource", {{"reason", is_removed ? "removed" : "changed"}, {"source", state_.source()}});
 }
 
@@ -158,4 +158,4 @@ void Notifier::end_progress() {
   progress_.reset();
 }
 
-}  // namespace isocnc::debugger::session
+}  // namespace isocnc::session

@@ -9,10 +9,10 @@
 #include <string>
 #include <string_view>
 
-#include "debugger/session/file_watch.h"
+#include "debugger/debuggee/file_watch.h"
 #include "debugger/session/session_state.h"
 
-namespace isocnc::debugger::session {
+namespace isocnc::session {
 
 /// Sends the client its events. Positions and output come no faster than an editor can show them.
 class Notifier {
@@ -41,11 +41,11 @@ class Notifier {
   /// How many of these lines have been left out since the last call.
   void report_omissions();
   /// Messages of log points. None is left out.
-  void report_messages(const Breakpoints::BreakpointOutcome& outcome, std::uint64_t line);
+  void report_messages(const breakpoints::Breakpoints::BreakpointOutcome& outcome, std::uint64_t line);
 
   /// The breakpoint, a `Breakpoint` of the protocol, lies elsewhere than before.
   void report_moved_breakpoint(const Json& breakpoint);
-  void report_file_change(FileWatch::FileChange change);
+  void report_file_change(debuggee::FileWatch::FileChange change);
 
   /// A search or run starts that may report its progress.
   void start_progress();
@@ -73,4 +73,4 @@ class Notifier {
   std::int64_t progress_ids_ = 0;
 };
 
-}  // namespace isocnc::debugger::session
+}  // namespace isocnc::session

@@ -7,7 +7,7 @@
 
 #include "interpreter/running/error_message.h"
 
-namespace isocnc::debugger::session {
+namespace isocnc::session {
 
 using dialect::Text;
 using namespace std::chrono_literals;
@@ -24,10 +24,10 @@ static constexpr Text kProgramEnd{"end of program after {} blocks, {} s", "fine 
 static constexpr Text kGoingTo{"Going to line {}", "Verso la riga {}"};
 static constexpr Text kSearching{"Searching back", "Ricerca all'indietro"};
 
-RunLoop::RunLoop(lsp::rpc::Loop& loop, SessionState& state, Notifier& notifier)
+RunLoop::RunLoop(rpc::Loop& loop, SessionState& state, Notifier& notifier)
     : loop_(loop), state_(state), notifier_(notifier), stop_check_(state, notifier), warning_check_(loop, state) {}
 
-void RunLoop::reset(const FileWatch& file) {
+void RunLoop::reset(const debuggee::FileWatch& file) {
   ++generation_;
   activity_ = Activity::None;
   file_watch_ = file;
@@ -141,13 +141,13 @@ void RunLoop::run_forward(Clock::time_point deadline) {
 /// too.
 std::optional<Stop> RunLoop::run_block(double until) {
   if (auto due = stop_check_.before_block()) return due;
-  const std::uint64_t block = advance([until](Debuggee& debuggee) { debuggee.advance_in_block(until); });
+  const std::uint64_t block = advance([until](debuggee::Debuggee& debuggee) { debuggee.advance_in_block(until); });
   if (state_.debuggee->present().is_in_block()) return std::nullopt;
   return end_block(block);
 }
 
 /// Lets the machine move within one block, and reports what that block does where it begins. The number of the block.
-std::uint64_t RunLoop::advance(const std::function<void(Debuggee& debuggee)>& move) {
+std::uint64_t RunLoop::advance(const std::function<void(debuggee::Debuggee& debuggee)>& move) {
   const simulation::Simulation& before = state_.debuggee->present();
   const std::uint64_t block = before.blocks();
   if (before.is_in_block()) {
@@ -156,10 +156,10 @@ std::uint64_t RunLoop::advance(const std::function<void(Debuggee& debuggee)>& mo
   }
   const std::uint64_t line = before.line();
   stop_check_.start_block();
-  const Journal::Modes modes(before.run().state);
+  const debuggee::Journal::Modes modes(before.run().state);
   move(*state_.debuggee);
   const simulation::Simulation& after = state_.debuggee->present();
-  state_.journal.take(block, line, modes, Journal::Modes(after.run().state), after.runner().events());
+  state_.journal.take(block, line, modes, debuggee::Journal::Modes(after.run().state), after.runner().events());
   notifier_.report_events(after.runner().events());
   return block;
 }
@@ -172,7 +172,8 @@ std::optional<Stop> RunLoop::end_block(std::uint64_t block) {
     finish(0);
     return std::nullopt;
   }
-  const bool stops = state_.exception_filters.is_on(ExceptionFilter::Errors) && !state_.launch_options.no_debug;
+  const bool stops =
+      state_.exception_filters.is_on(breakpoints::ExceptionFilter::Errors) && !state_.launch_options.no_debug;
   if (stops) return stop_check_.at_error();
   end_at_error();
   return std::nullopt;
@@ -186,16 +187,17 @@ void RunLoop::end_at_error() {
   finish(1);
 }
 
-void RunLoop::step(Step step) {
+void RunLoop::step(dap::Step step) {
   state_.exception.reset();
   if (state_.debuggee->present().has_ended()) return resume();
   stop_check_.on_arrival();
   post([this, step] { step_now(step); });
 }
 
-void RunLoop::step_now(Step step) {
-  const std::uint64_t block = advance(
-      [step](Debuggee& debuggee) { step == Step::Block ? debuggee.step_block() : debuggee.step_instruction(); });
+void RunLoop::step_now(dap::Step step) {
+  const std::uint64_t block = advance([step](debuggee::Debuggee& debuggee) {
+    step == dap::Step::Block ? debuggee.step_block() : debuggee.step_instruction();
+  });
   stop_check_.expect_judgement();
   if (state_.debuggee->present().is_in_block()) return stop({.reason = "step"});
   if (const auto due = end_block(block)) return stop(*due);
@@ -225,7 +227,7 @@ void RunLoop::go_to_line(std::uint64_t line) {
 void RunLoop::go_backward_to_line(std::uint64_t line) {
   if (const auto block = state_.debuggee->find_line(line)) {
     state_.exception.reset();
-    move_back([&](Debuggee& debuggee) { debuggee.go_to_block(*block); });
+    move_back([&](debuggee::Debuggee& debuggee) { debuggee.go_to_block(*block); });
   } else {
     report_missed_line(line);
   }
@@ -259,10 +261,10 @@ bool RunLoop::pass_block() {
   const std::uint64_t block = present.blocks();
   const std::uint64_t line = present.line();
   if (present.has_ended() || (!is_in_block && line >= target_line_)) return false;
-  const Journal::Modes modes(present.run().state);
+  const debuggee::Journal::Modes modes(present.run().state);
   state_.debuggee->step_block();
   if (!is_in_block)
-    state_.journal.take(block, line, modes, Journal::Modes(present.run().state), present.runner().events());
+    state_.journal.take(block, line, modes, debuggee::Journal::Modes(present.run().state), present.runner().events());
   return true;
 }
 
@@ -298,7 +300,7 @@ void RunLoop::run_backward(Clock::time_point deadline) {
 }
 
 void RunLoop::go_back_to(const BackwardSearch::Hit& hit) {
-  move_back([&](Debuggee& debuggee) { debuggee.go_to_block(hit.block); });
+  move_back([&](debuggee::Debuggee& debuggee) { debuggee.go_to_block(hit.block); });
   stop_check_.expect_judgement();
   state_.exception.reset();
   const auto due = stop_check_.on_arrival();
@@ -307,25 +309,26 @@ void RunLoop::go_back_to(const BackwardSearch::Hit& hit) {
 }
 
 void RunLoop::go_back_to_start() {
-  move_back([](Debuggee& debuggee) {
+  move_back([](debuggee::Debuggee& debuggee) {
     debuggee.go_to_block(0);
     while (!debuggee.is_at_start()) debuggee.step_back();
   });
   settle("entry");
 }
 
-void RunLoop::step_back(Step step) {
+void RunLoop::step_back(dap::Step step) {
   state_.exception.reset();
   post([this, step] {
-    move_back(
-        [step](Debuggee& debuggee) { step == Step::Block ? debuggee.step_back() : debuggee.step_instruction_back(); });
+    move_back([step](debuggee::Debuggee& debuggee) {
+      step == dap::Step::Block ? debuggee.step_back() : debuggee.step_instruction_back();
+    });
     stop_check_.skip_judgement();  // The run forward has judged it.
     stop({.reason = "step"});
   });
 }
 
 /// A change by hand that the run goes back over is undone, and what has come of it is forgotten.
-void RunLoop::move_back(const std::function<void(Debuggee& debuggee)>& move) {
+void RunLoop::move_back(const std::function<void(debuggee::Debuggee& debuggee)>& move) {
   const std::size_t changes = state_.debuggee->change_count();
   move(*state_.debuggee);
   if (state_.debuggee->change_count() != changes) forget_future();
@@ -381,7 +384,7 @@ void RunLoop::finish(int exit_code) {
   const simulation::Simulation& present = state_.debuggee->present();
   notifier_.report_omissions();
   if (has_run && present.has_ended() && exit_code == 0) {
-    const std::string seconds = show_value(present.time(), {.decimals = 1});
+    const std::string seconds = expressions::show_value(present.time(), {.decimals = 1});
     notifier_.report_output("console", state_.in_language(kProgramEnd, present.blocks(), seconds), present.line());
   }
   notifier_.report_standing_position();
@@ -400,4 +403,4 @@ void RunLoop::report_on_the_way() {
   if (const auto change = file_watch_.find_change_now_and_then()) notifier_.report_file_change(*change);
 }
 
-}  // namespace isocnc::debugger::session
+}  // namespace isocnc::session

@@ -6,16 +6,16 @@
 #include <optional>
 #include <string_view>
 
+#include "debugger/dap/step.h"
+#include "debugger/debuggee/file_watch.h"
+#include "debugger/debuggee/pace.h"
 #include "debugger/session/backward_search.h"
-#include "debugger/session/file_watch.h"
 #include "debugger/session/notifier.h"
-#include "debugger/session/pace.h"
-#include "debugger/session/step.h"
 #include "debugger/session/stop_check.h"
 #include "debugger/session/warning_check.h"
 #include "lsp/rpc/loop.h"
 
-namespace isocnc::debugger::session {
+namespace isocnc::session {
 
 /// Runs the debuggee, forward and backward, and reports where it stops. A run is cut into slices of a few milliseconds,
 /// each a task of the loop, so that requests are answered in between. All members but reset(), finish() and abandon()
@@ -23,12 +23,12 @@ namespace isocnc::debugger::session {
 class RunLoop {
  public:
   /// Keeps references to all.
-  RunLoop(lsp::rpc::Loop& loop, SessionState& state, Notifier& notifier);
+  RunLoop(rpc::Loop& loop, SessionState& state, Notifier& notifier);
 
   bool is_running() const { return activity_ != Activity::None; }
 
   /// Another program has been launched: nothing of the run before is left.
-  void reset(const FileWatch& file);
+  void reset(const debuggee::FileWatch& file);
   /// Goes to where the launch wants the run to begin. Does nothing when the program has been started already.
   void start_program();
   bool has_started_program() const { return has_started_; }
@@ -37,8 +37,8 @@ class RunLoop {
   void resume();
   /// Back to the last stop, or to the start.
   void reverse();
-  void step(Step step);
-  void step_back(Step step);
+  void step(dap::Step step);
+  void step_back(dap::Step step);
   /// To the end of the tool's section or of the frame, whichever comes first.
   void step_out();
   /// Forward or backward to a line, with the state that a run to it has. Nothing stops the run before.
@@ -75,10 +75,10 @@ class RunLoop {
   // Parts of a run.
   void begin_program();
   std::optional<Stop> run_block(double until);
-  std::uint64_t advance(const std::function<void(Debuggee& debuggee)>& move);
+  std::uint64_t advance(const std::function<void(debuggee::Debuggee& debuggee)>& move);
   std::optional<Stop> end_block(std::uint64_t block);
   void end_at_error();
-  void step_now(Step step);
+  void step_now(dap::Step step);
   void go_forward_to_line(std::uint64_t line, std::string_view reason);
   void go_backward_to_line(std::uint64_t line);
   bool pass_block();
@@ -86,7 +86,7 @@ class RunLoop {
   void report_missed_line(std::uint64_t line, std::optional<std::uint64_t> place = {});
   void go_back_to(const BackwardSearch::Hit& hit);
   void go_back_to_start();
-  void move_back(const std::function<void(Debuggee& debuggee)>& move);
+  void move_back(const std::function<void(debuggee::Debuggee& debuggee)>& move);
 
   // Stops.
   void stop(const Stop& stop);
@@ -94,13 +94,13 @@ class RunLoop {
   void finish(int exit_code);
   void report_on_the_way();
 
-  lsp::rpc::Loop& loop_;
+  rpc::Loop& loop_;
   SessionState& state_;
   Notifier& notifier_;
   StopCheck stop_check_;
   WarningCheck warning_check_;
-  FileWatch file_watch_;
-  Pace pace_;
+  debuggee::FileWatch file_watch_;
+  debuggee::Pace pace_;
 
   Activity activity_ = Activity::None;
   std::uint64_t generation_ = 0;  ///< Tasks of an earlier one are void.
@@ -112,4 +112,4 @@ class RunLoop {
   std::optional<simulation::Simulation> origin_;  ///< Where the run to target_line_ began.
 };
 
-}  // namespace isocnc::debugger::session
+}  // namespace isocnc::session

@@ -10,7 +10,7 @@
 #include "interpreter/dialect/locale.h"
 #include "interpreter/running/error_message.h"
 
-namespace isocnc::debugger::session {
+namespace isocnc::session {
 
 using dialect::Language;
 using dialect::Text;
@@ -29,7 +29,7 @@ static constexpr Text kNotSettable{"{} cannot be set", "{} non si può impostare
 static constexpr Text kBadValue{"{} cannot be {}", "{} non può essere {}"};
 static constexpr Text kDone{"done", "eseguito"};
 
-Session::Session(lsp::rpc::Loop& loop, Notifier::Emit emit, std::optional<Language> language)
+Session::Session(rpc::Loop& loop, Notifier::Emit emit, std::optional<Language> language)
     : notifier_(std::move(emit), state_), run_loop_(loop, state_, notifier_) {
   state_.commanded_language = language;
 }
@@ -37,18 +37,18 @@ Session::Session(lsp::rpc::Loop& loop, Notifier::Emit emit, std::optional<Langua
 // --- Lifecycle
 
 void Session::launch(LaunchOptions options) {
-  if (is_launched()) throw RequestError(std::string(in_language(kLaunchedAlready)));
+  if (is_launched()) throw dap::RequestError(std::string(in_language(kLaunchedAlready)));
   begin(std::move(options));
-  if (launch_options().break_on_warnings) exception_filters().turn_on(ExceptionFilter::Warnings);
+  if (launch_options().break_on_warnings) exception_filters().turn_on(breakpoints::ExceptionFilter::Warnings);
 }
 
 void Session::begin(LaunchOptions options) {
-  const FileWatch file_watch(options.program);  // A change while the file is read counts.
+  const debuggee::FileWatch file_watch(options.program);  // A change while the file is read counts.
   const Language clients = client().locale.value_or(dialect::language_of_environment());
   Launch launched = session::launch(options, state_.commanded_language, clients);
   state_.launch_options = std::move(options);
   state_.configuration = std::move(launched.configuration);
-  state_.debuggee = std::make_shared<Debuggee>(std::move(launched.debuggee));
+  state_.debuggee = std::make_shared<debuggee::Debuggee>(std::move(launched.debuggee));
   state_.journal = {};
   state_.exception.reset();
   state_.exception_filters.warnings.clear();
@@ -78,21 +78,21 @@ void Session::terminate() {
 // --- Asking
 
 void Session::require_launch() const {
-  if (!is_launched()) throw RequestError(std::string(in_language(kNotLaunched)));
+  if (!is_launched()) throw dap::RequestError(std::string(in_language(kNotLaunched)));
 }
 
-const Debuggee& Session::debuggee() const {
+const debuggee::Debuggee& Session::debuggee() const {
   require_launch();
   return *state_.debuggee;
 }
 
-Debuggee& Session::stopped_debuggee() const {
+debuggee::Debuggee& Session::stopped_debuggee() const {
   require_launch();
-  if (is_running()) throw RequestError(std::string(in_language(kIsRunning)));
+  if (is_running()) throw dap::RequestError(std::string(in_language(kIsRunning)));
   return *state_.debuggee;
 }
 
-Moment Session::moment() const {
+expressions::Moment Session::moment() const {
   require_launch();
   return state_.moment();
 }
@@ -114,12 +114,12 @@ void Session::pause() {
   run_loop_.pause();
 }
 
-void Session::step(Step step) {
+void Session::step(dap::Step step) {
   stopped_debuggee();
   run_loop_.step(step);
 }
 
-void Session::step_back(Step step) {
+void Session::step_back(dap::Step step) {
   stopped_debuggee();
   run_loop_.step_back(step);
 }
@@ -146,18 +146,18 @@ void Session::finish_change() {
 void Session::require_change_by_hand() const {
   const auto hindrance = stopped_debuggee().hindrance();
   if (!hindrance) return;
-  const Text& why = *hindrance == Hindrance::InBlock        ? kInBlock
-                    : *hindrance == Hindrance::Compensation ? kCompensation
-                                                            : kHasEnded;
-  throw RequestError(std::string(in_language(why)));
+  const Text& why = *hindrance == debuggee::Hindrance::InBlock        ? kInBlock
+                    : *hindrance == debuggee::Hindrance::Compensation ? kCompensation
+                                                                      : kHasEnded;
+  throw dap::RequestError(std::string(in_language(why)));
 }
 
-void Session::change_variables(const std::function<void(Debuggee& debuggee)>& change) {
+void Session::change_variables(const std::function<void(debuggee::Debuggee& debuggee)>& change) {
   change(stopped_debuggee());
   finish_change();
 }
 
-void Session::change_machine(const std::function<void(Debuggee& debuggee)>& change) {
+void Session::change_machine(const std::function<void(debuggee::Debuggee& debuggee)>& change) {
   require_change_by_hand();
   change_variables(change);
 }
@@ -168,31 +168,33 @@ void Session::set_playback(double speed) {
   run_loop_.restart_pace();
 }
 
-void Session::refuse_to_set(std::string_view name) const { throw RequestError(in_language(kNotSettable, name)); }
+void Session::refuse_to_set(std::string_view name) const { throw dap::RequestError(in_language(kNotSettable, name)); }
 
-void Session::set_quantity(const Quantity& quantity, double value) {
+void Session::set_quantity(const expressions::Quantity& quantity, double value) {
   stopped_debuggee();
   if (quantity.set == nullptr) refuse_to_set(quantity.name);
   if (!std::isfinite(value) || !quantity.set(*this, quantity.index, value))
-    throw RequestError(in_language(kBadValue, quantity.name, show_value(value)));
+    throw dap::RequestError(in_language(kBadValue, quantity.name, expressions::show_value(value)));
 }
 
 /// What the blocks did, a line each, and where they have led the tip.
-static std::string mdi_text(const MdiOutcome& outcome, const SessionState& state) {
+static std::string mdi_text(const debuggee::MdiOutcome& outcome, const SessionState& state) {
   std::string text;
   for (const running::Event& event : outcome.events)
     if (const std::string line = event_text(event, state); !line.empty()) text += line + "\n";
-  const geometry::Pose tip = machine_pose(state.moment());
-  return text + fmt::format("{}: XM {} YM {} ZM {} BM {} CM {}", state.in_language(kDone), show_value(tip.tip.x()),
-                            show_value(tip.tip.y()), show_value(tip.tip.z()), show_value(tip.b), show_value(tip.c));
+  const geometry::Pose tip = expressions::machine_pose(state.moment());
+  return text + fmt::format("{}: XM {} YM {} ZM {} BM {} CM {}", state.in_language(kDone),
+                            expressions::show_value(tip.tip.x()), expressions::show_value(tip.tip.y()),
+                            expressions::show_value(tip.tip.z()), expressions::show_value(tip.b),
+                            expressions::show_value(tip.c));
 }
 
 std::string Session::run_by_hand(std::string_view text) {
   require_change_by_hand();
-  const MdiOutcome outcome = stopped_debuggee().run_by_hand(text);
+  const debuggee::MdiOutcome outcome = stopped_debuggee().run_by_hand(text);
   if (outcome.error) {
     const std::string_view code = dialect::definition(outcome.error->error.id).code;
-    throw RequestError(fmt::format("{}: {}", code, running::error_message(*outcome.error, language())));
+    throw dap::RequestError(fmt::format("{}: {}", code, running::error_message(*outcome.error, language())));
   }
   run_loop_.skip_judgement();
   finish_change();
@@ -201,7 +203,8 @@ std::string Session::run_by_hand(std::string_view text) {
 
 // --- Breakpoints
 
-const std::vector<SourceBreakpoint>& Session::set_source_breakpoints(std::vector<SourceBreakpoint> breakpoints) {
+const std::vector<breakpoints::SourceBreakpoint>& Session::set_source_breakpoints(
+    std::vector<breakpoints::SourceBreakpoint> breakpoints) {
   source_breakpoints_ = std::move(breakpoints);
   place_source_breakpoints();
   return source_breakpoints_;
@@ -209,9 +212,9 @@ const std::vector<SourceBreakpoint>& Session::set_source_breakpoints(std::vector
 
 /// Each on the first line from the wanted one on that does something.
 void Session::place_source_breakpoints() {
-  const ProgramText& text = debuggee().text();
-  std::vector<LineBreakpoint> placed;
-  for (SourceBreakpoint& each : source_breakpoints_) {
+  const debuggee::ProgramText& text = debuggee().text();
+  std::vector<breakpoints::LineBreakpoint> placed;
+  for (breakpoints::SourceBreakpoint& each : source_breakpoints_) {
     each.line.reset();
     if (!each.problem.empty()) continue;
     each.line = text.executable_line(each.wanted_line);
@@ -222,10 +225,10 @@ void Session::place_source_breakpoints() {
 
 /// The program has been read again.
 void Session::report_moved_breakpoints() {
-  const std::vector<SourceBreakpoint> before = source_breakpoints_;
+  const std::vector<breakpoints::SourceBreakpoint> before = source_breakpoints_;
   place_source_breakpoints();
   for (std::size_t i = 0; i < before.size(); ++i) {
-    const SourceBreakpoint& now = source_breakpoints_[i];
+    const breakpoints::SourceBreakpoint& now = source_breakpoints_[i];
     if (now.line == before[i].line) continue;
     Json breakpoint = {{"id", now.id}, {"verified", now.line.has_value()}, {"source", source()}};
     if (now.line) breakpoint["line"] = client().to_client_line(*now.line);
@@ -233,4 +236,4 @@ void Session::report_moved_breakpoints() {
   }
 }
 
-}  // namespace isocnc::debugger::session
+}  // namespace isocnc::session

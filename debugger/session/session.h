@@ -8,27 +8,27 @@
 #include <string_view>
 #include <vector>
 
+#include "debugger/breakpoints/source_breakpoint.h"
+#include "debugger/dap/request_error.h"
 #include "debugger/session/notifier.h"
-#include "debugger/session/request_error.h"
 #include "debugger/session/run_loop.h"
 #include "debugger/session/session_state.h"
-#include "debugger/session/source_breakpoint.h"
 
-namespace isocnc::debugger::session {
+namespace isocnc::session {
 
 /// The program that is debugged, as requests see it: what they may ask about it and what they may do with it. It lives
 /// on the loop's thread. What comes of a run is reported by events. Everything throws RequestError where the program is
 /// not in a state for it.
-class Session {
+class Session : public expressions::Controls {
  public:
-  Session(lsp::rpc::Loop& loop, Notifier::Emit emit, std::optional<dialect::Language> language);
+  Session(rpc::Loop& loop, Notifier::Emit emit, std::optional<dialect::Language> language);
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  ClientProfile& client() { return state_.client; }
-  const ClientProfile& client() const { return state_.client; }
+  dap::ClientProfile& client() { return state_.client; }
+  const dap::ClientProfile& client() const { return state_.client; }
   dialect::Language language() const { return state_.language(); }
-  std::string_view in_language(const dialect::Text& text) const { return state_.in_language(text); }
+  std::string_view in_language(const dialect::Text& text) const override { return state_.in_language(text); }
   template <class Value, class... Values>
   std::string in_language(const dialect::Text& text, const Value& value, const Values&... values) const {
     return state_.in_language(text, value, values...);
@@ -51,13 +51,13 @@ class Session {
   const LaunchOptions& launch_options() const { return state_.launch_options; }
   const configuration::Configuration& configuration() const { return state_.configuration; }
   /// The debuggee, whether or not it runs.
-  const Debuggee& debuggee() const;
+  const debuggee::Debuggee& debuggee() const;
   /// The debuggee, which stands.
-  Debuggee& stopped_debuggee() const;
-  const Journal& journal() const { return state_.journal; }
-  Moment moment() const;
+  debuggee::Debuggee& stopped_debuggee() const override;
+  const debuggee::Journal& journal() const { return state_.journal; }
+  expressions::Moment moment() const;
   /// Reason of the present stop, where it is an exception.
-  const std::optional<Exception>& exception() const { return state_.exception; }
+  const std::optional<breakpoints::Exception>& exception() const { return state_.exception; }
   bool is_program(const std::filesystem::path& file) const { return state_.is_program(file); }
   /// The program, as a `Source` of the protocol.
   Json source() const { return state_.source(); }
@@ -66,21 +66,18 @@ class Session {
   void resume();
   void reverse();
   void pause();
-  void step(Step step);
-  void step_back(Step step);
+  void step(dap::Step step);
+  void step_back(dap::Step step);
   /// To the end of the tool's section or of the frame, whichever comes first.
   void step_out();
   /// Forward or backward to a line, with the state that a run to it has. Nothing stops the run before.
   void go_to_line(std::uint64_t line);
 
   // --- Changing.
-  void set_quantity(const Quantity& quantity, double value);
-  /// Changes what IFs compare, wherever the debuggee stands.
-  void change_variables(const std::function<void(Debuggee& debuggee)>& change);
-  /// Changes the machine itself, between two blocks and not under G41 or G42.
-  void change_machine(const std::function<void(Debuggee& debuggee)>& change);
-  /// 0: as fast as possible; 1: in real time.
-  void set_playback(double speed);
+  void set_quantity(const expressions::Quantity& quantity, double value);
+  void change_variables(const std::function<void(debuggee::Debuggee& debuggee)>& change) override;
+  void change_machine(const std::function<void(debuggee::Debuggee& debuggee)>& change) override;
+  void set_playback(double speed) override;
   /// Throws the refusal to set something of this name.
   [[noreturn]] void refuse_to_set(std::string_view name) const;
   /// Runs blocks by hand. Returns what they did, for the console.
@@ -91,9 +88,10 @@ class Session {
   // --- Breakpoints.
   std::int64_t new_breakpoint_id() { return ++breakpoint_ids_; }
   /// Takes the place of all breakpoints in lines. Returns them with the lines where they lie.
-  const std::vector<SourceBreakpoint>& set_source_breakpoints(std::vector<SourceBreakpoint> breakpoints);
-  Breakpoints& breakpoints() { return state_.breakpoints; }
-  ExceptionFilters& exception_filters() { return state_.exception_filters; }
+  const std::vector<breakpoints::SourceBreakpoint>& set_source_breakpoints(
+      std::vector<breakpoints::SourceBreakpoint> breakpoints);
+  breakpoints::Breakpoints& breakpoints() { return state_.breakpoints; }
+  breakpoints::ExceptionFilters& exception_filters() { return state_.exception_filters; }
 
  private:
   void begin(LaunchOptions options);
@@ -106,10 +104,10 @@ class Session {
   SessionState state_;
   Notifier notifier_;
   RunLoop run_loop_;
-  std::vector<SourceBreakpoint> source_breakpoints_;
+  std::vector<breakpoints::SourceBreakpoint> source_breakpoints_;
   std::int64_t breakpoint_ids_ = 0;
   bool is_configured_ = false;  ///< configuration_done() has been called.
   std::string waiting_blocks_;
 };
 
-}  // namespace isocnc::debugger::session
+}  // namespace isocnc::session

@@ -3,10 +3,10 @@
 #include "interpreter/dialect/locale.h"
 #include "interpreter/system/same_file.h"
 
-namespace isocnc::debugger::session {
+namespace isocnc::session {
 
-Moment SessionState::moment() const {
-  Moment moment = moment_of(debuggee->present());
+expressions::Moment SessionState::moment() const {
+  expressions::Moment moment = expressions::moment_of(debuggee->present());
   moment.override_percent = 100 * debuggee->feed_override();
   moment.playback = launch_options.speed;
   return moment;
@@ -27,4 +27,4 @@ dialect::Language SessionState::language() const {
   return client.locale.value_or(dialect::language_of_environment());
 }
 
-}  // namespace isocnc::debugger::session
+}  // namespace isocnc::session

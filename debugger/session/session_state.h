@@ -6,32 +6,34 @@
 #include <string>
 #include <string_view>
 
-#include "debugger/session/breakpoints.h"
-#include "debugger/session/client.h"
-#include "debugger/session/debuggee.h"
-#include "debugger/session/exception_filters.h"
-#include "debugger/session/journal.h"
+#include "debugger/breakpoints/breakpoints.h"
+#include "debugger/breakpoints/exception_filters.h"
+#include "debugger/dap/client.h"
+#include "debugger/debuggee/debuggee.h"
+#include "debugger/debuggee/journal.h"
 #include "debugger/session/launch_options.h"
 #include "interpreter/configuration/configuration.h"
 #include "interpreter/dialect/format.h"
 
-namespace isocnc::debugger::session {
+namespace isocnc::session {
+
+using rpc::Json;
 
 /// What the parts of a session share: the client, the program that is debugged, and what its run stops at.
 struct SessionState {
-  ClientProfile client;
+  dap::ClientProfile client;
   std::optional<dialect::Language> commanded_language;  ///< Of the command line; overrules all others.
   LaunchOptions launch_options;
   configuration::Configuration configuration;
-  std::shared_ptr<Debuggee> debuggee;  ///< Null before a launch and after the end.
-  Journal journal;
-  Breakpoints breakpoints;
-  ExceptionFilters exception_filters;
-  std::optional<Exception> exception;  ///< Reason of the present stop, where it is one.
+  std::shared_ptr<debuggee::Debuggee> debuggee;  ///< Null before a launch and after the end.
+  debuggee::Journal journal;
+  breakpoints::Breakpoints breakpoints;
+  breakpoints::ExceptionFilters exception_filters;
+  std::optional<breakpoints::Exception> exception;  ///< Reason of the present stop, where it is one.
 
   bool is_launched() const { return debuggee != nullptr; }
   /// The present of the debuggee, which is launched.
-  Moment moment() const;
+  expressions::Moment moment() const;
   /// Whether the file is that of the program, even if it has been removed since.
   bool is_program(const std::filesystem::path& file) const;
   /// The program, as a `Source` of the protocol.
@@ -45,4 +47,4 @@ struct SessionState {
   }
 };
 
-}  // namespace isocnc::debugger::session
+}  // namespace isocnc::session

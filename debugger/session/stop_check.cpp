@@ -3,10 +3,10 @@
 #include <utility>
 
 #include "analyzer/explain.h"
-#include "debugger/session/block_effect.h"
+#include "debugger/debuggee/block_effect.h"
 #include "interpreter/running/error_message.h"
 
-namespace isocnc::debugger::session {
+namespace isocnc::session {
 
 std::optional<Stop> StopCheck::before_block() {
   if (state_.debuggee->present().is_in_block() || std::exchange(is_judged_, false)) return std::nullopt;
@@ -36,20 +36,21 @@ void StopCheck::step_out() { step_out_from_ = state_.debuggee->present().run().s
 bool StopCheck::ends_step_out() const {
   if (!step_out_from_) return false;
   const auto block = state_.debuggee->next();
-  return block && (changes_tool(*block) || !has_same_frame(block->state, *step_out_from_));
+  return block && (debuggee::changes_tool(*block) || !has_same_frame(block->state, *step_out_from_));
 }
 
 std::optional<Stop> StopCheck::judge_breakpoints() {
-  Breakpoints& breakpoints = state_.breakpoints;
+  breakpoints::Breakpoints& breakpoints = state_.breakpoints;
   const std::uint64_t line = state_.debuggee->present().line();
   const std::uint64_t number = state_.debuggee->present().blocks();
   if (!breakpoints.has_line(line) && !breakpoints.has_functions()) return std::nullopt;
-  Breakpoints::BreakpointOutcome at_line;
-  Breakpoints::BreakpointOutcome at_code;
-  if (breakpoints.has_line(line)) breakpoints.judge_line(state_.moment(), number, RunDirection::Forward, at_line);
+  breakpoints::Breakpoints::BreakpointOutcome at_line;
+  breakpoints::Breakpoints::BreakpointOutcome at_code;
+  if (breakpoints.has_line(line))
+    breakpoints.judge_line(state_.moment(), number, breakpoints::RunDirection::Forward, at_line);
   if (breakpoints.has_functions())
     if (const auto block = state_.debuggee->next())
-      breakpoints.judge_functions(block->tree, state_.moment(), number, RunDirection::Forward, at_code);
+      breakpoints.judge_functions(block->tree, state_.moment(), number, breakpoints::RunDirection::Forward, at_code);
   report_messages(at_line, line);
   report_messages(at_code, line);
   if (at_line.stopped.empty() && at_code.stopped.empty()) return std::nullopt;
@@ -67,7 +68,7 @@ std::optional<Stop> StopCheck::judge_exceptions() {
               .details = {{"text", state_.exception->code}, {"description", state_.exception->message}}};
 }
 
-std::optional<Exception> StopCheck::find_exception() const {
+std::optional<breakpoints::Exception> StopCheck::find_exception() const {
   if (!state_.exception_filters.judge_blocks()) return std::nullopt;
   const auto block = state_.debuggee->next();
   if (!block) return std::nullopt;
@@ -75,33 +76,34 @@ std::optional<Exception> StopCheck::find_exception() const {
 }
 
 /// Looks where the machine would really go, which the block alone does not tell.
-std::optional<Exception> StopCheck::find_coming_overtravel() const {
-  const Debuggee& debuggee = *state_.debuggee;
-  std::optional<Exception> found;
+std::optional<breakpoints::Exception> StopCheck::find_coming_overtravel() const {
+  const debuggee::Debuggee& debuggee = *state_.debuggee;
+  std::optional<breakpoints::Exception> found;
   if (!state_.exception_filters.judge_motions(debuggee.machine())) return found;
-  debuggee.look_ahead([&](const motion::Move& move) {
-    if (!found) found = find_overtravel(move, debuggee.machine(), state_.language());
+  debuggee.look_ahead([&](const kinematics::Move& move) {
+    if (!found) found = breakpoints::find_overtravel(move, debuggee.machine(), state_.language());
   });
   return found;
 }
 
 void StopCheck::start_block() {
-  const Breakpoints& breakpoints = state_.breakpoints;
+  const breakpoints::Breakpoints& breakpoints = state_.breakpoints;
   if (!breakpoints.has_data()) return;
-  const Moment before = state_.moment();
+  const expressions::Moment before = state_.moment();
   breakpoints.start_trail(before, trail_);
   if (!breakpoints.has_thresholds()) return;
   const auto block = state_.debuggee->next();
-  if (block && may_be_arc(*block)) breakpoints.read_arc(effect_of(*block, state_.debuggee->setup()), before, trail_);
+  if (block && debuggee::may_be_arc(*block))
+    breakpoints.read_arc(debuggee::effect_of(*block, state_.debuggee->setup()), before, trail_);
 }
 
 std::optional<Stop> StopCheck::after_block(std::uint64_t block) {
-  Breakpoints& breakpoints = state_.breakpoints;
+  breakpoints::Breakpoints& breakpoints = state_.breakpoints;
   if (!breakpoints.has_data() || state_.launch_options.no_debug) return std::nullopt;
-  const Moment now = state_.moment();
+  const expressions::Moment now = state_.moment();
   breakpoints.read_data(now, trail_);
-  Breakpoints::BreakpointOutcome outcome;
-  breakpoints.judge_data(trail_, now, block, RunDirection::Forward, outcome);
+  breakpoints::Breakpoints::BreakpointOutcome outcome;
+  breakpoints.judge_data(trail_, now, block, breakpoints::RunDirection::Forward, outcome);
   report_messages(outcome, now.line);
   if (outcome.stopped.empty()) return std::nullopt;
   return Stop{.reason = "data breakpoint",
@@ -112,17 +114,17 @@ std::optional<Stop> StopCheck::after_block(std::uint64_t block) {
 Stop StopCheck::at_error() {
   const running::RunResult& run = state_.debuggee->present().run();
   const dialect::Language language = state_.language();
-  state_.exception = Exception{.filter = ExceptionFilter::Errors,
-                               .code = std::string(dialect::definition(run.error.id).code),
-                               .message = running::error_message(run, language),
-                               .explanation = analyzer::explain(run.error.id, language)};
+  state_.exception = breakpoints::Exception{.filter = breakpoints::ExceptionFilter::Errors,
+                                            .code = std::string(dialect::definition(run.error.id).code),
+                                            .message = running::error_message(run, language),
+                                            .explanation = analyzer::explain(run.error.id, language)};
   return {.reason = "exception",
           .details = {{"text", state_.exception->code}, {"description", state_.exception->message}}};
 }
 
-void StopCheck::report_messages(const Breakpoints::BreakpointOutcome& outcome, std::uint64_t line) {
+void StopCheck::report_messages(const breakpoints::Breakpoints::BreakpointOutcome& outcome, std::uint64_t line) {
   notifier_.report_messages(outcome, line);
   message_count_ += outcome.messages.size();
 }
 
-}  // namespace isocnc::debugger::session
+}  // namespace isocnc::session

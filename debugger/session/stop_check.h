@@ -8,7 +8,7 @@
 #include "debugger/session/notifier.h"
 #include "debugger/session/session_state.h"
 
-namespace isocnc::debugger::session {
+namespace isocnc::session {
 
 /// A stop that is due.
 struct Stop {
@@ -52,16 +52,16 @@ class StopCheck {
   bool ends_step_out() const;
   std::optional<Stop> judge_breakpoints();
   std::optional<Stop> judge_exceptions();
-  std::optional<Exception> find_exception() const;
-  std::optional<Exception> find_coming_overtravel() const;
-  void report_messages(const Breakpoints::BreakpointOutcome& outcome, std::uint64_t line);
+  std::optional<breakpoints::Exception> find_exception() const;
+  std::optional<breakpoints::Exception> find_coming_overtravel() const;
+  void report_messages(const breakpoints::Breakpoints::BreakpointOutcome& outcome, std::uint64_t line);
 
   SessionState& state_;
   Notifier& notifier_;
   bool is_judged_ = false;                         ///< The block that comes next.
   std::optional<execution::State> step_out_from_;  ///< State in which the step out began.
-  ValueTrail trail_;                               ///< Values of the block in progress.
+  expressions::ValueTrail trail_;                  ///< Values of the block in progress.
   std::size_t message_count_ = 0;
 };
 
-}  // namespace isocnc::debugger::session
+}  // namespace isocnc::session

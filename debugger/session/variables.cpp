@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "interpreter/syntax/unicode.h"
+#include "interpreter/text/unicode.h"
 
-namespace isocnc::debugger::session {
+namespace isocnc::session {
 
 using dialect::ModalGroup;
 using dialect::Text;
@@ -79,13 +79,13 @@ constexpr Text kNoSuchVariables{"there are no variables with the reference {}",
 /// Lists the variables of one reference.
 class Listing {
  public:
-  Listing(const Session& session, const ValueFormat& format)
+  Listing(const Session& session, const expressions::ValueFormat& format)
       : session_(session), moment_(session.moment()), format_(format) {}
 
   std::vector<Variable> variables;
 
   std::string in_language(const Text& text) const { return std::string(session_.in_language(text)); }
-  std::string show(double value) const { return show_value(value, format_); }
+  std::string show(double value) const { return expressions::show_value(value, format_); }
 
   void add(std::string name, std::string value, std::string type = {}) {
     variables.push_back({.name = std::move(name), .value = std::move(value), .type = std::move(type)});
@@ -94,7 +94,7 @@ class Listing {
     variables.push_back({.name = in_language(name), .value = std::move(value), .reference = reference});
   }
   void add_quantity(std::string_view quantity_name, std::string name = {}) {
-    const Quantity* const quantity = find_quantity(quantity_name);
+    const expressions::Quantity* const quantity = expressions::find_quantity(quantity_name);
     const std::string unit = quantity->unit.empty() ? "" : fmt::format(", {}", quantity->unit);
     variables.push_back({.name = name.empty() ? std::string(quantity->name) : std::move(name),
                          .value = show(quantity->at(moment_)),
@@ -105,10 +105,11 @@ class Listing {
 
   void list_position() {
     for (const std::string_view axis : {"X", "Y", "Z", "B", "C"}) add_quantity(axis);
-    add_group(kMachineTip, pose_text(machine_pose(moment_)), kMachinePosition);
-    add_group(kWorkpieceTip, pose_text(workpiece_pose(moment_)), kWorkpiecePosition);
-    if (moment_.state.face_mounted) add_group(kFaceTip, pose_text(programmed_pose(moment_)), kFacePosition);
-    add_group(kJointsName, pose_text(motion::pose(present().sample().joints)), kJointPosition);
+    add_group(kMachineTip, pose_text(expressions::machine_pose(moment_)), kMachinePosition);
+    add_group(kWorkpieceTip, pose_text(expressions::workpiece_pose(moment_)), kWorkpiecePosition);
+    if (moment_.state.face_mounted)
+      add_group(kFaceTip, pose_text(expressions::programmed_pose(moment_)), kFacePosition);
+    add_group(kJointsName, pose_text(kinematics::pose(present().sample().joints)), kJointPosition);
     add_group(kToGoName, fmt::format("{} mm", show(present().to_go().path)), kToGo);
   }
 
@@ -127,7 +128,7 @@ class Listing {
 
   void list_to_go() {
     const simulation::DistanceToGo to_go = present().to_go();
-    for (int axis = 0; axis < motion::kAxisCount; ++axis)
+    for (int axis = 0; axis < kinematics::kAxisCount; ++axis)
       add(std::string(1, dialect::kAxisLetters[static_cast<std::size_t>(axis)]), show(to_go.axes[axis]),
           axis < 3 ? "mm" : "°");
     add(in_language(kPath), show(to_go.path), "mm");
@@ -154,7 +155,7 @@ class Listing {
     for (const std::string_view name : {"T", "HEAD", "HOLDER", "TOOL"}) add_quantity(name);
     const simulation::TimedMachine& machine = session_.debuggee().machine();
     const configuration::Tool* const known = session_.configuration().machine.find_tool(tool);
-    if (known && !known->name.empty()) add(in_language(kName), syntax::printable(known->name));
+    if (known && !known->name.empty()) add(in_language(kName), text::printable(known->name));
     add(in_language(kLength), show(machine.tool_length(tool)), "mm");
     const auto radius = machine.tool_radii.find(tool);
     if (radius != machine.tool_radii.end()) add(in_language(kRadius), show(radius->second), "mm");
@@ -194,7 +195,7 @@ class Listing {
     add_quantity("TOOL", "[3]");
   }
   void list_functions() {
-    for (const Journal::Function& function : session_.journal().functions(present().blocks())) {
+    for (const debuggee::Journal::Function& function : session_.journal().functions(present().blocks())) {
       std::string values;
       for (const execution::FunctionParameter& each : function.call.parameters)
         values += fmt::format("{}P{}={}", values.empty() ? "" : " ", each.number, show(each.value));
@@ -204,7 +205,7 @@ class Listing {
     }
   }
   void list_function(int number) {
-    for (const Journal::Function& function : session_.journal().functions(present().blocks())) {
+    for (const debuggee::Journal::Function& function : session_.journal().functions(present().blocks())) {
       if (function.call.number != number) continue;
       for (const execution::FunctionParameter& each : function.call.parameters)
         add(fmt::format("P{}", each.number), show(each.value));
@@ -238,7 +239,7 @@ class Listing {
   /// The line that has set the mode in force, or how else it was set.
   std::string origin_of(ModalGroup group) const {
     const std::uint8_t number = moment_.state.mode(group);
-    const Journal& journal = session_.journal();
+    const debuggee::Journal& journal = session_.journal();
     if (const auto setting = journal.setting(group, present().blocks()))
       return setting->number == number ? line_text(setting->line) : in_language(kByHand);
     const bool is_written = (moment_.state.written & (1u << static_cast<unsigned>(group))) != 0;
@@ -267,13 +268,14 @@ class Listing {
     std::string value = in_language(kNoMotion);
     if (const dialect::GCode* const code = moment_.state.g(group))
       value = fmt::format("G{:02} {} ({})", code->number, in_language(code->name), origin_of(group));
-    variables.push_back(
-        {.name = in_language(group_meaning(group)), .value = value, .evaluate_name = std::string(group_name(group))});
+    variables.push_back({.name = in_language(expressions::group_meaning(group)),
+                         .value = value,
+                         .evaluate_name = std::string(expressions::group_name(group))});
   }
 
   const Session& session_;
-  const Moment moment_;
-  const ValueFormat format_;
+  const expressions::Moment moment_;
+  const expressions::ValueFormat format_;
 };
 
 /// A reference, and the function that lists its variables.
@@ -306,7 +308,8 @@ constexpr VariableList kPlaces[] = {
 
 std::span<const Scope> all_scopes() { return kScopes; }
 
-std::vector<Variable> variables_of(const Session& session, std::int64_t reference, const ValueFormat& format) {
+std::vector<Variable> variables_of(const Session& session, std::int64_t reference,
+                                   const expressions::ValueFormat& format) {
   session.stopped_debuggee();
   Listing listing(session, format);
   if (reference > kFunctions && reference < kFunctions + 1000) {
@@ -318,7 +321,7 @@ std::vector<Variable> variables_of(const Session& session, std::int64_t referenc
     (listing.*place.list)();
     return listing.variables;
   }
-  throw RequestError(session.in_language(kNoSuchVariables, reference));
+  throw dap::RequestError(session.in_language(kNoSuchVariables, reference));
 }
 
-}  // namespace isocnc::debugger::session
+}  // namespace isocnc::session

@@ -6,16 +6,16 @@
 
 #include "debugger/session/session.h"
 
-namespace isocnc::debugger::session {
+namespace isocnc::session {
 
 /// A value or group of values that the client shows.
 struct Variable {
   std::string name;
   std::string value;
-  std::string type;                    ///< Its meaning and its unit.
-  std::string evaluate_name;           ///< An expression with this value; empty for none.
-  std::int64_t reference = 0;          ///< Reference of the variables that it holds; 0 for none.
-  const Quantity* quantity = nullptr;  ///< The quantity to set; null where it cannot be set.
+  std::string type;                                 ///< Its meaning and its unit.
+  std::string evaluate_name;                        ///< An expression with this value; empty for none.
+  std::int64_t reference = 0;                       ///< Reference of the variables that it holds; 0 for none.
+  const expressions::Quantity* quantity = nullptr;  ///< The quantity to set; null where it cannot be set.
 };
 
 /// A group of variables of a stack frame.
@@ -29,6 +29,7 @@ std::span<const Scope> all_scopes();
 
 /// The variables that a scope or variable holds. The references are always the same. Throws RequestError for one that
 /// does not exist.
-std::vector<Variable> variables_of(const Session& session, std::int64_t reference, const ValueFormat& format);
+std::vector<Variable> variables_of(const Session& session, std::int64_t reference,
+                                   const expressions::ValueFormat& format);
 
-}  // namespace isocnc::debugger::session
+}  // namespace isocnc::session

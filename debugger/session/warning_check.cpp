@@ -7,12 +7,12 @@
 #include "analyzer/selection/program_settings.h"
 #include "analyzer/selection/shown_report.h"
 
-namespace isocnc::debugger::session {
+namespace isocnc::session {
 
 using dialect::Language;
-using Warnings = std::multimap<std::uint64_t, Warning>;
+using Warnings = std::multimap<std::uint64_t, breakpoints::Warning>;
 
-static Warning warning_of(const check::LocatedFinding& found, std::string_view line, Language language) {
+static breakpoints::Warning warning_of(const check::LocatedFinding& found, std::string_view line, Language language) {
   const auto& finding = found.finding;
   const std::string_view marked =
       line.substr(std::min<std::size_t>(finding.span.begin, line.size()), finding.span.end - finding.span.begin);
@@ -20,7 +20,8 @@ static Warning warning_of(const check::LocatedFinding& found, std::string_view l
 }
 
 /// The warnings that isolint shows, by line from 0.
-static Warnings find_warnings(const Debuggee& debuggee, const std::filesystem::path& program, Language language) {
+static Warnings find_warnings(const debuggee::Debuggee& debuggee, const std::filesystem::path& program,
+                              Language language) {
   configuration::Configurations configurations({}, language);
   selection::SettingsFinder finder(configurations, {});
   const selection::ProgramSettings& settings = finder.of(program);
@@ -35,7 +36,7 @@ static Warnings find_warnings(const Debuggee& debuggee, const std::filesystem::p
 }
 
 void WarningCheck::start_if_needed() {
-  if (is_started_ || is_running_ || !state_.exception_filters.is_on(ExceptionFilter::Warnings)) return;
+  if (is_started_ || is_running_ || !state_.exception_filters.is_on(breakpoints::ExceptionFilter::Warnings)) return;
   is_running_ = is_started_ = true;
   pool_.post([this, debuggee = state_.debuggee, program = state_.launch_options.program, language = state_.language()] {
     loop_.post(
@@ -43,9 +44,9 @@ void WarningCheck::start_if_needed() {
   });
 }
 
-void WarningCheck::finish(const std::shared_ptr<Debuggee>& checked, Warnings warnings) {
+void WarningCheck::finish(const std::shared_ptr<debuggee::Debuggee>& checked, Warnings warnings) {
   is_running_ = false;
   if (checked == state_.debuggee) state_.exception_filters.warnings = std::move(warnings);
 }
 
-}  // namespace isocnc::debugger::session
+}  // namespace isocnc::session

@@ -6,13 +6,13 @@
 #include "lsp/rpc/loop.h"
 #include "lsp/rpc/strand.h"
 
-namespace isocnc::debugger::session {
+namespace isocnc::session {
 
 /// Lets the checker read the program on a thread of its own, so that the run can stop at its warnings.
 class WarningCheck {
  public:
   /// Keeps references to both.
-  WarningCheck(lsp::rpc::Loop& loop, SessionState& state) : loop_(loop), state_(state) {}
+  WarningCheck(rpc::Loop& loop, SessionState& state) : loop_(loop), state_(state) {}
 
   /// Starts where warnings are asked for and the program has not been checked. They go to the exception filters.
   void start_if_needed();
@@ -21,13 +21,14 @@ class WarningCheck {
   void forget() { is_started_ = false; }
 
  private:
-  void finish(const std::shared_ptr<Debuggee>& checked, std::multimap<std::uint64_t, Warning> warnings);
+  void finish(const std::shared_ptr<debuggee::Debuggee>& checked,
+              std::multimap<std::uint64_t, breakpoints::Warning> warnings);
 
-  lsp::rpc::Loop& loop_;
+  rpc::Loop& loop_;
   SessionState& state_;
   bool is_running_ = false;
   bool is_started_ = false;
-  lsp::rpc::Pool pool_{1};  ///< Last, so that its thread ends before the rest is destroyed.
+  rpc::Pool pool_{1};  ///< Last, so that its thread ends before the rest is destroyed.
 };
 
-}  // namespace isocnc::debugger::session
+}  // namespace isocnc::session

@@ -7,10 +7,10 @@
 
 #include <unistd.h>
 
-#include "interpreter/syntax/unicode.h"
 #include "interpreter/system/mapped_file.h"
 #include "interpreter/system/output_file.h"
 #include "interpreter/system/temporary_file.h"
+#include "interpreter/text/unicode.h"
 
 namespace isocnc::command_line {
 
@@ -54,7 +54,7 @@ int program_main(std::string_view program, ExitStatus (*run)(int argc, char** ar
 }
 
 void complain(std::string_view program, std::string_view what) {
-  std::cerr << program << ": " << syntax::printable(what) << '\n';
+  std::cerr << program << ": " << text::printable(what) << '\n';
 }
 
 void complain_of_command(std::string_view program, std::string_view what) {

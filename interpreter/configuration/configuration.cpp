@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-#include "interpreter/motion/numbers.h"
+#include "interpreter/kinematics/numbers.h"
 
 namespace isocnc::configuration {
 
 std::array<double, execution::kAxisCount> default_rapids() {
-  const motion::Machine machine = motion::default_machine();
+  const kinematics::Machine machine = kinematics::default_machine();
   std::array<double, execution::kAxisCount> rapids{};
-  for (std::size_t i = 0; i < rapids.size(); ++i) rapids[i] = machine.axes[i].speed * motion::kSecondsPerMinute;
+  for (std::size_t i = 0; i < rapids.size(); ++i) rapids[i] = machine.axes[i].speed * kinematics::kSecondsPerMinute;
   return rapids;
 }
 

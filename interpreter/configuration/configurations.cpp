@@ -8,8 +8,8 @@
 
 #include "interpreter/configuration/read.h"
 #include "interpreter/dialect/diagnostic_id.h"
-#include "interpreter/syntax/unicode.h"
 #include "interpreter/system/source_file.h"
+#include "interpreter/text/unicode.h"
 
 namespace isocnc::configuration {
 
@@ -101,10 +101,9 @@ std::vector<std::string> Configurations::mistakes(Language language) const {
   const std::string_view error = dialect::severity_name(dialect::Severity::Error, language);
   for (const std::unique_ptr<File>& file : files_) {
     const std::string name = file->configuration.file.string();
-    if (!file->problem.empty())
-      lines.push_back(syntax::printable(fmt::format("{}: {}: {}", name, error, file->problem)));
+    if (!file->problem.empty()) lines.push_back(text::printable(fmt::format("{}: {}: {}", name, error, file->problem)));
     for (const auto& [place, mistake] : file->mistakes)
-      lines.push_back(syntax::printable(
+      lines.push_back(text::printable(
           fmt::format("{}:{}:{}: {}: {}", name, place.line, place.column, error, mistake.message(language))));
   }
   return lines;

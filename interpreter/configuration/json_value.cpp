@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "interpreter/syntax/unicode.h"
 #include "interpreter/system/counted_bytes.h"
+#include "interpreter/text/unicode.h"
 
 namespace isocnc::configuration {
 
@@ -170,7 +170,7 @@ class JsonBuilder final : public nlohmann::json_sax<nlohmann::json> {
 /// The first invalid byte that the parser would miss: it takes a NUL for the end and does not check comments.
 static std::optional<Mistake> foreign_byte(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = syntax::sequence_length(text.substr(at));
+    const std::size_t length = text::sequence_length(text.substr(at));
     const auto byte = static_cast<unsigned char>(text[at]);
     const bool is_control = byte < 0x20 && byte != '\t' && byte != '\r' && byte != '\n';
     if (length == 0 || is_control)

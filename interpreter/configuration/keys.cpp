@@ -171,12 +171,12 @@ static void add_limits(std::vector<Key>& keys) {
 }
 
 static geometry::Vec3& head_offset(Configuration& configuration, bool is_spindle) {
-  motion::Kinematics& kinematics = configuration.machine.timed.motion.kinematics;
+  kinematics::Kinematics& kinematics = configuration.machine.timed.motion.kinematics;
   return is_spindle ? kinematics.spindle_from_b : kinematics.b_from_c;
 }
 
 static geometry::Vec3& table_point(Configuration& configuration, bool is_of_c) {
-  motion::Kinematics& kinematics = configuration.machine.timed.motion.kinematics;
+  kinematics::Kinematics& kinematics = configuration.machine.timed.motion.kinematics;
   return is_of_c ? kinematics.c_point : kinematics.b_point;
 }
 

@@ -7,7 +7,7 @@
 
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/near_names.h"
-#include "interpreter/syntax/unicode.h"
+#include "interpreter/text/unicode.h"
 
 namespace isocnc::configuration {
 
@@ -32,7 +32,7 @@ LineColumn place_of(std::size_t at, std::string_view text) {
     ++place.line;
     begin = i + 1;
   }
-  place.column = syntax::column_of(text.substr(begin, std::min(text.size() - begin, at - begin + 4)), at - begin);
+  place.column = text::column_of(text.substr(begin, std::min(text.size() - begin, at - begin + 4)), at - begin);
   return place;
 }
 
@@ -41,7 +41,7 @@ std::string shortened(std::string_view text) {
   if (text.size() <= kLongest) return std::string(text);
   std::size_t end = 0;
   for (std::size_t next = 0; next <= kLongest;
-       next += std::max<std::size_t>(1, syntax::sequence_length(text.substr(next))))
+       next += std::max<std::size_t>(1, text::sequence_length(text.substr(next))))
     end = next;
   return std::string(text.substr(0, end)) + "...";
 }

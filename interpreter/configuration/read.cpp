@@ -12,7 +12,7 @@
 #include "interpreter/dialect/code_set.h"
 #include "interpreter/dialect/locale.h"
 #include "interpreter/dialect/near_names.h"
-#include "interpreter/motion/numbers.h"
+#include "interpreter/kinematics/numbers.h"
 
 namespace isocnc::configuration {
 
@@ -335,18 +335,18 @@ class ConfigurationReader {
 
 /// Sets the members of the simulated machine, in its units.
 static void derive_motion(MachineConfiguration& machine) {
-  motion::Machine& motion = machine.timed.motion;
-  motion.kinematics.kind = machine.kind == "head"    ? motion::MachineKind::Head
-                           : machine.kind == "table" ? motion::MachineKind::Table
-                                                     : motion::MachineKind::ThreeAxis;
+  kinematics::Machine& motion = machine.timed.motion;
+  motion.kinematics.kind = machine.kind == "head"    ? kinematics::MachineKind::Head
+                           : machine.kind == "table" ? kinematics::MachineKind::Table
+                                                     : kinematics::MachineKind::ThreeAxis;
   for (std::size_t i = 0; i < motion.axes.size(); ++i) {
     motion.axes[i].minimum = machine.setup.limits.travel[i].minimum;
     motion.axes[i].maximum = machine.setup.limits.travel[i].maximum;
-    motion.axes[i].speed = machine.rapids[i] / motion::kSecondsPerMinute;
+    motion.axes[i].speed = machine.rapids[i] / kinematics::kSecondsPerMinute;
   }
   const execution::Limits& limits = machine.setup.limits;
-  motion.feed_speed = limits.feed / motion::kSecondsPerMinute;
-  motion.feed_turn = limits.rotary_speed / motion::kSecondsPerMinute;
+  motion.feed_speed = limits.feed / kinematics::kSecondsPerMinute;
+  motion.feed_turn = limits.rotary_speed / kinematics::kSecondsPerMinute;
   machine.timed.spindle_speed = limits.spindle_speed;
   machine.timed.home = machine.setup.home;
   for (const Tool& tool : machine.tools.value_or(std::vector<Tool>())) {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "interpreter/motion/element.h"
+#include "interpreter/kinematics/element.h"
 
 namespace isocnc::motion {
 
@@ -10,9 +10,9 @@ namespace isocnc::motion {
 /// along their tangents, and is passed at a constant ds/dt. Between two lines it is a parabola, whose acceleration is
 /// constant; at an arc it is a cubic, whose acceleration changes linearly from end to end.
 struct Blend {
-  Path path;          ///< The curve; s runs from 0 to `length`.
-  double length = 0;  ///< Range of s, mm or degrees: twice the length cut off from each element.
-  double cap = 0;     ///< Maximum of (ds/dt)^2 by the axes and both feeds, mm^2/s^2.
+  kinematics::Path path;  ///< The curve; s runs from 0 to `length`.
+  double length = 0;      ///< Range of s, mm or degrees: twice the length cut off from each element.
+  double cap = 0;         ///< Maximum of (ds/dt)^2 by the axes and both feeds, mm^2/s^2.
 };
 
 /// How two elements meet.
@@ -29,13 +29,13 @@ struct Corner {
 
 /// Computes the corner between two consecutive elements. The blend stays within the machine's corner tolerance, and
 /// cuts off at most a quarter of either element (a quarter from each end, so half remains).
-Corner corner(const Machine& machine, const Element& before, const Element& after);
+Corner corner(const kinematics::Machine& machine, const kinematics::Element& before, const kinematics::Element& after);
 
 /// The curve that replaces a corner on machines whose jerk is limited: three cubics of equal length. The second
 /// derivative has no step within the curve, nor where it leaves one element and joins the next.
 struct SmoothBlend {
-  std::array<Path, 3> paths;  ///< The three cubics; s of each runs from 0 to `length` / 3.
-  double length = 0;          ///< Range of s of all three, mm or degrees: twice the length cut off from each element.
+  std::array<kinematics::Path, 3> paths;  ///< The three cubics; s of each runs from 0 to `length` / 3.
+  double length = 0;  ///< Range of s of all three, mm or degrees: twice the length cut off from each element.
 };
 
 struct SmoothCorner {
@@ -45,6 +45,7 @@ struct SmoothCorner {
 
 /// Computes the corner for machines whose jerk is limited. The speed may change within such a corner, so the blend may
 /// cut off up to half of either element (half from each end, so nothing need remain).
-SmoothCorner smooth_corner(const Machine& machine, const Element& before, const Element& after);
+SmoothCorner smooth_corner(const kinematics::Machine& machine, const kinematics::Element& before,
+                           const kinematics::Element& after);
 
 }  // namespace isocnc::motion

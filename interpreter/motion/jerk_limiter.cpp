@@ -17,22 +17,22 @@ static constexpr double kMinWindow = 1e-4;
 /// Golden ratio minus 1.
 static constexpr double kGolden = 0.6180339887498949;
 
-void JerkLimiter::append(const Machine& machine, const Piece& piece, double feed_cap) {
-  const DerivativeBounds bounds =
-      derivative_bounds(machine.kinematics, piece.path, piece.begin, piece.begin + piece.length);
+void JerkLimiter::append(const kinematics::Machine& machine, const Piece& piece, double feed_cap) {
+  const kinematics::DerivativeBounds bounds =
+      kinematics::derivative_bounds(machine.kinematics, piece.path, piece.begin, piece.begin + piece.length);
   if (motion_) return motion_->append(machine, piece, bounds, feed_cap);
   first_pieces_.push_back({piece, bounds, feed_cap});
   if (first_pieces_.size() >= kTrialPieces) begin(machine);
 }
 
-void JerkLimiter::begin(const Machine& machine) {
+void JerkLimiter::begin(const kinematics::Machine& machine) {
   motion_.emplace(machine, best_smoothing(machine), time_);
   for (const PendingPiece& pending : first_pieces_)
     motion_->append(machine, pending.piece, pending.bounds, pending.feed_cap);
   first_pieces_.clear();
 }
 
-void JerkLimiter::come_to_rest(const Machine& machine) {
+void JerkLimiter::come_to_rest(const kinematics::Machine& machine) {
   if (!first_pieces_.empty()) begin(machine);
   if (!motion_) return;
   motion_->come_to_rest();
@@ -42,7 +42,7 @@ void JerkLimiter::come_to_rest(const Machine& machine) {
 }
 
 /// Returns the time that the first pieces take with this smoothing, from rest to rest, s.
-double JerkLimiter::time_with(const Machine& machine, const Smoothing& smoothing) const {
+double JerkLimiter::time_with(const kinematics::Machine& machine, const kinematics::Smoothing& smoothing) const {
   SmoothMotion trial(machine, smoothing, 0);
   for (const PendingPiece& pending : first_pieces_)
     trial.append(machine, pending.piece, pending.bounds, pending.feed_cap);
@@ -53,11 +53,11 @@ double JerkLimiter::time_with(const Machine& machine, const Smoothing& smoothing
 /// Returns the smoothing with which the first pieces take the shortest time. A long window lets the axes use their full
 /// accelerations, a short one loses less time at each change of speed. The part of the jerk for curves is a compromise
 /// of the same kind.
-Smoothing JerkLimiter::best_smoothing(const Machine& machine) const {
-  const double longest = smoothing_window(machine);
-  Smoothing best{longest, kCurvesParts[0]};
+kinematics::Smoothing JerkLimiter::best_smoothing(const kinematics::Machine& machine) const {
+  const double longest = kinematics::smoothing_window(machine);
+  kinematics::Smoothing best{longest, kCurvesParts[0]};
   double shortest = time_with(machine, best);
-  const auto consider = [&](const Smoothing& smoothing) {
+  const auto consider = [&](const kinematics::Smoothing& smoothing) {
     const double time = time_with(machine, smoothing);
     if (time < shortest) best = smoothing;
     shortest = std::min(time, shortest);

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "interpreter/motion/limits.h"
-#include "interpreter/motion/machine.h"
+#include "interpreter/kinematics/limits.h"
+#include "interpreter/kinematics/machine.h"
 #include "interpreter/motion/memory.h"
 #include "interpreter/motion/piece.h"
 #include "interpreter/motion/smooth_motion.h"
@@ -19,9 +19,9 @@ namespace isocnc::motion {
 class JerkLimiter {
  public:
   /// Appends a piece. `feed_cap`: maximum of (ds/dt)^2 by the feed, mm^2/s^2.
-  void append(const Machine& machine, const Piece& piece, double feed_cap);
+  void append(const kinematics::Machine& machine, const Piece& piece, double feed_cap);
   /// Ends the motion at rest after the pieces appended so far.
-  void come_to_rest(const Machine& machine);
+  void come_to_rest(const kinematics::Machine& machine);
   /// Stays at rest for a time, s. Requires that the machine is at rest.
   void wait(double seconds) { time_ += seconds; }
 
@@ -45,13 +45,13 @@ class JerkLimiter {
  private:
   struct PendingPiece {
     Piece piece;
-    DerivativeBounds bounds;  ///< Bounds of the joints' derivatives on the piece.
-    double feed_cap;          ///< Maximum of (ds/dt)^2 by the feed, mm^2/s^2.
+    kinematics::DerivativeBounds bounds;  ///< Bounds of the joints' derivatives on the piece.
+    double feed_cap;                      ///< Maximum of (ds/dt)^2 by the feed, mm^2/s^2.
   };
 
-  void begin(const Machine& machine);
-  Smoothing best_smoothing(const Machine& machine) const;
-  double time_with(const Machine& machine, const Smoothing& smoothing) const;
+  void begin(const kinematics::Machine& machine);
+  kinematics::Smoothing best_smoothing(const kinematics::Machine& machine) const;
+  double time_with(const kinematics::Machine& machine, const kinematics::Smoothing& smoothing) const;
 
   std::vector<PendingPiece> first_pieces_;  ///< Pieces after a rest, until they suffice to choose the smoothing.
   std::optional<SmoothMotion> motion_;      ///< Motion since the last rest; absent until the smoothing is chosen.

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "interpreter/motion/numbers.h"
+#include "interpreter/kinematics/numbers.h"
 
 namespace isocnc::motion {
 
@@ -25,19 +25,20 @@ static constexpr int kMaxPieces = 5'000;
 /// Maximum distance between the end of a move and the start of the next that counts as none, mm or degrees.
 static constexpr double kSamePlace = 1e-6;
 
-static bool limits_jerk(const Machine& machine) {
-  return std::any_of(machine.axes.begin(), machine.axes.end(), [](const AxisLimits& axis) { return axis.jerk; });
+static bool limits_jerk(const kinematics::Machine& machine) {
+  return std::any_of(machine.axes.begin(), machine.axes.end(),
+                     [](const kinematics::AxisLimits& axis) { return axis.jerk; });
 }
 
-Planner::Planner(Machine machine) : machine_(std::move(machine)) {
+Planner::Planner(kinematics::Machine machine) : machine_(std::move(machine)) {
   if (limits_jerk(machine_)) jerk_limiter_.emplace();
 }
 
 static bool differ(const geometry::Pose& a, const geometry::Pose& b) {
-  return (coordinates(a) - coordinates(b)).cwiseAbs().maxCoeff() > kSamePlace;
+  return (kinematics::coordinates(a) - kinematics::coordinates(b)).cwiseAbs().maxCoeff() > kSamePlace;
 }
 
-void Planner::push(const Move& move) {
+void Planner::push(const kinematics::Move& move) {
   take_elements();
   if (has_end_ && differ(end_, move.from)) come_to_rest();
   end_ = move.to;
@@ -58,7 +59,7 @@ void Planner::take_elements() {
 }
 
 /// Takes the next element. An element is appended to the profile when the next element or a stop determines its end.
-void Planner::take(Element element) {
+void Planner::take(kinematics::Element element) {
   if (profile_.holds_much_past()) profile_.forget_handed_out();
   if (handed_out_ >= kForgotten || handed_out_ == tracks_.size()) forget_tracks();
   if (has_last_ && jerk_limiter_) join_smoothly(element);
@@ -84,7 +85,7 @@ void Planner::forget_tracks() {
 }
 
 /// Appends the last element, whose end is now known, and the blend with the next one, whose start the blend moves.
-void Planner::join(Element& next) {
+void Planner::join(kinematics::Element& next) {
   const Corner corner = motion::corner(machine_, last_, next);
   if (corner.junction == Junction::Stop) return come_to_rest();
   const double depth = corner.blend.length / 2;
@@ -102,7 +103,7 @@ void Planner::join(Element& next) {
 }
 
 /// Does the same as join() for machines whose jerk is limited, with a blend without steps of the second derivative.
-void Planner::join_smoothly(Element& next) {
+void Planner::join_smoothly(kinematics::Element& next) {
   const SmoothCorner corner = smooth_corner(machine_, last_, next);
   if (corner.junction == Junction::Stop) return come_to_rest();
   const double depth = corner.blend.length / 2;
@@ -122,74 +123,80 @@ void Planner::come_to_rest() {
   if (jerk_limiter_) jerk_limiter_->come_to_rest(machine_);
 }
 
-static Piece whole_piece(const Element& element) {
+static Piece whole_piece(const kinematics::Element& element) {
   return {element.path, element.begin, element.end - element.begin, element.tag, element.ends_move};
 }
 
-void Planner::append(const Element& element) {
-  if (element.end - element.begin <= kNoLength) return;
+void Planner::append(const kinematics::Element& element) {
+  if (element.end - element.begin <= kinematics::kNoLength) return;
   if (!element.joints_are_straight) {
     append_curve(element);
   } else if (jerk_limiter_) {
-    jerk_limiter_->append(machine_, whole_piece(element), square(element.feed));
+    jerk_limiter_->append(machine_, whole_piece(element), kinematics::square(element.feed));
   } else {
     append_line(element);
   }
 }
 
-void Planner::append_line(const Element& element) {
-  Coordinates slope = element.path.c[1];
-  if (element.space == Space::Either && machine_.kinematics.kind == MachineKind::Table)
-    slope.head<3>() =
-        turn_to_joints(machine_.kinematics, element.path.c[0][kB], element.path.c[0][kC]) * element.path.c[1].head<3>();
-  LineLimits limits = line_limits(machine_, slope);
-  limits.cap = std::min(limits.cap, square(element.feed));
+void Planner::append_line(const kinematics::Element& element) {
+  kinematics::Coordinates slope = element.path.c[1];
+  if (element.space == kinematics::Space::Either && machine_.kinematics.kind == kinematics::MachineKind::Table)
+    slope.head<3>() = kinematics::turn_to_joints(machine_.kinematics, element.path.c[0][kinematics::kB],
+                                                 element.path.c[0][kinematics::kC]) *
+                      element.path.c[1].head<3>();
+  kinematics::LineLimits limits = kinematics::line_limits(machine_, slope);
+  limits.cap = std::min(limits.cap, kinematics::square(element.feed));
   profile_.append_line(element.begin, element.end - element.begin, limits);
   tracks_.push_back({whole_piece(element), 1});
 }
 
 /// Returns the angle by which a curve turns per unit of s, radians.
-static double turning(const Path& path) {
-  if (path.kind == PathKind::Circle) return std::abs(path.omega);
-  return (std::abs(path.c[1][kB]) + std::abs(path.c[1][kC])) * std::numbers::pi / 180;
+static double turning(const kinematics::Path& path) {
+  if (path.kind == kinematics::PathKind::Circle) return std::abs(path.omega);
+  return (std::abs(path.c[1][kinematics::kB]) + std::abs(path.c[1][kinematics::kC])) * std::numbers::pi / 180;
 }
 
 /// Returns the maximum of (ds/dt)^2 by the feed, mm^2/s^2.
-static double feed_cap(const Element& element) { return square(element.feed / element.max_tip_rate); }
-
-/// Returns the number of pieces into which a curve is cut, by the curvature of the path of the linear joints.
-static int piece_count(const Machine& machine, const Element& element) {
-  const double length = element.end - element.begin;
-  const double rate = turning(element.path);
-  const Coordinates middle = element.path.at((element.begin + element.end) / 2).value;
-  const double radius = element.path.kind == PathKind::Circle
-                            ? element.path.c[1].norm()
-                            : lever(machine.kinematics, middle.head<3>(), element.path.tool_length);
-  double weakest = machine.axes[kX].acceleration;
-  for (const Axis axis : {kY, kZ}) weakest = std::min(weakest, machine.axes[axis].acceleration);
-  const bool is_fine = radius * square(rate) * feed_cap(element) > kSmallPart * weakest;
-  return part_count(length * rate / (is_fine ? kFineTurn : kCoarseTurn), kMaxPieces);
+static double feed_cap(const kinematics::Element& element) {
+  return kinematics::square(element.feed / element.max_tip_rate);
 }
 
-void Planner::append_curve(const Element& element) {
+/// Returns the number of pieces into which a curve is cut, by the curvature of the path of the linear joints.
+static int piece_count(const kinematics::Machine& machine, const kinematics::Element& element) {
+  const double length = element.end - element.begin;
+  const double rate = turning(element.path);
+  const kinematics::Coordinates middle = element.path.at((element.begin + element.end) / 2).value;
+  const double radius = element.path.kind == kinematics::PathKind::Circle
+                            ? element.path.c[1].norm()
+                            : kinematics::lever(machine.kinematics, middle.head<3>(), element.path.tool_length);
+  double weakest = machine.axes[kinematics::kX].acceleration;
+  for (const kinematics::Axis axis : {kinematics::kY, kinematics::kZ})
+    weakest = std::min(weakest, machine.axes[axis].acceleration);
+  const bool is_fine = radius * kinematics::square(rate) * feed_cap(element) > kSmallPart * weakest;
+  return kinematics::part_count(length * rate / (is_fine ? kFineTurn : kCoarseTurn), kMaxPieces);
+}
+
+void Planner::append_curve(const kinematics::Element& element) {
   if (jerk_limiter_) return append_smooth_curve(element);
-  if (element.path.kind == PathKind::Circle) return append_arc(element);
+  if (element.path.kind == kinematics::PathKind::Circle) return append_arc(element);
   const double length = element.end - element.begin;
   const int count = piece_count(machine_, element);
   double from = element.begin;
-  Jet at_from = element.path.joints_at(machine_.kinematics, from);
+  kinematics::Jet at_from = element.path.joints_at(machine_.kinematics, from);
   for (int i = 1; i <= count; ++i) {
     const double to = element.begin + length * i / count;
-    const Jet at_to = element.path.joints_at(machine_.kinematics, to);
-    const HigherDerivativeBounds higher = higher_derivative_bounds(machine_.kinematics, element.path, from, to);
-    profile_.append_curve(from, to - from, feed_cap(element), CurveLimits(machine_, at_from, at_to, higher, to - from));
+    const kinematics::Jet at_to = element.path.joints_at(machine_.kinematics, to);
+    const kinematics::HigherDerivativeBounds higher =
+        kinematics::higher_derivative_bounds(machine_.kinematics, element.path, from, to);
+    profile_.append_curve(from, to - from, feed_cap(element),
+                          kinematics::CurveLimits(machine_, at_from, at_to, higher, to - from));
     from = to;
     at_from = at_to;
   }
   tracks_.push_back({whole_piece(element), count});
 }
 
-void Planner::append_smooth_curve(const Element& element) {
+void Planner::append_smooth_curve(const kinematics::Element& element) {
   const double length = element.end - element.begin;
   const int count = piece_count(machine_, element);
   for (int i = 0; i < count; ++i) {
@@ -201,40 +208,45 @@ void Planner::append_smooth_curve(const Element& element) {
 }
 
 /// Returns a circle with the derivatives of the one along which the joints move while B and C rest. Its center differs.
-static Path joint_circle(const Kinematics& kinematics, const Path& circle) {
-  Path result = circle;
+static kinematics::Path joint_circle(const kinematics::Kinematics& kinematics, const kinematics::Path& circle) {
+  kinematics::Path result = circle;
   result.is_of_joints = true;
-  if (kinematics.kind != MachineKind::Table) return result;
-  const geometry::Mat3 turn = turn_to_joints(kinematics, circle.c[0][kB], circle.c[0][kC]);
+  if (kinematics.kind != kinematics::MachineKind::Table) return result;
+  const geometry::Mat3 turn =
+      kinematics::turn_to_joints(kinematics, circle.c[0][kinematics::kB], circle.c[0][kinematics::kC]);
   for (std::size_t i = 1; i <= 3; ++i) result.c[i].head<3>() = turn * circle.c[i].head<3>();
   return result;
 }
 
 /// Returns the limits of a circle within the length `ramp` of the place where it has this slope. There each joint's
 /// slope changes by at most `ramp` times the maximum of its second derivative.
-static LineLimits ramp_limits(const Machine& machine, const Path& circle, const Coordinates& slope, double ramp) {
-  const Coordinates bend = square(circle.omega) * (circle.c[1].cwiseAbs2() + circle.c[2].cwiseAbs2()).cwiseSqrt();
-  return line_limits(machine, slope.cwiseAbs() + ramp * bend);
+static kinematics::LineLimits ramp_limits(const kinematics::Machine& machine, const kinematics::Path& circle,
+                                          const kinematics::Coordinates& slope, double ramp) {
+  const kinematics::Coordinates bend =
+      kinematics::square(circle.omega) * (circle.c[1].cwiseAbs2() + circle.c[2].cwiseAbs2()).cwiseSqrt();
+  return kinematics::line_limits(machine, slope.cwiseAbs() + ramp * bend);
 }
 
 /// Returns the derivatives of a circle at the place that follows that of `jet` by an angle of this cosine and sine.
-static Jet turned_on(const Path& circle, const Jet& jet, double cosine, double sine) {
-  const Coordinates along = jet.first - circle.c[3];
+static kinematics::Jet turned_on(const kinematics::Path& circle, const kinematics::Jet& jet, double cosine,
+                                 double sine) {
+  const kinematics::Coordinates along = jet.first - circle.c[3];
   return {.first = cosine * along + sine / circle.omega * jet.second + circle.c[3],
           .second = cosine * jet.second - sine * circle.omega * along};
 }
 
 /// Appends a part of a circle in fine pieces. Returns their number.
-int Planner::append_fine(const Path& circle, double begin, double end, double cap) {
-  const int count = part_count((end - begin) * turning(circle) / kFineTurn, kMaxPieces);
+int Planner::append_fine(const kinematics::Path& circle, double begin, double end, double cap) {
+  const int count = kinematics::part_count((end - begin) * turning(circle) / kFineTurn, kMaxPieces);
   const double length = (end - begin) / count;
   const double cosine = std::cos(circle.omega * length);
   const double sine = std::sin(circle.omega * length);
-  const HigherDerivativeBounds higher = higher_derivative_bounds(machine_.kinematics, circle, begin, end);
-  Jet from = circle.at(begin);
+  const kinematics::HigherDerivativeBounds higher =
+      kinematics::higher_derivative_bounds(machine_.kinematics, circle, begin, end);
+  kinematics::Jet from = circle.at(begin);
   for (int i = 0; i < count; ++i) {
-    const Jet to = turned_on(circle, from, cosine, sine);
-    profile_.append_curve(begin + i * length, length, cap, CurveLimits(machine_, from, to, higher, length));
+    const kinematics::Jet to = turned_on(circle, from, cosine, sine);
+    profile_.append_curve(begin + i * length, length, cap, kinematics::CurveLimits(machine_, from, to, higher, length));
     from = to;
   }
   return count;
@@ -244,11 +256,11 @@ int Planner::append_fine(const Path& circle, double begin, double end, double ca
 /// both ends, where the speed reaches the feed and leaves it. From a standstill the feed is reached after the integral
 /// of dx / 2a up to the feed's x, with a = acceleration (1 - fall x). The ends are at least as long as that, because
 /// -ln(1 - p) <= p / sqrt(1 - p).
-void Planner::append_arc(const Element& element) {
-  const Path circle = joint_circle(machine_.kinematics, element.path);
+void Planner::append_arc(const kinematics::Element& element) {
+  const kinematics::Path circle = joint_circle(machine_.kinematics, element.path);
   const double length = element.end - element.begin;
   const double cap = feed_cap(element);
-  const LineLimits anywhere = circle_limits(machine_, circle);
+  const kinematics::LineLimits anywhere = kinematics::circle_limits(machine_, circle);
   const double ramp =
       cap < anywhere.cap ? cap / (2 * anywhere.acceleration * std::sqrt(1 - anywhere.fall * cap)) : length;
   if (2 * ramp >= length) {
@@ -256,10 +268,11 @@ void Planner::append_arc(const Element& element) {
     return;
   }
   const bool is_brief = ramp <= kBriefPart * length && ramp * turning(circle) <= kFineTurn;
-  const bool as_tip = machine_.kinematics.kind != MachineKind::Table;  // Tip and joints have equal slopes.
-  const auto append_ramp = [&](double begin, double end, double s, const std::optional<Coordinates>& known) {
+  const bool as_tip = machine_.kinematics.kind != kinematics::MachineKind::Table;  // Tip and joints have equal slopes.
+  const auto append_ramp = [&](double begin, double end, double s,
+                               const std::optional<kinematics::Coordinates>& known) {
     if (!is_brief) return append_fine(circle, begin, end, cap);
-    const Coordinates slope = known && as_tip ? *known : circle.at(s).first;
+    const kinematics::Coordinates slope = known && as_tip ? *known : circle.at(s).first;
     const double acceleration = ramp_limits(machine_, circle, slope, ramp).acceleration;
     profile_.append_line(begin, end - begin, {cap, acceleration, anywhere.fall});
     return 1;
@@ -272,37 +285,39 @@ void Planner::append_arc(const Element& element) {
   tracks_.push_back({whole_piece(element), count});
 }
 
-void Planner::append_corner(const Blend& blend, const Element& before, const Element& after) {
+void Planner::append_corner(const Blend& blend, const kinematics::Element& before, const kinematics::Element& after) {
   profile_.append_level(blend.length, blend.cap);
   tracks_.push_back(
       {{blend.path, 0, blend.length, before.tag, before.ends_move}, 1, before.tag != after.tag, after.tag});
 }
 
 /// Returns the maximum of the tip's speed at ds/dt = 1 on a part of a blend, mm/s or degrees/s.
-static double tip_rate(const Machine& machine, const Piece& piece, bool only_turns) {
+static double tip_rate(const kinematics::Machine& machine, const Piece& piece, bool only_turns) {
   double max = 0;
   for (const double part : {0.0, 0.5, 1.0}) {
-    const Coordinates slope = piece.path.tip_at(machine.kinematics, piece.begin + part * piece.length).first;
+    const kinematics::Coordinates slope =
+        piece.path.tip_at(machine.kinematics, piece.begin + part * piece.length).first;
     max = std::max(max, only_turns ? slope.tail<2>().norm() : slope.head<3>().norm());
   }
   // Between these places the slope is a parabola, which deviates from the straight line by at most length^2/8 times its
   // second derivative.
-  const Coordinates bulge = 6 * square(piece.length / 2) / 8 * piece.path.c[3];
+  const kinematics::Coordinates bulge = 6 * kinematics::square(piece.length / 2) / 8 * piece.path.c[3];
   return max + (only_turns ? bulge.tail<2>().norm() : bulge.head<3>().norm());
 }
 
 /// Returns the maximum of the speeds of B and C at ds/dt = 1 on a part of a blend, degrees/s.
-static double turning_rate(const Machine& machine, const Piece& piece) {
+static double turning_rate(const kinematics::Machine& machine, const Piece& piece) {
   double max = 0;
   for (const double part : {0.0, 0.5, 1.0})
     max = std::max(
         max,
         piece.path.tip_at(machine.kinematics, piece.begin + part * piece.length).first.tail<2>().cwiseAbs().maxCoeff());
-  return max + (6 * square(piece.length / 2) / 8 * piece.path.c[3]).tail<2>().cwiseAbs().maxCoeff();
+  return max + (6 * kinematics::square(piece.length / 2) / 8 * piece.path.c[3]).tail<2>().cwiseAbs().maxCoeff();
 }
 
 /// Appends a blend in four parts: the second of its three cubics belongs to both moves, half to each.
-void Planner::append_corner(const SmoothBlend& blend, const Element& before, const Element& after) {
+void Planner::append_corner(const SmoothBlend& blend, const kinematics::Element& before,
+                            const kinematics::Element& after) {
   const double third = blend.length / 3;
   const Piece parts[] = {{blend.paths[0], 0, third, before.tag},
                          {blend.paths[1], 0, third / 2, before.tag, before.ends_move},
@@ -313,7 +328,7 @@ void Planner::append_corner(const SmoothBlend& blend, const Element& before, con
     const double max_tip_rate =
         std::max({before.max_tip_rate, after.max_tip_rate, tip_rate(machine_, part, before.only_turns)});
     const double by_turn = std::isinf(feed) ? feed : machine_.feed_turn / turning_rate(machine_, part);
-    jerk_limiter_->append(machine_, part, square(std::min(feed / max_tip_rate, by_turn)));
+    jerk_limiter_->append(machine_, part, kinematics::square(std::min(feed / max_tip_rate, by_turn)));
   }
 }
 

@@ -5,12 +5,12 @@
 #include <optional>
 #include <vector>
 
+#include "interpreter/kinematics/element.h"
+#include "interpreter/kinematics/machine.h"
+#include "interpreter/kinematics/move.h"
 #include "interpreter/motion/blend.h"
-#include "interpreter/motion/element.h"
 #include "interpreter/motion/jerk_limiter.h"
-#include "interpreter/motion/machine.h"
 #include "interpreter/motion/memory.h"
-#include "interpreter/motion/move.h"
 #include "interpreter/motion/piece.h"
 #include "interpreter/motion/profile.h"
 #include "interpreter/motion/stretch.h"
@@ -31,10 +31,10 @@ namespace isocnc::motion {
 /// next() is called as above. The class has value semantics: a copy is independent.
 class Planner {
  public:
-  explicit Planner(Machine machine);
+  explicit Planner(kinematics::Machine machine);
 
   /// Appends a move. A move without length yields no stretch, but its exact stop takes effect.
-  void push(const Move& move);
+  void push(const kinematics::Move& move);
 
   /// Brings the machine to rest after all moves pushed so far, and keeps it at rest for `seconds`: for dwells, tool
   /// changes, and other waits of the control.
@@ -66,26 +66,26 @@ class Planner {
   };
 
   void take_elements();
-  void take(Element element);
-  void join(Element& next);
-  void join_smoothly(Element& next);
+  void take(kinematics::Element element);
+  void join(kinematics::Element& next);
+  void join_smoothly(kinematics::Element& next);
   void come_to_rest();
   void plan_ahead();
-  void append(const Element& element);
-  void append_line(const Element& element);
-  void append_curve(const Element& element);
-  void append_arc(const Element& element);
-  void append_smooth_curve(const Element& element);
-  int append_fine(const Path& circle, double begin, double end, double cap);
-  void append_corner(const Blend& blend, const Element& before, const Element& after);
-  void append_corner(const SmoothBlend& blend, const Element& before, const Element& after);
+  void append(const kinematics::Element& element);
+  void append_line(const kinematics::Element& element);
+  void append_curve(const kinematics::Element& element);
+  void append_arc(const kinematics::Element& element);
+  void append_smooth_curve(const kinematics::Element& element);
+  int append_fine(const kinematics::Path& circle, double begin, double end, double cap);
+  void append_corner(const Blend& blend, const kinematics::Element& before, const kinematics::Element& after);
+  void append_corner(const SmoothBlend& blend, const kinematics::Element& before, const kinematics::Element& after);
   const Stretch* next_determined();
   void forget_tracks();
   void hand_out(int spans);
 
-  Machine machine_;
-  Splitter splitter_;
-  Element last_;  ///< Last element; its end is final when the next element or a rest is known.
+  kinematics::Machine machine_;
+  kinematics::Splitter splitter_;
+  kinematics::Element last_;  ///< Last element; its end is final when the next element or a rest is known.
   bool has_last_ = false;
   geometry::Pose end_;  ///< End of the last move pushed.
   bool has_end_ = false;

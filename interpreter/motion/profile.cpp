@@ -33,22 +33,22 @@ Profile::Span& Profile::add(SpanKind kind, double begin, double length, double c
   return span;
 }
 
-void Profile::append_line(double begin, double length, const LineLimits& limits) {
+void Profile::append_line(double begin, double length, const kinematics::LineLimits& limits) {
   Span& span = add(SpanKind::Line, begin, length, limits.cap);
   span.acceleration = limits.acceleration;
   span.fall = limits.fall;
 }
 
-void Profile::append_curve(double begin, double length, double cap, const CurveLimits& limits) {
+void Profile::append_curve(double begin, double length, double cap, const kinematics::CurveLimits& limits) {
   Span& span = add(SpanKind::Curve, begin, length, std::min(limits.cap(), cap));
   span.bounds = first_bound_ + bounds_.size();
-  const auto keep = [&](Direction direction) {
-    const std::span<const CurveBound> bounds = limits.bounds(direction);
+  const auto keep = [&](kinematics::Direction direction) {
+    const std::span<const kinematics::CurveBound> bounds = limits.bounds(direction);
     bounds_.insert(bounds_.end(), bounds.begin(), bounds.end());
     return static_cast<std::uint8_t>(bounds.size());
   };
-  span.forward_count = keep(Direction::Forward);
-  span.backward_count = keep(Direction::Backward);
+  span.forward_count = keep(kinematics::Direction::Forward);
+  span.backward_count = keep(kinematics::Direction::Backward);
 }
 
 void Profile::append_level(double length, double cap) { add(SpanKind::Level, 0, length, cap); }
@@ -67,20 +67,20 @@ static double reach_on_line(const Profile::Span& span, double x) {
   return x + gain * std::max(1 - x * span.fall, 0.0) / (1 + gain * span.fall);
 }
 
-std::span<const CurveBound> Profile::bounds(const Span& span, Direction direction) const {
-  const CurveBound* const first = bounds_.data() + (span.bounds - first_bound_);
-  if (direction == Direction::Forward) return {first, span.forward_count};
+std::span<const kinematics::CurveBound> Profile::bounds(const Span& span, kinematics::Direction direction) const {
+  const kinematics::CurveBound* const first = bounds_.data() + (span.bounds - first_bound_);
+  if (direction == kinematics::Direction::Forward) return {first, span.forward_count};
   return {first + span.forward_count, span.backward_count};
 }
 
 /// Returns the maximum of x at one end of a span with x at the other: at the end for Direction::Forward, at the start
 /// for Direction::Backward.
-double Profile::reach(const Span& span, double x, Direction direction) const {
+double Profile::reach(const Span& span, double x, kinematics::Direction direction) const {
   switch (span.kind) {
     case SpanKind::Line:
       return reach_on_line(span, x);
     case SpanKind::Curve:
-      return motion::reach(bounds(span, direction), span.length, x);
+      return kinematics::reach(bounds(span, direction), span.length, x);
     case SpanKind::Level:
       break;
   }
@@ -91,7 +91,7 @@ void Profile::look_back_from_rest() {
   double exit = 0;
   for (std::size_t i = spans_.size(); i-- > planned_;) {
     Span& span = spans_[i];
-    exit = span.entry = std::min(span.entry_cap, reach(span, exit, Direction::Backward));
+    exit = span.entry = std::min(span.entry_cap, reach(span, exit, kinematics::Direction::Backward));
   }
 }
 
@@ -103,7 +103,7 @@ std::size_t Profile::look_back() {
   std::size_t i = spans_.size();
   while (i-- > planned_) {
     const Span& span = spans_[i];
-    exit = std::min(span.entry_cap, reach(span, exit, Direction::Backward));
+    exit = std::min(span.entry_cap, reach(span, exit, kinematics::Direction::Backward));
     if (exit == span.entry) return i;
   }
   return planned_;
@@ -121,7 +121,7 @@ void Profile::plan_until(std::size_t end, double exit) {
     Span& span = spans_[planned_];
     const double max_exit = planned_ + 1 < end ? spans_[planned_ + 1].entry : exit;
     const double entry = speed_square_;
-    const double reached = reach(span, entry, Direction::Forward);
+    const double reached = reach(span, entry, kinematics::Direction::Forward);
     speed_square_ = std::min(max_exit, reached);
     const bool is_reach = reached <= max_exit || (entry == span.entry && entry < span.entry_cap);
     assign_times(span, entry, speed_square_, is_reach);
@@ -162,10 +162,12 @@ static Course on_line(const Profile::Span& span, double entry, double exit) {
   return fits ? course : straight(span.length, entry, exit);
 }
 
-static Course on_curve(std::span<const CurveBound> forward, std::span<const CurveBound> backward, double cap,
-                       double length, double entry, double exit) {
+static Course on_curve(std::span<const kinematics::CurveBound> forward,
+                       std::span<const kinematics::CurveBound> backward, double cap, double length, double entry,
+                       double exit) {
   const auto over = [&](double peak) {
-    return over_peak(peak, entry, exit, acceleration(forward, entry, peak), acceleration(backward, exit, peak));
+    return over_peak(peak, entry, exit, kinematics::acceleration(forward, entry, peak),
+                     kinematics::acceleration(backward, exit, peak));
   };
   const auto fits = [&](const Course& course) { return course.up + course.down <= length; };
   double low = std::max(entry, exit);
@@ -189,8 +191,8 @@ void Profile::assign_times(Span& span, double entry, double exit, bool is_reach)
   if (span.kind == SpanKind::Line) course = on_line(span, entry, exit);
   if (span.kind == SpanKind::Curve)
     course = is_reach ? straight(span.length, entry, exit)
-                      : on_curve(bounds(span, Direction::Forward), bounds(span, Direction::Backward), span.cap,
-                                 span.length, entry, exit);
+                      : on_curve(bounds(span, kinematics::Direction::Forward),
+                                 bounds(span, kinematics::Direction::Backward), span.cap, span.length, entry, exit);
   double s = span.begin;
   const auto go = [&](double length, double from, double to, double acceleration) {
     if (length <= kNoPart * span.length) return;

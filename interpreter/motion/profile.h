@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "interpreter/motion/limits.h"
+#include "interpreter/kinematics/limits.h"
 #include "interpreter/motion/memory.h"
 #include "interpreter/motion/stretch.h"
 
@@ -44,9 +44,9 @@ class Profile {
 
   Profile();
 
-  void append_line(double begin, double length, const LineLimits& limits);
+  void append_line(double begin, double length, const kinematics::LineLimits& limits);
   /// Appends a span of a curve. `cap`: maximum of x, in addition to the cap of the limits.
-  void append_curve(double begin, double length, double cap, const CurveLimits& limits);
+  void append_curve(double begin, double length, double cap, const kinematics::CurveLimits& limits);
   /// Appends a span on which the speed is constant. `cap`: maximum of x.
   void append_level(double length, double cap);
 
@@ -79,15 +79,15 @@ class Profile {
 
  private:
   Span& add(SpanKind kind, double begin, double length, double cap);
-  std::span<const CurveBound> bounds(const Span& span, Direction direction) const;
-  double reach(const Span& span, double x, Direction direction) const;
+  std::span<const kinematics::CurveBound> bounds(const Span& span, kinematics::Direction direction) const;
+  double reach(const Span& span, double x, kinematics::Direction direction) const;
   std::size_t look_back();
   void look_back_from_rest();
   void plan_until(std::size_t end, double exit);
   void assign_times(Span& span, double entry, double exit, bool is_reach);
 
   std::vector<Span> spans_;
-  std::vector<CurveBound> bounds_;
+  std::vector<kinematics::CurveBound> bounds_;
   std::size_t first_bound_ = 0;  ///< Number of the first element of `bounds_`.
   std::size_t handed_out_ = 0;   ///< Number of popped spans in `spans_`.
   std::size_t planned_ = 0;      ///< Number of planned spans in `spans_`.

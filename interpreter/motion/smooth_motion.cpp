@@ -13,13 +13,13 @@ static constexpr std::size_t kMaxUnplanned = 2048;
 static constexpr int kMaxSteps = 60;
 
 /// Returns the norm of the maximum speeds of all joints, an upper bound of the speed along any path.
-static double max_speed(const Machine& machine) {
+static double max_speed(const kinematics::Machine& machine) {
   double sum = 0;
-  for (const AxisLimits& axis : machine.axes) sum += axis.speed * axis.speed;
+  for (const kinematics::AxisLimits& axis : machine.axes) sum += axis.speed * axis.speed;
   return std::sqrt(sum);
 }
 
-SmoothMotion::SmoothMotion(const Machine& machine, const Smoothing& smoothing, double start)
+SmoothMotion::SmoothMotion(const kinematics::Machine& machine, const kinematics::Smoothing& smoothing, double start)
     : smoothing_(smoothing),
       max_speed_(max_speed(machine)),
       window_minimum_(smoothing.window, max_speed_),
@@ -28,11 +28,12 @@ SmoothMotion::SmoothMotion(const Machine& machine, const Smoothing& smoothing, d
       batch_(kCellBatch),
       time_(start) {}
 
-void SmoothMotion::append(const Machine& machine, const Piece& piece, const DerivativeBounds& bounds, double feed_cap) {
+void SmoothMotion::append(const kinematics::Machine& machine, const Piece& piece,
+                          const kinematics::DerivativeBounds& bounds, double feed_cap) {
   pieces_.push_back({piece, end_});
   end_ += piece.length;
-  window_minimum_.append(piece.length,
-                         smoothed_limits(machine, smoothing_, bounds, std::min(feed_cap, max_speed_ * max_speed_)));
+  window_minimum_.append(piece.length, kinematics::smoothed_limits(machine, smoothing_, bounds,
+                                                                   std::min(feed_cap, max_speed_ * max_speed_)));
   take_cells();
 }
 

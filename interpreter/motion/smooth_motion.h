@@ -4,8 +4,8 @@
 #include <deque>
 #include <vector>
 
-#include "interpreter/motion/limits.h"
-#include "interpreter/motion/machine.h"
+#include "interpreter/kinematics/limits.h"
+#include "interpreter/kinematics/machine.h"
 #include "interpreter/motion/memory.h"
 #include "interpreter/motion/moving_average.h"
 #include "interpreter/motion/peak_trimmer.h"
@@ -23,11 +23,12 @@ namespace isocnc::motion {
 class SmoothMotion {
  public:
   /// `start`: time at which the motion starts, s.
-  SmoothMotion(const Machine& machine, const Smoothing& smoothing, double start);
+  SmoothMotion(const kinematics::Machine& machine, const kinematics::Smoothing& smoothing, double start);
 
   /// Appends a piece. `bounds`: bounds of the joints' derivatives on it. `feed_cap`: maximum of (ds/dt)^2 by the feed,
   /// mm^2/s^2.
-  void append(const Machine& machine, const Piece& piece, const DerivativeBounds& bounds, double feed_cap);
+  void append(const kinematics::Machine& machine, const Piece& piece, const kinematics::DerivativeBounds& bounds,
+              double feed_cap);
   /// Ends the motion at rest after the pieces appended so far.
   void come_to_rest();
 
@@ -63,7 +64,7 @@ class SmoothMotion {
   void finish_piece();
   void emit(bool ends_move);
 
-  Smoothing smoothing_;
+  kinematics::Smoothing smoothing_;
   double max_speed_;  ///< Upper bound of the speed along any path, mm/s.
   WindowMinimum window_minimum_;
   Profile profile_;

@@ -11,13 +11,13 @@ Phase Phase::after(double time) const {
 }
 
 /// Converts derivatives by s to derivatives by time.
-static Jet in_time(const Jet& jet, double speed, double acceleration) {
+static kinematics::Jet in_time(const kinematics::Jet& jet, double speed, double acceleration) {
   return {jet.value, speed * jet.first, speed * speed * jet.second + acceleration * jet.first};
 }
 
-static Sample sample(const Jet& tip, const Jet& joints, double time) {
+static Sample sample(const kinematics::Jet& tip, const kinematics::Jet& joints, double time) {
   Sample result{.time = time,
-                .tip = pose(tip.value),
+                .tip = kinematics::pose(tip.value),
                 .joints = joints.value,
                 .joint_speeds = joints.first,
                 .joint_accelerations = joints.second,
@@ -35,7 +35,7 @@ static Phase phase_at(const Stretch& stretch, double time) {
   return stretch.phases[i].after(std::min(t, stretch.phases[i].duration));
 }
 
-Sample Stretch::at(const Kinematics& kinematics, double time) const {
+Sample Stretch::at(const kinematics::Kinematics& kinematics, double time) const {
   const Phase now = phase_at(*this, time);
   return sample(in_time(path.tip_at(kinematics, now.from), now.speed, now.acceleration),
                 in_time(path.joints_at(kinematics, now.from), now.speed, now.acceleration),

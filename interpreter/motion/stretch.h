@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "interpreter/geometry/vectors.h"
-#include "interpreter/motion/path.h"
+#include "interpreter/kinematics/path.h"
 
 namespace isocnc::motion {
 
@@ -23,14 +23,14 @@ struct Phase {
 
 /// Position and motion of the machine at one moment.
 struct Sample {
-  double time = 0;                           ///< Time since the planner's start, s.
-  geometry::Pose tip;                        ///< Pose of the tip, machine frame.
-  Coordinates joints = Coordinates::Zero();  ///< Positions of the joints, mm and degrees.
+  double time = 0;                                                   ///< Time since the planner's start, s.
+  geometry::Pose tip;                                                ///< Pose of the tip, machine frame.
+  kinematics::Coordinates joints = kinematics::Coordinates::Zero();  ///< Positions of the joints, mm and degrees.
   /// First and second derivatives of `joints` in time. Only tests read them: they hold each axis against its limits.
-  Coordinates joint_speeds = Coordinates::Zero();         ///< mm/s and degrees/s.
-  Coordinates joint_accelerations = Coordinates::Zero();  ///< mm/s^2 and degrees/s^2.
-  double speed = 0;                                       ///< Speed of the tip, mm/s; 0 where B and C alone move.
-  double acceleration = 0;                                ///< Acceleration along the tip's path, mm/s^2.
+  kinematics::Coordinates joint_speeds = kinematics::Coordinates::Zero();         ///< mm/s and degrees/s.
+  kinematics::Coordinates joint_accelerations = kinematics::Coordinates::Zero();  ///< mm/s^2 and degrees/s^2.
+  double speed = 0;         ///< Speed of the tip, mm/s; 0 where B and C alone move.
+  double acceleration = 0;  ///< Acceleration along the tip's path, mm/s^2.
 };
 
 /// A piece of path, or a part of one, with its motion in time. The class has value semantics and refers to no other
@@ -41,12 +41,12 @@ struct Stretch {
   bool ends_move = false;       ///< Whether this is the last stretch of its move.
   double start = 0;             ///< Time since the planner's start, s.
   double duration = 0;          ///< Sum of the durations of the phases, s.
-  Path path;                    ///< Curve that the phases run along.
+  kinematics::Path path;        ///< Curve that the phases run along.
   std::array<Phase, 3> phases;  ///< Motion of the path parameter; the first `phase_count` are used.
   int phase_count = 0;
 
   /// Returns the sample at `time` seconds since the planner's start. Times outside the stretch are clamped to it.
-  Sample at(const Kinematics& kinematics, double time) const;
+  Sample at(const kinematics::Kinematics& kinematics, double time) const;
   /// Returns the path parameter at that time. It never decreases as time grows.
   double parameter_at(double time) const;
   /// Returns the time at which the path parameter reaches `s`, clamped to the stretch.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "interpreter/motion/numbers.h"
+#include "interpreter/kinematics/numbers.h"
 
 namespace isocnc::motion {
 
@@ -36,7 +36,7 @@ void WindowMinimum::RunningMinimum::pass(double place) {
   while (!entries_.empty() && entries_.back().until <= place) entries_.pop_back();
 }
 
-void WindowMinimum::RunningLimits::insert(const LineLimits& limits, double until) {
+void WindowMinimum::RunningLimits::insert(const kinematics::LineLimits& limits, double until) {
   cap_.insert(limits.cap, until);
   acceleration_.insert(limits.acceleration, until);
   if (limits.fall > 0) fall_.insert(-limits.fall, until);
@@ -48,27 +48,28 @@ void WindowMinimum::RunningLimits::pass(double place) {
   fall_.pass(place);
 }
 
-LineLimits WindowMinimum::RunningLimits::limits() const {
-  return {cap_.minimum(kInfinity), acceleration_.minimum(kInfinity), -fall_.minimum(0)};
+kinematics::LineLimits WindowMinimum::RunningLimits::limits() const {
+  return {cap_.minimum(kinematics::kInfinity), acceleration_.minimum(kinematics::kInfinity), -fall_.minimum(0)};
 }
 
 double WindowMinimum::RunningLimits::until() const {
-  return std::min({cap_.until(kInfinity), acceleration_.until(kInfinity), fall_.until(kInfinity)});
+  return std::min({cap_.until(kinematics::kInfinity), acceleration_.until(kinematics::kInfinity),
+                   fall_.until(kinematics::kInfinity)});
 }
 
 /// Returns the stricter of both limits.
-static LineLimits both(const LineLimits& a, const LineLimits& b) {
+static kinematics::LineLimits both(const kinematics::LineLimits& a, const kinematics::LineLimits& b) {
   return {std::min(a.cap, b.cap), std::min(a.acceleration, b.acceleration), std::max(a.fall, b.fall)};
 }
 
-static bool are_equal(const LineLimits& a, const LineLimits& b) {
+static bool are_equal(const kinematics::LineLimits& a, const kinematics::LineLimits& b) {
   return a.cap == b.cap && a.acceleration == b.acceleration && a.fall == b.fall;
 }
 
 WindowMinimum::WindowMinimum(double window, double max_speed)
     : window_(window), max_speed_(max_speed), batch_(kWidenBatch) {}
 
-void WindowMinimum::append(double length, LineLimits limits) {
+void WindowMinimum::append(double length, kinematics::LineLimits limits) {
   const double begin = std::exchange(end_, end_ + length);
   double speed = std::min(std::sqrt(limits.cap), max_speed_);
   if (sources_.size() >= kMaxSources)
@@ -136,7 +137,7 @@ void WindowMinimum::widen_forward(std::size_t count) {
     from_earlier_.pass(source.begin);
     for (double place = source.begin; place < source.end; from_earlier_.pass(place)) {
       while (intervals_.size() > 1 && intervals_.back().end <= place) intervals_.pop_back();
-      const double later_changes = intervals_.back().end > place ? intervals_.back().end : kInfinity;
+      const double later_changes = intervals_.back().end > place ? intervals_.back().end : kinematics::kInfinity;
       const double next = std::min({from_earlier_.until(), later_changes, source.end});
       emit(place, next, both(from_earlier_.limits(), intervals_.back().limits));
       place = next;
@@ -145,10 +146,10 @@ void WindowMinimum::widen_forward(std::size_t count) {
 }
 
 /// Adds an interval to the open cell if its limits are equal or it has no length; otherwise starts a new cell.
-void WindowMinimum::emit(double begin, double end, const LineLimits& limits) {
+void WindowMinimum::emit(double begin, double end, const kinematics::LineLimits& limits) {
   const bool is_first = open_.length == 0;
   const bool continues = are_equal(limits, open_.limits) && open_parts_ < kMaxParts;
-  if (!is_first && (end - begin <= kNoLength || continues)) {
+  if (!is_first && (end - begin <= kinematics::kNoLength || continues)) {
     open_.length = end - open_.begin;
     ++open_parts_;
     return;

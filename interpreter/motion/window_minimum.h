@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "interpreter/motion/limits.h"
+#include "interpreter/kinematics/limits.h"
 #include "interpreter/motion/memory.h"
 
 namespace isocnc::motion {
@@ -12,7 +12,7 @@ namespace isocnc::motion {
 struct Cell {
   double begin = 0;   ///< Distance along the path from the last rest, mm or degrees.
   double length = 0;  ///< Length along the path, mm or degrees.
-  LineLimits limits;
+  kinematics::LineLimits limits;
 };
 
 /// Widens the limits of each piece by half a window of time on both sides, and takes the strictest at each place. Half
@@ -27,7 +27,7 @@ class WindowMinimum {
   WindowMinimum(double window, double max_speed);
 
   /// Appends a piece of `length` mm or degrees.
-  void append(double length, LineLimits limits);
+  void append(double length, kinematics::LineLimits limits);
 
   /// Ends the path at rest. The next piece starts a new path at 0.
   void come_to_rest();
@@ -64,10 +64,10 @@ class WindowMinimum {
   /// The strictest limits that reach the current place from pieces on one side of it.
   class RunningLimits {
    public:
-    void insert(const LineLimits& limits, double until);
+    void insert(const kinematics::LineLimits& limits, double until);
     /// Moves the current place forward.
     void pass(double place);
-    LineLimits limits() const;
+    kinematics::LineLimits limits() const;
     /// Returns the place up to which limits() stays as it is.
     double until() const;
     std::size_t memory() const { return cap_.memory() + acceleration_.memory() + fall_.memory(); }
@@ -83,20 +83,20 @@ class WindowMinimum {
     double begin = 0;   ///< Start of the piece, as a distance from the last rest.
     double end = 0;     ///< End of the piece, as a distance from the last rest.
     double radius = 0;  ///< Distance by which its limits are widened on both sides.
-    LineLimits limits;
+    kinematics::LineLimits limits;
   };
   /// An interval of the path with the limits that reach it from its own and later pieces.
   struct Interval {
     double begin = 0;
     double end = 0;
-    LineLimits limits;
+    kinematics::LineLimits limits;
   };
 
   std::size_t settled() const;
   void widen(std::size_t count);
   void widen_backward(std::size_t count);
   void widen_forward(std::size_t count);
-  void emit(double begin, double end, const LineLimits& limits);
+  void emit(double begin, double end, const kinematics::LineLimits& limits);
 
   double window_;                    ///< Length of the window, s.
   double max_speed_;                 ///< Upper bound of the speed on any piece, mm/s.

@@ -1,7 +1,7 @@
 #include "interpreter/plot/page_plot.h"
 
 #include "interpreter/plot/page_template.h"
-#include "interpreter/syntax/xml.h"
+#include "interpreter/text/xml.h"
 
 namespace isocnc::plot {
 
@@ -17,7 +17,7 @@ void PagePlot::write(system::OutputFile& output, const Toolpath& path, const run
   const std::size_t title = page.find(kPageTitle);
   const std::size_t data = page.find(kPageData);
   output.write(page.substr(0, title));
-  output.write(syntax::xml_escaped(subject_.name));
+  output.write(text::xml_escaped(subject_.name));
   output.write(page.substr(title + kPageTitle.size(), data - title - kPageTitle.size()));
   const auto block = [&](std::string_view id, std::string_view type, std::string_view content) {
     for (const std::string_view part : {std::string_view("<script id=\"data-"), id, std::string_view("\" type=\""),

@@ -75,7 +75,9 @@ void PathRecording::add(const RecordedPoint& place, double time) {
 }
 
 /// Infinite ends become null.
-static OrderedJson range(const motion::AxisLimits& axis) { return OrderedJson::array({axis.minimum, axis.maximum}); }
+static OrderedJson range(const kinematics::AxisLimits& axis) {
+  return OrderedJson::array({axis.minimum, axis.maximum});
+}
 
 static OrderedJson tool_of(const std::optional<execution::ToolCode>& tool, const std::vector<PlotTool>& known) {
   OrderedJson json = {{"name", nullptr}, {"length", nullptr}, {"radius", nullptr}};
@@ -91,7 +93,7 @@ static OrderedJson tool_of(const std::optional<execution::ToolCode>& tool, const
 
 std::string PathRecording::facts(const Toolpath& path, const running::RunResult& result) const {
   static constexpr std::string_view kEndings[] = {"end", "error", "until"};
-  const bool is_three_axis = machine_.motion.kinematics.kind == motion::MachineKind::ThreeAxis;
+  const bool is_three_axis = machine_.motion.kinematics.kind == kinematics::MachineKind::ThreeAxis;
   OrderedJson json = {{"version", 1},
                       {"name", subject_.name},
                       {"language", dialect::name_of(subject_.language)},
@@ -109,7 +111,7 @@ std::string PathRecording::facts(const Toolpath& path, const running::RunResult&
                               {"i", running::array(geometry::Vec3(each.frame.axes.col(0)))},
                               {"j", running::array(geometry::Vec3(each.frame.axes.col(1)))},
                               {"k", running::array(geometry::Vec3(each.frame.axes.col(2)))}});
-  for (const motion::AxisLimits& axis : machine_.motion.axes) json["travel"].push_back(range(axis));
+  for (const kinematics::AxisLimits& axis : machine_.motion.axes) json["travel"].push_back(range(axis));
   return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "interpreter/syntax/xml.h"
+#include "interpreter/text/xml.h"
 
 namespace isocnc::plot {
 
@@ -161,7 +161,7 @@ static void append_row(std::string& svg, double left, double row, std::string_vi
   const double y = kLegendTop + kLegendRow * row;
   fmt::format_to(std::back_inserter(svg),
                  "<path stroke=\"{}\" {} d=\"M{:.0f} {:.0f}{}\"/><text x=\"{:.0f}\" y=\"{:.0f}\">{}</text>\n", color,
-                 style, left, y, d, left + 50, y + 4, syntax::xml_escaped(text));
+                 style, left, y, d, left + 50, y + 4, text::xml_escaped(text));
 }
 
 std::string SvgPlot::legend(const Toolpath& path) const {
@@ -191,17 +191,17 @@ void SvgPlot::write(system::OutputFile& output, const Toolpath& path, const runn
       "font-family=\"sans-serif\" font-size=\"13\">\n<title>{2}</title>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n<text x=\"{3:.0f}\" y=\"24\" "
       "font-size=\"16\">{2}</text>\n",
-      width, height, syntax::xml_escaped(subject_.name), kMargin));
+      width, height, text::xml_escaped(subject_.name), kMargin));
   const bool moves = std::any_of(views_.begin(), views_.end(),
                                  [](const View& view) { return !view.paths.empty() || !view.dots.empty(); });
   for (std::size_t i = 0; i < views_.size(); ++i) {
     const double left = kMargin + static_cast<double>(i) * (kViewSize + kMargin);
     output.write(fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" fill=\"#555\">{}</text>\n", left, kTitleHeight - 8,
-                             syntax::xml_escaped(kViews[i].in(subject_.language))));
+                             text::xml_escaped(kViews[i].in(subject_.language))));
     if (!moves)
       output.write(fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" text-anchor=\"middle\" fill=\"#555\">{}</text>\n",
                                left + kViewSize / 2, kTitleHeight + kViewSize / 3,
-                               syntax::xml_escaped(kNoMotion.in(subject_.language))));
+                               text::xml_escaped(kNoMotion.in(subject_.language))));
     if (views_[i].is_empty) continue;
     output.write(drawn(views_[i], path, left));
     output.write(scale_bar(views_[i].scale(), left));

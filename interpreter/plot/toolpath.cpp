@@ -80,24 +80,25 @@ void Toolpath::keep_last() {
 }
 
 /// Speed of the tip, or of B and C if it rests.
-static double speed_along(const motion::Coordinates& slope) {
+static double speed_along(const kinematics::Coordinates& slope) {
   const double linear = slope.head<3>().norm();
   return linear > 0 ? linear : slope.tail<2>().norm();
 }
 
-ToolpathPoint Toolpath::point_at(const motion::Path& path, const motion::Phase& phase, double start,
+ToolpathPoint Toolpath::point_at(const kinematics::Path& path, const motion::Phase& phase, double start,
                                  double time) const {
   const motion::Phase now = phase.after(time);
-  const motion::Jet jet = path.tip_at(machine_.motion.kinematics, now.from);
-  return {motion::pose(jet.value), start + time, std::max(0.0, now.speed) * speed_along(jet.first)};
+  const kinematics::Jet jet = path.tip_at(machine_.motion.kinematics, now.from);
+  return {kinematics::pose(jet.value), start + time, std::max(0.0, now.speed) * speed_along(jet.first)};
 }
 
-static bool is_straight(const motion::Path& path) {
-  return path.kind == motion::PathKind::Polynomial && !path.is_of_joints && path.c[2].isZero(0) && path.c[3].isZero(0);
+static bool is_straight(const kinematics::Path& path) {
+  return path.kind == kinematics::PathKind::Polynomial && !path.is_of_joints && path.c[2].isZero(0) &&
+         path.c[3].isZero(0);
 }
 
 /// Adds the curve from a point already added to a later one.
-void Toolpath::add_curve(const motion::Path& path, const motion::Phase& phase, double start, double from, double to,
+void Toolpath::add_curve(const kinematics::Path& path, const motion::Phase& phase, double start, double from, double to,
                          int depth) {
   const ToolpathPoint begin = point_at(path, phase, start, from);
   const ToolpathPoint end = point_at(path, phase, start, to);
@@ -111,8 +112,8 @@ void Toolpath::add_curve(const motion::Path& path, const motion::Phase& phase, d
 }
 
 /// Angle of the circle, degrees.
-static double turn_of_circle(const motion::Path& path, const motion::Phase& phase) {
-  if (path.kind != motion::PathKind::Circle) return 0;
+static double turn_of_circle(const kinematics::Path& path, const motion::Phase& phase) {
+  if (path.kind != kinematics::PathKind::Circle) return 0;
   return std::abs(path.omega) * (phase.after(phase.duration).from - phase.from) * 180 / std::numbers::pi;
 }
 
@@ -131,7 +132,7 @@ void Toolpath::add(const motion::Stretch& stretch) {
       const double turn = std::max(turned(point_at(stretch.path, phase, start, 0).pose,
                                           point_at(stretch.path, phase, start, phase.duration).pose),
                                    turn_of_circle(stretch.path, phase));
-      const int parts = motion::part_count(turn / kPartDeg, kMaxParts);
+      const int parts = kinematics::part_count(turn / kPartDeg, kMaxParts);
       for (int part = 0; part < parts; ++part)
         add_curve(stretch.path, phase, start, phase.duration * part / parts, phase.duration * (part + 1) / parts,
                   kMaxHalvings);
@@ -174,13 +175,13 @@ void Toolpath::add_step(const simulation::TimedEvent& timed, StepKind kind, doub
 
 /// Mounts a tool while the joints stand still, and returns the new position of the tip.
 Pose Toolpath::mount(execution::ToolCode tool) {
-  const motion::Kinematics& kinematics = machine_.motion.kinematics;
-  const motion::Coordinates joints = motion::inverse(kinematics, motion::coordinates(points_.front().pose),
-                                                     std::exchange(tool_length_, machine_.tool_length(tool)));
+  const kinematics::Kinematics& kinematics = machine_.motion.kinematics;
+  const kinematics::Coordinates joints = kinematics::inverse(kinematics, kinematics::coordinates(points_.front().pose),
+                                                             std::exchange(tool_length_, machine_.tool_length(tool)));
   const auto known = std::find(tools_.begin(), tools_.end(), tool);
   tool_ = static_cast<std::size_t>(known - tools_.begin());
   if (known == tools_.end()) tools_.emplace_back(tool);
-  return motion::pose(motion::forward(kinematics, joints, tool_length_));
+  return kinematics::pose(kinematics::forward(kinematics, joints, tool_length_));
 }
 
 void Toolpath::add_frame(const running::FrameEvent& event, std::uint64_t line) {

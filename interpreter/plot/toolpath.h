@@ -61,8 +61,9 @@ class Toolpath {
   static constexpr std::size_t kMaxFrames = 100;
 
  private:
-  void add_curve(const motion::Path& path, const motion::Phase& phase, double start, double from, double to, int depth);
-  ToolpathPoint point_at(const motion::Path& path, const motion::Phase& phase, double start, double time) const;
+  void add_curve(const kinematics::Path& path, const motion::Phase& phase, double start, double from, double to,
+                 int depth);
+  ToolpathPoint point_at(const kinematics::Path& path, const motion::Phase& phase, double start, double time) const;
   void go_to(const ToolpathPoint& point);
   bool leads_by(const ToolpathPoint& point, const ToolpathPoint& from, const ToolpathPoint& to) const;
   bool may_skip_to(const ToolpathPoint& point) const;

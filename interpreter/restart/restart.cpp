@@ -8,7 +8,7 @@
 
 #include "interpreter/dialect/format.h"
 #include "interpreter/geometry/arc.h"
-#include "interpreter/syntax/characters.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::restart {
 
@@ -69,16 +69,16 @@ LineStart find_line(std::string_view text, std::uint64_t line) {
   const char* p = text.data();
   const char* const end = text.data() + text.size();
   std::uint64_t count = 0;
-  for (; count < line && p != end; ++count) p = syntax::skip_line_end(syntax::find_line_end(p, end), end);
+  for (; count < line && p != end; ++count) p = text::skip_line_end(text::find_line_end(p, end), end);
   return {static_cast<std::size_t>(p - text.data()), count, p != end};
 }
 
 /// The line end of the program's first line.
 std::string_view line_end_of(std::string_view text) {
   const char* const end = text.data() + text.size();
-  const char* const p = syntax::find_line_end(text.data(), end);
+  const char* const p = text::find_line_end(text.data(), end);
   if (p == end) return "\n";
-  return {p, static_cast<std::size_t>(syntax::skip_line_end(p, end) - p)};
+  return {p, static_cast<std::size_t>(text::skip_line_end(p, end) - p)};
 }
 
 std::uint64_t count_lines(std::string_view text) {
@@ -121,8 +121,8 @@ bool is_same_but_for_tip(const State& a, const State& b, bool needs_motion) {
 
 /// The result of a trial run of a restart program.
 struct RestartTrial {
-  bool is_proved = false;                        ///< It reaches the line in the same state, and ends like the original.
-  std::optional<motion::Overtravel> overtravel;  ///< The first one before the line.
+  bool is_proved = false;  ///< It reaches the line in the same state, and ends like the original.
+  std::optional<kinematics::Overtravel> overtravel;  ///< The first one before the line.
 };
 
 /// Runs the restart program as the control would, from home.
@@ -144,10 +144,10 @@ RestartTrial try_program(std::string_view program, std::uint64_t preamble_lines,
                        is_near(course.tip().tip, point.machine_tip.tip);
   };
   const simulation::MachineCourse::Listeners approach = {.move =
-                                                             [&](const running::Event&, const motion::Move& move) {
+                                                             [&](const running::Event&, const kinematics::Move& move) {
                                                                if (trial.overtravel) return;
-                                                               const auto found =
-                                                                   motion::overtravels(options.machine.motion, move);
+                                                               const auto found = kinematics::overtravels(
+                                                                   options.machine.motion, move);
                                                                if (!found.empty()) trial.overtravel = found.front();
                                                              },
                                                          .frame = {}};
@@ -165,7 +165,7 @@ class RemainingRun {
   struct RemainingMotion {
     std::uint64_t line = 0;  // Counted from the start line.
     execution::MoveKind kind = execution::MoveKind::Rapid;
-    motion::Move move;
+    kinematics::Move move;
   };
 
   RemainingRun(std::string_view text, const RestartOptions& options, std::uint64_t line)
@@ -190,7 +190,7 @@ class RemainingRun {
     for (const running::Event& event : runner_.events()) course_.take(event, listeners_);
     if (runner_.has_ended()) course_.finish(listeners_);
   }
-  void add(const running::Event& event, const motion::Move& move) {
+  void add(const running::Event& event, const kinematics::Move& move) {
     const bool goes =
         move.is_arc || !is_near(move.from.tip, move.to.tip) || move.from.b != move.to.b || move.from.c != move.to.c;
     if (event.line >= line_ && goes)
@@ -202,11 +202,11 @@ class RemainingRun {
   running::Runner runner_;
   simulation::MachineCourse course_;
   const simulation::MachineCourse::Listeners listeners_{
-      .move = [this](const running::Event& event, const motion::Move& move) { add(event, move); }, .frame = {}};
+      .move = [this](const running::Event& event, const kinematics::Move& move) { add(event, move); }, .frame = {}};
   std::deque<RemainingMotion> motions_;
 };
 
-bool is_near(const motion::Feed& a, const motion::Feed& b) {
+bool is_near(const kinematics::Feed& a, const kinematics::Feed& b) {
   constexpr double kRounding = 1e-6;
   return a.kind == b.kind && std::abs(a.value - b.value) <= kRounding * std::abs(a.value);
 }
@@ -241,7 +241,7 @@ bool runs_alike(std::string_view text, std::string_view program, std::uint64_t p
 struct RestartAttempt {
   std::string program;
   RestartObstacle obstacle = RestartObstacle::None;
-  std::optional<motion::Overtravel> overtravel;
+  std::optional<kinematics::Overtravel> overtravel;
 };
 
 RestartAttempt attempt(std::string_view text, const RestartOptions& options, const RestartSurvey& survey) {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <variant>
 
-#include "interpreter/motion/travel.h"
+#include "interpreter/kinematics/travel.h"
 #include "interpreter/restart/restart_preamble.h"
 
 namespace isocnc::restart {
@@ -19,7 +19,7 @@ struct RestartRefusal {
   int g = 0;                            ///< The G in force that prevents the restart: 2, 3, 41 or 42.
   std::optional<std::uint64_t> before;  ///< The nearest safe line above.
   std::optional<std::uint64_t> behind;  ///< The nearest safe line below.
-  motion::Overtravel overtravel;        ///< For BeyondTravel: the axis, its position and its limit.
+  kinematics::Overtravel overtravel;    ///< For BeyondTravel: the axis, its position and its limit.
   running::RunResult run;  ///< For ProgramError: the result with the error; refers to the text of the program.
 };
 

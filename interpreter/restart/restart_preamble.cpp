@@ -202,9 +202,10 @@ class Preamble {
   /// that the written number is not past the end of the axis.
   double reach_up() const {
     const simulation::TimedMachine& machine = options_.machine;
-    const motion::Coordinates tip = motion::coordinates({Vec3::Zero(), state_.position.b, state_.position.c});
-    const motion::Coordinates nose = motion::inverse(machine.motion.kinematics, tip, machine.tool_length(target_.tool));
-    const double room = std::floor((machine.motion.axes[motion::kZ].maximum - nose[motion::kZ]) * 1000) / 1000;
+    const kinematics::Coordinates tip = kinematics::coordinates({Vec3::Zero(), state_.position.b, state_.position.c});
+    const kinematics::Coordinates nose =
+        kinematics::inverse(machine.motion.kinematics, tip, machine.tool_length(target_.tool));
+    const double room = std::floor((machine.motion.axes[kinematics::kZ].maximum - nose[kinematics::kZ]) * 1000) / 1000;
     constexpr double kNoise = 1e-3;
     const double step = state_.mm_per_unit() / kStepsPerUnit;
     return std::floor((room - state_.workpiece_origin.z()) / step + kNoise) * step;

@@ -40,7 +40,7 @@ geometry::Vec3 TipLog::to_frame(const geometry::Vec3& place) const {
   return frame_.face_mounted ? frame_.face.to_inner(in_workpiece) : in_workpiece;
 }
 
-void TipLog::add(const running::Event& event, const motion::Move& move) {
+void TipLog::add(const running::Event& event, const kinematics::Move& move) {
   turns_ = turns_ || move.from.b != move.to.b || move.from.c != move.to.c;
   const geometry::Vec3 from = to_frame(move.from.tip);
   const geometry::Vec3 to = to_frame(move.to.tip);
@@ -69,7 +69,7 @@ RestartSurvey::RestartSurvey(std::string_view text, const running::RunOptions& o
       machine_(machine),
       course_(machine_, options.setup.home),
       log_(execution::initial_state(options.setup)),
-      to_log_{.move = [this](const running::Event& event, const motion::Move& move) { log_.add(event, move); },
+      to_log_{.move = [this](const running::Event& event, const kinematics::Move& move) { log_.add(event, move); },
               .frame = [this](const running::FrameEvent& frame, const geometry::Vec3& tip) { log_.add(frame, tip); }} {
   running::RunOptions watched = options;
   watched.before_block = [this](const running::Block& block) { look_at(block); };
@@ -135,7 +135,7 @@ void RestartSurvey::find_tip() {
       simulation::MachineCourse course = course_;
       TipLog log = log_;
       course.finish(
-          {.move = [&](const running::Event& event, const motion::Move& move) { log.add(event, move); },
+          {.move = [&](const running::Event& event, const kinematics::Move& move) { log.add(event, move); },
            .frame = [&](const running::FrameEvent& frame, const geometry::Vec3& tip) { log.add(frame, tip); }});
       keep(course, log);
     } else {

@@ -39,7 +39,7 @@ class TipLog {
  public:
   explicit TipLog(const execution::State& start);
 
-  void add(const running::Event& event, const motion::Move& move);
+  void add(const running::Event& event, const kinematics::Move& move);
   void add(const running::FrameEvent& frame, const geometry::Vec3& tip);
 
   /// Converts from the machine frame to the frame in force.

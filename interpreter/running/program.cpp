@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::running {
 
@@ -18,7 +18,7 @@ std::optional<LinePlace> Program::jump_target(const LinePlace& jump, std::uint64
   const std::size_t length = std::string_view(begin, end).find_first_of("\r\n");
   std::optional<LinePlace> found;
   if (length != std::string_view::npos) {
-    const char* const below = syntax::skip_line_end(begin + length, end);
+    const char* const below = text::skip_line_end(begin + length, end);
     found = find_label(label, {jump.line + 1, static_cast<std::size_t>(below - text_.data())},
                        std::numeric_limits<std::uint64_t>::max());
   }
@@ -39,7 +39,7 @@ std::optional<LinePlace> Program::find_label(std::uint64_t label, LinePlace from
     const char* const line_end = store.append_line(p, end);
     const syntax::LineTree tree = store.tree(0, p);
     if (tree.has_label() && tree.label == label) return LinePlace{line, static_cast<std::size_t>(p - text_.data())};
-    p = syntax::skip_line_end(line_end, end);
+    p = text::skip_line_end(line_end, end);
   }
   return std::nullopt;
 }

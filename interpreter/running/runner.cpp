@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "interpreter/execution/execute.h"
-#include "interpreter/syntax/characters.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::running {
 
@@ -139,7 +139,7 @@ void Runner::execute_line(const syntax::LineTree& tree) {
   if (!tree.is_empty()) ++result_.blocks;
   if (result_.state.ended) return end(Ending::ProgramEnd, result_.line);
   const std::string_view text = program_->text();
-  const char* const below = syntax::skip_line_end(workbench_.line_end, text.data() + text.size());
+  const char* const below = text::skip_line_end(workbench_.line_end, text.data() + text.size());
   const LinePlace from = std::exchange(place_, {place_.line + 1, static_cast<std::size_t>(below - text.data())});
   workbench_.holds_line = false;
   if (tree.jump != nullptr && tree.jump->has_target) branch(*tree.jump, from);

@@ -1,6 +1,6 @@
 #include "interpreter/simulation/frame_extents.h"
 
-#include "interpreter/motion/travel.h"
+#include "interpreter/kinematics/travel.h"
 
 namespace isocnc::simulation {
 
@@ -24,7 +24,7 @@ static std::array<geometry::Range, 3> seen_from(const geometry::Vec3& origin, st
   return ranges;
 }
 
-void FrameLog::take(const motion::Machine& machine, const motion::Move& move,
+void FrameLog::take(const kinematics::Machine& machine, const kinematics::Move& move,
                     const std::array<geometry::Range, 3>& extents) {
   InForce& now = face_ ? *face_ : workpiece_;
   if (!now.line) return;
@@ -40,7 +40,7 @@ void FrameLog::take(const motion::Machine& machine, const motion::Move& move,
   if (*now.place == kMaxFrames) return;
   const bool is_shifted = now.frame.axes == geometry::Mat3::Identity();
   const auto reached =
-      is_shifted ? seen_from(now.frame.origin, extents) : motion::tip_extents(machine, move, now.frame);
+      is_shifted ? seen_from(now.frame.origin, extents) : kinematics::tip_extents(machine, move, now.frame);
   auto& all = frames_[*now.place].extents;
   if (is_new) all = reached;
   for (std::size_t axis = 0; axis < all.size(); ++axis) all[axis].include(reached[axis]);

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "interpreter/geometry/range.h"
-#include "interpreter/motion/machine.h"
-#include "interpreter/motion/move.h"
+#include "interpreter/kinematics/machine.h"
+#include "interpreter/kinematics/move.h"
 #include "interpreter/running/event.h"
 
 namespace isocnc::simulation {
@@ -26,7 +26,8 @@ class FrameLog {
  public:
   void take(const running::FrameEvent& event, std::uint64_t line);
   /// `extents`: in the machine frame.
-  void take(const motion::Machine& machine, const motion::Move& move, const std::array<geometry::Range, 3>& extents);
+  void take(const kinematics::Machine& machine, const kinematics::Move& move,
+            const std::array<geometry::Range, 3>& extents);
 
   /// In the order of the first motion in each frame. A typical part has a few; of longer lists the first ones are kept.
   const std::vector<FrameExtents>& frames() const { return frames_; }

@@ -107,7 +107,7 @@ std::optional<std::uint64_t> History::find_before(std::uint64_t blocks,
 }
 
 std::optional<std::uint64_t> History::find_motion_before(std::uint64_t blocks,
-                                                         const std::function<bool(const motion::Move&)>& is_it,
+                                                         const std::function<bool(const kinematics::Move&)>& is_it,
                                                          std::uint64_t from) const {
   const auto behind = std::partition_point(checkpoints_.begin() + 1, checkpoints_.end(),
                                            [&](const Checkpoint& each) { return each.simulation->blocks() <= from; });
@@ -117,7 +117,7 @@ std::optional<std::uint64_t> History::find_motion_before(std::uint64_t blocks,
   while (!simulation.has_ended() && simulation.blocks() < blocks) {
     const std::uint64_t block = simulation.blocks();
     apply_settings(simulation, block);
-    simulation.trace_block([&](const motion::Move& move) {
+    simulation.trace_block([&](const kinematics::Move& move) {
       if (block >= from && is_it(move)) found = block;
     });
   }

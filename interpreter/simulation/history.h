@@ -63,7 +63,7 @@ class History {
   /// (Simulation::motion()). Returns the number of blocks executed before it. Plans all motions from the checkpoint on,
   /// so a search should cover few blocks at once.
   std::optional<std::uint64_t> find_motion_before(std::uint64_t blocks,
-                                                  const std::function<bool(const motion::Move&)>& is_it,
+                                                  const std::function<bool(const kinematics::Move&)>& is_it,
                                                   std::uint64_t from = 0) const;
 
   /// Like Simulation::set_register() and set_vgpl(), from the present on. Discards later checkpoints. After a step back

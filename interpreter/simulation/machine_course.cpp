@@ -18,7 +18,7 @@ void MachineCourse::go(const running::Event& event, const Listeners& listeners) 
   } else if (const auto* const tool = std::get_if<running::ToolEvent>(&event.what)) {
     position_.mount(machine_->motion.kinematics, machine_->tool_length(tool->tool));
   } else if (const auto* const move = std::get_if<running::MoveEvent>(&event.what)) {
-    motion::Move made = planned_move(*move, *machine_, position_.tool_length());
+    kinematics::Move made = planned_move(*move, *machine_, position_.tool_length());
     position_.follow(*move, made);
     listeners.move(event, made);
   }

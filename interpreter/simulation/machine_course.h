@@ -12,7 +12,7 @@ namespace isocnc::simulation {
 class MachineCourse {
  public:
   struct Listeners {
-    std::function<void(const running::Event&, const motion::Move&)>
+    std::function<void(const running::Event&, const kinematics::Move&)>
         move;  ///< The event is a MoveEvent, the motion of the tool.
     /// Called with the position of the tip, machine frame. Optional.
     std::function<void(const running::FrameEvent&, const geometry::Vec3&)> frame;

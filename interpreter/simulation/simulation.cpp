@@ -24,7 +24,7 @@ Simulation::Simulation(const running::Program& program, const running::RunOption
 /// The tip of the machine at rest. A tip within the corner tolerance was rounding a corner and takes the programmed
 /// position; a tip farther off, after a change of tool length, stays where it is.
 static geometry::Pose at_rest(const geometry::Pose& tip, const geometry::Pose& programmed,
-                              const motion::Machine& machine) {
+                              const kinematics::Machine& machine) {
   constexpr double kRounding = 1 + 1e-6;
   const bool rounds = (tip.tip - programmed.tip).norm() <= machine.corner_tolerance * kRounding;
   return {rounds ? programmed.tip : tip.tip, programmed.b, programmed.c};
@@ -111,9 +111,9 @@ void Simulation::step_instruction(const BeforeReading& before_reading) {
     continue_block(piece()->end, before_reading);
 }
 
-void Simulation::trace_block(const std::function<void(const motion::Move&)>& on_move) {
+void Simulation::trace_block(const std::function<void(const kinematics::Move&)>& on_move) {
   for (step_instruction(); in_block_; step_instruction())
-    if (const motion::Move* const move = motion()) on_move(*move);
+    if (const kinematics::Move* const move = motion()) on_move(*move);
 }
 
 /// Starts the next block and applies its effects that take no time. The control has read it already, unless the machine
@@ -242,7 +242,7 @@ const running::Event* Simulation::event() const {
   return is_at_it ? &piece()->cause->event : nullptr;
 }
 
-const motion::Move* Simulation::motion() const {
+const kinematics::Move* Simulation::motion() const {
   const bool is_at_it = in_block_ && is_of_block(piece()) && piece()->cause->move;
   return is_at_it ? &*piece()->cause->move : nullptr;
 }
@@ -253,7 +253,7 @@ const motion::Stretch* Simulation::stretch() const {
 }
 
 motion::Sample Simulation::sample() const {
-  const motion::Kinematics& kinematics = machine_->motion.kinematics;
+  const kinematics::Kinematics& kinematics = machine_->motion.kinematics;
   if (const motion::Stretch* const moving = stretch()) return moving->at(kinematics, time_);
   motion::Sample standing{.time = time_, .tip = begin_};
   double length = start_tool_length_;  // Length of the tool used on the way here, mm.
@@ -263,33 +263,34 @@ motion::Sample Simulation::sample() const {
     standing.joints = last.joints;
     length = last_stretch_->path.tool_length;
   } else {
-    standing.joints = motion::inverse(kinematics, motion::coordinates(standing.tip), length);
+    standing.joints = kinematics::inverse(kinematics, kinematics::coordinates(standing.tip), length);
   }
-  if (length != tool_length_) standing.tip = motion::pose(motion::forward(kinematics, standing.joints, tool_length_));
+  if (length != tool_length_)
+    standing.tip = kinematics::pose(kinematics::forward(kinematics, standing.joints, tool_length_));
   return standing;
 }
 
 /// The length of a move as the planner measures it.
-static double path_of(const motion::Machine& machine, const motion::Move& move) {
+static double path_of(const kinematics::Machine& machine, const kinematics::Move& move) {
   return (move.is_arc ? programmed_circle(move) : programmed_line(machine, move, move.from, move.to)).length;
 }
 
 DistanceToGo Simulation::to_go() const {
   const motion::Stretch* const moving = stretch();
   if (moving == nullptr || event() == nullptr) return {};
-  const motion::Move& move = *piece()->cause->move;
+  const kinematics::Move& move = *piece()->cause->move;
   const double here = moving->parameter_at(time_);
   const double gone = last_stretch_ && last_stretch_->tag == moving->tag ? travelled_ : 0;
   const double left = path_of(machine_->motion, move) - gone - (here - moving->parameter_at(moving->start));
-  return {.axes = motion::coordinates(move.to) - motion::coordinates(sample().tip),
+  return {.axes = kinematics::coordinates(move.to) - kinematics::coordinates(sample().tip),
           .path = moving->ends_move ? moving->parameter_at(kForever) - here : std::max(0.0, left)};
 }
 
 std::optional<ArcSegment> Simulation::segment() const {
   const motion::Stretch* const moving = stretch();
   if (moving == nullptr || event() == nullptr) return std::nullopt;
-  const motion::Move& move = *piece()->cause->move;
-  const int count = motion::segment_count(machine_->motion, move);
+  const kinematics::Move& move = *piece()->cause->move;
+  const int count = kinematics::segment_count(machine_->motion, move);
   if (count < 2) return std::nullopt;
   // Rounded corners shorten the path slightly, so a point this near to an end counts as the end.
   constexpr double kNear = 1e-3;

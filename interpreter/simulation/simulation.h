@@ -18,7 +18,7 @@ namespace isocnc::simulation {
 /// The rest of a motion.
 struct DistanceToGo {
   /// Rest of the tip's motion by axis, machine frame: mm, degrees; signed.
-  motion::Coordinates axes = motion::Coordinates::Zero();
+  kinematics::Coordinates axes = kinematics::Coordinates::Zero();
   double path = 0;  ///< Length left on the tip's path, mm; where only B and C turn, degrees of both together.
 };
 
@@ -64,7 +64,7 @@ class Simulation {
 
   /// Like step_block(), to be called between two blocks. Calls `on_move` with each motion of the block before the
   /// machine makes it.
-  void trace_block(const std::function<void(const motion::Move&)>& on_move);
+  void trace_block(const std::function<void(const kinematics::Move&)>& on_move);
 
   /// The block that comes next, before it is executed; none where the program ends.
   std::optional<running::Block> next() { return present_.next(); }
@@ -87,7 +87,7 @@ class Simulation {
   /// The current or next motion of the block in progress as the machine makes it: offset from the contour under G41 and
   /// G42, and off the program after a change to a tool of another length. Null without a motion. Valid until the next
   /// non-const call.
-  const motion::Move* motion() const;
+  const kinematics::Move* motion() const;
   motion::Sample sample() const;
   double tool_length() const { return tool_length_; }  ///< Length of the mounted tool, mm.
   /// The spindle after the block in progress. An S counts only after the next M03 or M04.

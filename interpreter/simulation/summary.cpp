@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "interpreter/geometry/arc.h"
-#include "interpreter/motion/numbers.h"
-#include "interpreter/motion/travel.h"
+#include "interpreter/kinematics/numbers.h"
+#include "interpreter/kinematics/travel.h"
 
 namespace isocnc::simulation {
 
@@ -57,8 +57,8 @@ void Summary::spend(Work work, double seconds) {
   share().times[static_cast<std::size_t>(work)] += seconds;
 }
 
-void Summary::add_move(const running::MoveEvent& move, const motion::Move& real, std::uint64_t line) {
-  const auto [length, linear] = motion::tip_travel(machine_.motion, real);
+void Summary::add_move(const running::MoveEvent& move, const kinematics::Move& real, std::uint64_t line) {
+  const auto [length, linear] = kinematics::tip_travel(machine_.motion, real);
   Travelled& travelled = moves_[static_cast<std::size_t>(move.kind)];
   ++travelled.count;
   travelled.mm += length;
@@ -74,9 +74,9 @@ void Summary::add_move(const running::MoveEvent& move, const motion::Move& real,
   look_at_speeds(real, length, line);
 }
 
-void Summary::look_at_travel(const motion::Move& real, std::uint64_t line) {
+void Summary::look_at_travel(const kinematics::Move& real, std::uint64_t line) {
   if (!checks_travel_) return;
-  for (const motion::Overtravel& found : motion::overtravels(machine_.motion, real)) {
+  for (const kinematics::Overtravel& found : kinematics::overtravels(machine_.motion, real)) {
     const std::size_t side = found.position > found.limit ? 1 : 0;
     std::optional<TravelBreach>& breach = breaches_[2 * static_cast<std::size_t>(found.axis) + side];
     if (!breach) breach = TravelBreach{.line = line, .farthest = found.position, .limit = found.limit};
@@ -86,24 +86,24 @@ void Summary::look_at_travel(const motion::Move& real, std::uint64_t line) {
 }
 
 /// Checks the programmed speeds of a feed move, even those the machine does not reach.
-void Summary::look_at_speeds(const motion::Move& real, double length, std::uint64_t line) {
-  if (real.feed.kind == motion::FeedKind::Rapid) return;
+void Summary::look_at_speeds(const kinematics::Move& real, double length, std::uint64_t line) {
+  if (real.feed.kind == kinematics::FeedKind::Rapid) return;
   const double b = std::abs(real.to.b - real.from.b);
   const double c = std::abs(real.to.c - real.from.c);
   const bool only_turns = length <= geometry::kEqualCoordinate;
   const double way = only_turns ? std::hypot(b, c) : length;
   if (way == 0) return;
-  const double seconds = real.feed.kind == motion::FeedKind::Duration ? real.feed.value : way / real.feed.value;
-  if (!only_turns) ask_for(Limit::Feed, motion::kSecondsPerMinute * way / seconds, line);
-  ask_for(Limit::RotarySpeed, motion::kSecondsPerMinute * std::max(b, c) / seconds, line);
+  const double seconds = real.feed.kind == kinematics::FeedKind::Duration ? real.feed.value : way / real.feed.value;
+  if (!only_turns) ask_for(Limit::Feed, kinematics::kSecondsPerMinute * way / seconds, line);
+  ask_for(Limit::RotarySpeed, kinematics::kSecondsPerMinute * std::max(b, c) / seconds, line);
 }
 
 double Summary::limit_of(Limit limit) const {
   switch (limit) {
     case Limit::Feed:
-      return motion::kSecondsPerMinute * machine_.motion.feed_speed;
+      return kinematics::kSecondsPerMinute * machine_.motion.feed_speed;
     case Limit::RotarySpeed:
-      return motion::kSecondsPerMinute * machine_.motion.feed_turn;
+      return kinematics::kSecondsPerMinute * machine_.motion.feed_turn;
     case Limit::SpindleSpeed:
       break;
   }
@@ -118,7 +118,7 @@ void Summary::ask_for(Limit limit, double value, std::uint64_t line) {
   excess->maximum = std::max(excess->maximum, value);
 }
 
-void Summary::finish(const running::RunResult& result, double seconds, const motion::Coordinates& joints,
+void Summary::finish(const running::RunResult& result, double seconds, const kinematics::Coordinates& joints,
                      const std::vector<RunWarning>& warnings) {
   result_ = result;
   seconds_ = seconds;

@@ -56,7 +56,7 @@ class Summary {
 
   void add(const TimedEvent& timed);
   /// `joints` are the positions at the end.
-  void finish(const running::RunResult& result, double seconds, const motion::Coordinates& joints,
+  void finish(const running::RunResult& result, double seconds, const kinematics::Coordinates& joints,
               const std::vector<RunWarning>& warnings);
 
   std::string text(dialect::Language language) const;
@@ -74,9 +74,9 @@ class Summary {
   ToolShare& share();
   void mount(std::optional<execution::ToolCode> tool);
   void spend(Work work, double seconds);
-  void add_move(const running::MoveEvent& move, const motion::Move& real, std::uint64_t line);
-  void look_at_travel(const motion::Move& real, std::uint64_t line);
-  void look_at_speeds(const motion::Move& real, double length, std::uint64_t line);
+  void add_move(const running::MoveEvent& move, const kinematics::Move& real, std::uint64_t line);
+  void look_at_travel(const kinematics::Move& real, std::uint64_t line);
+  void look_at_speeds(const kinematics::Move& real, double length, std::uint64_t line);
   void ask_for(Limit limit, double value, std::uint64_t line);
   double limit_of(Limit limit) const;
   /// Programmed tip position at the end.
@@ -95,7 +95,7 @@ class Summary {
   std::array<std::optional<Excess>, kLimitCount> excesses_;
   running::RunResult result_;
   double seconds_ = 0;
-  motion::Coordinates joints_ = motion::Coordinates::Zero();
+  kinematics::Coordinates joints_ = kinematics::Coordinates::Zero();
   std::vector<RunWarning> warnings_;
   std::optional<geometry::Pose>
       reached_;  ///< End of the last motion; under compensation it may differ from the programmed end.

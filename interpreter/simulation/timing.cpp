@@ -6,17 +6,17 @@
 #include <span>
 #include <utility>
 
-#include "interpreter/motion/numbers.h"
-#include "interpreter/motion/travel.h"
+#include "interpreter/kinematics/numbers.h"
+#include "interpreter/kinematics/travel.h"
 #include "interpreter/simulation/spindle_turn.h"
 
 namespace isocnc::simulation {
 
 using execution::MoveKind;
 
-motion::Machine unbounded_machine() {
-  motion::Machine machine = motion::default_machine();
-  for (motion::AxisLimits& axis : machine.axes) {
+kinematics::Machine unbounded_machine() {
+  kinematics::Machine machine = kinematics::default_machine();
+  for (kinematics::AxisLimits& axis : machine.axes) {
     axis.minimum = -std::numeric_limits<double>::infinity();
     axis.maximum = std::numeric_limits<double>::infinity();
   }
@@ -35,7 +35,7 @@ double TimedMachine::tool_length(const execution::ToolCode& tool) const {
 }
 
 double tip_length(const TimedEvent& timed, const TimedMachine& machine) {
-  return timed.move ? motion::tip_travel(machine.motion, *timed.move).length : 0;
+  return timed.move ? kinematics::tip_travel(machine.motion, *timed.move).length : 0;
 }
 
 std::string to_json(const TimedEvent& timed, const TimedMachine& machine) {
@@ -49,15 +49,16 @@ std::string to_json(const TimedEvent& timed, const TimedMachine& machine) {
   return to_json(timed.event, std::span(more).first(count));
 }
 
-static motion::Feed planner_feed(const running::MoveEvent& move, double feed_override) {
+static kinematics::Feed planner_feed(const running::MoveEvent& move, double feed_override) {
   if (move.kind == MoveKind::Rapid || !(move.feed > 0)) return {};
   const double feed = move.feed * feed_override;
-  if (move.inverse_time) return {motion::FeedKind::Duration, std::min(motion::kSecondsPerMinute / feed, kLongest)};
-  return {motion::FeedKind::Speed, std::max(feed / motion::kSecondsPerMinute, kSlowest)};
+  if (move.inverse_time)
+    return {kinematics::FeedKind::Duration, std::min(kinematics::kSecondsPerMinute / feed, kLongest)};
+  return {kinematics::FeedKind::Speed, std::max(feed / kinematics::kSecondsPerMinute, kSlowest)};
 }
 
-motion::Move planned_move(const running::MoveEvent& move, const TimedMachine& machine, double tool_length) {
-  motion::Move planned;
+kinematics::Move planned_move(const running::MoveEvent& move, const TimedMachine& machine, double tool_length) {
+  kinematics::Move planned;
   planned.from = move.from;
   planned.to = move.to;
   planned.is_arc = move.kind == MoveKind::Arc;
@@ -113,7 +114,7 @@ void Timing::push_motion() {
   if (!std::exchange(holds_motion_, false)) return;
   WaitingEvent& waiting = waiting_.back();
   const running::MoveEvent& move = std::get<running::MoveEvent>(waiting.timed.event.what);
-  motion::Move planned = planned_move(move, *machine_, position_.tool_length());
+  kinematics::Move planned = planned_move(move, *machine_, position_.tool_length());
   planned.tag = waiting.motion;
   position_.follow(move, planned);
   planned.exact_stop = std::exchange(stops_exactly_, false);

@@ -24,11 +24,11 @@ struct Durations {
 };
 
 /// motion::default_machine() with unlimited axes, so that without a machine file every position is inside the travel.
-motion::Machine unbounded_machine();
+kinematics::Machine unbounded_machine();
 
 /// The machine that a program is timed on.
 struct TimedMachine {
-  motion::Machine motion = unbounded_machine();
+  kinematics::Machine motion = unbounded_machine();
   Durations durations;
   std::map<execution::ToolCode, double> tool_lengths;  ///< mm; 0 for others.
   std::map<execution::ToolCode, double> tool_radii;    ///< mm; 0 for others: G41 and G42 then move nothing.
@@ -49,7 +49,7 @@ struct TimedEvent {
   double wait = 0;
   /// For a motion: the motion requested from the machine. It starts at the machine's position, which after a tool
   /// change differs from the programmed one (docs/motion.md).
-  std::optional<motion::Move> move;
+  std::optional<kinematics::Move> move;
 };
 
 /// Computes the times of the events of a run. The control looks ahead, so the duration of a motion is known some
@@ -111,7 +111,7 @@ class Timing {
   /// Position of the resting machine, tip (machine frame) and joints: at the start, in the callback of a tool change,
   /// and at the end.
   geometry::Pose tip() const { return position_.tip(); }
-  motion::Coordinates joints() const { return position_.joints(machine_->motion.kinematics); }
+  kinematics::Coordinates joints() const { return position_.joints(machine_->motion.kinematics); }
 
  private:
   /// An event without a known time.
@@ -146,7 +146,7 @@ class Timing {
 };
 
 /// The motion requested from a machine that stands where the program has it.
-motion::Move planned_move(const running::MoveEvent& move, const TimedMachine& machine, double tool_length);
+kinematics::Move planned_move(const running::MoveEvent& move, const TimedMachine& machine, double tool_length);
 
 /// Length of the tip's path in a motion, as the machine makes it; mm. 0 for other events.
 double tip_length(const TimedEvent& timed, const TimedMachine& machine);

@@ -4,7 +4,7 @@
 
 namespace isocnc::simulation {
 
-void TipPosition::follow(const running::MoveEvent& move, motion::Move& planned) {
+void TipPosition::follow(const running::MoveEvent& move, kinematics::Move& planned) {
   programmed_ = move.to;
   if (off_program_ == geometry::Vec3::Zero()) return;
   planned.from.tip += off_program_;
@@ -16,11 +16,11 @@ void TipPosition::follow(const running::MoveEvent& move, motion::Move& planned) 
   planned.center += off_program_;
 }
 
-void TipPosition::mount(const motion::Kinematics& kinematics, double tool_length) {
+void TipPosition::mount(const kinematics::Kinematics& kinematics, double tool_length) {
   if (tool_length == tool_length_) return;
-  const motion::Coordinates standing = joints(kinematics);
+  const kinematics::Coordinates standing = joints(kinematics);
   tool_length_ = tool_length;
-  off_program_ = motion::forward(kinematics, standing, tool_length).head<3>() - programmed_.tip;
+  off_program_ = kinematics::forward(kinematics, standing, tool_length).head<3>() - programmed_.tip;
 }
 
 }  // namespace isocnc::simulation

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "interpreter/motion/kinematics.h"
-#include "interpreter/motion/move.h"
+#include "interpreter/kinematics/kinematics.h"
+#include "interpreter/kinematics/move.h"
 #include "interpreter/running/event.h"
 
 namespace isocnc::simulation {
@@ -22,14 +22,14 @@ class TipPosition {
 
   /// Moves to the end of a motion. Shifts `planned`, which starts and ends at programmed positions, to the path the
   /// machine takes.
-  void follow(const running::MoveEvent& move, motion::Move& planned);
+  void follow(const running::MoveEvent& move, kinematics::Move& planned);
   void take(const running::FrameEvent& frame) { frame_axes_ = frame.face.axes; }
   /// Changes the tool without moving the joints.
-  void mount(const motion::Kinematics& kinematics, double tool_length);
+  void mount(const kinematics::Kinematics& kinematics, double tool_length);
 
   geometry::Pose tip() const { return {programmed_.tip + off_program_, programmed_.b, programmed_.c}; }
-  motion::Coordinates joints(const motion::Kinematics& kinematics) const {
-    return motion::inverse(kinematics, motion::coordinates(tip()), tool_length_);
+  kinematics::Coordinates joints(const kinematics::Kinematics& kinematics) const {
+    return kinematics::inverse(kinematics, kinematics::coordinates(tip()), tool_length_);
   }
   double tool_length() const { return tool_length_; }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "interpreter/syntax/characters.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::syntax {
 
@@ -86,7 +86,7 @@ Change Document::replace(Position begin, Position end, std::string_view text) {
   std::string fresh(line_with_terminator(first).substr(0, begin.column));
   fresh += text;
   fresh += line_with_terminator(last).substr(end.column);
-  const auto ends_line = [&] { return !fresh.empty() && is_line_end(fresh.back()); };
+  const auto ends_line = [&] { return !fresh.empty() && text::is_line_end(fresh.back()); };
   while (last + 1 < line_count() &&
          (!ends_line() || (fresh.back() == '\r' && line_with_terminator(last + 1).starts_with('\n'))))
     fresh += line_with_terminator(++last);
@@ -140,11 +140,11 @@ void Document::rebuild(std::size_t first_line, std::size_t removed, std::string_
   const char* p = text.data();
   const char* const end = text.data() + text.size();
   while (p != end) {
-    const char* const next = skip_line_end(find_line_end(p, end), end);
+    const char* const next = text::skip_line_end(text::find_line_end(p, end), end);
     maker.add({p, static_cast<std::size_t>(next - p)});
     p = next;
   }
-  if (is_end && (text.empty() || is_line_end(text.back()))) maker.add({});
+  if (is_end && (text.empty() || text::is_line_end(text.back()))) maker.add({});
   if (!is_new) {
     const Chunk& source = *chunks_[last.chunk].chunk;
     for (std::size_t i = last.line + 1; i < source.lines(); ++i) maker.add(source.with_terminator(i));
@@ -188,7 +188,7 @@ void ChunkTrees::read(const Document& document, std::size_t chunk, std::size_t l
   texts_.clear();
   for (const char* p = text.data(); texts_.size() < lines;) {
     texts_.push_back(p);
-    p = skip_line_end(store_.append_line(p, end), end);
+    p = text::skip_line_end(store_.append_line(p, end), end);
   }
 }
 

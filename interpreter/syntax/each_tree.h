@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <string_view>
 
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::syntax {
 
@@ -17,7 +17,7 @@ void each_tree(std::string_view text, Look&& look) {
   for (const char* p = text.data(); p != end;) {
     store.clear();
     const char* const line_end = store.append_line(p, end);
-    const char* const next = skip_line_end(line_end, end);
+    const char* const next = text::skip_line_end(line_end, end);
     look(store.tree(0, p), std::string_view(line_end, static_cast<std::size_t>(next - line_end)));
     p = next;
   }

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "interpreter/dialect/letters.h"
-#include "interpreter/syntax/characters.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::syntax {
 
@@ -331,8 +331,8 @@ void Formatter::write_characters(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '(') {
       i = text.find(')', i);
-    } else if (!is_blank(text[i])) {
-      *at++ = upper(text[i]);
+    } else if (!text::is_blank(text[i])) {
+      *at++ = text::upper(text[i]);
     }
   }
   line_.add(static_cast<std::size_t>(at - begin));
@@ -372,7 +372,7 @@ void Formatter::write_comment(const LineTree& tree, Span comment) {
 /// Writes the blanks before the comment that was at `column`.
 void Formatter::write_gap(std::string_view text, std::uint32_t column) {
   std::uint32_t begin = column;
-  while (begin > 0 && is_blank(text[begin - 1])) --begin;
+  while (begin > 0 && text::is_blank(text[begin - 1])) --begin;
   const std::string_view gap = text.substr(begin, column - begin);
   const bool has_tab = gap.find('\t') != std::string_view::npos;
   if ((begin == 0 && line_.size() == 0) || has_tab) return put(gap);
@@ -396,7 +396,7 @@ void Formatter::settle_decimals(std::size_t number) {
   if (point == std::string_view::npos || last - point > static_cast<std::size_t>(*style_.max_decimals)) return;
   const std::size_t length = last == point ? point : last + 1;
   while (line_.size() > number + length) line_.pop_back();
-  if (point != 0 && is_digit(line_[number + point - 1])) return;
+  if (point != 0 && text::is_digit(line_[number + point - 1])) return;
   line_.push_back('0');
   std::rotate(line_.data() + number + point, line_.data() + line_.size() - 1, line_.data() + line_.size());
 }
@@ -406,7 +406,7 @@ void Formatter::drop_leading_zeros(std::size_t number) {
   std::size_t begin = number;
   if (begin < line_.size() && (line_[begin] == '+' || line_[begin] == '-')) ++begin;
   std::size_t first = begin;
-  while (first + 1 < line_.size() && line_[first] == '0' && is_digit(line_[first + 1])) ++first;
+  while (first + 1 < line_.size() && line_[first] == '0' && text::is_digit(line_[first + 1])) ++first;
   std::copy(line_.data() + first, line_.data() + line_.size(), line_.data() + begin);
   for (; first > begin; --first) line_.pop_back();
 }

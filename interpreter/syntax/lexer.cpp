@@ -20,44 +20,44 @@ LineParser::LineParser(TreeStore& store, const char* begin, const char* end) : s
 const char* LineParser::lex() {
   const char* p = begin_;
   while (p != end_) {
-    switch (char_class(*p)) {
-      case CharClass::Blank:
+    switch (text::char_class(*p)) {
+      case text::CharClass::Blank:
         ++p;
         break;
-      case CharClass::Letter:
+      case text::CharClass::Letter:
         p = lex_word(p);
         break;
-      case CharClass::LineEnd:
+      case text::CharClass::LineEnd:
         return p;
-      case CharClass::Digit:
-      case CharClass::NumberSign:
+      case text::CharClass::Digit:
+      case text::CharClass::NumberSign:
         p = lex_number_alone(p);
         break;
-      case CharClass::Open:
+      case text::CharClass::Open:
         p = lex_comment(p);
         break;
-      case CharClass::Semicolon: {
-        const char* const line_end = find_line_end(p, end_);
+      case text::CharClass::Semicolon: {
+        const char* const line_end = text::find_line_end(p, end_);
         store_.comments_.push_back({column(p), column(line_end)});
         return line_end;
       }
-      case CharClass::Close:
+      case text::CharClass::Close:
         drop_comment_text();
         report("unopened-comment"_diag, {column(p), column(p) + 1});
         ++p;
         break;
-      case CharClass::Equals:
+      case text::CharClass::Equals:
         p = lex_equals(p);
         break;
-      case CharClass::Compare:
+      case text::CharClass::Compare:
         p = in_condition_ ? lex_comparison(p) : lex_unknown(p);
         break;
-      case CharClass::Other:
+      case text::CharClass::Other:
         p = lex_unknown(p);
         break;
     }
     if (word_count() >= kMaxWords) {
-      const char* const line_end = find_line_end(p, end_);
+      const char* const line_end = text::find_line_end(p, end_);
       line_.flags |= LineTree::kCut;
       report("line-too-long"_diag, {column(p), column(line_end)}, {static_cast<double>(kMaxWords)});
       return line_end;
@@ -98,14 +98,14 @@ static bool has_own_code(char letter) { return dialect::contains(dialect::letter
 
 const char* LineParser::lex_word(const char* start) {
   const char* p = start + 1;
-  while (p != end_ && is_blank(*p)) ++p;
-  return p != end_ && is_number_char(*p) ? lex_with_number(start, p) : lex_without_number(start, p);
+  while (p != end_ && text::is_blank(*p)) ++p;
+  return p != end_ && text::is_number_char(*p) ? lex_with_number(start, p) : lex_without_number(start, p);
 }
 
 /// Reads a letter and the number at `p`, with blanks or comments between them.
 const char* LineParser::lex_with_number(const char* start, const char* p) {
   const Number number = scan_number(p, end_);
-  const char letter = upper(*start);
+  const char letter = text::upper(*start);
   add_word(letter, start, number);
   if (number.malformed && !in_condition_ && !has_own_code(letter))
     report("malformed-number"_diag, {column(p), column(number.end)});
@@ -116,9 +116,9 @@ const char* LineParser::lex_with_number(const char* start, const char* p) {
 
 /// Reads a keyword, a letter with a comment before its number, or a letter without a number.
 const char* LineParser::lex_without_number(const char* start, const char* p) {
-  const char letter = upper(*start);
+  const char letter = text::upper(*start);
   const char* const behind = skip_space(p);
-  if (behind != end_ && is_number_char(*behind)) return lex_with_number(start, behind);  // X(comment)10
+  if (behind != end_ && text::is_number_char(*behind)) return lex_with_number(start, behind);  // X(comment)10
   if (const char* end = lex_keyword(start, letter)) return end;
   Word& added = add_word(letter, start, start + 1);
   added.value = std::numeric_limits<double>::quiet_NaN();
@@ -152,7 +152,7 @@ const char* LineParser::lex_keyword(const char* p, char letter) {
     const char* const end = match_keyword(p, "IF");
     if (!end) return nullptr;
     const char* const next = skip_space(end);
-    if (next != end_ && is_number_char(*next) && !goto_follows(next)) return nullptr;
+    if (next != end_ && text::is_number_char(*next) && !goto_follows(next)) return nullptr;
     add_word(kIf, p, end);
     note_comments_inside(p, end);
     in_condition_ = true;
@@ -165,7 +165,7 @@ const char* LineParser::match_keyword(const char* p, const char* keyword) const 
   const char* behind = nullptr;
   for (; *keyword != '\0'; ++keyword) {
     p = skip_space(p);
-    if (p == end_ || upper(*p) != *keyword) return nullptr;
+    if (p == end_ || text::upper(*p) != *keyword) return nullptr;
     behind = ++p;
   }
   return behind;
@@ -174,13 +174,13 @@ const char* LineParser::match_keyword(const char* p, const char* keyword) const 
 bool LineParser::goto_follows(const char* p) {
   if (!last_goto_) {  // One search per line, however many IFs it has.
     last_goto_ = begin_;
-    for (const char* at = p; at != end_ && !is_line_end(*at) && *at != ';'; ++at)
-      if (upper(*at) == 'G' && match_keyword(at, "GOTO")) last_goto_ = at;
+    for (const char* at = p; at != end_ && !text::is_line_end(*at) && *at != ';'; ++at)
+      if (text::upper(*at) == 'G' && match_keyword(at, "GOTO")) last_goto_ = at;
   }
   return last_goto_ > p;
 }
 
-const char* LineParser::skip_space(const char* p) const { return syntax::skip_space(p, end_); }
+const char* LineParser::skip_space(const char* p) const { return text::skip_space(p, end_); }
 
 /// Records the comments between the characters of one word.
 void LineParser::note_comments_inside(const char* p, const char* end) {
@@ -193,11 +193,11 @@ void LineParser::note_comments_inside(const char* p, const char* end) {
 }
 
 const char* LineParser::lex_comment(const char* p) {
-  if (const char* const behind = skip_closed_comment(p, end_)) {
+  if (const char* const behind = text::skip_closed_comment(p, end_)) {
     store_.comments_.push_back({column(p), column(behind)});
     return behind;
   }
-  const char* const line_end = find_line_end(p, end_);
+  const char* const line_end = text::find_line_end(p, end_);
   store_.comments_.push_back({column(p), column(line_end)});
   // X(10: the number of the X may be in the comment.
   if (word_count() > 0 && word(word_count() - 1u).has(Word::kMissing))
@@ -238,7 +238,7 @@ const char* LineParser::lex_number_alone(const char* p) {
 const char* LineParser::lex_equals(const char* p) {
   if (in_condition_ && !after_goto_) return lex_comparison(p);
   const char* const at = skip_space(p + 1);
-  if (at == end_ || !is_number_char(*at)) {
+  if (at == end_ || !text::is_number_char(*at)) {
     Word& added = add_word(kAssign, p, p + 1);
     added.value = std::numeric_limits<double>::quiet_NaN();
     added.flags = Word::kMissing;
@@ -266,7 +266,7 @@ const char* LineParser::lex_comparison(const char* p) {
   const char* behind = p;
   char text[3] = {};
   std::size_t length = 0;
-  while (p != end_ && (char_class(*p) == CharClass::Compare || *p == '=')) {
+  while (p != end_ && (text::char_class(*p) == text::CharClass::Compare || *p == '=')) {
     if (length < sizeof text) text[length] = *p;
     ++length;
     behind = ++p;
@@ -303,18 +303,18 @@ const char* LineParser::lex_unknown(const char* p) {
   for (;;) {
     p = skip_space(behind);
     if (p == end_) break;
-    const CharClass cls = char_class(*p);
-    if (cls != CharClass::Other && (cls != CharClass::Compare || in_condition_)) break;
+    const text::CharClass cls = text::char_class(*p);
+    if (cls != text::CharClass::Other && (cls != text::CharClass::Compare || in_condition_)) break;
     behind = p + 1;
   }
-  if (p != end_ && is_number_char(*p)) {
+  if (p != end_ && text::is_number_char(*p)) {
     behind = scan_number(p, end_).end;
     const char* const close = skip_space(behind);
     if (*start == '[' && close != end_ && *close == ']') behind = close + 1;  // [10]
   }
   note_comments_inside(start, behind);
   has_prose_ = true;
-  const bool in_place_of_number = !in_condition_ && garbles_number(upper(*start));
+  const bool in_place_of_number = !in_condition_ && garbles_number(text::upper(*start));
   const Word& added = add_word(kError, start, behind);
   if (!in_condition_ && !in_place_of_number) report("unknown-word"_diag, added.span());
   end_target();

@@ -1,8 +1,8 @@
 #include <limits>
 #include <utility>
 
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/line_parser.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::syntax {
 

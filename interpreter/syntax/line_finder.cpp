@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
-#include "interpreter/syntax/unicode.h"
+#include "interpreter/text/characters.h"
+#include "interpreter/text/unicode.h"
 
 namespace isocnc::syntax {
 
@@ -12,9 +12,9 @@ std::string_view LineFinder::line(std::uint64_t index) {
   if (found_ && index == at_) return line_;
   const char* p = rest_.data();
   const char* const end = rest_.data() + rest_.size();
-  for (; at_ < index; ++at_) p = skip_line_end(find_line_end(p, end), end);
+  for (; at_ < index; ++at_) p = text::skip_line_end(text::find_line_end(p, end), end);
   rest_ = {p, static_cast<std::size_t>(end - p)};
-  line_ = {p, static_cast<std::size_t>(find_line_end(p, end) - p)};
+  line_ = {p, static_cast<std::size_t>(text::find_line_end(p, end) - p)};
   found_ = true;
   walked_ = 0;
   column_ = 1;
@@ -27,7 +27,7 @@ std::size_t LineFinder::column(std::size_t byte) {
     column_ = 1;
   }
   for (; walked_ < std::min(byte, line_.size()); ++column_)
-    walked_ += std::max<std::size_t>(1, sequence_length(line_.substr(walked_)));
+    walked_ += std::max<std::size_t>(1, text::sequence_length(line_.substr(walked_)));
   return column_;
 }
 

@@ -3,8 +3,8 @@
 #include <iterator>
 #include <limits>
 
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/line_parser.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::syntax {
 
@@ -153,10 +153,10 @@ static bool swallows_tool(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(" \t0", 1), text.size()));
   if (!text.starts_with('6')) return false;
   text.remove_prefix(1);
-  const auto digits = std::count_if(text.begin(), text.end(), is_digit);
-  const auto blanks = std::count_if(text.begin(), text.end(), is_blank);
+  const auto digits = std::count_if(text.begin(), text.end(), text::is_digit);
+  const auto blanks = std::count_if(text.begin(), text.end(), text::is_blank);
   if (static_cast<std::size_t>(digits + blanks) != text.size()) return false;
-  return digits == 6 || (digits > 0 && is_blank(text.front()));
+  return digits == 6 || (digits > 0 && text::is_blank(text.front()));
 }
 
 void LineParser::add_m(std::uint16_t index) {
@@ -220,7 +220,7 @@ std::uint64_t LineParser::label_of(const Word& number) const {
   for (const char c : text_of(number.span())) {
     if (c == '(') in_comment = true;
     if (c == ')') in_comment = false;
-    if (in_comment || !is_digit(c) || (leading && c == '0')) continue;
+    if (in_comment || !text::is_digit(c) || (leading && c == '0')) continue;
     leading = false;
     hash = (hash ^ static_cast<std::uint64_t>(c)) * 1099511628211ULL;
   }

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/line_parser.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::syntax {
 
@@ -160,7 +160,7 @@ std::uint16_t LineParser::read_target(Jump& jump, std::uint16_t index) {
 std::uint16_t LineParser::add_lone_goto(std::uint16_t index) {
   if (line_.jump < 0) {
     for (std::uint16_t i = 0; i < index; ++i)  // V5 > 30 GOTO N340: the IF is missing.
-      if (word(i).letter == kError && char_class(begin_[word(i).begin]) == CharClass::Compare)
+      if (word(i).letter == kError && text::char_class(begin_[word(i).begin]) == text::CharClass::Compare)
         take_back("unknown-word"_diag, word(i).span());
     report("if-malformed"_diag, word(index).span());
   }

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/line_parser.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::syntax {
 

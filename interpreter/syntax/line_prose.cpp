@@ -2,8 +2,8 @@
 #include <limits>
 #include <string>
 
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/line_parser.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::syntax {
 
@@ -14,22 +14,22 @@ using dialect::contains;
 bool LineParser::is_foreign_word(const Word& unknown) const {
   const std::string_view text = text_of(unknown.span());
   const std::string_view behind = text.substr(1);
-  return upper(text.front()) >= 'A' && upper(text.front()) <= 'Z' && !behind.empty() &&
-         std::all_of(behind.begin(), behind.end(), [](char c) { return is_blank(c) || is_number_char(c); });
+  return text::upper(text.front()) >= 'A' && text::upper(text.front()) <= 'Z' && !behind.empty() &&
+         std::all_of(behind.begin(), behind.end(), [](char c) { return text::is_blank(c) || text::is_number_char(c); });
 }
 
 /// Whether two words are a unit (X10mm, X2in, C90deg), or one letter without a number written twice.
 bool LineParser::is_unit(const Word& first, const Word& second) const {
   std::string unit;
   for (std::uint32_t i = first.begin; i < second.end && unit.size() < 4; ++i)
-    if (!is_blank(begin_[i])) unit += upper(begin_[i]);
+    if (!text::is_blank(begin_[i])) unit += text::upper(begin_[i]);
   return unit == "IN" || unit == "DEG" || (unit.size() == 2 && unit[0] == unit[1]);
 }
 
 /// Whether a word is a number that belongs to the text before it: PROGRAM 12, CALL SUB1.
 bool LineParser::is_number_of_prose(std::uint16_t index) const {
   const char letter = index < word_count() ? word(index).letter : '\0';
-  const char before = upper(begin_[word(index - 1u).begin]);
+  const char before = text::upper(begin_[word(index - 1u).begin]);
   const bool follows_letter = before >= 'A' && before <= 'Z';
   return letter == kNumber || (follows_letter && contains(dialect::kDimensionLetters | dialect::letters("NT"), letter));
 }

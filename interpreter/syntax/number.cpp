@@ -7,8 +7,8 @@ namespace isocnc::syntax {
 
 /// Whether a number before `p` continues after the blanks and comments at `p` (D7).
 static bool continues(const char* p, const char* end) {
-  p = skip_space(p, end);
-  return p != end && is_number_char(*p);
+  p = text::skip_space(p, end);
+  return p != end && text::is_number_char(*p);
 }
 
 /// Whether the text matches [+-]? digits [. digits?] | [+-]? . digits
@@ -18,7 +18,7 @@ static bool is_well_formed(const std::string& text, const Number& number) {
   for (; at < text.size(); ++at) {
     if (text[at] == '.' && !point) {
       point = true;
-    } else if (!is_digit(text[at])) {
+    } else if (!text::is_digit(text[at])) {
       return false;
     }
   }
@@ -29,13 +29,13 @@ static bool is_well_formed(const std::string& text, const Number& number) {
 static Number scan_any_number(const char* p, const char* end) {
   std::string text;
   Number number;
-  while (p != end && is_number_char(*p)) {
-    if (is_digit(*p)) ++number.digits;
+  while (p != end && text::is_number_char(*p)) {
+    if (text::is_digit(*p)) ++number.digits;
     if (*p == '.') number.has_point = true;
     if (*p == '+' || *p == '-') number.is_signed = true;
     text.push_back(*p++);
     number.end = p;
-    p = skip_space(p, end);
+    p = text::skip_space(p, end);
   }
   const bool sign_first = text[0] == '+' || text[0] == '-';
   number.malformed = (number.is_signed && !sign_first) || !is_well_formed(text, number);
@@ -66,12 +66,12 @@ Number scan_number(const char* p, const char* end) {
   // is the correctly rounded decimal.
   std::uint64_t mantissa = 0;
   const char* const digits_start = p;
-  while (p != end && is_digit(*p)) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*p++ - '0');
+  while (p != end && text::is_digit(*p)) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*p++ - '0');
   number.digits = static_cast<std::uint32_t>(p - digits_start);
   std::uint32_t decimals = 0;
   if (p != end && *p == '.') {
     const char* const decimals_start = ++p;
-    while (p != end && is_digit(*p)) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*p++ - '0');
+    while (p != end && text::is_digit(*p)) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*p++ - '0');
     decimals = static_cast<std::uint32_t>(p - decimals_start);
     number.digits += decimals;
     number.has_point = true;

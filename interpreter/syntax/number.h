@@ -5,7 +5,7 @@
 #include <cstring>
 #include <limits>
 
-#include "interpreter/syntax/characters.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::syntax {
 
@@ -42,7 +42,7 @@ inline constexpr std::uint32_t kShortNumberDigits = 7;
   // + is 0x2B and - is 0x2D. A comparison would branch.
   const auto from_plus = static_cast<std::uint32_t>(static_cast<unsigned char>(*p - '+'));
   const std::uint32_t is_signed = ((from_plus & ~2u) - 1u) >> 31;
-  std::uint32_t others = non_digits(p) & ~is_signed;
+  std::uint32_t others = text::non_digits(p) & ~is_signed;
   if (others == 0) return false;
   const auto whole = static_cast<std::uint32_t>(std::countr_zero(others));
   std::uint32_t length = whole;

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstring>
 
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/number.h"
 #include "interpreter/syntax/tree_store.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::syntax {
 
@@ -58,13 +58,13 @@ constexpr std::ptrdiff_t kMargin = 2 + kShortNumberBytes;
 
 /// The end of the comment at `p`, or null when it does not end on this line.
 const char* skip_comment(const char* p, const char* end) {
-  if (*p == ';') return find_line_end(p, end);
-  return skip_closed_comment(p, end);
+  if (*p == ';') return text::find_line_end(p, end);
+  return text::skip_closed_comment(p, end);
 }
 
 /// Reads a number too long for scan_short_number(). False if it is malformed or has blanks or comments inside.
 bool scan_long_number(const char* p, const char* end, Number& number) {
-  if (!is_number_char(*p)) return false;
+  if (!text::is_number_char(*p)) return false;
   number = scan_number(p, end);
   return std::isfinite(number.value) && !number.has_more_inside(p);
 }
@@ -75,7 +75,7 @@ bool scan_long_number(const char* p, const char* end, Number& number) {
 /// For any other line it returns null and changes nothing.
 const char* TreeStore::append_plain_assignment(const char* begin, const char* end) {
   const auto skip_blanks = [end](const char* p) {
-    while (p != end && is_blank(*p)) ++p;
+    while (p != end && text::is_blank(*p)) ++p;
     return p;
   };
   const char* const digits = begin + 1;
@@ -89,7 +89,7 @@ const char* TreeStore::append_plain_assignment(const char* begin, const char* en
   const char* const number = skip_blanks(equals + 1);
   if (end - number < kShortNumberBytes || !scan_short_number(number, value)) return nullptr;
   const char* const line_end = skip_blanks(value.end);
-  if (line_end == end || !is_line_end(*line_end)) return nullptr;
+  if (line_end == end || !text::is_line_end(*line_end)) return nullptr;
 
   Line& added = lines_.push_back(Line{});
   added.length = static_cast<std::uint32_t>(line_end - begin);
@@ -133,7 +133,7 @@ const char* TreeStore::append_plain_assignment(const char* begin, const char* en
   for (const char* p = begin; p <= last;) {
     const LetterRole& role = kRoles[static_cast<unsigned char>(*p)];
     if (role.letter == 0) {
-      if (is_line_end(*p)) {
+      if (text::is_line_end(*p)) {
         line.length = static_cast<std::uint32_t>(p - begin);
         line.words = static_cast<std::uint16_t>(word - words);
         line.plain_arguments = taken & kArguments;
@@ -144,7 +144,7 @@ const char* TreeStore::append_plain_assignment(const char* begin, const char* en
         // A motion G needs a coordinate; the general parser reports that it has none.
         return (taken & kCommand) != 0 && (taken & dialect::kCoordinateLetters) == 0 ? nullptr : p;
       }
-      if (is_blank(*p)) {
+      if (text::is_blank(*p)) {
         ++p;
         continue;
       }
@@ -156,7 +156,7 @@ const char* TreeStore::append_plain_assignment(const char* begin, const char* en
       continue;
     }
     const char* digits = p + 1;
-    if (*digits <= ' ' && is_blank(*digits)) ++digits;
+    if (*digits <= ' ' && text::is_blank(*digits)) ++digits;
     Number number;
     if (!scan_short_number(digits, number) && (!scan_long_number(digits, end, number) || number.end == end))
       return nullptr;
@@ -214,7 +214,7 @@ const char* TreeStore::append_plain_lines(const char* begin, const char* stop, c
       first_comment += line.comments;
       first_word += line.words;
       words += line.words;
-      begin = skip_line_end(line_end, end);
+      begin = text::skip_line_end(line_end, end);
     }
     lines_.add(read);
     words_.add(first_word - words_.size());

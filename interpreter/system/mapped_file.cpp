@@ -8,10 +8,10 @@
 #include <functional>
 #include <utility>
 
-#include "interpreter/syntax/unicode.h"
 #include "interpreter/system/exit_status.h"
 #include "interpreter/system/handler_table.h"
 #include "interpreter/system/temporary_file.h"
+#include "interpreter/text/unicode.h"
 
 namespace isocnc::system {
 
@@ -33,7 +33,7 @@ MappedFile::MappedFile(const std::filesystem::path& path, int descriptor, std::s
     return;
   }
   begin_ = static_cast<const char*>(bytes);
-  complaint_ = syntax::printable(path.string()) + ": " + std::string(kWasCutShort.in(language)) + "\n";
+  complaint_ = text::printable(path.string()) + ": " + std::string(kWasCutShort.in(language)) + "\n";
   mapped_files.add(this);
 }
 

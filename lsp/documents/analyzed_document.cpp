@@ -8,9 +8,9 @@
 #include "analyzer/selection/shown_report.h"
 #include "analyzer/selection/style_findings.h"
 #include "interpreter/system/source_file.h"
-#include "lsp/documents/uri.h"
+#include "lsp/protocol/uri.h"
 
-namespace isocnc::lsp::documents {
+namespace isocnc::documents {
 
 AnalyzedDocument::AnalyzedDocument(std::string uri, SettingsStore& settings) : uri_(std::move(uri)), store_(settings) {}
 
@@ -18,7 +18,7 @@ void AnalyzedDocument::open(std::int64_t version, std::string_view text) {
   version_ = version;
   has_byte_order_mark_ = text.starts_with(system::kByteOrderMark);
   if (has_byte_order_mark_) text.remove_prefix(system::kByteOrderMark.size());
-  settings_ = store_.of(path_of(uri_));
+  settings_ = store_.of(protocol::path_of(uri_));
   analysis_.reset();
   index_ = {};
   has_suppressions_ = {};
@@ -28,7 +28,8 @@ void AnalyzedDocument::open(std::int64_t version, std::string_view text) {
   is_up_to_date_ = false;
 }
 
-void AnalyzedDocument::edit(std::int64_t version, const std::vector<ContentChange>& changes, Encoding encoding) {
+void AnalyzedDocument::edit(std::int64_t version, const std::vector<ContentChange>& changes,
+                            protocol::Encoding encoding) {
   for (const ContentChange& change : changes) {
     if (change.range) {
       replace(change, encoding);
@@ -40,9 +41,9 @@ void AnalyzedDocument::edit(std::int64_t version, const std::vector<ContentChang
   is_up_to_date_ = false;
 }
 
-void AnalyzedDocument::replace(const ContentChange& change, Encoding encoding) {
-  ClientPosition first = change.range->start;
-  ClientPosition last = change.range->end;
+void AnalyzedDocument::replace(const ContentChange& change, protocol::Encoding encoding) {
+  protocol::ClientPosition first = change.range->start;
+  protocol::ClientPosition last = change.range->end;
   if (last < first) std::swap(first, last);
   const auto last_line = static_cast<std::uint32_t>(document_.line_count() - 1);
   if (first.line > last_line) first = {last_line, std::numeric_limits<std::uint32_t>::max()};
@@ -55,7 +56,7 @@ void AnalyzedDocument::replace(const ContentChange& change, Encoding encoding) {
 }
 
 void AnalyzedDocument::reread_settings() {
-  DocumentSettings settings = store_.of(path_of(uri_));
+  DocumentSettings settings = store_.of(protocol::path_of(uri_));
   if (settings.program == settings_.program) return;
   settings_ = std::move(settings);
   analysis_.reset();
@@ -128,22 +129,24 @@ std::vector<check::LocatedFinding> AnalyzedDocument::findings_on(std::size_t lin
   return {begin, end};
 }
 
-ClientPosition AnalyzedDocument::to_client(const syntax::Position& position, Encoding encoding) const {
+protocol::ClientPosition AnalyzedDocument::to_client(const syntax::Position& position,
+                                                     protocol::Encoding encoding) const {
   const std::string_view line = document_.text_of_line(position.line);
-  std::uint32_t column = units_before(line, position.column, encoding);
-  if (has_byte_order_mark_ && position.line == 0) column += units_before(system::kByteOrderMark, 3, encoding);
+  std::uint32_t column = protocol::units_before(line, position.column, encoding);
+  if (has_byte_order_mark_ && position.line == 0) column += protocol::units_before(system::kByteOrderMark, 3, encoding);
   return {static_cast<std::uint32_t>(position.line), column};
 }
 
-syntax::Position AnalyzedDocument::from_client(const ClientPosition& position, Encoding encoding) const {
+syntax::Position AnalyzedDocument::from_client(const protocol::ClientPosition& position,
+                                               protocol::Encoding encoding) const {
   if (position.line >= document_.line_count()) {
     const std::size_t last = document_.line_count() - 1;
     return {last, document_.text_of_line(last).size()};
   }
   std::uint32_t column = position.character;
   if (has_byte_order_mark_ && position.line == 0)
-    column -= std::min(column, units_before(system::kByteOrderMark, 3, encoding));
-  return {position.line, byte_at(document_.text_of_line(position.line), column, encoding)};
+    column -= std::min(column, protocol::units_before(system::kByteOrderMark, 3, encoding));
+  return {position.line, protocol::byte_at(document_.text_of_line(position.line), column, encoding)};
 }
 
-}  // namespace isocnc::lsp::documents
+}  // namespace isocnc::documents

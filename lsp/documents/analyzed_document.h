@@ -12,16 +12,16 @@
 #include "analyzer/check/analysis.h"
 #include "analyzer/selection/suppressions.h"
 #include "interpreter/syntax/per_chunk.h"
-#include "lsp/documents/encoding.h"
 #include "lsp/documents/program_index.h"
-#include "lsp/documents/protocol.h"
 #include "lsp/documents/settings_store.h"
+#include "lsp/protocol/encoding.h"
+#include "lsp/protocol/protocol.h"
 
-namespace isocnc::lsp::documents {
+namespace isocnc::documents {
 
 /// One step of a `didChange`: the new text of a range, or without a range of the whole document.
 struct ContentChange {
-  std::optional<ClientRange> range;
+  std::optional<protocol::ClientRange> range;
   std::string text;
 };
 
@@ -34,7 +34,7 @@ class AnalyzedDocument {
   /// Replaces the whole text.
   void open(std::int64_t version, std::string_view text);
   /// Applies the changes one after another, each to the text that results from the one before.
-  void edit(std::int64_t version, const std::vector<ContentChange>& changes, Encoding encoding);
+  void edit(std::int64_t version, const std::vector<ContentChange>& changes, protocol::Encoding encoding);
   /// Reads the settings again, since configuration files may have changed.
   void reread_settings();
   /// Brings the analysis up to date with the text. Calls `stop` at intervals; when that returns true, leaves the rest
@@ -56,8 +56,8 @@ class AnalyzedDocument {
   std::vector<check::LocatedFinding> findings_on(std::size_t line);
   const ProgramIndex& index();
 
-  ClientPosition to_client(const syntax::Position& position, Encoding encoding) const;
-  syntax::Position from_client(const ClientPosition& position, Encoding encoding) const;
+  protocol::ClientPosition to_client(const syntax::Position& position, protocol::Encoding encoding) const;
+  syntax::Position from_client(const protocol::ClientPosition& position, protocol::Encoding encoding) const;
 
   /// Data that features keep about the document: one object of each type.
   template <class T>
@@ -68,7 +68,7 @@ class AnalyzedDocument {
   }
 
  private:
-  void replace(const ContentChange& change, Encoding encoding);
+  void replace(const ContentChange& change, protocol::Encoding encoding);
   check::Report shown_report();
   bool is_long();
   selection::Suppressions read_suppressions();
@@ -87,4 +87,4 @@ class AnalyzedDocument {
   std::unordered_map<std::type_index, std::any> memories_;
 };
 
-}  // namespace isocnc::lsp::documents
+}  // namespace isocnc::documents

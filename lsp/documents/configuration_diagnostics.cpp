@@ -6,11 +6,11 @@
 
 #include "interpreter/configuration/configurations.h"
 #include "interpreter/configuration/read.h"
-#include "interpreter/syntax/characters.h"
-#include "interpreter/syntax/unicode.h"
 #include "interpreter/system/source_file.h"
+#include "interpreter/text/characters.h"
+#include "interpreter/text/unicode.h"
 
-namespace isocnc::lsp::documents {
+namespace isocnc::documents {
 
 namespace fs = std::filesystem;
 using configuration::Mistake;
@@ -23,36 +23,39 @@ static std::size_t end_of_token(std::string_view text, std::size_t at) {
   const char first = text[at];
   std::size_t end = at + 1;
   if (first == '"') {
-    while (end < text.size() && text[end] != '"' && !syntax::is_line_end(text[end])) end += text[end] == '\\' ? 2 : 1;
+    while (end < text.size() && text[end] != '"' && !text::is_line_end(text[end])) end += text[end] == '\\' ? 2 : 1;
     return std::min(end + 1, text.size());
   }
   if (std::string_view("{}[]:,").find(first) != std::string_view::npos) return end;
   end = text.find_first_of(" \t\r\n,:]}", at);
-  return std::max(std::min(end, text.size()), at + std::max<std::size_t>(1, syntax::sequence_length(text.substr(at))));
+  return std::max(std::min(end, text.size()), at + std::max<std::size_t>(1, text::sequence_length(text.substr(at))));
 }
 
-static ClientRange range_of(std::string_view text, std::size_t at, Encoding encoding) {
+static protocol::ClientRange range_of(std::string_view text, std::size_t at, protocol::Encoding encoding) {
   at = std::min(at, text.size());
   const char* const end = text.data() + text.size();
   const char* begin = text.data();
   std::uint32_t line = 0;
-  for (const char* line_end = syntax::find_line_end(begin, end); line_end < text.data() + at && line_end != end;
-       line_end = syntax::find_line_end(begin, end)) {
-    begin = syntax::skip_line_end(line_end, end);
+  for (const char* line_end = text::find_line_end(begin, end); line_end < text.data() + at && line_end != end;
+       line_end = text::find_line_end(begin, end)) {
+    begin = text::skip_line_end(line_end, end);
     ++line;
   }
-  const char* const line_end = syntax::find_line_end(begin, end);
+  const char* const line_end = text::find_line_end(begin, end);
   const std::string_view content(begin, static_cast<std::size_t>(line_end - begin));
   const auto column = static_cast<std::size_t>(text.data() + at - begin);
-  const auto place = [&](std::size_t byte) { return ClientPosition{line, units_before(content, byte, encoding)}; };
+  const auto place = [&](std::size_t byte) {
+    return protocol::ClientPosition{line, protocol::units_before(content, byte, encoding)};
+  };
   return {place(column), place(column + (end_of_token(text, at) - at))};
 }
 
-static Json diagnostic(const ClientRange& range, const std::string& message) {
+static Json diagnostic(const protocol::ClientRange& range, const std::string& message) {
   return {{"range", range}, {"severity", 1}, {"source", "isolint"}, {"message", message}};
 }
 
-Json configuration_diagnostics(std::string_view text, const fs::path& folder, Encoding encoding, Language language) {
+Json configuration_diagnostics(std::string_view text, const fs::path& folder, protocol::Encoding encoding,
+                               Language language) {
   Json all = Json::array();
   if (text.starts_with(system::kByteOrderMark)) {
     all.push_back(diagnostic({}, Mistake{.text = configuration::mistakes::kByteOrderMark}.message(language)));
@@ -63,11 +66,11 @@ Json configuration_diagnostics(std::string_view text, const fs::path& folder, En
     return all;
   }
   for (const Mistake& mistake : configuration::read_configuration(text, folder).mistakes)
-    all.push_back(diagnostic(range_of(text, mistake.at, encoding), syntax::printable(mistake.message(language))));
+    all.push_back(diagnostic(range_of(text, mistake.at, encoding), text::printable(mistake.message(language))));
   return all;
 }
 
-Json configuration_diagnostics(const fs::path& file, Encoding encoding, Language language) {
+Json configuration_diagnostics(const fs::path& file, protocol::Encoding encoding, Language language) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   const auto problem = [](const std::string& message) { return Json::array({diagnostic({}, message)}); };
@@ -81,4 +84,4 @@ Json configuration_diagnostics(const fs::path& file, Encoding encoding, Language
   return configuration_diagnostics(text, configuration::real_path(file.parent_path()), encoding, language);
 }
 
-}  // namespace isocnc::lsp::documents
+}  // namespace isocnc::documents

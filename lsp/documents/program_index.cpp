@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace isocnc::lsp::documents {
+namespace isocnc::documents {
 
 using syntax::Instruction;
 using syntax::InstructionKind;
@@ -140,4 +140,4 @@ std::uint64_t ProgramIndex::highest_label() const {
   return highest;
 }
 
-}  // namespace isocnc::lsp::documents
+}  // namespace isocnc::documents

@@ -6,7 +6,7 @@
 
 #include "interpreter/syntax/per_chunk.h"
 
-namespace isocnc::lsp::documents {
+namespace isocnc::documents {
 
 /// The kinds of places that are looked up in a program.
 enum class LandmarkKind : std::uint8_t {
@@ -73,4 +73,4 @@ class ProgramIndex {
   syntax::PerChunk<IndexChunk> chunks_;
 };
 
-}  // namespace isocnc::lsp::documents
+}  // namespace isocnc::documents

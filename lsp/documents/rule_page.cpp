@@ -3,9 +3,9 @@
 #include <filesystem>
 
 #include "analyzer/formats/rendering.h"
-#include "lsp/documents/uri.h"
+#include "lsp/protocol/uri.h"
 
-namespace isocnc::lsp::documents {
+namespace isocnc::documents {
 
 namespace fs = std::filesystem;
 
@@ -18,7 +18,7 @@ static std::string find_page(const fs::path& page) {
   const fs::path places[] = {program.parent_path() / "../share/doc/isocnc" / page.filename(),
                              program.parent_path() / "../../.." / page};
   for (const fs::path& place : places)
-    if (fs::exists(place, error)) return uri_of(fs::weakly_canonical(place, error));
+    if (fs::exists(place, error)) return protocol::uri_of(fs::weakly_canonical(place, error));
   return {};
 }
 
@@ -30,4 +30,4 @@ std::string rule_page(dialect::DiagnosticId id) {
   return kFile.empty() ? url : kFile + url.substr(anchor);
 }
 
-}  // namespace isocnc::lsp::documents
+}  // namespace isocnc::documents

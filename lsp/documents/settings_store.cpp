@@ -4,7 +4,7 @@
 
 #include "interpreter/dialect/locale.h"
 
-namespace isocnc::lsp::documents {
+namespace isocnc::documents {
 
 /// The configuration files read since the last forget().
 struct SettingsStore::Generation {
@@ -41,4 +41,4 @@ void SettingsStore::forget() {
   generation_ = std::make_shared<Generation>();
 }
 
-}  // namespace isocnc::lsp::documents
+}  // namespace isocnc::documents

@@ -7,7 +7,7 @@
 
 #include "analyzer/selection/program_settings.h"
 
-namespace isocnc::lsp::documents {
+namespace isocnc::documents {
 
 /// How a program is checked, with its configuration. Does not change when the files change.
 struct DocumentSettings {
@@ -39,4 +39,4 @@ class SettingsStore {
   std::shared_ptr<Generation> generation_;
 };
 
-}  // namespace isocnc::lsp::documents
+}  // namespace isocnc::documents

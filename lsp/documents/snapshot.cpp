@@ -2,9 +2,9 @@
 
 #include "lsp/rpc/message.h"
 
-namespace isocnc::lsp::documents {
+namespace isocnc::documents {
 
-Snapshot::Snapshot(AnalyzedDocument& document, const Client& client, const Interest& interest)
+Snapshot::Snapshot(AnalyzedDocument& document, const protocol::Client& client, const Interest& interest)
     : document_(document), client_(client), interest_(interest) {
   const bool is_done = document_.update([&] { return !is_wanted(); });
   if (!is_done) throw_if_unwanted();
@@ -29,4 +29,4 @@ void Snapshot::throw_if_unwanted() const {
     throw rpc::Error(rpc::ErrorCode::ContentModified, "the document has been edited");
 }
 
-}  // namespace isocnc::lsp::documents
+}  // namespace isocnc::documents

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "lsp/documents/analyzed_document.h"
-#include "lsp/documents/client.h"
+#include "lsp/protocol/client.h"
 
-namespace isocnc::lsp::documents {
+namespace isocnc::documents {
 
 /// Tells whether an answer is still wanted.
 struct Interest {
@@ -31,7 +31,7 @@ class Snapshot {
  public:
   /// Brings the analysis up to date. Throws like throw_if_unwanted() if the answer is no longer wanted before that is
   /// done.
-  Snapshot(AnalyzedDocument& document, const Client& client, const Interest& interest);
+  Snapshot(AnalyzedDocument& document, const protocol::Client& client, const Interest& interest);
 
   const std::string& uri() const { return document_.uri(); }
   std::int64_t version() const { return document_.version(); }
@@ -58,17 +58,17 @@ class Snapshot {
   /// Keeps the three objects above alive after the call, for background requests.
   std::shared_ptr<const void> settings_owner() const { return document_.settings().owner; }
 
-  const Client& client() const { return client_; }
+  const protocol::Client& client() const { return client_; }
   dialect::Language language() const { return client_.language(configuration().language); }
 
-  ClientPosition to_client(const syntax::Position& position) const {
+  protocol::ClientPosition to_client(const syntax::Position& position) const {
     return document_.to_client(position, client_.encoding);
   }
-  ClientRange to_client(std::size_t line, syntax::Span span) const {
+  protocol::ClientRange to_client(std::size_t line, syntax::Span span) const {
     return {to_client({line, span.begin}), to_client({line, span.end})};
   }
   /// Converts a position of the client; one outside the document becomes the nearest inside.
-  syntax::Position from_client(const ClientPosition& position) const {
+  syntax::Position from_client(const protocol::ClientPosition& position) const {
     return document_.from_client(position, client_.encoding);
   }
 
@@ -87,8 +87,8 @@ class Snapshot {
   bool is_wanted() const;
 
   AnalyzedDocument& document_;
-  const Client& client_;
+  const protocol::Client& client_;
   const Interest interest_;
 };
 
-}  // namespace isocnc::lsp::documents
+}  // namespace isocnc::documents

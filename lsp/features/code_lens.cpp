@@ -3,21 +3,21 @@
 #include <string>
 
 #include "interpreter/dialect/format.h"
-#include "lsp/documents/section_times.h"
 #include "lsp/features/feature.h"
+#include "lsp/queries/section_times.h"
 
 /// Code lenses above each tool section: its duration and path length, and, in editors that support it, commands to run
 /// or debug the program from there.
-namespace isocnc::lsp::features {
+namespace isocnc::features {
 
 using dialect::Text;
 using documents::LandmarkKind;
 
 namespace {
 
-std::string describe(const documents::TimedSection& section, dialect::Language language) {
+std::string describe(const queries::TimedSection& section, dialect::Language language) {
   static constexpr Text kTimeAndPath = {"{}, path {:.1f} m", "{}, percorso {:.1f} m"};
-  return dialect::format(kTimeAndPath, language, documents::clock_text(section.seconds), section.mm / 1000);
+  return dialect::format(kTimeAndPath, language, queries::clock_text(section.seconds), section.mm / 1000);
 }
 
 /// Whether the editor knows a command of this name: it lists its commands in `experimental.commands.commands`.
@@ -40,7 +40,7 @@ struct Offered {
 constexpr Offered kCommands[] = {{"isocnc.run", {"run", "eseguire"}},
                                  {"isocnc.debug", {"debug from here", "debug da qui"}}};
 
-Json answer_code_lens(const Snapshot& snapshot, const documents::DocumentParams&) {
+Json answer_code_lens(const Snapshot& snapshot, const protocol::DocumentParams&) {
   Json lenses = Json::array();
   for (const documents::Landmark& change : snapshot.index().landmarks(LandmarkKind::ToolChange)) {
     const ClientRange range = snapshot.to_client(change.line, change.span);
@@ -63,9 +63,9 @@ BackgroundRequest resolve_lens(const Snapshot& snapshot, const LensResolveParams
   const Json& data = params.lens.at("data");
   if (data.at("version") != snapshot.version())
     throw rpc::Error(rpc::ErrorCode::ContentModified, "the document has been edited");
-  const auto times = documents::SectionTimes::of(snapshot);
+  const auto times = queries::SectionTimes::of(snapshot);
   const auto known = times->known(snapshot);
-  const auto program = known ? nullptr : std::make_shared<documents::TimedProgram>(snapshot, 0);
+  const auto program = known ? nullptr : std::make_shared<queries::TimedProgram>(snapshot, 0);
   return [times, known, program, lens = params.lens, line = data.at("line").get<std::uint64_t>(),
           language = snapshot.language()](const std::function<bool()>& stop) mutable {
     static constexpr Text kNotRun = {"not run", "non eseguita"};
@@ -87,4 +87,4 @@ extern const Feature code_lens = {
     .methods = {on<&answer_code_lens>("textDocument/codeLens"), in_background<&resolve_lens>("codeLens/resolve")},
     .refresh = Refresh{"workspace/codeLens/refresh", "/workspace/codeLens/refreshSupport"}};
 
-}  // namespace isocnc::lsp::features
+}  // namespace isocnc::features

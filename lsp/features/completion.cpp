@@ -15,14 +15,14 @@
 #include "interpreter/execution/block_recorder.h"
 #include "interpreter/execution/plane.h"
 #include "interpreter/running/event.h"
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
-#include "interpreter/syntax/unicode.h"
+#include "interpreter/text/characters.h"
+#include "interpreter/text/unicode.h"
 #include "lsp/features/feature.h"
 
 /// Completion: codes that are legal at the cursor, the missing arguments, labels, tools, registers. This file holds no
 /// rules of legality: each code is tried on the line, and one that causes a new finding is not offered.
-namespace isocnc::lsp::features {
+namespace isocnc::features {
 
 using dialect::Language;
 using dialect::Text;
@@ -149,7 +149,7 @@ class Completer {
   std::size_t start_of_word() const {
     std::size_t start = place_.column;
     const auto is = [&](auto&& kind) { return start > 0 && kind(static_cast<unsigned char>(line_.text[start - 1])); };
-    while (is([](unsigned char c) { return syntax::is_digit(static_cast<char>(c)); })) --start;
+    while (is([](unsigned char c) { return text::is_digit(static_cast<char>(c)); })) --start;
     const std::size_t digits = start;
     while (is([](unsigned char c) { return std::isalpha(c) != 0; })) --start;
     // In `X1G0` the word starts at the last letter.
@@ -166,8 +166,8 @@ class Completer {
   }
 
   std::string_view typed() const { return line_.text.substr(start_, place_.column - start_); }
-  bool types(char letter) const { return typed().empty() || syntax::upper(typed().front()) == letter; }
-  bool types_digits() const { return !typed().empty() && syntax::is_digit(typed().back()); }
+  bool types(char letter) const { return typed().empty() || text::upper(typed().front()) == letter; }
+  bool types_digits() const { return !typed().empty() && text::is_digit(typed().back()); }
 
   /// The line with `text` instead of the word at the cursor.
   std::string with(std::string_view text) const {
@@ -194,7 +194,7 @@ class Completer {
     Json item = {{"label", candidate.label},
                  {"kind", static_cast<int>(candidate.kind)},
                  {"sortText", fmt::format("{:04}", items_.size())},
-                 {"textEdit", documents::TextEdit{range, is_snippet ? candidate.written : plain(candidate.written)}}};
+                 {"textEdit", protocol::TextEdit{range, is_snippet ? candidate.written : plain(candidate.written)}}};
     if (is_snippet) item["insertTextFormat"] = 2;
     if (!candidate.detail.empty()) item["detail"] = candidate.detail;
     if (!candidate.documentation.empty()) item["documentation"] = candidate.documentation;
@@ -276,7 +276,7 @@ class Completer {
     for (const configuration::NamedFunction& function : *functions) {
       const std::string label = fmt::format("M{}", function.number);
       if (dialect::is_user_function(function.number) && is_well_written(label))
-        add({label, ItemKind::Function, label, syntax::printable(function.name), {}});
+        add({label, ItemKind::Function, label, text::printable(function.name), {}});
     }
   }
 
@@ -295,7 +295,7 @@ class Completer {
       if (!is_well_written(label)) continue;
       static constexpr Text kLength = {"length {} mm", "lunghezza {} mm"};
       static constexpr Text kRadius = {"radius {} mm", "raggio {} mm"};
-      std::string detail = syntax::printable(tool.name);
+      std::string detail = text::printable(tool.name);
       const auto append = [&](const Text& text, const std::optional<double>& value) {
         if (!value) return;
         detail += detail.empty() ? "" : ", ";
@@ -391,7 +391,7 @@ class Completer {
     const std::size_t end = std::min(document.line_count(), place_.line + 1 + kMaxLinesForLabels);
     is_incomplete_ = end < document.line_count();
     std::string_view digits = typed();
-    while (!digits.empty() && !syntax::is_digit(digits.front())) digits.remove_prefix(1);
+    while (!digits.empty() && !text::is_digit(digits.front())) digits.remove_prefix(1);
     for (std::size_t number = place_.line + 1; number < end; ++number) {
       if (number % 1024 == 0) snapshot_.throw_if_unwanted();
       const syntax::DocumentLine read = document.line(number);
@@ -405,7 +405,7 @@ class Completer {
       }
       static constexpr Text kLine = {"line {}", "riga {}"};
       add({label, ItemKind::Reference, label, dialect::format(kLine, language_, number + 1),
-           syntax::printable(target.text)});
+           text::printable(target.text)});
     }
   }
 
@@ -423,15 +423,15 @@ class Completer {
   Json items_ = Json::array();
 };
 
-struct CompletionParams : documents::PositionParams {
+struct CompletionParams : protocol::PositionParams {
   bool asked_by_blank = false;
 };
 
 void from_json(const Json& json, CompletionParams& params) {
-  from_json(json, static_cast<documents::PositionParams&>(params));
-  const auto context = documents::member<Json>(json, "context");
+  from_json(json, static_cast<protocol::PositionParams&>(params));
+  const auto context = protocol::member<Json>(json, "context");
   if (context && context->is_object())
-    params.asked_by_blank = documents::member<Json>(*context, "triggerCharacter").value_or(Json()) == Json(" ");
+    params.asked_by_blank = protocol::member<Json>(*context, "triggerCharacter").value_or(Json()) == Json(" ");
 }
 
 Json answer_completion(const Snapshot& snapshot, const CompletionParams& params) {
@@ -479,4 +479,4 @@ extern const Feature completion = {
     .capabilities = completion_capabilities,
     .methods = {on<&answer_completion>("textDocument/completion"), on<&resolve_item>("completionItem/resolve")}};
 
-}  // namespace isocnc::lsp::features
+}  // namespace isocnc::features

@@ -3,18 +3,18 @@
 #include <utility>
 #include <vector>
 
-#include "lsp/documents/assignments.h"
-#include "lsp/documents/jump_paths.h"
 #include "lsp/features/feature.h"
+#include "lsp/queries/assignments.h"
+#include "lsp/queries/jump_paths.h"
 
 /// Go to definition: from a GOTO to its label, from a register to its assignments, from coordinates without G to the G
 /// in force.
-namespace isocnc::lsp::features {
+namespace isocnc::features {
 
-using documents::JumpPaths;
-using documents::Location;
-using documents::NameKind;
-using documents::Occurrence;
+using protocol::Location;
+using queries::JumpPaths;
+using queries::NameKind;
+using queries::Occurrence;
 using syntax::Span;
 
 namespace {
@@ -31,7 +31,7 @@ std::vector<Spot> spans_of(const std::vector<Occurrence>& all) {
 
 /// The label that the jump leads to; if it leads nowhere, all labels with that number.
 std::vector<Spot> labels_of(const Snapshot& snapshot, const Occurrence& target) {
-  std::vector<Spot> labels = spans_of(documents::occurrences(snapshot, target.name));
+  std::vector<Spot> labels = spans_of(queries::occurrences(snapshot, target.name));
   const auto below =
       std::find_if(labels.begin(), labels.end(), [&](const Spot& label) { return label.first > target.line; });
   return below == labels.end() ? labels : std::vector<Spot>{*below};
@@ -39,8 +39,8 @@ std::vector<Spot> labels_of(const Snapshot& snapshot, const Occurrence& target) 
 
 /// The assignments that can reach this read of the register; if there is none, all of its assignments.
 std::vector<Spot> assignments_of(const Snapshot& snapshot, const Occurrence& read) {
-  const std::vector<Occurrence> reaching = documents::assignments_reaching(snapshot, read);
-  return spans_of(reaching.empty() ? documents::occurrences(snapshot, read.name) : reaching);
+  const std::vector<Occurrence> reaching = queries::assignments_reaching(snapshot, read);
+  return spans_of(reaching.empty() ? queries::occurrences(snapshot, read.name) : reaching);
 }
 
 /// The last motion G of a line.
@@ -73,7 +73,7 @@ std::vector<Spot> motions_before(const Snapshot& snapshot, std::size_t line) {
 }
 
 std::vector<Spot> spans_for(const Snapshot& snapshot, const syntax::Position& place) {
-  if (const auto name = documents::name_at(snapshot, place)) {
+  if (const auto name = queries::name_at(snapshot, place)) {
     if (name->is_definition) return {{name->line, name->span}};
     return name->name.kind == NameKind::Label ? labels_of(snapshot, *name) : assignments_of(snapshot, *name);
   }
@@ -84,7 +84,7 @@ std::vector<Spot> spans_for(const Snapshot& snapshot, const syntax::Position& pl
 }
 
 std::optional<std::vector<Location>> answer_definition(const Snapshot& snapshot,
-                                                       const documents::PositionParams& params) {
+                                                       const protocol::PositionParams& params) {
   std::vector<Location> locations;
   for (const auto& [line, span] : spans_for(snapshot, snapshot.from_client(params.position)))
     locations.push_back({snapshot.uri(), snapshot.to_client(line, span)});
@@ -98,4 +98,4 @@ Json definition_capabilities(const Client&) { return {{"definitionProvider", tru
 extern const Feature definition = {.capabilities = definition_capabilities,
                                    .methods = {on<&answer_definition>("textDocument/definition")}};
 
-}  // namespace isocnc::lsp::features
+}  // namespace isocnc::features

@@ -17,7 +17,7 @@
 #include "lsp/features/feature.h"
 
 /// The findings of isolint for the editor's Problems list: pushed after each edit, or pulled by clients that can pull.
-namespace isocnc::lsp::features {
+namespace isocnc::features {
 
 using namespace dialect::literals;
 using check::LocatedFinding;
@@ -32,13 +32,13 @@ static constexpr const char* kPull = "/textDocument/diagnostic";
 
 namespace {
 
-struct PullParams : documents::DocumentParams {
+struct PullParams : protocol::DocumentParams {
   std::optional<std::string> previous_result_id;
 };
 
 void from_json(const Json& json, PullParams& params) {
-  from_json(json, static_cast<documents::DocumentParams&>(params));
-  params.previous_result_id = documents::member<std::string>(json, "previousResultId");
+  from_json(json, static_cast<protocol::DocumentParams&>(params));
+  params.previous_result_id = protocol::member<std::string>(json, "previousResultId");
 }
 
 /// Writes the findings of one snapshot for the client.
@@ -79,7 +79,8 @@ class DiagnosticWriter {
     append_head(located, 1 + static_cast<int>(located.severity()),
                 dialect::message(finding.id, language_, marked, finding.values), list);
     list += constant_part(finding.id);
-    if (sends_related_ && located.path >= 0) list += R"(,"relatedInformation":)" + rpc::write(path_of(located));
+    if (sends_related_ && located.path >= 0)
+      list += R"(,"relatedInformation":)" + rpc::write(protocol::path_of(located));
     list += '}';
   }
 
@@ -129,7 +130,7 @@ class DiagnosticWriter {
       const syntax::LineTree& line = *read;
       const syntax::Span span =
           line.jump ? syntax::Span{line.jump->if_span.begin, line.jump->target_span.end} : syntax::Span{};
-      steps.push_back({{"location", documents::Location{snapshot_.uri(), snapshot_.to_client(step.line, span)}},
+      steps.push_back({{"location", protocol::Location{snapshot_.uri(), snapshot_.to_client(step.line, span)}},
                        {"message", formats::describe_step(step, line.text, language_)}});
     }
     return steps;
@@ -154,7 +155,7 @@ class DiagnosticWriter {
 /// Equal findings have equal ids, so that a client that has them does not get them again.
 std::string id_of(const std::string& items) { return fmt::format("{:x}", std::hash<std::string>()(items)); }
 
-documents::RawJson pull(const Snapshot& snapshot, const PullParams& params) {
+protocol::RawJson pull(const Snapshot& snapshot, const PullParams& params) {
   const std::string items = DiagnosticWriter(snapshot).all();
   const std::string id = id_of(items);
   if (params.previous_result_id == id) return {fmt::format(R"({{"kind":"unchanged","resultId":"{}"}})", id)};
@@ -162,7 +163,7 @@ documents::RawJson pull(const Snapshot& snapshot, const PullParams& params) {
 }
 
 /// The pulled diagnostics of each program in the workspace, open or not.
-documents::RawJson pull_each(const Snapshot& snapshot, const Json& /*params*/) {
+protocol::RawJson pull_each(const Snapshot& snapshot, const Json& /*params*/) {
   const std::string report = pull(snapshot, {}).text;
   const std::string version = snapshot.version() < 0 ? "null" : std::to_string(snapshot.version());
   return {fmt::format(R"([{{"uri":{},"version":{},{}])", rpc::write(Json(snapshot.uri())), version,
@@ -227,4 +228,4 @@ extern const Feature diagnostics = {
     .refresh = Refresh{"workspace/diagnostic/refresh", "/workspace/diagnostics/refreshSupport"},
     .closed = clear};
 
-}  // namespace isocnc::lsp::features
+}  // namespace isocnc::features

@@ -1,34 +1,34 @@
 #include <string>
 #include <vector>
 
-#include "lsp/documents/outline.h"
 #include "lsp/features/feature.h"
+#include "lsp/queries/outline.h"
 
 /// The program's outline: tools, frames, labels and headings.
-namespace isocnc::lsp::features {
+namespace isocnc::features {
 
-using documents::Section;
+using queries::Section;
 
 namespace {
 
 /// Writes the sections nested if the client supports that, else as a flat list.
 class SymbolWriter {
  public:
-  explicit SymbolWriter(const Snapshot& snapshot) : snapshot_(snapshot), sections_(documents::outline(snapshot)) {}
+  explicit SymbolWriter(const Snapshot& snapshot) : snapshot_(snapshot), sections_(queries::outline(snapshot)) {}
 
-  documents::RawJson tree() {
+  protocol::RawJson tree() {
     write_children(-1);
     return {std::move(text_)};
   }
 
-  documents::RawJson row() {
+  protocol::RawJson row() {
     text_ = "[";
     for (const Section& section : sections_) {
       snapshot_.throw_if_unwanted();
       separate();
       Json json = {{"name", section.title},
-                   {"kind", documents::symbol_kind(section.kind)},
-                   {"location", documents::Location{snapshot_.uri(), range_of(section)}}};
+                   {"kind", queries::symbol_kind(section.kind)},
+                   {"location", protocol::Location{snapshot_.uri(), range_of(section)}}};
       if (section.parent >= 0) json["containerName"] = sections_[static_cast<std::size_t>(section.parent)].title;
       text_ += rpc::write(json);
     }
@@ -51,7 +51,7 @@ class SymbolWriter {
       separate();
       std::string symbol = rpc::write({{"name", section.title},
                                        {"detail", section.detail},
-                                       {"kind", documents::symbol_kind(section.kind)},
+                                       {"kind", queries::symbol_kind(section.kind)},
                                        {"range", range_of(section)},
                                        {"selectionRange", snapshot_.to_client(section.head_line, section.head)}});
       symbol.pop_back();
@@ -72,7 +72,7 @@ class SymbolWriter {
   std::string text_;
 };
 
-documents::RawJson answer_document_symbols(const Snapshot& snapshot, const documents::DocumentParams&) {
+protocol::RawJson answer_document_symbols(const Snapshot& snapshot, const protocol::DocumentParams&) {
   SymbolWriter writer(snapshot);
   return snapshot.client().can("/textDocument/documentSymbol/hierarchicalDocumentSymbolSupport") ? writer.tree()
                                                                                                  : writer.row();
@@ -85,4 +85,4 @@ Json document_symbols_capabilities(const Client&) { return {{"documentSymbolProv
 extern const Feature document_symbols = {.capabilities = document_symbols_capabilities,
                                          .methods = {on<&answer_document_symbols>("textDocument/documentSymbol")}};
 
-}  // namespace isocnc::lsp::features
+}  // namespace isocnc::features

@@ -1,17 +1,27 @@
 #include "lsp/features/feature.h"
 
-namespace isocnc::lsp::features {
+#include <algorithm>
 
-#define ISOCNC_FEATURE(name) extern const Feature name;
-#include <features.inc>
-#undef ISOCNC_FEATURE
+namespace isocnc::features {
 
-static const Feature* const kFeatures[] = {
-#define ISOCNC_FEATURE(name) &(name),
-#include <features.inc>
-#undef ISOCNC_FEATURE
-};
+/// Whether `kind` is `other` or one of its subkinds: `refactor.rewrite` is a subkind of `refactor`.
+static bool is_below(std::string_view kind, std::string_view other) {
+  return kind.starts_with(other) && (kind.size() == other.size() || kind[other.size()] == '.' || other.empty());
+}
 
-std::span<const Feature* const> all_features() { return kFeatures; }
+bool ActionParams::wants(std::string_view kind) const {
+  return only.empty() || std::any_of(only.begin(), only.end(), [&](const auto& each) { return is_below(kind, each); });
+}
 
-}  // namespace isocnc::lsp::features
+void from_json(const Json& json, ActionParams& params) {
+  from_json(json, static_cast<protocol::RangeParams&>(params));
+  const Json& context = json.at("context");
+  params.only = protocol::member<std::vector<std::string>>(context, "only").value_or(std::vector<std::string>{});
+  params.diagnostics = protocol::member<std::vector<Json>>(context, "diagnostics").value_or(std::vector<Json>{});
+}
+
+bool ActionParams::may_want(std::string_view kind) const {
+  return wants(kind) || std::any_of(only.begin(), only.end(), [&](const auto& each) { return is_below(each, kind); });
+}
+
+}  // namespace isocnc::features

@@ -2,23 +2,22 @@
 
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
 
-#include "lsp/documents/protocol.h"
 #include "lsp/documents/snapshot.h"
+#include "lsp/protocol/protocol.h"
 #include "lsp/rpc/message.h"
 
-namespace isocnc::lsp::features {
+namespace isocnc::features {
 
-using documents::Client;
-using documents::ClientPosition;
-using documents::ClientRange;
-using documents::Json;
 using documents::Snapshot;
+using protocol::Client;
+using protocol::ClientPosition;
+using protocol::ClientRange;
+using rpc::Json;
 
 /// Long work, done without access to the document; returns the result as JSON. It calls `stop` at intervals and throws
 /// rpc::Error when that returns true.
@@ -57,7 +56,7 @@ struct WorkspaceRequest {
 };
 
 /// The parameters of a request for code actions.
-struct ActionParams : documents::RangeParams {
+struct ActionParams : protocol::RangeParams {
   std::vector<std::string> only;  ///< The wanted kinds, each with its subkinds; empty for all.
   std::vector<Json> diagnostics;  ///< The diagnostics that the editor shows in the range.
 
@@ -68,6 +67,8 @@ struct ActionParams : documents::RangeParams {
   }
   bool is_selection() const { return range.start != range.end; }
   bool wants(std::string_view kind) const;
+  /// Whether the client wants this kind or one of its subkinds.
+  bool may_want(std::string_view kind) const;
 };
 
 void from_json(const Json& json, ActionParams& params);
@@ -82,7 +83,7 @@ struct Action {
   Json data;
 };
 
-/// A provider of code actions. The feature code_actions asks all of them.
+/// A provider of code actions: `lsp/code_actions.cpp` asks all of them.
 struct ActionSource {
   std::string_view kind;  ///< The kind of all its actions.
   void (*offer)(const Snapshot& snapshot, const ActionParams& params, std::vector<Action>& actions) = nullptr;
@@ -100,7 +101,8 @@ struct Refresh {
 };
 
 /// One ability of the language server. Each has a file in this folder, which defines it under the file's name (`extern
-/// const Feature hover`); the build lists them. A feature knows neither threads nor files nor other features.
+/// const Feature hover`); the build lists them (lsp/feature_list.h). A feature knows neither threads nor files nor
+/// other features.
 struct Feature {
   /// The feature's part of ServerCapabilities, for this client.
   Json (*capabilities)(const Client& client) = nullptr;
@@ -120,7 +122,7 @@ struct Feature {
 
 template <class Result>
 std::string write_result(const Result& result) {
-  if constexpr (std::is_same_v<Result, documents::RawJson>) {
+  if constexpr (std::is_same_v<Result, protocol::RawJson>) {
     return result.text;
   } else if constexpr (requires { result.has_value(); }) {
     return result ? write_result(*result) : "null";
@@ -186,7 +188,4 @@ WorkspaceRequest workspace_request(std::string_view name,
   return {name, MethodOf<handle>::kAnswer, combine};
 }
 
-/// All features, in the order of their files' names.
-std::span<const Feature* const> all_features();
-
-}  // namespace isocnc::lsp::features
+}  // namespace isocnc::features

@@ -9,18 +9,18 @@
 #include "analyzer/fixing/fixer.h"
 #include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/dialect/format.h"
-#include "lsp/documents/snapshot_program.h"
-#include "lsp/documents/text_edits.h"
 #include "lsp/features/feature.h"
+#include "lsp/queries/snapshot_program.h"
+#include "lsp/queries/text_edits.h"
 
 /// Code actions that fix findings, one by one or all safe ones together, and that silence them.
-namespace isocnc::lsp::features {
+namespace isocnc::features {
 
 using check::LocatedFinding;
 using dialect::Text;
-using documents::SnapshotProgram;
 using fixes::Edit;
 using fixes::Fix;
+using queries::SnapshotProgram;
 
 static constexpr std::string_view kQuickFix = "quickfix";
 static constexpr std::string_view kFixAll = "source.fixAll.isocnc";
@@ -67,7 +67,7 @@ void offer_fixes(const Snapshot& snapshot, const ActionParams& params, std::vect
                                                  .is_preferred = fix->safety == fixes::Safety::Safe,
                                                  .diagnostics = diagnostics_of(snapshot, located, params),
                                                  .data = {{"habit", fix->habit}}});
-    if (edits.size() <= kMaxEdits) action.edit = workspace_edit(snapshot, to_client(snapshot, edits));
+    if (edits.size() <= kMaxEdits) action.edit = queries::workspace_edit(snapshot, queries::to_client(snapshot, edits));
   }
 }
 
@@ -78,7 +78,7 @@ Json rewrite_habit(const Snapshot& snapshot, const Json& data) {
   SnapshotProgram program(snapshot);
   const std::vector<Edit> edits = all_edits({.habit = fixes::Habit{static_cast<std::uint8_t>(habit)}}, program);
   if (edits.empty()) throw rpc::Error(rpc::ErrorCode::RequestFailed, "the program has changed: nothing to rewrite");
-  return workspace_edit(snapshot, to_client(snapshot, edits));
+  return queries::workspace_edit(snapshot, queries::to_client(snapshot, edits));
 }
 
 // --- Silencing
@@ -103,7 +103,7 @@ void offer_silence(const Snapshot& snapshot, const ActionParams& params, std::ve
     Action action{.title = dialect::format(title, snapshot.language(), code),
                   .kind = kQuickFix,
                   .diagnostics = diagnostics_of(snapshot, located, params),
-                  .edit = workspace_edit(snapshot, to_client(snapshot, {edit})),
+                  .edit = queries::workspace_edit(snapshot, queries::to_client(snapshot, {edit})),
                   .data = nullptr};
     const auto is_there = [&](const Action& each) { return each.title == action.title && each.edit == action.edit; };
     if (std::none_of(actions.begin(), actions.end(), is_there)) actions.push_back(std::move(action));
@@ -118,7 +118,7 @@ void offer_silence(const Snapshot& snapshot, const ActionParams& params, std::ve
 
 // --- All at once
 
-std::vector<documents::TextEdit> edits_of_all(const Snapshot& snapshot) {
+std::vector<protocol::TextEdit> edits_of_all(const Snapshot& snapshot) {
   const std::string text = snapshot.document().text();
   const auto pause = [&](check::Report report, std::string_view) {
     snapshot.throw_if_unwanted();
@@ -126,13 +126,13 @@ std::vector<documents::TextEdit> edits_of_all(const Snapshot& snapshot) {
   };
   const fixing::FixedText fixed = fixing::fix_text(
       text, {.selection = snapshot.selection(), .setup = snapshot.check_setup(), .finding_filter = pause});
-  return edits_to(snapshot, fixed.text, fixed.origins);
+  return queries::edits_to(snapshot, fixed.text, fixed.origins);
 }
 
 Json fix_all(const Snapshot& snapshot, const Json&) {
-  const std::vector<documents::TextEdit> edits = edits_of_all(snapshot);
+  const std::vector<protocol::TextEdit> edits = edits_of_all(snapshot);
   if (edits.empty()) throw rpc::Error(rpc::ErrorCode::RequestFailed, "nothing can be fixed safely");
-  return workspace_edit(snapshot, edits);
+  return queries::workspace_edit(snapshot, edits);
 }
 
 void offer_fix_all(const Snapshot& snapshot, const ActionParams&, std::vector<Action>& actions) {
@@ -146,7 +146,7 @@ struct FixAllParams {};
 void from_json(const Json&, FixAllParams&) {}
 
 Json fix_all_now(const Snapshot& snapshot, const FixAllParams&) {
-  return {{"edit", workspace_edit(snapshot, edits_of_all(snapshot))}};
+  return {{"edit", queries::workspace_edit(snapshot, edits_of_all(snapshot))}};
 }
 
 }  // namespace
@@ -156,4 +156,4 @@ extern const Feature fixes = {.commands = {on<&fix_all_now>("isocnc.fixAll")},
                                           {.kind = kQuickFix, .offer = offer_silence},
                                           {.kind = kFixAll, .offer = offer_fix_all, .edit = fix_all}}};
 
-}  // namespace isocnc::lsp::features
+}  // namespace isocnc::features

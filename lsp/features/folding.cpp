@@ -3,12 +3,12 @@
 #include <utility>
 #include <vector>
 
-#include "lsp/documents/jump_paths.h"
-#include "lsp/documents/outline.h"
 #include "lsp/features/feature.h"
+#include "lsp/queries/jump_paths.h"
+#include "lsp/queries/outline.h"
 
 /// Folding ranges: sections, the lines that an IF can skip, comments, and the lines after the program end.
-namespace isocnc::lsp::features {
+namespace isocnc::features {
 namespace {
 
 struct Fold {
@@ -48,15 +48,15 @@ class FoldFinder {
   explicit FoldFinder(const Snapshot& snapshot) : snapshot_(snapshot) {}
 
   std::vector<Fold> find() {
-    for (const documents::Section& section : documents::outline(snapshot_)) {
-      const bool is_long = section.kind == documents::SectionKind::Tool || section.kind == documents::SectionKind::Face;
+    for (const queries::Section& section : queries::outline(snapshot_)) {
+      const bool is_long = section.kind == queries::SectionKind::Tool || section.kind == queries::SectionKind::Face;
       if (is_long) add(section.first_line, section.last_line, "region");
     }
     find_tail();
-    const documents::JumpPaths paths(snapshot_);
-    for (const documents::JumpPaths::ResolvedJump& jump : paths.jumps())
+    const queries::JumpPaths paths(snapshot_);
+    for (const queries::JumpPaths::ResolvedJump& jump : paths.jumps())
       if (jump.target) add(jump.landmark.line, *jump.target - 1);
-    for (const documents::CommentBlock& block : documents::comment_blocks(snapshot_))
+    for (const queries::CommentBlock& block : queries::comment_blocks(snapshot_))
       add(block.first_line, block.last_line, "comment");
     return std::move(folds_);
   }
@@ -79,7 +79,7 @@ class FoldFinder {
   std::vector<Fold> folds_;
 };
 
-std::vector<Fold> answer_folding(const Snapshot& snapshot, const documents::DocumentParams&) {
+std::vector<Fold> answer_folding(const Snapshot& snapshot, const protocol::DocumentParams&) {
   std::vector<Fold> folds = FoldFinder(snapshot).find();
   folds.resize(std::min(folds.size(), limit_of(snapshot.client())));
   std::sort(folds.begin(), folds.end());
@@ -93,4 +93,4 @@ Json folding_capabilities(const Client&) { return {{"foldingRangeProvider", true
 extern const Feature folding = {.capabilities = folding_capabilities,
                                 .methods = {on<&answer_folding>("textDocument/foldingRange")}};
 
-}  // namespace isocnc::lsp::features
+}  // namespace isocnc::features

@@ -4,26 +4,26 @@
 #include <vector>
 
 #include "analyzer/formatting/program_formatter.h"
-#include "interpreter/syntax/characters.h"
-#include "lsp/documents/snapshot_program.h"
-#include "lsp/documents/text_edits.h"
+#include "interpreter/text/characters.h"
 #include "lsp/features/feature.h"
+#include "lsp/queries/snapshot_program.h"
+#include "lsp/queries/text_edits.h"
 
 /// Formats the program as isofmt does, by the configuration. If it cannot be renumbered, the rest is formatted.
-namespace isocnc::lsp::features {
+namespace isocnc::features {
 
-using documents::TextEdit;
 using formatting::LinesFormatter;
 using formatting::ProgramStyle;
+using protocol::TextEdit;
 
 namespace {
 
-struct OnTypeParams : documents::PositionParams {
+struct OnTypeParams : protocol::PositionParams {
   std::string character;
 };
 
 void from_json(const Json& json, OnTypeParams& params) {
-  from_json(json, static_cast<documents::PositionParams&>(params));
+  from_json(json, static_cast<protocol::PositionParams&>(params));
   params.character = json.at("ch");
 }
 
@@ -32,41 +32,42 @@ std::vector<TextEdit> format_lines(const Snapshot& snapshot, LinesFormatter& for
                                    std::size_t behind) {
   std::vector<TextEdit> edits;
   std::size_t number = 0;
-  documents::each_line_of(snapshot)([&](const syntax::LineTree& line) {
+  queries::each_line_of(snapshot)([&](const syntax::LineTree& line) {
     const std::size_t at = number++;
     if (at >= behind) return;
     const syntax::LineChange change = formatter.next(line);
     if (at < first) return;
-    if (auto edit = line_edit(snapshot, at, formatter.written(line, change))) edits.push_back(std::move(*edit));
+    if (auto edit = queries::line_edit(snapshot, at, formatter.written(line, change)))
+      edits.push_back(std::move(*edit));
   });
   return edits;
 }
 
-documents::RawJson format(const Snapshot& snapshot, const documents::DocumentParams&) {
+protocol::RawJson format(const Snapshot& snapshot, const protocol::DocumentParams&) {
   ProgramStyle style = formatting::style_by(snapshot.configuration().format);
-  const formatting::EachLine each_line = documents::each_line_of(snapshot);
+  const formatting::EachLine each_line = queries::each_line_of(snapshot);
   std::optional<LinesFormatter> formatter(std::in_place, style, each_line);
   if (formatter->obstacle()) {
     style.numbers.reset();
     formatter.emplace(style, each_line);
   }
-  return documents::written(format_lines(snapshot, *formatter, 0, snapshot.document().line_count()));
+  return queries::written(format_lines(snapshot, *formatter, 0, snapshot.document().line_count()));
 }
 
 /// Keeps line numbers, which concern the whole program.
-documents::RawJson format_range(const Snapshot& snapshot, const documents::RangeParams& params) {
+protocol::RawJson format_range(const Snapshot& snapshot, const protocol::RangeParams& params) {
   ProgramStyle style = formatting::style_by(snapshot.configuration().format);
   style.numbers.reset();
   LinesFormatter formatter(style, {});
   const bool ends_before_line = params.range.end.character == 0 && params.range.end.line > params.range.start.line;
   const std::size_t behind = std::size_t{params.range.end.line} + (ends_before_line ? 0 : 1);
-  return documents::written(format_lines(snapshot, formatter, params.range.start.line, behind));
+  return queries::written(format_lines(snapshot, formatter, params.range.start.line, behind));
 }
 
 /// The line with all letters outside comments in upper case.
 std::string in_capitals(const syntax::LineTree& line) {
   std::string text(line.text);
-  std::transform(text.begin(), text.end(), text.begin(), syntax::upper);
+  std::transform(text.begin(), text.end(), text.begin(), text::upper);
   for (const syntax::Span comment : line.comments)
     std::copy(line.text.begin() + comment.begin, line.text.begin() + comment.end, text.begin() + comment.begin);
   return text;
@@ -79,12 +80,12 @@ std::vector<TextEdit> format_on_type(const Snapshot& snapshot, const OnTypeParam
   std::optional<TextEdit> edit;
   if (params.character != "\n") {
     const syntax::DocumentLine typed = snapshot.document().line(line);
-    edit = line_edit(snapshot, line, in_capitals(*typed));
+    edit = queries::line_edit(snapshot, line, in_capitals(*typed));
   } else if (line > 0) {
     ProgramStyle style = formatting::style_by(snapshot.configuration().format);
     syntax::Formatter formatter(style.line);
     const syntax::DocumentLine ended = snapshot.document().line(line - 1);
-    edit = line_edit(snapshot, line - 1, formatter.format(*ended));
+    edit = queries::line_edit(snapshot, line - 1, formatter.format(*ended));
   }
   return edit ? std::vector{*edit} : std::vector<TextEdit>{};
 }
@@ -105,4 +106,4 @@ extern const Feature formatting = {
     .methods = {on<&format>("textDocument/formatting"), on<&format_range>("textDocument/rangeFormatting"),
                 on<&format_on_type>("textDocument/onTypeFormatting")}};
 
-}  // namespace isocnc::lsp::features
+}  // namespace isocnc::features

@@ -1,11 +1,11 @@
 #include <optional>
 #include <vector>
 
-#include "lsp/documents/names.h"
 #include "lsp/features/feature.h"
+#include "lsp/queries/names.h"
 
 /// Highlights all occurrences of the label or register under the cursor.
-namespace isocnc::lsp::features {
+namespace isocnc::features {
 namespace {
 
 struct Highlight {
@@ -18,11 +18,11 @@ void to_json(Json& json, const Highlight& highlight) {
 }
 
 std::optional<std::vector<Highlight>> answer_highlights(const Snapshot& snapshot,
-                                                        const documents::PositionParams& params) {
-  const auto name = documents::name_at(snapshot, snapshot.from_client(params.position));
+                                                        const protocol::PositionParams& params) {
+  const auto name = queries::name_at(snapshot, snapshot.from_client(params.position));
   if (!name) return std::nullopt;
   std::vector<Highlight> highlights;
-  for (const documents::Occurrence& each : documents::occurrences(snapshot, name->name))
+  for (const queries::Occurrence& each : queries::occurrences(snapshot, name->name))
     highlights.push_back({snapshot.to_client(each.line, each.span), each.is_definition});
   return highlights;
 }
@@ -34,4 +34,4 @@ Json highlights_capabilities(const Client&) { return {{"documentHighlightProvide
 extern const Feature highlights = {.capabilities = highlights_capabilities,
                                    .methods = {on<&answer_highlights>("textDocument/documentHighlight")}};
 
-}  // namespace isocnc::lsp::features
+}  // namespace isocnc::features

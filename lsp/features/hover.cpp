@@ -14,20 +14,20 @@
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/letters.h"
 #include "interpreter/execution/machine_move.h"
-#include "interpreter/motion/travel.h"
+#include "interpreter/kinematics/travel.h"
 #include "interpreter/simulation/timing.h"
-#include "interpreter/syntax/unicode.h"
-#include "lsp/documents/assignments.h"
-#include "lsp/documents/line_run.h"
+#include "interpreter/text/unicode.h"
 #include "lsp/features/feature.h"
+#include "lsp/queries/assignments.h"
+#include "lsp/queries/line_run.h"
 
 /// Hover: the meaning of a word in its place, the state there, and the findings on it.
-namespace isocnc::lsp::features {
+namespace isocnc::features {
 namespace {
 
 using dialect::Text;
 using documents::LandmarkKind;
-using documents::LineRun;
+using queries::LineRun;
 using syntax::Instruction;
 using syntax::InstructionKind;
 using syntax::Word;
@@ -65,7 +65,7 @@ class HoverWriter {
     add(fmt::format("**{}** {}", as_written(line_.text_of(word_.span())), meaning));
   }
   /// Words of the program or its configuration, as Markdown.
-  static std::string as_written(std::string_view words) { return documents::in_markdown(syntax::printable(words)); }
+  static std::string as_written(std::string_view words) { return protocol::in_markdown(text::printable(words)); }
 
   const Instruction* instruction() const {
     const auto mine = [&](const Instruction& each) {
@@ -150,7 +150,7 @@ class HoverWriter {
     static constexpr Text kRapid = {"at full rapid speed {} s", "alla massima velocità di rapido {} s"};
     static constexpr Text kMotionLength = {"length {} mm", "lunghezza {} mm"};
     static constexpr Text kPartial = {"`?`: that depends on the jumps before", "`?`: dipende dai salti precedenti"};
-    const std::vector<LineRun> runs = documents::run_line_on_all_paths(snapshot_, line_number_);
+    const std::vector<LineRun> runs = queries::run_line_on_all_paths(snapshot_, line_number_);
     const auto is_unclear = [](const LineRun& run) {
       return !run.move || run.after.unknown != 0 || !run.moved_in.is_frame_known();
     };
@@ -197,8 +197,8 @@ class HoverWriter {
   /// The length of the tip's path in mm. In a rapid that turns B or C the tip swings.
   double tip_length(const execution::MachineMove& move, const LineRun& run) const {
     const simulation::TimedMachine& machine = snapshot_.configuration().machine.timed;
-    return motion::tip_travel(machine.motion,
-                              simulation::planned_move(move, machine, machine.tool_length(run.after.tool)))
+    return kinematics::tip_travel(machine.motion,
+                                  simulation::planned_move(move, machine, machine.tool_length(run.after.tool)))
         .length;
   }
 
@@ -224,7 +224,7 @@ class HoverWriter {
 
   void describe_dwell() {
     static constexpr Text kWaits = {"waits {} s", "attende {} s"};
-    const std::vector<LineRun> runs = documents::run_line_on_all_paths(snapshot_, line_number_);
+    const std::vector<LineRun> runs = queries::run_line_on_all_paths(snapshot_, line_number_);
     if (!runs.empty() && runs.front().dwell > 0) add(text(kWaits, shown(runs.front().dwell)));
   }
 
@@ -336,10 +336,10 @@ class HoverWriter {
   void describe_values() {
     static constexpr Text kMayBe = {"here it may be {}", "qui può valere {}"};
     static constexpr Text kValue = {"{} (line {})", "{} (riga {})"};
-    const auto read = documents::name_at(snapshot_, {line_number_, word_.begin});
+    const auto read = queries::name_at(snapshot_, {line_number_, word_.begin});
     if (!read || read->is_definition) return;
     std::vector<std::string> values;
-    for (const documents::Occurrence& each : documents::assignments_reaching(snapshot_, *read)) {
+    for (const queries::Occurrence& each : queries::assignments_reaching(snapshot_, *read)) {
       if (values.size() == kMaxPlaces) break;
       const syntax::DocumentLine assigning = snapshot_.document().line(each.line);
       const syntax::LineTree& line = *assigning;
@@ -372,7 +372,7 @@ class HoverWriter {
   std::vector<std::string> paragraphs_;
 };
 
-std::optional<Hover> answer_hover(const Snapshot& snapshot, const documents::PositionParams& params) {
+std::optional<Hover> answer_hover(const Snapshot& snapshot, const protocol::PositionParams& params) {
   const syntax::Position place = snapshot.from_client(params.position);
   const syntax::DocumentLine read = snapshot.document().line(place.line);
   const syntax::LineTree& line = *read;
@@ -390,4 +390,4 @@ Json hover_capabilities(const Client&) { return {{"hoverProvider", true}}; }
 
 extern const Feature hover = {.capabilities = hover_capabilities, .methods = {on<&answer_hover>("textDocument/hover")}};
 
-}  // namespace isocnc::lsp::features
+}  // namespace isocnc::features

@@ -10,13 +10,13 @@
 
 #include "interpreter/execution/execute.h"
 #include "interpreter/execution/silent_sink.h"
-#include "lsp/documents/jump_paths.h"
-#include "lsp/documents/section_times.h"
 #include "lsp/features/feature.h"
+#include "lsp/queries/jump_paths.h"
+#include "lsp/queries/section_times.h"
 
 /// Inlay hints: where incremental motions end, the G in force for coordinates without G, and when a tool section
 /// starts.
-namespace isocnc::lsp::features {
+namespace isocnc::features {
 
 using execution::State;
 using syntax::LineTree;
@@ -64,7 +64,7 @@ class StateWalk {
 
  private:
   const Snapshot& snapshot_;
-  const documents::JumpPaths paths_;
+  const queries::JumpPaths paths_;
   std::optional<State> state_;
 };
 
@@ -141,11 +141,11 @@ class HintFinder {
 /// the code lenses have started the timing.
 constexpr std::size_t kMaxLinesToTime = 20'000;
 
-std::shared_ptr<const documents::Sections> timed_sections(const Snapshot& snapshot) {
-  const auto times = documents::SectionTimes::of(snapshot);
+std::shared_ptr<const queries::Sections> timed_sections(const Snapshot& snapshot) {
+  const auto times = queries::SectionTimes::of(snapshot);
   if (auto known = times->known(snapshot)) return known;
   if (snapshot.document().line_count() > kMaxLinesToTime) return nullptr;
-  return times->time(documents::TimedProgram(snapshot, 0), [&] {
+  return times->time(queries::TimedProgram(snapshot, 0), [&] {
     snapshot.throw_if_unwanted();
     return false;
   });
@@ -166,14 +166,14 @@ void add_section_times(const Snapshot& snapshot, std::size_t first, std::size_t 
     const syntax::DocumentLine read = snapshot.document().line(change.line);
     const syntax::LineTree& line = *read;
     hints.push_back({.position = snapshot.to_client({change.line, line.words.back().end}),
-                     .label = documents::clock_text(section->second.start),
+                     .label = queries::clock_text(section->second.start),
                      .tooltip = kTooltip.in(snapshot.language()),
                      .is_after = true});
   }
 }
 
-std::vector<Hint> answer_inlay_hints(const Snapshot& snapshot, const documents::RangeParams& params) {
-  const documents::ClientSettings& settings = snapshot.client().settings;
+std::vector<Hint> answer_inlay_hints(const Snapshot& snapshot, const protocol::RangeParams& params) {
+  const protocol::ClientSettings& settings = snapshot.client().settings;
   const std::size_t first = snapshot.from_client(params.range.start).line;
   const std::size_t last = snapshot.from_client(params.range.end).line;
   std::vector<Hint> times;
@@ -198,4 +198,4 @@ extern const Feature inlay_hints = {
     .methods = {on<&answer_inlay_hints>("textDocument/inlayHint")},
     .refresh = Refresh{"workspace/inlayHint/refresh", "/workspace/inlayHint/refreshSupport"}};
 
-}  // namespace isocnc::lsp::features
+}  // namespace isocnc::features

@@ -9,7 +9,7 @@
 
 /// Inline values, shown beside the lines while a program is debugged: the registers and VGPL in each line, whose values
 /// the debugger supplies.
-namespace isocnc::lsp::features {
+namespace isocnc::features {
 namespace {
 
 struct InlineVariable {
@@ -21,12 +21,12 @@ void to_json(Json& json, const InlineVariable& variable) {
   json = {{"range", variable.range}, {"variableName", variable.name}, {"caseSensitiveLookup", false}};
 }
 
-struct InlineValueParams : documents::RangeParams {
+struct InlineValueParams : protocol::RangeParams {
   std::size_t stopped_line = 0;
 };
 
 void from_json(const Json& json, InlineValueParams& params) {
-  from_json(json, static_cast<documents::RangeParams&>(params));
+  from_json(json, static_cast<protocol::RangeParams&>(params));
   params.stopped_line = json.at("context").at("stoppedLocation").get<ClientRange>().end.line;
 }
 
@@ -56,4 +56,4 @@ Json inline_values_capabilities(const Client&) { return {{"inlineValueProvider",
 extern const Feature inline_values = {.capabilities = inline_values_capabilities,
                                       .methods = {on<&answer_inline_values>("textDocument/inlineValue")}};
 
-}  // namespace isocnc::lsp::features
+}  // namespace isocnc::features

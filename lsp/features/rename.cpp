@@ -7,30 +7,30 @@
 #include <fmt/format.h>
 
 #include "interpreter/dialect/format.h"
-#include "interpreter/syntax/characters.h"
-#include "lsp/documents/names.h"
-#include "lsp/documents/text_edits.h"
+#include "interpreter/text/characters.h"
 #include "lsp/features/feature.h"
+#include "lsp/queries/names.h"
+#include "lsp/queries/text_edits.h"
 
 /// Renames a label and its GOTOs, or a register, if that keeps the program's behavior.
-namespace isocnc::lsp::features {
+namespace isocnc::features {
 
 using dialect::Text;
-using documents::Name;
-using documents::NameKind;
-using documents::Occurrence;
+using queries::Name;
+using queries::NameKind;
+using queries::Occurrence;
 
 /// The number of digits that a double holds without loss.
 static constexpr std::size_t kMaxDigits = 15;
 
 namespace {
 
-struct RenameParams : documents::PositionParams {
+struct RenameParams : protocol::PositionParams {
   std::string new_name;
 };
 
 void from_json(const Json& json, RenameParams& params) {
-  from_json(json, static_cast<documents::PositionParams&>(params));
+  from_json(json, static_cast<protocol::PositionParams&>(params));
   params.new_name = json.at("newName");
 }
 
@@ -52,20 +52,20 @@ template <class... Arguments>
 }
 
 Occurrence renamed_at(const Snapshot& snapshot, const ClientPosition& position) {
-  if (const auto name = documents::name_at(snapshot, snapshot.from_client(position))) return *name;
+  if (const auto name = queries::name_at(snapshot, snapshot.from_client(position))) return *name;
   refuse(snapshot, {"only line numbers and registers can be renamed", "si rinominano solo numeri di linea e registri"});
 }
 
 /// Reads `N30`, `n30` or `30`; nothing if such a name cannot have that number.
 std::optional<Name> read_name(std::string_view text, NameKind kind) {
-  const auto is_blank_at = [&](std::size_t at) { return syntax::is_blank(text[at]); };
+  const auto is_blank_at = [&](std::size_t at) { return text::is_blank(text[at]); };
   while (!text.empty() && is_blank_at(0)) text.remove_prefix(1);
   while (!text.empty() && is_blank_at(text.size() - 1)) text.remove_suffix(1);
-  if (!text.empty() && syntax::upper(text[0]) == letter_of(kind)) text.remove_prefix(1);
+  if (!text.empty() && text::upper(text[0]) == letter_of(kind)) text.remove_prefix(1);
   if (text.empty() || text.size() > kMaxDigits) return std::nullopt;
   std::uint64_t number = 0;
   for (const char digit : text) {
-    if (!syntax::is_digit(digit)) return std::nullopt;
+    if (!text::is_digit(digit)) return std::nullopt;
     number = number * 10 + static_cast<std::uint64_t>(digit - '0');
   }
   if (kind == NameKind::Register && !dialect::is_register(static_cast<double>(number))) return std::nullopt;
@@ -74,7 +74,7 @@ std::optional<Name> read_name(std::string_view text, NameKind kind) {
 
 /// Throws if the name is already used: two merged names could no longer be distinguished.
 void require_free(const Snapshot& snapshot, const Name& name) {
-  const std::vector<Occurrence> taken = documents::occurrences(snapshot, name);
+  const std::vector<Occurrence> taken = queries::occurrences(snapshot, name);
   if (taken.empty()) return;
   refuse(snapshot, {"{} is taken: it stands in line {}", "{} è già usato alla linea {}"}, text_of(name),
          taken.front().line + 1);
@@ -82,7 +82,7 @@ void require_free(const Snapshot& snapshot, const Name& name) {
 
 /// All places to rename. A line number that no GOTO names is renamed on its own line only.
 std::vector<Occurrence> meant_with(const Snapshot& snapshot, const Occurrence& chosen) {
-  std::vector<Occurrence> all = documents::occurrences(snapshot, chosen.name);
+  std::vector<Occurrence> all = queries::occurrences(snapshot, chosen.name);
   for (const Occurrence& each : all)
     if (chosen.name.kind == NameKind::Register || !each.is_definition) return all;
   return {chosen};
@@ -90,11 +90,11 @@ std::vector<Occurrence> meant_with(const Snapshot& snapshot, const Occurrence& c
 
 /// Replaces only the digits: letter, blanks and comments stay.
 void write(const Snapshot& snapshot, const Occurrence& place, const std::string& digits,
-           std::vector<documents::TextEdit>& edits) {
+           std::vector<protocol::TextEdit>& edits) {
   const syntax::DocumentLine read = snapshot.document().line(place.line);
   const syntax::LineTree& line = *read;
   bool is_first = true;
-  for (const syntax::Span piece : documents::outside_comments(line, {place.span.begin + 1, place.span.end}))
+  for (const syntax::Span piece : queries::outside_comments(line, {place.span.begin + 1, place.span.end}))
     edits.push_back({snapshot.to_client(place.line, piece), std::exchange(is_first, false) ? digits : ""});
 }
 
@@ -106,16 +106,16 @@ Json rename_at(const Snapshot& snapshot, const RenameParams& params) {
   if (!name)
     refuse(snapshot, {"a line number is N with 1 to {} digits", "un numero di linea è N seguita da 1 a {} cifre"},
            kMaxDigits);
-  std::vector<documents::TextEdit> edits;
-  if (*name == chosen.name) return workspace_edit(snapshot, edits);
+  std::vector<protocol::TextEdit> edits;
+  if (*name == chosen.name) return queries::workspace_edit(snapshot, edits);
   require_free(snapshot, *name);
   for (const Occurrence& each : meant_with(snapshot, chosen))
     write(snapshot, each, fmt::to_string(name->number), edits);
-  return workspace_edit(snapshot, edits);
+  return queries::workspace_edit(snapshot, edits);
 }
 
-std::optional<Prepared> prepare(const Snapshot& snapshot, const documents::PositionParams& params) {
-  const auto name = documents::name_at(snapshot, snapshot.from_client(params.position));
+std::optional<Prepared> prepare(const Snapshot& snapshot, const protocol::PositionParams& params) {
+  const auto name = queries::name_at(snapshot, snapshot.from_client(params.position));
   if (!name) return std::nullopt;
   return Prepared{snapshot.to_client(name->line, name->span), text_of(name->name)};
 }
@@ -131,4 +131,4 @@ extern const Feature rename = {
     .capabilities = rename_capabilities,
     .methods = {on<&rename_at>("textDocument/rename"), on<&prepare>("textDocument/prepareRename")}};
 
-}  // namespace isocnc::lsp::features
+}  // namespace isocnc::features

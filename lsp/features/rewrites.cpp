@@ -4,20 +4,20 @@
 
 #include "analyzer/fixing/rewriting.h"
 #include "analyzer/formatting/program_formatter.h"
-#include "lsp/documents/snapshot_program.h"
-#include "lsp/documents/text_edits.h"
 #include "lsp/features/feature.h"
+#include "lsp/queries/snapshot_program.h"
+#include "lsp/queries/text_edits.h"
 
 /// Code actions that write the program differently and keep its motions.
-namespace isocnc::lsp::features {
+namespace isocnc::features {
 
 using dialect::Text;
-using documents::TextEdit;
 using fixing::Rewrite;
 using formatting::LinesFormatter;
 using formatting::MotionStyle;
 using formatting::NumberStyle;
 using formatting::ProgramStyle;
+using protocol::TextEdit;
 
 /// The maximum number of lines of a selection that is examined before an action is offered; a longer one is examined
 /// after the user has chosen the action.
@@ -68,10 +68,10 @@ constexpr Text kNotTheSame = {
 [[noreturn]] void refuse(std::string_view why) { throw rpc::Error(rpc::ErrorCode::RequestFailed, std::string(why)); }
 
 std::optional<Json> try_rewrite(const Snapshot& snapshot, Rewrite how, std::size_t first, std::size_t last) {
-  documents::SnapshotProgram program(snapshot);
+  queries::SnapshotProgram program(snapshot);
   const auto edits = fixing::rewrite(how, program, snapshot.setup(), first, last);
   if (!edits) return std::nullopt;
-  return workspace_edit(snapshot, to_client(snapshot, *edits));
+  return queries::workspace_edit(snapshot, queries::to_client(snapshot, *edits));
 }
 
 void offer_rewrites(const Snapshot& snapshot, const ActionParams& params, std::vector<Action>& actions) {
@@ -103,7 +103,7 @@ Json make_rewrite(const Snapshot& snapshot, const Json& data) {
 /// The edits of lines `first` to `last` that change more than blanks and letter case.
 std::vector<TextEdit> formatted(const Snapshot& snapshot, const ProgramStyle& style, std::size_t first,
                                 std::size_t last) {
-  const formatting::EachLine each_line = documents::each_line_of(snapshot);
+  const formatting::EachLine each_line = queries::each_line_of(snapshot);
   LinesFormatter formatter(style, each_line);
   if (formatter.obstacle()) refuse(formatter.obstacle()->message(snapshot.language()));
   std::vector<TextEdit> edits;
@@ -113,7 +113,8 @@ std::vector<TextEdit> formatted(const Snapshot& snapshot, const ProgramStyle& st
     const std::size_t at = number++;
     const bool changes = change.motion != syntax::LineChange::Motion::Keep || change.line_number || change.target;
     if (!changes || at < first || at > last) return;
-    if (auto edit = line_edit(snapshot, at, formatter.written(line, change))) edits.push_back(std::move(*edit));
+    if (auto edit = queries::line_edit(snapshot, at, formatter.written(line, change)))
+      edits.push_back(std::move(*edit));
   });
   return edits;
 }
@@ -166,7 +167,7 @@ Json make_styling(const Snapshot& snapshot, const Json& data) {
   const ProgramStyle style = kStyleActions[index].style(snapshot.configuration().format);
   const std::vector<TextEdit> edits = formatted(snapshot, style, data.at("first"), data.at("last"));
   if (edits.empty()) refuse(kNothing.in(snapshot.language()));
-  return workspace_edit(snapshot, edits);
+  return queries::workspace_edit(snapshot, edits);
 }
 
 struct NoParams {};
@@ -174,7 +175,8 @@ void from_json(const Json&, NoParams&) {}
 
 Json renumber(const Snapshot& snapshot, const NoParams&) {
   const ProgramStyle style = numbering(snapshot.configuration().format);
-  return {{"edit", workspace_edit(snapshot, formatted(snapshot, style, 0, snapshot.document().line_count() - 1))}};
+  return {
+      {"edit", queries::workspace_edit(snapshot, formatted(snapshot, style, 0, snapshot.document().line_count() - 1))}};
 }
 
 }  // namespace
@@ -184,4 +186,4 @@ extern const Feature rewrites = {
     .actions = {{.kind = "refactor.rewrite", .offer = offer_rewrites, .edit = make_rewrite},
                 {.kind = "refactor.rewrite", .offer = offer_style_actions, .edit = make_styling}}};
 
-}  // namespace isocnc::lsp::features
+}  // namespace isocnc::features

@@ -1,24 +1,24 @@
 #include <utility>
 #include <vector>
 
-#include "lsp/documents/names.h"
-#include "lsp/documents/outline.h"
 #include "lsp/features/feature.h"
+#include "lsp/queries/names.h"
+#include "lsp/queries/outline.h"
 
 /// Selection ranges: a selection grows to number, word, instruction, line, section, program.
-namespace isocnc::lsp::features {
+namespace isocnc::features {
 
 using syntax::LineTree;
 using syntax::Span;
 
 namespace {
 
-struct SelectionRangeParams : documents::DocumentParams {
+struct SelectionRangeParams : protocol::DocumentParams {
   std::vector<ClientPosition> positions;
 };
 
 void from_json(const Json& json, SelectionRangeParams& params) {
-  from_json(json, static_cast<documents::DocumentParams&>(params));
+  from_json(json, static_cast<protocol::DocumentParams&>(params));
   params.positions = json.at("positions").get<std::vector<ClientPosition>>();
 }
 
@@ -64,7 +64,7 @@ std::vector<Span> spans_at(const LineTree& line, std::uint32_t column) {
     add(comment);
   }
   if (const syntax::Word* const word = spans.empty() ? word_at(line, column) : nullptr) {
-    for (const Span piece : documents::outside_comments(line, {word->begin + 1, word->end}))
+    for (const Span piece : queries::outside_comments(line, {word->begin + 1, word->end}))
       if (dialect::contains(dialect::kWordLetters, word->letter)) add(piece);
     add(word->span());
     add(instruction_span(line, *word));
@@ -78,7 +78,7 @@ std::vector<Span> spans_at(const LineTree& line, std::uint32_t column) {
 }
 
 std::vector<SelectionRange> answer_selection_ranges(const Snapshot& snapshot, const SelectionRangeParams& params) {
-  const std::vector<documents::Section> sections = documents::outline(snapshot);
+  const std::vector<queries::Section> sections = queries::outline(snapshot);
   const auto lines = [&](std::size_t first, std::size_t last) {
     return ClientRange{snapshot.to_client({first, 0}),
                        snapshot.to_client({last, snapshot.document().text_of_line(last).size()})};
@@ -110,4 +110,4 @@ Json selection_ranges_capabilities(const Client&) { return {{"selectionRangeProv
 extern const Feature selection_ranges = {.capabilities = selection_ranges_capabilities,
                                          .methods = {on<&answer_selection_ranges>("textDocument/selectionRange")}};
 
-}  // namespace isocnc::lsp::features
+}  // namespace isocnc::features

@@ -9,13 +9,13 @@
 
 #include <fmt/format.h>
 
-#include "interpreter/syntax/characters.h"
-#include "lsp/documents/names.h"
+#include "interpreter/text/characters.h"
 #include "lsp/features/feature.h"
+#include "lsp/queries/names.h"
 
 /// Semantic tokens: the kind of each word, for the editor's colors. Tokens depend only on their line, so that chunks
 /// which an edit has not touched keep their tokens.
-namespace isocnc::lsp::features {
+namespace isocnc::features {
 
 using syntax::LineTree;
 using syntax::Span;
@@ -113,11 +113,11 @@ class LineTokens {
   /// Adds a token. Tokens must not overlap, so a comment within a word divides it.
   void add(Span span, Type type, unsigned modifiers = 0) {
     if (line_->comments.empty()) {
-      while (!span.empty() && syntax::is_blank(line_->text[span.begin])) ++span.begin;
+      while (!span.empty() && text::is_blank(line_->text[span.begin])) ++span.begin;
       if (!span.empty()) tokens_.push_back({span, type, modifiers});
       return;
     }
-    for (const Span piece : documents::outside_comments(*line_, span)) tokens_.push_back({piece, type, modifiers});
+    for (const Span piece : queries::outside_comments(*line_, span)) tokens_.push_back({piece, type, modifiers});
   }
 
   const LineTree* line_ = nullptr;
@@ -166,7 +166,7 @@ class Encoder {
 
  private:
   std::uint32_t units(const LineTree& line, std::uint32_t begin, std::uint32_t end) const {
-    return documents::units_before(line.text.substr(begin, end - begin), end - begin, snapshot_.client().encoding);
+    return protocol::units_before(line.text.substr(begin, end - begin), end - begin, snapshot_.client().encoding);
   }
 
   void put(std::uint32_t number) {
@@ -205,7 +205,7 @@ std::size_t sum_of_tokens(const std::vector<SentTokens::TokenChunk>& chunks, std
   return sum;
 }
 
-documents::RawJson all_tokens(const Snapshot& snapshot) {
+protocol::RawJson all_tokens(const Snapshot& snapshot) {
   Encoder encoder(snapshot);
   std::vector<SentTokens::TokenChunk> chunks;
   for (std::size_t chunk = 0; chunk < snapshot.document().chunk_count(); ++chunk) {
@@ -220,9 +220,9 @@ documents::RawJson all_tokens(const Snapshot& snapshot) {
   return {fmt::format(R"({{"resultId":"{}","data":{}}})", sent.id, encoder.data())};
 }
 
-documents::RawJson full(const Snapshot& snapshot, const documents::DocumentParams&) { return all_tokens(snapshot); }
+protocol::RawJson full(const Snapshot& snapshot, const protocol::DocumentParams&) { return all_tokens(snapshot); }
 
-documents::RawJson range(const Snapshot& snapshot, const documents::RangeParams& params) {
+protocol::RawJson range(const Snapshot& snapshot, const protocol::RangeParams& params) {
   const std::size_t first = snapshot.from_client(params.range.start).line;
   const std::size_t last = snapshot.from_client(params.range.end).line;
   Encoder encoder(snapshot);
@@ -236,12 +236,12 @@ documents::RawJson range(const Snapshot& snapshot, const documents::RangeParams&
 
 // --- Changes since the last answer
 
-struct DeltaParams : documents::DocumentParams {
+struct DeltaParams : protocol::DocumentParams {
   std::string previous_result_id;
 };
 
 void from_json(const Json& json, DeltaParams& params) {
-  from_json(json, static_cast<documents::DocumentParams&>(params));
+  from_json(json, static_cast<protocol::DocumentParams&>(params));
   params.previous_result_id = json.at("previousResultId");
 }
 
@@ -298,7 +298,7 @@ std::string edits_since(const Snapshot& snapshot, SentTokens& sent) {
   return fmt::format(R"([{{"start":{},"deleteCount":{},"data":{}}}])", 5 * start, 5 * deleted, encoder.data());
 }
 
-documents::RawJson delta(const Snapshot& snapshot, const DeltaParams& params) {
+protocol::RawJson delta(const Snapshot& snapshot, const DeltaParams& params) {
   auto& sent = snapshot.memory<SentTokens>();
   if (sent.id.empty() || sent.id != params.previous_result_id) return all_tokens(snapshot);
   const std::string edits = edits_since(snapshot, sent);
@@ -320,4 +320,4 @@ extern const Feature semantic_tokens = {
     .methods = {on<&full>("textDocument/semanticTokens/full"), on<&delta>("textDocument/semanticTokens/full/delta"),
                 on<&range>("textDocument/semanticTokens/range")}};
 
-}  // namespace isocnc::lsp::features
+}  // namespace isocnc::features

@@ -10,7 +10,7 @@
 #include "lsp/features/feature.h"
 
 /// Signature help: the arguments of the instruction under the cursor, and the one that is being written.
-namespace isocnc::lsp::features {
+namespace isocnc::features {
 
 using dialect::Language;
 using dialect::Text;
@@ -166,7 +166,7 @@ Signature of_assignment(const LineTree& line, std::size_t column, Language langu
           has_sign ? std::size_t{1} : std::size_t{0}};
 }
 
-std::optional<Signature> answer_signature_help(const Snapshot& snapshot, const documents::PositionParams& params) {
+std::optional<Signature> answer_signature_help(const Snapshot& snapshot, const protocol::PositionParams& params) {
   const syntax::Position place = snapshot.from_client(params.position);
   const syntax::DocumentLine read = snapshot.document().line(place.line);
   const syntax::LineTree& line = *read;
@@ -209,4 +209,4 @@ Json signature_help_capabilities(const Client&) {
 extern const Feature signature_help = {.capabilities = signature_help_capabilities,
                                        .methods = {on<&answer_signature_help>("textDocument/signatureHelp")}};
 
-}  // namespace isocnc::lsp::features
+}  // namespace isocnc::features

@@ -5,12 +5,12 @@
 
 #include <fmt/format.h>
 
-#include "interpreter/syntax/characters.h"
-#include "lsp/documents/outline.h"
+#include "interpreter/text/characters.h"
 #include "lsp/features/feature.h"
+#include "lsp/queries/outline.h"
 
 /// Workspace symbols: the sections of all programs in the workspace.
-namespace isocnc::lsp::features {
+namespace isocnc::features {
 namespace {
 
 /// The maximum number of symbols of one program; to see others the user types more of the name.
@@ -21,12 +21,12 @@ struct Query {
   std::optional<std::string> text;
 };
 
-void from_json(const Json& json, Query& query) { query.text = documents::member<std::string>(json, "query"); }
+void from_json(const Json& json, Query& query) { query.text = protocol::member<std::string>(json, "query"); }
 
 struct Symbol {
   std::string name;
   int kind = 0;
-  documents::Location location;
+  protocol::Location location;
 };
 
 void to_json(Json& json, const Symbol& symbol) {
@@ -37,19 +37,19 @@ void to_json(Json& json, const Symbol& symbol) {
 bool fits(std::string_view text, std::string_view query) {
   std::size_t matched = 0;
   for (const char c : text)
-    if (matched < query.size() && syntax::upper(c) == syntax::upper(query[matched])) ++matched;
+    if (matched < query.size() && text::upper(c) == text::upper(query[matched])) ++matched;
   return matched == query.size();
 }
 
 std::vector<Symbol> answer_workspace_symbols(const Snapshot& snapshot, const Query& query) {
   std::vector<Symbol> symbols;
-  for (const documents::Section& section : documents::outline(snapshot)) {
+  for (const queries::Section& section : queries::outline(snapshot)) {
     if (query.text && symbols.size() == kMaxSymbols) break;
     const std::string name =
         section.detail.empty() ? section.title : fmt::format("{} {}", section.title, section.detail);
     if (fits(name, query.text.value_or("")))
       symbols.push_back({name,
-                         documents::symbol_kind(section.kind),
+                         queries::symbol_kind(section.kind),
                          {snapshot.uri(), snapshot.to_client(section.head_line, section.head)}});
   }
   return symbols;
@@ -78,4 +78,4 @@ extern const Feature workspace_symbols = {
     .capabilities = workspace_symbols_capabilities,
     .workspace_requests = {workspace_request<&answer_workspace_symbols>("workspace/symbol", conclude_symbols)}};
 
-}  // namespace isocnc::lsp::features
+}  // namespace isocnc::features

@@ -13,7 +13,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-namespace isocnc::lsp::rpc {
+namespace isocnc::rpc {
 
 /// The number of unsent bytes from which we stop reading from the other side.
 static constexpr std::size_t kMaxUnsent = std::size_t{64} << 20;
@@ -141,4 +141,4 @@ bool Channel::write_some(std::string_view& bytes) const {
   return true;
 }
 
-}  // namespace isocnc::lsp::rpc
+}  // namespace isocnc::rpc

@@ -10,7 +10,7 @@
 
 #include "lsp/rpc/frame.h"
 
-namespace isocnc::lsp::rpc {
+namespace isocnc::rpc {
 
 /// The file descriptors to read from and to write to; for a socket they are the same.
 struct Descriptors {
@@ -57,4 +57,4 @@ class Channel {
   std::thread writer_;
 };
 
-}  // namespace isocnc::lsp::rpc
+}  // namespace isocnc::rpc

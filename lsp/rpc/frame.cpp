@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-namespace isocnc::lsp::rpc {
+namespace isocnc::rpc {
 
 static constexpr std::string_view kLengthField = "content-length:";
 
@@ -139,4 +139,4 @@ std::string_view FrameReader::find_header(std::string_view bytes) {
 
 std::string frame_header(std::size_t length) { return fmt::format("Content-Length: {}\r\n\r\n", length); }
 
-}  // namespace isocnc::lsp::rpc
+}  // namespace isocnc::rpc

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace isocnc::lsp::rpc {
+namespace isocnc::rpc {
 
 /// The body of one message, or the reason why there is none.
 struct MessageFrame {
@@ -58,4 +58,4 @@ class FrameReader {
 /// The header of a message whose body has this length in bytes.
 std::string frame_header(std::size_t length);
 
-}  // namespace isocnc::lsp::rpc
+}  // namespace isocnc::rpc

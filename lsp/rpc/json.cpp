@@ -2,7 +2,7 @@
 
 template class nlohmann::basic_json<>;
 
-namespace isocnc::lsp::rpc {
+namespace isocnc::rpc {
 
 /// Ignores brackets within strings.
 static bool nests_too_deeply(std::string_view text) {
@@ -26,4 +26,4 @@ Json parse(std::string_view text) {
   return nests_too_deeply(text) ? Json(Json::value_t::discarded) : Json::parse(text, nullptr, false);
 }
 
-}  // namespace isocnc::lsp::rpc
+}  // namespace isocnc::rpc

@@ -8,7 +8,7 @@
 // Compiled once, in json.cpp.
 extern template class nlohmann::basic_json<>;
 
-namespace isocnc::lsp::rpc {
+namespace isocnc::rpc {
 
 /// Objects keep their keys in a tree: the cost of a message with 100,000 keys stays in proportion to its length.
 using Json = nlohmann::json;
@@ -21,4 +21,4 @@ inline constexpr std::size_t kDeepestMessage = 256;
 /// `discarded` value of nlohmann-json.
 Json parse(std::string_view text);
 
-}  // namespace isocnc::lsp::rpc
+}  // namespace isocnc::rpc

@@ -8,7 +8,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-namespace isocnc::lsp::rpc {
+namespace isocnc::rpc {
 
 std::variant<int, std::error_code> accept_on_loopback(std::uint16_t port,
                                                       const std::function<void(std::uint16_t)>& on_port) {
@@ -37,4 +37,4 @@ std::variant<int, std::error_code> accept_on_loopback(std::uint16_t port,
   return connection;
 }
 
-}  // namespace isocnc::lsp::rpc
+}  // namespace isocnc::rpc

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace isocnc::lsp::rpc {
+namespace isocnc::rpc {
 
 /// The placeholder for a long string is this text and a number. If the other side sends such a text itself, it is read
 /// as a long string of the same message, which does no harm.
@@ -147,4 +147,4 @@ std::string LongText::read() const {
   }
 }
 
-}  // namespace isocnc::lsp::rpc
+}  // namespace isocnc::rpc

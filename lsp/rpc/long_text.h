@@ -8,7 +8,7 @@
 
 #include "lsp/rpc/json.h"
 
-namespace isocnc::lsp::rpc {
+namespace isocnc::rpc {
 
 /// A string of a message, still in its JSON form, which shares ownership of the message. The text of a program may be
 /// hundreds of megabytes, so it is decoded on the thread that needs it, and not on the one that dispatches messages.
@@ -42,4 +42,4 @@ class ParsedMessage {
   std::vector<LongText> long_texts_;
 };
 
-}  // namespace isocnc::lsp::rpc
+}  // namespace isocnc::rpc

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace isocnc::lsp::rpc {
+namespace isocnc::rpc {
 
 void Loop::post(Task task) {
   {
@@ -44,4 +44,4 @@ void Loop::run(std::chrono::milliseconds idle_after, const Task& idle) {
   }
 }
 
-}  // namespace isocnc::lsp::rpc
+}  // namespace isocnc::rpc

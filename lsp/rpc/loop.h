@@ -7,7 +7,7 @@
 #include <map>
 #include <mutex>
 
-namespace isocnc::lsp::rpc {
+namespace isocnc::rpc {
 
 /// An event loop: runs tasks on one thread, one after another in the order in which they were posted by any thread. A
 /// task must be short and must never wait: longer work is done on another thread, which posts a task with the result.
@@ -32,4 +32,4 @@ class Loop {
   bool stopped_ = false;  // Used on the loop's thread only.
 };
 
-}  // namespace isocnc::lsp::rpc
+}  // namespace isocnc::rpc

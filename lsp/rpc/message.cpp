@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace isocnc::lsp::rpc {
+namespace isocnc::rpc {
 
 const Json& Call::params() const {
   static const Json kNone;
@@ -59,4 +59,4 @@ std::string request_message(std::int64_t id, std::string_view method, std::strin
   return fmt::format(R"({{"jsonrpc":"2.0","id":{},"method":"{}","params":{}}})", id, method, params);
 }
 
-}  // namespace isocnc::lsp::rpc
+}  // namespace isocnc::rpc

@@ -9,7 +9,7 @@
 
 #include "lsp/rpc/long_text.h"
 
-namespace isocnc::lsp::rpc {
+namespace isocnc::rpc {
 
 /// The codes of JSON-RPC 2.0, and those that LSP adds.
 enum class ErrorCode : int {
@@ -73,4 +73,4 @@ std::string request_message(std::int64_t id, std::string_view method, std::strin
 /// Writes JSON as it is sent: without blanks, and with invalid UTF-8 replaced.
 std::string write(const Json& json);
 
-}  // namespace isocnc::lsp::rpc
+}  // namespace isocnc::rpc

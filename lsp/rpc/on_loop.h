@@ -6,7 +6,7 @@
 
 #include "lsp/rpc/loop.h"
 
-namespace isocnc::lsp::rpc {
+namespace isocnc::rpc {
 
 /// A callback that runs on the loop's thread, whichever thread calls it: the call posts a task with the arguments to
 /// the loop, and returns. So it may use data that belongs to the loop's thread.
@@ -41,4 +41,4 @@ class OnWorker {
   std::function<void(Arguments...)> callback_;
 };
 
-}  // namespace isocnc::lsp::rpc
+}  // namespace isocnc::rpc

@@ -14,7 +14,7 @@
 #include "lsp/rpc/channel.h"
 #include "lsp/rpc/listen.h"
 
-namespace isocnc::lsp::rpc {
+namespace isocnc::rpc {
 
 /// The time without a message after which the peer may check whether the client still exists.
 static constexpr std::chrono::seconds kIdleInterval{3};
@@ -62,4 +62,4 @@ void serve(const std::optional<std::uint16_t>& port, const MakePeer& make_peer,
   run_peer({std::get<int>(accepted), std::get<int>(accepted)}, make_peer);
 }
 
-}  // namespace isocnc::lsp::rpc
+}  // namespace isocnc::rpc

@@ -9,7 +9,7 @@
 #include "lsp/rpc/frame.h"
 #include "lsp/rpc/loop.h"
 
-namespace isocnc::lsp::rpc {
+namespace isocnc::rpc {
 
 /// Our side of the conversation with one client. Runs on the loop's thread, and stops the loop when it is done.
 class Peer {
@@ -35,4 +35,4 @@ using MakePeer = std::function<std::unique_ptr<Peer>(Loop& loop, Send send)>;
 void serve(const std::optional<std::uint16_t>& port, const MakePeer& make_peer,
            const std::function<void(const std::string&)>& report);
 
-}  // namespace isocnc::lsp::rpc
+}  // namespace isocnc::rpc

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace isocnc::lsp::rpc {
+namespace isocnc::rpc {
 
 Pool::~Pool() {
   std::deque<Task> dropped;
@@ -84,4 +84,4 @@ void Strand::run(Queue& queue) {
   queue.is_running = false;
 }
 
-}  // namespace isocnc::lsp::rpc
+}  // namespace isocnc::rpc

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-namespace isocnc::lsp::rpc {
+namespace isocnc::rpc {
 
 /// A thread pool. Threads are created when there is work for them, up to a maximum, and then wait for more.
 class Pool {
@@ -59,4 +59,4 @@ class Strand {
   std::shared_ptr<Queue> queue_;
 };
 
-}  // namespace isocnc::lsp::rpc
+}  // namespace isocnc::rpc

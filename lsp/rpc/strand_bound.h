@@ -5,7 +5,7 @@
 
 #include "lsp/rpc/strand.h"
 
-namespace isocnc::lsp::rpc {
+namespace isocnc::rpc {
 
 /// A value that belongs to a strand: only tasks of the strand get at it, so it needs no lock. The value lives until the
 /// last of its tasks has run or been dropped, even if the StrandBound has been destroyed before.
@@ -27,4 +27,4 @@ class StrandBound {
   Strand strand_;
 };
 
-}  // namespace isocnc::lsp::rpc
+}  // namespace isocnc::rpc

@@ -155,6 +155,15 @@ TEST(Architecture, PrivateHeadersAreIncludedByTheirFolderAlone) {
         EXPECT_EQ(folder_of(file), folder_of(include.header)) << file << " includes " << include.header;
 }
 
+/// Large folders hide their subjects. A folder of parts, one file for each, may be as large as it likes.
+TEST(Architecture, NoFolderIsCrowded) {
+  const std::set<std::string> folders_of_parts = {"analyzer/rules", "debugger/requests"};
+  std::map<std::string, std::size_t> files;
+  for (const std::string& file : sources()) ++files[folder_of(file)];
+  for (const auto& [folder, count] : files)
+    if (!folders_of_parts.contains(folder)) EXPECT_LE(count, 25U) << folder;
+}
+
 /// So a clock that jumps cannot matter: durations are taken by the steady clock, and of files' times only whether they
 /// are the same.
 TEST(Architecture, NoSourceAsksForTheTimeOfDay) {

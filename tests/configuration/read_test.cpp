@@ -125,8 +125,9 @@ TEST(ReadConfiguration, DistinguishesAnEmptyListFromNone) {
 
 /// The files that users take are the machines that all is tested on.
 TEST(ReadConfiguration, ReadsTheProfilesThatShip) {
-  const std::pair<std::string, motion::Machine> profiles[] = {
-      {"three-axis", motion::three_axis_router()}, {"head", motion::head_router()}, {"table", motion::table_router()}};
+  const std::pair<std::string, kinematics::Machine> profiles[] = {{"three-axis", kinematics::three_axis_router()},
+                                                                  {"head", kinematics::head_router()},
+                                                                  {"table", kinematics::table_router()}};
   for (const auto& [name, wanted] : profiles) {
     const std::filesystem::path file =
         std::filesystem::path(ISOCNC_SOURCE_DIR) / "examples/machines" / (name + ".json");
@@ -134,7 +135,7 @@ TEST(ReadConfiguration, ReadsTheProfilesThatShip) {
     text << std::ifstream(file, std::ios::binary).rdbuf();
     const simulation::TimedMachine machine = read(text.str()).machine.timed;
     for (std::size_t axis = 0; axis < wanted.axes.size(); ++axis) {
-      const motion::AxisLimits& limits = machine.motion.axes[axis];
+      const kinematics::AxisLimits& limits = machine.motion.axes[axis];
       EXPECT_EQ(limits.minimum, wanted.axes[axis].minimum) << name << ' ' << axis;
       EXPECT_EQ(limits.maximum, wanted.axes[axis].maximum) << name << ' ' << axis;
       EXPECT_NEAR(limits.speed, wanted.axes[axis].speed, 1e-9) << name << ' ' << axis;
@@ -142,13 +143,13 @@ TEST(ReadConfiguration, ReadsTheProfilesThatShip) {
       EXPECT_FALSE(limits.jerk) << name << ' ' << axis;
     }
     EXPECT_EQ(machine.motion.kinematics.kind, wanted.kinematics.kind) << name;
-    const bool has_pivot = wanted.kinematics.kind == motion::MachineKind::Head;
+    const bool has_pivot = wanted.kinematics.kind == kinematics::MachineKind::Head;
     EXPECT_EQ(has_pivot ? machine.motion.kinematics.pivot : 0, wanted.kinematics.pivot) << name;
     EXPECT_EQ(machine.motion.kinematics.b_point, wanted.kinematics.b_point) << name;
     EXPECT_EQ(machine.motion.kinematics.c_point, wanted.kinematics.c_point) << name;
     EXPECT_EQ(machine.motion.chord_tolerance, wanted.chord_tolerance) << name;
     EXPECT_EQ(machine.motion.corner_tolerance, wanted.corner_tolerance) << name;
-    EXPECT_EQ(machine.home.tip.z(), wanted.axes[motion::kZ].maximum) << name << " begins with the spindle up";
+    EXPECT_EQ(machine.home.tip.z(), wanted.axes[kinematics::kZ].maximum) << name << " begins with the spindle up";
   }
 }
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "debug_client.h"
-#include "debugger/session/debuggee.h"
+#include "debugger/debuggee/debuggee.h"
 #include "programs.h"
 
 namespace isocnc::debugger {
@@ -62,9 +62,9 @@ TEST(Changing, SpeedsThatAreSetDoAllThatTheProgramsDo) {
     const std::string text = "M06 T101001\n" + std::string(mode) + "\nG01 X1 F2\nX2 F3\nX3 F3\nM05\nM02\n";
     for (const char letter : {'S', 'F'}) {
       if (mode == "G93" && letter == 'F') continue;  // It cannot be set.
-      session::Debuggee by_hand(session::ProgramText(text), options, machine);
-      session::Debuggee set(session::ProgramText(text), options, machine);
-      for (session::Debuggee* const each : {&by_hand, &set})
+      debuggee::Debuggee by_hand(debuggee::ProgramText(text), options, machine);
+      debuggee::Debuggee set(debuggee::ProgramText(text), options, machine);
+      for (debuggee::Debuggee* const each : {&by_hand, &set})
         while (each->present().line() < 3) each->step_block();
       by_hand.run_by_hand(std::string(1, letter) + "7");
       if (letter == 'S') {

@@ -9,7 +9,7 @@
 namespace isocnc::debugger {
 
 DebugClient::DebugClient(std::optional<dialect::Language> commanded)
-    : MessageClient([commanded](lsp::rpc::Loop& loop, lsp::rpc::Send send) {
+    : MessageClient([commanded](rpc::Loop& loop, rpc::Send send) {
         return std::make_unique<Adapter>(loop, std::move(send), commanded);
       }) {}
 

@@ -13,7 +13,7 @@
 
 namespace isocnc::debugger {
 
-using lsp::rpc::Json;
+using rpc::Json;
 
 /// A client of an Adapter. The programs that it debugs are files in a folder that goes when it does.
 class DebugClient : public support::MessageClient {

@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "debugger/session/expression.h"
+#include "debugger/expressions/expression.h"
 
-namespace isocnc::debugger::session {
+namespace isocnc::session {
 namespace {
 
 struct Formula {
@@ -19,11 +19,12 @@ TEST_P(Formulas, HaveTheirValue) {
   state.spindle_speed = 18000;
   running::Registers registers{};
   registers[3] = 7;
-  const Moment moment{.state = state, .registers = registers, .vgpl = 2, .line = 41};
-  const auto compiled = compile_formatted(GetParam().text, {}, dialect::Language::English);
-  ASSERT_TRUE(std::holds_alternative<Expression::Formatted>(compiled)) << std::get<ExpressionProblem>(compiled).message;
-  const auto& formatted = std::get<Expression::Formatted>(compiled);
-  EXPECT_EQ(show_value(formatted.expression.at(moment), formatted.format), GetParam().value);
+  const expressions::Moment moment{.state = state, .registers = registers, .vgpl = 2, .line = 41};
+  const auto compiled = expressions::compile_formatted(GetParam().text, {}, dialect::Language::English);
+  ASSERT_TRUE(std::holds_alternative<expressions::Expression::Formatted>(compiled))
+      << std::get<expressions::ExpressionProblem>(compiled).message;
+  const auto& formatted = std::get<expressions::Expression::Formatted>(compiled);
+  EXPECT_EQ(expressions::show_value(formatted.expression.at(moment), formatted.format), GetParam().value);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -41,9 +42,9 @@ INSTANTIATE_TEST_SUITE_P(
 class Mistakes : public testing::TestWithParam<Formula> {};
 
 TEST_P(Mistakes, AreReportedWithTheirColumn) {
-  const auto compiled = compile_formatted(GetParam().text, {}, dialect::Language::English);
-  ASSERT_TRUE(std::holds_alternative<ExpressionProblem>(compiled));
-  EXPECT_EQ(std::get<ExpressionProblem>(compiled).message, GetParam().value);
+  const auto compiled = expressions::compile_formatted(GetParam().text, {}, dialect::Language::English);
+  ASSERT_TRUE(std::holds_alternative<expressions::ExpressionProblem>(compiled));
+  EXPECT_EQ(std::get<expressions::ExpressionProblem>(compiled).message, GetParam().value);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -62,11 +63,11 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Expressions, LongOnesNeedNoMoreThanTheirLength) {
   std::string sum = "1";
   for (int i = 0; i < 10000; ++i) sum += "+1";
-  const auto compiled = Expression::compile(sum, dialect::Language::English);
+  const auto compiled = expressions::Expression::compile(sum, dialect::Language::English);
   const execution::State state;
   const running::Registers registers{};
-  EXPECT_EQ(std::get<Expression>(compiled).at({.state = state, .registers = registers}), 10001);
+  EXPECT_EQ(std::get<expressions::Expression>(compiled).at({.state = state, .registers = registers}), 10001);
 }
 
 }  // namespace
-}  // namespace isocnc::debugger::session
+}  // namespace isocnc::session

@@ -3,10 +3,10 @@
 #include <map>
 
 #include "debug_client.h"
-#include "debugger/session/debuggee.h"
+#include "debugger/debuggee/debuggee.h"
 #include "tests/simulation/random_run.h"
 
-namespace isocnc::debugger::session {
+namespace isocnc::session {
 namespace {
 
 using simulation::Simulation;
@@ -42,7 +42,7 @@ TEST_P(Walks, EndWhereAFreshRunDoes) {
   const simulation::TimedMachine machine = simulation::machine_of_tests();
   const running::RunOptions options = simulation::options_for(machine);
   const running::Program program(text);
-  Debuggee walker(ProgramText(text), options, machine);
+  debuggee::Debuggee walker(debuggee::ProgramText(text), options, machine);
   for (int step = 0; step < 60; ++step) {
     switch (random.between(0, 5)) {
       case 0:
@@ -135,7 +135,7 @@ TEST(ByHand, WhatIsUndoneLeavesNoTrace) {
     support::Random random(static_cast<std::uint64_t>(seed));
     const std::string text = simulation::RandomRun(random).text(2);
     const simulation::TimedMachine machine = simulation::machine_of_tests();
-    Debuggee walker(ProgramText(text), simulation::options_for(machine), machine);
+    debuggee::Debuggee walker(debuggee::ProgramText(text), simulation::options_for(machine), machine);
     for (int i = random.between(1, 20); i > 0; --i) walker.step_block();
     if (walker.hindrance()) continue;
     const Simulation before = walker.present();
@@ -151,4 +151,4 @@ TEST(ByHand, WhatIsUndoneLeavesNoTrace) {
 }
 
 }  // namespace
-}  // namespace isocnc::debugger::session
+}  // namespace isocnc::session

@@ -12,7 +12,7 @@
 namespace isocnc::fuzz {
 
 using debugger::Adapter;
-using Json = lsp::rpc::Json;
+using Json = rpc::Json;
 
 /// Requests that a byte stands for; the byte behind it is their argument.
 static constexpr const char* kCommands[] = {"next",
@@ -138,7 +138,7 @@ class Feeder {
 
   void send(const std::string& command, const Json& arguments) {
     const Json message = {{"seq", ++asked_}, {"type", "request"}, {"command", command}, {"arguments", arguments}};
-    adapter_.receive({lsp::rpc::MessageFrame::Problem::None, message.dump()});
+    adapter_.receive({rpc::MessageFrame::Problem::None, message.dump()});
   }
 
   void check(const std::string& body) {
@@ -152,7 +152,7 @@ class Feeder {
   std::int64_t asked_ = 0;
   std::int64_t answered_ = 0;
   std::int64_t output_ = 0;
-  lsp::rpc::Loop loop_;
+  rpc::Loop loop_;
   Adapter adapter_;
 };
 

@@ -8,11 +8,11 @@
 
 namespace isocnc::fuzz {
 
-using lsp::documents::AnalyzedDocument;
-using lsp::documents::ClientPosition;
-using lsp::documents::ContentChange;
-using lsp::documents::Encoding;
-using lsp::documents::SettingsStore;
+using documents::AnalyzedDocument;
+using documents::ContentChange;
+using documents::SettingsStore;
+using protocol::ClientPosition;
+using protocol::Encoding;
 
 static constexpr const char* kUri = "untitled:part";
 
@@ -65,7 +65,7 @@ static void edit(std::string_view bytes) {
   AnalyzedDocument document(kUri, settings);
   document.open(1, input.text(2 * std::size_t{input.number()}));
   for (int version = 2; !input.empty(); ++version) {
-    ContentChange change{.range = lsp::documents::ClientRange{input.place(), input.place()},
+    ContentChange change{.range = protocol::ClientRange{input.place(), input.place()},
                          .text = input.text(input.number() % 48)};
     document.edit(version, {change}, encoding);
     if (version % 4 == 0) document.update();

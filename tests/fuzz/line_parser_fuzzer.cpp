@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
+#include "interpreter/text/characters.h"
 #include "require.h"
 #include "tests/support/tree_text.h"
 
@@ -80,7 +80,7 @@ static void check_parsers_agree(std::string_view text) {
     const char* const line_end = alone.append_any_line(p, end);
     require(line < rows.size() && support::text_of(rows.tree(line, p)) == support::text_of(alone.tree(0, p)),
             "all ways of reading a line give the same tree");
-    p = syntax::skip_line_end(line_end, end);
+    p = text::skip_line_end(line_end, end);
   }
   require(line == rows.size(), "all ways of reading see the same lines");
 }

@@ -8,8 +8,8 @@
 
 namespace isocnc::fuzz {
 
-using lsp::rpc::FrameReader;
-using lsp::rpc::MessageFrame;
+using rpc::FrameReader;
+using rpc::MessageFrame;
 
 /// Frames of up to so many bytes: short ones are cut off often enough.
 static constexpr std::size_t kLongest = 1'000;
@@ -31,9 +31,9 @@ static void read(std::string_view stream) {
           "how a stream is cut does not matter");
   for (const MessageFrame& frame : frames) require(frame.body.size() <= kLongest, "no message is longer than allowed");
   // The stream as a message, and as long strings within one.
-  lsp::rpc::read_message(std::string(stream));
-  const std::string padding(lsp::rpc::ParsedMessage::kLong, 'x');
-  const auto parsed = lsp::rpc::ParsedMessage::parse("{\"a\":\"" + padding + std::string(stream) + "\"}");
+  rpc::read_message(std::string(stream));
+  const std::string padding(rpc::ParsedMessage::kLong, 'x');
+  const auto parsed = rpc::ParsedMessage::parse("{\"a\":\"" + padding + std::string(stream) + "\"}");
   if (parsed.json.is_object() && parsed.json.contains("a") && parsed.json["a"].is_string())
     parsed.text(parsed.json["a"]);
 }

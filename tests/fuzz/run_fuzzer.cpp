@@ -34,7 +34,7 @@ static void run_program(std::string_view text, bool stop_at_errors) {
 
 /// Head, travel and tools: all that a motion can meet.
 static simulation::TimedMachine machine() {
-  simulation::TimedMachine machine{.motion = motion::head_router()};
+  simulation::TimedMachine machine{.motion = kinematics::head_router()};
   machine.tool_lengths[execution::tool_code(101001)] = 120;
   machine.home.tip.z() = 500;
   return machine;

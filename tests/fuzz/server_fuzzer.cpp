@@ -10,15 +10,15 @@
 
 #include <unistd.h>
 
-#include "lsp/documents/uri.h"
-#include "lsp/features/feature.h"
+#include "lsp/feature_list.h"
+#include "lsp/protocol/uri.h"
 #include "lsp/server.h"
 #include "require.h"
 
 namespace isocnc::fuzz {
 
 using lsp::Server;
-using Json = lsp::rpc::Json;
+using Json = rpc::Json;
 
 /// What an editor tells and asks; behind these come all that the features answer.
 static constexpr const char* kOwn[] = {"textDocument/didOpen",
@@ -55,7 +55,7 @@ struct Answered {
 static const Answered& answered_by_features() {
   static const Answered kAnswered = [] {
     Answered answered;
-    for (const lsp::features::Feature* const feature : lsp::features::all_features()) {
+    for (const features::Feature* const feature : lsp::all_features()) {
       for (const auto& method : feature->methods) answered.methods.emplace_back(method.name);
       for (const auto& request : feature->workspace_requests) answered.methods.emplace_back(request.name);
       for (const auto& command : feature->commands) answered.commands.emplace(command.name);
@@ -137,7 +137,7 @@ class Typist {
     bytes_.remove_prefix(taken.size());
     return taken;
   }
-  static std::string uri(const char* name) { return lsp::documents::uri_of(folder() / name); }
+  static std::string uri(const char* name) { return protocol::uri_of(folder() / name); }
   static std::string uri_of_document(unsigned choice) {
     static constexpr const char* kNames[] = {"part.iso", "part.iso",    "part.iso", "other.iso",
                                              "part.iso", "isocnc.json", "part.iso", "closed.iso"};
@@ -268,7 +268,7 @@ class Typist {
   void notify(const std::string& method, const Json& params) {
     send({{"jsonrpc", "2.0"}, {"method", method}, {"params", params}});
   }
-  void send(const Json& message) { server_.receive({lsp::rpc::MessageFrame::Problem::None, lsp::rpc::write(message)}); }
+  void send(const Json& message) { server_.receive({rpc::MessageFrame::Problem::None, rpc::write(message)}); }
 
   void check(const std::string& body) {
     const Json message = Json::parse(body);
@@ -317,7 +317,7 @@ class Typist {
   std::vector<Json> items_;
   Json diagnostics_ = Json::array();
   std::string last_result_;
-  lsp::rpc::Loop loop_;
+  rpc::Loop loop_;
   Server server_;  // Last: its threads leave tasks for the loop.
 };
 

@@ -44,8 +44,8 @@ std::vector<std::string> found_in(const Part& part, const check::Report& report)
     const std::string line = line_of(part.program, located.line);
     const syntax::Span span = located.finding.span;
     found.push_back(shown({.line = located.line,
-                           .begin = syntax::column_of(line, span.begin) - 1,
-                           .end = syntax::column_of(line, span.end) - 1,
+                           .begin = text::column_of(line, span.begin) - 1,
+                           .end = text::column_of(line, span.end) - 1,
                            .code = std::string(dialect::definition(located.finding.id).code)},
                           line));
   }

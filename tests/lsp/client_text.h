@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "interpreter/syntax/characters.h"
-#include "lsp/documents/encoding.h"
+#include "interpreter/text/characters.h"
+#include "lsp/protocol/encoding.h"
 #include "lsp/rpc/json.h"
 
 namespace isocnc::lsp {
@@ -31,14 +31,14 @@ struct SelectedProgram {
 /// A text in which positions are lines and columns as a client counts them.
 class ClientText {
  public:
-  explicit ClientText(std::string text, documents::Encoding encoding = documents::Encoding::Utf16)
+  explicit ClientText(std::string text, protocol::Encoding encoding = protocol::Encoding::Utf16)
       : text_(std::move(text)), encoding_(encoding) {
     starts_.push_back(0);
     const char* const end = text_.data() + text_.size();
     for (const char* p = text_.data(); p != end;) {
-      p = syntax::find_line_end(p, end);
+      p = text::find_line_end(p, end);
       if (p == end) break;
-      p = syntax::skip_line_end(p, end);
+      p = text::skip_line_end(p, end);
       starts_.push_back(static_cast<std::size_t>(p - text_.data()));
     }
   }
@@ -50,7 +50,7 @@ class ClientText {
     std::size_t line = starts_.size() - 1;
     while (starts_[line] > offset) --line;
     const std::string_view content = std::string_view(text_).substr(starts_[line]);
-    return {{"line", line}, {"character", documents::units_before(content, offset - starts_[line], encoding_)}};
+    return {{"line", line}, {"character", protocol::units_before(content, offset - starts_[line], encoding_)}};
   }
   Json range(std::size_t begin, std::size_t end) const { return {{"start", place(begin)}, {"end", place(end)}}; }
 
@@ -85,11 +85,11 @@ class ClientText {
 
   std::size_t offset(const Json& place) const {
     const std::size_t start = starts_.at(place["line"]);
-    return start + documents::byte_at(std::string_view(text_).substr(start), place["character"], encoding_);
+    return start + protocol::byte_at(std::string_view(text_).substr(start), place["character"], encoding_);
   }
 
   std::string text_;
-  documents::Encoding encoding_;
+  protocol::Encoding encoding_;
   std::vector<std::size_t> starts_;
 };
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "client_text.h"
-#include "lsp/documents/uri.h"
+#include "lsp/protocol/uri.h"
 #include "session.h"
 #include "tests/commands/temporary_folder.h"
 
@@ -22,7 +22,7 @@ using testing::HasSubstr;
 
 class ConfigurationFile : public testing::Test {
  protected:
-  std::string uri(const std::string& name) const { return documents::uri_of(folder_ / name); }
+  std::string uri(const std::string& name) const { return protocol::uri_of(folder_ / name); }
   void write(const std::string& name, std::string_view text) const { temporary_.write(name, text); }
   void start() { session_.start(Json::object(), {{"locale", "en"}}); }
 

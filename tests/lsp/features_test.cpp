@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "lsp/documents/uri.h"
+#include "lsp/protocol/uri.h"
 #include "session.h"
 #include "tests/commands/temporary_folder.h"
 
@@ -123,7 +123,7 @@ TEST(Hover, ShowsTheWordsOfOthersAsTheyStand) {
   folder.write("isocnc.json", R"json({"machine": {
     "tools": [{"head": 1, "holder": 1, "tool": 1, "name": "![t](http://a.b/t.png)"}],
     "functions": {"M100": {"name": "<img src='http://a.b/f.png'> \\ *x*"}}}})json");
-  const std::string uri = documents::uri_of(std::filesystem::path(folder.path()) / "part.iso");
+  const std::string uri = protocol::uri_of(std::filesystem::path(folder.path()) / "part.iso");
   const auto contents = [&](const char* format, int line, int column) {
     Session session;
     session.start({{"textDocument", {{"hover", {{"contentFormat", {format}}}}}}}, {{"locale", "en"}});

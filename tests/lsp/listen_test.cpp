@@ -12,7 +12,7 @@
 #include <system_error>
 #include <variant>
 
-namespace isocnc::lsp::rpc {
+namespace isocnc::rpc {
 namespace {
 
 using Accepted = std::variant<int, std::error_code>;
@@ -75,4 +75,4 @@ TEST(AcceptOnLoopback, SaysWhenThePortBelongsToAnother) {
 }
 
 }  // namespace
-}  // namespace isocnc::lsp::rpc
+}  // namespace isocnc::rpc

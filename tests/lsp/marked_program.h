@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "lsp/documents/encoding.h"
+#include "lsp/protocol/encoding.h"
 #include "lsp/rpc/json.h"
 
 namespace isocnc::lsp {
@@ -17,13 +17,13 @@ struct MarkedProgram {
   rpc::Json cursor;  ///< A position of the protocol: {"line", "character"}.
   std::vector<rpc::Json> marked_ranges;
 
-  MarkedProgram(std::string_view marked, documents::Encoding encoding) {
+  MarkedProgram(std::string_view marked, protocol::Encoding encoding) {
     rpc::Json begin;
     std::size_t line = 0;
     std::size_t line_start = 0;
     const auto here = [&] {
       const std::string_view before = std::string_view(text).substr(line_start);
-      return rpc::Json{{"line", line}, {"character", documents::units_before(before, before.size(), encoding)}};
+      return rpc::Json{{"line", line}, {"character", protocol::units_before(before, before.size(), encoding)}};
     };
     for (const char c : marked) {
       if (c == '|') {
@@ -51,12 +51,12 @@ inline std::string message_text(std::string text) {
   return text;
 }
 
-inline constexpr documents::Encoding kEncodings[] = {documents::Encoding::Utf8, documents::Encoding::Utf16,
-                                                     documents::Encoding::Utf32};
+inline constexpr protocol::Encoding kEncodings[] = {protocol::Encoding::Utf8, protocol::Encoding::Utf16,
+                                                    protocol::Encoding::Utf32};
 
 /// The capabilities of a client that requests this encoding.
-inline rpc::Json capabilities_with(documents::Encoding encoding) {
-  return {{"general", {{"positionEncodings", {documents::name_of(encoding)}}}}};
+inline rpc::Json capabilities_with(protocol::Encoding encoding) {
+  return {{"general", {{"positionEncodings", {protocol::name_of(encoding)}}}}};
 }
 
 }  // namespace isocnc::lsp

@@ -17,7 +17,7 @@
 namespace isocnc::lsp {
 namespace {
 
-using documents::Encoding;
+using protocol::Encoding;
 
 constexpr const char* kUri = "file:///nowhere/part.iso";
 constexpr const char* kOtherUri = "file:///nowhere/other.iso";

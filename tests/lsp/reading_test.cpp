@@ -21,7 +21,7 @@
 namespace isocnc::lsp {
 namespace {
 
-using documents::Encoding;
+using protocol::Encoding;
 
 constexpr const char* kUri = "file:///nowhere/part.iso";
 

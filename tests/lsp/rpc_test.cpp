@@ -21,7 +21,7 @@
 #include "lsp/rpc/strand_bound.h"
 #include "tests/support/random.h"
 
-namespace isocnc::lsp::rpc {
+namespace isocnc::rpc {
 namespace {
 
 using testing::ElementsAre;
@@ -248,4 +248,4 @@ TEST(Strand, MayBePostedToWhileItsPoolEnds) {
 }
 
 }  // namespace
-}  // namespace isocnc::lsp::rpc
+}  // namespace isocnc::rpc

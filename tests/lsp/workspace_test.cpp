@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "lsp/documents/uri.h"
+#include "lsp/protocol/uri.h"
 #include "session.h"
 #include "tests/commands/temporary_folder.h"
 
@@ -25,9 +25,9 @@ class Workspace : public testing::Test {
   Workspace() { write("good.iso", "M02\n"), write("sub/bad.iso", "G00 X10mm\nM02\n"), write("notes.txt", "G00\n"); }
 
   void write(const std::string& name, const std::string& text) const { temporary_.write(name, text); }
-  std::string uri(const std::string& name) const { return documents::uri_of(folder_ / name); }
+  std::string uri(const std::string& name) const { return protocol::uri_of(folder_ / name); }
   Json start(const Json& more = Json::object()) {
-    Json params = {{"workspaceFolders", Json::array({{{"uri", documents::uri_of(folder_)}, {"name", "parts"}}})}};
+    Json params = {{"workspaceFolders", Json::array({{{"uri", protocol::uri_of(folder_)}, {"name", "parts"}}})}};
     params.update(more);
     return session_.start(kPulls, params);
   }
@@ -135,7 +135,7 @@ TEST_F(Workspace, IsNotLeftThroughSymlinks) {
   }
   // The folder itself may be a symbolic link, since the user named it.
   fs::create_directory_symlink(folder_, fs::path(outside.path()) / "here");
-  const std::string here = documents::uri_of(fs::path(outside.path()) / "here");
+  const std::string here = protocol::uri_of(fs::path(outside.path()) / "here");
   const Json added = Json::array({{{"uri", here}, {"name", "here"}}});
   session_.notify("workspace/didChangeWorkspaceFolders", {{"event", {{"added", added}, {"removed", Json::array()}}}});
   const Json document = {{"textDocument", {{"uri", here + "/sub/bad.iso"}}}};
@@ -170,7 +170,7 @@ TEST_F(Workspace, KeepsToTheConfiguration) {
 TEST_F(Workspace, ComesAndGoesByFolder) {
   start({{"workspaceFolders", nullptr}});
   EXPECT_EQ(pull(), Reported{});
-  const Json folders = Json::array({{{"uri", documents::uri_of(folder_ / "sub")}, {"name", "sub"}}});
+  const Json folders = Json::array({{{"uri", protocol::uri_of(folder_ / "sub")}, {"name", "sub"}}});
   session_.notify("workspace/didChangeWorkspaceFolders", {{"event", {{"added", folders}, {"removed", Json::array()}}}});
   EXPECT_EQ(pull(), (Reported{{"sub/bad.iso", "full 2"}}));
   session_.notify("workspace/didChangeWorkspaceFolders", {{"event", {{"added", Json::array()}, {"removed", folders}}}});
@@ -178,7 +178,7 @@ TEST_F(Workspace, ComesAndGoesByFolder) {
 }
 
 TEST_F(Workspace, OfOlderEditorsIsOneFolder) {
-  session_.start(kPulls, {{"rootUri", documents::uri_of(folder_ / "sub")}});
+  session_.start(kPulls, {{"rootUri", protocol::uri_of(folder_ / "sub")}});
   EXPECT_EQ(pull(), (Reported{{"sub/bad.iso", "full 2"}}));
 }
 

@@ -10,21 +10,21 @@ namespace {
 struct Place {
   double s = 0;
   double tip = 0;  ///< Of the tip's way for each unit of s.
-  Coordinates first;
-  Coordinates second;
-  Coordinates third;
+  kinematics::Coordinates first;
+  kinematics::Coordinates second;
+  kinematics::Coordinates third;
   double x = 0;
 };
 
 class Ascent {
  public:
-  Ascent(const Machine& machine, double feed) : machine_(machine), feed_(feed) {}
+  Ascent(const kinematics::Machine& machine, double feed) : machine_(machine), feed_(feed) {}
 
-  void add(const Path& path, double local, double s, double x) {
+  void add(const kinematics::Path& path, double local, double s, double x) {
     constexpr double kStep = 1e-4;
-    const Jet jet = path.joints_at(machine_.kinematics, local);
-    const Coordinates before = path.joints_at(machine_.kinematics, local - kStep).second;
-    const Coordinates after = path.joints_at(machine_.kinematics, local + kStep).second;
+    const kinematics::Jet jet = path.joints_at(machine_.kinematics, local);
+    const kinematics::Coordinates before = path.joints_at(machine_.kinematics, local - kStep).second;
+    const kinematics::Coordinates after = path.joints_at(machine_.kinematics, local + kStep).second;
     places_.push_back({s, path.tip_at(machine_.kinematics, local).first.head<3>().norm(), jet.first, jet.second,
                        (after - before) / (2 * kStep), x});
   }
@@ -74,8 +74,8 @@ class Ascent {
     const double jerk = speed * (leaving - arriving) / ((behind + ahead) / 2);
     const double acceleration = (arriving * ahead + leaving * behind) / (behind + ahead);
     if (speed * place.tip > feed_) return false;
-    for (int axis = 0; axis < kAxisCount; ++axis) {
-      const AxisLimits& limits = machine_.axes[static_cast<std::size_t>(axis)];
+    for (int axis = 0; axis < kinematics::kAxisCount; ++axis) {
+      const kinematics::AxisLimits& limits = machine_.axes[static_cast<std::size_t>(axis)];
       const double first = place.first[axis];
       const double second = place.second[axis];
       if (std::abs(first * speed) > limits.speed) return false;
@@ -86,15 +86,15 @@ class Ascent {
     return true;
   }
 
-  const Machine& machine_;
+  const kinematics::Machine& machine_;
   double feed_;
   std::vector<Place> places_;
 };
 
 }  // namespace
 
-double jerk_limited_reference_time(const Machine& machine, double feed, const std::vector<Stretch>& stretches,
-                                   int nodes) {
+double jerk_limited_reference_time(const kinematics::Machine& machine, double feed,
+                                   const std::vector<Stretch>& stretches, int nodes) {
   constexpr double kSlower = 0.1;  // Than the planner, squared: a motion in slow motion is within all limits.
   Ascent ascent(machine, feed);
   const double step = (stretches.back().start + stretches.back().duration) / nodes;

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "interpreter/motion/machine.h"
-#include "interpreter/motion/move.h"
+#include "interpreter/kinematics/machine.h"
+#include "interpreter/kinematics/move.h"
 #include "interpreter/motion/stretch.h"
 
 namespace isocnc::motion {
@@ -13,7 +13,7 @@ namespace isocnc::motion {
 /// the speed by bumps of all widths anywhere, as long as speeds, accelerations and jerks of all joints at the places,
 /// by differences, are within their limits. So it is no proof of the optimum, but what is left when nothing can be
 /// gained any more by going faster somewhere. All moves have the same feed; none ends in a stop but the last.
-double jerk_limited_reference_time(const Machine& machine, double feed, const std::vector<Stretch>& stretches,
-                                   int nodes);
+double jerk_limited_reference_time(const kinematics::Machine& machine, double feed,
+                                   const std::vector<Stretch>& stretches, int nodes);
 
 }  // namespace isocnc::motion

@@ -15,27 +15,27 @@ constexpr double kRelative = 1 + 1e-6;
 
 struct Case {
   std::string name;
-  Machine machine;
+  kinematics::Machine machine;
 };
 
 class RandomMoves : public testing::TestWithParam<Case> {
  protected:
-  const Machine& machine() const { return GetParam().machine; }
-  bool limits_jerk() const { return machine().axes[kX].jerk.has_value(); }
+  const kinematics::Machine& machine() const { return GetParam().machine; }
+  bool limits_jerk() const { return machine().axes[kinematics::kX].jerk.has_value(); }
 
   /// Calls `check(moves, stretches)` for many programs.
   template <typename Check>
   void for_programs(Check&& check) const {
     for (const std::uint64_t seed : support::seeds(limits_jerk() ? 12 : 25)) {
       SCOPED_TRACE("seed " + std::to_string(seed));
-      const std::vector<Move> moves = random_moves(seed, 40);
+      const std::vector<kinematics::Move> moves = random_moves(seed, 40);
       check(moves, plan(machine(), moves));
       if (HasFailure()) return;
     }
   }
 
   template <typename Check>
-  static void for_samples(const Kinematics& kinematics, const Stretch& stretch, Check&& check) {
+  static void for_samples(const kinematics::Kinematics& kinematics, const Stretch& stretch, Check&& check) {
     constexpr int kParts = 12;
     for (int i = 0; i <= kParts; ++i) check(stretch.at(kinematics, stretch.start + stretch.duration * i / kParts));
     double start = stretch.start;
@@ -50,11 +50,11 @@ class RandomMoves : public testing::TestWithParam<Case> {
 
 TEST_P(RandomMoves, KeepTheLimitsOfTheAxes) {
   double fullest = 0;
-  for_programs([&](const std::vector<Move>&, const std::vector<Stretch>& stretches) {
+  for_programs([&](const std::vector<kinematics::Move>&, const std::vector<Stretch>& stretches) {
     for (const Stretch& stretch : stretches) {
       for_samples(machine().kinematics, stretch, [&](const Sample& sample) {
-        for (int axis = 0; axis < kAxisCount; ++axis) {
-          const AxisLimits& limits = machine().axes[static_cast<std::size_t>(axis)];
+        for (int axis = 0; axis < kinematics::kAxisCount; ++axis) {
+          const kinematics::AxisLimits& limits = machine().axes[static_cast<std::size_t>(axis)];
           ASSERT_LE(std::abs(sample.joint_speeds[axis]), limits.speed * kRelative) << axis << " move " << stretch.tag;
           ASSERT_LE(std::abs(sample.joint_accelerations[axis]), limits.acceleration * kRelative)
               << axis << " move " << stretch.tag;
@@ -73,12 +73,12 @@ TEST_P(RandomMoves, KeepTheJerk) {
   if (!limits_jerk()) return;
   constexpr int kParts = 8;
   double fullest = 0;
-  for_programs([&](const std::vector<Move>&, const std::vector<Stretch>& stretches) {
+  for_programs([&](const std::vector<kinematics::Move>&, const std::vector<Stretch>& stretches) {
     Sample before;
     for (const Stretch& stretch : stretches) {
       double start = stretch.start;
       const auto check = [&](const Sample& sample, double duration) {
-        for (int axis = 0; axis < kAxisCount; ++axis) {
+        for (int axis = 0; axis < kinematics::kAxisCount; ++axis) {
           const double maximum = *machine().axes[static_cast<std::size_t>(axis)].jerk;
           const double change = std::abs(sample.joint_accelerations[axis] - before.joint_accelerations[axis]);
           ASSERT_LE(change, maximum * kRelative * duration + 1e-6) << axis << " move " << stretch.tag;
@@ -102,10 +102,10 @@ TEST_P(RandomMoves, KeepTheJerk) {
 }
 
 TEST_P(RandomMoves, KeepTheFeed) {
-  for_programs([&](const std::vector<Move>& moves, const std::vector<Stretch>& stretches) {
+  for_programs([&](const std::vector<kinematics::Move>& moves, const std::vector<Stretch>& stretches) {
     for (const Stretch& stretch : stretches) {
-      const Move& move = moves[stretch.tag];
-      if (move.feed.kind != FeedKind::Speed) continue;
+      const kinematics::Move& move = moves[stretch.tag];
+      if (move.feed.kind != kinematics::FeedKind::Speed) continue;
       const bool only_turns = move.from.tip == move.to.tip && !move.is_arc;
       for_samples(machine().kinematics, stretch, [&](const Sample& sample) {
         const double speed = only_turns ? sample.joint_speeds.tail<2>().norm() : sample.speed;
@@ -116,7 +116,7 @@ TEST_P(RandomMoves, KeepTheFeed) {
 }
 
 TEST_P(RandomMoves, GoOnWhereTheyWereAsFast) {
-  for_programs([&](const std::vector<Move>&, const std::vector<Stretch>& stretches) {
+  for_programs([&](const std::vector<kinematics::Move>&, const std::vector<Stretch>& stretches) {
     for (std::size_t i = 1; i < stretches.size(); ++i) {
       const Stretch& before = stretches[i - 1];
       const double time = stretches[i].start;
@@ -124,7 +124,8 @@ TEST_P(RandomMoves, GoOnWhereTheyWereAsFast) {
       const Sample end = before.at(machine().kinematics, time);
       const Sample begin = stretches[i].at(machine().kinematics, time);
       ASSERT_LT((end.joints - begin.joints).cwiseAbs().maxCoeff(), 1e-7) << "move " << before.tag;
-      ASSERT_LT((coordinates(end.tip) - coordinates(begin.tip)).cwiseAbs().maxCoeff(), 1e-7) << "move " << before.tag;
+      ASSERT_LT((kinematics::coordinates(end.tip) - kinematics::coordinates(begin.tip)).cwiseAbs().maxCoeff(), 1e-7)
+          << "move " << before.tag;
       ASSERT_LT((end.joint_speeds - begin.joint_speeds).cwiseAbs().maxCoeff(), 1e-5) << "move " << before.tag;
     }
   });
@@ -132,7 +133,7 @@ TEST_P(RandomMoves, GoOnWhereTheyWereAsFast) {
 
 /// Speeds are the slopes of places, and accelerations those of speeds.
 TEST_P(RandomMoves, SamplesIntegrate) {
-  for_programs([&](const std::vector<Move>&, const std::vector<Stretch>& stretches) {
+  for_programs([&](const std::vector<kinematics::Move>&, const std::vector<Stretch>& stretches) {
     for (const Stretch& stretch : stretches) {
       double start = stretch.start;
       for (int i = 0; i < stretch.phase_count; ++i) {
@@ -144,8 +145,8 @@ TEST_P(RandomMoves, SamplesIntegrate) {
         const Sample a = stretch.at(machine().kinematics, middle - half);
         const Sample b = stretch.at(machine().kinematics, middle);
         const Sample c = stretch.at(machine().kinematics, middle + half);
-        const Coordinates speeds = (c.joints - a.joints) / (2 * half);
-        const Coordinates accelerations = (c.joint_speeds - a.joint_speeds) / (2 * half);
+        const kinematics::Coordinates speeds = (c.joints - a.joints) / (2 * half);
+        const kinematics::Coordinates accelerations = (c.joint_speeds - a.joint_speeds) / (2 * half);
         ASSERT_LT((speeds - b.joint_speeds).norm(), 1e-4 * (1 + b.joint_speeds.norm())) << stretch.tag;
         ASSERT_LT((accelerations - b.joint_accelerations).norm(), 1e-3 * (1 + b.joint_accelerations.norm()))
             << stretch.tag;
@@ -157,7 +158,8 @@ TEST_P(RandomMoves, SamplesIntegrate) {
 }
 
 /// The move of the stretch is asked first: mostly it is the nearest.
-double off_path(const Machine& machine, const std::vector<Move>& moves, std::size_t tag, const Vec3& tip) {
+double off_path(const kinematics::Machine& machine, const std::vector<kinematics::Move>& moves, std::size_t tag,
+                const Vec3& tip) {
   double off = distance(machine, moves[tag], tip);
   if (off < 1e-6) return off;
   if (tag > 0) off = std::min(off, distance(machine, moves[tag - 1], tip));
@@ -165,7 +167,7 @@ double off_path(const Machine& machine, const std::vector<Move>& moves, std::siz
   return off;
 }
 
-double allowed(const Machine& machine, const std::vector<Move>& moves, std::size_t tag) {
+double allowed(const kinematics::Machine& machine, const std::vector<kinematics::Move>& moves, std::size_t tag) {
   const bool has_chords = moves[tag].splits_arcs || (tag > 0 && moves[tag - 1].splits_arcs) ||
                           (tag + 1 < moves.size() && moves[tag + 1].splits_arcs);
   return (machine.corner_tolerance + (has_chords ? machine.chord_tolerance : 0)) * kRelative + 1e-7;
@@ -173,10 +175,10 @@ double allowed(const Machine& machine, const std::vector<Move>& moves, std::size
 
 TEST_P(RandomMoves, StayWithinTheCornerTolerance) {
   double farthest = 0;
-  for_programs([&](const std::vector<Move>& moves, const std::vector<Stretch>& stretches) {
+  for_programs([&](const std::vector<kinematics::Move>& moves, const std::vector<Stretch>& stretches) {
     for (std::size_t i = 0; i < stretches.size(); ++i) {
       const Stretch& stretch = stretches[i];
-      if (i % 5 != 0 && stretch.path.kind == PathKind::Circle) continue;  // Many, and slow to compare.
+      if (i % 5 != 0 && stretch.path.kind == kinematics::PathKind::Circle) continue;  // Many, and slow to compare.
       for (const double part : {0.0, 0.5, 0.8, 1.0}) {
         const Sample sample = stretch.at(machine().kinematics, stretch.start + part * stretch.duration);
         const double off = off_path(machine(), moves, stretch.tag, sample.tip.tip);
@@ -191,14 +193,14 @@ TEST_P(RandomMoves, StayWithinTheCornerTolerance) {
 }
 
 TEST_P(RandomMoves, HaveTheirStretchesInOrderAndEndWhereProgrammed) {
-  for_programs([&](const std::vector<Move>& moves, const std::vector<Stretch>& stretches) {
+  for_programs([&](const std::vector<kinematics::Move>& moves, const std::vector<Stretch>& stretches) {
     std::size_t ended = 0;
     for (const Stretch& stretch : stretches) {
       ASSERT_EQ(stretch.tag, ended);
       if (!stretch.ends_move) continue;
       ++ended;
       const Sample end = stretch.at(machine().kinematics, stretch.start + stretch.duration);
-      const Move& move = moves[stretch.tag];
+      const kinematics::Move& move = moves[stretch.tag];
       const bool stops = move.exact_stop || ended == moves.size();
       ASSERT_LE((end.tip.tip - move.to.tip).norm(), stops ? 1e-7 : machine().corner_tolerance * kRelative)
           << stretch.tag;
@@ -212,13 +214,14 @@ TEST_P(RandomMoves, HaveTheirStretchesInOrderAndEndWhereProgrammed) {
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(Machines, RandomMoves,
-                         testing::Values(Case{"ThreeAxis", three_axis_router()}, Case{"Head", head_router()},
-                                         Case{"Table", table_router()},
-                                         Case{"JerkLimitedThreeAxis", with_jerk(three_axis_router(), 30000)},
-                                         Case{"JerkLimitedHead", with_jerk(head_router(), 60000)},
-                                         Case{"JerkLimitedTable", with_jerk(table_router(), 20000)}),
-                         [](const auto& each) { return each.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Machines, RandomMoves,
+    testing::Values(Case{"ThreeAxis", kinematics::three_axis_router()}, Case{"Head", kinematics::head_router()},
+                    Case{"Table", kinematics::table_router()},
+                    Case{"JerkLimitedThreeAxis", with_jerk(kinematics::three_axis_router(), 30000)},
+                    Case{"JerkLimitedHead", with_jerk(kinematics::head_router(), 60000)},
+                    Case{"JerkLimitedTable", with_jerk(kinematics::table_router(), 20000)}),
+    [](const auto& each) { return each.param.name; });
 
 }  // namespace
 }  // namespace isocnc::motion

@@ -9,17 +9,17 @@ namespace isocnc::motion {
 namespace {
 
 /// The planner's time over the reference's.
-double ratio(const Machine& machine, const std::vector<Move>& moves, int steps) {
+double ratio(const kinematics::Machine& machine, const std::vector<kinematics::Move>& moves, int steps) {
   const auto stretches = plan(machine, moves);
   return cycle_time(stretches) / reference_time(machine, moves, stretches, steps);
 }
 
 TEST(Optimality, LinesAreTheOptimum) {
-  Machine machine = three_axis_router();
+  kinematics::Machine machine = kinematics::three_axis_router();
   for (const std::uint64_t seed : support::seeds(10)) {
-    std::vector<Move> lines;
+    std::vector<kinematics::Move> lines;
     geometry::Pose at;
-    for (Move move : random_moves(seed, 30)) {
+    for (kinematics::Move move : random_moves(seed, 30)) {
       if (move.is_arc) continue;
       const geometry::Vec3 way = move.to.tip - move.from.tip;
       move.from = move.to = at;
@@ -38,7 +38,8 @@ TEST(Optimality, LinesAreTheOptimum) {
 }
 
 TEST(Optimality, AnyMovesAreWithinAPercent) {
-  for (const Machine& machine : {three_axis_router(), head_router(), table_router()}) {
+  for (const kinematics::Machine& machine :
+       {kinematics::three_axis_router(), kinematics::head_router(), kinematics::table_router()}) {
     for (const std::uint64_t seed : support::seeds(8)) {
       const double found = ratio(machine, random_moves(seed, 15), 100);
       EXPECT_LE(found, 1.01) << seed;
@@ -49,7 +50,7 @@ TEST(Optimality, AnyMovesAreWithinAPercent) {
 
 /// Where the centripetal acceleration leaves little for speeding up, the bounds by pieces cost the most.
 TEST(Optimality, FastCirclesAreWithinAPercent) {
-  const Machine machine = uniform_machine(10000, 2000);
+  const kinematics::Machine machine = uniform_machine(10000, 2000);
   for (const double feed : {50.0, 200.0, 10000.0}) {
     const double found = ratio(machine, {arc_xy({-20, 0, 0}, {0, 0, 0}, 360, 0, speed(feed))}, 50);
     EXPECT_LE(found, 1.01) << feed;
@@ -60,7 +61,7 @@ TEST(Optimality, FastCirclesAreWithinAPercent) {
 /// docs/motion.md, from rest to rest: the shorter the arc, the more of it is spent on speeding up and slowing down.
 TEST(Optimality, FastArcsLoseNoMoreThanIsSaid) {
   constexpr std::pair<double, double> kSweeps[] = {{360, 1.006}, {90, 1.007}, {45, 1.018}};
-  for (const Machine& machine : {uniform_machine(10000, 2000), three_axis_router()})
+  for (const kinematics::Machine& machine : {uniform_machine(10000, 2000), kinematics::three_axis_router()})
     for (const auto& [sweep, maximum] : kSweeps) {
       const double found = ratio(machine, {arc_xy({-20, 0, 0}, {0, 0, 0}, sweep, 0, speed(10000))}, 200);
       EXPECT_LE(found, maximum) << sweep;
@@ -70,9 +71,9 @@ TEST(Optimality, FastArcsLoseNoMoreThanIsSaid) {
 
 /// Five axes at once: the pivot's swing takes nearly all.
 TEST(Optimality, SwingingPivotsAreWithinAPercent) {
-  Machine machine = uniform_machine(400, 2000);
-  machine.kinematics = {.kind = MachineKind::Head, .pivot = 200, .b_from_c = {30, 0, 0}};
-  Move move = line({0, 0, 0}, {60, 10, 0}, speed(300));
+  kinematics::Machine machine = uniform_machine(400, 2000);
+  machine.kinematics = {.kind = kinematics::MachineKind::Head, .pivot = 200, .b_from_c = {30, 0, 0}};
+  kinematics::Move move = line({0, 0, 0}, {60, 10, 0}, speed(300));
   move.from.b = 70;
   move.to.b = -20;
   move.to.c = 120;
@@ -83,13 +84,13 @@ TEST(Optimality, SwingingPivotsAreWithinAPercent) {
 }
 
 /// The planner's time over that of the ascent, where jerk is limited. The path is the planner's.
-double jerk_limited_ratio(const Machine& machine, const std::vector<Move>& moves) {
+double jerk_limited_ratio(const kinematics::Machine& machine, const std::vector<kinematics::Move>& moves) {
   const auto stretches = plan(machine, moves);
   return cycle_time(stretches) / jerk_limited_reference_time(machine, moves[0].feed.value, stretches, 400);
 }
 
 TEST(Optimality, JerkLimitedLinesAreTheOptimum) {
-  const Machine machine = with_jerk(uniform_machine(1000, 2000), 20000);
+  const kinematics::Machine machine = with_jerk(uniform_machine(1000, 2000), 20000);
   for (const double feed : {50.0, 150.0, 400.0}) {
     const double found = jerk_limited_ratio(machine, {line({0, 0, 0}, {60, 0, 0}, speed(feed))});
     EXPECT_LE(found, 1.03) << feed;
@@ -99,8 +100,8 @@ TEST(Optimality, JerkLimitedLinesAreTheOptimum) {
 
 /// What the planner loses; docs/motion.md says why. On a circle it has to leave a good part of the jerk unused.
 TEST(Optimality, JerkLimitedCornersAndArcsLoseNoMoreThanIsSaid) {
-  const Machine machine = with_jerk(uniform_machine(1000, 2000), 20000);
-  const std::pair<std::vector<Move>, double> programs[] = {
+  const kinematics::Machine machine = with_jerk(uniform_machine(1000, 2000), 20000);
+  const std::pair<std::vector<kinematics::Move>, double> programs[] = {
       {{line({0, 0, 0}, {20, 0, 0}, speed(100)), line({20, 0, 0}, {20, 20, 0}, speed(100))}, 1.08},
       {{line({-50, 0, 0}, {0, 0, 0}, speed(150)), arc_xy({0, 0, 0}, {0, 8, 0}, 90, 0, speed(150)),
         line({8, 8, 0}, {8, 60, 0}, speed(150))},

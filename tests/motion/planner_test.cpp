@@ -17,7 +17,9 @@ using geometry::Vec3;
 
 const Vec3 kOrigin = Vec3::Zero();
 
-double time_of(const Machine& machine, const std::vector<Move>& moves) { return cycle_time(plan(machine, moves)); }
+double time_of(const kinematics::Machine& machine, const std::vector<kinematics::Move>& moves) {
+  return cycle_time(plan(machine, moves));
+}
 
 /// From rest to rest over `length` with speed v and acceleration a.
 double trapezoid(double length, double v, double a) {
@@ -25,7 +27,7 @@ double trapezoid(double length, double v, double a) {
 }
 
 TEST(Planner, OneMoveIsATrapezoid) {
-  const Machine machine = uniform_machine(1000, 2000);
+  const kinematics::Machine machine = uniform_machine(1000, 2000);
   const auto stretches = plan(machine, {line(kOrigin, {100, 0, 0}, speed(100))});
   ASSERT_EQ(stretches.size(), 1U);
   EXPECT_NEAR(cycle_time(stretches), 1 + 0.05, 1e-12);
@@ -39,23 +41,23 @@ TEST(Planner, OneMoveIsATrapezoid) {
 }
 
 TEST(Planner, AShortMoveIsATriangle) {
-  const Machine machine = uniform_machine(1000, 2000);
+  const kinematics::Machine machine = uniform_machine(1000, 2000);
   const auto stretches = plan(machine, {line(kOrigin, {0, 2, 0}, speed(100))});
   EXPECT_NEAR(cycle_time(stretches), 2 * std::sqrt(2 / 2000.0), 1e-12);
   EXPECT_EQ(stretches[0].phase_count, 2);
 }
 
 TEST(Planner, TheSlowestAxisLimitsALine) {
-  Machine machine = uniform_machine(1000, 2000);
-  machine.axes[kY].acceleration = 300;
-  machine.axes[kZ].speed = 50;
+  kinematics::Machine machine = uniform_machine(1000, 2000);
+  machine.axes[kinematics::kY].acceleration = 300;
+  machine.axes[kinematics::kZ].speed = 50;
   // Along (2, 1, 2) / 3: Y allows 3 * 300 along the path, Z a speed of 75.
   EXPECT_NEAR(time_of(machine, {line(kOrigin, {40, 20, 40}, kRapid)}), trapezoid(60, 75, 900), 1e-12);
 }
 
 TEST(Planner, CollinearMovesAreOne) {
-  const Machine machine = uniform_machine(1000, 2000);
-  std::vector<Move> moves;
+  const kinematics::Machine machine = uniform_machine(1000, 2000);
+  std::vector<kinematics::Move> moves;
   const Vec3 step = Vec3(3, -2, 1) / 7;
   for (int i = 0; i < 5000; ++i) moves.push_back(line(i * step, (i + 1) * step, speed(300)));
   const double one = time_of(machine, {line(kOrigin, 5000 * step, speed(300))});
@@ -63,8 +65,9 @@ TEST(Planner, CollinearMovesAreOne) {
 }
 
 TEST(Planner, ExactStopsStopOnThePoint) {
-  const Machine machine = uniform_machine(1000, 2000);
-  std::vector<Move> moves = {line(kOrigin, {10, 0, 0}, speed(100)), line({10, 0, 0}, {10, 10, 0}, speed(100))};
+  const kinematics::Machine machine = uniform_machine(1000, 2000);
+  std::vector<kinematics::Move> moves = {line(kOrigin, {10, 0, 0}, speed(100)),
+                                         line({10, 0, 0}, {10, 10, 0}, speed(100))};
   moves[0].exact_stop = true;
   const auto stretches = plan(machine, moves);
   ASSERT_EQ(stretches.size(), 2U);
@@ -75,7 +78,7 @@ TEST(Planner, ExactStopsStopOnThePoint) {
 }
 
 TEST(Planner, ARestTakesItsTime) {
-  const Machine machine = uniform_machine(1000, 2000);
+  const kinematics::Machine machine = uniform_machine(1000, 2000);
   Planner planner(machine);
   planner.push(line(kOrigin, {10, 0, 0}, speed(100)));
   planner.rest(2.5);
@@ -89,9 +92,10 @@ TEST(Planner, ARestTakesItsTime) {
 
 /// A parabola that cuts d = 4 tolerance / |e2 - e1| from both sides, at v^2 = 2 d a / |e2 - e1| by axis.
 TEST(Planner, ARightAngleIsRoundedWithinTheTolerance) {
-  Machine machine = uniform_machine(1000, 2000);
+  kinematics::Machine machine = uniform_machine(1000, 2000);
   machine.corner_tolerance = 0.05;
-  std::vector<Move> moves = {line(kOrigin, {50, 0, 0}, speed(500)), line({50, 0, 0}, {50, 50, 0}, speed(500))};
+  std::vector<kinematics::Move> moves = {line(kOrigin, {50, 0, 0}, speed(500)),
+                                         line({50, 0, 0}, {50, 50, 0}, speed(500))};
   moves[1].tag = 1;
   const auto stretches = plan(machine, moves);
   const double cut = 4 * 0.05 / std::sqrt(2);
@@ -129,10 +133,10 @@ TEST(Planner, ACornerTakesAQuarterOfAShortElement) {
 
 /// What is left of each line between two corners is enough to speed up and to slow down on.
 TEST(Planner, AChainOfShortLinesIsNearlyAsFastAsItsCurve) {
-  const Machine machine = uniform_machine(1000, 3000);
+  const kinematics::Machine machine = uniform_machine(1000, 3000);
   const double arc = time_of(machine, {arc_xy({100, 0, 0}, kOrigin, 360, 0, speed(1000))});
   constexpr int kChords = 6000;
-  std::vector<Move> chords;
+  std::vector<kinematics::Move> chords;
   const auto at = [](int i) {
     const double angle = 2 * std::numbers::pi * i / kChords;
     return Vec3(100 * std::cos(angle), 100 * std::sin(angle), 0);
@@ -142,7 +146,7 @@ TEST(Planner, AChainOfShortLinesIsNearlyAsFastAsItsCurve) {
 }
 
 TEST(Planner, ACircleBelowTheCentripetalLimitKeepsItsFeed) {
-  const Machine machine = uniform_machine(1000, 2000);
+  const kinematics::Machine machine = uniform_machine(1000, 2000);
   // 20^2 / 50 = 8 mm/s^2 leaves nearly all for speeding up.
   const double length = 100 * std::numbers::pi;
   const double time = time_of(machine, {arc_xy(kOrigin, {50, 0, 0}, 360, 0, speed(20))});
@@ -153,7 +157,7 @@ TEST(Planner, ACircleBelowTheCentripetalLimitKeepsItsFeed) {
 /// All axes alike: where an axis takes all of the centripetal acceleration, v = sqrt(a r), as in the closed form; and
 /// between them, v reaches up to the fourth root of 2 times that.
 TEST(Planner, ACircleBeyondTheCentripetalLimitGoesAsFastAsItAllows) {
-  const Machine machine = uniform_machine(10000, 2000);
+  const kinematics::Machine machine = uniform_machine(10000, 2000);
   const auto stretches = plan(machine, {arc_xy({-20, 0, 0}, kOrigin, 3600, 0, speed(5000))});
   const double closed = std::sqrt(2000.0 * 20);
   double fastest = 0;
@@ -172,22 +176,22 @@ TEST(Planner, ACircleBeyondTheCentripetalLimitGoesAsFastAsItAllows) {
 }
 
 TEST(Planner, InverseTimeSetsTheSpeedUnlessTheAxesForbid) {
-  const Machine machine = uniform_machine(100, 2000);
+  const kinematics::Machine machine = uniform_machine(100, 2000);
   EXPECT_NEAR(time_of(machine, {line(kOrigin, {40, 0, 0}, duration(1))}), 1 + 40 / 2000.0, 1e-12);
   EXPECT_NEAR(time_of(machine, {line(kOrigin, {400, 0, 0}, duration(1))}), trapezoid(400, 100, 2000), 1e-12);
 }
 
 TEST(Planner, RotaryAxesAloneMoveInDegrees) {
-  for (Machine machine : {three_axis_router(), head_router()}) {
-    machine.axes[kB].acceleration = 500;
-    machine.axes[kC].acceleration = 500;
-    Move move;
+  for (kinematics::Machine machine : {kinematics::three_axis_router(), kinematics::head_router()}) {
+    machine.axes[kinematics::kB].acceleration = 500;
+    machine.axes[kinematics::kC].acceleration = 500;
+    kinematics::Move move;
     move.to.c = 30;
     move.to.b = 40;
     move.controls_tool_point = false;
     move.feed = speed(10);
     const double maximum = 500 / 0.8;  // B takes 4/5 of it.
-    if (machine.kinematics.kind == MachineKind::ThreeAxis) {
+    if (machine.kinematics.kind == kinematics::MachineKind::ThreeAxis) {
       EXPECT_NEAR(time_of(machine, {move}), trapezoid(50, 10, maximum), 1e-12);
     } else {
       EXPECT_NEAR(time_of(machine, {move}), trapezoid(50, 10, maximum), 0.05);
@@ -197,10 +201,10 @@ TEST(Planner, RotaryAxesAloneMoveInDegrees) {
 
 /// The carrier has to run around a tip that rests: it takes its limits as well.
 TEST(Planner, APivotThatSwingsIsLimitedByTheLinearAxes) {
-  Machine machine = uniform_machine(100, 1000);
-  machine.kinematics.kind = MachineKind::Head;
+  kinematics::Machine machine = uniform_machine(100, 1000);
+  machine.kinematics.kind = kinematics::MachineKind::Head;
   machine.kinematics.pivot = 200;
-  Move move;
+  kinematics::Move move;
   move.to.c = 90;
   move.from.b = move.to.b = 90;
   const auto stretches = plan(machine, {move});
@@ -213,15 +217,15 @@ TEST(Planner, APivotThatSwingsIsLimitedByTheLinearAxes) {
 }
 
 TEST(Planner, SplitArcsStayWithinTheChordTolerance) {
-  Machine machine = uniform_machine(1000, 2000);
+  kinematics::Machine machine = uniform_machine(1000, 2000);
   machine.chord_tolerance = 0.02;
   machine.corner_tolerance = 0.001;
-  Move arc = arc_xy(kOrigin, {30, 0, 0}, -180, 0, speed(50));
+  kinematics::Move arc = arc_xy(kOrigin, {30, 0, 0}, -180, 0, speed(50));
   arc.splits_arcs = true;
   double minimum = 100;
   double maximum = 0;
   for (const Stretch& stretch : plan(machine, {arc})) {
-    ASSERT_EQ(stretch.path.kind, PathKind::Polynomial);
+    ASSERT_EQ(stretch.path.kind, kinematics::PathKind::Polynomial);
     const double middle =
         (stretch.at(machine.kinematics, stretch.start + stretch.duration / 2).tip.tip - arc.center).norm();
     minimum = std::min(minimum, middle);
@@ -233,8 +237,8 @@ TEST(Planner, SplitArcsStayWithinTheChordTolerance) {
 }
 
 TEST(Planner, AMoveThatGoesNowhereHasNoStretch) {
-  const Machine machine = uniform_machine(1000, 2000);
-  Move nowhere = line({10, 0, 0}, {10, 0, 0}, speed(100));
+  const kinematics::Machine machine = uniform_machine(1000, 2000);
+  kinematics::Move nowhere = line({10, 0, 0}, {10, 0, 0}, speed(100));
   const auto through =
       plan(machine, {line(kOrigin, {10, 0, 0}, speed(100)), nowhere, line({10, 0, 0}, {20, 0, 0}, speed(100))});
   EXPECT_EQ(through.size(), 2U);
@@ -246,7 +250,7 @@ TEST(Planner, AMoveThatGoesNowhereHasNoStretch) {
 }
 
 TEST(Planner, AGapIsAStop) {
-  const Machine machine = uniform_machine(1000, 2000);
+  const kinematics::Machine machine = uniform_machine(1000, 2000);
   const double time =
       time_of(machine, {line(kOrigin, {10, 0, 0}, speed(100)), line({11, 0, 0}, {21, 0, 0}, speed(100))});
   EXPECT_NEAR(time, 2 * trapezoid(10, 100, 2000), 1e-12);
@@ -263,12 +267,12 @@ bool equal(const Stretch& a, const Stretch& b) {
 }
 
 /// Whoever asks for stretches late, or goes on with a copy, gets the same.
-class Reading : public testing::TestWithParam<Machine> {};
+class Reading : public testing::TestWithParam<kinematics::Machine> {};
 
 TEST_P(Reading, CopiesAndLateReadersGetTheSame) {
-  const Machine& machine = GetParam();
+  const kinematics::Machine& machine = GetParam();
   for (const std::uint64_t seed : support::seeds(10)) {
-    const std::vector<Move> moves = random_moves(seed, 300);
+    const std::vector<kinematics::Move> moves = random_moves(seed, 300);
     const std::vector<Stretch> expected = plan(machine, moves);
     std::vector<Stretch> stretches;
     Planner planner(machine);
@@ -278,7 +282,7 @@ TEST_P(Reading, CopiesAndLateReadersGetTheSame) {
       for (std::size_t k = 0; k < some; ++k)
         if (const Stretch* stretch = planner.next()) stretches.push_back(*stretch);
       Planner copy = planner;
-      planner = Planner(three_axis_router());
+      planner = Planner(kinematics::three_axis_router());
       planner = copy;
     }
     planner.rest();
@@ -289,10 +293,11 @@ TEST_P(Reading, CopiesAndLateReadersGetTheSame) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Planner, Reading, testing::Values(head_router(), with_jerk(head_router(), 30000)));
+INSTANTIATE_TEST_SUITE_P(Planner, Reading,
+                         testing::Values(kinematics::head_router(), with_jerk(kinematics::head_router(), 30000)));
 
 /// How many moves the planner holds back at most.
-std::size_t max_lag(const Machine& machine, double step, std::size_t count, Feed feed) {
+std::size_t max_lag(const kinematics::Machine& machine, double step, std::size_t count, kinematics::Feed feed) {
   Planner planner(machine);
   std::size_t out = 0;
   std::size_t maximum = 0;
@@ -313,9 +318,9 @@ TEST(Planner, HoldsBackNoMoreThanTheStoppingDistance) {
 
 /// Moves of a micron, faster than the machine can stop in all that is looked at: it goes slower, and within its limits.
 TEST(Planner, HoldsBackNoMoreThanItsWindow) {
-  const Machine machine = uniform_machine(1000, 2000);
+  const kinematics::Machine machine = uniform_machine(1000, 2000);
   EXPECT_LE(max_lag(machine, 0.001, 60000, speed(500)), 16400U);
-  std::vector<Move> moves;
+  std::vector<kinematics::Move> moves;
   for (int i = 0; i < 60000; ++i) moves.push_back(line({i * 0.001, 0, 0}, {(i + 1) * 0.001, 0, 0}, speed(500)));
   double before = 0;
   double fastest = 0;
@@ -335,13 +340,13 @@ TEST(Planner, HoldsBackNoMoreThanItsWindow) {
 
 /// Half a window more, of all that the machine could go in it.
 TEST(Planner, HoldsBackNoMoreWhereJerkIsLimited) {
-  const Machine machine = with_jerk(uniform_machine(1000, 2000), 40000);
+  const kinematics::Machine machine = with_jerk(uniform_machine(1000, 2000), 40000);
   EXPECT_LE(max_lag(machine, 1, 5000, speed(200)), 1500U);
   EXPECT_LE(max_lag(machine, 0.01, 40000, speed(200)), 30000U);
 }
 
 /// A thread of ten thousand turns is cut as it is needed.
-void expect_long_helix_to_come_out(const Machine& machine) {
+void expect_long_helix_to_come_out(const kinematics::Machine& machine) {
   Planner planner(machine);
   planner.push(arc_xy({-5, 0, 0}, {0, 0, 0}, 360.0 * 10000, 100, speed(50)));
   double length = 0;
@@ -355,7 +360,7 @@ void expect_long_helix_to_come_out(const Machine& machine) {
   EXPECT_NEAR(length, std::hypot(2 * std::numbers::pi * 5 * 10000, 100), 10);
 }
 
-double fastest_of(const Machine& machine, const std::vector<Stretch>& stretches, std::uint64_t tag) {
+double fastest_of(const kinematics::Machine& machine, const std::vector<Stretch>& stretches, std::uint64_t tag) {
   double fastest = 0;
   for (const Stretch& stretch : stretches)
     for (int i = 0; stretch.tag == tag && i <= 20; ++i)
@@ -366,18 +371,18 @@ double fastest_of(const Machine& machine, const std::vector<Stretch>& stretches,
 /// The nose stands still while B turns: the tip goes on in the direction of the feed move before, and the feed move
 /// behind in that of the swing; on the way it is faster than s, which counts the chord.
 TEST(Planner, FeedHoldsInCornersToRapidsThatSwing) {
-  Machine machine = head_router();
-  for (AxisLimits& axis : machine.axes) axis.acceleration = axis.speed = 1e7;
-  const Move feed = line({310, 100, 200}, {300, 100, 200}, speed(50));
-  Move rapid;
+  kinematics::Machine machine = kinematics::head_router();
+  for (kinematics::AxisLimits& axis : machine.axes) axis.acceleration = axis.speed = 1e7;
+  const kinematics::Move feed = line({310, 100, 200}, {300, 100, 200}, speed(50));
+  kinematics::Move rapid;
   rapid.tag = 1;
   rapid.from = feed.to;
-  Coordinates joints = inverse(machine.kinematics, coordinates(rapid.from), 0);
-  joints[kB] = 80;
-  rapid.to = pose(forward(machine.kinematics, joints, 0));
+  kinematics::Coordinates joints = kinematics::inverse(machine.kinematics, kinematics::coordinates(rapid.from), 0);
+  joints[kinematics::kB] = 80;
+  rapid.to = kinematics::pose(kinematics::forward(machine.kinematics, joints, 0));
   rapid.controls_tool_point = false;
   const Vec3 onward = geometry::axes_from_angles(80, 0) * Vec3(-10, 0, 0);
-  Move back = line(rapid.to.tip, rapid.to.tip + onward, speed(40));
+  kinematics::Move back = line(rapid.to.tip, rapid.to.tip + onward, speed(40));
   back.tag = 2;
   back.from.b = back.to.b = 80;
   const auto stretches = plan(machine, {feed, rapid, back});
@@ -387,13 +392,13 @@ TEST(Planner, FeedHoldsInCornersToRapidsThatSwing) {
 }
 
 TEST(Planner, FeedMovesKeepToTheSpeedsOfFeedMoves) {
-  Machine machine = uniform_machine(1000, 2000);
+  kinematics::Machine machine = uniform_machine(1000, 2000);
   machine.feed_speed = 20;
   machine.feed_turn = 30;
   EXPECT_NEAR(time_of(machine, {line(kOrigin, {100, 0, 0}, speed(100))}), trapezoid(100, 20, 2000), 1e-12);
   EXPECT_NEAR(time_of(machine, {line(kOrigin, {100, 0, 0}, duration(0.1))}), trapezoid(100, 20, 2000), 1e-12);
   EXPECT_NEAR(time_of(machine, {line(kOrigin, {100, 0, 0}, kRapid)}), trapezoid(100, 1000, 2000), 1e-12);
-  Move turning = line(kOrigin, {100, 0, 0}, speed(1000));
+  kinematics::Move turning = line(kOrigin, {100, 0, 0}, speed(1000));
   turning.to.c = 200;  // 2 degrees/mm: 15 mm/s.
   EXPECT_NEAR(time_of(machine, {turning}), trapezoid(100, 15, 1000), 1e-12);
   turning.to.tip = kOrigin;
@@ -421,7 +426,7 @@ double s_curve(double length, double v, double a, double j) {
 }
 
 TEST(Planner, OneMoveIsAnSCurve) {
-  const Machine machine = with_jerk(uniform_machine(1000, 2000), 20000);
+  const kinematics::Machine machine = with_jerk(uniform_machine(1000, 2000), 20000);
   for (const double length : {0.001, 0.1, 1.0, 10.0, 100.0, 1000.0})
     for (const double v : {5.0, 50.0, 200.0, 700.0}) {
       const double closed = s_curve(length, v, 2000, 20000);
@@ -432,8 +437,8 @@ TEST(Planner, OneMoveIsAnSCurve) {
 }
 
 TEST(Planner, TheWeakestAxisLimitsALine) {
-  Machine machine = uniform_machine(1000, 2000);
-  machine.axes[kY].jerk = 5000;
+  kinematics::Machine machine = uniform_machine(1000, 2000);
+  machine.axes[kinematics::kY].jerk = 5000;
   // Along (3, 4, 0) / 5: Y allows 5000 / 0.8, and 2000 / 0.8 of acceleration.
   const double closed = s_curve(100, 300, 2500, 6250);
   EXPECT_NEAR(time_of(machine, {line(kOrigin, {60, 80, 0}, speed(300))}), closed, 1e-3 * closed);
@@ -442,7 +447,7 @@ TEST(Planner, TheWeakestAxisLimitsALine) {
 
 /// In a circle at a constant speed the jerk is v^3 / r^2; two fifths of the limit are left for changes of the speed.
 TEST(Planner, ACircleGoesAsFastAsItsJerkAllows) {
-  const Machine machine = with_jerk(uniform_machine(1000, 3000), 20000);
+  const kinematics::Machine machine = with_jerk(uniform_machine(1000, 3000), 20000);
   double fastest = 0;
   for (const Stretch& stretch : plan(machine, {arc_xy({-5, 0, 0}, kOrigin, 3600, 0, speed(1000))}))
     fastest = std::max(fastest, stretch.at(machine.kinematics, stretch.start).speed);
@@ -453,17 +458,18 @@ TEST(Planner, ACircleGoesAsFastAsItsJerkAllows) {
 
 /// An arc that leaves a line along its tangent is entered without a stop, through a curve that gathers the bend.
 TEST(Planner, TangentialArcsAreNotStops) {
-  const Machine machine = with_jerk(uniform_machine(1000, 2000), 20000);
-  std::vector<Move> moves = {line({-50, 0, 0}, kOrigin, speed(40)), arc_xy(kOrigin, {0, 20, 0}, 180, 0, speed(40)),
-                             line({0, 40, 0}, {-50, 40, 0}, speed(40))};
+  const kinematics::Machine machine = with_jerk(uniform_machine(1000, 2000), 20000);
+  std::vector<kinematics::Move> moves = {line({-50, 0, 0}, kOrigin, speed(40)),
+                                         arc_xy(kOrigin, {0, 20, 0}, 180, 0, speed(40)),
+                                         line({0, 40, 0}, {-50, 40, 0}, speed(40))};
   const double closed = s_curve(100 + 20 * std::numbers::pi, 40, 2000, 20000);
   EXPECT_NEAR(time_of(machine, moves), closed, 0.01 * closed);
 }
 
 /// Chains of short lines are as fast as one long line where they are straight.
 TEST(Planner, CollinearMovesAreOneWhereJerkIsLimited) {
-  const Machine machine = with_jerk(uniform_machine(1000, 2000), 20000);
-  std::vector<Move> moves;
+  const kinematics::Machine machine = with_jerk(uniform_machine(1000, 2000), 20000);
+  std::vector<kinematics::Move> moves;
   for (int i = 0; i < 1000; ++i) moves.push_back(line({i * 0.1, 0, 0}, {(i + 1) * 0.1, 0, 0}, speed(100)));
   EXPECT_NEAR(time_of(machine, moves), s_curve(100, 100, 2000, 20000), 0.01);
 }

@@ -6,22 +6,22 @@
 #include <limits>
 #include <numbers>
 
-#include "interpreter/motion/kinematics.h"
+#include "interpreter/kinematics/kinematics.h"
 
 namespace isocnc::motion {
 
 using geometry::Pose;
 using geometry::Vec3;
 
-static constexpr double kRadians = std::numbers::pi / 180;
+static constexpr double kinematics::kRadians = std::numbers::pi / 180;
 
-std::vector<Stretch> plan(const Machine& machine, const std::vector<Move>& moves) {
+std::vector<Stretch> plan(const kinematics::Machine& machine, const std::vector<kinematics::Move>& moves) {
   std::vector<Stretch> stretches;
   Planner planner(machine);
   const auto take = [&] {
     while (const Stretch* stretch = planner.next()) stretches.push_back(*stretch);
   };
-  for (const Move& move : moves) {
+  for (const kinematics::Move& move : moves) {
     planner.push(move);
     take();
   }
@@ -34,23 +34,23 @@ double cycle_time(const std::vector<Stretch>& stretches) {
   return stretches.empty() ? 0 : stretches.back().start + stretches.back().duration;
 }
 
-Machine uniform_machine(double speed, double acceleration) {
-  Machine machine;
-  for (AxisLimits& axis : machine.axes) {
+kinematics::Machine uniform_machine(double speed, double acceleration) {
+  kinematics::Machine machine;
+  for (kinematics::AxisLimits& axis : machine.axes) {
     axis.speed = speed;
     axis.acceleration = acceleration;
   }
   return machine;
 }
 
-Machine with_jerk(Machine machine, double jerk) {
-  for (const Axis axis : {kX, kY, kZ}) machine.axes[axis].jerk = jerk;
-  for (const Axis axis : {kB, kC}) machine.axes[axis].jerk = jerk / 3;
+kinematics::Machine with_jerk(kinematics::Machine machine, double jerk) {
+  for (const kinematics::Axis axis : {kinematics::kX, kinematics::kY, kinematics::kZ}) machine.axes[axis].jerk = jerk;
+  for (const kinematics::Axis axis : {kinematics::kB, kinematics::kC}) machine.axes[axis].jerk = jerk / 3;
   return machine;
 }
 
-Move line(const Vec3& from, const Vec3& to, Feed feed) {
-  Move move;
+kinematics::Move line(const Vec3& from, const Vec3& to, kinematics::Feed feed) {
+  kinematics::Move move;
   move.from.tip = from;
   move.to.tip = to;
   move.feed = feed;
@@ -58,11 +58,12 @@ Move line(const Vec3& from, const Vec3& to, Feed feed) {
 }
 
 static Vec3 turned(const Vec3& vector, const Vec3& axis, double degrees) {
-  return Eigen::AngleAxisd(degrees * kRadians, axis) * vector;
+  return Eigen::AngleAxisd(degrees * kinematics::kRadians, axis) * vector;
 }
 
-Move arc_xy(const Vec3& from, const Vec3& center, double sweep_deg, double rise, Feed feed) {
-  Move move = line(from, center + turned(from - center, Vec3::UnitZ(), sweep_deg) + rise * Vec3::UnitZ(), feed);
+kinematics::Move arc_xy(const Vec3& from, const Vec3& center, double sweep_deg, double rise, kinematics::Feed feed) {
+  kinematics::Move move =
+      line(from, center + turned(from - center, Vec3::UnitZ(), sweep_deg) + rise * Vec3::UnitZ(), feed);
   move.is_arc = true;
   move.center = center;
   move.normal = Vec3::UnitZ();
@@ -70,27 +71,28 @@ Move arc_xy(const Vec3& from, const Vec3& center, double sweep_deg, double rise,
   return move;
 }
 
-static Vec3 on_arc(const Move& move, double part) {
+static Vec3 on_arc(const kinematics::Move& move, double part) {
   const Vec3 out = move.from.tip - move.center;
   const Vec3 off = move.to.tip - (move.center + turned(out, move.normal, move.sweep_deg));
   return move.center + turned(out, move.normal, part * move.sweep_deg) + part * off;
 }
 
-Pose programmed(const Machine& machine, const Move& move, double part) {
-  const Coordinates from = coordinates(move.from);
-  const Coordinates to = coordinates(move.to);
-  Pose result = pose(from + part * (to - from));
+Pose programmed(const kinematics::Machine& machine, const kinematics::Move& move, double part) {
+  const kinematics::Coordinates from = kinematics::coordinates(move.from);
+  const kinematics::Coordinates to = kinematics::coordinates(move.to);
+  Pose result = kinematics::pose(from + part * (to - from));
   if (move.is_arc) {
     result.tip = on_arc(move, part);
   } else if (!move.controls_tool_point) {
-    const Coordinates first = inverse(machine.kinematics, from, move.tool_length);
-    const Coordinates last = inverse(machine.kinematics, to, move.tool_length);
-    result = pose(forward(machine.kinematics, Coordinates(first + part * (last - first)), move.tool_length));
+    const kinematics::Coordinates first = kinematics::inverse(machine.kinematics, from, move.tool_length);
+    const kinematics::Coordinates last = kinematics::inverse(machine.kinematics, to, move.tool_length);
+    result = kinematics::pose(kinematics::forward(
+        machine.kinematics, kinematics::Coordinates(first + part * (last - first)), move.tool_length));
   }
   return result;
 }
 
-double distance(const Machine& machine, const Move& move, const Vec3& point) {
+double distance(const kinematics::Machine& machine, const kinematics::Move& move, const Vec3& point) {
   const auto off = [&](double part) { return (programmed(machine, move, part).tip - point).norm(); };
   if (!move.is_arc && (move.controls_tool_point || (move.from.b == move.to.b && move.from.c == move.to.c))) {
     const Vec3 way = move.to.tip - move.from.tip;
@@ -126,8 +128,8 @@ class Drawer {
  public:
   explicit Drawer(std::uint64_t seed) : random_(seed) {}
 
-  Move draw() {
-    Move move;
+  kinematics::Move draw() {
+    kinematics::Move move;
     move.from = pose_;
     move.to = pose_;
     move.tag = tag_++;
@@ -166,13 +168,13 @@ class Drawer {
   Vec3 vector(double size) { return size * Vec3(between(-1, 1), between(-1, 1), between(-1, 1)); }
   Vec3 direction() { return vector(1).normalized(); }
 
-  Feed feed() {
+  kinematics::Feed feed() {
     if (chance(0.2)) return kRapid;
     if (chance(0.2)) return duration(between(0.05, 2));
     return speed(std::pow(10, between(0.5, 3)));
   }
 
-  void turn(Move& move) {
+  void turn(kinematics::Move& move) {
     move.from = pose_;
     move.to = pose_;
     const double size = std::pow(10, between(-1, 1.8));
@@ -180,7 +182,7 @@ class Drawer {
     move.to.c = std::clamp(pose_.c + between(-size, size), -360.0, 360.0);
   }
 
-  void arc(Move& move) {
+  void arc(kinematics::Move& move) {
     move.is_arc = true;
     move.normal = direction();
     const Vec3 out = move.normal.cross(direction()).normalized() * std::pow(10, between(-1, 2));
@@ -201,11 +203,11 @@ class Drawer {
 
 }  // namespace
 
-std::vector<Move> random_moves(std::uint64_t seed, int count) {
+std::vector<kinematics::Move> random_moves(std::uint64_t seed, int count) {
   Drawer drawer(seed);
-  std::vector<Move> moves;
+  std::vector<kinematics::Move> moves;
   for (int i = 0; i < count; ++i) {
-    Move move = drawer.draw();
+    kinematics::Move move = drawer.draw();
     if (!move.is_arc && move.to == move.from) continue;
     moves.push_back(move);
   }

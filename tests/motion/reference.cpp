@@ -9,8 +9,8 @@ namespace {
 
 /// What bounds x = (ds/dt)^2 and a at a point of the path.
 struct Point {
-  Coordinates first;
-  Coordinates second;
+  kinematics::Coordinates first;
+  kinematics::Coordinates second;
   double cap = 0;
 };
 
@@ -22,15 +22,15 @@ struct Interval {
   Point end;
 };
 
-double feed_speed(const Move& move, double length) {
-  if (move.feed.kind == FeedKind::Rapid) return std::numeric_limits<double>::infinity();
-  return move.feed.kind == FeedKind::Speed ? move.feed.value : length / move.feed.value;
+double feed_speed(const kinematics::Move& move, double length) {
+  if (move.feed.kind == kinematics::FeedKind::Rapid) return std::numeric_limits<double>::infinity();
+  return move.feed.kind == kinematics::FeedKind::Speed ? move.feed.value : length / move.feed.value;
 }
 
-double programmed_length(const Move& move) {
+double programmed_length(const kinematics::Move& move) {
   constexpr int kSteps = 20000;
   double length = 0;
-  const Machine machine;
+  const kinematics::Machine machine;
   for (int i = 0; move.is_arc && i < kSteps; ++i)
     length +=
         (programmed(machine, move, double(i + 1) / kSteps).tip - programmed(machine, move, double(i) / kSteps).tip)
@@ -41,8 +41,8 @@ double programmed_length(const Move& move) {
 
 class Optimization {
  public:
-  Optimization(const Machine& machine, const std::vector<Move>& moves) : machine_(machine) {
-    for (const Move& move : moves) feeds_.push_back(feed_speed(move, programmed_length(move)));
+  Optimization(const kinematics::Machine& machine, const std::vector<kinematics::Move>& moves) : machine_(machine) {
+    for (const kinematics::Move& move : moves) feeds_.push_back(feed_speed(move, programmed_length(move)));
   }
 
   void add(const Stretch& stretch, bool is_corner, double feed, int steps) {
@@ -77,21 +77,21 @@ class Optimization {
   }
 
  private:
-  void add(const Path& path, double begin, double end, bool is_corner, double feed, int steps) {
+  void add(const kinematics::Path& path, double begin, double end, bool is_corner, double feed, int steps) {
     const double step = (end - begin) / steps;
     for (int i = 0; i < steps; ++i)
       intervals_.push_back(
           {step, is_corner, false, point(path, begin + i * step, feed), point(path, begin + (i + 1) * step, feed)});
   }
 
-  Point point(const Path& path, double s, double feed) const {
-    const Jet joints = path.joints_at(machine_.kinematics, s);
-    const Jet tip = path.tip_at(machine_.kinematics, s);
+  Point point(const kinematics::Path& path, double s, double feed) const {
+    const kinematics::Jet joints = path.joints_at(machine_.kinematics, s);
+    const kinematics::Jet tip = path.tip_at(machine_.kinematics, s);
     const double tip_slope = tip.first.head<3>().norm();
     const double slope = tip_slope > 0 ? tip_slope : tip.first.tail<2>().norm();
     Point result{joints.first, joints.second, std::pow(feed / slope, 2)};
-    for (int axis = 0; axis < kAxisCount; ++axis) {
-      const AxisLimits& limits = machine_.axes[static_cast<std::size_t>(axis)];
+    for (int axis = 0; axis < kinematics::kAxisCount; ++axis) {
+      const kinematics::AxisLimits& limits = machine_.axes[static_cast<std::size_t>(axis)];
       result.cap = std::min(result.cap, std::pow(limits.speed / joints.first[axis], 2));
       result.cap = std::min(result.cap, limits.acceleration / std::abs(joints.second[axis]));
     }
@@ -99,7 +99,7 @@ class Optimization {
   }
 
   bool is_possible(const Point& point, double x, double a) const {
-    for (int axis = 0; axis < kAxisCount; ++axis)
+    for (int axis = 0; axis < kinematics::kAxisCount; ++axis)
       if (std::abs(point.second[axis] * x + point.first[axis] * a) >
           machine_.axes[static_cast<std::size_t>(axis)].acceleration * (1 + 1e-12))
         return false;
@@ -123,19 +123,19 @@ class Optimization {
     return minimum;
   }
 
-  const Machine& machine_;
+  const kinematics::Machine& machine_;
   std::vector<double> feeds_;
   std::vector<Interval> intervals_;
 };
 
 bool is_corner(const Stretch& stretch) {
-  return stretch.path.kind == PathKind::Polynomial && !stretch.path.c[2].isZero(0);
+  return stretch.path.kind == kinematics::PathKind::Polynomial && !stretch.path.c[2].isZero(0);
 }
 
 }  // namespace
 
-double reference_time(const Machine& machine, const std::vector<Move>& moves, const std::vector<Stretch>& stretches,
-                      int steps) {
+double reference_time(const kinematics::Machine& machine, const std::vector<kinematics::Move>& moves,
+                      const std::vector<Stretch>& stretches, int steps) {
   Optimization optimization(machine, moves);
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     const Stretch& stretch = stretches[i];

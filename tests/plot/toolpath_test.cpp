@@ -71,9 +71,9 @@ constexpr std::string_view kProgram =
 
 std::vector<simulation::TimedMachine> machines() {
   std::vector<simulation::TimedMachine> all(3);
-  all[0].motion = motion::three_axis_router();
-  all[1].motion = motion::head_router();
-  all[2].motion = motion::table_router();
+  all[0].motion = kinematics::three_axis_router();
+  all[1].motion = kinematics::head_router();
+  all[2].motion = kinematics::table_router();
   for (simulation::TimedMachine& machine : all) machine.tool_lengths[{1, 1, 1}] = 120;
   return all;
 }

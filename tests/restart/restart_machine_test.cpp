@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "interpreter/motion/kinematics.h"
+#include "interpreter/kinematics/kinematics.h"
 #include "interpreter/restart/restart.h"
 #include "interpreter/simulation/timed_run.h"
 #include "tests/support/random.h"
@@ -32,7 +32,7 @@ constexpr double kNear = 1e-5;  // mm, degrees
 struct Motion {
   std::uint64_t line = 0;
   MoveKind kind = MoveKind::Rapid;
-  motion::Move move;
+  kinematics::Move move;
 };
 
 /// What a run does, from its start.
@@ -42,7 +42,7 @@ struct Course {
   running::Ending ending = running::Ending::Error;
 };
 
-bool goes(const motion::Move& move) {
+bool goes(const kinematics::Move& move) {
   return move.is_arc || (move.to.tip - move.from.tip).norm() > 1e-7 || move.to.b != move.from.b ||
          move.to.c != move.from.c;
 }
@@ -77,22 +77,22 @@ bool is_near(const geometry::Pose& a, const geometry::Pose& b) {
 }
 
 /// Where the nose and the rotary axes are, by the kinematics alone.
-motion::Coordinates joints_at(const motion::Machine& machine, const geometry::Pose& tip, double tool_length) {
-  return motion::inverse(machine.kinematics, motion::coordinates(tip), tool_length);
+kinematics::Coordinates joints_at(const kinematics::Machine& machine, const geometry::Pose& tip, double tool_length) {
+  return kinematics::inverse(machine.kinematics, kinematics::coordinates(tip), tool_length);
 }
 
-bool has_near_joints(const motion::Machine& machine, const motion::Move& a, const motion::Move& b) {
+bool has_near_joints(const kinematics::Machine& machine, const kinematics::Move& a, const kinematics::Move& b) {
   const auto joints = [&](const geometry::Pose& tip, double length) { return joints_at(machine, tip, length); };
   return (joints(a.from, a.tool_length) - joints(b.from, b.tool_length)).norm() < kNear &&
          (joints(a.to, a.tool_length) - joints(b.to, b.tool_length)).norm() < kNear;
 }
 
 /// A tool change in between moves no joint.
-bool end_alike(const motion::Machine& machine, const motion::Move& a, const motion::Move& b) {
+bool end_alike(const kinematics::Machine& machine, const kinematics::Move& a, const kinematics::Move& b) {
   return (joints_at(machine, a.to, a.tool_length) - joints_at(machine, b.to, b.tool_length)).norm() < kNear;
 }
 
-bool is_same(const motion::Machine& machine, const Motion& a, const Motion& b) {
+bool is_same(const kinematics::Machine& machine, const Motion& a, const Motion& b) {
   if (a.kind != b.kind || a.move.is_arc != b.move.is_arc || a.move.exact_stop != b.move.exact_stop) return false;
   if (!is_near(a.move.from, b.move.from) || !is_near(a.move.to, b.move.to)) return false;
   if (!has_near_joints(machine, a.move, b.move)) return false;
@@ -102,7 +102,7 @@ bool is_same(const motion::Machine& machine, const Motion& a, const Motion& b) {
 }
 
 std::string in_words(const Motion& motion) {
-  const motion::Move& move = motion.move;
+  const kinematics::Move& move = motion.move;
   return fmt::format("line {} kind {}: {} {} {} to {} {} {}, feed {}", motion.line + 1, static_cast<int>(motion.kind),
                      move.from.tip.x(), move.from.tip.y(), move.from.tip.z(), move.to.tip.x(), move.to.tip.y(),
                      move.to.tip.z(), move.feed.value);
@@ -352,7 +352,7 @@ TEST(RestartMachine, GoesOnAsInEachProgramThatComesAlong) {
       for (const std::string& program : programs_in(entry.path())) {
         SCOPED_TRACE(entry.path());
         RestartOptions options;
-        options.machine.motion.kinematics = motion::head_router().kinematics;
+        options.machine.motion.kinematics = kinematics::head_router().kinematics;
         add_tools(program, options.machine);
         options.machine.home.tip.z() = options.run.setup.home.tip.z() = 450;
         if (running::run(program, options.run, [](const running::Event&) {}).ending != running::Ending::ProgramEnd)

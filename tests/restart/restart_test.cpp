@@ -82,7 +82,7 @@ RestartOptions options_of(const Case& each) {
     } else if (what == "home-z") {
       options.run.setup.home.tip.z() = options.machine.home.tip.z() = value;
     } else if (what == "highest-z") {
-      options.machine.motion.axes[motion::kZ].maximum = value;
+      options.machine.motion.axes[kinematics::kZ].maximum = value;
     } else if (what == "radius" || what == "length") {
       add_tool(setting, options.machine);
     } else if (what == "approach-feed") {

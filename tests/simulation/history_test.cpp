@@ -109,11 +109,12 @@ TEST_F(HistoryTest, FindsTheLastMotionBefore) {
     Random random(seed);
     History history(begin(RandomRun(random).text(random.between(1, 4)), random.between(0, 2)), kFew);
     history.go_to_block(static_cast<std::uint64_t>(random.between(0, 200)));
-    const auto leads_right = [](const motion::Move& move) { return move.to.tip.x() > move.from.tip.x() + 5; };
+    const auto leads_right = [](const kinematics::Move& move) { return move.to.tip.x() > move.from.tip.x() + 5; };
     std::vector<bool> does_block;
     for (Simulation fresh = fresh_before(0); !fresh.has_ended();) {
       does_block.push_back(false);
-      fresh.trace_block([&](const motion::Move& move) { does_block.back() = does_block.back() || leads_right(move); });
+      fresh.trace_block(
+          [&](const kinematics::Move& move) { does_block.back() = does_block.back() || leads_right(move); });
     }
     const std::uint64_t end = std::min<std::uint64_t>(history.present().blocks(), does_block.size());
     const auto from = static_cast<std::uint64_t>(random.between(0, static_cast<int>(end)));

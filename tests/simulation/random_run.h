@@ -13,9 +13,9 @@ namespace isocnc::simulation {
 
 /// A machine on which every action takes time, so that a run can be stopped within each.
 inline TimedMachine machine_of_tests(bool limits_jerk = false) {
-  TimedMachine machine{.motion = motion::head_router()};
+  TimedMachine machine{.motion = kinematics::head_router()};
   if (limits_jerk)
-    for (motion::AxisLimits& axis : machine.motion.axes) axis.jerk = 20 * axis.acceleration;
+    for (kinematics::AxisLimits& axis : machine.motion.axes) axis.jerk = 20 * axis.acceleration;
   machine.durations = {.tool_change = 5, .spindle = 0.5, .channel = 0.25, .functions = {{100, 0.75}}};
   machine.tool_lengths = {{execution::tool_code(101001), 80}, {execution::tool_code(101002), 120}};
   machine.tool_radii = {{execution::tool_code(101001), 3}, {execution::tool_code(101002), 8}};
@@ -145,7 +145,7 @@ struct Shown {
 
 inline Shown shown(const Simulation& simulation) {
   const motion::Sample sample = simulation.sample();
-  const auto numbers = [](const motion::Coordinates& values) { return fmt::format("{}", fmt::join(values, " ")); };
+  const auto numbers = [](const kinematics::Coordinates& values) { return fmt::format("{}", fmt::join(values, " ")); };
   const DistanceToGo to_go = simulation.to_go();
   const running::Event* const event = simulation.event();
   return {.text = fmt::format(
@@ -154,7 +154,7 @@ inline Shown shown(const Simulation& simulation) {
               simulation.time(), simulation.blocks(), simulation.line(), simulation.is_in_block() ? " in block" : "",
               simulation.has_ended() ? " ended" : "",
               event ? fmt::format("{} {}", running::kind_of(*event), event->line) : "none",
-              numbers(motion::coordinates(sample.tip)), numbers(sample.joints), numbers(sample.joint_speeds),
+              numbers(kinematics::coordinates(sample.tip)), numbers(sample.joints), numbers(sample.joint_speeds),
               numbers(sample.joint_accelerations), sample.speed, sample.acceleration, numbers(to_go.axes), to_go.path,
               simulation.vgpl(), static_cast<int>(simulation.run().ending), simulation.run().line),
           .state = simulation.run().state,

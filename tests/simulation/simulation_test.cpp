@@ -74,7 +74,7 @@ TEST(Simulation, BeginsAtHomeBeforeTheFirstBlock) {
   EXPECT_FALSE(simulation.has_ended());
   EXPECT_EQ(simulation.event(), nullptr);
   EXPECT_EQ(simulation.sample().tip.tip, geometry::Vec3(0, 0, 400));
-  EXPECT_EQ(simulation.sample().joints[motion::kZ], 400);
+  EXPECT_EQ(simulation.sample().joints[kinematics::kZ], 400);
 }
 
 /// A tool change moves no joint, so the tip of a longer tool is lower once it is mounted; the next motions start there.
@@ -90,7 +90,7 @@ TEST(Simulation, ShowsWhereTheToolEnds) {
   Simulation simulation = changes.start();
   const auto expect = [&](double tip, double nose) {
     EXPECT_NEAR(simulation.sample().tip.tip.z(), tip, kTiny) << "line " << simulation.line();
-    EXPECT_NEAR(simulation.sample().joints[motion::kZ], nose, kTiny) << "line " << simulation.line();
+    EXPECT_NEAR(simulation.sample().joints[kinematics::kZ], nose, kTiny) << "line " << simulation.line();
   };
   advance_to(simulation, 4);
   expect(400, 400);
@@ -105,11 +105,11 @@ TEST(Simulation, ShowsWhereTheToolEnds) {
   expect(280, 400);
   simulation.advance_along(10);
   expect(280, 400);
-  EXPECT_NEAR(simulation.to_go().axes[motion::kZ], 0, kTiny) << "the motion leaves out Z";
+  EXPECT_NEAR(simulation.to_go().axes[kinematics::kZ], 0, kTiny) << "the motion leaves out Z";
   EXPECT_NEAR(simulation.to_go().path, 20, kTiny);
   simulation.step_block();
   simulation.advance_along(30);
-  EXPECT_NEAR(simulation.to_go().axes[motion::kZ], 100 - simulation.sample().tip.tip.z(), kTiny);
+  EXPECT_NEAR(simulation.to_go().axes[kinematics::kZ], 100 - simulation.sample().tip.tip.z(), kTiny);
   simulation.step_block();
   expect(100, 220);
   simulation.step_block();
@@ -233,7 +233,7 @@ TEST(Simulation, MovesWithoutStepsOfTheAccelerationWhereJerkIsLimited) {
   advance_to(simulation, start + 0.005);
   const double jerk = simulation.sample().acceleration / 0.005;
   EXPECT_GT(jerk, 0);
-  EXPECT_LE(jerk, *line.machine().motion.axes[motion::kX].jerk * (1 + kTiny));
+  EXPECT_LE(jerk, *line.machine().motion.axes[kinematics::kX].jerk * (1 + kTiny));
   simulation.advance_along(30);
   EXPECT_NEAR(simulation.to_go().path, 100 - simulation.sample().tip.tip.x(), kTiny);
   simulation.step_block();
@@ -285,10 +285,10 @@ TEST(Simulation, StopsAtAnyPointOfThePath) {
   simulation.step_block();
   simulation.advance_along(30);
   EXPECT_NEAR(simulation.sample().tip.tip.x(), 30, kTiny);
-  EXPECT_NEAR(simulation.sample().joints[motion::kZ], simulation.sample().tip.tip.z() + 80, kTiny)
+  EXPECT_NEAR(simulation.sample().joints[kinematics::kZ], simulation.sample().tip.tip.z() + 80, kTiny)
       << "the tool's length above the tip";
   EXPECT_NEAR(simulation.to_go().path, 70, kTiny);
-  EXPECT_NEAR(simulation.to_go().axes[motion::kX], 70, kTiny);
+  EXPECT_NEAR(simulation.to_go().axes[kinematics::kX], 70, kTiny);
   simulation.advance_along(30);
   EXPECT_NEAR(simulation.sample().tip.tip.x(), 60, kTiny);
   simulation.advance_along(1000);
@@ -306,7 +306,7 @@ TEST(Simulation, StopsAtAnyPointOfAnArc) {
   EXPECT_NEAR(simulation.sample().tip.tip.x(), 10 - side, kTiny);
   EXPECT_NEAR(simulation.sample().tip.tip.y(), side, kTiny);
   EXPECT_NEAR(simulation.to_go().path, whole * 7 / 8, 1e-6);
-  EXPECT_NEAR(simulation.to_go().axes[motion::kY], -side, kTiny);
+  EXPECT_NEAR(simulation.to_go().axes[kinematics::kY], -side, kTiny);
   simulation.advance_along(whole / 2);
   EXPECT_NEAR(simulation.to_go().path, whole * 3 / 8, 1e-6);
 }
@@ -398,7 +398,7 @@ struct Trip {
   }
 
   std::vector<std::pair<motion::Stretch, std::uint64_t>> stretches;  ///< Pairs of a stretch and its line.
-  std::vector<motion::Move> moves;                                   ///< The moves that take time.
+  std::vector<kinematics::Move> moves;                               ///< The moves that take time.
   Timing timing;
   running::RunResult result;
 };
@@ -428,10 +428,10 @@ TEST(SimulationProperty, TracesTheMotionsOfARunInOneGo) {
   for (const std::uint64_t seed : seeds(40)) {
     Random random(seed);
     const Case some{random};
-    std::vector<motion::Move> moves;
+    std::vector<kinematics::Move> moves;
     Simulation simulation = some.start();
     for (; !simulation.has_ended(); simulation.step_block())
-      Simulation(simulation).trace_block([&](const motion::Move& move) { moves.push_back(move); });
+      Simulation(simulation).trace_block([&](const kinematics::Move& move) { moves.push_back(move); });
     const Trip trip(some);
     ASSERT_EQ(moves.size(), trip.moves.size()) << seed;
     for (std::size_t i = 0; i < moves.size(); ++i) {
@@ -518,7 +518,7 @@ TEST(SimulationProperty, MovesAtTheSpeedThatItShows) {
       advance_to(simulation, step * kStep);
       const motion::Sample now = simulation.sample();
       const double tolerance = kMaxAcceleration * kStep * kStep + kTiny;
-      const motion::Coordinates expected = kStep * (last.joint_speeds + now.joint_speeds) / 2;
+      const kinematics::Coordinates expected = kStep * (last.joint_speeds + now.joint_speeds) / 2;
       ASSERT_LE((now.joints - last.joints - expected).cwiseAbs().maxCoeff(), tolerance)
           << seed << " at " << simulation.time();
       if (last.speed > 0) {

@@ -23,8 +23,8 @@ constexpr double kTiny = 1e-9;
 
 /// A machine with a maximum of 100 mm/s and 1000 mm/s^2.
 TimedMachine slow_machine() {
-  TimedMachine machine{.motion = motion::three_axis_router()};
-  for (motion::AxisLimits& axis : machine.motion.axes) {
+  TimedMachine machine{.motion = kinematics::three_axis_router()};
+  for (kinematics::AxisLimits& axis : machine.motion.axes) {
     axis.speed = 100;
     axis.acceleration = 1000;
   }
@@ -231,7 +231,7 @@ double circle_seconds(std::string_view circle) {
   const Timed timed = time(fmt::format("M06 T101001\nG00 X200 Y0\nG04 P0\n{}\nM02\n", circle), {});
   double seconds = 0;
   for (const TimedEvent& event : timed.events)
-    if (event.move && event.move->feed.kind != motion::FeedKind::Rapid) seconds += event.duration;
+    if (event.move && event.move->feed.kind != kinematics::FeedKind::Rapid) seconds += event.duration;
   return seconds;
 }
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "interpreter/motion/travel.h"
+#include "interpreter/kinematics/travel.h"
 #include "interpreter/running/runner.h"
 #include "interpreter/simulation/summary.h"
 #include "interpreter/simulation/timing.h"
@@ -132,14 +132,14 @@ Trip trip_of(std::string_view program, const TimedMachine& machine) {
   return trip;
 }
 
-class Trips : public testing::TestWithParam<motion::MachineKind> {
+class Trips : public testing::TestWithParam<kinematics::MachineKind> {
  protected:
   static TimedMachine machine() {
-    TimedMachine machine{.motion = motion::head_router()};
-    if (GetParam() == motion::MachineKind::ThreeAxis) machine.motion = motion::three_axis_router();
-    if (GetParam() == motion::MachineKind::Table) machine.motion = motion::table_router();
-    machine.motion.axes[motion::kB].speed = machine.motion.axes[motion::kC].speed = 100;
-    machine.motion.axes[motion::kB].acceleration = machine.motion.axes[motion::kC].acceleration = 700;
+    TimedMachine machine{.motion = kinematics::head_router()};
+    if (GetParam() == kinematics::MachineKind::ThreeAxis) machine.motion = kinematics::three_axis_router();
+    if (GetParam() == kinematics::MachineKind::Table) machine.motion = kinematics::table_router();
+    machine.motion.axes[kinematics::kB].speed = machine.motion.axes[kinematics::kC].speed = 100;
+    machine.motion.axes[kinematics::kB].acceleration = machine.motion.axes[kinematics::kC].acceleration = 700;
     machine.motion.feed_speed = 100;
     machine.motion.feed_turn = 40;
     machine.tool_lengths = {{{1, 1, 2}, 80}, {{1, 1, 3}, 150}};
@@ -159,7 +159,7 @@ class Trips : public testing::TestWithParam<motion::MachineKind> {
 
   /// The trips, planned once for all properties.
   static const std::vector<Trip>& trips(const TimedMachine& machine) {
-    static std::map<motion::MachineKind, std::vector<Trip>> kept;
+    static std::map<kinematics::MachineKind, std::vector<Trip>> kept;
     std::vector<Trip>& all = kept[GetParam()];
     if (all.empty()) {
       for (const std::uint64_t seed : seeds(6)) {
@@ -197,8 +197,8 @@ TEST_P(Trips, KeepWithinSpeedsAndAccelerations) {
   for_trips([&](const TimedMachine& machine, const Trip& trip) {
     for (const Stretch& stretch : trip.stretches)
       for_samples(machine, stretch, [&](const Sample& sample, double) {
-        for (int axis = 0; axis < motion::kAxisCount; ++axis) {
-          const motion::AxisLimits& limits = machine.motion.axes[static_cast<std::size_t>(axis)];
+        for (int axis = 0; axis < kinematics::kAxisCount; ++axis) {
+          const kinematics::AxisLimits& limits = machine.motion.axes[static_cast<std::size_t>(axis)];
           ASSERT_LE(std::abs(sample.joint_speeds[axis]), limits.speed * kRelative) << stretch.tag;
           ASSERT_LE(std::abs(sample.joint_accelerations[axis]), limits.acceleration * kRelative) << stretch.tag;
           fullest = std::max(fullest, std::abs(sample.joint_accelerations[axis]) / limits.acceleration);
@@ -211,12 +211,12 @@ TEST_P(Trips, KeepWithinSpeedsAndAccelerations) {
 TEST_P(Trips, KeepToTheFeedAndToWhatFeedMovesMay) {
   for_trips([](const TimedMachine& machine, const Trip& trip) {
     for (const Stretch& stretch : trip.stretches) {
-      const motion::Move& move = *trip.motions[stretch.tag].move;
-      if (move.feed.kind == motion::FeedKind::Rapid) continue;
+      const kinematics::Move& move = *trip.motions[stretch.tag].move;
+      if (move.feed.kind == kinematics::FeedKind::Rapid) continue;
       const bool only_turns = !move.is_arc && (move.to.tip - move.from.tip).norm() < 1e-9;
       for_samples(machine, stretch, [&](const Sample& sample, double) {
         const double speed = only_turns ? sample.joint_speeds.tail<2>().norm() : sample.speed;
-        if (move.feed.kind == motion::FeedKind::Speed) {
+        if (move.feed.kind == kinematics::FeedKind::Speed) {
           ASSERT_LE(speed, move.feed.value * kRelative + 1e-9) << stretch.tag;
         }
         if (!only_turns) {
@@ -233,7 +233,7 @@ TEST_P(Trips, KeepToTheFeedAndToWhatFeedMovesMay) {
 /// off.
 TEST_P(Trips, CoverTheirWholePath) {
   for_trips([](const TimedMachine& machine, const Trip& trip) {
-    const auto swings = [](const motion::Move& move) {
+    const auto swings = [](const kinematics::Move& move) {
       return !move.controls_tool_point && (move.from.b != move.to.b || move.from.c != move.to.c);
     };
     std::vector<double> ways(trip.motions.size());
@@ -242,8 +242,8 @@ TEST_P(Trips, CoverTheirWholePath) {
           machine, stretch, [&](const Sample& sample, double weight) { ways[stretch.tag] += weight * sample.speed; },
           swings(*trip.motions[stretch.tag].move) ? 200 : 8);
     for (std::size_t i = 0; i < ways.size(); ++i) {
-      const motion::Move& move = *trip.motions[i].move;
-      const double length = motion::tip_travel(machine.motion, move).length;
+      const kinematics::Move& move = *trip.motions[i].move;
+      const double length = kinematics::tip_travel(machine.motion, move).length;
       const double part = swings(move) || move.splits_arcs ? 2e-3 : 1e-6;
       ASSERT_NEAR(ways[i], length, 8 * machine.motion.corner_tolerance + part * length) << "motion " << i;
       const auto& programmed = std::get<running::MoveEvent>(trip.motions[i].event.what);
@@ -256,15 +256,15 @@ TEST_P(Trips, CoverTheirWholePath) {
 }
 
 /// The length of the tip's path if each joint moves linearly to its end, as a sum of chords.
-double swung_length(const TimedMachine& machine, const motion::Move& move) {
+double swung_length(const TimedMachine& machine, const kinematics::Move& move) {
   constexpr int kChords = 4000;
-  const motion::Kinematics& kinematics = machine.motion.kinematics;
-  const motion::Coordinates from = inverse(kinematics, motion::coordinates(move.from), move.tool_length);
-  const motion::Coordinates way = inverse(kinematics, motion::coordinates(move.to), move.tool_length) - from;
+  const kinematics::Kinematics& kinematics = machine.motion.kinematics;
+  const kinematics::Coordinates from = inverse(kinematics, kinematics::coordinates(move.from), move.tool_length);
+  const kinematics::Coordinates way = inverse(kinematics, kinematics::coordinates(move.to), move.tool_length) - from;
   double sum = 0;
   geometry::Vec3 before = move.from.tip;
   for (int i = 1; i <= kChords; ++i) {
-    const motion::Coordinates joints = from + static_cast<double>(i) / kChords * way;
+    const kinematics::Coordinates joints = from + static_cast<double>(i) / kChords * way;
     const geometry::Vec3 tip = forward(kinematics, joints, move.tool_length).head<3>();
     sum += (tip - before).norm();
     before = tip;
@@ -282,13 +282,13 @@ TEST_P(Trips, TraceTheLengthsOfTheSummary) {
       const auto line = nlohmann::json::parse(to_json(timed, machine));
       const double length = line.at("lengthMm");
       sums[line.at("kind")] += length;
-      const motion::Move& move = *timed.move;
+      const kinematics::Move& move = *timed.move;
       if (move.is_arc) continue;
       const double expected =
           move.controls_tool_point ? (move.to.tip - move.from.tip).norm() : swung_length(machine, move);
       ASSERT_NEAR(length, expected, 1e-9 + 1e-4 * expected) << line.dump();
     }
-    summary.finish({}, trip.seconds, motion::Coordinates::Zero(), {});
+    summary.finish({}, trip.seconds, kinematics::Coordinates::Zero(), {});
     const auto total = nlohmann::json::parse(summary.json("", dialect::Language::English));
     for (const auto& [kind, kinds] : {std::pair("rapid", "rapids"), {"feed", "feeds"}, {"arc", "arcs"}})
       ASSERT_NEAR(sums[kind], total.at(kinds).at("lengthMm").get<double>(), 1e-6) << kind;
@@ -305,7 +305,7 @@ TEST_P(Trips, TakeTheTimesThatAreReported) {
     ASSERT_FALSE(trip.stretches.empty());
     const Stretch& last = trip.stretches.back();
     const geometry::Pose end = last.at(machine.motion.kinematics, last.start + last.duration).tip;
-    ASSERT_LT((motion::coordinates(end) - motion::coordinates(trip.motions.back().move->to)).norm(), 1e-6);
+    ASSERT_LT((kinematics::coordinates(end) - kinematics::coordinates(trip.motions.back().move->to)).norm(), 1e-6);
   });
 }
 
@@ -323,8 +323,8 @@ TEST_P(Trips, NeverJump) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Machines, Trips,
-                         testing::Values(motion::MachineKind::ThreeAxis, motion::MachineKind::Head,
-                                         motion::MachineKind::Table));
+                         testing::Values(kinematics::MachineKind::ThreeAxis, kinematics::MachineKind::Head,
+                                         kinematics::MachineKind::Table));
 
 }  // namespace
 }  // namespace isocnc::simulation

@@ -17,12 +17,12 @@
 
 namespace isocnc::support {
 
-using lsp::rpc::Json;
+using rpc::Json;
 
 /// A client in the test process. The loop of its peer runs on a thread of its own.
 class MessageClient {
  public:
-  explicit MessageClient(const lsp::rpc::MakePeer& make_peer)
+  explicit MessageClient(const rpc::MakePeer& make_peer)
       : party_(make_peer(loop_, [this](std::string body) { take(std::move(body)); })),
         thread_([this] { loop_.run(std::chrono::seconds(3), [] {}); }) {}
   MessageClient(const MessageClient&) = delete;
@@ -31,11 +31,11 @@ class MessageClient {
     if (is_speaking()) hang_up();
   }
 
-  void receive(lsp::rpc::MessageFrame frame) {
+  void receive(rpc::MessageFrame frame) {
     loop_.post([this, frame = std::move(frame)]() mutable { party_->receive(std::move(frame)); });
   }
   /// Sends the body of a message unchanged.
-  void send_raw(std::string body) { receive({lsp::rpc::MessageFrame::Problem::None, std::move(body)}); }
+  void send_raw(std::string body) { receive({rpc::MessageFrame::Problem::None, std::move(body)}); }
 
   /// Waits for a message for which `fits` is true, and removes it from the received ones.
   Json wait_for(const std::function<bool(const Json&)>& fits) {
@@ -79,11 +79,11 @@ class MessageClient {
     message_received_.notify_all();
   }
 
-  lsp::rpc::Loop loop_;
+  rpc::Loop loop_;
   std::mutex mutex_;
   std::condition_variable message_received_;
   std::deque<Json> messages_;
-  std::unique_ptr<lsp::rpc::Peer> party_;
+  std::unique_ptr<rpc::Peer> party_;
   std::thread thread_;
 };
 

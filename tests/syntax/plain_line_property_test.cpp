@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "interpreter/syntax/characters.h"
 #include "interpreter/syntax/tree_store.h"
+#include "interpreter/text/characters.h"
 #include "tests/support/random.h"
 #include "tests/support/tree_text.h"
 
@@ -63,7 +63,7 @@ TEST(PlainLineProperty, TreesAreThoseOfTheGeneralParser) {
       ASSERT_LT(line, rows.size());
       ASSERT_EQ(support::text_of(rows.tree(line, p)), support::text_of(alone.tree(0, p))) << "seed " << seed;
       ++(rows.tree(line, p).plain_arguments != 0 ? plain : others);
-      p = skip_line_end(line_end, end);
+      p = text::skip_line_end(line_end, end);
     }
     EXPECT_EQ(line, rows.size());
     EXPECT_EQ(p, behind);
@@ -84,7 +84,7 @@ TEST(PlainLineProperty, OneLineIsReadLikeMany) {
     for (const char* p = text.data(); p < end; ++line) {
       const char* const line_end = singly.append_line(p, end);
       EXPECT_EQ(support::text_of(singly.tree(line, p)), support::text_of(rows.tree(line, p))) << "seed " << seed;
-      p = skip_line_end(line_end, end);
+      p = text::skip_line_end(line_end, end);
     }
     EXPECT_EQ(line, rows.size());
   }

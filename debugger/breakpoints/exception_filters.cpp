@@ -1,0 +1,80 @@
+#include "debugger/breakpoints/exception_filters.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analyzer/explain.h"
+#include "debugger/debuggee/block_effect.h"
+#include "debugger/expressions/expression.h"
+#include "interpreter/dialect/format.h"
+#include "interpreter/kinematics/travel.h"
+
+namespace isocnc::breakpoints {
+
+using dialect::Language;
+using dialect::Text;
+
+bool ExceptionFilters::judge_blocks() const {
+  return is_on(ExceptionFilter::ToolChange) || is_on(ExceptionFilter::FirstCut) ||
+         (is_on(ExceptionFilter::Warnings) && !warnings.empty());
+}
+
+bool ExceptionFilters::judge_motions(const simulation::TimedMachine& machine) const {
+  const auto& axes = machine.motion.axes;
+  return is_on(ExceptionFilter::Limits) && std::any_of(axes.begin(), axes.end(), [](const auto& axis) {
+           return std::isfinite(axis.minimum) || std::isfinite(axis.maximum);
+         });
+}
+
+namespace {
+
+constexpr Text kBeyondTravel{"axis {} would go to {}, beyond its travel, which ends at {}",
+                             "l'asse {} andrebbe a {}, oltre la corsa, che finisce a {}"};
+constexpr Text kAnyToolChange{"tool change", "cambio utensile"};
+constexpr Text kFirstCut{"first feed move of this tool", "primo movimento in lavoro di questo utensile"};
+
+/// An exception whose code is the filter's name.
+Exception exception_of(ExceptionFilter filter, std::string message) {
+  return {
+      .filter = filter, .code = std::string(definition(filter).name), .message = std::move(message), .explanation = {}};
+}
+
+}  // namespace
+
+std::optional<Exception> find_overtravel(const kinematics::Move& move, const simulation::TimedMachine& machine,
+                                         Language language) {
+  const auto found = kinematics::overtravels(machine.motion, move);
+  if (found.empty()) return std::nullopt;
+  const kinematics::Overtravel& first = found.front();
+  return exception_of(ExceptionFilter::Limits,
+                      dialect::format(kBeyondTravel, language, dialect::kAxisLetters[first.axis],
+                                      expressions::show_value(first.position), expressions::show_value(first.limit)));
+}
+
+std::optional<Exception> ExceptionFilters::find_warning(const running::Block& block, Language language) const {
+  const auto warning = warnings.find(block.line);
+  if (warning == warnings.end()) return std::nullopt;
+  return Exception{.filter = ExceptionFilter::Warnings,
+                   .code = std::string(dialect::definition(warning->second.id).code),
+                   .message = warning->second.message,
+                   .explanation = analyzer::explain(warning->second.id, language)};
+}
+
+static bool is_first_cut(const running::Block& block, const debuggee::BlockEffect& effect) {
+  return block.is_tool_unused && std::any_of(effect.moves.begin(), effect.moves.end(),
+                                             [](const auto& move) { return move.kind != execution::MoveKind::Rapid; });
+}
+
+std::optional<Exception> ExceptionFilters::find_exception(const running::Block& block, const execution::Setup& setup,
+                                                          Language language) const {
+  if (is_on(ExceptionFilter::Warnings))
+    if (auto warning = find_warning(block, language)) return warning;
+  if (is_on(ExceptionFilter::ToolChange) && debuggee::changes_tool(block))
+    return exception_of(ExceptionFilter::ToolChange, std::string(kAnyToolChange.in(language)));
+  if (!is_on(ExceptionFilter::FirstCut)) return std::nullopt;
+  const debuggee::BlockEffect effect = debuggee::effect_of(block, setup);
+  if (effect.has_error || !is_first_cut(block, effect)) return std::nullopt;
+  return exception_of(ExceptionFilter::FirstCut, std::string(kFirstCut.in(language)));
+}
+
+}  // namespace isocnc::breakpoints

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "debugger/breakpoints/exception_filter.h"
+#include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/running/runner.h"
+#include "interpreter/simulation/timing.h"
+
+namespace isocnc::breakpoints {
+
+/// What has stopped a run other than a breakpoint, a step or a pause.
+struct Exception {
+  ExceptionFilter filter = ExceptionFilter::Errors;
+  std::string code;         ///< `ISO031`, or the name of the filter.
+  std::string message;      ///< One line.
+  std::string explanation;  ///< Full explanation of the code; may be empty.
+};
+
+/// A warning of the checker, at its line.
+struct Warning {
+  dialect::DiagnosticId id = dialect::kNoDiagnostic;
+  std::string message;
+};
+
+/// The exception filters that are on. They judge each block before it is executed.
+class ExceptionFilters {
+ public:
+  /// Warnings by line, from 0; empty until the checker has read the program.
+  std::multimap<std::uint64_t, Warning> warnings;
+
+  bool is_on(ExceptionFilter filter) const { return on_[static_cast<std::size_t>(filter)]; }
+  void turn_on(ExceptionFilter filter) { on_[static_cast<std::size_t>(filter)] = true; }
+  void turn_all_off() { on_ = {}; }
+
+  /// Whether find_exception() can find anything. It need not be called otherwise.
+  bool judge_blocks() const;
+  /// A reason to stop before a block, other than where the machine goes in it.
+  std::optional<Exception> find_exception(const running::Block& block, const execution::Setup& setup,
+                                          dialect::Language language) const;
+
+  /// Whether find_overtravel() can find anything. It need not be called otherwise.
+  bool judge_motions(const simulation::TimedMachine& machine) const;
+
+ private:
+  std::optional<Exception> find_warning(const running::Block& block, dialect::Language language) const;
+
+  std::array<bool, kExceptionFilterCount> on_{};
+};
+
+/// What the axis limits say about a motion as the machine makes it.
+std::optional<Exception> find_overtravel(const kinematics::Move& move, const simulation::TimedMachine& machine,
+                                         dialect::Language language);
+
+}  // namespace isocnc::breakpoints

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "debugger/debuggee/program_text.h"
+#include "interpreter/simulation/history.h"
+
+namespace isocnc::debuggee {
+
+/// Why the machine cannot be changed by hand where it stands.
+enum class Hindrance : std::uint8_t {
+  InBlock,       ///< The machine is within a block.
+  Compensation,  ///< G41 or G42 is in force: the tool is beside the contour.
+  HasEnded,      ///< The program has ended.
+};
+
+/// The result of blocks run by hand.
+struct MdiOutcome {
+  std::vector<running::Event> events;
+  std::optional<running::RunResult> error;  ///< The error that has stopped them; then nothing has been done.
+  std::shared_ptr<const std::string> text;  ///< The blocks, which hold the line of the error.
+};
+
+/// A program on the simulated machine, which runs forward and backward, and can be changed by hand. A register or VGPL
+/// that is set somewhere is set there again when the run comes by again. A change of the machine itself (MDI blocks, S
+/// and F, the override of the feed) brings it to rest, and begins a new part of the history: stepping back over the
+/// change undoes it.
+class Debuggee {
+ public:
+  Debuggee(ProgramText text, const running::RunOptions& options, const simulation::TimedMachine& machine);
+
+  const ProgramText& text() const { return *text_; }
+  const simulation::TimedMachine& machine() const { return *parts_.back().machine; }
+  const execution::Setup& setup() const { return options_->setup; }
+  const simulation::Simulation& present() const { return history().present(); }
+  /// Nothing has been executed yet.
+  bool is_at_start() const;
+
+  // As in History.
+  std::optional<running::Block> next() { return history().next(); }
+  void step_block() { history().step_block(); }
+  void advance_in_block(double seconds) { history().advance_in_block(seconds); }
+  /// To the end of the instruction, or of the segment of an arc in G49, that the machine is at; between two blocks to
+  /// the start of the next one.
+  void step_instruction();
+  void step_back();
+  /// Undoes step_instruction().
+  void step_instruction_back();
+  void go_to_block(std::uint64_t blocks);
+  void skip_to_line(std::uint64_t line) { history().skip_to_line(line); }
+  void return_to(const simulation::Simulation& before) { history().return_to(before); }
+  /// As in History.
+  std::optional<std::uint64_t> find_line(std::uint64_t line) const;
+  /// The last of the blocks [from, blocks) for which `is_it` holds.
+  std::optional<std::uint64_t> find_back(std::uint64_t from, std::uint64_t blocks,
+                                         const std::function<bool(const running::Block&)>& is_it) const;
+
+  /// The last of the blocks [from, blocks) with a motion of the machine for which `is_it` holds.
+  std::optional<std::uint64_t> find_motion_back(std::uint64_t from, std::uint64_t blocks,
+                                                const std::function<bool(const kinematics::Move&)>& is_it) const;
+  /// Calls `on_move` with each motion that the machine will make in the block that comes next.
+  void look_ahead(const std::function<void(const kinematics::Move&)>& on_move) const;
+
+  void set_register(int number, double value) { history().set_register(number, value); }
+  void set_vgpl(double value) { history().set_vgpl(value); }
+
+  /// Changes of the machine by hand up to the present, without those that have been undone.
+  std::size_t change_count() const { return parts_.size() - 1; }
+
+  std::optional<Hindrance> hindrance() const;
+  // Only where nothing hinders it.
+  void set_feed(double number);           ///< Does all that an F of the program does.
+  void set_spindle_speed(double number);  ///< Does all that an S of the program does.
+  /// 1: feeds as written.
+  void set_feed_override(double factor);
+  double feed_override() const { return machine().feed_override; }
+  MdiOutcome run_by_hand(std::string_view text);
+
+ private:
+  void set_state(const execution::State& state);
+  /// The history from a change of the machine by hand, or from the start, to the next change.
+  struct Part {
+    std::unique_ptr<const simulation::TimedMachine> machine;
+    simulation::History history;
+    std::uint64_t first_block = 0;
+    std::uint64_t first_line = 0;
+  };
+
+  simulation::History& history() { return parts_.back().history; }
+  const simulation::History& history() const { return parts_.back().history; }
+  bool is_at_start_of_part() const;
+  simulation::Simulation simulation_of(const running::Program& program, const running::RunOptions& options) const;
+  void take_over(const simulation::Simulation& by_hand);
+  template <class Find>
+  std::optional<std::uint64_t> find_in_parts(std::uint64_t from, std::uint64_t blocks, const Find& find) const;
+  void begin_part(const simulation::Simulation& from, const running::Runner& runner,
+                  const simulation::TimedMachine& machine);
+
+  // On the heap, so that references to them stay valid when the debuggee is moved.
+  std::unique_ptr<const ProgramText> text_;
+  std::unique_ptr<const running::Program> program_;
+  std::unique_ptr<const running::RunOptions> options_;
+  std::deque<Part> parts_;
+};
+
+}  // namespace isocnc::debuggee

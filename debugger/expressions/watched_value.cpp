@@ -1,0 +1,55 @@
+#include "debugger/expressions/watched_value.h"
+
+#include <cmath>
+
+#include "debugger/expressions/text_parts.h"
+
+namespace isocnc::expressions {
+
+/// The value of a formula that asks for nothing but numbers.
+static double constant(const Expression& expression) {
+  static const execution::State kState;
+  static const running::Registers kRegisters{};
+  return expression.at({.state = kState, .registers = kRegisters});
+}
+
+std::variant<WatchedValue, ExpressionProblem> WatchedValue::compile(std::string_view text, dialect::Language language) {
+  const std::size_t equals = text.find('=');
+  const bool has_threshold = equals != std::string_view::npos && equals > 0 &&
+                             std::string_view("<>!").find(text[equals - 1]) == std::string_view::npos;
+  auto value = Expression::compile(has_threshold ? text.substr(0, equals) : text, language);
+  if (const auto* const problem = std::get_if<ExpressionProblem>(&value)) return *problem;
+  WatchedValue result;
+  result.value = std::get<Expression>(std::move(value));
+  result.name = trimmed(text);
+  if (!has_threshold) return result;
+  const std::size_t right = text.find_first_not_of('=', equals);
+  const auto threshold = Expression::compile(right == std::string_view::npos ? "" : text.substr(right), language);
+  if (const auto* const problem = std::get_if<ExpressionProblem>(&threshold)) return *problem;
+  result.threshold = constant(std::get<Expression>(threshold));
+  return result;
+}
+
+bool WatchedValue::is_change(double before, double after) const {
+  if (std::isnan(before) && std::isnan(after)) return false;
+  if (!threshold) return !(before == after);
+  const double from = before - *threshold;
+  const double to = after - *threshold;
+  return (from < 0 && to >= 0) || (from > 0 && to <= 0) || (from != 0 && to == 0);
+}
+
+/// Between the ends of the trail only what is known counts.
+std::optional<std::pair<double, double>> WatchedValue::find_change(const ValueTrail& trail, std::size_t place) const {
+  const std::size_t last = trail.values.size() - trail.width + place;
+  const double start = trail.values[place];
+  double before = start;
+  for (std::size_t i = threshold ? place + trail.width : last; i <= last; i += trail.width) {
+    const double after = trail.values[i];
+    if (std::isnan(after) && i != last) continue;
+    if (is_change(before, after)) return std::pair(start, after);
+    before = after;
+  }
+  return std::nullopt;
+}
+
+}  // namespace isocnc::expressions

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "debugger/expressions/expression.h"
+
+namespace isocnc::expressions {
+
+/// Values that data breakpoints watch, at moments that follow one another.
+struct ValueTrail {
+  std::size_t width = 0;  ///< Values of each moment.
+  std::vector<double> values;
+};
+
+/// What a data breakpoint watches: a value that becomes another one, or that passes a threshold.
+struct WatchedValue {
+  Expression value;
+  std::string name;                 ///< As the client wrote it.
+  std::optional<double> threshold;  ///< `Z = 0`: crossed when the value comes to it or passes it.
+
+  /// `V3`, `Z`, `Z = 0`.
+  static std::variant<WatchedValue, ExpressionProblem> compile(std::string_view text, dialect::Language language);
+
+  /// The values before and after the first change on the trail, where this value has the given place in each moment.
+  /// Without a threshold only the ends of the trail count.
+  std::optional<std::pair<double, double>> find_change(const ValueTrail& trail, std::size_t place) const;
+
+ private:
+  bool is_change(double before, double after) const;
+};
+
+}  // namespace isocnc::expressions

@@ -1,0 +1,166 @@
+#include "interpreter/kinematics/limits.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "interpreter/kinematics/numbers.h"
+
+namespace isocnc::kinematics {
+
+/// Maximum second and third derivative that count as straight, 1/mm and 1/mm^2.
+static constexpr double kStraight = 1e-15;
+
+LineLimits line_limits(const Machine& machine, const Coordinates& joint_slope) {
+  double speed = kInfinity;
+  double acceleration = kInfinity;
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    const double slope = std::abs(joint_slope[axis]);
+    if (slope == 0) continue;
+    const AxisLimits& limits = machine.axes[static_cast<std::size_t>(axis)];
+    speed = std::min(speed, limits.speed / slope);
+    acceleration = std::min(acceleration, limits.acceleration / slope);
+  }
+  return {square(speed), acceleration};
+}
+
+LineLimits circle_limits(const Machine& machine, const Path& circle) {
+  LineLimits result{kInfinity, kInfinity, 0};
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    const AxisLimits& limits = machine.axes[static_cast<std::size_t>(axis)];
+    const double swing = std::abs(circle.omega) * std::sqrt(square(circle.c[1][axis]) + square(circle.c[2][axis]));
+    const double slope = swing + std::abs(circle.c[3][axis]);
+    if (slope == 0) continue;
+    result.cap = std::min(result.cap, square(limits.speed / slope));
+    result.acceleration = std::min(result.acceleration, limits.acceleration / slope);
+    result.fall = std::max(result.fall, swing * std::abs(circle.omega) / limits.acceleration);
+  }
+  if (result.fall > 0) result.cap = std::min(result.cap, 1 / result.fall);
+  return result;
+}
+
+/// Returns the maximum of a function that deviates from the straight line between its ends by at most `bulge`.
+static Coordinates largest(const Coordinates& begin, const Coordinates& end, const Coordinates& bulge) {
+  return begin.cwiseAbs().cwiseMax(end.cwiseAbs()) + bulge;
+}
+
+DerivativeBounds derivative_bounds(const Kinematics& kinematics, const Path& path, double from, double to) {
+  const Jet begin = path.joints_at(kinematics, from);
+  const Jet end = path.joints_at(kinematics, to);
+  const HigherDerivativeBounds higher = higher_derivative_bounds(kinematics, path, from, to);
+  Coordinates third = Coordinates::Zero();
+  Coordinates fourth = Coordinates::Zero();
+  if (path.kind == PathKind::Polynomial) third = 6 * path.c[3].cwiseAbs();
+  third.head<3>() = higher.third;
+  fourth.head<3>() = higher.fourth;
+  const double bulge = square(to - from) / 8;
+  return {largest(begin.first, end.first, bulge * third), largest(begin.second, end.second, bulge * fourth), third};
+}
+
+double smoothing_window(const Machine& machine) {
+  double window = 0;
+  for (const AxisLimits& axis : machine.axes)
+    if (axis.jerk)
+      window = std::max(window, std::min(axis.acceleration / *axis.jerk, std::sqrt(axis.speed / *axis.jerk)));
+  return window;
+}
+
+/// Maximum ratio of the x at which the permitted acceleration becomes 0 to the cap of x. A greater ratio would leave
+/// less for the acceleration.
+static constexpr double kMaxFallRatio = 9;
+
+/// Returns the limits by one axis on a curve: |a| <= acceleration (1 - fall x). `first`, `second`, `third`: bounds of
+/// the axis's derivatives by s. With z^2 = fall x, the jerk from the second and the third derivative is at most part
+/// jerk (z^3 + 1.5 (z - z^3)), which is at most part jerk.
+static LineLimits smoothed_curve(const AxisLimits& axis, const Smoothing& smoothing, double first, double second,
+                                 double third, double cap) {
+  double zero_x = std::min(axis.acceleration / second, kMaxFallRatio * cap);
+  if (!axis.jerk) return {cap, axis.acceleration / first, 1 / zero_x};
+  const double jerk = *axis.jerk;
+  if (third > 0) zero_x = std::min(zero_x, std::pow(smoothing.curves_part * jerk / third, 2.0 / 3));
+  const double speed = std::sqrt(zero_x);
+  // The part that makes both limits of the acceleration equal, if the third derivative permits it.
+  const double swing = 2 * second * speed * smoothing.window;
+  const double part = std::clamp(third * zero_x * speed / jerk,
+                                 std::min(swing / (first + swing), smoothing.curves_part), smoothing.curves_part);
+  const double along = std::min(axis.acceleration, (1 - part) * jerk * smoothing.window) / first;
+  return {cap, std::min(along, part * jerk / (2 * second * speed)), 1 / zero_x};
+}
+
+/// Returns the limits by one axis on a line.
+static LineLimits smoothed_line(const AxisLimits& axis, const Smoothing& smoothing, double first, double cap) {
+  return {cap, std::min(axis.acceleration, axis.jerk ? *axis.jerk * smoothing.window : kInfinity) / first, 0};
+}
+
+LineLimits smoothed_limits(const Machine& machine, const Smoothing& smoothing, const DerivativeBounds& bounds,
+                           double cap) {
+  LineLimits result{cap, kInfinity, 0};
+  for (int i = 0; i < kAxisCount; ++i)
+    result.cap = std::min(result.cap, square(machine.axes[static_cast<std::size_t>(i)].speed / bounds.first[i]));
+  const double cap_by_speed = result.cap;
+  for (int i = 0; i < kAxisCount; ++i) {
+    const AxisLimits& axis = machine.axes[static_cast<std::size_t>(i)];
+    const bool is_curved = bounds.second[i] > kStraight || bounds.third[i] > kStraight;
+    if (!is_curved && !(bounds.first[i] > 0)) continue;
+    const LineLimits limits = is_curved
+                                  ? smoothed_curve(axis, smoothing, bounds.first[i],
+                                                   std::max(bounds.second[i], kStraight), bounds.third[i], cap_by_speed)
+                                  : smoothed_line(axis, smoothing, bounds.first[i], cap_by_speed);
+    result.acceleration = std::min(result.acceleration, limits.acceleration);
+    result.fall = std::max(result.fall, limits.fall);
+  }
+  if (result.fall > 0) result.cap = std::min(result.cap, 1 / result.fall);
+  return result;
+}
+
+CurveLimits::CurveLimits(const Machine& machine, const Jet& begin, const Jet& end, const HigherDerivativeBounds& higher,
+                         double length)
+    : length_(length) {
+  const double bulge = square(length_) / 8;
+  double by_speed = 0;         // Inverse of the maximum of ds/dt.
+  double by_acceleration = 0;  // Inverse of the maximum of x.
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    const AxisLimits& limits = machine.axes[static_cast<std::size_t>(axis)];
+    const double first_slack = axis < kB ? bulge * higher.third[axis] : 0;
+    const double second_slack = axis < kB ? bulge * higher.fourth[axis] : 0;
+    const auto rests = [&](const Jet& jet) { return jet.first[axis] == 0 && jet.second[axis] == 0; };
+    if (rests(begin) && rests(end) && first_slack == 0) continue;
+    const double part = 1 / limits.acceleration;
+    const double speed_part = 1 / limits.speed;
+    for (const Jet* const jet : {&begin, &end}) {
+      const double first = jet->first[axis];
+      const double second = jet->second[axis];
+      by_speed = std::max(by_speed, speed_part * (std::abs(first) + first_slack));
+      by_acceleration = std::max(by_acceleration, part * (std::abs(second) + second_slack));
+      add(forward_, part * (second_slack + second), part * (first_slack + first));
+      add(forward_, part * (second_slack - second), part * (first_slack - first));
+      add(backward_, part * (second_slack + second), part * (first_slack - first));
+      add(backward_, part * (second_slack - second), part * (first_slack + first));
+    }
+  }
+  cap_ = 1 / std::max(square(by_speed), by_acceleration);
+}
+
+/// Adds a bound. Bounds with n <= 0 are omitted, since they hold for every x within the cap.
+void CurveLimits::add(Bounds& bounds, double m, double n) const {
+  if (n > 0) bounds.bounds[bounds.count++] = {m, n, 1 / (n + 2 * length_ * std::max(m, 0.0))};
+}
+
+CurveLimits curve_limits(const Machine& machine, const Path& path, double from, double to) {
+  return {machine, path.joints_at(machine.kinematics, from), path.joints_at(machine.kinematics, to),
+          higher_derivative_bounds(machine.kinematics, path, from, to), to - from};
+}
+
+/// With a constant a, the piece keeps the bounds if both of its ends do: the bounds are linear in x and a.
+double reach(std::span<const CurveBound> bounds, double length, double x) {
+  double min = kInfinity;
+  for (const CurveBound& bound : bounds) min = std::min(min, (1 - bound.m * x) * bound.by_length);
+  return x + 2 * length * std::max(min, 0.0);
+}
+
+double acceleration(std::span<const CurveBound> bounds, double x, double peak) {
+  double min = kInfinity;
+  for (const CurveBound& bound : bounds) min = std::min(min, (1 - bound.m * (bound.m > 0 ? peak : x)) / bound.n);
+  return std::max(min, 0.0);
+}
+
+}  // namespace isocnc::kinematics

@@ -1,0 +1,105 @@
+#include "interpreter/kinematics/path.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "interpreter/kinematics/numbers.h"
+
+namespace isocnc::kinematics {
+
+Path Path::line(const Coordinates& from, const Coordinates& slope) {
+  Path path;
+  path.c[0] = from;
+  path.c[1] = slope;
+  return path;
+}
+
+static Jet polynomial_at(const Path& path, double s) {
+  const auto& c = path.c;
+  return {c[0] + s * (c[1] + s * (c[2] + s * c[3])), c[1] + s * (2 * c[2] + 3 * s * c[3]), 2 * c[2] + 6 * s * c[3]};
+}
+
+static Jet circle_at(const Path& path, double s) {
+  const double cosine = std::cos(path.omega * s);
+  const double sine = std::sin(path.omega * s);
+  const Coordinates out = cosine * path.c[1] + sine * path.c[2];
+  const Coordinates along = cosine * path.c[2] - sine * path.c[1];
+  return {path.c[0] + out + s * path.c[3], path.omega * along + path.c[3], -path.omega * path.omega * out};
+}
+
+Jet Path::at(double s) const { return kind == PathKind::Polynomial ? polynomial_at(*this, s) : circle_at(*this, s); }
+
+Jet Path::tip_at(const Kinematics& kinematics, double s) const {
+  return is_of_joints ? forward(kinematics, at(s), tool_length) : at(s);
+}
+
+Jet Path::joints_at(const Kinematics& kinematics, double s) const {
+  return is_of_joints ? at(s) : inverse(kinematics, at(s), tool_length);
+}
+
+/// Upper bounds of the norms of a vector and of its first four derivatives.
+using Norms = std::array<double, 5>;
+
+static double linear_norm(const Coordinates& c) { return c.head<3>().norm(); }
+
+static Norms tip_norms(const Path& path, double length) {
+  const auto& c = path.c;
+  if (path.kind == PathKind::Circle) {
+    const double radius = linear_norm(c[1]);
+    const double omega = std::abs(path.omega);
+    return {0, radius * omega + linear_norm(c[3]), radius * omega * omega, radius * std::pow(omega, 3),
+            radius * std::pow(omega, 4)};
+  }
+  return {0, linear_norm(c[1]) + 2 * length * linear_norm(c[2]) + 3 * length * length * linear_norm(c[3]),
+          2 * linear_norm(c[2]) + 6 * length * linear_norm(c[3]), 6 * linear_norm(c[3]), 0};
+}
+
+/// Returns bounds for a unit vector that B and C turn: those of cos f(s), where f is a polynomial up to the third
+/// degree.
+static Norms turning_norms(const Path& path, double length) {
+  if (path.kind == PathKind::Circle) return {1, 0, 0, 0, 0};
+  const auto turn = [&](std::size_t i) { return (std::abs(path.c[i][kB]) + std::abs(path.c[i][kC])) * kRadians; };
+  const double jerk = 6 * turn(3);
+  const double acceleration = 2 * turn(2) + jerk * length;
+  const double speed = turn(1) + acceleration * length;
+  const double square = speed * speed;
+  return {1, speed, square + acceleration, speed * (square + 3 * acceleration) + jerk,
+          square * square + 6 * square * acceleration + 3 * acceleration * acceleration + 4 * speed * jerk};
+}
+
+/// Returns a bound of a derivative of a vector of bounds `reach` that a table turns, by the Leibniz rule.
+static double table_derivative(const Norms& reach, const Norms& turning, int order) {
+  static constexpr double kBinomials[5][5] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}, {1, 4, 6, 4, 1}};
+  double sum = 0;
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(order); ++i)
+    sum += kBinomials[order][i] * reach[i] * turning[static_cast<std::size_t>(order) - i];
+  return sum;
+}
+
+static HigherDerivativeBounds everywhere(double third, double fourth) {
+  return {geometry::Vec3::Constant(third), geometry::Vec3::Constant(fourth)};
+}
+
+/// Returns the bounds for a circle in a space whose axes are those of the joints.
+static HigherDerivativeBounds circle_derivative_bounds(const Path& path) {
+  const geometry::Vec3 radii = (path.c[1].head<3>().cwiseAbs2() + path.c[2].head<3>().cwiseAbs2()).cwiseSqrt();
+  const double cube = std::abs(path.omega * path.omega * path.omega);
+  return {radii * cube, radii * cube * std::abs(path.omega)};
+}
+
+HigherDerivativeBounds higher_derivative_bounds(const Kinematics& kinematics, const Path& path, double from,
+                                                double to) {
+  if (path.kind == PathKind::Circle && (path.is_of_joints || kinematics.kind != MachineKind::Table))
+    return circle_derivative_bounds(path);
+  if (path.is_of_joints) return everywhere(6 * linear_norm(path.c[3]), 0);
+  const double farthest = std::max(std::abs(from), std::abs(to));
+  Norms tip = tip_norms(path, farthest);
+  if (kinematics.kind == MachineKind::ThreeAxis) return everywhere(tip[3], tip[4]);
+  const Norms turning = turning_norms(path, farthest);
+  const double reach = lever(kinematics, path.at(from).value.head<3>(), path.tool_length);
+  if (kinematics.kind == MachineKind::Head) return everywhere(tip[3] + reach * turning[3], tip[4] + reach * turning[4]);
+  tip[0] = reach + tip[1] * (to - from);
+  return everywhere(table_derivative(tip, turning, 3), table_derivative(tip, turning, 4));
+}
+
+}  // namespace isocnc::kinematics

@@ -1,0 +1,187 @@
+#include "interpreter/kinematics/travel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/LU>
+
+#include "interpreter/geometry/helix.h"
+#include "interpreter/kinematics/element.h"
+
+namespace isocnc::kinematics {
+
+using geometry::Range;
+using geometry::Vec3;
+
+/// Distance of grid points between which a joint has at most one peak, radians of B, C and the arc together.
+static constexpr double kGridTurn = 3 * std::numbers::pi / 180;
+static constexpr int kPeakSteps = 60;
+/// Maximum number of grid points. Rotary axes do not turn far enough in one move to need more.
+static constexpr int kMaxGridPoints = 10'000;
+
+/// The path of a move as a function of the part of it that is traveled, 0 to 1.
+class MovePath {
+ public:
+  MovePath(const Machine& machine, const Move& move)
+      : machine_(machine),
+        path_(move.is_arc ? programmed_circle(move) : programmed_line(machine, move, move.from, move.to)) {
+    turned_[kB] = move.to.b - move.from.b;
+    turned_[kC] = move.to.c - move.from.c;
+  }
+
+  Coordinates joints(double part) const {
+    Coordinates there = path_.path.at(part * path_.length).value;
+    if (is_arc()) there += part * turned_;
+    return path().is_of_joints ? there : inverse(machine_.kinematics, there, path().tool_length);
+  }
+
+  Vec3 tip(double part) const { return path().tip_at(machine_.kinematics, part * path_.length).value.head<3>(); }
+  /// Returns the speed of the tip if the whole path takes one second, mm/s.
+  double tip_speed(double part) const {
+    return path_.length * path().tip_at(machine_.kinematics, part * path_.length).first.head<3>().norm();
+  }
+
+  const Path& path() const { return path_.path; }
+  bool is_arc() const { return path().kind == PathKind::Circle; }
+  bool has_straight_joints() const {
+    const bool turns = turned_.squaredNorm() > 0 && machine_.kinematics.kind != MachineKind::ThreeAxis;
+    return !is_arc() && (path().is_of_joints || !turns);
+  }
+
+  /// Returns the number of parts of a grid that is fine enough to have at most one peak between neighboring points.
+  int grid() const {
+    const double turn = std::abs(path().omega) * path_.length + turned_.cwiseAbs().sum() * std::numbers::pi / 180;
+    return std::max(2, part_count(turn / kGridTurn, kMaxGridPoints));
+  }
+
+ private:
+  const Machine& machine_;
+  ProgrammedPath path_;
+  Coordinates turned_ = Coordinates::Zero();
+};
+
+/// Returns the values of `at` at the points of a grid from 0 to 1.
+template <typename At>
+static auto on_grid(int count, At&& at) {
+  std::vector<decltype(at(0.0))> grid;
+  for (int i = 0; i <= count; ++i) grid.push_back(at(static_cast<double>(i) / count));
+  return grid;
+}
+
+/// Returns the place between two parts of the path where a coordinate is farthest in the direction of `sign`.
+template <typename At>
+static double farthest_between(At&& at, int axis, double sign, double low, double high) {
+  for (int i = 0; i < kPeakSteps; ++i) {
+    const double third = (high - low) / 3;
+    if (sign * at(low + third)[axis] > sign * at(high - third)[axis]) {
+      high -= third;
+    } else {
+      low += third;
+    }
+  }
+  return (low + high) / 2;
+}
+
+/// Returns the place where a coordinate is farthest: next to one of the grid's peaks, or at an end of the path.
+template <typename At, typename Point>
+static double farthest(At&& at, const std::vector<Point>& grid, int axis, double sign) {
+  const std::size_t last = grid.size() - 1;
+  const auto part = [&](std::size_t i) { return static_cast<double>(i) / static_cast<double>(last); };
+  double best = 0;
+  const auto consider = [&](double candidate) {
+    if (sign * at(candidate)[axis] > sign * at(best)[axis]) best = candidate;
+  };
+  consider(1);
+  for (std::size_t i = 0; i <= last; ++i) {
+    const auto is_below = [&](std::size_t k) { return sign * grid[k][axis] <= sign * grid[i][axis]; };
+    const bool is_peak = (i == 0 || is_below(i - 1)) && (i == last || is_below(i + 1));
+    if (is_peak) consider(farthest_between(at, axis, sign, i == 0 ? 0 : part(i - 1), i == last ? 1 : part(i + 1)));
+  }
+  return best;
+}
+
+/// Returns the joints that leave their range. `find(axis, sign)` returns the place where a joint is farthest in that
+/// direction.
+template <typename Find>
+static std::vector<Overtravel> beyond(const Machine& machine, const MovePath& path, Find&& find) {
+  std::vector<Overtravel> found;
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    const AxisLimits& limits = machine.axes[static_cast<std::size_t>(axis)];
+    for (const double sign : {-1.0, 1.0}) {
+      const double limit = sign < 0 ? limits.minimum : limits.maximum;
+      if (std::isinf(limit)) continue;
+      const double part = find(axis, sign);
+      const double position = path.joints(part)[axis];
+      if (sign * (position - limit) > 0) found.push_back({static_cast<Axis>(axis), part, position, limit});
+    }
+  }
+  return found;
+}
+
+std::vector<Overtravel> overtravels(const Machine& machine, const Move& move) {
+  const MovePath path(machine, move);
+  if (path.has_straight_joints()) {
+    const Coordinates change = path.joints(1) - path.joints(0);
+    return beyond(machine, path, [&](int axis, double sign) { return sign * change[axis] > 0 ? 1.0 : 0.0; });
+  }
+  const auto at = [&](double part) { return path.joints(part); };
+  const std::vector<Coordinates> grid = on_grid(path.grid(), at);
+  return beyond(machine, path, [&](int axis, double sign) { return farthest(at, grid, axis, sign); });
+}
+
+/// Integrates the tip's speed by Simpson's rule. The speed is smooth except where the tip reverses on a path of joints.
+static double integrated_length(const MovePath& path) {
+  constexpr int kPanelsPerPoint = 4;
+  const int panels = std::max(64, kPanelsPerPoint * path.grid());
+  double sum = path.tip_speed(0) + path.tip_speed(1);
+  for (int i = 1; i < panels; ++i) sum += (i % 2 == 1 ? 4 : 2) * path.tip_speed(static_cast<double>(i) / panels);
+  return sum / (3 * panels);
+}
+
+static std::array<Range, 3> extents(const Vec3& from, const Vec3& to) {
+  const Vec3 low = from.cwiseMin(to);
+  const Vec3 high = from.cwiseMax(to);
+  return {Range{low.x(), high.x()}, Range{low.y(), high.y()}, Range{low.z(), high.z()}};
+}
+
+static geometry::Helix helix_of(const Move& arc) {
+  return geometry::helix(arc.from.tip, arc.to.tip, arc.center, arc.normal, arc.sweep_deg);
+}
+
+static std::array<Range, 3> arc_extents(const geometry::Helix& helix, const geometry::Frame& frame) {
+  const geometry::Mat3 to_frame = frame.axes.inverse();
+  return geometry::wave_ranges(to_frame * (helix.center - frame.origin), to_frame * helix.out, to_frame * helix.side,
+                               to_frame * helix.rise / helix.sweep, {helix.sweep, helix.cosine, helix.sine});
+}
+
+static TipTravel arc_travel(const Machine& machine, const Move& arc) {
+  const geometry::Helix helix = helix_of(arc);
+  const double length = helix.length();
+  const bool leans = helix.rise.cross(arc.normal).norm() > 1e-9 * length;
+  return {leans ? integrated_length(MovePath(machine, arc)) : length, helix.extents()};
+}
+
+static std::array<Range, 3> swing_extents(const MovePath& path, const geometry::Frame& frame) {
+  const auto at = [&](double part) { return frame.to_inner(path.tip(part)); };
+  const std::vector<Vec3> grid = on_grid(path.grid(), at);
+  const auto end = [&](int axis, double sign) { return at(farthest(at, grid, axis, sign))[axis]; };
+  return {Range{end(0, -1), end(0, 1)}, Range{end(1, -1), end(1, 1)}, Range{end(2, -1), end(2, 1)}};
+}
+
+/// Returns whether the tip moves along a line. This holds for most moves, and is decided without a MovePath.
+static bool goes_straight(const Machine& machine, const Move& move) { return !move.is_arc && !swings(machine, move); }
+
+TipTravel tip_travel(const Machine& machine, const Move& move) {
+  if (goes_straight(machine, move)) return {(move.to.tip - move.from.tip).norm(), extents(move.from.tip, move.to.tip)};
+  if (move.is_arc) return arc_travel(machine, move);
+  const MovePath path(machine, move);
+  return {integrated_length(path), swing_extents(path, {})};
+}
+
+std::array<Range, 3> tip_extents(const Machine& machine, const Move& move, const geometry::Frame& frame) {
+  if (goes_straight(machine, move)) return extents(frame.to_inner(move.from.tip), frame.to_inner(move.to.tip));
+  return move.is_arc ? arc_extents(helix_of(move), frame) : swing_extents(MovePath(machine, move), frame);
+}
+
+}  // namespace isocnc::kinematics

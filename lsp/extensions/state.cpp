@@ -1,0 +1,79 @@
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "lsp/extensions/extension.h"
+#include "lsp/queries/line_run.h"
+
+/// Our own request `isocnc/state`: the modal state and the position before and after a line.
+namespace isocnc::extensions {
+namespace {
+
+struct StateParams : protocol::DocumentParams {
+  std::uint32_t line = 0;
+};
+
+void from_json(const Json& json, StateParams& params) {
+  from_json(json, static_cast<protocol::DocumentParams&>(params));
+  // Read as the line of a position, so that the same numbers are valid.
+  params.line = Json{{"line", json.at("line")}, {"character", 0u}}.get<ClientPosition>().line;
+}
+
+struct StateResult {
+  std::optional<queries::LineRun> run;
+};
+
+constexpr const char* kGroupNames[] = {"motion",        "plane", "face",     "profileReduction", "cutterCompensation",
+                                       "interpolation", "units", "distance", "workpiece",        "feedMode"};
+static_assert(std::size(kGroupNames) == dialect::kModalGroupCount);
+
+Json vector_json(const geometry::Vec3& vector) { return {{"x", vector.x()}, {"y", vector.y()}, {"z", vector.z()}}; }
+
+/// The position as JSON; an axis whose position is unknown because of an error is null.
+Json position_json(const execution::State& state) {
+  const geometry::Pose& pose = state.position;
+  const double values[] = {pose.tip.x(), pose.tip.y(), pose.tip.z(), pose.b, pose.c};
+  Json json;
+  for (int axis = 0; axis < execution::kAxisCount; ++axis) {
+    const bool is_known = (state.unknown & execution::axis_bit(static_cast<execution::Axis>(axis))) == 0;
+    json[std::string(1, "xyzbc"[axis])] = is_known ? Json(values[axis]) : Json();
+  }
+  return json;
+}
+
+Json state_json(const execution::State& state) {
+  Json in_force;
+  for (std::size_t i = 0; i < dialect::kModalGroupCount; ++i) {
+    const dialect::GCode* const code = state.g(static_cast<dialect::ModalGroup>(i));
+    in_force[kGroupNames[i]] = code ? Json(code->number) : Json();
+  }
+  const bool knows_place = (state.unknown & execution::kLinearAxes) == 0 && state.is_frame_known();
+  Json json = {{"inForce", in_force},
+               {"position", position_json(state)},
+               {"machinePosition", knows_place ? vector_json(state.to_machine(state.position.tip)) : Json()},
+               {"workpieceOrigin", vector_json(state.workpiece_origin)},
+               {"faceMounted", state.face_mounted},
+               {"spindle", {{"function", state.spindle_function}, {"speed", state.spindle_speed}}},
+               {"tool", nullptr},
+               {"feed", nullptr}};
+  const execution::Feed feed = execution::feed_in_force(state);
+  if (state.feed_given) json["feed"] = feed.number * feed.mm_per_unit;
+  if (state.tool != execution::ToolCode{})
+    json["tool"] = fmt::format("{:d}{:02d}{:03d}", state.tool.head, state.tool.holder, state.tool.tool);
+  return json;
+}
+
+void to_json(Json& json, const StateResult& result) {
+  json = {{"before", result.run ? state_json(result.run->before) : Json()},
+          {"after", result.run ? state_json(result.run->after) : Json()}};
+}
+
+StateResult answer_state(const Snapshot& snapshot, const StateParams& params) {
+  return {queries::run_line(snapshot, params.line)};
+}
+
+}  // namespace
+
+extern const features::Feature state = {.methods = {on<&answer_state>("isocnc/state")}};
+
+}  // namespace isocnc::extensions

@@ -1,0 +1,46 @@
+#include "lsp/protocol/uri.h"
+
+#include <charconv>
+
+#include "analyzer/formats/rendering.h"
+#include "interpreter/configuration/configurations.h"
+#include "interpreter/dialect/any_case.h"
+
+namespace isocnc::protocol {
+
+/// Decodes escapes such as %20, a blank. An invalid escape stays unchanged.
+static std::string unescaped(std::string_view text) {
+  std::string result;
+  result.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    unsigned byte = 0;
+    const char* const digits = text.data() + i + 1;
+    const bool is_escape =
+        text[i] == '%' && i + 2 < text.size() && std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2;
+    result.push_back(is_escape ? static_cast<char>(byte) : text[i]);
+    if (is_escape) i += 2;
+  }
+  return result;
+}
+
+std::optional<std::filesystem::path> path_of(std::string_view uri) {
+  static constexpr std::string_view kScheme = "file://";
+  if (!dialect::begins_with(uri, kScheme)) return std::nullopt;
+  std::string_view rest = uri.substr(kScheme.size());
+  rest = rest.substr(0, rest.find_first_of("?#"));
+  // A host may precede the path; for this machine it is usually omitted.
+  const std::size_t slash = rest.find('/');
+  if (slash == std::string_view::npos || (slash > 0 && rest.substr(0, slash) != "localhost")) return std::nullopt;
+  const std::string path = unescaped(rest.substr(slash));
+  if (path.find('\0') != std::string::npos) return std::nullopt;
+  return std::filesystem::path(path).lexically_normal();
+}
+
+bool names_configuration(std::string_view uri) {
+  const auto path = path_of(uri);
+  return path && path->filename() == configuration::kFileName;
+}
+
+std::string uri_of(const std::filesystem::path& path) { return formats::uri_of(path.string()); }
+
+}  // namespace isocnc::protocol

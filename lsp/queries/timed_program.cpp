@@ -1,0 +1,25 @@
+#include "lsp/queries/timed_program.h"
+
+#include <utility>
+
+#include "lsp/rpc/message.h"
+
+namespace isocnc::queries {
+
+TimedProgram::TimedProgram(const documents::Snapshot& snapshot, double vgpl)
+    : text_(snapshot.document().text()),
+      settings_owner_(snapshot.settings_owner()),
+      machine_(&snapshot.configuration().machine),
+      options_{.setup = snapshot.setup(), .vgpl = vgpl},
+      version_(snapshot.version()) {}
+
+running::RunResult TimedProgram::run(const std::function<bool()>& stop, simulation::Timing::Listeners listeners) const {
+  running::RunOptions options = options_;
+  options.before_block = [&, blocks = 0u](const running::Block&) mutable {
+    if (++blocks % 1024 == 0 && stop())
+      throw rpc::Error(rpc::ErrorCode::RequestCancelled, "nobody waits for the answer any more");
+  };
+  return simulation::run_timed(text_, options, machine_->timed, std::move(listeners));
+}
+
+}  // namespace isocnc::queries
