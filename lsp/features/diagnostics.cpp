@@ -79,8 +79,7 @@ class DiagnosticWriter {
     append_head(located, 1 + static_cast<int>(located.severity()),
                 dialect::message(finding.id, language_, marked, finding.values), list);
     list += constant_part(finding.id);
-    if (sends_related_ && located.path >= 0)
-      list += R"(,"relatedInformation":)" + rpc::write(protocol::path_of(located));
+    if (sends_related_ && located.path >= 0) list += R"(,"relatedInformation":)" + rpc::write(path_of(located));
     list += '}';
   }
 

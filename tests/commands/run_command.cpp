@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -182,6 +183,35 @@ CommandResult run_command(std::vector<std::string> arguments, const CommandSetup
   if (result.timed_out) ::kill(child, SIGKILL);
   result.status = wait_for(child);
   return result;
+}
+
+std::vector<nlohmann::json> events_in(const std::string& trace) {
+  std::vector<nlohmann::json> events;
+  std::istringstream lines(trace);
+  for (std::string line; std::getline(lines, line);) events.push_back(nlohmann::json::parse(line));
+  return events;
+}
+
+std::vector<std::string> kinds_in(const std::vector<nlohmann::json>& events) {
+  std::vector<std::string> kinds;
+  for (const nlohmann::json& event : events) kinds.push_back(event.at("kind"));
+  return kinds;
+}
+
+nlohmann::json timeless(nlohmann::json event) {
+  event.erase("start");
+  event.erase("duration");
+  return event;
+}
+
+std::vector<nlohmann::json> trace_of(std::string_view program, std::vector<std::string> options) {
+  options.insert(options.begin(), {"isorun", "--trace", "-", "-"});
+  return events_in(run_command(options, {.input = std::string(program)}).out);
+}
+
+nlohmann::json summary_of(const std::string& program, std::vector<std::string> options) {
+  options.insert(options.begin(), {"isorun", "--nlohmann::json", "-"});
+  return nlohmann::json::parse(run_command(options, {.input = program}).out);
 }
 
 }  // namespace isocnc::commands

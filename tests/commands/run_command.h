@@ -3,7 +3,10 @@
 #include <chrono>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 namespace isocnc::commands {
 
@@ -33,5 +36,15 @@ struct CommandResult {
 
 /// Runs a command to its end. The first argument is one of our programs, `isolint` or `isorun`.
 CommandResult run_command(std::vector<std::string> arguments, const CommandSetup& setup = {});
+
+/// The events of a trace, and their kinds.
+std::vector<nlohmann::json> events_in(const std::string& trace);
+std::vector<std::string> kinds_in(const std::vector<nlohmann::json>& events);
+/// An event without its time.
+nlohmann::json timeless(nlohmann::json event);
+
+/// What isorun says of a program that comes from standard input: its trace, its summary.
+std::vector<nlohmann::json> trace_of(std::string_view program, std::vector<std::string> options = {});
+nlohmann::json summary_of(const std::string& program, std::vector<std::string> options = {});
 
 }  // namespace isocnc::commands

@@ -76,7 +76,7 @@ TEST_P(ClientWalks, ShowWhatTheFirstPassShowed) {
   support::Random random(static_cast<std::uint64_t>(GetParam()));
   std::string text = simulation::RandomRun(random).text(2);
   if (!text.ends_with("M02\n")) text += "M02\n";
-  DebugClient client;
+  debugger::DebugClient client;
   client.stop_at_start(text);
   std::map<std::string, std::string> states;
   std::vector<int> lines;

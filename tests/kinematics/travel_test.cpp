@@ -6,7 +6,8 @@
 #include <numbers>
 #include <random>
 
-#include "tests/motion/programs.h"
+#include "interpreter/kinematics/kinematics.h"
+#include "moves.h"
 
 namespace isocnc::kinematics {
 namespace {
