@@ -88,7 +88,7 @@ TEST(ReadConfiguration, FillsTheSetup) {
     "maxFeed": 6, "maxRotarySpeed": 7, "maxSpindleSpeed": 8, "tolerances": {"arc": 0.5}, "clearance": -9,
     "tools": [{"head": 1, "holder": 2, "tool": 3, "name": "cutter", "length": 80.5, "radius": 4}],
     "functions": {"M07": {"name": "air"}, "M100": {}}}})");
-  const Machine& machine = configuration.machine;
+  const MachineConfiguration& machine = configuration.machine;
   const execution::Setup& setup = machine.setup;
   EXPECT_EQ(setup.home.tip, geometry::Vec3(1, 2, 3));
   EXPECT_EQ(setup.home.b, 4);
