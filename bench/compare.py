@@ -45,7 +45,7 @@ class CannotMeasure(Exception):
 
 @dataclass
 class Run:
-    """What one process took: seconds, and MiB at the most. The figures are the kernel's, from wait4."""
+    """What one process took: seconds, and the maximum MiB. The numbers are the kernel's, from wait4."""
 
     cpu: float
     wall: float
@@ -91,7 +91,7 @@ def take_turns(first: list[str], second: list[str], runs: int, expected: int = 0
 
 
 def anonymous_peak(argv: list[str]) -> float:
-    """The most MiB of its own (not the mapped file) that a process held, looked up about once in a millisecond."""
+    """The maximum MiB of its own (not the mapped file) that a process held, looked up about once in a millisecond."""
     pid = spawn(argv)
     peak_kib = 0
     while os.waitpid(pid, os.WNOHANG) == (0, 0):

@@ -30,7 +30,7 @@ class Refused(editor.CannotMeasure):
 
 
 class Adapter(editor.Client):
-    """An adapter; what it tells of its own accord is kept where somebody waits for it."""
+    """An adapter; its events are kept where a caller waits for them."""
 
     def __init__(self, program):
         super().__init__(program)

@@ -54,7 +54,7 @@ void simulate_with_history(benchmark::State& state, Case& of) {
   state.counters["MiB"] = static_cast<double>(of.history.memory()) / (1 << 20);
 }
 
-/// How long one call takes at worst is told, too, by processor time.
+/// Also reports how long one call takes at worst, in processor time.
 template <class Do>
 void time_each(benchmark::State& state, Do&& act) {
   std::clock_t worst = 0;

@@ -2,7 +2,7 @@
 """How time and memory grow: programs of 10,000 lines to a gigabyte, trees of 10 to 10,000 programs, and what each stage of a line costs.
 
 Prints Markdown tables. With --plot FILE.svg it draws the first two (python3-matplotlib). Instructions are counted by callgrind
-(valgrind) and told by the stage that executes them; without it that table is left out. Exit status: 0, or 2 could not measure.
+(valgrind) and reported by the stage that executes them; without it that table is left out. Exit status: 0, or 2 could not measure.
 """
 
 import argparse

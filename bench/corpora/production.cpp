@@ -38,10 +38,10 @@ class Production {
     constexpr int kLinesOfOperation = 130;
     bool changes_tool = false;
     for (bool last = false; !last; ++operation_) {
-      const int room = lines - kEndLines - out_.lines();
-      last = room < kLinesOfOperation;
+      const int lines_left = lines - kEndLines - out_.lines();
+      last = lines_left < kLinesOfOperation;
       const bool next_changes_tool = random_.one_in(3);
-      write_operation({.moves = last ? room - 14 : random_.between(20, 58),
+      write_operation({.moves = last ? lines_left - 14 : random_.between(20, 58),
                        .changes_tool = changes_tool,
                        .is_option = !last && is_option(lines, next_changes_tool)});
       changes_tool = next_changes_tool;
@@ -56,7 +56,7 @@ class Production {
     bool is_option = false;
   };
 
-  /// What a skipped tool change leaves behind is right only if the operation after it changes the tool again. With an
+  /// What a skipped tool change leaves is right only if the operation after it changes the tool again. With an
   /// option on every operation that is not asked for, so that the paths meet again late.
   bool is_option(int lines, bool next_changes_tool) {
     if (options_ != Options::Some) return options_ == Options::All;

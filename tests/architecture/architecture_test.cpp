@@ -89,7 +89,7 @@ TEST(Architecture, EveryIncludeIsOfAModuleThatTheTableNames) {
   }
 }
 
-/// A module that the table names and nobody includes would be an arrow in the drawing that is not there.
+/// A module that the table names and no file includes would be an arrow in the drawing that is not there.
 TEST(Architecture, EveryModuleThatTheTableNamesIsIncluded) {
   const auto seen = all_seen();
   std::map<std::string, std::set<std::string>> included;

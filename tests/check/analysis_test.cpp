@@ -89,7 +89,7 @@ TEST(Analysis, WhatAnIfComparesIsCheckedAgainWhereItMatters) {
   document.replace({line, 8}, {line, 9}, "7");  // IF VGPL=7
   expect_few(600);
   document.replace({line, 0}, {line, 9}, "IF V1>=0.5");
-  expect_few(1'200);  // The assignment as well: 1 is told from other values now.
+  expect_few(1'200);  // The assignment as well: 1 is distinguished from other values now.
   document.replace({line, 7}, {line, 10}, "2.5");
   expect_few(1'200);
   document.replace({line + 3, 1}, {line + 3, 2}, "8");  // The label is N8001 now, and nowhere is N2001.

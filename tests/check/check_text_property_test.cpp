@@ -43,7 +43,7 @@ TEST(CheckTextProperty, JobsAgreeWhereTheProgramEndsEarly) {
   text += "N5 G1 X1\nM02\n";
   while (text.size() < 600'000) text += "G1 X1 X2\n";
   const std::vector<std::string> expected = support::texts_of(check(text));
-  EXPECT_EQ(expected.size(), 3u);  // X1 X2 behind the label, and two stretches that never run.
+  EXPECT_EQ(expected.size(), 3u);  // X1 X2 after the label, and two stretches that never run.
   for (const int jobs : {2, 3, 8}) EXPECT_EQ(support::texts_of(check(text, jobs)), expected) << "jobs " << jobs;
 }
 

@@ -66,7 +66,7 @@ TEST(ManyPaths, ThousandsOfCrossingJumpsEnd) {
   EXPECT_LE(found.size(), 1u);
 }
 
-/// The last label is behind the end, where the jumps alone lead: if that one is given up, nothing is said of what is
+/// The last label is after the end, where the jumps alone lead: if that one is given up, nothing is said of what is
 /// there, and not that it never runs either.
 TEST(ManyPaths, LabelsThatAreWaitedForHaveABound) {
   const auto found_with = [](int labels) {
@@ -90,7 +90,7 @@ TEST(ManyPaths, CrossingJumpsOnRegistersEnd) {
   EXPECT_LE(codes(check(text + "M02\n")).size(), 1u);
 }
 
-/// A few paths are followed as long as it takes: what is found behind them must not depend on how long they are.
+/// A few paths are followed as long as it takes: what is found after them must not depend on how long they are.
 TEST(ManyPaths, AFewStatesStayExactOverALongProgram) {
   std::string text = std::string(kHead) + "G91\n";
   for (int i = 1; i <= 5; ++i) text += skippable(i, fmt::format("G1 X{0} Y0.5\nX0.25\nY{0}", i * i));

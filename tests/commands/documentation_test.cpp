@@ -29,7 +29,7 @@ struct Shown {
   std::string answer;
 };
 
-/// What is shown in a block of a shell: all lines of ```sh, and those behind a prompt elsewhere.
+/// What is shown in a block of a shell: all lines of ```sh, and those after a prompt elsewhere.
 std::vector<Shown> shown_in(const fs::path& document) {
   std::vector<Shown> all;
   std::ifstream lines(document);

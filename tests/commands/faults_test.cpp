@@ -15,7 +15,7 @@
 #include "tests/support/text_of_file.h"
 
 /// What the world around a command may do to it, and what it owes then: the whole answer, or a word and the status of
-/// trouble.
+/// failures.
 namespace isocnc::commands {
 namespace {
 
@@ -37,7 +37,7 @@ std::string mistakes(int lines) {
 
 using Json = nlohmann::json;
 
-/// Opens a program, asks for all that takes room, and ends.
+/// Opens a program, asks for all that takes memory, and ends.
 std::string editor_s_messages(const std::string& program) {
   const Json document = {{"uri", "untitled:part"}};
   std::string all;
@@ -88,13 +88,13 @@ TEST_P(ScarceMemory, IsReportedOrIsEnough) {
   for (int kib = 8'000; kib < 70'000; kib = kib * 5 / 4) {
     const int status = shell("cd " + folder.path() + " && ulimit -v " + std::to_string(kib) +
                              " && LC_ALL=C " ISOCNC_BIN_DIR "/" + GetParam() + " > out 2> err");
-    constexpr int kNotLoaded = 127;  // Of the loader, which has no room for the program itself.
+    constexpr int kNotLoaded = 127;  // Of the loader, which has no memory for the program itself.
     if (status < 2 || status == kNotLoaded) continue;
     ++failures;
     EXPECT_EQ(status, 2) << kib;
     EXPECT_THAT(text_of_file(folder.path("err")),
                 AnyOf(HasSubstr("out of memory"), HasSubstr("Cannot allocate memory"),
-                      HasSubstr("Resource temporarily unavailable")))  // What a thread is told that finds no stack.
+                      HasSubstr("Resource temporarily unavailable")))  // The error for a thread without a stack.
         << kib;
   }
   EXPECT_GT(failures, 0);
@@ -176,7 +176,7 @@ TEST(Faults, TenWriteOneProgramAndItIsWhole) {
   ASSERT_NE(tidy, untidy);
   for (int round = 0; round < 5; ++round) {
     folder.write("part.iso", untidy);
-    // Who comes too late refuses to write over what another has written; nobody fails else.
+    // The last ones refuse to overwrite what another has written; none fails otherwise.
     shell("for i in 0 1 2 3 4 5 6 7 8 9; do " ISOCNC_BIN_DIR "/isofmt -i " + file + " 2> " + folder.path("err") +
           "$i & done; wait");
     EXPECT_TRUE(text_of_file(file) == tidy);

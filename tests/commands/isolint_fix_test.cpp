@@ -268,7 +268,7 @@ TEST(IsolintFix, RefusesMistakenCommands) {
   }
 }
 
-/// The edits of a finding as JSON tells them, made on the lines of the program.
+/// The edits of a finding as the JSON reports them, made on the lines of the program.
 TEST(IsolintFixJson, ReportsEditsInCodePoints) {
   const CommandResult result = run_on("M06 T101001\n(\xC3\xA0\xE6\x9D\xB1) G00 X10,5\r\nG00 Y5",
                                       {"--format", "json", "--select", "ISO006,ISO045"});

@@ -200,7 +200,7 @@ TEST_P(IsolintNoProgram, IsRefusedWithAReason) {
   EXPECT_EQ(run_command({"isolint", "-"}, {.input = GetParam().bytes}).status, 2) << "as standard input";
 }
 
-/// Each byte of `text` with a NUL before or behind it.
+/// Each byte of `text` with a NUL before or after it.
 std::string widened(std::string_view text, bool little_endian) {
   std::string wide;
   for (const char c : text) wide += little_endian ? std::string{c, '\0'} : std::string{'\0', c};

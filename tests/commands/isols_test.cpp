@@ -24,7 +24,7 @@ TEST(Isols, EndsAsTheProtocolAsks) {
   EXPECT_EQ(status_after(kInitialize + kShutdown + kExit, {"isols", "--stdio"}), 0);
   EXPECT_EQ(status_after(kInitialize + kExit), 1);
   EXPECT_EQ(status_after(kExit), 1);
-  EXPECT_EQ(status_after(kInitialize + kShutdown), 0);  // The editor has gone without a word more.
+  EXPECT_EQ(status_after(kInitialize + kShutdown), 0);  // The editor has disconnected without another message.
   EXPECT_EQ(status_after(kInitialize), 1);
   EXPECT_EQ(status_after(""), 1);
   EXPECT_EQ(status_after(kInitialize + "Content-Length: 100\r\n\r\n{"), 1);

@@ -220,7 +220,7 @@ TEST(IsorunRestart, ThatCannotBeWrittenIsAFailure) {
   EXPECT_EQ(closed.status, 2);
 }
 
-/// Each example is taken up again at every line; isolint has no error to tell of what comes out, and the control runs
+/// Each example is taken up again at every line; isolint reports no error in what comes out, and the control runs
 /// it to its end.
 TEST(IsorunRestart, OfEveryExampleHasNoErrors) {
   const TemporaryFolder folder;

@@ -67,7 +67,7 @@ TEST(IsorunSummary, ReportsExtentsInEachFrame) {
   EXPECT_EQ(frames[0].at("kind"), "workpiece");
   EXPECT_EQ(frames[0].at("origin"), json::parse("[100.0, 200.0, -50.0]"));
   EXPECT_EQ(frames[0].at("extents").at("X"), json::parse("[-95.0, 55.0]"));
-  EXPECT_EQ(frames[0].at("extents").at("Y"), json::parse("[-200.0, 40.0]")) << "and again behind G27";
+  EXPECT_EQ(frames[0].at("extents").at("Y"), json::parse("[-200.0, 40.0]")) << "and again after G27";
   EXPECT_EQ(frames[1].at("line"), 5);
   EXPECT_EQ(frames[1].at("kind"), "face");
   EXPECT_NEAR(frames[1].at("extents").at("X")[0].get<double>(), -5, 1e-9);

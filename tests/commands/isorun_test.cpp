@@ -293,7 +293,7 @@ TEST(IsorunOutput, ThatCannotBeWrittenDoesNotHideTheErrorOfTheProgram) {
 
 TEST(IsorunInput, ThatCannotBeReadIsAFailure) {
   const TemporaryFolder folder;
-  const std::string gone = folder.path("gone.iso");
+  const std::string missing = folder.path("gone.iso");
   const std::string binary = folder.write("noise.iso", std::string(2000, '\x01'));
   const auto complaint = [](std::vector<std::string> command) {
     command.insert(command.begin(), "isorun");
@@ -302,9 +302,9 @@ TEST(IsorunInput, ThatCannotBeReadIsAFailure) {
     EXPECT_EQ(result.out, "");
     return result.err;
   };
-  EXPECT_EQ(complaint({gone}), "isorun: " + gone + ": cannot read: No such file or directory\n");
-  EXPECT_EQ(complaint({"--lang", "it", gone}),
-            "isorun: " + gone + ": non si può leggere: file o directory non esistente\n");
+  EXPECT_EQ(complaint({missing}), "isorun: " + missing + ": cannot read: No such file or directory\n");
+  EXPECT_EQ(complaint({"--lang", "it", missing}),
+            "isorun: " + missing + ": non si può leggere: file o directory non esistente\n");
   EXPECT_EQ(complaint({folder.path()}), "isorun: " + folder.path() + ": is a directory\n");
   EXPECT_EQ(complaint({"--lang", "it", folder.path()}), "isorun: " + folder.path() + ": è una directory\n");
   EXPECT_EQ(complaint({binary}), "isorun: " + binary + ": looks like a binary file\n");

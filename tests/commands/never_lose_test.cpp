@@ -69,7 +69,7 @@ class NeverLose : public testing::TestWithParam<Rewriter> {
     EXPECT_TRUE(text() == GetParam().before);
     EXPECT_EQ(files_in_folder(), files);
   }
-  /// Ends with the status of trouble, and says why.
+  /// Ends with the status of a failure, and says why.
   bool fails_with(std::string_view reason) const {
     const CommandResult result = run();
     const bool is_right = result.status == 2 && result.err.find(reason) != std::string::npos;
@@ -105,7 +105,7 @@ TEST_P(NeverLose, InAFolderThatMayNotBeWritten) {
 
 /// From so few open files that the command does not begin to so many that it succeeds.
 TEST_P(NeverLose, WithFewFilesOpenAtOnce) {
-  if (GetParam().name == "report") GTEST_SKIP() << "tells of the programs that could be read, if of none";
+  if (GetParam().name == "report") GTEST_SKIP() << "reports the programs that could be read, even if there are none";
   if (!support::kTriesAll) GTEST_SKIP() << "sanitizers open files of their own, and end the program where they cannot";
   const std::string after = text_afterwards();
   ASSERT_TRUE(after != GetParam().before);

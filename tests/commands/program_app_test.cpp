@@ -59,7 +59,7 @@ TEST_P(Program, SpeaksItalianInItsHelp) {
               HasSubstr("Print this help message"));
 }
 
-/// Wherever the mistake stands: before what tells the language, or where that cannot be read any more.
+/// Wherever the mistake stands: before what sets the language, or where that cannot be read any more.
 TEST_P(Program, ComplainsInItalian) {
   EXPECT_THAT(run_command({GetParam(), "--lang", "it", "--langg"}).err, HasSubstr("opzione sconosciuta: --langg"));
   EXPECT_THAT(run_command({GetParam(), "--langg", "--lang=it"}).err, HasSubstr("opzione sconosciuta: --langg"));

@@ -124,7 +124,7 @@ static void drain(Descriptor& source, std::string& text) {
   if (count == 0 || (count < 0 && errno != EINTR && errno != EAGAIN)) source.close();
 }
 
-/// Writes what the pipe takes; closes at the end, and when nobody reads any more.
+/// Writes what the pipe takes; closes at the end, and when the reader has closed it.
 static void feed(Descriptor& target, std::string_view& text) {
   const ssize_t count = ::write(target.number(), text.data(), text.size());
   if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));

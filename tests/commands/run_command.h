@@ -14,7 +14,7 @@ namespace isocnc::commands {
 enum class StandardOutput {
   Captured,
   FullDisk,    ///< /dev/full: every write fails.
-  ClosedPipe,  ///< A pipe that nobody reads.
+  ClosedPipe,  ///< A pipe without a reader.
 };
 
 /// What a command is given besides its arguments.

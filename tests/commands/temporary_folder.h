@@ -11,7 +11,7 @@
 
 namespace isocnc::commands {
 
-/// A new folder for files of a test; gone with this.
+/// A new folder for files of a test, removed with this object.
 class TemporaryFolder {
  public:
   TemporaryFolder() : path_(make()) {}

@@ -184,7 +184,7 @@ TEST(Stepping, TheStackShortensLongLinesBetweenCharacters) {
             line.substr(0, 79) + "…");
 }
 
-/// Behind an error nothing can be executed: a step lets the run end.
+/// After an error nothing can be executed: a step lets the run end.
 TEST(Stepping, AnyStepFromAnErrorEndsTheRun) {
   for (const char* const step : {"next", "stepIn", "stepOut", "continue"}) {
     DebugClient client;

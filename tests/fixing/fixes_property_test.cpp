@@ -99,7 +99,7 @@ TEST(FixesProperty, AddNoFindingAndComeToAnEnd) {
   EXPECT_GT(changed, support::often(2'000));
 }
 
-/// Alone, too: nobody makes all fixes of a program in an editor.
+/// Each fix alone, too: in an editor, a user makes one at a time.
 TEST(FixesProperty, WhatIsOfferedBringsNothing) {
   std::size_t offered = 0;
   const rules::CheckSetup setup;

@@ -232,10 +232,10 @@ TEST(FixTable, DecidesOnEachCode) {
     const dialect::DiagnosticId id{static_cast<std::uint8_t>(i)};
     const auto is_its = [&](const fixes::FixDef& row) { return row.diagnostic == id; };
     const auto first = std::find_if(fixes::kFixes.begin(), fixes::kFixes.end(), is_its);
-    EXPECT_NE(first, fixes::kFixes.end()) << dialect::definition(id).code << " is neither fixed nor told why not";
+    EXPECT_NE(first, fixes::kFixes.end()) << dialect::definition(id).code << " has neither a fix nor a reason why not";
     // All of a code's rows follow one another.
-    const auto behind = std::find_if_not(first, fixes::kFixes.end(), is_its);
-    EXPECT_TRUE(std::none_of(behind, fixes::kFixes.end(), is_its)) << dialect::definition(id).code;
+    const auto rest = std::find_if_not(first, fixes::kFixes.end(), is_its);
+    EXPECT_TRUE(std::none_of(rest, fixes::kFixes.end(), is_its)) << dialect::definition(id).code;
   }
 }
 

@@ -47,7 +47,7 @@ TEST(ProgramFormatter, FoldsRepeatedMotions) {
             "G0 X1\nX2\nG1 X3 F5\nG41 X4\nX5 G40\nS5 X6 G09\nG0 X1\n");
 }
 
-/// A comment behind a G that goes stands before the words that are left.
+/// A comment after a G that is removed is before the words that remain.
 TEST(ProgramFormatter, OrdersWhatIsLeftAfterAFoldedMotion) {
   const ProgramStyle style{.line = {.word_order = true}, .motions = MotionStyle::Fold};
   const std::string once = format("G01 X1 F500\nG01 (lap) Y5 X2\nG90 G01 (lap) Y5 X2\nN5 G01 (lap) Y5 X2\n", style);

@@ -14,7 +14,7 @@ namespace isocnc::fuzz {
 
 using selection::Baseline;
 
-/// Of this process; gone with it.
+/// A file of this process, removed at its end.
 static const std::filesystem::path& file() {
   static const std::filesystem::path kFile =
       std::filesystem::temp_directory_path() / ("isocnc-baseline-" + std::to_string(::getpid()) + ".json");

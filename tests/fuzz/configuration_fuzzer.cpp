@@ -10,7 +10,7 @@
 
 namespace isocnc::fuzz {
 
-/// Each kind of motion and of stop; short ways, since a planner that looks closely at long ones tells nothing more.
+/// Each kind of motion and of stop; short paths, since long ones take the planner time and show nothing more.
 static constexpr const char* kProgram =
     "M06 T101001\nM100\nS12000 M03\nG00 X100 Y50 Z20\nG01 Z19 F3000 G09\nX101 Y51\nX102 Y50\nG02 X103 Y50 R0.5\n"
     "G03 X103 Y50 I102.8 J50\nG49\nG01 X103.5 Z18 B1 C2\nG93\nX104 B2 C4 F60\nG02 X105 Y51 R1 B3 F60\n"

@@ -14,7 +14,7 @@ namespace isocnc::fuzz {
 using debugger::Adapter;
 using Json = rpc::Json;
 
-/// Requests that a byte stands for; the byte behind it is their argument.
+/// Requests that a byte stands for; the byte after it is their argument.
 static constexpr const char* kCommands[] = {"next",
                                             "stepIn",
                                             "stepOut",
@@ -156,7 +156,7 @@ class Feeder {
   Adapter adapter_;
 };
 
-/// Up to the first 0 a program, and behind it how it is launched and what is asked.
+/// Up to the first 0 a program, then how it is launched and what is asked.
 static void debug(std::string_view bytes) {
   const std::size_t end = std::min(bytes.find('\0'), bytes.size());
   const std::string path =

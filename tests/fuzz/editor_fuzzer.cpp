@@ -43,7 +43,7 @@ class Input {
   std::string_view bytes_;
 };
 
-/// The whole text, with the byte-order mark that the document keeps apart: behind it there may be another.
+/// The whole text, with the byte-order mark that the document keeps apart: another may follow it.
 static std::string text_of(const AnalyzedDocument& document) {
   const bool has_mark = document.to_client({0, 0}, Encoding::Utf8).character > 0;
   return std::string(has_mark ? system::kByteOrderMark : "") + document.document().text();

@@ -39,7 +39,7 @@ static std::string events_of(std::string_view text) {
 }
 
 /// The codes on each line. Of a line that is wrong on several paths, the order of its words decides which of them is
-/// told, and whether the paths tell the same one.
+/// reported, and whether the paths report the same one.
 static std::vector<std::uint64_t> findings_of(std::string_view text) {
   std::vector<std::uint64_t> all;
   for (const check::LocatedFinding& located : check::check_text(text, {}).findings)

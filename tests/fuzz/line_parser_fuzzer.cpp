@@ -16,11 +16,11 @@ using syntax::Span;
 
 static void check_spans(const LineTree& tree) {
   const auto within = [&](Span span) { return span.begin <= span.end && span.end <= tree.text.size(); };
-  std::uint32_t behind = 0;
+  std::uint32_t last_end = 0;
   for (const syntax::Word& word : tree.words) {
     require(within(word.span()) && word.begin < word.end, "words lie within the line");
-    require(word.begin >= behind, "words are ordered and apart");
-    behind = word.end;
+    require(word.begin >= last_end, "words are ordered and apart");
+    last_end = word.end;
   }
   for (const Span comment : tree.comments) require(within(comment), "comments lie within the line");
   for (const syntax::Finding& finding : tree.findings)
@@ -51,7 +51,7 @@ static void check_is_reported(const LineTree& tree) {
     return word.letter == syntax::kError || word.letter == syntax::kNumber || word.has(kWrong);
   };
   if (tree.jump == nullptr && std::any_of(tree.words.begin(), tree.words.end(), is_wrong))
-    require(!tree.findings.empty(), "what cannot be read is told");
+    require(!tree.findings.empty(), "what cannot be read is reported");
 }
 
 /// Codes and places: what must not depend on upper and lower case.
@@ -68,7 +68,7 @@ static std::string in_case(std::string_view text, char from, int shift) {
   return other;
 }
 
-/// Lines with others behind them may be read by a shorter way, which gives the same trees.
+/// Lines that others follow may be read by a fast path, which gives the same trees.
 static void check_parsers_agree(std::string_view text) {
   const std::string padded = std::string(text) + "\nX1 Y2.5 Z-3.25 F100\nX2\n";
   const char* const end = padded.data() + padded.size();

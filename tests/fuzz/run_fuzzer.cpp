@@ -11,7 +11,7 @@
 
 namespace isocnc::fuzz {
 
-/// Lines end at CR, LF or CRLF; a run may end behind the last.
+/// Lines end at CR, LF or CRLF; a run may end after the last.
 static std::uint64_t max_lines(std::string_view text) {
   return 1 + static_cast<std::uint64_t>(
                  std::count_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }));
@@ -40,7 +40,7 @@ static simulation::TimedMachine machine() {
   return machine;
 }
 
-/// Arcs of many meters take the planner its time, and tell nothing that shorter ones do not: the rest of such a program
+/// Arcs of many meters take the planner its time, and show nothing that shorter ones do not: the rest of such a program
 /// is left out.
 static void time_program(std::string_view text) {
   constexpr double kLongestPath = 500;
@@ -67,7 +67,7 @@ static void time_program(std::string_view text) {
     timing.take(event);
   });
   timing.finish();
-  require(reported == taken, "each event is told once");
+  require(reported == taken, "each event is reported once");
   require(std::isfinite(timing.time()), "a run ends");
   summary.finish(result, timing.time(), timing.joints(), {});
   require(!summary.json("-", dialect::Language::English).empty(), "a run has its summary");

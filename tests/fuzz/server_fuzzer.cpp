@@ -20,7 +20,7 @@ namespace isocnc::fuzz {
 using lsp::Server;
 using Json = rpc::Json;
 
-/// What an editor tells and asks; behind these come all that the features answer.
+/// The notifications and requests of an editor; all that the features answer follow.
 static constexpr const char* kOwn[] = {"textDocument/didOpen",
                                        "textDocument/didChange",
                                        "textDocument/didChange",
@@ -66,7 +66,7 @@ static const Answered& answered_by_features() {
   return kAnswered;
 }
 
-/// Of this process, with a program and a configuration; gone with it.
+/// Of this process, with a program and a configuration, removed at its end.
 static const std::filesystem::path& folder() {
   static const std::filesystem::path kFolder =
       std::filesystem::temp_directory_path() / ("isols-fuzz-" + std::to_string(::getpid()));
@@ -79,7 +79,7 @@ static const std::filesystem::path& folder() {
   return kFolder;
 }
 
-/// Wherever a message speaks of a range, it ends behind its begin; edits of one text do not overlap.
+/// Each range in a message ends after its start; edits of one text do not overlap.
 static void check_ranges(const Json& json) {
   const auto place = [](const Json& position) {
     return std::pair(position.at("line").get<std::int64_t>(), position.at("character").get<std::int64_t>());
@@ -87,14 +87,14 @@ static void check_ranges(const Json& json) {
   const auto is_range = [](const Json& each) {
     return each.is_object() && each.contains("start") && each.contains("end") && each["start"].is_object();
   };
-  if (is_range(json)) require(place(json["start"]) <= place(json["end"]), "ranges end behind their begin");
+  if (is_range(json)) require(place(json["start"]) <= place(json["end"]), "ranges end after their start");
   if (json.is_array() && !json.empty() && json[0].is_object() && json[0].contains("newText")) {
     std::multimap<std::pair<std::int64_t, std::int64_t>, std::pair<std::int64_t, std::int64_t>> edits;
     for (const Json& edit : json) edits.emplace(place(edit["range"]["start"]), place(edit["range"]["end"]));
-    auto behind = std::pair<std::int64_t, std::int64_t>();
+    auto last_end = std::pair<std::int64_t, std::int64_t>();
     for (const auto& [begin, end] : edits) {
-      require(begin >= behind, "edits of one text do not overlap");
-      behind = end;
+      require(begin >= last_end, "edits of one text do not overlap");
+      last_end = end;
     }
   }
   if (json.is_structured())
@@ -164,7 +164,7 @@ class Typist {
   }
 
   void feed() {
-    if (is_waiting_ && !open_.empty()) return;  // Whoever takes the last answer goes on.
+    if (is_waiting_ && !open_.empty()) return;  // The step continues with the last answer.
     is_waiting_ = false;
     if (bytes_.size() < 4 || ++fed_ > kMaxMessages) return leave();
     const std::vector<std::string>& methods = answered_by_features().methods;

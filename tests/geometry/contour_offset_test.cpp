@@ -98,7 +98,7 @@ TEST(ContourOffset, LeavesOutAnInsideArcThatIsTooSmall) {
                                           line({34, 4}, {34, 40})};
   const Offset kept = offset(corner, {0, 20}, {.radius = 5});
   EXPECT_THAT(kept.small_arcs, ElementsAre(2));
-  EXPECT_THAT(kept.gouges, IsEmpty()) << "the arc tells of them";
+  EXPECT_THAT(kept.gouges, IsEmpty()) << "the arc reports them";
   const Offset reduced = offset(corner, {0, 20}, {.radius = 5, .reduces = true});
   EXPECT_THAT(reduced.small_arcs, ElementsAre(2));
   EXPECT_THAT(tags(reduced), ElementsAre(0, 1, 3));
@@ -157,7 +157,7 @@ TEST(ContourOffset, MayLeadOffBesideWhereItHasLedOn) {
   EXPECT_THAT(offset(lines(points), {-80, 60}, {.radius = 8}).gouges, IsEmpty());
 }
 
-/// A way off the contour leads across its begin; in the air that matters to nobody.
+/// A way off the contour leads across its start; in the air that does not matter.
 TEST(ContourOffset, ForgetsWhatItHasCutWhenRaised) {
   for (const bool raised : {false, true}) {
     ContourOffset contour(5);
@@ -263,8 +263,8 @@ double nearest_to(const Vec2& point, const OffsetPiece& piece, const std::vector
   return minimum;
 }
 
-/// The cutter's center is never nearer to the contour than its radius, but on motions that are told of; it is where the
-/// piece before has left it; and who is told of a gouge can find it.
+/// The cutter's center is never nearer to the contour than its radius, but on motions that are reported; it is where
+/// the piece before has left it; and a reported gouge can be found.
 TEST(ContourOffsetProperty, SparesTheContourOrReportsAGouge) {
   constexpr int kPoints = 10;
   int clean = 0;

@@ -65,11 +65,11 @@ static void read_directive(Part& part, const std::string& what, const std::strin
     execution::Travel travel;
     words >> axis >> travel.minimum >> travel.maximum;
     part.setup.limits.travel.at(std::string("XYZBC").find(axis)) = travel;
-  } else if (key == "most-feed") {
+  } else if (key == "max-feed") {
     words >> part.setup.limits.feed;
-  } else if (key == "most-rotary-speed") {
+  } else if (key == "max-rotary-speed") {
     words >> part.setup.limits.rotary_speed;
-  } else if (key == "most-spindle-speed") {
+  } else if (key == "max-spindle-speed") {
     words >> part.setup.limits.spindle_speed;
   } else if (key == "clearance") {
     words >> part.setup.clearance.emplace();

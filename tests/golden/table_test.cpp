@@ -48,7 +48,7 @@ Report reported_in(std::string_view program, const DiagnosticDef& def) {
   return report;
 }
 
-/// What isorun would tell, with a cutter of 10 mm radius.
+/// What isorun would report, with a cutter of 10 mm radius.
 std::string warnings_of_run(std::string_view program) {
   simulation::TimedMachine machine;
   machine.tool_radii[{1, 1, 1}] = 10;

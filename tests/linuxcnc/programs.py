@@ -122,9 +122,9 @@ class Writer:
         linear = self.frame().to_machine(tuple(reached[axis] * self.unit for axis in LINEAR))
         self.tip = {**dict(zip(LINEAR, linear)), "B": reached["B"], "C": reached["C"]}
 
-    def length(self, most: float) -> float:
-        """At random, in the units in force; `most` in mm."""
-        return round(self.random.uniform(-most, most) / self.unit, 4)
+    def length(self, maximum: float) -> float:
+        """At random, in the units in force; `maximum` in mm."""
+        return round(self.random.uniform(-maximum, maximum) / self.unit, 4)
 
     # Motions.
 
@@ -167,8 +167,8 @@ class Writer:
         return "".join(self.random.sample(axes, self.random.randint(1, len(axes))))
 
     def targets(self, axes: str) -> dict[str, float]:
-        most = {"B": 60, "C": 170}
-        return {a: round(self.random.uniform(-most[a], most[a]), 3) if a in most else self.length(300) for a in axes}
+        maximum = {"B": 60, "C": 170}
+        return {a: round(self.random.uniform(-maximum[a], maximum[a]), 3) if a in maximum else self.length(300) for a in axes}
 
     def rapid(self) -> None:
         self.move(0, self.targets(self.some(AXES)))
@@ -181,7 +181,7 @@ class Writer:
         first, second = self.plane.axes
         at = complex(start[first], start[second])
         forms = [self.by_center, self.by_center, self.by_radius, self.half_turn]
-        if not self.inverse_time:  # There rs274 takes a full turn for none, by a rounding, and gives it the least feed.
+        if not self.inverse_time:  # There rs274 takes a full turn for none, by a rounding, and gives it the minimum feed.
             forms.append(self.full_turn)
         form = self.random.choice(forms)
         g, end, iso_center, ngc_center = form(at, self.random.choice([2, 3]))

@@ -161,8 +161,8 @@ TEST(State, IsThatBeforeAndAfterALine) {
   EXPECT_EQ(result["after"]["machinePosition"]["x"], 130);
   EXPECT_EQ(result["after"]["feed"], 1000);
   EXPECT_EQ(result["after"]["tool"], "101001");
-  const Json behind = session.request("isocnc/state", {{"textDocument", {{"uri", kUri}}}, {"line", 99}});
-  EXPECT_EQ(behind["before"], nullptr);
+  const Json after_end = session.request("isocnc/state", {{"textDocument", {{"uri", kUri}}}, {"line", 99}});
+  EXPECT_EQ(after_end["before"], nullptr);
 }
 
 TEST(State, OnTheMachineIsNotKnownInAFrameInError) {

@@ -22,9 +22,9 @@ TEST(Lifecycle, ShutdownAndExitAreCleanEverythingElseIsNot) {
   Session hasty;
   hasty.start();
   EXPECT_EQ(hasty.end(), 1);
-  Session gone;
-  gone.start();
-  EXPECT_EQ(gone.end(false), 1);
+  Session disconnected;
+  disconnected.start();
+  EXPECT_EQ(disconnected.end(false), 1);
   Session never_started;
   EXPECT_EQ(never_started.end(), 1);
 }

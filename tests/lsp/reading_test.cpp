@@ -27,8 +27,8 @@ constexpr const char* kUri = "file:///nowhere/part.iso";
 
 Json document_params(const char* uri = kUri) { return {{"textDocument", {{"uri", uri}}}}; }
 
-Json lines(int first, int behind) {
-  return {{"start", {{"line", first}, {"character", 0}}}, {"end", {{"line", behind}, {"character", 0}}}};
+Json lines(int first, int end) {
+  return {{"start", {{"line", first}, {"character", 0}}}, {"end", {{"line", end}, {"character", 0}}}};
 }
 
 /// A session with one program open.

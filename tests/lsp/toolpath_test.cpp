@@ -76,7 +76,7 @@ TEST(Toolpath, SendsWhatAnEditHasChanged) {
     session.edit(kUri, version, {change(line, 0, line + static_cast<int>(random() % 2), 0, text)});
     const Json answer = ask(session, known.id);
     EXPECT_EQ(answer["version"], version);
-    EXPECT_LT(known.take(answer), whole / 4) << "an edit tells little";
+    EXPECT_LT(known.take(answer), whole / 4) << "an edit sends little";
     Known fresh;
     fresh.take(ask(session));
     EXPECT_EQ(known.facts, fresh.facts);

@@ -66,13 +66,13 @@ class Ascent {
 
   bool is_possible(std::size_t i) const {
     const Place& place = places_[i];
-    const double behind = place.s - places_[i - 1].s;
+    const double back = place.s - places_[i - 1].s;
     const double ahead = places_[i + 1].s - place.s;
-    const double arriving = (place.x - places_[i - 1].x) / (2 * behind);
+    const double arriving = (place.x - places_[i - 1].x) / (2 * back);
     const double leaving = (places_[i + 1].x - place.x) / (2 * ahead);
     const double speed = std::sqrt(place.x);
-    const double jerk = speed * (leaving - arriving) / ((behind + ahead) / 2);
-    const double acceleration = (arriving * ahead + leaving * behind) / (behind + ahead);
+    const double jerk = speed * (leaving - arriving) / ((back + ahead) / 2);
+    const double acceleration = (arriving * ahead + leaving * back) / (back + ahead);
     if (speed * place.tip > feed_) return false;
     for (int axis = 0; axis < kinematics::kAxisCount; ++axis) {
       const kinematics::AxisLimits& limits = machine_.axes[static_cast<std::size_t>(axis)];

@@ -266,7 +266,7 @@ bool equal(const Stretch& a, const Stretch& b) {
   return true;
 }
 
-/// Whoever asks for stretches late, or goes on with a copy, gets the same.
+/// A caller that asks for stretches late, or continues with a copy, gets the same.
 class Reading : public testing::TestWithParam<kinematics::Machine> {};
 
 TEST_P(Reading, CopiesAndLateReadersGetTheSame) {
@@ -296,7 +296,7 @@ TEST_P(Reading, CopiesAndLateReadersGetTheSame) {
 INSTANTIATE_TEST_SUITE_P(Planner, Reading,
                          testing::Values(kinematics::head_router(), with_jerk(kinematics::head_router(), 30000)));
 
-/// How many moves the planner holds back at most.
+/// The maximum number of moves that the planner holds back.
 std::size_t max_lag(const kinematics::Machine& machine, double step, std::size_t count, kinematics::Feed feed) {
   Planner planner(machine);
   std::size_t out = 0;

@@ -107,8 +107,8 @@ class DebianPackage(Installed):
 
     @unittest.skipUnless(shutil.which("lintian"), "there is no lintian")
     def test_lintian_finds_nothing(self) -> None:
-        told = must("lintian", "--fail-on=error,warning", "--allow-root", self.package)
-        self.assertEqual(told, "")
+        reported = must("lintian", "--fail-on=error,warning", "--allow-root", self.package)
+        self.assertEqual(reported, "")
 
 
 class Archive(Installed):
@@ -145,8 +145,8 @@ class Libraries(unittest.TestCase):
             text=True,
             check=False,
         ).stdout.splitlines()
-        told = re.findall(r"^line (\d+): .* \[(\w+)\]$", bad.stdout, re.MULTILINE)
-        self.assertEqual(told, [re.search(r":(\d+):\d+: .* \[(\w+)\]$", line).groups() for line in findings])
+        reported = re.findall(r"^line (\d+): .* \[(\w+)\]$", bad.stdout, re.MULTILINE)
+        self.assertEqual(reported, [re.search(r":(\d+):\d+: .* \[(\w+)\]$", line).groups() for line in findings])
         missing = subprocess.run([program, scratch / "none.iso"], capture_output=True, check=False)
         self.assertEqual(missing.returncode, 2)
 

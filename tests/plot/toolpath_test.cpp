@@ -84,7 +84,7 @@ geometry::Pose pose_at(const Recorded& recorded, double time) {
     for (std::size_t i = 1; i < kept.points.size(); ++i) {
       const ToolpathPoint& from = kept.points[i - 1];
       const ToolpathPoint& to = kept.points[i];
-      if (time >= to.time) continue;  // At the moment of a jump the tool is behind it.
+      if (time >= to.time) continue;  // At the moment of a jump the tool is past it.
       const double u = std::clamp((time - from.time) / (to.time - from.time), 0.0, 1.0);
       const double sum = from.speed + to.speed;
       const double part = sum > 0 ? (u * from.speed + u * u * (to.speed - from.speed) / 2) / (sum / 2) : u;

@@ -2,7 +2,7 @@
 """Commits programs under the hooks of .pre-commit-hooks.yaml, by the real pre-commit.
 
 The hooks come from a repository made of our sources, as `repo:` entries name one. In place of CMake stands a program that
-"builds" by copying the isolint and isofmt given; what the script does before and behind it is real.
+"builds" by copying the isolint and isofmt given; what the script does before and after it is real.
 
 usage: hooks_test.py FOLDER_OF_PROGRAMS. Exit status: 77 where there is no pre-commit.
 """

@@ -217,7 +217,7 @@ void try_lines(const std::string& program, RestartOptions options, bool is_uprig
   }
 }
 
-/// Contours in compensation, and whatever may stand before and behind the motion that leads the tool back.
+/// Contours in compensation, and what may come before and after the motion that leads the tool back.
 class RandomContours {
  public:
   explicit RandomContours(Random& random) : random_(random) {}

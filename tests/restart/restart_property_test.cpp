@@ -93,7 +93,7 @@ class RandomJob {
       case 0:
         return add(fmt::format("G0{} X{} Y{} R500{}", random_.between(2, 3), number(), number(), feed));
       case 1:
-        return add(fmt::format("X{} Y{} R700{}", number(), number(), feed));  // Right behind an arc alone.
+        return add(fmt::format("X{} Y{} R700{}", number(), number(), feed));  // Only directly after an arc.
       case 2:
         return add(fmt::format("G01 X{} Z-{}{}", number(), random_.between(2, 9), feed));
       case 3:
@@ -233,12 +233,12 @@ std::multiset<std::string> errors_from(std::string_view text, std::uint64_t line
   for (const check::LocatedFinding& located : check::check_text(text, {setup}).findings) {
     const dialect::DiagnosticDef& def = dialect::definition(located.finding.id);
     if (def.severity == dialect::Severity::Error && located.line >= line)
-      codes.emplace(def.code == "E005" ? "E004" : def.code);  // The label above is gone.
+      codes.emplace(def.code == "E005" ? "E004" : def.code);  // The label above is removed.
   }
   return codes;
 }
 
-/// Whether an IF on the way has told something of a register that the restart program does not know: paths that it
+/// Whether an IF on the path has shown something of a register that the restart program does not know: paths that it
 /// rules out in the original are then possible.
 bool assumes_register(const std::string& restarted) {
   static const std::regex kAssumed("; assumed on the way there: .*V[0-9].*");
@@ -272,7 +272,7 @@ void expect_safe_approach(const std::string& program, const std::string& restart
     ASSERT_NE(move->kind, execution::MoveKind::Arc);
     const geometry::Vec3 way = move->to.tip - move->from.tip;
     const geometry::Vec3 axis = before.direction_to_machine(geometry::Vec3::UnitZ());
-    constexpr double kRounding = 2e-3;  // The place above a face is told to a thousandth.
+    constexpr double kRounding = 2e-3;  // The place above a face is given to a thousandth.
     const bool is_level = std::abs(way.z()) < kRounding;
     const geometry::Vec3 tool = geometry::axes_from_angles(move->to.b, move->to.c).col(2);
     const bool is_along_axis = way.cross(axis).norm() < 2 * kRounding;

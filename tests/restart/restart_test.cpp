@@ -92,7 +92,7 @@ RestartOptions options_of(const Case& each) {
     } else if (what == "italian") {
       options.language = Language::Italian;
     } else {
-      ADD_FAILURE() << "no such wish: " << what;
+      ADD_FAILURE() << "no such option: " << what;
     }
   }
   return options;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs scripts/isolint and scripts/isorun as on a fresh clone: they set up, build once, and start the program of their name.
 
-In place of CMake stands a program that "builds" programs which tell their name and arguments; setup finds every package installed.
+In place of CMake stands a program that "builds" programs which print their name and arguments; setup finds every package installed.
 """
 
 import os

@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Replacement{"a\r\nb", {0, 1}, {0, 2}, "", "a\nb"},              // The CR of a CRLF.
                     Replacement{"a\r\nb", {0, 2}, {1, 0}, "", "a\rb"},              // The LF of a CRLF.
                     Replacement{"a\rX1\nb", {1, 0}, {1, 2}, "", "a\r\nb"},          // CR and LF meet.
-                    Replacement{"a\rb", {1, 0}, {1, 0}, "\n", "a\r\nb"},            // An LF behind a CR.
+                    Replacement{"a\rb", {1, 0}, {1, 0}, "\n", "a\r\nb"},            // An LF after a CR.
                     Replacement{"a\nb", {0, 1}, {0, 1}, "\r", "a\r\nb"},            // A CR before an LF.
                     Replacement{"a\rX\n\nb", {1, 0}, {2, 0}, "", "a\r\nb"},         // A line between them goes whole.
                     Replacement{"a\r", {1, 0}, {1, 0}, "\n", "a\r\n"}));            // The same at the end.
@@ -114,13 +114,13 @@ TEST(Document, ChunksOfOtherLinesKeepTheirVersion) {
 
 TEST(Document, VersionsAreNeverUsedTwice) {
   Document document(numbered_lines(1'000));
-  std::set<std::uint64_t> gone = versions(document);
+  std::set<std::uint64_t> removed = versions(document);
   for (int i = 0; i < 50; ++i) {
     const std::set<std::uint64_t> before = versions(document);
     document.replace({static_cast<std::size_t>(i) * 20, 0}, {static_cast<std::size_t>(i) * 20, 0}, "(a)");
     for (const std::uint64_t version : versions(document))
-      EXPECT_TRUE(before.contains(version) || !gone.contains(version)) << "edit " << i;
-    gone.merge(versions(document));
+      EXPECT_TRUE(before.contains(version) || !removed.contains(version)) << "edit " << i;
+    removed.merge(versions(document));
   }
 }
 

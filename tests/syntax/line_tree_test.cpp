@@ -116,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(Lines, Comments,
                                          Case{"I(a)F V1=2 G(b)OTO N1", "[(a)][(b)]"}, Case{"X1 (a", "[(a]"},
                                          Case{"()", "[()]"}, Case{";", "[;]"}, Case{"X1(a)(b)0", "[(a)][(b)]"}));
 
-/// `G01(X1 Z5)`: each instruction with its arguments; F, S and N are nobody's.
+/// `G01(X1 Z5)`: each instruction with its arguments; F, S and N belong to none.
 std::string instructions_of(const LineTree& tree) {
   std::string text;
   for (const Instruction& each : tree.instructions) {

@@ -125,8 +125,8 @@ INSTANTIATE_TEST_SUITE_P(Spellings, Malformed,
                                          "1..", "..1", "1 . 2 . 3", "1(a),(b)5", "1234567890123456789012345,6"));
 
 TEST(Number, EndsAfterItsLastCharacter) {
-  for (const std::string behind : {" ", "\t", "X", "(a)", " (a) X", "(a", ";5", "\n5", "\r5", " \n5", "(a)\n5", ")5"}) {
-    const std::string text = "12.5" + behind;
+  for (const std::string rest : {" ", "\t", "X", "(a)", " (a) X", "(a", ";5", "\n5", "\r5", " \n5", "(a)\n5", ")5"}) {
+    const std::string text = "12.5" + rest;
     const Number number = read(text);
     EXPECT_EQ(length_of(number, text), 4u) << text;
     EXPECT_EQ(number.value, 12.5) << text;

@@ -54,7 +54,7 @@ TEST(PlainLineProperty, TreesAreThoseOfTheGeneralParser) {
     const char* const end = text.data() + text.size();
     const char* const stop = text.data() + random.below(text.size() + 1);
     TreeStore rows;
-    const char* const behind = rows.append_lines(text.data(), stop, end);
+    const char* const reached = rows.append_lines(text.data(), stop, end);
     std::size_t line = 0;
     const char* p = text.data();
     for (; p < stop; ++line) {
@@ -66,7 +66,7 @@ TEST(PlainLineProperty, TreesAreThoseOfTheGeneralParser) {
       p = text::skip_line_end(line_end, end);
     }
     EXPECT_EQ(line, rows.size());
-    EXPECT_EQ(p, behind);
+    EXPECT_EQ(p, reached);
   }
   EXPECT_GT(10 * plain, others);
   EXPECT_GT(10 * others, plain);
