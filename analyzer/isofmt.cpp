@@ -306,7 +306,7 @@ void add_options(command_line::ProgramApp& program, FormatCommandOptions& option
                        {"Name the programs that would be changed", "Elenca i programmi da modificare"}),
       program.add_flag("--diff", options.diff, {"Show what would be changed", "Mostra che cosa cambierebbe"}),
       program.add_flag("--stdout", options.to_stdout,
-                       {"Print the program formatted; so without any of these",
+                       {"Print the formatted program, as by default",
                         "Stampa il programma formattato; così anche senza\nnessuna di queste"}),
       program.add_flag("-i,--in-place", options.in_place, {"Rewrite the programs", "Riscrive i programmi"}),
   };
@@ -323,10 +323,10 @@ void add_options(command_line::ProgramApp& program, FormatCommandOptions& option
           .without_exclusions();
   program
       .add_flag("--no-word-order", options.no_word_order,
-                {"Words in the order in which they stand", "Parole nell'ordine in cui si trovano"})
+                {"Keep the order of the words", "Parole nell'ordine in cui si trovano"})
       .excludes(word_order)
       .without_exclusions();
-  program.add_choice("--decimals", options.decimals, decimals_choices(), {"MOST", "MAX"},
+  program.add_choice("--decimals", options.decimals, decimals_choices(), {"MAX", "MAX"},
                      {"Zeros that mean nothing dropped, .5 as 0.5;\nnumbers are never rounded; or keep",
                       "Senza zeri superflui, .5 come 0.5; i numeri non\nvengono mai arrotondati; oppure keep"});
   program.add_choice("--g-digits", options.g_digits, {"1", "2", "keep"}, {"WIDTH", "CIFRE"},

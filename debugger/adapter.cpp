@@ -11,7 +11,7 @@ namespace isocnc::debugger {
 using dap::RequestError;
 using dialect::Text;
 
-static constexpr Text kNoLength{"a header tells no Content-Length", "un'intestazione non riporta Content-Length"};
+static constexpr Text kNoLength{"a header has no Content-Length", "un'intestazione non riporta Content-Length"};
 static constexpr Text kTooLong{"the message is longer than any that is taken",
                                "il messaggio è più lungo di quanto è ammesso"};
 static constexpr Text kNoJson{"a message is no JSON object, or nested too deeply",

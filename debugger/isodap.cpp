@@ -26,7 +26,7 @@ system::ExitStatus run(const DebugCommandOptions& options) {
     return std::make_unique<Adapter>(loop, std::move(send), dialect::language_named(options.language));
   };
   rpc::serve(options.port, make, complain);
-  return system::ExitStatus::Failure;  // The port cannot be had.
+  return system::ExitStatus::Failure;  // The port is not available.
 }
 
 system::ExitStatus run_main(int argc, char** argv) {
@@ -41,10 +41,10 @@ system::ExitStatus run_main(int argc, char** argv) {
        .operands = "",
        .paragraphs = {"isodap speaks the debug adapter protocol. An editor starts it, and steps a program by it, "
                       "forwards and backwards, on the simulated machine of isorun.",
-                      "How the machine is stands in the isocnc.json beside the program or above, as for isorun."},
+                      "The isocnc.json beside the program or above describes the machine, as for isorun."},
        .exit = {{"0", "The editor has disconnected."},
-                {"1", "The editor is gone without a word."},
-                {"2", "A mistake in the command, or the port cannot be had."}},
+                {"1", "The editor has disconnected without ending the session."},
+                {"2", "A mistake in the command, or the port is not available."}},
        .see_also = {"isorun", "isols", "isolint"}});
   program.add_option("--server", options.port, {"PORT", "PORTA"},
                      {"Wait for one editor on this port of the loopback\ninterface; 0: any. Else "

@@ -374,13 +374,14 @@ ExitStatus run_file(RunCommandOptions options) {
 ExitStatus run_main(int argc, char** argv) {
   RunCommandOptions options;
   command_line::ProgramApp program(
-      argc, argv, {"Runs an ISOCNC program and tells what it does.", "Esegue un programma ISOCNC e dice che cosa fa."},
+      argc, argv,
+      {"Runs an ISOCNC program and reports what it does.", "Esegue un programma ISOCNC e dice che cosa fa."},
       {.program = "isorun",
        .version = ISOCNC_VERSION,
        .purpose = "run an ISOCNC program",
        .operands = "FILE",
        .paragraphs = {"isorun runs a program block by block as the control would, up to M02 or to the first error, "
-                      "and tells what it does.",
+                      "and reports what it does.",
                       "With --restart-at it writes a program that brings the machine into the state before that line, "
                       "approaches from above, and goes on with the lines from there. Where that is not safe it says "
                       "why, and names the nearest lines where it is."},
@@ -449,7 +450,7 @@ ExitStatus run_main(int argc, char** argv) {
                           "Scende in rapido fino a questa Z; altrimenti\nmachine.clearance"}),
       program.add_option(
           "--approach-feed", options.approach_feed, {"F", "F"},
-          {"Go on down at most at this F (else 1000)", "Poi scende al più con questa F (altrimenti 1000)"})};
+          {"Then feed down at most at this F (else 1000)", "Poi scende al più con questa F (altrimenti 1000)"})};
   for (const command_line::ProgramOption& option : restarting) option.needs(restart_at);
   if (const auto status = program.answer(argc, argv)) return *status;
   return run_file(options);

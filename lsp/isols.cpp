@@ -40,16 +40,16 @@ system::ExitStatus run_main(int argc, char** argv) {
        .version = ISOCNC_VERSION,
        .purpose = "language server for ISOCNC programs",
        .operands = "",
-       .paragraphs = {"isols speaks the language server protocol, version 3.17. An editor starts it, and tells by it "
-                      "what isolint would find, while the program is being written.",
-                      "How programs are checked stands in the isocnc.json beside them or above, as for isolint."},
+       .paragraphs = {"isols speaks the language server protocol, version 3.17. An editor starts it, and shows "
+                      "what isolint would find while the program is being written.",
+                      "Programs are checked as the isocnc.json beside them or above says, as by isolint."},
        .exit = {{"0", "The editor has shut the server down."},
-                {"1", "The editor is gone, or ended the server without shutting it down."},
-                {"2", "A mistake in the command, or the port cannot be had."}},
+                {"1", "The editor has disconnected, or ended the server without shutting it down."},
+                {"2", "A mistake in the command, or the port is not available."}},
        .see_also = {"isolint", "isofmt", "isorun"}});
   const command_line::ProgramOption stdio = program.add_flag(
       "--stdio", options.stdio,
-      {"Speak by standard input and output; so without", "Parla via standard input e output; così anche senza"});
+      {"Use standard input and output, as by default", "Usa standard input e output, come in assenza"});
   program
       .add_option("--tcp", options.port, {"PORT", "PORTA"},
                   {"Wait for one editor on this port of the loopback\ninterface; 0: any",

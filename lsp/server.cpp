@@ -54,7 +54,7 @@ const std::unordered_map<std::string_view, Server::Handler>& Server::handlers() 
 void Server::receive(rpc::MessageFrame frame) {
   switch (frame.problem) {
     case rpc::MessageFrame::Problem::NoLength:
-      return outbox_.send(rpc::error_message(nullptr, ErrorCode::ParseError, "a header tells no Content-Length"));
+      return outbox_.send(rpc::error_message(nullptr, ErrorCode::ParseError, "a header has no Content-Length"));
     case rpc::MessageFrame::Problem::TooLong:
       return outbox_.send(
           rpc::error_message(nullptr, ErrorCode::ParseError, "the message is longer than any that is taken"));

@@ -51,7 +51,7 @@ inline constexpr Text kToolUnknown = {"Only the author knows which tool is meant
                                       "L'utensile lo sa solo chi scrive il programma."};
 inline constexpr Text kLabelUnknown = {"Only the author knows where the jump is to lead.",
                                        "La destinazione del salto la sa solo chi scrive il programma."};
-inline constexpr Text kAboutCheck = {"It tells of the check, not of the program.",
+inline constexpr Text kAboutCheck = {"It is about the check, not about the program.",
                                      "Riguarda la verifica, non il programma."};
 }  // namespace detail
 
@@ -87,7 +87,7 @@ inline constexpr auto kFixes = [] {
       {"holder-not-selected"_diag, None, kToolUnknown},
       {"tool-change-without-tool"_diag,
        Safe,
-       {"move {new} directly behind M06", "spostare {new} subito dopo la M06"},
+       {"move {new} directly after M06", "spostare {new} subito dopo la M06"},
        move_tool_after_change},
       {"tool-change-without-tool"_diag,
        Unsafe,
@@ -131,7 +131,7 @@ inline constexpr auto kFixes = [] {
       {"misplaced-g41-g42"_diag, Safe, kOwnLine, on_its_own_line},
       {"misplaced-g40"_diag,
        Unsafe,
-       {"move {new} behind the motion", "spostare {new} dopo il movimento"},
+       {"move {new} after the motion", "spostare {new} dopo il movimento"},
        move_after_motion},
       {"misplaced-g40"_diag, Safe, kOwnLine, on_its_own_line},
       {"negative-dwell"_diag, Unsafe, {"write {new}, without the sign", "scrivere {new}, senza segno"}, without_sign},
@@ -161,7 +161,7 @@ inline constexpr auto kFixes = [] {
       {"tool-without-m06"_diag, Safe, {"move {new} before the T", "spostare {new} prima della T"}, change_before_tool},
       {"tool-without-m06"_diag,
        Unsafe,
-       {"move {text} directly behind the M06 below", "spostare {text} subito dopo la M06 che segue"},
+       {"move {text} directly after the M06 below", "spostare {text} subito dopo la M06 che segue"},
        tool_to_later_change},
       {"tool-without-m06"_diag, Unsafe, {"write M06 before {text}", "scrivere M06 prima di {text}"}, m06_before_tool},
       {"workpiece-frame-under-face"_diag,
@@ -209,7 +209,7 @@ inline constexpr auto kFixes = [] {
       {"if-malformed"_diag, Unsafe, kWriteDecimal, point_for_comma},
       {"if-malformed"_diag,
        Unsafe,
-       {"write {new}: labels begin with N", "scrivere {new}: le etichette iniziano con N"},
+       {"write {new}: labels start with N", "scrivere {new}: le etichette iniziano con N"},
        label_with_letter},
       {"label-not-found"_diag, None, kLabelUnknown},
       {"backward-jump"_diag, None, kLabelUnknown},
@@ -221,7 +221,7 @@ inline constexpr auto kFixes = [] {
       {"m-param-invalid"_diag, None, kMeaningUnknown},
       {"g09-misplaced"_diag,
        Unsafe,
-       {"move {new} behind the motion", "spostare {new} dopo il movimento"},
+       {"move {new} after the motion", "spostare {new} dopo il movimento"},
        move_after_feed_motion},
       {"redundant-modal"_diag,
        Safe,

@@ -6,7 +6,7 @@
 
 namespace isocnc::expressions {
 
-static constexpr dialect::Text kNoClosingBrace{"{{ has no }} behind it", "a {{ non segue una }}"};
+static constexpr dialect::Text kNoClosingBrace{"{{ has no }} after it", "a {{ non segue una }}"};
 
 static bool begins_with_plain_brace(std::string_view text) { return text.starts_with("{{") || text.starts_with("}}"); }
 

@@ -203,7 +203,7 @@ constexpr Quantity kSingle[] = {
      .read = read_vgpl,
      .set = set_vgpl},
     {.name = "LINE", .meaning = {"line of the program", "riga del programma"}, .read = read_line},
-    {.name = "TIME", .meaning = {"time since the begin", "tempo dall'inizio"}, .unit = "s", .read = read_time},
+    {.name = "TIME", .meaning = {"time since the start", "tempo dall'inizio"}, .unit = "s", .read = read_time},
     {.name = "OVERRIDE",
      .meaning = {"override of the feed", "override del feed"},
      .unit = "%",

@@ -15,7 +15,7 @@ static const DebugRequest* const kRequests[] = {
 std::span<const DebugRequest* const> all_requests() { return kRequests; }
 
 static constexpr dialect::Text kNoLine{"there is no line {}", "non c'è nessuna riga {}"};
-static constexpr dialect::Text kBadHits{"a hit condition is a number, or one behind =, >, >=, <, <= or %, not {}",
+static constexpr dialect::Text kBadHits{"a hit condition is a number, or one after =, >, >=, <, <= or %, not {}",
                                         "una condizione sul numero di passaggi è un numero, o un numero dopo =, >, >=, "
                                         "<, <= o %, non {}"};
 

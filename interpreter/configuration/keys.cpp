@@ -54,7 +54,7 @@ static std::string lower(std::string_view letter) { return {static_cast<char>(le
 
 static void add_home(std::vector<Key>& keys) {
   keys.push_back({.path = "machine.home",
-                  .documentation = "Where the spindle nose stands when a program begins, in machine coordinates."});
+                  .documentation = "Where the spindle nose stands when a program starts, in machine coordinates."});
   for (const AxisKeys& axis : kAxes)
     keys.push_back({.path = "machine.home." + lower(axis.letter),
                     .kind = Kind::Number,
@@ -86,26 +86,26 @@ static void add_axes(std::vector<Key>& keys) {
                     .kind = Kind::Number,
                     .range = axis.range(),
                     .unit = axis.unit(),
-                    .documentation = "The least coordinate.",
+                    .documentation = "The minimum coordinate.",
                     .slot = [travel](Configuration& c, std::size_t) -> ValueSlot { return &travel(c).minimum; }});
     keys.push_back({.path = path + ".max",
                     .kind = Kind::Number,
                     .range = axis.range(),
                     .unit = axis.unit(),
-                    .documentation = "The greatest coordinate.",
+                    .documentation = "The maximum coordinate.",
                     .slot = [travel](Configuration& c, std::size_t) -> ValueSlot { return &travel(c).maximum; }});
     keys.push_back(
         {.path = path + ".rapid",
          .kind = Kind::Number,
          .range = kSpeed,
          .unit = axis.is_rotary ? "degrees/min" : "mm/min",
-         .documentation = "How fast the axis goes at most, in rapid and in feed.",
+         .documentation = "The maximum speed of the axis, in rapids and in feed moves.",
          .slot = [axis](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.rapids[axis.index]; }});
     keys.push_back({.path = path + ".acceleration",
                     .kind = Kind::Number,
                     .range = kAcceleration,
                     .unit = axis.is_rotary ? "degrees/s^2" : "mm/s^2",
-                    .documentation = "How fast the axis gathers and loses speed at most.",
+                    .documentation = "The maximum acceleration of the axis, also when it slows down.",
                     .slot = [axis](Configuration& c, std::size_t) -> ValueSlot {
                       return &c.machine.timed.motion.axes[axis.index].acceleration;
                     }});
@@ -113,7 +113,7 @@ static void add_axes(std::vector<Key>& keys) {
                     .kind = Kind::Number,
                     .range = {0, 1e7, true},
                     .unit = axis.is_rotary ? "degrees/s^3" : "mm/s^3",
-                    .documentation = "How fast the acceleration of the axis changes at most; without it, at once.",
+                    .documentation = "The maximum jerk of the axis; without it, the acceleration may change at once.",
                     .slot = [axis](Configuration& c, std::size_t) -> ValueSlot {
                       return &c.machine.timed.motion.axes[axis.index].jerk;
                     }});
@@ -132,7 +132,7 @@ static void add_limits(std::vector<Key>& keys) {
        .kind = Kind::Number,
        .range = kSpeed,
        .unit = "degrees/min",
-       .documentation = "How fast B and C turn at most (W132).",
+       .documentation = "The maximum speed of B and C (W132).",
        .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.setup.limits.rotary_speed; }});
   keys.push_back(
       {.path = "machine.maxSpindleSpeed",
@@ -347,11 +347,11 @@ static void add_options(std::vector<Key>& keys) {
          .documentation = documentation,
          .slot = [member](Configuration& c, std::size_t) -> ValueSlot { return &(c.lint.thresholds.*member); }});
   };
-  add("longestDwell", {0, 1e6, true}, "s", "The longest G04 that is not told of (W115).",
+  add("longestDwell", {0, 1e6, true}, "s", "The longest G04 that is not reported (W115).",
       &dialect::LintThresholds::longest_dwell);
-  add("axisAngle", {0, 1}, "degrees", "How far face axes may be from the right angle without a word (W114).",
+  add("axisAngle", {0, 1}, "degrees", "How far face axes may be from the right angle without a warning (W114).",
       &dialect::LintThresholds::axis_angle);
-  add("vectorError", {0, 0.1}, "", "How far the length of an axis vector may be from 1 without a word (W128).",
+  add("vectorError", {0, 0.1}, "", "How far the length of an axis vector may be from 1 without a warning (W128).",
       &dialect::LintThresholds::vector_error);
 }
 

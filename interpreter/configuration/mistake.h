@@ -56,7 +56,7 @@ inline constexpr dialect::Text kNoFile = {"not a file", "non è un file"};
 inline constexpr dialect::Text kTooDeep = {"nested too deeply", "troppi livelli, uno dentro l'altro"};
 inline constexpr dialect::Text kEndsEarly = {"the file ends here, but a bracket is still open or a value missing",
                                              "il file finisce qui, ma c'è una parentesi aperta o manca un valore"};
-inline constexpr dialect::Text kExtraComma = {"there is a comma before this {0}, with nothing behind it",
+inline constexpr dialect::Text kExtraComma = {"there is a comma before this {0}, with nothing after it",
                                               "prima di questa {0} c'è una virgola di troppo"};
 inline constexpr dialect::Text kOutOfPlace = {"{0} is out of place here", "{0} qui è fuori posto"};
 inline constexpr dialect::Text kTextAfterEnd = {"nothing may follow the end of the configuration",
@@ -67,7 +67,7 @@ inline constexpr dialect::Text kStringEscape = {
     "una barra rovesciata che JSON non prevede: per una barra scrivere \\\\"};
 inline constexpr dialect::Text kStringTab = {"a tab within a text; write \\t", "tabulatore nel testo: scrivere \\t"};
 inline constexpr dialect::Text kCommentOpen = {"a comment without its end", "commento senza fine"};
-inline constexpr dialect::Text kBadComment = {"a comment begins with // or /*", "un commento inizia con // o /*"};
+inline constexpr dialect::Text kBadComment = {"a comment starts with // or /*", "un commento inizia con // o /*"};
 inline constexpr dialect::Text kBadNumber = {"not a number as JSON writes it", "non è un numero come li scrive JSON"};
 inline constexpr dialect::Text kHugeNumber = {"a number too large to count with", "numero troppo grande"};
 
@@ -86,7 +86,7 @@ inline constexpr dialect::Text kBadGlob = {"{0} is no pattern of paths", "{0} no
 inline constexpr dialect::Text kLeavesFolder = {"{0}: only programs in the folder of this file, or below, have it",
                                                 "{0}: questo file vale solo per i programmi nella sua cartella o "
                                                 "nelle sue sottocartelle"};
-inline constexpr dialect::Text kNegatedGlob = {"{0}: a ! means nothing here; write \\! for a name that begins so",
+inline constexpr dialect::Text kNegatedGlob = {"{0}: a ! means nothing here; write \\! for a name that starts with it",
                                                "{0}: qui il ! non ha significato; per un nome che inizia così "
                                                "scrivere \\!"};
 inline constexpr dialect::Text kBadExtension = {"{0} is no extension, such as .iso",

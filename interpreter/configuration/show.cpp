@@ -202,7 +202,7 @@ std::string json_schema() {
   ordered_json schema = {
       {"$schema", "http://json-schema.org/draft-07/schema#"},
       {"title", "isocnc.json"},
-      {"description", "What isolint, isofmt and isorun know of a machine and of the wishes of its shop."}};
+      {"description", "What isolint, isofmt and isorun know about a machine, and the options of its shop."}};
   schema.update(members_schema(nullptr));
   schema["definitions"] = {{"code", code_schema()}};
   return schema.dump(2) + "\n";

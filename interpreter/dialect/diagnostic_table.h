@@ -18,7 +18,7 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .title = {.en = "Unclosed comment", .it = "Commento non chiuso"},
      .message = {.en = "no ) closes this comment before the end of the line",
                  .it = "il commento non è chiuso da una ) entro la fine della linea"},
-     .explanation = {.en = "A comment in parentheses must end on the line where it begins. Add the ), or put ; in "
+     .explanation = {.en = "A comment in parentheses must end on the line where it starts. Add the ), or put ; in "
                            "place of the ( to comment out the rest of the line. A second ( inside a comment is plain "
                            "text and needs no ) of its own.",
                      .it = "Un commento fra parentesi deve chiudersi sulla stessa linea in cui si apre. Aggiungere "
@@ -52,7 +52,7 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
                  .it = "parola {text} non riconosciuta: le parole iniziano con A B C F G I J K M N P Q R S T V X Y Z"},
      .explanation = {.en = "The control knows no word with D, E, H, L, O, U or W, nor characters such as %, # or *. "
                            "Use the letter that serves the purpose here, or put the text in a comment. Programs "
-                           "written for other controls often begin with % or with an O number: delete both.",
+                           "written for other controls often start with % or with an O number: delete both.",
                      .it = "Il controllo non conosce parole con D, E, H, L, O, U o W, né caratteri come %, # o *. "
                            "Usare la lettera prevista da questo controllo, oppure mettere il testo in un commento. I "
                            "programmi scritti per altri controlli iniziano spesso con % o con un numero O: vanno "
@@ -66,8 +66,9 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .arguments = {},
      .title = {.en = "Word without a number", .it = "Parola senza numero"},
      .message = {.en = "no number follows {text}", .it = "a {text} non segue un numero"},
-     .explanation = {.en = "A word is a letter with its number: the letter alone tells the control nothing. Write the "
-                           "number after it, or delete the letter. Zero must be written too: X0, not X.",
+     .explanation = {.en =
+                         "A word is a letter with its number: the letter alone means nothing to the control. Write the "
+                         "number after it, or delete the letter. Zero must be written too: X0, not X.",
                      .it = "Una parola è formata da una lettera e dal suo numero: la lettera da sola non dice nulla "
                            "al controllo. Scrivere il numero o cancellare la lettera. Anche lo zero va scritto: X0, "
                            "non X."},
@@ -1502,7 +1503,7 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .explanation =
          {.en = "All paths end before this line, so the control never reads it and nothing below is checked until a "
                 "label that is reached. Delete it, or mend the M02 before it. What a jump skips whose condition is "
-                "always true is told of at its IF (W117). A false alarm where code is kept behind M02 on purpose: as a "
+                "always true is reported at its IF (W117). A false alarm where code is kept after M02 on purpose: as a "
                 "comment it cannot be mistaken.",
           .it = "Tutti i percorsi finiscono prima di questa linea: il controllo non la legge e, fino a un'etichetta "
                 "raggiungibile, nemmeno questa verifica. Cancellarla, oppure correggere la M02 che la precede. Ciò che "
@@ -1617,7 +1618,7 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .title = {.en = "Label that no jump names", .it = "Etichetta che nessun salto indica"},
      .message = {.en = "no GOTO leads to {text}", .it = "nessun GOTO porta a {text}"},
      .explanation = {.en = "Only few lines of this program have a number, so a number is there to be jumped to, and to "
-                           "this one no GOTO leads. Delete it, or check the numbers behind GOTO. Off by default; a "
+                           "this one no GOTO leads. Delete it, or check the numbers after GOTO. Off by default; a "
                            "false alarm where a number only marks a place for the operator.",
                      .it = "In questo programma poche linee hanno un numero, quindi il numero serve per i salti, e a "
                            "questo non porta nessun GOTO. Toglierlo, o controllare i numeri dopo GOTO. Disattivata di "
@@ -1717,9 +1718,10 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .title = {.en = "M function that the machine file does not name",
                .it = "Funzione M non indicata nel file macchina"},
      .message = {.en = "the machine file names no {text}", .it = "il file macchina non indica nessuna {text}"},
-     .explanation = {.en = "The machine file lists the M functions of the shop, and this is none of them. Check the "
-                           "number, or add the function to isocnc.json. Only told where the file has such a list; a "
-                           "false alarm where the list is not complete.",
+     .explanation = {.en =
+                         "The machine file lists the M functions of the shop, and this is none of them. Check the "
+                         "number, or add the function to isocnc.json. Only reported where the file has such a list; a "
+                         "false alarm where the list is not complete.",
                      .it = "Il file macchina elenca le funzioni M dell'officina, e questa non c'è. Controllare il "
                            "numero, o aggiungere la funzione a isocnc.json. Segnalata solo se il file ha un tale "
                            "elenco; falso allarme se l'elenco non è completo."},
@@ -1848,12 +1850,12 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .severity = Severity::Warning,
      .section = "I.3.12",
      .arguments = {},
-     .title = {.en = "Cutter compensation that begins on an arc",
+     .title = {.en = "Cutter compensation that starts on an arc",
                .it = "Correzione raggio fresa che inizia su un arco"},
      .message = {.en = "the first motion under cutter compensation is an arc",
                  .it = "il primo movimento con la correzione raggio fresa è un arco"},
-     .explanation = {.en = "The tool has to move sideways by its radius while compensation begins, which an arc cannot "
-                           "do without leaving a mark; many controls refuse it. Begin with a straight move that leads "
+     .explanation = {.en = "The tool has to move sideways by its radius while compensation starts, which an arc cannot "
+                           "do without leaving a mark; many controls refuse it. Start with a straight move that leads "
                            "onto the contour. No false alarms are known.",
                      .it = "Quando inizia la correzione l'utensile deve spostarsi di lato del suo raggio, e su un "
                            "arco non può farlo senza lasciare il segno; molti controlli lo rifiutano. Iniziare con un "
@@ -1872,7 +1874,7 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .explanation =
          {.en = "Beside the contour there is no room for the cutter: a slot is narrower than it, an inside corner has "
                 "steps shorter than it, or the way on or off the contour leads across it. Mount a smaller cutter, "
-                "begin and end beside the contour, or let G39 leave out what the cutter cannot reach. A false alarm "
+                "start and end beside the contour, or let G39 leave out what the cutter cannot reach. A false alarm "
                 "where the tool crosses above the work in feed.",
           .it = "A lato del profilo non c'è spazio per la fresa: una cava è più stretta della fresa, un angolo interno "
                 "ha gradini più corti, oppure l'ingresso o l'uscita attraversano il profilo. Montare una fresa più "
@@ -1911,7 +1913,7 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .explanation =
          {.en = "G41 and G42 move the tool sideways in the arc plane, which takes axes at right angles and a tool that "
                 "keeps its direction. The simulated machine ends the compensation before such a motion and takes it up "
-                "behind it; the control may do otherwise. Write G40 before it. No false alarms are known.",
+                "after it; the control may do otherwise. Write G40 before it. No false alarms are known.",
           .it = "La G41 e la G42 spostano l'utensile di lato nel piano di interpolazione: servono assi ad angolo retto "
                 "e un utensile che non cambi direzione. La macchina simulata toglie la correzione prima di questo "
                 "movimento e la riprende dopo; il controllo può comportarsi diversamente. Scrivere prima la G40. Non "
@@ -1923,7 +1925,7 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .severity = Severity::Warning,
      .section = "I.4.2",
      .arguments = {},
-     .title = {.en = "Spindle started behind the first feed move", .it = "Mandrino avviato dopo la prima lavorazione"},
+     .title = {.en = "Spindle started after the first feed move", .it = "Mandrino avviato dopo la prima lavorazione"},
      .message = {.en = "{text} starts the spindle for the first time, but feed moves stand before it",
                  .it = "{text} avvia il mandrino per la prima volta, ma prima ci sono già movimenti in lavoro"},
      .explanation =

@@ -229,7 +229,7 @@ class HoverWriter {
   }
 
   void describe_jump() {
-    static constexpr Text kJump = {"jumps down to the line of the label behind GOTO where the condition holds (I.5)",
+    static constexpr Text kJump = {"jumps down to the line of the label after GOTO where the condition holds (I.5)",
                                    "salta alla riga dell'etichetta dopo GOTO, più in basso, se la condizione è vera "
                                    "(I.5)"};
     title(kJump.in(language_));

@@ -17,7 +17,7 @@ running::RunResult TimedProgram::run(const std::function<bool()>& stop, simulati
   running::RunOptions options = options_;
   options.before_block = [&, blocks = 0u](const running::Block&) mutable {
     if (++blocks % 1024 == 0 && stop())
-      throw rpc::Error(rpc::ErrorCode::RequestCancelled, "nobody waits for the answer any more");
+      throw rpc::Error(rpc::ErrorCode::RequestCancelled, "the answer is no longer needed");
   };
   return simulation::run_timed(text_, options, machine_->timed, std::move(listeners));
 }

@@ -73,7 +73,7 @@ inline constexpr WrongText kWrongTexts[] = {
      "1:32: lint.severity.W001: this is a number; text is wanted"},
     {R"({"lint": {"files": [{"ignore": []}]}})", "1:21: lint.files[0]: the key paths is missing"},
     {R"({"lint": {"exclude": ["!a", ""]}})",
-     "1:23: lint.exclude[0]: !a: a ! means nothing here; write \\! for a name that begins so\n"
+     "1:23: lint.exclude[0]: !a: a ! means nothing here; write \\! for a name that starts with it\n"
      "1:29: lint.exclude[1]:  is no pattern of paths"},
     {R"({"lint": {"exclude": ["../old/", "a/.."]}})",
      "1:23: lint.exclude[0]: ../old/: only programs in the folder of this file, or below, have it\n"
@@ -119,7 +119,7 @@ inline constexpr WrongText kWrongTexts[] = {
     {"{\n  \"lint\": {\n", "3:1: the file ends here, but a bracket is still open or a value missing", kSchemaAccepts},
     {R"({"lint": {}, // one, two
 })",
-     "2:1: there is a comma before this }, with nothing behind it", kSchemaAccepts},
+     "2:1: there is a comma before this }, with nothing after it", kSchemaAccepts},
     {R"({"lint" {}})", "1:9: { is out of place here", kSchemaAccepts},
     {R"({"lint":: {}})", "1:9: : is out of place here", kSchemaAccepts},
     {R"({lint: {}})", "1:2: lint is out of place here", kSchemaAccepts},
@@ -134,7 +134,7 @@ inline constexpr WrongText kWrongTexts[] = {
     {R"({"machine": {"maxFeed": NaN}})", "1:25: NaN is out of place here", kSchemaAccepts},
     {"{ /* ", "1:3: a comment without its end", kSchemaAccepts},
     {"{ # }", "1:3: # is out of place here", kSchemaAccepts},
-    {"{ / }", "1:3: a comment begins with // or /*", kSchemaAccepts},
+    {"{ / }", "1:3: a comment starts with // or /*", kSchemaAccepts},
     {"{} // \xC3\xA8 \xE8", "1:9: this is no UTF-8; save the file as UTF-8", kSchemaAccepts},
     {"{}\r\n\x01", "2:1: a control character, where only text may stand", kSchemaAccepts},
 };

@@ -123,7 +123,7 @@ TEST(Breakpoints, ReportTheColumnOfAConditionsMistake) {
   EXPECT_EQ(breakpoints.at(0).at("message"), "column 10: there is nothing called W");
   EXPECT_EQ(breakpoints.at(1).at("message"), "column 1: this parenthesis is not closed");
   EXPECT_THAT(breakpoints.at(2).at("message").get<std::string>(), HasSubstr("often"));
-  EXPECT_EQ(breakpoints.at(3).at("message"), "{ has no } behind it");
+  EXPECT_EQ(breakpoints.at(3).at("message"), "{ has no } after it");
   for (const Json& breakpoint : breakpoints) EXPECT_FALSE(breakpoint.at("verified"));
 }
 
