@@ -85,8 +85,8 @@ static bool is_far(const geometry::Pose& pose) {
 }
 
 /// Records a line executed by a plain run. Under G91 only the words of an arc matter, under G90 its start as well.
-static void note_plain_move(const PlainLine& line, const execution::PlainRun& run, const execution::State& state,
-                            PositionUse& use) {
+[[gnu::always_inline]] static inline void note_plain_move(const PlainLine& line, const execution::PlainRun& run,
+                                                          const execution::State& state, PositionUse& use) {
   if (run.is_incremental()) {
     use.far |= is_far(state.position);
     return;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "analyzer/check/report.h"
+#include "analyzer/rules/check_setup.h"
 #include "interpreter/dialect/diagnostic.h"
 #include "interpreter/syntax/line_finder.h"
 #include "interpreter/text/unicode.h"

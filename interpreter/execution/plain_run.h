@@ -30,8 +30,8 @@ class PlainRun {
   }
 
   /// Runs a rapid, a line or a valid arc if the tool and the feed are known. Does nothing and returns false for any
-  /// other line.
-  bool run(const syntax::PlainLine& line) {
+  /// other line. Inlined by force, as most lines of a program come here.
+  [[gnu::always_inline]] bool run(const syntax::PlainLine& line) {
     if (!may_run_ || !line.has_coordinates()) return false;
     const dialect::GCode* const motion = line.row == dialect::kUnknownGCode ? motion_ : &dialect::kGCodes[line.row];
     if (!motion) return false;
@@ -61,7 +61,7 @@ class PlainRun {
   bool met_open_center() const { return met_open_center_; }
 
  private:
-  void move_axes(const syntax::PlainLine& line) {
+  [[gnu::always_inline]] void move_axes(const syntax::PlainLine& line) {
     for (const syntax::Word& word : line.words) {
       const auto axis = static_cast<unsigned>(word.letter - 'X');
       if (axis <= 2) [[likely]] {
