@@ -54,20 +54,20 @@ static void add_options(command_line::ProgramApp& program, LintCommandOptions& o
        "Programmi, directory (dove si cercano .iso .nc\n.cnc .tap .ngc), o - per lo standard input;\n"
        "altrimenti la directory corrente"});
   program.add_option("--explain", options.explain, {"CODE", "CODICE"},
-                     {"Tell all about a code, such as ISO031", "Dice tutto di un codice, per esempio ISO031"});
+                     {"Explain a code, such as ISO031", "Spiega un codice, per esempio ISO031"});
   program.add_flag("--list-rules", options.list_rules, {"List all codes", "Elenca tutti i codici"});
 
   program.begin_group({"What is reported", "Che cosa segnalare"});
   // Each option takes one word, so that in `--select ISO031 part.iso` the path stays a path.
   program
       .add_option("--select", options.selection.select, kCodes,
-                  {"Only these: codes (ISO031), names, what codes\nbegin with (W1), ALL; commas between them",
+                  {"Only these: codes (ISO031), names, what codes\nstart with (W1), ALL; commas between them",
                    "Solo questi: codici (ISO031), nomi, inizi di codici\n(W1), ALL; separati da virgole"})
       .takes_one();
   program.add_option("--ignore", options.selection.ignore, kCodes, {"Not these", "Questi no"}).takes_one();
   program
       .add_option("--severity", options.selection.severities, {"CODE=LEVEL", "CODICE=LIVELLO"},
-                  {"Weigh it as error, warning, info or off", "Gli dà il peso error, warning, info oppure off"})
+                  {"Report it as error, warning or info; or off", "Gli dà il peso error, warning, info oppure off"})
       .takes_one();
   const command_line::ProgramOption baseline =
       program.add_option("--baseline", options.baseline, command_line::kFileValue,
