@@ -191,7 +191,7 @@ TEST(OnLoop, RunsOnTheThreadOfTheLoop) {
     loop.stop();
   });
   std::thread worker([&] { take("result"); });
-  loop.run(std::chrono::hours(1), [] {});
+  loop.run(std::chrono::minutes(1), [&] { loop.stop(); });
   worker.join();
   EXPECT_EQ(received, "result");
   EXPECT_EQ(thread, std::this_thread::get_id());
