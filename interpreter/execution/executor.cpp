@@ -132,14 +132,7 @@ void Executor::report(dialect::DiagnosticId id, syntax::Span span, std::initiali
 
 void Executor::execute_g(const Instruction& instruction) {
   const dialect::GCode* const code = instruction.g();
-  if (!code) {
-    // The effect of an unknown G is unknown; the positions of the axes that it names become unknown, too.
-    const Arguments arguments(line_, instruction);
-    const Word& g = line_.command(instruction);
-    if (may_be_motion(g, arguments)) make_motion_illegible();
-    if (g.has(Word::kMalformed)) blur_axes_not_named();  // G01 -20: the letter of some axis is lost.
-    return move_illegibly(arguments);
-  }
+  if (!code) return execute_unknown_g(instruction);
   switch (code->role) {
     case GRole::Rapid:
     case GRole::Line:
@@ -174,6 +167,15 @@ void Executor::execute_g(const Instruction& instruction) {
     case GRole::ApplyMdi:
       return;  // They concern the program after this one, and the operator.
   }
+}
+
+/// The effect of an unknown G is unknown; the positions of the axes that it names become unknown, too.
+void Executor::execute_unknown_g(const Instruction& instruction) {
+  const Arguments arguments(line_, instruction);
+  const Word& g = line_.command(instruction);
+  if (may_be_motion(g, arguments)) make_motion_illegible();
+  if (g.has(Word::kMalformed)) blur_axes_not_named();  // G01 -20: the letter of some axis is lost.
+  move_illegibly(arguments);
 }
 
 /// Whether a G that is unknown to this control or illegible may have been meant as a motion that stays in force (D57):

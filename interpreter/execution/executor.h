@@ -32,6 +32,7 @@ class Executor {
  private:
   bool moves_in_plane() const;
   void execute_g(const syntax::Instruction& instruction);
+  void execute_unknown_g(const syntax::Instruction& instruction);
   void set_mode(const dialect::GCode& code, const syntax::Word& word);
   bool repetition_is_reported(const dialect::GCode& code) const;
   void exact_stop(const syntax::Instruction& instruction);
