@@ -53,9 +53,9 @@ void PlainRun::take_feed(const PlainLine& line) {
 }
 
 void PlainRun::finish() {
-  state_.set_mode(*motion_);
+  state_.set_mode(dialect::g_code(motion_));
   state_.motion_illegible = false;
-  state_.exact_stop_fits = motion_->is_feed_move();
+  state_.exact_stop_fits = motion_ != dialect::GRole::Rapid;
   state_.expects_tool = false;
   state_.tool_prepared = false;
 }

@@ -22,7 +22,7 @@ class PlainRun {
         incremental_(state.incremental()),
         may_run_(state.tool_selected && state.unknown == 0),
         feed_holds_(state.feed_given && !state.inverse_time()),
-        motion_(state.motion()) {}
+        motion_(state.motion() ? state.motion()->role : kNoMotion) {}
   PlainRun(const PlainRun&) = delete;
   PlainRun& operator=(const PlainRun&) = delete;
   ~PlainRun() {
@@ -33,12 +33,11 @@ class PlainRun {
   /// other line. Inlined by force, as most lines of a program come here.
   [[gnu::always_inline]] bool run(const syntax::PlainLine& line) {
     if (!may_run_ || !line.has_coordinates()) return false;
-    const dialect::GCode* const motion = line.row == dialect::kUnknownGCode ? motion_ : &dialect::kGCodes[line.row];
-    if (!motion) return false;
+    const GRole motion = line.row == dialect::kUnknownGCode ? motion_ : dialect::kGCodes[line.row].role;
     const bool has_feed = line.feed >= 0;
-    if (motion->role == dialect::GRole::Rapid ? has_feed : !has_feed && !feed_holds_) return false;
-    if (motion->is_arc()) {
-      if (!is_sound_arc(line)) return false;
+    if (motion == GRole::Rapid ? has_feed : !has_feed && !feed_holds_) return false;
+    if (motion != GRole::Rapid && motion != GRole::Line) {
+      if (motion == kNoMotion || !is_sound_arc(line)) return false;
     } else if ((line.arguments & ~straight_) != 0) {
       return false;
     }
@@ -46,7 +45,7 @@ class PlainRun {
     if (has_feed) take_feed(line);
     motion_ = motion;
     has_run_ = true;
-    has_fed_ |= motion->role != dialect::GRole::Rapid;
+    has_fed_ |= motion != GRole::Rapid;
     return true;
   }
 
@@ -56,11 +55,14 @@ class PlainRun {
   /// Whether a feed move had an F.
   bool has_taken_feed() const { return has_taken_feed_; }
   /// Whether the last line was an arc.
-  bool was_arc() const { return motion_ && motion_->is_arc(); }
+  bool was_arc() const { return motion_ != GRole::Rapid && motion_ != GRole::Line; }
   /// Whether there was an arc under G90 whose center could also be incremental.
   bool met_open_center() const { return met_open_center_; }
 
  private:
+  using GRole = dialect::GRole;
+  static constexpr GRole kNoMotion = GRole::Mode;
+
   [[gnu::always_inline]] void move_axes(const syntax::PlainLine& line) {
     for (const syntax::Word& word : line.words) {
       const auto axis = static_cast<unsigned>(word.letter - 'X');
@@ -85,8 +87,8 @@ class PlainRun {
   const dialect::LetterSet straight_;  ///< Axes that a straight motion may move.
   const bool incremental_;
   const bool may_run_;
-  bool feed_holds_;               ///< Whether a feed move without F is valid.
-  const dialect::GCode* motion_;  ///< The motion in force, or null.
+  bool feed_holds_;  ///< Whether a feed move without F is valid.
+  GRole motion_;     ///< The role of the motion in force, or kNoMotion.
   bool has_run_ = false;
   bool has_fed_ = false;
   bool has_taken_feed_ = false;

@@ -39,9 +39,11 @@ static constexpr Plane kPlaneYZ = {.u = 1,
                                    .undetermined_by_v = "center-undetermined-g19-k"_diag};
 
 const Plane& plane_in_force(const State& state) {
-  const dialect::GRole role = state.g(dialect::ModalGroup::Plane)->role;
-  if (role == dialect::GRole::PlaneZX) return kPlaneZX;
-  return role == dialect::GRole::PlaneYZ ? kPlaneYZ : kPlaneXY;
+  // Numbers are compared, since every arc asks.
+  static constexpr std::uint16_t kZX = dialect::g_code(dialect::GRole::PlaneZX).number;
+  static constexpr std::uint16_t kYZ = dialect::g_code(dialect::GRole::PlaneYZ).number;
+  const std::uint16_t number = state.mode(dialect::ModalGroup::Plane);
+  return number == kZX ? kPlaneZX : number == kYZ ? kPlaneYZ : kPlaneXY;
 }
 
 }  // namespace isocnc::execution
