@@ -11,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analyzer/formats/renderers.h"
 #include "programs.h"
 #include "run_command.h"
 #include "temporary_folder.h"
@@ -61,14 +62,13 @@ TEST_P(IsolintFormat, LooksAsExpected) {
   EXPECT_EQ(lasting(result.out), text_of_file(file));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, IsolintFormat, testing::ValuesIn([] {
-      std::vector<Format> all;
-      for (const std::string name : {"text", "concise", "json", "sarif", "github", "gitlab", "junit", "checkstyle"})
-        for (const std::string language : {"en", "it"}) all.push_back({name, language});
-      return all;
-    }()),
-    [](const auto& tested) { return tested.param.name + "_" + tested.param.language; });
+INSTANTIATE_TEST_SUITE_P(All, IsolintFormat, testing::ValuesIn([] {
+                           std::vector<Format> all;
+                           for (const std::string& name : formats::format_names())
+                             for (const std::string language : {"en", "it"}) all.push_back({name, language});
+                           return all;
+                         }()),
+                         [](const auto& tested) { return tested.param.name + "_" + tested.param.language; });
 
 /// Whatever a program or its name may hold, made worse: controls, stray bytes, what XML forbids, markup.
 const std::string kHostileProgram = "M06 T101001 (" + std::string(200, 'a') +
