@@ -1,12 +1,15 @@
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include <unistd.h>
 
 #include "debugger/adapter.h"
+#include "debugger/requests/request.h"
 #include "require.h"
 
 namespace isocnc::fuzz {
@@ -14,7 +17,7 @@ namespace isocnc::fuzz {
 using debugger::Adapter;
 using Json = rpc::Json;
 
-/// Requests that a byte stands for; the byte after it is their argument.
+/// Requests that a byte stands for, in the order that the seeds rely on.
 static constexpr const char* kCommands[] = {"next",
                                             "stepIn",
                                             "stepOut",
@@ -48,6 +51,17 @@ static constexpr const char* kCommands[] = {"next",
                                             "configurationDone",
                                             "disconnect",
                                             ""};  // Asks for nothing: what runs goes on for a while.
+
+/// These, and after them all others that there are; the byte after that of a request is its argument.
+static const std::vector<std::string>& commands() {
+  static const std::vector<std::string> kAll = [] {
+    std::vector<std::string> all(std::begin(kCommands), std::end(kCommands));
+    for (const requests::DebugRequest* const request : requests::all_requests())
+      if (std::find(all.begin(), all.end(), request->command) == all.end()) all.emplace_back(request->command);
+    return all;
+  }();
+  return kAll;
+}
 
 static constexpr const char* kTexts[] = {
     "X",         "V3",  "Z < 0 && S > 0", "G00 X5", "G91 G909", "M06 T101001", "V3=2",      "(",   "X,x",
@@ -122,7 +136,7 @@ class Feeder {
 
   void feed() {
     if (bytes_.size() < 2) return adapter_.end();
-    const std::string command = kCommands[number() % std::size(kCommands)];
+    const std::string& command = commands()[number() % commands().size()];
     const std::uint8_t argument = number();
     if (command.empty()) return wait(argument % 32);
     Json arguments = arguments_of(argument, path_);
