@@ -19,9 +19,11 @@ interface Palette {
   background: Color;
   grid: Color;
   highlight: Color;
+  /** For the stock, and in the legend where the colors mean something else. */
   neutral: Color;
   /** Of tools; the first is none. */
   tools: Color[];
+  /** The first is also the color of rapids by feed. */
   kinds: [rapid: Color, feed: Color, arc: Color];
   feed: Color[];
   time: Color[];
@@ -129,10 +131,11 @@ export function stepColors(path: Toolpath, mode: Mode, theme: Theme): (step: num
     }
     case 'feed': {
       const range = feedRange(path);
-      if (!range) return () => palette.neutral;
+      const [rapid] = palette.kinds;
+      if (!range) return () => rapid;
       const width = range.max - range.min || 1;
       return (step) =>
-        path.stepFeed[step] > 0 ? gradient(palette.feed, (path.stepFeed[step] - range.min) / width) : palette.neutral;
+        path.stepFeed[step] > 0 ? gradient(palette.feed, (path.stepFeed[step] - range.min) / width) : rapid;
     }
   }
 }

