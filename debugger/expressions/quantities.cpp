@@ -151,6 +151,8 @@ constexpr std::array<QuantityGroup, dialect::kModalGroupCount> kGroups{{
     {"FEEDMODE", {"feed mode", "modo del feed"}},
 }};
 
+static_assert(!kGroups.back().name.empty(), "each modal group has a name");
+
 constexpr std::array<std::string_view, 5> kUnits{"mm", "mm", "mm", "°", "°"};
 
 /// `V1` to `V30`.
