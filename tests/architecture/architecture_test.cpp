@@ -151,8 +151,9 @@ TEST(Architecture, PrivateHeadersAreIncludedByTheirFolderAlone) {
   for (const std::string& header : headers) EXPECT_TRUE(fs::exists(kRoot / header)) << header;
   for (const std::string& file : sources())
     for (const Include& include : includes_of(file))
-      if (std::find(headers.begin(), headers.end(), include.header) != headers.end())
+      if (std::find(headers.begin(), headers.end(), include.header) != headers.end()) {
         EXPECT_EQ(folder_of(file), folder_of(include.header)) << file << " includes " << include.header;
+      }
 }
 
 /// Large folders hide their subjects. A folder of parts, one file for each, may be as large as it likes.
@@ -161,7 +162,7 @@ TEST(Architecture, NoFolderIsCrowded) {
   std::map<std::string, std::size_t> files;
   for (const std::string& file : sources()) ++files[folder_of(file)];
   for (const auto& [folder, count] : files)
-    if (!folders_of_parts.contains(folder)) EXPECT_LE(count, 25U) << folder;
+    EXPECT_TRUE(count <= 25 || folders_of_parts.contains(folder)) << folder << " has " << count << " files";
 }
 
 /// So a clock that jumps cannot matter: durations are taken by the steady clock, and of files' times only whether they
