@@ -314,20 +314,20 @@ TEST(Breakpoints, ExceptionsAreWhatTheFiltersSay) {
 /// Blocks of the console count: they mount a tool, and they cut.
 TEST(Breakpoints, TheFirstCutOfAToolMayBeMadeByHand) {
   DebugClient client;
-  client.launch("M06 T101001\nG00 X1\nG01 X2 F100\nX3\nX4\nM02\n");
+  client.launch("M06 T101001\nG00 X1\nG01 X2 F100\nX3\nG00 X4\nG01 X5\nM02\n");
   client.request("setExceptionBreakpoints", {{"filters", {"firstCut"}}});
-  client.set_lines({2, 4});
+  client.set_lines({2, 5});
   client.run("configurationDone");
   EXPECT_EQ(client.line(), 2);
   client.evaluate("G01 X1.5 F100", "repl");
   EXPECT_EQ(client.run("continue").at("reason"), "breakpoint");
-  EXPECT_EQ(client.line(), 4);
+  EXPECT_EQ(client.line(), 5);
   client.evaluate("M06 T101002", "repl");
   client.evaluate("G01 Z0", "repl");
   client.evaluate("M06 T101003", "repl");
   client.set_lines({});
   EXPECT_EQ(client.run("continue").at("text"), "firstCut");
-  EXPECT_EQ(client.line(), 4);
+  EXPECT_EQ(client.line(), 6);
 }
 
 TEST(Breakpoints, WarningsStopTheRunWhereTheyAreAskedFor) {
