@@ -20,10 +20,12 @@ int main(int count, char** arguments) {
   const std::string_view text = std::get<system::SourceFile>(opened).text();
 
   configuration::Configurations configurations({}, language);  // The isocnc.json above the program.
-  const configuration::MachineConfiguration& machine = configurations.of(arguments[1]).machine;
+  const configuration::Configuration& configuration = configurations.of(arguments[1]);
+  const configuration::MachineConfiguration& machine = configuration.machine;
+  const rules::CheckSetup setup{.machine = machine.setup, .thresholds = configuration.lint.thresholds};
 
   syntax::LineFinder lines(text);
-  for (const check::LocatedFinding& located : check::check_text(text, machine.setup).findings) {
+  for (const check::LocatedFinding& located : check::check_text(text, setup).findings) {
     const formats::ShownFinding shown = formats::show(located, lines, {.language = language});
     fmt::print("line {}: {} [{}]\n", shown.line, shown.message, shown.def.code);
   }
