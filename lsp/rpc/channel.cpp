@@ -27,7 +27,7 @@ Channel::Channel(Descriptors descriptors, Events events) : descriptors_(descript
   try {
     reader_ = std::thread([this] { read_all(); });
     writer_ = std::thread([this] { write_all(); });
-  } catch (const std::system_error&) {
+  } catch (...) {  // Also bad_alloc: a thread that runs must be joined.
     end();
     throw;
   }
