@@ -6,7 +6,6 @@
 
 #include "analyzer/fixes/habits.h"
 #include "analyzer/fixes/line_edits.h"
-#include "interpreter/syntax/prose.h"
 #include "interpreter/text/characters.h"
 
 namespace isocnc::fixes {

@@ -15,8 +15,7 @@ static void check_compensation_begins_on_arc(const Block& block, execution::Sink
   if (!motion || !motion->is_arc()) return;
   const bool begins_here =
       !block.compensated() && (block.g(GRole::CompensationLeft) || block.g(GRole::CompensationRight));
-  if (begins_here || block.holds(kWaits))
-    report(sink, "compensation-begins-on-arc"_diag, block.motion_word().span());
+  if (begins_here || block.holds(kWaits)) report(sink, "compensation-begins-on-arc"_diag, block.motion_word().span());
 }
 
 extern const Rule compensation_begins_on_arc = {

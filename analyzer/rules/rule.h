@@ -52,9 +52,9 @@ inline constexpr unsigned kFeed = 32;       ///< An F.
 inline constexpr unsigned kAllParts = 63;
 
 /// Checks a block that contains one of `concerns`, or the motion of a block. One file per rule, named after it, and one
-/// row each in the tables of diagnostics and of fixes; the build collects the files. `check` is not called for plain motions that end no
-/// fact of the rule's memory, so a rule must not rely on seeing them; `check_move` is called for all motions with known
-/// ends, but only where checks_moves().
+/// row each in the tables of diagnostics and of fixes; the build collects the files. `check` is not called for plain
+/// motions that end no fact of the rule's memory, so a rule must not rely on seeing them; `check_move` is called for
+/// all motions with known ends, but only where checks_moves().
 struct Rule {
   unsigned concerns = 0;
   void (*check)(const Block& block, execution::Sink& sink) = nullptr;

@@ -4,7 +4,6 @@
 
 #include "interpreter/syntax/line_parser.h"
 #include "interpreter/syntax/number.h"
-#include "interpreter/syntax/prose.h"
 
 namespace isocnc::syntax {
 

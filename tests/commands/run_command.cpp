@@ -210,7 +210,7 @@ std::vector<nlohmann::json> trace_of(std::string_view program, std::vector<std::
 }
 
 nlohmann::json summary_of(const std::string& program, std::vector<std::string> options) {
-  options.insert(options.begin(), {"isorun", "--nlohmann::json", "-"});
+  options.insert(options.begin(), {"isorun", "--json", "-"});
   return nlohmann::json::parse(run_command(options, {.input = program}).out);
 }
 
