@@ -78,8 +78,8 @@ std::optional<double> read_decimal(std::string_view text) {
 std::optional<std::uint64_t> read_count(std::string_view text, std::uint64_t maximum) {
   std::uint64_t count = 0;
   const char* const end = text.data() + text.size();
-  const auto [behind, error] = std::from_chars(text.data(), end, count);
-  if (error != std::errc{} || behind != end || count < 1 || count > maximum) return std::nullopt;
+  const auto [after, error] = std::from_chars(text.data(), end, count);
+  if (error != std::errc{} || after != end || count < 1 || count > maximum) return std::nullopt;
   return count;
 }
 

@@ -143,9 +143,9 @@ Draft tool_to_later_change(const FixRequest& request) {
     if (waits_for_tool(below) && !is_jumped_to(below, request.program)) {
       const auto is_change = [](const Instruction& each) { return each.kind == InstructionKind::ToolChange; };
       const Instruction& change = *std::find_if(below.instructions.begin(), below.instructions.end(), is_change);
-      const syntax::Position behind{number, below.command(change).end};
-      return {{removed_with_line(request, request.finding.span),
-               Edit{behind, behind, " " + std::string(request.marked())}}};
+      const syntax::Position after{number, below.command(change).end};
+      return {
+          {removed_with_line(request, request.finding.span), Edit{after, after, " " + std::string(request.marked())}}};
     }
     if (!lets_tool_pass(below, request.program)) return {};
   }

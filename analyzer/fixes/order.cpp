@@ -90,18 +90,18 @@ Draft on_its_own_line(const FixRequest& request) {
   const bool may_be_followed =
       alone->kind != InstructionKind::Jump && line.command(*alone).value != dialect::kProgramEnd;
   const auto is_label = [](const Word& word) { return word.letter == 'N'; };
-  const auto behind = line.words.subspan(extent->last + 1);
-  if (std::any_of(behind.begin(), behind.end(), is_label)) return {};
-  if (!behind.empty() && alone->kind == InstructionKind::Function && !may_be_followed) return {};
-  if (!behind.empty() && alone->kind == InstructionKind::Jump) return {};
+  const auto after = line.words.subspan(extent->last + 1);
+  if (std::any_of(after.begin(), after.end(), is_label)) return {};
+  if (!after.empty() && alone->kind == InstructionKind::Function && !may_be_followed) return {};
+  if (!after.empty() && alone->kind == InstructionKind::Jump) return {};
   const auto before = line.words.first(extent->first);
   // In G92 X10 Y20=-Z146 the Z belongs to the G92.
-  if ((!behind.empty() && is_ambiguous(line, behind.front())) || (!before.empty() && is_ambiguous(line, before.back())))
+  if ((!after.empty() && is_ambiguous(line, after.front())) || (!before.empty() && is_ambiguous(line, before.back())))
     return {};
   Draft draft;
   if (!std::all_of(before.begin(), before.end(), is_label))
     draft.edits.push_back(line_end_before(request, line.words[extent->first].begin));
-  if (!behind.empty()) draft.edits.push_back(line_end_before(request, behind.front().begin));
+  if (!after.empty()) draft.edits.push_back(line_end_before(request, after.front().begin));
   return draft;
 }
 

@@ -169,8 +169,8 @@ Draft removed_suppression(const FixRequest& request) {
   if (comment == request.line.comments.end()) return {};
   const bool is_closed = line[comment->end - 1] == ')';
   const std::string_view before = trimmed(line.substr(comment->begin + 1, span.begin - comment->begin - 1));
-  const std::string_view behind = trimmed(line.substr(span.end, comment->end - (is_closed ? 1 : 0) - span.end));
-  const bool is_all = before.empty() && (behind.empty() || behind.front() == '-');
+  const std::string_view after = trimmed(line.substr(span.end, comment->end - (is_closed ? 1 : 0) - span.end));
+  const bool is_all = before.empty() && (after.empty() || after.front() == '-');
   return {{is_all ? removed_with_line(request, *comment) : removed(request, span)}};
 }
 

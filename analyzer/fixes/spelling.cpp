@@ -50,9 +50,9 @@ Draft point_for_comma(const FixRequest& request) {
   std::string text(request.marked());
   if (!holds_only(text, "0123456789,+- \t")) return {};
   if (std::count(text.begin(), text.end(), ',') != 1) return {};
-  const auto behind =
+  const auto after =
       std::count_if(text.begin() + static_cast<std::ptrdiff_t>(text.find(',')), text.end(), text::is_digit);
-  if (behind == 3 && request.program.habits().separates_thousands()) return {};
+  if (after == 3 && request.program.habits().separates_thousands()) return {};
   std::replace(text.begin(), text.end(), ',', '.');
   return rewritten(request, std::move(text));
 }
@@ -87,9 +87,9 @@ Draft without_equals(const FixRequest& request) {
   const std::string_view line = request.line.text;
   const std::uint32_t at = request.finding.span.begin;
   const std::string_view before = trimmed(line.substr(0, at));
-  const std::string_view behind = trimmed(line.substr(at + 1));
+  const std::string_view after = trimmed(line.substr(at + 1));
   if (before.empty() || text::char_class(before.back()) != text::CharClass::Letter) return {};
-  if (behind.empty() || !text::is_number_char(behind.front())) return {};
+  if (after.empty() || !text::is_number_char(after.front())) return {};
   return {{replaced(request, {at, at + 1}, {})}};
 }
 

@@ -276,8 +276,8 @@ class Fixer {
     std::vector<bool> suspected(all.size());
     for (const check::LocatedFinding& located : trial.version.found.findings) {
       if (--expected[place(located.line, located.finding.id)] >= 0) continue;
-      const auto behind = std::upper_bound(first_lines.begin(), first_lines.end(), located.line);
-      if (behind != first_lines.begin()) suspected[static_cast<std::size_t>(behind - first_lines.begin()) - 1] = true;
+      const auto after = std::upper_bound(first_lines.begin(), first_lines.end(), located.line);
+      if (after != first_lines.begin()) suspected[static_cast<std::size_t>(after - first_lines.begin()) - 1] = true;
     }
     std::vector<FixCandidate> unsuspected;
     for (std::size_t i = 0; i < all.size(); ++i)

@@ -14,8 +14,8 @@ namespace isocnc::fixing {
 /// The first line of `text` with its end.
 static std::string_view first_line(std::string_view text) {
   const char* const end = text.data() + text.size();
-  const char* const behind = text::skip_line_end(text::find_line_end(text.data(), end), end);
-  return text.substr(0, static_cast<std::size_t>(behind - text.data()));
+  const char* const after = text::skip_line_end(text::find_line_end(text.data(), end), end);
+  return text.substr(0, static_cast<std::size_t>(after - text.data()));
 }
 
 static void append(std::string& text, char mark, std::string_view line) {
@@ -115,17 +115,17 @@ std::string UnifiedDiff::Side::range() const {
 /// Writes the file names; a tab marks for patch the end of a name with blanks.
 void UnifiedDiff::write_names() {
   const std::string name = text::printable(std::exchange(name_, {}));
-  const std::string_view behind = name.find(' ') == std::string::npos ? "" : "\t";
-  write_(fmt::format("--- {0}{1}\n+++ {0}{1}\n", name, behind));
+  const std::string_view after = name.find(' ') == std::string::npos ? "" : "\t";
+  write_(fmt::format("--- {0}{1}\n+++ {0}{1}\n", name, after));
 }
 
 /// Writes the hunk with the first unchanged lines after it; keeps those that may precede the next hunk.
 void UnifiedDiff::write_hunk() {
-  const std::size_t behind = std::min(kContext, context_.size());
-  for (std::size_t i = 0; i < behind; ++i) append(hunk_, ' ', context_[i]);
-  for (Side* const side : {&before_, &after_}) side->hunk_lines += behind;
-  const std::size_t gone = std::max(behind, context_.size() - std::min(kContext, context_.size()));
-  context_.erase(context_.begin(), context_.begin() + static_cast<std::ptrdiff_t>(gone));
+  const std::size_t after = std::min(kContext, context_.size());
+  for (std::size_t i = 0; i < after; ++i) append(hunk_, ' ', context_[i]);
+  for (Side* const side : {&before_, &after_}) side->hunk_lines += after;
+  const std::size_t removed_count = std::max(after, context_.size() - std::min(kContext, context_.size()));
+  context_.erase(context_.begin(), context_.begin() + static_cast<std::ptrdiff_t>(removed_count));
   if (!name_.empty()) write_names();
   write_(fmt::format("@@ -{} +{} @@\n", before_.range(), after_.range()));
   write_(hunk_);

@@ -64,9 +64,9 @@ void Suppressions::read_line(std::uint64_t number, std::string_view line) {
 static syntax::Span next_word(std::string_view line, std::uint32_t begin, std::uint32_t end) {
   const auto separates = [](char c) { return text::is_blank(c) || c == ','; };
   while (begin < end && separates(line[begin])) ++begin;
-  std::uint32_t behind = begin;
-  while (behind < end && !separates(line[behind]) && line[behind] != '(' && line[behind] != ')') ++behind;
-  return {begin, behind};
+  std::uint32_t after = begin;
+  while (after < end && !separates(line[after]) && line[after] != '(' && line[after] != ')') ++after;
+  return {begin, after};
 }
 
 void Suppressions::read_directive(std::uint64_t number, std::string_view line, std::uint32_t begin, std::uint32_t end) {

@@ -24,9 +24,9 @@ static std::size_t skip_comment(std::string_view text, std::size_t at) {
 static std::size_t skip_separators(std::string_view text, std::size_t at) {
   static constexpr std::string_view kSeparators = " \t\r\n,:";
   while (at < text.size()) {
-    const std::size_t behind = skip_comment(text, at);
-    if (behind == at && kSeparators.find(text[at]) == std::string_view::npos) break;
-    at = std::max(behind, at + 1);
+    const std::size_t after = skip_comment(text, at);
+    if (after == at && kSeparators.find(text[at]) == std::string_view::npos) break;
+    at = std::max(after, at + 1);
   }
   return at;
 }

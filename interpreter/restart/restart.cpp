@@ -295,8 +295,8 @@ void propose_lines(std::string_view text, const RestartOptions& options, const R
   for (std::uint64_t line = std::min(refusal.line, survey.end()); line-- > 0 && !refusal.before;)
     if (above.fits(line)) refusal.before = line;
   Proposals below(text, options, survey);
-  for (std::uint64_t line = refusal.line + 1; line < survey.end() && !refusal.behind; ++line)
-    if (below.fits(line)) refusal.behind = line;
+  for (std::uint64_t line = refusal.line + 1; line < survey.end() && !refusal.after; ++line)
+    if (below.fits(line)) refusal.after = line;
 }
 
 RestartRefusal refuse(const RestartAttempt& made, std::string_view text, const RestartOptions& options,
@@ -378,10 +378,10 @@ std::string message(const RestartRefusal& refusal, Language language) {
   const auto add = [&](const Text& nearest, auto... lines) {
     text += "; " + dialect::format(nearest, language, (lines + 1)...);
   };
-  if (refusal.before && refusal.behind) {
-    add(kNearestTwo, *refusal.before, *refusal.behind);
-  } else if (refusal.before || refusal.behind) {
-    add(kNearest, refusal.before ? *refusal.before : *refusal.behind);
+  if (refusal.before && refusal.after) {
+    add(kNearestTwo, *refusal.before, *refusal.after);
+  } else if (refusal.before || refusal.after) {
+    add(kNearest, refusal.before ? *refusal.before : *refusal.after);
   }
   return text;
 }

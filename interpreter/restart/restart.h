@@ -18,7 +18,7 @@ struct RestartRefusal {
   bool has_choices = false;             ///< Another VGPL or register might lead to other lines.
   int g = 0;                            ///< The G in force that prevents the restart: 2, 3, 41 or 42.
   std::optional<std::uint64_t> before;  ///< The nearest safe line above.
-  std::optional<std::uint64_t> behind;  ///< The nearest safe line below.
+  std::optional<std::uint64_t> after;   ///< The nearest safe line below.
   kinematics::Overtravel overtravel;    ///< For BeyondTravel: the axis, its position and its limit.
   running::RunResult run;  ///< For ProgramError: the result with the error; refers to the text of the program.
 };

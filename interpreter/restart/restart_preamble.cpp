@@ -205,10 +205,11 @@ class Preamble {
     const kinematics::Coordinates tip = kinematics::coordinates({Vec3::Zero(), state_.position.b, state_.position.c});
     const kinematics::Coordinates nose =
         kinematics::inverse(machine.motion.kinematics, tip, machine.tool_length(target_.tool));
-    const double room = std::floor((machine.motion.axes[kinematics::kZ].maximum - nose[kinematics::kZ]) * 1000) / 1000;
+    const double highest =
+        std::floor((machine.motion.axes[kinematics::kZ].maximum - nose[kinematics::kZ]) * 1000) / 1000;
     constexpr double kNoise = 1e-3;
     const double step = state_.mm_per_unit() / kStepsPerUnit;
-    return std::floor((room - state_.workpiece_origin.z()) / step + kNoise) * step;
+    return std::floor((highest - state_.workpiece_origin.z()) / step + kNoise) * step;
   }
 
   static Vec3 rounded(const Vec3& place) { return (place * 1000).array().round() / 1000; }

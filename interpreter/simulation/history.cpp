@@ -49,9 +49,9 @@ void History::go_to_block(std::uint64_t blocks) {
 /// hold for all earlier ones, too.
 template <class Predicate>
 void History::start_from(Predicate&& predicate) {
-  const auto behind = std::partition_point(checkpoints_.begin() + 1, checkpoints_.end(),
-                                           [&](const Checkpoint& each) { return predicate(*each.simulation); });
-  const Simulation* best = std::prev(behind)->simulation.get();
+  const auto after = std::partition_point(checkpoints_.begin() + 1, checkpoints_.end(),
+                                          [&](const Checkpoint& each) { return predicate(*each.simulation); });
+  const Simulation* best = std::prev(after)->simulation.get();
   for (const auto& [work, simulation] : nearby_)
     if (work > best->work() && predicate(simulation)) best = &simulation;
   if (present_.work() >= best->work() && predicate(present_)) return;
@@ -70,10 +70,10 @@ void History::skip_to_line(std::uint64_t line) {
 }
 
 std::optional<std::uint64_t> History::find_line(std::uint64_t line) const {
-  const auto behind =
-      std::partition_point(checkpoints_.begin() + 1, checkpoints_.end(),
-                           [line](const Checkpoint& each) { return comes_to(each.simulation->runner(), line); });
-  running::Runner runner = std::prev(behind)->simulation->runner();
+  const auto after = std::partition_point(checkpoints_.begin() + 1, checkpoints_.end(), [line](const Checkpoint& each) {
+    return comes_to(each.simulation->runner(), line);
+  });
+  running::Runner runner = std::prev(after)->simulation->runner();
   while (comes_to(runner, line) && runner.place().line < line) {
     apply_settings(runner, runner.result().blocks);
     runner.step();
@@ -88,9 +88,9 @@ std::optional<std::uint64_t> History::find_before(std::uint64_t blocks,
                                                   std::uint64_t from) const {
   std::optional<std::uint64_t> found;
   // Later checkpoints belong to blocks outside the search.
-  const auto behind = std::partition_point(checkpoints_.begin() + 1, checkpoints_.end(),
-                                           [&](const Checkpoint& each) { return each.simulation->blocks() < blocks; });
-  for (auto checkpoint = std::make_reverse_iterator(behind);
+  const auto after = std::partition_point(checkpoints_.begin() + 1, checkpoints_.end(),
+                                          [&](const Checkpoint& each) { return each.simulation->blocks() < blocks; });
+  for (auto checkpoint = std::make_reverse_iterator(after);
        checkpoint != checkpoints_.rend() && !found && from < blocks; ++checkpoint) {
     running::Runner runner = checkpoint->simulation->runner();
     const std::uint64_t begin = runner.result().blocks;
@@ -109,9 +109,9 @@ std::optional<std::uint64_t> History::find_before(std::uint64_t blocks,
 std::optional<std::uint64_t> History::find_motion_before(std::uint64_t blocks,
                                                          const std::function<bool(const kinematics::Move&)>& is_it,
                                                          std::uint64_t from) const {
-  const auto behind = std::partition_point(checkpoints_.begin() + 1, checkpoints_.end(),
-                                           [&](const Checkpoint& each) { return each.simulation->blocks() <= from; });
-  Simulation simulation = *std::prev(behind)->simulation;
+  const auto after = std::partition_point(checkpoints_.begin() + 1, checkpoints_.end(),
+                                          [&](const Checkpoint& each) { return each.simulation->blocks() <= from; });
+  Simulation simulation = *std::prev(after)->simulation;
   if (simulation.is_in_block()) simulation.step_block();  // The block in progress is before `from`.
   std::optional<std::uint64_t> found;
   while (!simulation.has_ended() && simulation.blocks() < blocks) {

@@ -280,8 +280,8 @@ DistanceToGo Simulation::to_go() const {
   if (moving == nullptr || event() == nullptr) return {};
   const kinematics::Move& move = *piece()->cause->move;
   const double here = moving->parameter_at(time_);
-  const double gone = last_stretch_ && last_stretch_->tag == moving->tag ? travelled_ : 0;
-  const double left = path_of(machine_->motion, move) - gone - (here - moving->parameter_at(moving->start));
+  const double passed = last_stretch_ && last_stretch_->tag == moving->tag ? travelled_ : 0;
+  const double left = path_of(machine_->motion, move) - passed - (here - moving->parameter_at(moving->start));
   return {.axes = kinematics::coordinates(move.to) - kinematics::coordinates(sample().tip),
           .path = moving->ends_move ? moving->parameter_at(kForever) - here : std::max(0.0, left)};
 }
@@ -295,9 +295,9 @@ std::optional<ArcSegment> Simulation::segment() const {
   // Rounded corners shorten the path slightly, so a point this near to an end counts as the end.
   constexpr double kNear = 1e-3;
   const double length = path_of(machine_->motion, move) / count;
-  const double gone = path_of(machine_->motion, move) - to_go().path;
-  const int number = std::clamp(static_cast<int>(std::floor(gone / length + kNear)), 0, count - 1);
-  return ArcSegment{.number = number, .count = count, .left = (number + 1) * length - gone};
+  const double passed = path_of(machine_->motion, move) - to_go().path;
+  const int number = std::clamp(static_cast<int>(std::floor(passed / length + kNear)), 0, count - 1);
+  return ArcSegment{.number = number, .count = count, .left = (number + 1) * length - passed};
 }
 
 void Simulation::forget_past() {

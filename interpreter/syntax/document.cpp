@@ -37,9 +37,9 @@ std::size_t Document::chunk_lines(std::size_t chunk) const {
 std::string_view Document::chunk_text(std::size_t chunk) const { return chunks_[chunk].chunk->text; }
 
 Document::Place Document::locate(std::size_t line) const {
-  const auto behind = std::upper_bound(chunks_.begin(), chunks_.end(), line,
-                                       [](std::size_t wanted, const Slot& slot) { return wanted < slot.first_line; });
-  const auto chunk = static_cast<std::size_t>(behind - chunks_.begin()) - 1;
+  const auto after = std::upper_bound(chunks_.begin(), chunks_.end(), line,
+                                      [](std::size_t wanted, const Slot& slot) { return wanted < slot.first_line; });
+  const auto chunk = static_cast<std::size_t>(after - chunks_.begin()) - 1;
   return {chunk, line - chunks_[chunk].first_line};
 }
 
@@ -155,13 +155,13 @@ void Document::rebuild(std::size_t first_line, std::size_t removed, std::string_
     chunks_ = std::move(fresh);
   } else {
     const auto begin = chunks_.begin() + static_cast<std::ptrdiff_t>(from.chunk);
-    const auto behind = chunks_.begin() + static_cast<std::ptrdiff_t>(last.chunk) + 1;
-    const auto common = std::min(behind - begin, static_cast<std::ptrdiff_t>(count));
+    const auto after = chunks_.begin() + static_cast<std::ptrdiff_t>(last.chunk) + 1;
+    const auto common = std::min(after - begin, static_cast<std::ptrdiff_t>(count));
     std::move(fresh.begin(), fresh.begin() + common, begin);
-    if (common < behind - begin) {
-      chunks_.erase(begin + common, behind);
+    if (common < after - begin) {
+      chunks_.erase(begin + common, after);
     } else {
-      chunks_.insert(behind, std::make_move_iterator(fresh.begin() + common), std::make_move_iterator(fresh.end()));
+      chunks_.insert(after, std::make_move_iterator(fresh.begin() + common), std::make_move_iterator(fresh.end()));
     }
   }
   renumber(from.chunk, count);

@@ -35,17 +35,17 @@ static bool is_compact(const Word& word) {
 /// a comment after them.
 static bool is_tidy(const LineTree& tree) {
   const char* const text = tree.text.data();
-  std::uint32_t behind = 0;
+  std::uint32_t after = 0;
   for (const Word& word : tree.words) {
-    const std::uint32_t gap = behind == 0 ? 0 : 1;
-    if (!is_compact(word) || word.begin != behind + gap || text[word.begin] != word.letter ||
-        (gap != 0 && text[behind] != ' '))
+    const std::uint32_t gap = after == 0 ? 0 : 1;
+    if (!is_compact(word) || word.begin != after + gap || text[word.begin] != word.letter ||
+        (gap != 0 && text[after] != ' '))
       return false;
-    behind = word.end;
+    after = word.end;
   }
-  if (tree.comments.empty()) return behind == tree.text.size();
+  if (tree.comments.empty()) return after == tree.text.size();
   const Span comment = tree.comments.front();
-  const bool stands_apart = tree.words.empty() || comment.begin > behind;
+  const bool stands_apart = tree.words.empty() || comment.begin > after;
   return tree.comments.size() == 1 && stands_apart && comment.end == tree.text.size();
 }
 
@@ -257,9 +257,9 @@ void Formatter::move_feed(const LineTree& tree) {
   if (tree.feed < 0 || motion == nullptr) return;
   const auto feed = static_cast<std::uint16_t>(tree.feed);
   order_.erase(std::find(order_.begin(), order_.end(), feed));
-  auto behind = order_.end();
-  while (behind != order_.begin() && tree.words[*(behind - 1)].owner != motion->number) --behind;
-  order_.insert(behind, feed);
+  auto after = order_.end();
+  while (after != order_.begin() && tree.words[*(after - 1)].owner != motion->number) --after;
+  order_.insert(after, feed);
 }
 
 void Formatter::write_words(const LineTree& tree, const LineChange& change) {

@@ -116,15 +116,15 @@ const char* LineParser::lex_with_number(const char* start, const char* p) {
 /// Reads a keyword, a letter with a comment before its number, or a letter without a number.
 const char* LineParser::lex_without_number(const char* start, const char* p) {
   const char letter = text::upper(*start);
-  const char* const behind = skip_space(p);
-  if (behind != end_ && text::is_number_char(*behind)) return lex_with_number(start, behind);  // X(comment)10
+  const char* const after = skip_space(p);
+  if (after != end_ && text::is_number_char(*after)) return lex_with_number(start, after);  // X(comment)10
   if (const char* end = lex_keyword(start, letter)) return end;
   Word& added = add_word(letter, start, start + 1);
   added.value = std::numeric_limits<double>::quiet_NaN();
   added.flags = Word::kMissing;
   has_prose_ = true;
   // Before a `=` the value is given in a wrong form (ISO058); inside a condition, E003 reports the error.
-  const bool assigned = behind != end_ && *behind == '=' && letter != 'V';
+  const bool assigned = after != end_ && *after == '=' && letter != 'V';
   if (!in_condition_ && !assigned) report("word-without-number"_diag, added.span());
   end_target();
   return start + 1;
@@ -161,13 +161,13 @@ const char* LineParser::lex_keyword(const char* p, char letter) {
 }
 
 const char* LineParser::match_keyword(const char* p, const char* keyword) const {
-  const char* behind = nullptr;
+  const char* after = nullptr;
   for (; *keyword != '\0'; ++keyword) {
     p = skip_space(p);
     if (p == end_ || text::upper(*p) != *keyword) return nullptr;
-    behind = ++p;
+    after = ++p;
   }
-  return behind;
+  return after;
 }
 
 bool LineParser::goto_follows(const char* p) {
@@ -192,9 +192,9 @@ void LineParser::note_comments_inside(const char* p, const char* end) {
 }
 
 const char* LineParser::lex_comment(const char* p) {
-  if (const char* const behind = text::skip_closed_comment(p, end_)) {
-    store_.comments_.push_back({column(p), column(behind)});
-    return behind;
+  if (const char* const after = text::skip_closed_comment(p, end_)) {
+    store_.comments_.push_back({column(p), column(after)});
+    return after;
   }
   const char* const line_end = text::find_line_end(p, end_);
   store_.comments_.push_back({column(p), column(line_end)});
@@ -262,19 +262,19 @@ static Comparison comparison_of(std::string_view text) {
 
 const char* LineParser::lex_comparison(const char* p) {
   const char* const start = p;
-  const char* behind = p;
+  const char* after = p;
   char text[3] = {};
   std::size_t length = 0;
   while (p != end_ && (text::char_class(*p) == text::CharClass::Compare || *p == '=')) {
     if (length < sizeof text) text[length] = *p;
     ++length;
-    behind = ++p;
+    after = ++p;
     p = skip_space(p);
   }
-  note_comments_inside(start, behind);
-  Word& added = add_word(kOperator, start, behind);
+  note_comments_inside(start, after);
+  Word& added = add_word(kOperator, start, after);
   added.digits = static_cast<std::uint32_t>(length > 2 ? Comparison::Invalid : comparison_of({text, length}));
-  return behind;
+  return after;
 }
 
 /// Whether unknown text is in the place of the last word's number (G#1, MO6), which has been reported. Text that
@@ -298,26 +298,26 @@ bool LineParser::garbles_number(char first) {
 /// One finding for a series of characters that do not start a word, together with the number after them (D10).
 const char* LineParser::lex_unknown(const char* p) {
   const char* const start = p;
-  const char* behind = p;
+  const char* after = p;
   for (;;) {
-    p = skip_space(behind);
+    p = skip_space(after);
     if (p == end_) break;
     const text::CharClass cls = text::char_class(*p);
     if (cls != text::CharClass::Other && (cls != text::CharClass::Compare || in_condition_)) break;
-    behind = p + 1;
+    after = p + 1;
   }
   if (p != end_ && text::is_number_char(*p)) {
-    behind = scan_number(p, end_).end;
-    const char* const close = skip_space(behind);
-    if (*start == '[' && close != end_ && *close == ']') behind = close + 1;  // [10]
+    after = scan_number(p, end_).end;
+    const char* const close = skip_space(after);
+    if (*start == '[' && close != end_ && *close == ']') after = close + 1;  // [10]
   }
-  note_comments_inside(start, behind);
+  note_comments_inside(start, after);
   has_prose_ = true;
   const bool in_place_of_number = !in_condition_ && garbles_number(text::upper(*start));
-  const Word& added = add_word(kError, start, behind);
+  const Word& added = add_word(kError, start, after);
   if (!in_condition_ && !in_place_of_number) report("unknown-word"_diag, added.span());
   end_target();
-  return behind;
+  return after;
 }
 
 }  // namespace isocnc::syntax

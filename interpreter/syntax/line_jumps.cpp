@@ -109,8 +109,8 @@ std::optional<Span> LineParser::comparison_in_comment(std::uint32_t begin, std::
 /// of the missing part (THEN, a condition in parentheses), else the word after which it is missing.
 void LineParser::report_half_jump(std::uint16_t where, std::uint16_t end) {
   half_jump_ = true;
-  const std::uint32_t behind = where < word_count() ? word(where).begin : line_.length;
-  if (const std::optional<Span> comment = comparison_in_comment(word(where - 1u).end, behind))
+  const std::uint32_t after = where < word_count() ? word(where).begin : line_.length;
+  if (const std::optional<Span> comment = comparison_in_comment(word(where - 1u).end, after))
     return report("if-malformed"_diag, *comment);
   if (where == end) return report("if-malformed"_diag, word(where - 1u).span());
   auto last = where;

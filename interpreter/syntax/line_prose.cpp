@@ -13,9 +13,9 @@ using dialect::contains;
 /// Whether unknown characters are a letter of another control with its number (H2, D3): a word, not plain text.
 bool LineParser::is_foreign_word(const Word& unknown) const {
   const std::string_view text = text_of(unknown.span());
-  const std::string_view behind = text.substr(1);
-  return text::upper(text.front()) >= 'A' && text::upper(text.front()) <= 'Z' && !behind.empty() &&
-         std::all_of(behind.begin(), behind.end(), [](char c) { return text::is_blank(c) || text::is_number_char(c); });
+  const std::string_view after = text.substr(1);
+  return text::upper(text.front()) >= 'A' && text::upper(text.front()) <= 'Z' && !after.empty() &&
+         std::all_of(after.begin(), after.end(), [](char c) { return text::is_blank(c) || text::is_number_char(c); });
 }
 
 /// Whether two words are a unit (X10mm, X2in, C90deg), or one letter without a number written twice.

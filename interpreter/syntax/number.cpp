@@ -42,7 +42,7 @@ static Number scan_any_number(const char* p, const char* end) {
   if (number.malformed) return number;
   const char* const first = text.data() + (text[0] == '+' ? 1 : 0);
   double value = 0;
-  const auto [behind, error] = std::from_chars(first, text.data() + text.size(), value);
+  const auto [after, error] = std::from_chars(first, text.data() + text.size(), value);
   if (error == std::errc{}) {
     number.value = value + 0.0;  // -0 is 0.
   } else if (text.find_first_of("123456789") > text.find('.')) {

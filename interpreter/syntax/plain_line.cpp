@@ -128,7 +128,7 @@ const char* TreeStore::append_plain_assignment(const char* begin, const char* en
   static_cast<PlainPart&>(line) = kPlain;
   Word* word = words;
   const Word* command = nullptr;  // The G, or the first argument.
-  const Word* behind = words;     // The place after the last argument.
+  const Word* after = words;      // The place after the last argument.
   dialect::LetterSet taken = 0;
   for (const char* p = begin; p <= last;) {
     const LetterRole& role = kRoles[static_cast<unsigned char>(*p)];
@@ -139,7 +139,7 @@ const char* TreeStore::append_plain_assignment(const char* begin, const char* en
         line.plain_arguments = taken & kArguments;
         if (!command) return p;
         line.motion.begin = line.motion.command = static_cast<std::uint16_t>(command - words);
-        line.motion.end = static_cast<std::uint16_t>(behind - words);
+        line.motion.end = static_cast<std::uint16_t>(after - words);
         if (line.motion.command == line.flags / LineTree::kHasLabel) line.motion.flags = Instruction::kFirst;
         // A motion G needs a coordinate; the general parser reports that it has none.
         return (taken & kCommand) != 0 && (taken & dialect::kCoordinateLetters) == 0 ? nullptr : p;
@@ -172,7 +172,7 @@ const char* TreeStore::append_plain_assignment(const char* begin, const char* en
     std::memcpy(&word->owner, &tail, sizeof tail);
     if ((role.letter & kArguments) != 0) {
       if (!command) command = word;
-      behind = word + 1;
+      after = word + 1;
     } else if (role.letter == kFeed) {
       if (!(number.value > 0)) return nullptr;
       line.feed = static_cast<std::int32_t>(word - words);

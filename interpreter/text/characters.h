@@ -98,8 +98,8 @@ inline const char* skip_space(const char* p, const char* end) {
   while (p != end) {
     if (is_blank(*p)) {
       ++p;
-    } else if (const char* behind = *p == '(' ? skip_closed_comment(p, end) : nullptr) {
-      p = behind;
+    } else if (const char* after = *p == '(' ? skip_closed_comment(p, end) : nullptr) {
+      p = after;
     } else {
       break;
     }

@@ -30,8 +30,8 @@ std::string printable(std::string_view text) {
   result.reserve(text.size());
   const auto is_plain = [](char c) { return c >= 0x20 && c < 0x7F; };
   for (std::size_t at = 0; at < text.size();) {
-    const auto behind = std::find_if_not(text.begin() + static_cast<std::ptrdiff_t>(at), text.end(), is_plain);
-    const auto plain = static_cast<std::size_t>(behind - text.begin()) - at;
+    const auto after = std::find_if_not(text.begin() + static_cast<std::ptrdiff_t>(at), text.end(), is_plain);
+    const auto plain = static_cast<std::size_t>(after - text.begin()) - at;
     result.append(text.substr(at, plain));
     at += plain;
     if (at == text.size()) break;

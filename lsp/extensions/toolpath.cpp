@@ -64,10 +64,10 @@ struct ToolpathTask {
   std::string previous;
   std::shared_ptr<LastSent> last;
 
-  std::string study(const std::function<bool()>& stop);
+  std::string compute(const std::function<bool()>& stop);
 };
 
-std::string ToolpathTask::study(const std::function<bool()>& stop) {
+std::string ToolpathTask::compute(const std::function<bool()>& stop) {
   const simulation::TimedMachine& machine = program.machine().timed;
   plot::PathRecording recording(subject, machine);
   plot::Toolpath path(machine, subject.home, [&](const plot::ToolpathStep& step) { recording.add(step); });
@@ -106,7 +106,7 @@ features::BackgroundRequest begin(const Snapshot& snapshot, const ToolpathParams
                                                               .language = snapshot.language()},
                                                   .previous = params.previous,
                                                   .last = last});
-  return [task](const std::function<bool()>& stop) { return task->study(stop); };
+  return [task](const std::function<bool()>& stop) { return task->compute(stop); };
 }
 
 Json toolpath_capabilities(const Client&) { return {{"experimental", {{"toolpath", true}}}}; }

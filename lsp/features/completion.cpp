@@ -342,7 +342,7 @@ class Completer {
     add({std::string(1, letter), ItemKind::Field, std::string(1, letter), meaning, {}});
   }
 
-  void offer_registers(std::string_view behind) {
+  void offer_registers(std::string_view after) {
     static constexpr Text kAssigned = {"assigned in line {}", "assegnato alla riga {}"};
     std::array<std::size_t, dialect::kRegisterCount + 1> lines{};
     for (const documents::Landmark& each :
@@ -350,8 +350,8 @@ class Completer {
       if (each.line < place_.line || lines[each.number] == 0) lines[each.number] = each.line + 1u;
     for (std::size_t number = 1; number < lines.size(); ++number) {
       const std::string label = fmt::format("V{}", number);
-      const std::string written = fmt::format("{}{}", label, behind);
-      if (!behind.empty() && !is_well_written(plain(written))) continue;
+      const std::string written = fmt::format("{}{}", label, after);
+      if (!after.empty() && !is_well_written(plain(written))) continue;
       add({label,
            ItemKind::Variable,
            written,

@@ -39,9 +39,9 @@ std::span<const LocatedFinding> findings_of(const Snapshot& snapshot, const Acti
   const std::vector<LocatedFinding>& all = snapshot.report().findings;
   const auto first =
       std::partition_point(all.begin(), all.end(), [&](const auto& each) { return each.line < params.first_line(); });
-  const auto behind =
+  const auto after =
       std::partition_point(first, all.end(), [&](const auto& each) { return each.line <= params.last_line(); });
-  return {first, std::min(behind, first + std::min(kMaxFixed, behind - first))};
+  return {first, std::min(after, first + std::min(kMaxFixed, after - first))};
 }
 
 /// The client's diagnostic for a finding, in an array; null if the client has none.

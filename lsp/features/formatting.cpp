@@ -27,14 +27,14 @@ void from_json(const Json& json, OnTypeParams& params) {
   params.character = json.at("ch");
 }
 
-/// The edits of the lines [first, behind); the other lines are only read.
+/// The edits of the lines [first, after); the other lines are only read.
 std::vector<TextEdit> format_lines(const Snapshot& snapshot, LinesFormatter& formatter, std::size_t first,
-                                   std::size_t behind) {
+                                   std::size_t after) {
   std::vector<TextEdit> edits;
   std::size_t number = 0;
   queries::each_line_of(snapshot)([&](const syntax::LineTree& line) {
     const std::size_t at = number++;
-    if (at >= behind) return;
+    if (at >= after) return;
     const syntax::LineChange change = formatter.next(line);
     if (at < first) return;
     if (auto edit = queries::line_edit(snapshot, at, formatter.written(line, change)))
@@ -60,8 +60,8 @@ protocol::RawJson format_range(const Snapshot& snapshot, const protocol::RangePa
   style.numbers.reset();
   LinesFormatter formatter(style, {});
   const bool ends_before_line = params.range.end.character == 0 && params.range.end.line > params.range.start.line;
-  const std::size_t behind = std::size_t{params.range.end.line} + (ends_before_line ? 0 : 1);
-  return queries::written(format_lines(snapshot, formatter, params.range.start.line, behind));
+  const std::size_t after = std::size_t{params.range.end.line} + (ends_before_line ? 0 : 1);
+  return queries::written(format_lines(snapshot, formatter, params.range.start.line, after));
 }
 
 /// The line with all letters outside comments in upper case.

@@ -199,9 +199,9 @@ struct SentTokens {
   void rename(std::int64_t version) { id = fmt::format("{}.{}", version, ++times); }
 };
 
-std::size_t sum_of_tokens(const std::vector<SentTokens::TokenChunk>& chunks, std::size_t first, std::size_t behind) {
+std::size_t sum_of_tokens(const std::vector<SentTokens::TokenChunk>& chunks, std::size_t first, std::size_t after) {
   std::size_t sum = 0;
-  for (std::size_t i = first; i < behind; ++i) sum += chunks[i].tokens;
+  for (std::size_t i = first; i < after; ++i) sum += chunks[i].tokens;
   return sum;
 }
 

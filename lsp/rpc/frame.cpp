@@ -30,8 +30,8 @@ static std::string_view trimmed(std::string_view text) {
 static std::optional<std::size_t> number_of(std::string_view digits) {
   std::size_t number = 0;
   const char* const end = digits.data() + digits.size();
-  const auto [behind, error] = std::from_chars(digits.data(), end, number);
-  if (digits.empty() || behind != end || error == std::errc::invalid_argument) return std::nullopt;
+  const auto [after, error] = std::from_chars(digits.data(), end, number);
+  if (digits.empty() || after != end || error == std::errc::invalid_argument) return std::nullopt;
   return error == std::errc::result_out_of_range ? static_cast<std::size_t>(-1) : number;
 }
 

@@ -65,8 +65,8 @@ std::string ParsedMessage::text(const Json& string) const {
   if (!here.starts_with(kPlaceholder)) return here;
   std::size_t index = 0;
   const char* const end = here.data() + here.size();
-  const auto [behind, error] = std::from_chars(here.data() + kPlaceholder.size(), end, index);
-  const bool is_placeholder = error == std::errc() && behind == end && index < long_texts_.size();
+  const auto [after, error] = std::from_chars(here.data() + kPlaceholder.size(), end, index);
+  const bool is_placeholder = error == std::errc() && after == end && index < long_texts_.size();
   return is_placeholder ? long_texts_[index].read() : here;
 }
 
@@ -74,8 +74,8 @@ std::string ParsedMessage::text(const Json& string) const {
 static std::uint32_t code_unit(const char*& p, const char* end) {
   std::uint32_t unit = 0;
   if (end - p < 4) return 0xFFFD;
-  const auto [behind, error] = std::from_chars(p, p + 4, unit, 16);
-  if (error != std::errc() || behind != p + 4) return 0xFFFD;
+  const auto [after, error] = std::from_chars(p, p + 4, unit, 16);
+  if (error != std::errc() || after != p + 4) return 0xFFFD;
   p += 4;
   return unit;
 }
@@ -101,10 +101,10 @@ static void read_unicode(const char*& p, const char* end, std::string& text) {
   std::uint32_t code = code_unit(p, end);
   const auto is_low = [](std::uint32_t unit) { return unit >= 0xDC00 && unit < 0xE000; };
   if (code >= 0xD800 && code < 0xDC00 && end - p >= 6 && p[0] == '\\' && p[1] == 'u') {
-    const char* behind = p + 2;
-    const std::uint32_t low = code_unit(behind, end);
+    const char* after = p + 2;
+    const std::uint32_t low = code_unit(after, end);
     if (is_low(low)) {
-      p = behind;
+      p = after;
       code = 0x10000 + ((code - 0xD800) << 10) + (low - 0xDC00);
     }
   }

@@ -208,7 +208,7 @@ void try_lines(const std::string& program, RestartOptions options, bool is_uprig
     EXPECT_NE(refusal.obstacle, RestartObstacle::NotProved) << options.line + 1 << '\n' << program;
     if (refusal.obstacle == RestartObstacle::OnContour || refusal.obstacle == RestartObstacle::OffProgram)
       ++tally.refused_off_program;
-    for (const auto& proposed : {refusal.before, refusal.behind}) {
+    for (const auto& proposed : {refusal.before, refusal.after}) {
       RestartOptions there = options;
       if (!proposed) continue;
       there.line = *proposed;

@@ -308,7 +308,7 @@ std::pair<int, int> try_lines(const std::string& program, const running::RunOpti
     }
     const auto& refusal = std::get<RestartRefusal>(made);
     EXPECT_NE(refusal.obstacle, RestartObstacle::NotProved) << options.line + 1 << '\n' << program;
-    for (const auto& proposed : {refusal.before, refusal.behind}) {
+    for (const auto& proposed : {refusal.before, refusal.after}) {
       if (!proposed) continue;
       options.line = *proposed;
       EXPECT_TRUE(std::holds_alternative<std::string>(restart_program(program, options))) << *proposed + 1 << '\n'
