@@ -16,13 +16,16 @@ DocumentNotifier OpenDocuments::notifier_of(const std::shared_ptr<const Document
     if (!signals->is_closed) outbox_.send(std::move(body));
   });
   const std::size_t number = ++times_opened_;
-  return {.notify = [send](std::string_view method,
-                           const std::string& params) { send(rpc::notification_message(method, params)); },
-          .configuration = {loop_, [this](const std::string& uri,
-                                          const std::string& params) { report_configuration(uri, params); }},
-          .progress = {loop_, [this, number](const std::string& work, const std::optional<std::string>& title) {
-                         report_progress(fmt::format("{} of {}", work, number), title);
-                       }}};
+  const auto notify = [send](std::string_view method, const std::string& params) {
+    send(rpc::notification_message(method, params));
+  };
+  const auto configuration = [this](const std::string& uri, const std::string& params) {
+    report_configuration(uri, params);
+  };
+  const auto progress = [this, number](const std::string& work, const std::optional<std::string>& title) {
+    report_progress(fmt::format("{} of {}", work, number), title);
+  };
+  return {.notify = notify, .configuration = {loop_, configuration}, .progress = {loop_, progress}};
 }
 
 void OpenDocuments::open(const CallPointer& call, const ClientPointer& client) {

@@ -70,6 +70,11 @@ std::string_view kind(const FunctionEvent& function) {
   return dialect::is_user_function(function.number) ? "m" : "spindle";
 }
 
+template <class What>
+constexpr bool stops(const What&) {
+  return requires { What::kStopsReading; };
+}
+
 }  // namespace
 
 std::string_view kind_of(const Event& event) {
@@ -77,11 +82,7 @@ std::string_view kind_of(const Event& event) {
 }
 
 bool stops_reading(const Event& event) {
-  return std::visit(
-      []<class What>(const What&) {
-        return requires { What::kStopsReading; };
-      },
-      event.what);
+  return std::visit([](const auto& what) { return stops(what); }, event.what);
 }
 
 double feed_of(const MoveEvent& move) {
