@@ -329,6 +329,6 @@ test('every request has been made', () => {
   const folder = path.join(root, 'debugger/requests');
   const commands = fs.readdirSync(folder)
     .filter((file) => file.endsWith('.cpp') && file !== 'request.cpp')
-    .map((file) => fs.readFileSync(path.join(folder, file), 'utf8').match(/extern const Request \w+ =\s+on<&\w+>\("(\w+)"/)?.[1] ?? file);
+    .map((file) => fs.readFileSync(path.join(folder, file), 'utf8').match(/\bon<&\w+>\(\s*"(\w+)"/)?.[1] ?? file);
   assert.deepEqual(commands.filter((command) => !asked.has(command)), []);
 });
