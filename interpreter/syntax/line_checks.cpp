@@ -51,6 +51,12 @@ bool LineParser::owns_any(const Instruction& owner, dialect::LetterSet set, bool
   return false;
 }
 
+/// An M whose number is not known may be one.
+static bool may_be_user_function(const Word& m) {
+  constexpr double kBeyondAll = 1e9;
+  return !(std::abs(m.value) < kBeyondAll) || dialect::is_user_function(static_cast<int>(m.value));
+}
+
 /// Whether an instruction must be alone on its line, and the diagnostic for a violation (D22).
 bool LineParser::must_be_alone(const Instruction& checked, dialect::DiagnosticId& diagnostic) const {
   diagnostic = dialect::kNoDiagnostic;
@@ -61,8 +67,7 @@ bool LineParser::must_be_alone(const Instruction& checked, dialect::DiagnosticId
     case InstructionKind::Function:
       if (word(checked.command).value == dialect::kProgramEnd) {
         diagnostic = "m02-not-alone"_diag;
-      } else if (dialect::is_user_function(static_cast<int>(word(checked.command).value)) &&
-                 owns_any(checked, letters("P"))) {
+      } else if (may_be_user_function(word(checked.command)) && owns_any(checked, letters("P"))) {
         diagnostic = "m-params-not-alone"_diag;
       }
       break;
@@ -283,7 +288,7 @@ void LineParser::check_dwell(const Instruction& dwell) {
 
 /// M100 P1=2.5 P2=-3: P1 to P20, each at most once, each with a value; M02 to M05 take none (I.4.4, D48).
 void LineParser::check_parameters(const Instruction& function) {
-  const bool takes_parameters = dialect::is_user_function(static_cast<int>(word(function.command).value));
+  const bool takes_parameters = may_be_user_function(word(function.command));
   if (word(function.command).value == dialect::kProgramEnd) return;
   std::uint32_t seen = 0;
   for (std::uint16_t i = function.begin; i < function.end; ++i) {
