@@ -283,7 +283,7 @@ void Executor::stray_tool(const Instruction& instruction) {
 }
 
 void Executor::select_tool(const Word& word) {
-  const bool is_legible = word.is_plain_integer() && word.digits == 6;
+  const bool is_legible = word.known() && word.is_plain_integer() && word.digits == 6;
   const ToolCode tool = is_legible ? tool_code(static_cast<int>(word.value)) : ToolCode{};
   sink_.step(tool.head != 0 ? BlockStep::ToolMounted : BlockStep::ToolLost, state_);
   state_.tool_selected = true;  // A wrong number counts as a tool change, too (D44).
