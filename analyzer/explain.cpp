@@ -164,7 +164,7 @@ std::string rules_page() {
       "What `isolint` reports, and `isorun` where it says so, in English and Italian. `isolint --explain CODE` shows "
       "the "
       "same in the terminal.\n"
-      "This page is made from the table in `interpreter/dialect/diagnostic_table.h` (`isolint --rules-page`).\n";
+      "This page is made from the table in `interpreter/dialect/diagnostic_table.cpp` (`isolint --rules-page`).\n";
   for (const DiagnosticDef& def : dialect::kDiagnostics) {
     page += fmt::format("\n## {} {}\n\n", def.code, def.name);
     page += fmt::format("**{}** · {} · specification {}\n\n", def.title.en, severity_text(def, Language::English),

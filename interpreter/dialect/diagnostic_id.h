@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "interpreter/dialect/diagnostic_table.h"
+#include "interpreter/dialect/diagnostic.h"
 
 namespace isocnc::dialect {
 
@@ -18,8 +18,17 @@ enum class DiagnosticId : std::uint8_t {};
 /// Value of a field that names no diagnostic.
 inline constexpr DiagnosticId kNoDiagnostic{255};
 
-inline constexpr std::size_t kDiagnosticCount = std::size(kDiagnostics);
+/// The names in the order of the table. The build takes them from `diagnostic_table.cpp`, so that a changed text there
+/// leaves this header as it is.
+inline constexpr std::string_view kDiagnosticNames[] = {
+#include "diagnostic_names.inc"
+};
+
+inline constexpr std::size_t kDiagnosticCount = std::size(kDiagnosticNames);
 static_assert(kDiagnosticCount < 255);
+
+/// The table, in `diagnostic_table.cpp`.
+extern const DiagnosticDef kDiagnostics[kDiagnosticCount];
 
 namespace detail {
 /// Never defined: the call makes a misspelt name fail to compile.
@@ -30,7 +39,7 @@ inline namespace literals {
 /// `"head-not-selected"_diag`: a misspelt name does not compile.
 consteval DiagnosticId operator""_diag(const char* name, std::size_t length) {
   for (std::size_t i = 0; i < kDiagnosticCount; ++i)
-    if (kDiagnostics[i].name == std::string_view(name, length)) return DiagnosticId{static_cast<std::uint8_t>(i)};
+    if (kDiagnosticNames[i] == std::string_view(name, length)) return DiagnosticId{static_cast<std::uint8_t>(i)};
   detail::no_diagnostic_has_this_name();
   return kNoDiagnostic;
 }

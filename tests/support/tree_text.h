@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "interpreter/dialect/diagnostic_table.h"
+#include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/syntax/document.h"
 #include "interpreter/syntax/line_tree.h"
 

@@ -1,6 +1,6 @@
-#pragma once
+#include <algorithm>
 
-#include "interpreter/dialect/diagnostic.h"
+#include "interpreter/dialect/diagnostic_id.h"
 
 namespace isocnc::dialect {
 
@@ -9,7 +9,7 @@ namespace isocnc::dialect {
 ///
 /// `ISO` codes are the specification's (I.7); `E` and `W0` are rules that its text states without a code (D2, D3);
 /// `W19x` report on the check itself. Lengths in messages are in mm and angles in degrees, whatever the program uses.
-inline constexpr DiagnosticDef kDiagnostics[] = {
+constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
     {.code = "ISO001",
      .name = "unclosed-comment",
      .severity = Severity::Error,
@@ -2022,5 +2022,8 @@ inline constexpr DiagnosticDef kDiagnostics[] = {
      .wrong = "",
      .right = ""},
 };
+
+static_assert(std::ranges::equal(kDiagnostics, kDiagnosticNames, {}, &DiagnosticDef::name),
+              "CMakeLists.txt reads one name from each row: a line with `.name = \"...\"`");
 
 }  // namespace isocnc::dialect
