@@ -21,7 +21,7 @@ inline constexpr DiagnosticId kNoDiagnostic{255};
 /// The names in the order of the table. The build takes them from `diagnostic_table.cpp`, so that a changed text there
 /// leaves this header as it is.
 inline constexpr std::string_view kDiagnosticNames[] = {
-#include "diagnostic_names.inc"
+#include <diagnostic_names.inc>
 };
 
 inline constexpr std::size_t kDiagnosticCount = std::size(kDiagnosticNames);
