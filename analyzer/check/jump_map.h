@@ -76,7 +76,7 @@ class JumpMap {
   bool empty() const { return sites_.empty(); }
   const std::vector<Site>& sites() const { return sites_; }
   /// Whether some jump names a label.
-  bool names(std::uint64_t label) const { return may_name(label) && targets_.contains(label); }
+  bool names(std::uint64_t label) const { return !empty() && may_name(label) && targets_.contains(label); }
   /// The labels that jumps name, ascending.
   std::vector<std::uint64_t> labels() const;
   /// The first jump on or below a line; the number of all jumps if there is none.
@@ -137,7 +137,7 @@ class JumpMap {
   static std::size_t filter_bit(std::uint64_t label) { return (label * 0x9E3779B97F4A7C15ULL) >> 44; }
   bool may_name(std::uint64_t label) const {
     const std::size_t bit = filter_bit(label);
-    return !filter_.empty() && (filter_[bit / 64] >> (bit % 64) & 1) != 0;
+    return (filter_[bit / 64] >> (bit % 64) & 1) != 0;
   }
 
   std::vector<Site> sites_;

@@ -103,12 +103,6 @@ static std::optional<Text> obstacle_in_head(std::string_view text) {
   return std::nullopt;
 }
 
-static std::optional<Text> obstacle(std::string_view text) {
-  if (const std::optional<Text> in_head = obstacle_in_head(text)) return in_head;
-  if (has_line_longer_than(kLongestLine, text)) return kHasEndlessLine;
-  return std::nullopt;
-}
-
 static bool grow_buffer(std::string& bytes, std::size_t size) {
   try {
     bytes.resize(size);
@@ -189,7 +183,8 @@ std::variant<SourceFile, SourceFile::Problem> SourceFile::map(const std::filesys
   // Files that the kernel generates on reading (sysfs) have a size but cannot be mapped.
   if (error == ENODEV) return read_stream(descriptor, language);
   if (error != 0) return Problem{cannot_read(error, language)};
-  std::variant<SourceFile, Problem> result = checked(std::move(file), language);
+  if (const std::optional<Text> text = obstacle_in_head(file.text())) return Problem{std::string(text->in(language))};
+  std::variant<SourceFile, Problem> result = with_short_lines(std::move(file), language);
   // After the check, which may read backward through a long line.
   if (const auto* const good = std::get_if<SourceFile>(&result)) good->mapped_->will_be_read_in_order();
   return result;
@@ -205,14 +200,14 @@ std::variant<SourceFile, SourceFile::Problem> SourceFile::read(int descriptor, s
   static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
   SourceFile file;
   if (const int error = read_up_to(kHeadBytes, 0, descriptor, file.read_)) return Problem{cannot_read(error, language)};
-  if (const std::optional<Text> text = obstacle_in_head(file.read_)) return Problem{std::string(text->in(language))};
+  if (const std::optional<Text> text = obstacle_in_head(file.text())) return Problem{std::string(text->in(language))};
   if (const int error = read_up_to(kAll, expected, descriptor, file.read_))
     return Problem{cannot_read(error, language)};
-  return checked(std::move(file), language);
+  return with_short_lines(std::move(file), language);
 }
 
-std::variant<SourceFile, SourceFile::Problem> SourceFile::checked(SourceFile file, Language language) {
-  if (const std::optional<Text> text = obstacle(file.text())) return Problem{std::string(text->in(language))};
+std::variant<SourceFile, SourceFile::Problem> SourceFile::with_short_lines(SourceFile file, Language language) {
+  if (has_line_longer_than(kLongestLine, file.text())) return Problem{std::string(kHasEndlessLine.in(language))};
   return file;
 }
 

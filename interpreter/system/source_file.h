@@ -41,7 +41,7 @@ class SourceFile {
   static std::variant<SourceFile, Problem> read(int descriptor, std::size_t expected, dialect::Language language);
   static std::variant<SourceFile, Problem> map(const std::filesystem::path& path, int descriptor, std::size_t size,
                                                dialect::Language language);
-  static std::variant<SourceFile, Problem> checked(SourceFile file, dialect::Language language);
+  static std::variant<SourceFile, Problem> with_short_lines(SourceFile file, dialect::Language language);
 
   std::string_view bytes() const;
 
