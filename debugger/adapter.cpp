@@ -33,9 +33,9 @@ Adapter::Adapter(rpc::Loop& loop, rpc::Send send, std::optional<dialect::Languag
 }
 
 void Adapter::receive(rpc::MessageFrame frame) {
-  using Problem = rpc::MessageFrame::Problem;
+  using FramingError = rpc::MessageFrame::FramingError;
   if (has_ended_) return;
-  if (frame.problem != Problem::None) return complain(frame.problem == Problem::NoLength ? kNoLength : kTooLong);
+  if (frame.error != FramingError::None) return complain(frame.error == FramingError::NoLength ? kNoLength : kTooLong);
   const Json message = rpc::parse(frame.body);
   if (!message.is_object()) return complain(kNoJson);
   const auto type = message.find("type");

@@ -23,7 +23,6 @@ namespace isocnc::lsp {
 /// read again only if it or a configuration file has changed. It belongs to a strand (rpc::StrandBound in Server).
 class ClosedPrograms {
  public:
-  using ClientPointer = std::shared_ptr<const protocol::Client>;
   using Folders = std::vector<std::filesystem::path>;
   struct WorkspaceQuery {
     features::WorkspaceRequest request;
@@ -31,7 +30,7 @@ class ClosedPrograms {
     std::optional<rpc::OnWorker<std::string>> take_one;
     Folders folders;
     std::set<std::string> open;  ///< URIs of the documents that the editor has open.
-    ClientPointer client;
+    protocol::ClientPointer client;
     std::shared_ptr<const std::atomic<bool>> cancelled;  ///< The code that sets it has to answer the request itself.
   };
 
@@ -52,7 +51,7 @@ class ClosedPrograms {
     std::filesystem::file_time_type written;
     std::uintmax_t size = 0;
     std::shared_ptr<const void> settings;
-    ClientPointer client;
+    protocol::ClientPointer client;
 
     friend bool operator==(const Cause&, const Cause&) = default;
   };

@@ -32,8 +32,6 @@ struct DocumentSignals {
 /// one analysis, without a lock.
 class DocumentWorker {
  public:
-  using ClientPointer = std::shared_ptr<const protocol::Client>;
-
   DocumentWorker(rpc::Pool& pool, documents::SettingsStore& settings, std::string uri, DocumentNotifier notifier,
                  std::shared_ptr<DocumentSignals> signals);
 

@@ -13,19 +13,19 @@ OpenDocument::OpenDocument(rpc::Pool& pool, documents::SettingsStore& settings, 
       signals_(std::move(signals)),
       worker_(pool, pool, settings, uri_, std::move(notifier), signals_) {}
 
-void OpenDocument::open(CallPointer call, ClientPointer client) {
+void OpenDocument::open(rpc::CallPointer call, protocol::ClientPointer client) {
   ++signals_->edits_waiting;
   worker_.post(
       [call = std::move(call), client = std::move(client)](DocumentWorker& worker) { worker.open(*call, *client); });
 }
 
-void OpenDocument::edit(CallPointer call, ClientPointer client) {
+void OpenDocument::edit(rpc::CallPointer call, protocol::ClientPointer client) {
   ++signals_->edits_waiting;
   worker_.post(
       [call = std::move(call), client = std::move(client)](DocumentWorker& worker) { worker.edit(*call, *client); });
 }
 
-void OpenDocument::reconfigure(ClientPointer client) {
+void OpenDocument::reconfigure(protocol::ClientPointer client) {
   ++signals_->edits_waiting;
   worker_.post([client = std::move(client)](DocumentWorker& worker) { worker.reconfigure(*client); });
 }
@@ -35,7 +35,8 @@ void OpenDocument::close() {
   ++signals_->edits_waiting;
 }
 
-void OpenDocument::ask(features::Method method, rpc::Json params, ClientPointer client, WorkerRequest request) {
+void OpenDocument::ask(features::Method method, rpc::Json params, protocol::ClientPointer client,
+                       WorkerRequest request) {
   worker_.post([method, params = std::move(params), client = std::move(client), request = std::move(request)](
                    DocumentWorker& worker) { worker.answer(method, params, *client, request); });
 }

@@ -17,9 +17,6 @@ namespace isocnc::lsp {
 /// The editor may also have an isocnc.json open: then its diagnostics are about the text in the editor, saved or not.
 class OpenDocument {
  public:
-  using CallPointer = std::shared_ptr<const rpc::Call>;
-  using ClientPointer = DocumentWorker::ClientPointer;
-
   /// `signals` are new, and used for this document only.
   OpenDocument(rpc::Pool& pool, documents::SettingsStore& settings, std::string uri, DocumentNotifier notifier,
                std::shared_ptr<DocumentSignals> signals);
@@ -27,13 +24,13 @@ class OpenDocument {
   const std::string& uri() const { return uri_; }
   bool is_configuration() const { return is_configuration_; }
 
-  void open(CallPointer call, ClientPointer client);
-  void edit(CallPointer call, ClientPointer client);
+  void open(rpc::CallPointer call, protocol::ClientPointer client);
+  void edit(rpc::CallPointer call, protocol::ClientPointer client);
   /// Ends work on the document: the editor has closed it.
   void close();
   /// The client's settings or the configuration files have changed.
-  void reconfigure(ClientPointer client);
-  void ask(features::Method method, rpc::Json params, ClientPointer client, WorkerRequest request);
+  void reconfigure(protocol::ClientPointer client);
+  void ask(features::Method method, rpc::Json params, protocol::ClientPointer client, WorkerRequest request);
 
  private:
   const std::string uri_;

@@ -28,7 +28,7 @@ DocumentNotifier OpenDocuments::notifier_of(const std::shared_ptr<const Document
   return {.notify = notify, .configuration = {loop_, configuration}, .progress = {loop_, progress}};
 }
 
-void OpenDocuments::open(const CallPointer& call, const ClientPointer& client) {
+void OpenDocuments::open(const rpc::CallPointer& call, const protocol::ClientPointer& client) {
   const Json& params = call->params().at("textDocument");
   const std::string uri = params.at("uri");
   if (!params.at("text").is_string()) throw Json::type_error::create(302, "the text is no string", &params);
@@ -77,7 +77,7 @@ std::vector<OpenDocument*> OpenDocuments::programs() const {
   return programs;
 }
 
-void OpenDocuments::reconfigure(const ClientPointer& client) {
+void OpenDocuments::reconfigure(const protocol::ClientPointer& client) {
   for (const auto& [uri, document] : documents_) document->reconfigure(client);
 }
 

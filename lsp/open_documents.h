@@ -16,14 +16,11 @@ namespace isocnc::lsp {
 /// The documents that the client has open, and what is reported about them. Used on the loop's thread only.
 class OpenDocuments {
  public:
-  using CallPointer = OpenDocument::CallPointer;
-  using ClientPointer = OpenDocument::ClientPointer;
-
   OpenDocuments(rpc::Loop& loop, rpc::Pool& pool, documents::SettingsStore& settings, Outbox& outbox)
       : loop_(loop), pool_(pool), settings_(settings), outbox_(outbox) {}
 
   /// `call` is the notification `textDocument/didOpen`.
-  void open(const CallPointer& call, const ClientPointer& client);
+  void open(const rpc::CallPointer& call, const protocol::ClientPointer& client);
   void close(const std::string& uri, const protocol::Client& client);
   bool contains(const std::string& uri) const { return documents_.contains(uri); }
   /// The document that the parameters of a call name; null if they name none that is open.
@@ -31,7 +28,7 @@ class OpenDocuments {
   /// The open documents that are programs.
   std::vector<OpenDocument*> programs() const;
   /// The client's settings or the configuration files have changed.
-  void reconfigure(const ClientPointer& client);
+  void reconfigure(const protocol::ClientPointer& client);
   /// Withdraws the diagnostics of configuration files: those that still exist are reported again.
   void withdraw_configuration_diagnostics();
 

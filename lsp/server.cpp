@@ -52,13 +52,13 @@ const std::unordered_map<std::string_view, Server::Handler>& Server::handlers() 
 }
 
 void Server::receive(rpc::MessageFrame frame) {
-  switch (frame.problem) {
-    case rpc::MessageFrame::Problem::NoLength:
+  switch (frame.error) {
+    case rpc::MessageFrame::FramingError::NoLength:
       return outbox_.send(rpc::error_message(nullptr, ErrorCode::ParseError, "a header has no Content-Length"));
-    case rpc::MessageFrame::Problem::TooLong:
+    case rpc::MessageFrame::FramingError::TooLong:
       return outbox_.send(
           rpc::error_message(nullptr, ErrorCode::ParseError, "the message is longer than any that is taken"));
-    case rpc::MessageFrame::Problem::None:
+    case rpc::MessageFrame::FramingError::None:
       break;
   }
   rpc::Message message = rpc::read_message(std::move(frame.body));
@@ -85,7 +85,7 @@ bool Server::is_allowed(const Call& call) {
   return phase_ != LifecyclePhase::Ended;
 }
 
-void Server::dispatch(const CallPointer& call) {
+void Server::dispatch(const rpc::CallPointer& call) {
   if (call->method == "exit") return end();
   if (!is_allowed(*call)) return;
   try {
@@ -106,7 +106,7 @@ static rpc::OnWorker<rpc::Error> failer(const PendingRequest& request) {
   return rpc::OnWorker<rpc::Error>([request](const rpc::Error& error) { request.fail(error); });
 }
 
-void Server::call_method(const CallPointer& call) {
+void Server::call_method(const rpc::CallPointer& call) {
   if (call->is_notification()) return;
   if (const auto method = methods_.find(call->method); method != methods_.end())
     return ask(method->second, call, call->params(), answerer);
@@ -142,7 +142,7 @@ static std::set<std::string> folders_in(const Json& params) {
   return folders;
 }
 
-void Server::initialize(const CallPointer& call) {
+void Server::initialize(const rpc::CallPointer& call) {
   if (call->is_notification()) return;
   const Json& params = call->params();
   Client client = protocol::read_client(params);
@@ -156,7 +156,7 @@ void Server::initialize(const CallPointer& call) {
                         {"serverInfo", {{"name", "isols"}, {"version", ISOCNC_VERSION}}}});
 }
 
-void Server::initialized(const CallPointer&) {
+void Server::initialized(const rpc::CallPointer&) {
   if (!client_->can("/workspace/didChangeWatchedFiles/dynamicRegistration")) return;
   const Json watcher = {{"globPattern", fmt::format("**/{}", configuration::kFileName)}};
   const Json registration = {{"id", "configuration files"},
@@ -165,7 +165,7 @@ void Server::initialized(const CallPointer&) {
   outbox_.request("client/registerCapability", {{"registrations", Json::array({registration})}});
 }
 
-void Server::shut_down(const CallPointer& call) {
+void Server::shut_down(const rpc::CallPointer& call) {
   if (call->is_notification()) return;
   phase_ = LifecyclePhase::ShutDown;
   outbox_.reply(*call, nullptr);
@@ -183,17 +183,17 @@ void Server::idle() {
   if (parent_ > 0 && ::kill(parent_, 0) != 0 && errno == ESRCH) end();
 }
 
-void Server::cancel(const CallPointer& call) { pending_requests_.cancel(call->params().at("id")); }
+void Server::cancel(const rpc::CallPointer& call) { pending_requests_.cancel(call->params().at("id")); }
 
 // --- Documents
 
-void Server::open(const CallPointer& call) { open_documents_.open(call, client_); }
+void Server::open(const rpc::CallPointer& call) { open_documents_.open(call, client_); }
 
-void Server::edit(const CallPointer& call) {
+void Server::edit(const rpc::CallPointer& call) {
   if (OpenDocument* const document = open_documents_.find(call->params())) document->edit(call, client_);
 }
 
-void Server::close(const CallPointer& call) {
+void Server::close(const rpc::CallPointer& call) {
   const OpenDocument* const document = open_documents_.find(call->params());
   if (!document) return;
   const bool is_configuration = document->is_configuration();
@@ -201,20 +201,20 @@ void Server::close(const CallPointer& call) {
   if (is_configuration) reconfigure_all();
 }
 
-void Server::save(const CallPointer& call) {
+void Server::save(const rpc::CallPointer& call) {
   const Json& params = call->params();
   if (protocol::names_configuration(params.at("textDocument").at("uri").get<std::string>())) reconfigure_all();
 }
 
 // --- Workspace
 
-void Server::change_folders(const CallPointer& call) {
+void Server::change_folders(const rpc::CallPointer& call) {
   const Json& event = call->params().at("event");
   for (const Json& folder : event.at("removed")) folders_.erase(folder.at("uri").get<std::string>());
   for (const Json& folder : event.at("added")) folders_.insert(folder.at("uri").get<std::string>());
 }
 
-void Server::change_settings(const CallPointer& call) {
+void Server::change_settings(const rpc::CallPointer& call) {
   const Json& params = call->params();
   Client changed = *client_;
   const Json settings = params.is_object() && params.contains("settings") ? params["settings"] : Json();
@@ -223,7 +223,7 @@ void Server::change_settings(const CallPointer& call) {
   reconfigure_documents();
 }
 
-void Server::look_at_changed_files(const CallPointer& call) {
+void Server::look_at_changed_files(const rpc::CallPointer& call) {
   for (const Json& change : call->params().at("changes"))
     if (protocol::names_configuration(change.at("uri").get<std::string>())) return reconfigure_all();
 }
@@ -243,7 +243,7 @@ void Server::reconfigure_documents() {
 }
 
 /// The first argument names the document. If the result has an edit, the client is asked to apply it.
-void Server::execute_command(const CallPointer& call) {
+void Server::execute_command(const rpc::CallPointer& call) {
   const Json& params = call->params();
   const std::string name = params.at("command");
   const auto command = commands_.find(name);
@@ -265,7 +265,7 @@ rpc::OnLoop<std::string> Server::edit_applier(const std::string& command, const 
 
 // --- Requests
 
-void Server::ask(const features::Method& method, const CallPointer& call, Json params, const TakerOf& taker_of) {
+void Server::ask(const features::Method& method, const rpc::CallPointer& call, Json params, const TakerOf& taker_of) {
   if (call->is_notification()) return;
   OpenDocument* const document = open_documents_.find(params);
   if (!document && method.serves_closed) return ask_closed(method, call, params.at("textDocument").at("uri"));
@@ -288,7 +288,7 @@ ClosedPrograms::Folders Server::folders_of_workspace() const {
 }
 
 /// Reads only files in the folders that the user has opened, whatever file the message names.
-void Server::ask_closed(const features::Method& method, const CallPointer& call, const std::string& uri) {
+void Server::ask_closed(const features::Method& method, const rpc::CallPointer& call, const std::string& uri) {
   if (protocol::names_configuration(uri)) return outbox_.send(rpc::result_message(*call->id, method.of_configuration));
   const auto request = pending_requests_.add(*call);
   if (!request) return;
@@ -301,7 +301,7 @@ void Server::ask_closed(const features::Method& method, const CallPointer& call,
   });
 }
 
-void Server::ask_workspace(const features::WorkspaceRequest& workspace_request, const CallPointer& call) {
+void Server::ask_workspace(const features::WorkspaceRequest& workspace_request, const rpc::CallPointer& call) {
   const auto request = pending_requests_.add(*call);
   if (!request) return;
   const std::vector<OpenDocument*> open = open_documents_.programs();

@@ -44,41 +44,40 @@ class Server final : public rpc::Peer {
   int exit_status() const override { return exit_status_; }
 
  private:
-  using CallPointer = std::shared_ptr<const rpc::Call>;
   /// Returns the function that gets a request's result.
   using TakerOf = std::function<rpc::OnWorker<std::string>(const PendingRequest& request)>;
 
-  void dispatch(const CallPointer& call);
+  void dispatch(const rpc::CallPointer& call);
   bool is_allowed(const rpc::Call& call);
-  void call_method(const CallPointer& call);
+  void call_method(const rpc::CallPointer& call);
 
   // Messages of the lifecycle.
-  void initialize(const CallPointer& call);
-  void initialized(const CallPointer& call);
-  void shut_down(const CallPointer& call);
-  void cancel(const CallPointer& call);
-  void ignore(const CallPointer&) {}
+  void initialize(const rpc::CallPointer& call);
+  void initialized(const rpc::CallPointer& call);
+  void shut_down(const rpc::CallPointer& call);
+  void cancel(const rpc::CallPointer& call);
+  void ignore(const rpc::CallPointer&) {}
   // Notifications about documents.
-  void open(const CallPointer& call);
-  void edit(const CallPointer& call);
-  void close(const CallPointer& call);
-  void save(const CallPointer& call);
+  void open(const rpc::CallPointer& call);
+  void edit(const rpc::CallPointer& call);
+  void close(const rpc::CallPointer& call);
+  void save(const rpc::CallPointer& call);
   // Messages about the workspace.
-  void change_folders(const CallPointer& call);
-  void change_settings(const CallPointer& call);
-  void look_at_changed_files(const CallPointer& call);
-  void execute_command(const CallPointer& call);
+  void change_folders(const rpc::CallPointer& call);
+  void change_settings(const rpc::CallPointer& call);
+  void look_at_changed_files(const rpc::CallPointer& call);
+  void execute_command(const rpc::CallPointer& call);
 
   void reconfigure_all();
   void reconfigure_documents();
-  void ask(const features::Method& method, const CallPointer& call, rpc::Json params, const TakerOf& taker_of);
-  void ask_closed(const features::Method& method, const CallPointer& call, const std::string& uri);
-  void ask_workspace(const features::WorkspaceRequest& workspace_request, const CallPointer& call);
+  void ask(const features::Method& method, const rpc::CallPointer& call, rpc::Json params, const TakerOf& taker_of);
+  void ask_closed(const features::Method& method, const rpc::CallPointer& call, const std::string& uri);
+  void ask_workspace(const features::WorkspaceRequest& workspace_request, const rpc::CallPointer& call);
   rpc::OnLoop<std::string> edit_applier(const std::string& command, const PendingRequest& request);
   ClosedPrograms::Folders folders_of_workspace() const;
 
   enum class LifecyclePhase { Starting, Running, ShutDown, Ended };
-  using Handler = void (Server::*)(const CallPointer& call);
+  using Handler = void (Server::*)(const rpc::CallPointer& call);
 
   static const std::unordered_map<std::string_view, Handler>& handlers();
 
@@ -88,7 +87,7 @@ class Server final : public rpc::Peer {
   LifecyclePhase phase_ = LifecyclePhase::Starting;
   int exit_status_ = 1;
   int parent_ = 0;  // The id of the process that started the server; 0 if unknown.
-  std::shared_ptr<const protocol::Client> client_ = std::make_shared<const protocol::Client>();
+  protocol::ClientPointer client_ = std::make_shared<const protocol::Client>();
   std::set<std::string> folders_;  // URIs of the workspace's folders.
   std::unordered_map<std::string_view, features::Method> methods_;
   std::unordered_map<std::string_view, features::WorkspaceRequest> workspace_requests_;

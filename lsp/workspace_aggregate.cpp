@@ -16,9 +16,8 @@ static std::optional<Json> part_token_of(const rpc::Call& call) {
   return protocol::member<Json>(call.params(), "partialResultToken");
 }
 
-WorkspaceAggregate::WorkspaceAggregate(features::WorkspaceRequest workspace_request,
-                                       std::shared_ptr<const rpc::Call> call, PendingRequest request,
-                                       std::size_t awaited)
+WorkspaceAggregate::WorkspaceAggregate(features::WorkspaceRequest workspace_request, rpc::CallPointer call,
+                                       PendingRequest request, std::size_t awaited)
     : workspace_request_(workspace_request),
       call_(std::move(call)),
       request_(std::move(request)),

@@ -25,8 +25,8 @@ class WorkspaceAggregate : public std::enable_shared_from_this<WorkspaceAggregat
   using Results = std::vector<std::string>;
 
   /// `awaited` is the number of calls of the taker after which all results have arrived.
-  WorkspaceAggregate(features::WorkspaceRequest workspace_request, std::shared_ptr<const rpc::Call> call,
-                     PendingRequest request, std::size_t awaited);
+  WorkspaceAggregate(features::WorkspaceRequest workspace_request, rpc::CallPointer call, PendingRequest request,
+                     std::size_t awaited);
 
   /// Empty if the client has given no token for partial results.
   std::optional<rpc::OnWorker<std::string>> part_notifier(rpc::Loop& loop, Outbox& outbox) const;
@@ -37,7 +37,7 @@ class WorkspaceAggregate : public std::enable_shared_from_this<WorkspaceAggregat
   void combine() const;
 
   const features::WorkspaceRequest workspace_request_;
-  const std::shared_ptr<const rpc::Call> call_;
+  const rpc::CallPointer call_;
   const PendingRequest request_;
   const bool is_reported_in_parts_;
   Results results_;      // Changed on the loop's thread, until none is awaited.

@@ -29,7 +29,7 @@ Frontier Analysis::before(std::size_t chunk) const {
 
 // --- Jumps
 
-static void append(std::vector<JumpEvent>& all, const std::vector<JumpEvent>& more) {
+static void append(std::vector<FlowEvent>& all, const std::vector<FlowEvent>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
@@ -38,8 +38,8 @@ void Analysis::read_jumps(std::size_t chunk, Row& row) const {
   const std::string_view text = document_.chunk_text(chunk);
   if (jumps_.empty() && !may_hold_jumps(text)) return;
   row.labels = {};
-  each_event_in(text, [&](const JumpEvent& event) {
-    const bool is_label = event.kind == JumpEvent::Kind::Label;
+  each_event_in(text, [&](const FlowEvent& event) {
+    const bool is_label = event.kind == FlowEvent::Kind::Label;
     if (is_label) row.labels.add(event.label);
     if (!is_label || jumps_.names(event.label)) row.jumps.push_back(event);
   });
@@ -53,15 +53,15 @@ bool Analysis::read_labels(std::size_t chunk, const std::vector<std::uint64_t>& 
   if (first == wanted.end() || *first > row.labels.max) return false;
   row.labels = {};
   const auto others = static_cast<std::ptrdiff_t>(row.jumps.size());
-  each_event_in(document_.chunk_text(chunk), [&](const JumpEvent& event) {
-    if (event.kind != JumpEvent::Kind::Label) return;
+  each_event_in(document_.chunk_text(chunk), [&](const FlowEvent& event) {
+    if (event.kind != FlowEvent::Kind::Label) return;
     row.labels.add(event.label);
     if (std::binary_search(first, wanted.end(), event.label)) row.jumps.push_back(event);
   });
   // A line's label takes effect before its other events.
   std::inplace_merge(row.jumps.begin(), row.jumps.begin() + others, row.jumps.end(),
-                     [](const JumpEvent& a, const JumpEvent& b) {
-                       const auto rank = [](const JumpEvent& event) { return event.kind != JumpEvent::Kind::Label; };
+                     [](const FlowEvent& a, const FlowEvent& b) {
+                       const auto rank = [](const FlowEvent& event) { return event.kind != FlowEvent::Kind::Label; };
                        return a.line != b.line ? a.line < b.line : rank(a) < rank(b);
                      });
   return static_cast<std::ptrdiff_t>(row.jumps.size()) > others;
@@ -71,14 +71,14 @@ bool Analysis::read_labels(std::size_t chunk, const std::vector<std::uint64_t>& 
 template <class Take>
 void Analysis::each_jump_event(Take take) const {
   for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk)
-    for (const JumpEvent& event : rows_[chunk].jumps) take(document_.first_line_of_chunk(chunk) + event.line, event);
+    for (const FlowEvent& event : rows_[chunk].jumps) take(document_.first_line_of_chunk(chunk) + event.line, event);
 }
 
 /// The labels that the jumps in all chunks name, ascending.
 std::vector<std::uint64_t> Analysis::labels_named() const {
   std::set<std::uint64_t> labels;
-  each_jump_event([&](std::uint64_t, const JumpEvent& event) {
-    if (event.kind == JumpEvent::Kind::Jump) labels.insert(event.jump.target);
+  each_jump_event([&](std::uint64_t, const FlowEvent& event) {
+    if (event.kind == FlowEvent::Kind::Jump) labels.insert(event.jump.target);
   });
   return {labels.begin(), labels.end()};
 }
@@ -96,8 +96,8 @@ void Analysis::follow_labels(const std::vector<std::uint64_t>& named) {
   const std::vector<std::uint64_t> added = difference(named, named_before);
   const std::vector<std::uint64_t> removed = difference(named_before, named);
   if (added.empty() && removed.empty()) return;
-  const auto is_removed = [&](const JumpEvent& event) {
-    return event.kind == JumpEvent::Kind::Label && std::binary_search(removed.begin(), removed.end(), event.label);
+  const auto is_removed = [&](const FlowEvent& event) {
+    return event.kind == FlowEvent::Kind::Label && std::binary_search(removed.begin(), removed.end(), event.label);
   };
   for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk) {
     const bool has_lost = !removed.empty() && std::erase_if(rows_[chunk].jumps, is_removed) > 0;
@@ -109,16 +109,16 @@ void Analysis::follow_labels(const std::vector<std::uint64_t>& named) {
 JumpMap Analysis::find_jumps() {
   follow_labels(labels_named());
   JumpCollector collector;
-  each_jump_event([&](std::uint64_t line, const JumpEvent& event) { collector.add(line, event); });
+  each_jump_event([&](std::uint64_t line, const FlowEvent& event) { collector.add(line, event); });
   return std::move(collector).finish();
 }
 
 /// Updates the lines of jumps that are otherwise equivalent to the old ones.
-void Analysis::move_jumps(const Change& change) {
+void Analysis::move_jumps(const syntax::ChunkChange& change) {
   std::vector<JumpMap::Site> sites;
   for (std::size_t chunk = change.first; chunk < change.first + change.inserted; ++chunk)
-    for (const JumpEvent& event : rows_[chunk].jumps)
-      if (event.kind == JumpEvent::Kind::Jump)
+    for (const FlowEvent& event : rows_[chunk].jumps)
+      if (event.kind == FlowEvent::Kind::Jump)
         sites.push_back({document_.first_line_of_chunk(chunk) + event.line, event.jump});
   const std::size_t first_line =
       change.first < rows_.size() ? document_.first_line_of_chunk(change.first) : document_.line_count();
@@ -133,7 +133,7 @@ void Analysis::check_changed_jumps_again(const JumpMap& old_jumps) {
   RegisterSet recut = 0;
   for (int reg = 1; reg <= dialect::kRegisterCount; ++reg)
     if (jumps_.constants(reg) != old_jumps.constants(reg)) recut |= register_bit(reg);
-  const auto is_assigned_alike = [&](const JumpEvent& event, std::uint32_t next_jump) {
+  const auto is_assigned_alike = [&](const FlowEvent& event, std::uint32_t next_jump) {
     const RegisterSet bit = register_bit(event.reg);
     if (((jumps_.read_before(next_jump) ^ old_jumps.read_before(next_jump)) & bit) != 0) return false;
     return (recut & bit) == 0 || ValueSet::of(event.value, jumps_.constants(event.reg)) ==
@@ -141,9 +141,9 @@ void Analysis::check_changed_jumps_again(const JumpMap& old_jumps) {
   };
   std::uint32_t jump = 0;
   for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk)
-    for (const JumpEvent& event : rows_[chunk].jumps) {
-      const bool is_alike = event.kind == JumpEvent::Kind::Jump         ? jumps_.is_equivalent(jump++, old_jumps)
-                            : event.kind == JumpEvent::Kind::Assignment ? is_assigned_alike(event, jump)
+    for (const FlowEvent& event : rows_[chunk].jumps) {
+      const bool is_alike = event.kind == FlowEvent::Kind::Jump         ? jumps_.is_equivalent(jump++, old_jumps)
+                            : event.kind == FlowEvent::Kind::Assignment ? is_assigned_alike(event, jump)
                                                                         : true;
       if (!is_alike) rows_[chunk].is_stale = true;
     }
@@ -151,11 +151,11 @@ void Analysis::check_changed_jumps_again(const JumpMap& old_jumps) {
 
 /// Updates the jumps after these events have been replaced. Returns false if all chunks must be checked again:
 /// frontiers refer to jumps by number.
-bool Analysis::follow_jumps(const Change& change, const std::vector<JumpEvent>& old_events) {
-  std::vector<JumpEvent> new_events;
+bool Analysis::follow_jumps(const syntax::ChunkChange& change, const std::vector<FlowEvent>& old_events) {
+  std::vector<FlowEvent> new_events;
   for (std::size_t i = change.first; i < change.first + change.inserted; ++i) append(new_events, rows_[i].jumps);
   const bool same = std::equal(old_events.begin(), old_events.end(), new_events.begin(), new_events.end(),
-                               [](const JumpEvent& a, const JumpEvent& b) { return a.means_the_same(b); });
+                               [](const FlowEvent& a, const FlowEvent& b) { return a.means_the_same(b); });
   if (same) {
     if (!jumps_.empty()) move_jumps(change);
     return true;
@@ -197,7 +197,7 @@ bool Analysis::follow_text(const std::function<bool()>& stop) {
   const bool is_first = rows_.size() == 0;
   const auto change = rows_.change_to(document_);
   Frontier at_change = is_first ? Frontier{} : before(change.first);
-  std::vector<JumpEvent> old_events;
+  std::vector<FlowEvent> old_events;
   for (std::size_t i = change.first; i < change.first + change.removed; ++i) {
     append(old_events, rows_[i].jumps);
     counts_.remove(rows_[i].checked->outcome);

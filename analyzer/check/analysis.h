@@ -69,20 +69,18 @@ class Analysis {
     CenterUse centers;      ///< A copy from the outcome.
     bool has_text = false;
     bool has_more = false;         ///< Whether the outcome has findings, labels, jumps or assignments.
-    std::vector<JumpEvent> jumps;  ///< The events that concern jumps; labels only if a jump names them.
+    std::vector<FlowEvent> jumps;  ///< The events that concern jumps; labels only if a jump names them.
     LabelRange labels = LabelRange::any();
     std::unique_ptr<Checked> checked = std::make_unique<Checked>();
   };
-
-  using Change = syntax::PerChunk<Row>::Change;
 
   bool follow_text(const std::function<bool()>& stop);
   bool follow_centers(const std::function<bool()>& stop);
   bool check_stale(const std::function<bool()>& stop);
   Frontier before(std::size_t chunk) const;
   void read_jumps(std::size_t chunk, Row& row) const;
-  bool follow_jumps(const Change& change, const std::vector<JumpEvent>& old_events);
-  void move_jumps(const Change& change);
+  bool follow_jumps(const syntax::ChunkChange& change, const std::vector<FlowEvent>& old_events);
+  void move_jumps(const syntax::ChunkChange& change);
   template <class Take>
   void each_jump_event(Take take) const;
   JumpMap find_jumps();

@@ -255,7 +255,7 @@ class Checker::LineExecution final : public execution::Sink {
   }
   void report(const Finding& finding) override { checker_.group_findings_.push_back({finding, group_}); }
   void centered_arc(const execution::CenteredArc& arc) override { checker_.judge_arc(arc, outcome_, *this); }
-  void move(const execution::Move& move, const execution::State&) override { move_ = move; }
+  void move(const execution::ProgrammedMove& move, const execution::State&) override { move_ = move; }
   void assign(int reg, double value) override { checker_.assign(checker_.frontier.live[group_], reg, value, outcome_); }
 
  private:
@@ -287,7 +287,7 @@ class Checker::LineExecution final : public execution::Sink {
     const auto is_error_here = [](const GroupFinding& found) { return is_error(found.finding); };
     if (!is_wrong && std::none_of(findings.begin() + first, findings.end(), is_error_here)) {
       const rules::CheckSetup& setup = checker_.setup_;
-      const rules::Block block{line_, before, state, setup.machine, setup.thresholds};
+      const rules::ExecutedBlock block{line_, before, state, setup.machine, setup.thresholds};
       rules::run_rules(block, remembered, *this);
       if (move_) rules::run_move_rules(block, *move_, *this);
     }
@@ -298,8 +298,8 @@ class Checker::LineExecution final : public execution::Sink {
   Checker& checker_;
   const LineTree& line_;
   Outcome& outcome_;
-  std::size_t group_ = 0;                // The group that executes the line.
-  std::optional<execution::Move> move_;  // The line's motion, if motions are watched.
+  std::size_t group_ = 0;                          // The group that executes the line.
+  std::optional<execution::ProgrammedMove> move_;  // The line's motion, if motions are watched.
 };
 
 void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
@@ -377,12 +377,12 @@ void Checker::report_common_findings(std::uint64_t line_number, Outcome& outcome
     if (std::any_of(group_findings_.begin(), here, same)) continue;
     LocatedFinding located{line_number, finding};
     // The decisions shared by all paths that have the finding.
-    Path path = live[group_findings_[i].group].path;
+    Decisions path = live[group_findings_[i].group].path;
     std::size_t count = 0;
     for (auto other = here; other != group_findings_.end(); ++other) {
       if (!same(*other)) continue;
       ++count;
-      const Path& theirs = live[other->group].path;
+      const Decisions& theirs = live[other->group].path;
       std::erase_if(path, [&](const Decision& decision) {
         return std::find(theirs.begin(), theirs.end(), decision) == theirs.end();
       });
@@ -419,7 +419,7 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
   Groups jumping;
   bool may_jump = false;
   bool may_stay = false;
-  const auto decide = [&](Path path, bool taken) {
+  const auto decide = [&](Decisions path, bool taken) {
     path.insert(path.begin(), {ordinal, taken});
     if (path.size() > kLongestPath) path.pop_back();
     return path;

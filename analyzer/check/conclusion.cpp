@@ -85,7 +85,7 @@ static bool may_hide_end(std::string_view text) {
 /// A path that reaches the end of the file without an M02: reported on the last line with any text (D47).
 static void add_missing_end(const std::vector<PlacedOutcome>& outcomes, const Frontier& end,
                             const std::function<std::string_view(std::uint64_t)>& text_of_line,
-                            std::vector<Path>& paths, std::vector<LocatedFinding>& findings) {
+                            std::vector<Decisions>& paths, std::vector<LocatedFinding>& findings) {
   if (end.live.empty()) return;
   LocatedFinding located{0, {.id = "m02-missing"_diag}};
   const auto last = std::find_if(outcomes.rbegin(), outcomes.rend(),
@@ -96,7 +96,7 @@ static void add_missing_end(const std::vector<PlacedOutcome>& outcomes, const Fr
     if (may_hide_end(text)) return;
     located.finding.span = without_blanks(text);
   }
-  Path path = end.live[0].path;
+  Decisions path = end.live[0].path;
   for (const Group& group : end.live)
     std::erase_if(path, [&](const Decision& decision) {
       return !decision.taken || std::find(group.path.begin(), group.path.end(), decision) == group.path.end();
@@ -129,19 +129,19 @@ static bool by_place(const LocatedFinding& a, const LocatedFinding& b) {
 /// Adds the findings that need the whole program.
 static void add_findings_of_whole(const std::vector<PlacedOutcome>& outcomes, const Frontier& end, const JumpMap& jumps,
                                   const std::function<std::string_view(std::uint64_t)>& text_of_line,
-                                  std::vector<Path>& paths, std::vector<LocatedFinding>& findings) {
+                                  std::vector<Decisions>& paths, std::vector<LocatedFinding>& findings) {
   add_duplicate_labels(outcomes, jumps, findings);
   if (!end.reduced) add_unassigned_registers(outcomes, jumps, findings);
   add_missing_end(outcomes, end, text_of_line, paths, findings);
 }
 
 /// Sorts the findings and converts their paths to steps for users.
-static Report ordered(std::vector<LocatedFinding> findings, const std::vector<Path>& paths, const JumpMap& jumps) {
+static Report ordered(std::vector<LocatedFinding> findings, const std::vector<Decisions>& paths, const JumpMap& jumps) {
   Report report{.findings = std::move(findings), .paths = {}};
   if (!std::is_sorted(report.findings.begin(), report.findings.end(), by_place))
     std::stable_sort(report.findings.begin(), report.findings.end(), by_place);
   keep_first_of_each(report.findings);
-  for (const Path& path : paths) {
+  for (const Decisions& path : paths) {
     std::vector<PathStep>& steps = report.paths.emplace_back();
     for (auto decision = path.rbegin(); decision != path.rend(); ++decision)
       steps.push_back({jumps.sites()[decision->jump].line, decision->taken});
@@ -152,7 +152,7 @@ static Report ordered(std::vector<LocatedFinding> findings, const std::vector<Pa
 Report conclude(Outcome outcome, const Frontier& end, const JumpMap& jumps,
                 const std::function<std::string_view(std::uint64_t)>& text_of_line) {
   std::vector<LocatedFinding> findings = std::move(outcome.findings);
-  std::vector<Path> paths = std::move(outcome.paths);
+  std::vector<Decisions> paths = std::move(outcome.paths);
   add_findings_of_whole({{&outcome, 0}}, end, jumps, text_of_line, paths, findings);
   return ordered(std::move(findings), paths, jumps);
 }
@@ -176,7 +176,7 @@ class ExcerptCollector {
       if (located.path >= 0) located.path += first_path;
       take(located);
     }
-    const std::vector<Path>& theirs = placed.outcome->paths;
+    const std::vector<Decisions>& theirs = placed.outcome->paths;
     paths.insert(paths.end(), theirs.begin(), theirs.end());
   }
   void take(const LocatedFinding& located) {
@@ -190,7 +190,7 @@ class ExcerptCollector {
   }
 
   std::vector<LocatedFinding> findings;
-  std::vector<Path> paths;
+  std::vector<Decisions> paths;
 
  private:
   static bool is_reported_once(dialect::DiagnosticId id) {

@@ -8,8 +8,8 @@
 namespace isocnc::check {
 
 /// The decisions that both paths share; both paths have the latest first.
-static Path common_decisions(const Path& a, const Path& b) {
-  Path common;
+static Decisions common_decisions(const Decisions& a, const Decisions& b) {
+  Decisions common;
   for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end();) {
     if (*i == *j) {
       common.push_back(*i++);

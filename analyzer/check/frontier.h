@@ -18,7 +18,7 @@ struct Group {
   execution::State state;
   rules::Memory memory;  ///< What the lint rules remember; paths that differ in it alone are joined.
   Valuations registers;
-  Path path;  ///< The decisions that all of its paths share.
+  Decisions path;  ///< The decisions that all of its paths share.
 
   friend bool operator==(const Group&, const Group&) = default;
 };

@@ -4,8 +4,8 @@
 
 namespace isocnc::check {
 
-void JumpCollector::add(std::uint64_t line, const JumpEvent& event) {
-  if (event.kind == JumpEvent::Kind::Jump) sites_.push_back({line, event.jump});
+void JumpCollector::add(std::uint64_t line, const FlowEvent& event) {
+  if (event.kind == FlowEvent::Kind::Jump) sites_.push_back({line, event.jump});
   steps_.emplace_back(event);
 }
 

@@ -11,14 +11,14 @@ namespace isocnc::check {
 class JumpCollector {
  public:
   /// Adds the next event; `line` counts from the start of the program. Labels that no jump names may be left out.
-  void add(std::uint64_t line, const JumpEvent& event);
+  void add(std::uint64_t line, const FlowEvent& event);
 
   /// The map of all events added. It knows the labels.
   JumpMap finish() &&;
 
  private:
   std::vector<JumpMap::Site> sites_;
-  std::vector<JumpMap::Step> steps_;
+  std::vector<JumpMap::ReducedEvent> steps_;
 };
 
 }  // namespace isocnc::check

@@ -127,22 +127,22 @@ static void scan_events(std::string_view text, Take take) {
     const char* begin = p;
     while (begin != text.data() && !text::is_line_end(begin[-1])) --begin;
     if (labelled && (p == end || begin != labelled))
-      take(JumpEvent{.kind = JumpEvent::Kind::Label, .label = label.number}, labelled);
+      take(FlowEvent{.kind = FlowEvent::Kind::Label, .label = label.number}, labelled);
     if (p == end) return;
     label = p == begin && p != labelled ? plain_label(p, end) : PlainLabel{};
     labelled = label.end ? begin : nullptr;
     if (!labelled) {
       store.clear();
       label.end = store.append_line(begin, end);
-      each_event(store.tree(0, begin), [&](const JumpEvent& event) { take(event, begin); });
+      each_event(store.tree(0, begin), [&](const FlowEvent& event) { take(event, begin); });
     }
     p = next_event_letter(label.end, end);
   }
 }
 
-void each_event_in(std::string_view text, const std::function<void(const JumpEvent&)>& take) {
+void each_event_in(std::string_view text, const std::function<void(const FlowEvent&)>& take) {
   LineCounter counter(text);
-  scan_events(text, [&](JumpEvent event, const char* line) {
+  scan_events(text, [&](FlowEvent event, const char* line) {
     event.line = static_cast<std::uint32_t>(counter.line_of(static_cast<std::size_t>(line - text.data())));
     take(event);
   });
@@ -200,34 +200,34 @@ JumpMap::JumpMap(std::vector<Site> sites) : sites_(std::move(sites)), knows_labe
 }
 
 void JumpMap::read_labels(std::string_view text) {
-  std::vector<Step> steps;
-  scan_events(text, [&](const JumpEvent& event, const char*) {
-    if (event.kind != JumpEvent::Kind::Label || names(event.label)) steps.emplace_back(event);
+  std::vector<ReducedEvent> steps;
+  scan_events(text, [&](const FlowEvent& event, const char*) {
+    if (event.kind != FlowEvent::Kind::Label || names(event.label)) steps.emplace_back(event);
   });
   follow(steps);
 }
 
 /// Computes what depends on the order of jumps, labels and assignments.
-void JumpMap::follow(const std::vector<Step>& steps) {
+void JumpMap::follow(const std::vector<ReducedEvent>& steps) {
   if (compares_registers()) find_reads(steps);
   find_targets(steps);
 }
 
 /// Goes from the end of the program to its start: as all jumps go forward, one pass finds which registers are read
 /// later.
-void JumpMap::find_reads(const std::vector<Step>& steps) {
+void JumpMap::find_reads(const std::vector<ReducedEvent>& steps) {
   std::unordered_map<std::uint64_t, RegisterSet> read_at_label;
   RegisterSet read = 0;
   std::size_t jump = sites_.size();
   for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
     switch (step->kind) {
-      case JumpEvent::Kind::Assignment:
+      case FlowEvent::Kind::Assignment:
         read &= ~register_bit(step->reg);
         break;
-      case JumpEvent::Kind::Label:
+      case FlowEvent::Kind::Label:
         read_at_label[step->label] = read;
         break;
-      case JumpEvent::Kind::Jump: {
+      case FlowEvent::Kind::Jump: {
         const syntax::Jump& condition = sites_[--jump].jump;
         const auto target = read_at_label.find(condition.target);
         reads_[jump].after = read;
@@ -242,12 +242,12 @@ void JumpMap::find_reads(const std::vector<Step>& steps) {
 }
 
 /// A line's label takes effect before its jump, so an IF cannot jump to its own line (D51).
-void JumpMap::find_targets(const std::vector<Step>& steps) {
+void JumpMap::find_targets(const std::vector<ReducedEvent>& steps) {
   std::unordered_map<std::uint64_t, std::size_t> last_definitions;
   std::vector<std::size_t> jumps;
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    if (steps[i].kind == JumpEvent::Kind::Jump) jumps.push_back(i);
-    if (steps[i].kind != JumpEvent::Kind::Label) continue;
+    if (steps[i].kind == FlowEvent::Kind::Jump) jumps.push_back(i);
+    if (steps[i].kind != FlowEvent::Kind::Label) continue;
     if (!last_definitions.insert_or_assign(steps[i].label, i).second) repeated_.insert(steps[i].label);
   }
   for (std::size_t jump = 0; jump < jumps.size(); ++jump) {
@@ -282,7 +282,7 @@ static bool jump_alike(const syntax::Jump& a, const syntax::Jump& b) {
          (a.value == b.value || (std::isnan(a.value) && std::isnan(b.value))) && a.target == b.target;
 }
 
-bool JumpEvent::means_the_same(const JumpEvent& other) const {
+bool FlowEvent::means_the_same(const FlowEvent& other) const {
   return kind == other.kind && reg == other.reg && label == other.label &&
          (kind != Kind::Jump || jump_alike(jump, other.jump));
 }

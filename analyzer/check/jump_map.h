@@ -18,7 +18,7 @@ using RegisterSet = std::uint32_t;
 constexpr RegisterSet register_bit(int reg) { return RegisterSet{1} << reg; }
 
 /// An event on a line that concerns jumps: an IF with its label, an assignment to a register, or a label.
-struct JumpEvent {
+struct FlowEvent {
   enum class Kind : std::uint8_t { Assignment, Jump, Label };
 
   Kind kind = Kind::Jump;
@@ -29,7 +29,7 @@ struct JumpEvent {
   syntax::Jump jump;
 
   /// Whether two events mean the same, wherever they are in the program.
-  bool means_the_same(const JumpEvent& other) const;
+  bool means_the_same(const FlowEvent& other) const;
 };
 
 /// Fast test: whether a text may hold assignments or jumps.
@@ -38,19 +38,19 @@ bool may_hold_jumps(std::string_view text);
 /// Calls `take` with the events of a line in the order in which they take effect: label, assignments, jump.
 template <class Take>
 void each_event(const syntax::LineTree& line, Take take) {
-  if (line.has_label()) take(JumpEvent{.kind = JumpEvent::Kind::Label, .label = line.label});
+  if (line.has_label()) take(FlowEvent{.kind = FlowEvent::Kind::Label, .label = line.label});
   for (const syntax::Instruction& instruction : line.instructions) {
     if (instruction.kind != syntax::InstructionKind::Assignment) continue;
     if (const auto assigned = execution::assigned_by(instruction, line))
-      take(JumpEvent{.kind = JumpEvent::Kind::Assignment,
+      take(FlowEvent{.kind = FlowEvent::Kind::Assignment,
                      .reg = static_cast<std::uint8_t>(assigned->reg),
                      .value = assigned->value});
   }
-  if (line.jump && line.jump->has_target) take(JumpEvent{.kind = JumpEvent::Kind::Jump, .jump = *line.jump});
+  if (line.jump && line.jump->has_target) take(FlowEvent{.kind = FlowEvent::Kind::Jump, .jump = *line.jump});
 }
 
-/// Calls `take` with the events of a text, without parsing lines that hold none; JumpEvent::line counts from its start.
-void each_event_in(std::string_view text, const std::function<void(const JumpEvent&)>& take);
+/// Calls `take` with the events of a text, without parsing lines that hold none; FlowEvent::line counts from its start.
+void each_event_in(std::string_view text, const std::function<void(const FlowEvent&)>& take);
 
 /// What must be known of a program's jumps before its first line is checked: the lines of the IFs, the labels that they
 /// name, the constants that they compare registers with, and which of them find their label. Jumps go forward only
@@ -111,10 +111,10 @@ class JumpMap {
   friend class JumpCollector;
 
   /// An event, reduced to what find_reads() and find_targets() need.
-  struct Step {
-    explicit Step(const JumpEvent& event) : kind(event.kind), reg(event.reg), label(event.label) {}
+  struct ReducedEvent {
+    explicit ReducedEvent(const FlowEvent& event) : kind(event.kind), reg(event.reg), label(event.label) {}
 
-    JumpEvent::Kind kind;
+    FlowEvent::Kind kind;
     std::uint8_t reg;     // The register assigned to.
     std::uint64_t label;  // The label defined.
   };
@@ -129,9 +129,9 @@ class JumpMap {
   /// The map of the jumps alone, without labels.
   explicit JumpMap(std::vector<Site> sites);
   void read_labels(std::string_view text);
-  void follow(const std::vector<Step>& steps);
-  void find_reads(const std::vector<Step>& steps);
-  void find_targets(const std::vector<Step>& steps);
+  void follow(const std::vector<ReducedEvent>& steps);
+  void find_reads(const std::vector<ReducedEvent>& steps);
+  void find_targets(const std::vector<ReducedEvent>& steps);
 
   // A filter of 2^20 bits: most line numbers are no targets, and the hash of the number rules most of them out.
   static std::size_t filter_bit(std::uint64_t label) { return (label * 0x9E3779B97F4A7C15ULL) >> 44; }

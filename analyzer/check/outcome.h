@@ -35,7 +35,7 @@ struct Outcome {
   };
 
   std::vector<LocatedFinding> findings;  ///< The findings, in the order of the lines.
-  std::vector<Path> paths;
+  std::vector<Decisions> paths;
   std::vector<Label> labels;              ///< Definitions of labels that some GOTO names.
   std::vector<std::uint32_t> live_jumps;  ///< Jumps on a feasible path, counted from the top of the file.
   std::uint64_t last_text_line = 0;       ///< The last line that holds any text (D47); valid if `has_text`.

@@ -39,23 +39,23 @@ ValueSet ValueSet::satisfying(syntax::Comparison comparison, double constant) {
   return everything();
 }
 
-void ValueSet::append(Range range) {
-  Range& last = tail_.size() == 0 ? head_ : tail_.back();
+void ValueSet::append(ValueInterval interval) {
+  ValueInterval& last = tail_.size() == 0 ? head_ : tail_.back();
   if (empty()) {
-    head_ = range;
-  } else if (range.first <= above(last.last)) {
-    last.last = std::max(last.last, range.last);
+    head_ = interval;
+  } else if (interval.first <= above(last.last)) {
+    last.last = std::max(last.last, interval.last);
   } else {
-    tail_.push_back(range);
+    tail_.push_back(interval);
   }
 }
 
 ValueSet ValueSet::intersected(const ValueSet& other) const {
   ValueSet result;
   for (std::size_t i = 0, j = 0; i < count() && j < other.count();) {
-    const Range a = range(i);
-    const Range b = other.range(j);
-    const Range common{std::max(a.first, b.first), std::min(a.last, b.last)};
+    const ValueInterval a = interval(i);
+    const ValueInterval b = other.interval(j);
+    const ValueInterval common{std::max(a.first, b.first), std::min(a.last, b.last)};
     if (common.first <= common.last) result.append(common);
     ++(a.last < b.last ? i : j);
   }
@@ -65,8 +65,8 @@ ValueSet ValueSet::intersected(const ValueSet& other) const {
 ValueSet ValueSet::united(const ValueSet& other) const {
   ValueSet result;
   for (std::size_t i = 0, j = 0; i < count() || j < other.count();) {
-    const bool take_mine = j == other.count() || (i < count() && range(i).first < other.range(j).first);
-    result.append(take_mine ? range(i++) : other.range(j++));
+    const bool take_mine = j == other.count() || (i < count() && interval(i).first < other.interval(j).first);
+    result.append(take_mine ? interval(i++) : other.interval(j++));
   }
   return result;
 }

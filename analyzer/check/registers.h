@@ -29,10 +29,10 @@ class ValueSet {
   friend bool operator==(const ValueSet&, const ValueSet&) = default;
 
  private:
-  /// The numbers from `first` to `last`, both included; an open range ends at the next representable number.
-  struct Range {
+  /// The numbers from `first` to `last`, both included; an open interval ends at the next representable number.
+  struct ValueInterval {
     double first, last;
-    friend bool operator==(const Range&, const Range&) = default;
+    friend bool operator==(const ValueInterval&, const ValueInterval&) = default;
   };
 
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -41,41 +41,42 @@ class ValueSet {
   ValueSet(double first, double last) : head_{first, last} {}
 
   std::size_t count() const { return empty() ? 0 : 1 + tail_.size(); }
-  const Range& range(std::size_t index) const { return index == 0 ? head_ : tail_[index - 1]; }
-  /// Adds a range above all others; joins it to the last one if no number lies between them.
-  void append(Range range);
+  const ValueInterval& interval(std::size_t index) const { return index == 0 ? head_ : tail_[index - 1]; }
+  /// Adds an interval above all others; joins it to the last one if no number lies between them.
+  void append(ValueInterval interval);
 
-  /// The ranges after the first. Nearly always there are none, and copying is then free.
+  /// The intervals after the first. Nearly always there are none, and copying is then free.
   class Tail {
    public:
     Tail() = default;
-    Tail(const Tail& other) : ranges_(other.ranges_ ? std::make_unique<std::vector<Range>>(*other.ranges_) : nullptr) {}
+    Tail(const Tail& other)
+        : intervals_(other.intervals_ ? std::make_unique<std::vector<ValueInterval>>(*other.intervals_) : nullptr) {}
     Tail(Tail&&) noexcept = default;
     Tail& operator=(Tail other) noexcept {
-      ranges_ = std::move(other.ranges_);
+      intervals_ = std::move(other.intervals_);
       return *this;
     }
     ~Tail() = default;
 
-    std::size_t size() const { return ranges_ ? ranges_->size() : 0; }
-    const Range& operator[](std::size_t index) const { return (*ranges_)[index]; }
-    Range& back() { return ranges_->back(); }
-    void push_back(Range range) {
-      if (!ranges_) ranges_ = std::make_unique<std::vector<Range>>();
-      ranges_->push_back(range);
+    std::size_t size() const { return intervals_ ? intervals_->size() : 0; }
+    const ValueInterval& operator[](std::size_t index) const { return (*intervals_)[index]; }
+    ValueInterval& back() { return intervals_->back(); }
+    void push_back(ValueInterval interval) {
+      if (!intervals_) intervals_ = std::make_unique<std::vector<ValueInterval>>();
+      intervals_->push_back(interval);
     }
 
     friend bool operator==(const Tail& a, const Tail& b) {
-      if (!a.ranges_ || !b.ranges_) return !a.ranges_ && !b.ranges_;
-      return *a.ranges_ == *b.ranges_;
+      if (!a.intervals_ || !b.intervals_) return !a.intervals_ && !b.intervals_;
+      return *a.intervals_ == *b.intervals_;
     }
 
    private:
-    std::unique_ptr<std::vector<Range>> ranges_;  // Null if there are none.
+    std::unique_ptr<std::vector<ValueInterval>> intervals_;  // Null if there are none.
   };
 
-  // The ranges, ascending, with at least one number between them.
-  Range head_{1, 0};
+  // The intervals, ascending, with at least one number between them.
+  ValueInterval head_{1, 0};
   Tail tail_;
 };
 

@@ -18,7 +18,7 @@ struct Decision {
 };
 
 /// The decisions that lead to a place, the latest first.
-using Path = std::vector<Decision>;
+using Decisions = std::vector<Decision>;
 
 /// A finding on its line.
 struct LocatedFinding {

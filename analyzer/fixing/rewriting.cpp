@@ -15,9 +15,9 @@ namespace isocnc::fixing {
 
 using dialect::ModalGroup;
 using execution::BlockRecorder;
-using execution::Feed;
-using execution::Move;
 using execution::MoveKind;
+using execution::ProgrammedFeed;
+using execution::ProgrammedMove;
 using execution::State;
 using fixes::Edit;
 using syntax::Instruction;
@@ -36,11 +36,11 @@ bool is_same(const geometry::Pose& a, const geometry::Pose& b) {
   return is_near(a.tip, b.tip, kSamePlace) && is_near(a.b, b.b, kSamePlace) && is_near(a.c, b.c, kSamePlace);
 }
 bool is_same_feed(double a, double b) { return std::abs(a - b) <= 1e-6 * std::max(std::abs(a), std::abs(b)); }
-bool is_same_feed(const Feed& a, const Feed& b) {
+bool is_same_feed(const ProgrammedFeed& a, const ProgrammedFeed& b) {
   return is_same_feed(a.number * a.mm_per_unit, b.number * b.mm_per_unit);
 }
 
-bool is_same(const Move& a, const Move& b) {
+bool is_same(const ProgrammedMove& a, const ProgrammedMove& b) {
   if (a.kind != b.kind || a.inverse_time != b.inverse_time || !is_same_feed(a.feed, b.feed)) return false;
   if (!is_same(a.from, b.from) || !is_same(a.to, b.to)) return false;
   if (a.kind != MoveKind::Arc) return true;
@@ -143,7 +143,7 @@ std::vector<const Word*> words_of(const LineTree& line, const Instruction& motio
 /// The words of the center, such as `I10 J0`, according to G90 or G91.
 std::string center_text(const BlockRecorder& done, double rounding) {
   const State& modes = done.modes();
-  const Move& arc = done.motion()->move;
+  const ProgrammedMove& arc = done.motion()->move;
   const execution::Plane& plane = execution::plane_in_force(modes);
   const auto word = [&](char letter, int axis) {
     const double center = arc.center[axis] - (modes.incremental() ? arc.from.tip[axis] : 0);
@@ -369,8 +369,9 @@ class Dimensions {
     return !rewrite.edits().empty();
   }
 
-  void set_motion(LineRewriter& rewrite, const LineTree& line, const Instruction& instruction, const Move& motion,
-                  double scale, double old_scale, bool incremental, double rounding) const {
+  void set_motion(LineRewriter& rewrite, const LineTree& line, const Instruction& instruction,
+                  const ProgrammedMove& motion, double scale, double old_scale, bool incremental,
+                  double rounding) const {
     const auto from_start = [&](double value, double start) { return incremental ? value - start : value; };
     for (const Word* const word : words_of(line, instruction, dialect::kDimensionLetters)) {
       const char letter = word->letter;

@@ -47,8 +47,8 @@ LineChange LinesFormatter::next(const LineTree& line) {
 
 /// Changes a motion only if all paths to the line agree on it and it takes all the line's words: other lines have
 /// findings, whose place would change.
-LineChange::Motion LinesFormatter::motion_change(const LineTree& line) const {
-  if (!motion_.is_known() || !line.findings.empty()) return LineChange::Motion::Keep;
+LineChange::MotionEdit LinesFormatter::motion_change(const LineTree& line) const {
+  if (!motion_.is_known() || !line.findings.empty()) return LineChange::MotionEdit::Keep;
   const dialect::GCode& in_force = *dialect::g_code(motion_.in_force());
   const bool writes = motions_ == MotionStyle::Write;
   const auto fits = [&](const Instruction& instruction) {
@@ -56,14 +56,14 @@ LineChange::Motion LinesFormatter::motion_change(const LineTree& line) const {
     return instruction.kind == InstructionKind::G && instruction.g() == &in_force;
   };
   const auto motion = std::find_if(line.instructions.begin(), line.instructions.end(), fits);
-  if (motion == line.instructions.end()) return LineChange::Motion::Keep;
+  if (motion == line.instructions.end()) return LineChange::MotionEdit::Keep;
   dialect::LetterSet given = 0;
   for (std::size_t i = motion->begin; i < motion->end; ++i)
     if (const syntax::Word& word = line.words[i]; word.owner == motion->number && word.letter != 'G')
       given |= dialect::letter_bit(word.letter);
   const bool is_sound = (given & dialect::kCoordinateLetters) != 0 && (given & ~in_force.arguments) == 0;
-  if (!is_sound) return LineChange::Motion::Keep;
-  return writes ? LineChange::Motion::Write : LineChange::Motion::Drop;
+  if (!is_sound) return LineChange::MotionEdit::Keep;
+  return writes ? LineChange::MotionEdit::Write : LineChange::MotionEdit::Drop;
 }
 
 ProgramFormatter::ProgramFormatter(std::string_view text, const ProgramStyle& style)

@@ -44,7 +44,7 @@ class LinesFormatter {
   }
 
  private:
-  syntax::LineChange::Motion motion_change(const syntax::LineTree& line) const;
+  syntax::LineChange::MotionEdit motion_change(const syntax::LineTree& line) const;
 
   MotionStyle motions_;
   syntax::Formatter formatter_;

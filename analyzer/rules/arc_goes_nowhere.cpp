@@ -4,7 +4,7 @@
 namespace isocnc::rules {
 
 /// An arc by radius that ends where it starts has no sweep (D36); a full turn needs a center.
-static void check_arc_goes_nowhere(const Block& block, execution::Sink& sink) {
+static void check_arc_goes_nowhere(const ExecutedBlock& block, execution::Sink& sink) {
   const dialect::GCode* const motion = block.motion();
   if (!motion || !motion->is_arc() || block.before.unknown != 0 || block.after.unknown != 0) return;
   const syntax::Word* radius = nullptr;

@@ -8,7 +8,7 @@
 namespace isocnc::rules {
 
 /// Face axes that the control accepts as orthogonal, but that are not exactly so (D26).
-static void check_axes_nearly_orthogonal(const Block& block, execution::Sink& sink) {
+static void check_axes_nearly_orthogonal(const ExecutedBlock& block, execution::Sink& sink) {
   const syntax::Word* word = block.g(GRole::FaceAtTip);
   if (!word) word = block.g(GRole::FaceByAxes);
   if (!word || !block.after.face_mounted || block.after.face_undefined) return;

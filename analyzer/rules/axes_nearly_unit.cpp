@@ -9,7 +9,7 @@ namespace isocnc::rules {
 static constexpr double kChosen = 0.1;
 
 /// Skips vectors with a component of 1 or more, and exact ones: those give a direction, not a unit vector.
-static void check_vector(const Block& block, std::string_view letters, execution::Sink& sink) {
+static void check_vector(const ExecutedBlock& block, std::string_view letters, execution::Sink& sink) {
   double square = 0;
   bool is_direction = false;
   syntax::Span span;
@@ -26,7 +26,7 @@ static void check_vector(const Block& block, std::string_view letters, execution
 }
 
 /// The axis vectors of G24 and G28, which the control normalizes whatever their length (D26).
-static void check_axes_nearly_unit(const Block& block, execution::Sink& sink) {
+static void check_axes_nearly_unit(const ExecutedBlock& block, execution::Sink& sink) {
   const GRole role = block.g(GRole::FaceByAxes) ? GRole::FaceByAxes : GRole::FaceAtTip;
   if (!block.g(role)) return;
   for (std::size_t axis = 0; axis < 3; ++axis)

@@ -10,7 +10,7 @@ static constexpr RuleMemory kCompensationStart = {
                    .ended_by = at(BlockStep::CompensationOff, BlockStep::CompensatedMotion)}}};
 
 /// An arc as the first motion under G41 or G42.
-static void check_compensation_begins_on_arc(const Block& block, execution::Sink& sink) {
+static void check_compensation_begins_on_arc(const ExecutedBlock& block, execution::Sink& sink) {
   const dialect::GCode* const motion = block.motion();
   if (!motion || !motion->is_arc()) return;
   const bool begins_here =

@@ -3,7 +3,7 @@
 namespace isocnc::rules {
 
 /// G04 P0, and a P long enough to have been meant in milliseconds.
-static void check_dwell_of_odd_length(const Block& block, execution::Sink& sink) {
+static void check_dwell_of_odd_length(const ExecutedBlock& block, execution::Sink& sink) {
   if (!block.g(GRole::Dwell)) return;
   for (const syntax::Word& word : block.line.words)
     if (word.letter == 'P' && word.owner != syntax::Word::kNoOwner &&

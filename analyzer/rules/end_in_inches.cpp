@@ -3,7 +3,7 @@
 namespace isocnc::rules {
 
 /// M02 with G70 in force.
-static void check_end_in_inches(const Block& block, execution::Sink& sink) {
+static void check_end_in_inches(const ExecutedBlock& block, execution::Sink& sink) {
   const syntax::Word* const end = block.m(dialect::kProgramEnd);
   if (end && block.after.in_inches()) report(sink, "end-in-inches"_diag, end->span());
 }

@@ -3,7 +3,7 @@
 namespace isocnc::rules {
 
 /// M02 with G91 in force.
-static void check_end_in_incremental(const Block& block, execution::Sink& sink) {
+static void check_end_in_incremental(const ExecutedBlock& block, execution::Sink& sink) {
   const syntax::Word* const end = block.m(dialect::kProgramEnd);
   if (end && block.after.incremental()) report(sink, "end-in-incremental"_diag, end->span());
 }

@@ -3,7 +3,7 @@
 namespace isocnc::rules {
 
 /// M02 without G27 before it.
-static void check_end_with_face_mounted(const Block& block, execution::Sink& sink) {
+static void check_end_with_face_mounted(const ExecutedBlock& block, execution::Sink& sink) {
   const syntax::Word* const end = block.m(dialect::kProgramEnd);
   if (end && block.after.face_mounted) report(sink, "end-with-face-mounted"_diag, end->span());
 }

@@ -3,7 +3,7 @@
 namespace isocnc::rules {
 
 /// An F on a line with G00, which ignores it (I.3.7, D43); in G93 W003 reports it.
-static void check_feed_on_rapid(const Block& block, execution::Sink& sink) {
+static void check_feed_on_rapid(const ExecutedBlock& block, execution::Sink& sink) {
   const syntax::LineTree& line = block.line;
   if (line.feed < 0 || !block.motion() || block.motion()->is_feed_move() || block.after.inverse_time()) return;
   const syntax::Word& feed = line.words[static_cast<std::size_t>(line.feed)];

@@ -6,7 +6,7 @@ namespace isocnc::rules {
 
 /// Of two Gs of one modal group on a line only the later one counts (D20), unless a motion between them uses the first
 /// (D14). W001 reports the same G twice.
-static void check_modal_group_twice(const Block& block, execution::Sink& sink) {
+static void check_modal_group_twice(const ExecutedBlock& block, execution::Sink& sink) {
   std::array<const syntax::Word*, dialect::kModalGroupCount> first{};
   for (const syntax::Instruction& instruction : block.line.instructions) {
     const dialect::GCode* const code = instruction.kind == syntax::InstructionKind::G ? instruction.g() : nullptr;

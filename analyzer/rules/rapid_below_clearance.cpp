@@ -4,7 +4,8 @@
 namespace isocnc::rules {
 
 /// A rapid that goes down below the clearance, or moves across the face below it; rising rapids are allowed.
-static void check_rapid_below_clearance(const Block& block, const execution::Move& move, execution::Sink& sink) {
+static void check_rapid_below_clearance(const ExecutedBlock& block, const execution::ProgrammedMove& move,
+                                        execution::Sink& sink) {
   if (move.kind != execution::MoveKind::Rapid || !block.setup.clearance) return;
   const double clearance = *block.setup.clearance - geometry::kEqualCoordinate;
   const geometry::Vec3 way = move.to.tip - move.from.tip;

@@ -8,7 +8,8 @@
 namespace isocnc::rules {
 
 /// A feed move that would turn B or C faster than the machine's maximum, in degrees/min.
-static void check_rotary_speed_above_machine(const Block& block, const execution::Move& move, execution::Sink& sink) {
+static void check_rotary_speed_above_machine(const ExecutedBlock& block, const execution::ProgrammedMove& move,
+                                             execution::Sink& sink) {
   if (move.kind == execution::MoveKind::Rapid || !(move.feed > 0)) return;
   const double b = std::abs(move.to.b - move.from.b);
   const double c = std::abs(move.to.c - move.from.c);

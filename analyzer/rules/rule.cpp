@@ -55,7 +55,7 @@ static unsigned parts_of(const syntax::LineTree& line) {
   return parts;
 }
 
-void run_rules(Block block, const Memory& memory, execution::Sink& sink) {
+void run_rules(ExecutedBlock block, const Memory& memory, execution::Sink& sink) {
   for (RuleSet rest = kConcerned[parts_of(block.line)]; rest != 0; rest &= rest - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(rest));
     block.remembered = memory.of_rule(i);
@@ -67,7 +67,7 @@ bool checks_moves(const CheckSetup& setup) {
   return setup.every_motion || setup.machine.clearance || setup.machine.limits != execution::Limits{};
 }
 
-void run_move_rules(const Block& block, const execution::Move& move, execution::Sink& sink) {
+void run_move_rules(const ExecutedBlock& block, const execution::ProgrammedMove& move, execution::Sink& sink) {
   if ((block.before.unknown | block.after.unknown) != 0 || !block.after.is_frame_known()) return;
   for (const Rule* const rule : kRules)
     if (rule->check_move) rule->check_move(block, move, sink);
@@ -94,27 +94,27 @@ static const syntax::Instruction* motion_instruction(const syntax::LineTree& lin
   return found;
 }
 
-const dialect::GCode* Block::motion() const {
+const dialect::GCode* ExecutedBlock::motion() const {
   const syntax::Instruction* const motion = motion_instruction(line);
   if (!motion) return nullptr;
   return motion->kind == syntax::InstructionKind::G ? motion->g() : before.motion();
 }
 
-bool Block::has_feed_move() const {
+bool ExecutedBlock::has_feed_move() const {
   const dialect::GCode* const code = motion();
   return code && code->is_feed_move();
 }
 
-const syntax::Word& Block::motion_word() const { return line.command(*motion_instruction(line)); }
+const syntax::Word& ExecutedBlock::motion_word() const { return line.command(*motion_instruction(line)); }
 
-const syntax::Word* Block::argument(char letter) const {
+const syntax::Word* ExecutedBlock::argument(char letter) const {
   const syntax::Instruction& motion = *motion_instruction(line);
   for (std::size_t i = motion.begin; i < motion.end; ++i)
     if (line.words[i].owner == motion.number && line.words[i].letter == letter) return &line.words[i];
   return nullptr;
 }
 
-int Block::spindle_function_before(const syntax::Word& word) const {
+int ExecutedBlock::spindle_function_before(const syntax::Word& word) const {
   int last = 0;
   for (const syntax::Instruction& instruction : line.instructions) {
     const syntax::Word& command = line.command(instruction);
@@ -125,7 +125,7 @@ int Block::spindle_function_before(const syntax::Word& word) const {
   return last;
 }
 
-bool Block::has_user_function() const {
+bool ExecutedBlock::has_user_function() const {
   return std::any_of(line.instructions.begin(), line.instructions.end(), [&](const syntax::Instruction& instruction) {
     const syntax::Word& command = line.command(instruction);
     return instruction.kind == syntax::InstructionKind::Function && command.known() &&
@@ -133,13 +133,13 @@ bool Block::has_user_function() const {
   });
 }
 
-const syntax::Word* Block::g(dialect::GRole role) const {
+const syntax::Word* ExecutedBlock::g(dialect::GRole role) const {
   for (const syntax::Instruction& instruction : line.instructions)
     if (instruction.is(role)) return &line.command(instruction);
   return nullptr;
 }
 
-const syntax::Word* Block::m(int number) const {
+const syntax::Word* ExecutedBlock::m(int number) const {
   for (const syntax::Instruction& instruction : line.instructions) {
     const bool is_m = instruction.kind == syntax::InstructionKind::Function ||
                       instruction.kind == syntax::InstructionKind::ToolChange;

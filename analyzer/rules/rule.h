@@ -12,7 +12,7 @@ using namespace dialect::literals;
 using dialect::GRole;
 
 /// A line executed on one path: the input of a lint rule.
-struct Block {
+struct ExecutedBlock {
   const syntax::LineTree& line;
   const execution::State& before;
   const execution::State& after;
@@ -57,8 +57,9 @@ inline constexpr unsigned kAllParts = 63;
 /// all motions with known ends, but only where checks_moves().
 struct Rule {
   unsigned concerns = 0;
-  void (*check)(const Block& block, execution::Sink& sink) = nullptr;
-  void (*check_move)(const Block& block, const execution::Move& move, execution::Sink& sink) = nullptr;
+  void (*check)(const ExecutedBlock& block, execution::Sink& sink) = nullptr;
+  void (*check_move)(const ExecutedBlock& block, const execution::ProgrammedMove& move,
+                     execution::Sink& sink) = nullptr;
   const RuleMemory* memory = nullptr;  ///< Several rules may share one.
 };
 
@@ -68,14 +69,14 @@ inline void report(execution::Sink& sink, dialect::DiagnosticId id, syntax::Span
 }
 
 /// Runs all rules on a block. `memory` is that before it.
-void run_rules(Block block, const Memory& memory, execution::Sink& sink);
+void run_rules(ExecutedBlock block, const Memory& memory, execution::Sink& sink);
 
 /// Whether rules judge each motion. This disables the fast path for plain lines, so it is on only if the setup has
 /// limits or a rule for all motions is selected.
 bool checks_moves(const CheckSetup& setup);
 
 /// Runs all rules on the motion of a block, given in the frame in force after the block.
-void run_move_rules(const Block& block, const execution::Move& move, execution::Sink& sink);
+void run_move_rules(const ExecutedBlock& block, const execution::ProgrammedMove& move, execution::Sink& sink);
 
 /// Judges an arc that the control accepts. Reports W142 if it is legal both ways and `suspects_centers` is set;
 /// otherwise W112 if it would not fit with half the tolerance.

@@ -5,7 +5,7 @@ namespace isocnc::rules {
 
 /// A feed move after M05, or after an S without M03 or M04. Without an S, the program may need no spindle: it may be
 /// for a laser, or be part of a program.
-static void check_spindle_stopped_feed(const Block& block, execution::Sink& sink) {
+static void check_spindle_stopped_feed(const ExecutedBlock& block, execution::Sink& sink) {
   if (!block.has_feed_move()) return;
   const int function = block.spindle_function_before(block.motion_word());
   if (function != 0 && function != 5) return;

@@ -5,7 +5,7 @@
 namespace isocnc::rules {
 
 /// A tool change to the tool that is already mounted.
-static void check_tool_already_mounted(const Block& block, execution::Sink& sink) {
+static void check_tool_already_mounted(const ExecutedBlock& block, execution::Sink& sink) {
   if (!block.before.tool_known || block.after.tool != block.before.tool) return;
   const auto tool = std::find_if(block.line.words.begin(), block.line.words.end(),
                                  [](const syntax::Word& word) { return word.letter == 'T'; });

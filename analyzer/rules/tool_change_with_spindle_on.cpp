@@ -3,7 +3,7 @@
 namespace isocnc::rules {
 
 /// M06 while M03 or M04 is in force.
-static void check_tool_change_with_spindle_on(const Block& block, execution::Sink& sink) {
+static void check_tool_change_with_spindle_on(const ExecutedBlock& block, execution::Sink& sink) {
   const syntax::Word* const change = block.m(dialect::kToolChange);
   if (!change) return;
   const int function = block.spindle_function_before(*change);

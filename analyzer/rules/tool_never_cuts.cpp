@@ -11,7 +11,7 @@ static constexpr RuleMemory kToolUse = {
                                   BlockStep::ToolLost, kMayBeMotion, kMayBeFunction)}}};
 
 /// A tool change to another tool although the last one has not been used.
-static void check_tool_never_cuts(const Block& block, execution::Sink& sink) {
+static void check_tool_never_cuts(const ExecutedBlock& block, execution::Sink& sink) {
   const syntax::Word* const change = block.m(dialect::kToolChange);
   if (!change || !block.holds(kUncut) || block.after.tool == block.before.tool) return;
   const bool cuts_here = block.has_feed_move() && block.motion_word().begin < change->begin;

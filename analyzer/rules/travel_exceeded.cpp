@@ -10,7 +10,8 @@ using execution::Travel;
 
 /// The place where an axis exceeds its travel, at the end of a motion or at an arc's extreme point. A motion that
 /// starts outside is reported only if it goes further out: the return is part of the same mistake.
-static void check_travel_exceeded(const Block& block, const execution::Move& move, execution::Sink& sink) {
+static void check_travel_exceeded(const ExecutedBlock& block, const execution::ProgrammedMove& move,
+                                  execution::Sink& sink) {
   constexpr double kSlack = 1e-6;
   const geometry::Vec3 from = block.after.to_machine(move.from.tip);
   const std::array<double, execution::kAxisCount> start = {from.x(), from.y(), from.z(), move.from.b, move.from.c};

@@ -5,7 +5,7 @@
 namespace isocnc::rules {
 
 /// A user-defined M that the machine file does not list.
-static void check_unnamed_function(const Block& block, execution::Sink& sink) {
+static void check_unnamed_function(const ExecutedBlock& block, execution::Sink& sink) {
   if (!block.setup.functions) return;
   const auto& named = *block.setup.functions;
   for (const syntax::Instruction& instruction : block.line.instructions) {

@@ -12,7 +12,7 @@ namespace isocnc::debuggee {
 namespace {
 
 /// Every few degrees, and where X, Y and Z turn around.
-std::vector<geometry::Pose> points_on(const execution::Move& arc) {
+std::vector<geometry::Pose> points_on(const execution::ProgrammedMove& arc) {
   constexpr double kStep = std::numbers::pi / 32;
   const geometry::Helix helix = geometry::helix(arc.from.tip, arc.to.tip, arc.center, arc.normal, arc.sweep_deg);
   std::vector<double> angles;

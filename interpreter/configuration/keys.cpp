@@ -9,8 +9,6 @@
 
 namespace isocnc::configuration {
 
-using Kind = KeyKind;
-
 static constexpr std::string_view kSeverities[] = {"error", "warning", "info", "off"};
 static constexpr std::string_view kModal[] = {"keep", "write", "fold"};
 static constexpr std::string_view kMachineKinds[] = {"three-axis", "head", "table"};
@@ -57,7 +55,7 @@ static void add_home(std::vector<Key>& keys) {
                   .documentation = "Where the spindle nose stands when a program starts, in machine coordinates."});
   for (const AxisKeys& axis : kAxes)
     keys.push_back({.path = "machine.home." + lower(axis.letter),
-                    .kind = Kind::Number,
+                    .kind = KeyKind::Number,
                     .range = axis.range(),
                     .unit = axis.unit(),
                     .documentation = "The coordinate at home.",
@@ -83,26 +81,26 @@ static void add_axes(std::vector<Key>& keys) {
                       return min_above_max(c.machine.setup.limits.travel[axis.index]);
                     }});
     keys.push_back({.path = path + ".min",
-                    .kind = Kind::Number,
+                    .kind = KeyKind::Number,
                     .range = axis.range(),
                     .unit = axis.unit(),
                     .documentation = "The minimum coordinate.",
                     .slot = [travel](Configuration& c, std::size_t) -> ValueSlot { return &travel(c).minimum; }});
     keys.push_back({.path = path + ".max",
-                    .kind = Kind::Number,
+                    .kind = KeyKind::Number,
                     .range = axis.range(),
                     .unit = axis.unit(),
                     .documentation = "The maximum coordinate.",
                     .slot = [travel](Configuration& c, std::size_t) -> ValueSlot { return &travel(c).maximum; }});
     keys.push_back(
         {.path = path + ".rapid",
-         .kind = Kind::Number,
+         .kind = KeyKind::Number,
          .range = kSpeed,
          .unit = axis.is_rotary ? "degrees/min" : "mm/min",
          .documentation = "The maximum speed of the axis, in rapids and in feed moves.",
          .slot = [axis](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.rapids[axis.index]; }});
     keys.push_back({.path = path + ".acceleration",
-                    .kind = Kind::Number,
+                    .kind = KeyKind::Number,
                     .range = kAcceleration,
                     .unit = axis.is_rotary ? "degrees/s^2" : "mm/s^2",
                     .documentation = "The maximum acceleration of the axis, also when it slows down.",
@@ -110,7 +108,7 @@ static void add_axes(std::vector<Key>& keys) {
                       return &c.machine.timed.motion.axes[axis.index].acceleration;
                     }});
     keys.push_back({.path = path + ".jerk",
-                    .kind = Kind::Number,
+                    .kind = KeyKind::Number,
                     .range = {0, 1e7, true},
                     .unit = axis.is_rotary ? "degrees/s^3" : "mm/s^3",
                     .documentation = "The maximum jerk of the axis; without it, the acceleration may change at once.",
@@ -122,48 +120,48 @@ static void add_axes(std::vector<Key>& keys) {
 
 static void add_limits(std::vector<Key>& keys) {
   keys.push_back({.path = "machine.maxFeed",
-                  .kind = Kind::Number,
+                  .kind = KeyKind::Number,
                   .range = kSpeed,
                   .unit = "mm/min",
                   .documentation = "The greatest feed rate (W131).",
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.setup.limits.feed; }});
   keys.push_back(
       {.path = "machine.maxRotarySpeed",
-       .kind = Kind::Number,
+       .kind = KeyKind::Number,
        .range = kSpeed,
        .unit = "degrees/min",
        .documentation = "The maximum speed of B and C (W132).",
        .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.setup.limits.rotary_speed; }});
   keys.push_back(
       {.path = "machine.maxSpindleSpeed",
-       .kind = Kind::Number,
+       .kind = KeyKind::Number,
        .range = kSpeed,
        .unit = "rev/min",
        .documentation = "The greatest S (W133).",
        .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.setup.limits.spindle_speed; }});
   keys.push_back({.path = "machine.tolerances", .documentation = "How exact the control wants programs to be."});
   keys.push_back({.path = "machine.tolerances.arc",
-                  .kind = Kind::Number,
+                  .kind = KeyKind::Number,
                   .range = {1e-6, 10},
                   .unit = "mm",
                   .documentation = "How far the given points of an arc may be from a circle (ISO029, ISO030, ISO031).",
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.setup.arc_tolerance; }});
   keys.push_back(
       {.path = "machine.tolerances.chord",
-       .kind = Kind::Number,
+       .kind = KeyKind::Number,
        .range = kRounding,
        .unit = "mm",
        .documentation = "How far the lines that replace an arc in G49 may be from it (I.3.4.3.a).",
        .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.timed.motion.chord_tolerance; }});
   keys.push_back(
       {.path = "machine.tolerances.corner",
-       .kind = Kind::Number,
+       .kind = KeyKind::Number,
        .range = kRounding,
        .unit = "mm",
        .documentation = "How far from the programmed path the tip may round a corner.",
        .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.timed.motion.corner_tolerance; }});
   keys.push_back({.path = "machine.clearance",
-                  .kind = Kind::Number,
+                  .kind = KeyKind::Number,
                   .range = kLength,
                   .unit = "mm",
                   .documentation = "The Z of the face frame below which no rapid should go (W134).",
@@ -186,7 +184,7 @@ static void add_point(std::vector<Key>& keys, const std::string& path, std::stri
   for (int axis = 0; axis < 3; ++axis)
     keys.push_back(
         {.path = path + "." + std::string(1, static_cast<char>('x' + axis)),
-         .kind = Kind::Number,
+         .kind = KeyKind::Number,
          .range = kLength,
          .unit = "mm",
          .documentation = documentation,
@@ -196,13 +194,13 @@ static void add_point(std::vector<Key>& keys, const std::string& path, std::stri
 static void add_kinematics(std::vector<Key>& keys) {
   keys.push_back({.path = "machine.kinematics", .documentation = "How B and C carry the tool or the workpiece."});
   keys.push_back({.path = "machine.kinematics.type",
-                  .kind = Kind::Choice,
+                  .kind = KeyKind::Choice,
                   .choices = kMachineKinds,
                   .documentation = "No rotary axes; a head that C turns and B tilts; a table that B tilts and C turns.",
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.kind; }});
   keys.push_back(
       {.path = "machine.kinematics.pivot",
-       .kind = Kind::Number,
+       .kind = KeyKind::Number,
        .range = {0, 1e4},
        .unit = "mm",
        .documentation = "Head: from the B axis down to the spindle nose, with B at 0.",
@@ -220,7 +218,7 @@ static void add_kinematics(std::vector<Key>& keys) {
 static void add_times(std::vector<Key>& keys) {
   const auto add = [&](std::string_view name, std::string_view documentation, auto member) {
     keys.push_back({.path = "machine.times." + std::string(name),
-                    .kind = Kind::Number,
+                    .kind = KeyKind::Number,
                     .range = {0, 1e5},
                     .unit = "s",
                     .documentation = documentation,
@@ -248,7 +246,7 @@ static std::optional<Objection> tool_twice(const Configuration& configuration, s
 static void add_tools(std::vector<Key>& keys) {
   const auto add = [&](std::string_view name, NumberRange range, std::string_view documentation, auto member) {
     keys.push_back({.path = "machine.tools[]." + std::string(name),
-                    .kind = Kind::Integer,
+                    .kind = KeyKind::Integer,
                     .range = range,
                     .documentation = documentation,
                     .is_required = true,
@@ -257,7 +255,7 @@ static void add_tools(std::vector<Key>& keys) {
                     }});
   };
   keys.push_back({.path = "machine.tools",
-                  .kind = Kind::Objects,
+                  .kind = KeyKind::Objects,
                   .documentation = "The tools that the machine has; without this list M06 takes any (ISO067).",
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.tools; },
                   .objection = tool_twice});
@@ -265,17 +263,17 @@ static void add_tools(std::vector<Key>& keys) {
   add("holder", {1, 99}, "The holder: the second and third digit.", &execution::ToolCode::holder);
   add("tool", {1, 999}, "The tool: the last three digits.", &execution::ToolCode::tool);
   keys.push_back({.path = "machine.tools[].name",
-                  .kind = Kind::Text,
+                  .kind = KeyKind::Text,
                   .documentation = "What the shop calls the tool.",
                   .slot = [](Configuration& c, std::size_t i) -> ValueSlot { return &(*c.machine.tools)[i].name; }});
   keys.push_back({.path = "machine.tools[].length",
-                  .kind = Kind::Number,
+                  .kind = KeyKind::Number,
                   .range = {0, 1e4, true},
                   .unit = "mm",
                   .documentation = "From the spindle nose to the tip.",
                   .slot = [](Configuration& c, std::size_t i) -> ValueSlot { return &(*c.machine.tools)[i].length; }});
   keys.push_back({.path = "machine.tools[].radius",
-                  .kind = Kind::Number,
+                  .kind = KeyKind::Number,
                   .range = {0, 1e4, true},
                   .unit = "mm",
                   .documentation = "The radius of what cuts, by which G41 and G42 lead the tool beside the contour.",
@@ -292,19 +290,19 @@ static std::optional<Objection> function_twice(const Configuration& configuratio
 
 static void add_functions(std::vector<Key>& keys) {
   keys.push_back({.path = "machine.functions",
-                  .kind = Kind::Named,
+                  .kind = KeyKind::Named,
                   .text = TextKind::Function,
                   .documentation = "The M functions of the shop, each by its M: \"M100\" (W129).",
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.functions; },
                   .objection = function_twice});
   keys.push_back(
       {.path = "machine.functions.*.name",
-       .kind = Kind::Text,
+       .kind = KeyKind::Text,
        .documentation = "What the function does.",
        .slot = [](Configuration& c, std::size_t i) -> ValueSlot { return &(*c.machine.functions)[i].name; }});
   keys.push_back(
       {.path = "machine.functions.*.time",
-       .kind = Kind::Number,
+       .kind = KeyKind::Number,
        .range = {0, 1e5},
        .unit = "s",
        .documentation = "How long the machine waits for it.",
@@ -316,19 +314,19 @@ using SelectionGetter = CodeSelection& (*)(Configuration& configuration, std::si
 static void add_selection_keys(std::vector<Key>& keys, const std::string& path, SelectionGetter selection) {
   keys.push_back(
       {.path = path + ".select",
-       .kind = Kind::Texts,
+       .kind = KeyKind::Texts,
        .text = TextKind::Code,
        .documentation = "Shows these codes alone: codes, names, beginnings of codes, ALL.",
        .slot = [selection](Configuration& c, std::size_t i) -> ValueSlot { return &selection(c, i).select; }});
   keys.push_back(
       {.path = path + ".ignore",
-       .kind = Kind::Texts,
+       .kind = KeyKind::Texts,
        .text = TextKind::Code,
        .documentation = "Does not show these codes.",
        .slot = [selection](Configuration& c, std::size_t i) -> ValueSlot { return &selection(c, i).ignore; }});
   keys.push_back(
       {.path = path + ".severity",
-       .kind = Kind::Severities,
+       .kind = KeyKind::Severities,
        .text = TextKind::Code,
        .choices = kSeverities,
        .documentation = "How much codes weigh.",
@@ -341,7 +339,7 @@ static void add_options(std::vector<Key>& keys) {
                        auto member) {
     keys.push_back(
         {.path = "lint.options." + std::string(name),
-         .kind = Kind::Number,
+         .kind = KeyKind::Number,
          .range = range,
          .unit = unit,
          .documentation = documentation,
@@ -360,11 +358,11 @@ static void add_lint(std::vector<Key>& keys) {
   add_selection_keys(keys, "lint", [](Configuration& c, std::size_t) -> CodeSelection& { return c.lint.selection; });
   add_options(keys);
   keys.push_back({.path = "lint.files",
-                  .kind = Kind::Objects,
+                  .kind = KeyKind::Objects,
                   .documentation = "What holds for some programs alone; the later outweighs the earlier.",
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.lint.files; }});
   keys.push_back({.path = "lint.files[].paths",
-                  .kind = Kind::Texts,
+                  .kind = KeyKind::Texts,
                   .text = TextKind::Pattern,
                   .documentation = "Which programs: patterns of paths from the folder of this file.",
                   .is_required = true,
@@ -373,13 +371,13 @@ static void add_lint(std::vector<Key>& keys) {
   add_selection_keys(keys, "lint.files[]",
                      [](Configuration& c, std::size_t i) -> CodeSelection& { return c.lint.files[i].selection; });
   keys.push_back({.path = "lint.extensions",
-                  .kind = Kind::Texts,
+                  .kind = KeyKind::Texts,
                   .text = TextKind::Extension,
                   .documentation = "What the names of programs end in; a search of a folder takes these files.",
                   .is_never_empty = true,
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.lint.extensions; }});
   keys.push_back({.path = "lint.exclude",
-                  .kind = Kind::Texts,
+                  .kind = KeyKind::Texts,
                   .text = TextKind::Pattern,
                   .documentation = "What a search passes over: patterns of paths from the folder of this file.",
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.lint.exclude; }});
@@ -388,21 +386,21 @@ static void add_lint(std::vector<Key>& keys) {
 static void add_format(std::vector<Key>& keys) {
   keys.push_back({.path = "format", .documentation = "How isofmt writes programs."});
   keys.push_back({.path = "format.wordOrder",
-                  .kind = Kind::Boolean,
+                  .kind = KeyKind::Boolean,
                   .documentation = "N first, arguments in the usual order, then F; as --word-order.",
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.word_order; }});
   keys.push_back({.path = "format.decimals",
-                  .kind = Kind::Integer,
+                  .kind = KeyKind::Integer,
                   .range = {0, Format::kMaxDecimals},
                   .documentation = "Drops zeros from numbers that need no more decimals than this; as --decimals.",
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.decimals; }});
   keys.push_back({.path = "format.gDigits",
-                  .kind = Kind::Integer,
+                  .kind = KeyKind::Integer,
                   .range = {1, 2},
                   .documentation = "1 writes G1, 2 writes G01; as --g-digits.",
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.g_digits; }});
   keys.push_back({.path = "format.modal",
-                  .kind = Kind::Choice,
+                  .kind = KeyKind::Choice,
                   .choices = kModal,
                   .documentation = "Motion Gs on each line, where they change, or as written; as --modal.",
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.modal; }});
@@ -410,17 +408,17 @@ static void add_format(std::vector<Key>& keys) {
                   .documentation = "Gives lines new numbers; as --renumber.",
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.renumber; }});
   keys.push_back({.path = "format.renumber.start",
-                  .kind = Kind::Integer,
+                  .kind = KeyKind::Integer,
                   .range = {0, Renumber::kMaxNumber},
                   .documentation = "The first number.",
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.renumber->start; }});
   keys.push_back({.path = "format.renumber.step",
-                  .kind = Kind::Integer,
+                  .kind = KeyKind::Integer,
                   .range = {1, Renumber::kMaxNumber},
                   .documentation = "From one number to the next.",
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.renumber->step; }});
   keys.push_back({.path = "format.renumber.allLines",
-                  .kind = Kind::Boolean,
+                  .kind = KeyKind::Boolean,
                   .documentation = "Numbers all lines that hold a block; as --renumber-all.",
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.renumber->all_lines; }});
 }
@@ -428,9 +426,9 @@ static void add_format(std::vector<Key>& keys) {
 static std::vector<Key> make_keys() {
   std::vector<Key> keys;
   keys.push_back(
-      {.path = "$schema", .kind = Kind::Text, .documentation = "Where editors find the schema of this file."});
+      {.path = "$schema", .kind = KeyKind::Text, .documentation = "Where editors find the schema of this file."});
   keys.push_back({.path = "language",
-                  .kind = Kind::Choice,
+                  .kind = KeyKind::Choice,
                   .choices = dialect::kLanguageNames,
                   .documentation = "The language of messages; as --lang.",
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.language; }});
@@ -454,8 +452,8 @@ const std::vector<Key>& all_keys() {
 
 std::string prefix_of(const Key* key) {
   if (key == nullptr) return "";
-  if (key->kind == Kind::Objects) return key->path + "[].";
-  return key->path + (key->kind == Kind::Named ? ".*." : ".");
+  if (key->kind == KeyKind::Objects) return key->path + "[].";
+  return key->path + (key->kind == KeyKind::Named ? ".*." : ".");
 }
 
 std::vector<const Key*> keys_below(const Key* key) {

@@ -11,7 +11,7 @@ class BlockRecorder final : public Sink {
  public:
   /// A motion with the state in which it runs: its frame, modes and spindle.
   struct Motion {
-    Move move;
+    ProgrammedMove move;
     State state;
   };
 
@@ -36,7 +36,7 @@ class BlockRecorder final : public Sink {
   const std::vector<Assigned>& assignments() const { return assignments_; }
 
   void report(const syntax::Finding& finding) override { findings_.push_back(finding); }
-  void move(const Move& move, const State& state) override { motions_.push_back({move, state}); }
+  void move(const ProgrammedMove& move, const State& state) override { motions_.push_back({move, state}); }
   void dwell(double seconds) override { dwell_ = seconds; }
   void assign(int reg, double value) override { assignments_.push_back({reg, value}); }
 

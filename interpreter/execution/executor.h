@@ -54,10 +54,10 @@ class Executor {
   void check_feed(syntax::Span place);
   bool check_rotary_axes(const Arguments& arguments, const dialect::GCode& code, syntax::Span place);
   void take_feed();
-  Feed feed_in_force() const;
+  ProgrammedFeed feed_in_force() const;
   void move_to(const Arguments& arguments);
   void move_with_effects(const Arguments& arguments, const dialect::GCode& code, syntax::Span place);
-  void arc(const Arguments& arguments, const dialect::GCode& code, syntax::Span place, Move* move);
+  void arc(const Arguments& arguments, const dialect::GCode& code, syntax::Span place, ProgrammedMove* move);
   std::optional<geometry::ArcGiven> read_arc(const Arguments& arguments, const Plane& plane) const;
   void report_centered_arc(const Arguments& arguments, const Plane& plane, const geometry::ArcGiven& given,
                            const geometry::Circle& circle);

@@ -45,7 +45,7 @@ static double helix_length(const MachineMove& arc, const Vec3& rise, bool leans)
   return tilted_helix_length(arc.radius, sweep, start, side, rise);
 }
 
-static void add_arc(MachineMove& result, const Move& move, const State& state) {
+static void add_arc(MachineMove& result, const ProgrammedMove& move, const State& state) {
   const auto axis = [&](int i) { return state.direction_to_machine(Vec3::Unit((move.normal_axis + i) % 3)); };
   const Vec3 along = axis(0);
   result.center = state.to_machine(move.center);
@@ -58,7 +58,7 @@ static void add_arc(MachineMove& result, const Move& move, const State& state) {
   result.length = helix_length(result, rise, leans);
 }
 
-MachineMove in_machine(const Move& move, const State& state) {
+MachineMove in_machine(const ProgrammedMove& move, const State& state) {
   MachineMove result;
   result.kind = move.kind;
   result.from = {state.to_machine(move.from.tip), move.from.b, move.from.c};

@@ -25,15 +25,15 @@ struct MachineMove {
   double radius = 0;
   double sweep_deg = 0;
   double length = 0;          ///< Length of the tip's path, mm.
-  double feed = 0;            ///< Feed in the units of Move::feed.
+  double feed = 0;            ///< Feed in the units of ProgrammedMove::feed.
   bool inverse_time = false;  ///< G93.
   bool five_axis = false;     ///< G49.
-  AxisSet placed = 0;         ///< Axes of the frame in force whose end is given (Move::placed).
+  AxisSet placed = 0;         ///< Axes of the frame in force whose end is given (ProgrammedMove::placed).
   CutterCompensation compensation;
 };
 
 /// Transforms a motion to the machine frame from the frame in force in `state`, the state in which the motion runs.
-MachineMove in_machine(const Move& move, const State& state);
+MachineMove in_machine(const ProgrammedMove& move, const State& state);
 
 /// The range that each axis covers during the motion, the bulges of arcs included.
 std::array<geometry::Range, kAxisCount> extents(const MachineMove& move);

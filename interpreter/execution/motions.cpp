@@ -56,11 +56,11 @@ void Executor::motion(const Instruction& instruction) {
 }
 
 void Executor::move_with_effects(const Arguments& arguments, const GCode& code, Span place) {
-  Move move;
+  ProgrammedMove move;
   move.kind = code.is_feed_move() ? MoveKind::Feed : MoveKind::Rapid;
   move.from = state_.position;
   if (code.is_feed_move()) {
-    const Feed feed = feed_in_force();
+    const ProgrammedFeed feed = feed_in_force();
     const bool rotary_only = (arguments.present() & dialect::kLinearLetters) == 0;
     move.inverse_time = state_.inverse_time();
     move.feed = feed.number * (rotary_only || move.inverse_time ? 1 : feed.mm_per_unit);
@@ -136,8 +136,8 @@ void Executor::take_feed() {
   execution::take_feed(number, state_);
 }
 
-Feed Executor::feed_in_force() const {
-  if (state_.inverse_time()) return line_.feed >= 0 ? state_.last_feed : Feed{};
+ProgrammedFeed Executor::feed_in_force() const {
+  if (state_.inverse_time()) return line_.feed >= 0 ? state_.last_feed : ProgrammedFeed{};
   return execution::feed_in_force(state_);
 }
 
@@ -276,7 +276,7 @@ void Executor::report_centered_arc(const Arguments& arguments, const Plane& plan
 }
 
 /// Checks an arc, and computes it unless `move` is null.
-void Executor::arc(const Arguments& arguments, const GCode& code, Span place, Move* move) {
+void Executor::arc(const Arguments& arguments, const GCode& code, Span place, ProgrammedMove* move) {
   const Plane& plane = plane_in_force(state_);
   if (!arc_is_described(arguments, plane, place)) return;
   std::optional<geometry::ArcGiven> given = read_arc(arguments, plane);

@@ -33,10 +33,10 @@ class PlainRun {
   /// other line. Inlined by force, as most lines of a program come here.
   [[gnu::always_inline]] bool run(const syntax::PlainLine& line) {
     if (!may_run_ || !line.has_coordinates()) return false;
-    const GRole motion = line.row == dialect::kUnknownGCode ? motion_ : dialect::kGCodes[line.row].role;
+    const dialect::GRole motion = line.row == dialect::kUnknownGCode ? motion_ : dialect::kGCodes[line.row].role;
     const bool has_feed = line.feed >= 0;
-    if (motion == GRole::Rapid ? has_feed : !has_feed && !feed_holds_) return false;
-    if (motion != GRole::Rapid && motion != GRole::Line) {
+    if (motion == dialect::GRole::Rapid ? has_feed : !has_feed && !feed_holds_) return false;
+    if (motion != dialect::GRole::Rapid && motion != dialect::GRole::Line) {
       if (motion == kNoMotion || !is_sound_arc(line)) return false;
     } else if ((line.arguments & ~straight_) != 0) {
       return false;
@@ -45,7 +45,7 @@ class PlainRun {
     if (has_feed) take_feed(line);
     motion_ = motion;
     has_run_ = true;
-    has_fed_ |= motion != GRole::Rapid;
+    has_fed_ |= motion != dialect::GRole::Rapid;
     return true;
   }
 
@@ -55,13 +55,12 @@ class PlainRun {
   /// Whether a feed move had an F.
   bool has_taken_feed() const { return has_taken_feed_; }
   /// Whether the last line was an arc.
-  bool was_arc() const { return motion_ != GRole::Rapid && motion_ != GRole::Line; }
+  bool was_arc() const { return motion_ != dialect::GRole::Rapid && motion_ != dialect::GRole::Line; }
   /// Whether there was an arc under G90 whose center could also be incremental.
   bool met_open_center() const { return met_open_center_; }
 
  private:
-  using GRole = dialect::GRole;
-  static constexpr GRole kNoMotion = GRole::Mode;
+  static constexpr dialect::GRole kNoMotion = dialect::GRole::Mode;
 
   [[gnu::always_inline]] void move_axes(const syntax::PlainLine& line) {
     for (const syntax::Word& word : line.words) {
@@ -87,8 +86,8 @@ class PlainRun {
   const dialect::LetterSet straight_;  ///< Axes that a straight motion may move.
   const bool incremental_;
   const bool may_run_;
-  bool feed_holds_;  ///< Whether a feed move without F is valid.
-  GRole motion_;     ///< The role of the motion in force, or kNoMotion.
+  bool feed_holds_;        ///< Whether a feed move without F is valid.
+  dialect::GRole motion_;  ///< The role of the motion in force, or kNoMotion.
   bool has_run_ = false;
   bool has_fed_ = false;
   bool has_taken_feed_ = false;

@@ -12,7 +12,7 @@ namespace isocnc::execution {
 enum class MoveKind : std::uint8_t { Rapid, Feed, Arc };
 
 /// One motion of the tool tip, in the frame in force when it runs.
-struct Move {
+struct ProgrammedMove {
   MoveKind kind = MoveKind::Rapid;
   geometry::Pose from;  ///< Frame in force; mm, degrees.
   geometry::Pose to;
@@ -83,7 +83,7 @@ class Sink {
   /// A step of the block; `before` is the state before it.
   virtual void step(BlockStep, const State& /*before*/) {}
   /// `state` is the one in which the motion runs: its frame, modes and spindle.
-  virtual void move(const Move&, const State&) {}
+  virtual void move(const ProgrammedMove&, const State&) {}
   /// An arc whose circle is given by its center, correct or not. Not called for the plain arcs of a PlainRun.
   virtual void centered_arc(const CenteredArc&) {}
   virtual void dwell(double) {}  ///< Seconds.

@@ -8,7 +8,7 @@ State initial_state(const Setup& setup) {
   return state;
 }
 
-Feed feed_in_force(const State& state) {
+ProgrammedFeed feed_in_force(const State& state) {
   return state.feed_per_minute.number > 0 ? state.feed_per_minute : state.last_feed;
 }
 

@@ -22,11 +22,11 @@ inline constexpr AxisSet kLinearAxes = 0b00111;
 
 /// A feed rate as written, and the length of its unit: 25.4 mm under G70. The unit holds for linear axes only; rotary
 /// axes alone move in degrees per minute under G70 as well as G71 (I.3.7).
-struct Feed {
+struct ProgrammedFeed {
   double number = 0;  ///< 0 before any F.
   double mm_per_unit = 1;
 
-  friend bool operator==(const Feed&, const Feed&) = default;
+  friend bool operator==(const ProgrammedFeed&, const ProgrammedFeed&) = default;
 };
 
 /// What the spindle does, as far as the program shows it. Unknown after a tool change, whose effect on the spindle
@@ -51,8 +51,8 @@ struct State {
   bool face_unplaced = false;       ///< The face was mounted at the tip (G28), whose position was unknown.
   bool dismount_tolerated = false;  ///< A G92 has dismounted the face (ISO055); a G27 after it is valid (D29).
 
-  Feed feed_per_minute;                ///< Last F under G94.
-  Feed last_feed;                      ///< Last F under either mode (D43).
+  ProgrammedFeed feed_per_minute;      ///< Last F under G94.
+  ProgrammedFeed last_feed;            ///< Last F under either mode (D43).
   double spindle_speed = 0;            ///< Revolutions per minute; 0 before any S.
   bool speed_given = false;            ///< An S has been given on some path, or may have lost its letter (D58).
   std::uint8_t spindle_function = 5;   ///< Number of the last spindle M: 3, 4 or 5.
@@ -103,7 +103,7 @@ struct State {
 State initial_state(const Setup& setup);
 
 /// The feed that an interpolated motion without F runs at (D43).
-Feed feed_in_force(const State& state);
+ProgrammedFeed feed_in_force(const State& state);
 
 /// Whether all later blocks get the same findings after `a` as after `b`: the states may differ only in the values of
 /// feed, spindle and tool, on which no check of the dialect depends.

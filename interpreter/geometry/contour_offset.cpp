@@ -54,7 +54,7 @@ void ContourOffset::lead_in(const PlaneCurve& line, const ContourElement& like, 
 void ContourOffset::add(const ContourElement& element) {
   const double to_side = element.side * radius_;
   PlaneCurve way = beside(element.curve, to_side);
-  Kept kept{.curve = element.curve, .box = box_around(element.curve), .number = ++count_, .side = element.side};
+  KeptElement kept{.curve = element.curve, .box = box_around(element.curve), .number = ++count_, .side = element.side};
   if (vanishes_beside(element.curve, to_side) && element.curve.radius() < radius_ - kGouge) {
     kept.is_too_small = true;
     if (element.cuts) flaws_.push_back({.tag = element.tag, .small_arc = element.curve.radius()});
@@ -91,7 +91,7 @@ void ContourOffset::add(const ContourElement& element) {
 /// Whether an element that comes now starts on one of the first elements of the contour.
 bool ContourOffset::closes(const PlaneCurve& curve) const {
   const PlaneCurve begin{.start = curve.start, .end = curve.start};
-  return std::any_of(contour_.begin(), contour_.end(), [&](const Kept& first) {
+  return std::any_of(contour_.begin(), contour_.end(), [&](const KeptElement& first) {
     return first.number <= before_ + kNeighbors && first.number + kNeighbors < count_ &&
            approach(begin, first.curve).distance() <= kGouge;
   });
@@ -100,7 +100,7 @@ bool ContourOffset::closes(const PlaneCurve& curve) const {
 /// Connects the last piece and the next: trims the start of `next`, or inserts a piece between them. `arriving` is the
 /// direction at the end of the contour's last element.
 void ContourOffset::join(PlaneCurve& next, const ContourElement& element, const Vec2& arriving) {
-  Piece& last = pieces_.back();
+  KeptPiece& last = pieces_.back();
   PlaneCurve& way = last.out.curve;
   const bool is_final = has_stopped();
   if (last.is_lead_in && !is_final) way.end = next.start;
@@ -138,7 +138,7 @@ bool ContourOffset::trim(PlaneCurve& next) {
 }
 
 void ContourOffset::insert(const PlaneCurve& curve) {
-  Piece piece = pieces_.back();
+  KeptPiece piece = pieces_.back();
   piece.out = {.curve = curve, .tag = piece.out.tag, .is_inserted = true};
   piece.is_lead_in = piece.is_reported = false;
   pieces_.push_back(piece);
@@ -146,10 +146,10 @@ void ContourOffset::insert(const PlaneCurve& curve) {
 }
 
 /// Checks a piece for gouges, once its end is known.
-void ContourOffset::finish_piece(Piece& piece) {
+void ContourOffset::finish_piece(KeptPiece& piece) {
   piece.gouges = piece.has_gouge_to_report = false;
   piece.box = box_around(piece.out.curve);
-  for (const Kept& element : contour_) look_at(piece, element);
+  for (const KeptElement& element : contour_) look_at(piece, element);
 }
 
 /// Whether the contour's walls face each other at a point of the cutter's path and a point of another element.
@@ -164,7 +164,7 @@ static bool may_face(const PlaneCurve& way, const PlaneCurve& element, int sides
   return way.is_arc() || element.is_arc() || faces(way, element, {}, sides);
 }
 
-void ContourOffset::look_at(Piece& piece, const Kept& element) const {
+void ContourOffset::look_at(KeptPiece& piece, const KeptElement& element) const {
   if (!piece.cuts || piece.pass != element.pass || piece.has_gouge_to_report) return;
   if (piece.number == element.number && !piece.out.is_inserted && !piece.is_lead_in) return;
   const auto [first, second] = std::minmax(piece.number, element.number);
@@ -192,7 +192,7 @@ bool ContourOffset::is_explained(std::uint64_t a, std::uint64_t b) const {
   const auto low = std::min(a, b);
   const auto high = std::max(a, b);
   if (high - low > 2) return false;
-  return std::any_of(contour_.begin(), contour_.end(), [&](const Kept& element) {
+  return std::any_of(contour_.begin(), contour_.end(), [&](const KeptElement& element) {
     return element.is_too_small && low <= element.number && element.number <= high;
   });
 }
@@ -209,12 +209,12 @@ void ContourOffset::reduce(std::size_t last) {
 
 bool ContourOffset::cut_loop(std::size_t first, std::size_t last) {
   for (const Crossing& crossing : crossings(pieces_[first].out.curve, pieces_[last].out.curve)) {
-    Piece cut = pieces_[first];
+    KeptPiece cut = pieces_[first];
     cut.out.curve = cut.out.curve.to(crossing.point, crossing.along_first);
     finish_piece(cut);
     if (cut.gouges) continue;
     pieces_[first] = cut;
-    Piece& rest = pieces_[last];
+    KeptPiece& rest = pieces_[last];
     rest.out.curve = rest.out.curve.from(crossing.point, crossing.along_second);
     if (last + 1 < pieces_.size()) finish_piece(rest);
     pieces_.erase(pieces_.begin() + static_cast<std::ptrdiff_t>(first) + 1,
@@ -231,7 +231,7 @@ void ContourOffset::finish() {
 }
 
 void ContourOffset::lead_out(const PlaneCurve& line, std::uint64_t tag) {
-  Piece piece{
+  KeptPiece piece{
       .out = {.curve = line, .tag = tag, .is_inserted = true}, .number = count_ + 1, .pass = pass_, .is_lead_in = true};
   finish_piece(piece);
   report_gouge(piece);
@@ -250,7 +250,7 @@ void ContourOffset::release(std::size_t held) {
 }
 
 /// Reports each piece at most once.
-void ContourOffset::report_gouge(Piece& piece) {
+void ContourOffset::report_gouge(KeptPiece& piece) {
   if (!piece.has_gouge_to_report || piece.is_reported) return;
   piece.is_reported = true;
   flaws_.push_back({.tag = piece.out.tag});

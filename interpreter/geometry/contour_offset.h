@@ -78,10 +78,10 @@ class ContourOffset {
   std::optional<ContourFlaw> next_flaw();
 
   /// Bytes held beside the object itself, once the caller has taken all pieces and flaws.
-  std::size_t memory() const { return contour_.size() * sizeof(Kept) + pieces_.size() * sizeof(Piece); }
+  std::size_t memory() const { return contour_.size() * sizeof(KeptElement) + pieces_.size() * sizeof(KeptPiece); }
 
  private:
-  struct Kept {
+  struct KeptElement {
     PlaneCurve curve;
     Eigen::AlignedBox2d box;
     std::uint64_t number = 0;
@@ -90,7 +90,7 @@ class ContourOffset {
     bool is_too_small = false;
     bool is_smooth = false;  // Tangent to the element before it.
   };
-  struct Piece {
+  struct KeptPiece {
     OffsetPiece out;
     Eigen::AlignedBox2d box;   // Box around the piece, set once its end is known.
     std::uint64_t number = 0;  // Number of its element.
@@ -107,20 +107,20 @@ class ContourOffset {
   void join(PlaneCurve& next, const ContourElement& element, const Vec2& arriving);
   bool trim(PlaneCurve& next);
   void insert(const PlaneCurve& curve);
-  void finish_piece(Piece& piece);
-  void look_at(Piece& piece, const Kept& element) const;
+  void finish_piece(KeptPiece& piece);
+  void look_at(KeptPiece& piece, const KeptElement& element) const;
   bool closes(const PlaneCurve& curve) const;
   bool has_stopped() const { return emitted_ == pieces_.size(); }
   bool is_explained(std::uint64_t a, std::uint64_t b) const;
   void reduce(std::size_t last);
   bool cut_loop(std::size_t first, std::size_t last);
   void release(std::size_t held);
-  void report_gouge(Piece& piece);
+  void report_gouge(KeptPiece& piece);
 
   double radius_;
-  std::deque<Kept> contour_;  // The last kLookBack elements that cut.
-  std::deque<Piece> pieces_;  // Emitted pieces of the last kLookBack elements, then waiting ones; the last is open.
-  std::size_t emitted_ = 0;   // Number of emitted pieces in `pieces_`.
+  std::deque<KeptElement> contour_;  // The last kLookBack elements that cut.
+  std::deque<KeptPiece> pieces_;  // Emitted pieces of the last kLookBack elements, then waiting ones; the last is open.
+  std::size_t emitted_ = 0;       // Number of emitted pieces in `pieces_`.
   std::deque<OffsetPiece> out_;
   std::deque<ContourFlaw> flaws_;
   std::uint64_t count_ = 0;   // Number of elements.

@@ -32,7 +32,7 @@ struct AngleJet {
   double second = 0;
 };
 
-static AngleJet angle(const Jet& jet, Axis axis, double sense) {
+static AngleJet angle(const Jet& jet, MachineAxis axis, double sense) {
   return {sense * jet.value[axis], sense * jet.first[axis] * kRadians, sense * jet.second[axis] * kRadians};
 }
 

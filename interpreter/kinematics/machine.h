@@ -9,7 +9,7 @@
 
 namespace isocnc::kinematics {
 
-enum Axis : std::uint8_t { kX, kY, kZ, kB, kC };
+enum MachineAxis : std::uint8_t { kX, kY, kZ, kB, kC };
 inline constexpr int kAxisCount = 5;
 
 /// The limits of one axis: in mm, mm/s, mm/s^2 and mm/s^3 for X, Y, Z; in degrees instead of mm for B and C.

@@ -12,7 +12,7 @@ namespace isocnc::kinematics {
 
 /// A joint that leaves its range, at the place of the move's path where it is farthest outside.
 struct Overtravel {
-  Axis axis = kX;
+  MachineAxis axis = kX;
   double part = 0;      ///< Part of the path from the move's start, 0 to 1.
   double position = 0;  ///< Position of the joint, mm or degrees.
   double limit = 0;     ///< End of the range that the joint passes, mm or degrees.

@@ -170,7 +170,7 @@ static int piece_count(const kinematics::Machine& machine, const kinematics::Ele
                             ? element.path.c[1].norm()
                             : kinematics::lever(machine.kinematics, middle.head<3>(), element.path.tool_length);
   double weakest = machine.axes[kinematics::kX].acceleration;
-  for (const kinematics::Axis axis : {kinematics::kY, kinematics::kZ})
+  for (const kinematics::MachineAxis axis : {kinematics::kY, kinematics::kZ})
     weakest = std::min(weakest, machine.axes[axis].acceleration);
   const bool is_fine = radius * kinematics::square(rate) * feed_cap(element) > kSmallPart * weakest;
   return kinematics::part_count(length * rate / (is_fine ? kFineTurn : kCoarseTurn), kMaxPieces);
@@ -352,7 +352,7 @@ const Stretch* Planner::next() {
 }
 
 /// Appends a span's phases to a stretch, if the stretch can hold them. Two phases of constant speed are merged.
-static bool extend(Stretch& stretch, const Profile::Span& span) {
+static bool extend(Stretch& stretch, const Profile::SpeedSpan& span) {
   const auto count = static_cast<std::size_t>(stretch.phase_count);
   const bool continues = count > 0 && span.phase_count > 0 && stretch.phases[count - 1].acceleration == 0 &&
                          span.phases[0].acceleration == 0;
@@ -368,7 +368,7 @@ static bool extend(Stretch& stretch, const Profile::Span& span) {
 /// choice of spans does not depend on when next() is called.
 const Stretch* Planner::next_determined() {
   if (jerk_limiter_) return jerk_limiter_->next();
-  const Profile::Span* span = profile_.front();
+  const Profile::SpeedSpan* span = profile_.front();
   if (!span) return nullptr;
   const Track& track = tracks_[handed_out_];
   const int left = track.span_count - spans_out_;

@@ -22,8 +22,8 @@ static constexpr double kPeakPrecision = 1e-4;
 
 Profile::Profile() : batch_(kPlanningBatch) {}
 
-Profile::Span& Profile::add(SpanKind kind, double begin, double length, double cap) {
-  Span& span = spans_.emplace_back();
+Profile::SpeedSpan& Profile::add(SpanKind kind, double begin, double length, double cap) {
+  SpeedSpan& span = spans_.emplace_back();
   span.kind = kind;
   span.begin = begin;
   span.length = length;
@@ -34,13 +34,13 @@ Profile::Span& Profile::add(SpanKind kind, double begin, double length, double c
 }
 
 void Profile::append_line(double begin, double length, const kinematics::LineLimits& limits) {
-  Span& span = add(SpanKind::Line, begin, length, limits.cap);
+  SpeedSpan& span = add(SpanKind::Line, begin, length, limits.cap);
   span.acceleration = limits.acceleration;
   span.fall = limits.fall;
 }
 
 void Profile::append_curve(double begin, double length, double cap, const kinematics::CurveLimits& limits) {
-  Span& span = add(SpanKind::Curve, begin, length, std::min(limits.cap(), cap));
+  SpeedSpan& span = add(SpanKind::Curve, begin, length, std::min(limits.cap(), cap));
   span.bounds = first_bound_ + bounds_.size();
   const auto keep = [&](kinematics::Direction direction) {
     const std::span<const kinematics::CurveBound> bounds = limits.bounds(direction);
@@ -61,13 +61,13 @@ void Profile::come_to_rest() {
 
 /// Returns the maximum of x at one end of a line with x at the other. The acceleration is constant on the line, and the
 /// limits permit it at the larger x, hence everywhere.
-static double reach_on_line(const Profile::Span& span, double x) {
+static double reach_on_line(const Profile::SpeedSpan& span, double x) {
   if (span.fall == 0) return x + 2 * span.acceleration * span.length;
   const double gain = 2 * span.acceleration * span.length;
   return x + gain * std::max(1 - x * span.fall, 0.0) / (1 + gain * span.fall);
 }
 
-std::span<const kinematics::CurveBound> Profile::bounds(const Span& span, kinematics::Direction direction) const {
+std::span<const kinematics::CurveBound> Profile::bounds(const SpeedSpan& span, kinematics::Direction direction) const {
   const kinematics::CurveBound* const first = bounds_.data() + (span.bounds - first_bound_);
   if (direction == kinematics::Direction::Forward) return {first, span.forward_count};
   return {first + span.forward_count, span.backward_count};
@@ -75,7 +75,7 @@ std::span<const kinematics::CurveBound> Profile::bounds(const Span& span, kinema
 
 /// Returns the maximum of x at one end of a span with x at the other: at the end for Direction::Forward, at the start
 /// for Direction::Backward.
-double Profile::reach(const Span& span, double x, kinematics::Direction direction) const {
+double Profile::reach(const SpeedSpan& span, double x, kinematics::Direction direction) const {
   switch (span.kind) {
     case SpanKind::Line:
       return reach_on_line(span, x);
@@ -90,7 +90,7 @@ double Profile::reach(const Span& span, double x, kinematics::Direction directio
 void Profile::look_back_from_rest() {
   double exit = 0;
   for (std::size_t i = spans_.size(); i-- > planned_;) {
-    Span& span = spans_[i];
+    SpeedSpan& span = spans_[i];
     exit = span.entry = std::min(span.entry_cap, reach(span, exit, kinematics::Direction::Backward));
   }
 }
@@ -102,7 +102,7 @@ std::size_t Profile::look_back() {
   double exit = last_cap_;
   std::size_t i = spans_.size();
   while (i-- > planned_) {
-    const Span& span = spans_[i];
+    const SpeedSpan& span = spans_[i];
     exit = std::min(span.entry_cap, reach(span, exit, kinematics::Direction::Backward));
     if (exit == span.entry) return i;
   }
@@ -118,7 +118,7 @@ void Profile::plan_ahead() {
 
 void Profile::plan_until(std::size_t end, double exit) {
   for (; planned_ < end; ++planned_) {
-    Span& span = spans_[planned_];
+    SpeedSpan& span = spans_[planned_];
     const double max_exit = planned_ + 1 < end ? spans_[planned_ + 1].entry : exit;
     const double entry = speed_square_;
     const double reached = reach(span, entry, kinematics::Direction::Forward);
@@ -151,7 +151,7 @@ static Course straight(double length, double entry, double exit) {
   return exit > entry ? Course{length, acceleration, exit, 0, 0} : Course{0, 0, entry, length, acceleration};
 }
 
-static Course on_line(const Profile::Span& span, double entry, double exit) {
+static Course on_line(const Profile::SpeedSpan& span, double entry, double exit) {
   double peak = (entry + exit) / 2 + span.acceleration * span.length;
   if (span.fall > 0) peak /= 1 + span.acceleration * span.length * span.fall;
   peak = std::max({std::min(span.cap, peak), entry, exit});
@@ -186,7 +186,7 @@ static Course on_curve(std::span<const kinematics::CurveBound> forward,
 }
 
 /// Computes the phases of a span. `is_reach`: the span changes the speed by its maximum, so its course is determined.
-void Profile::assign_times(Span& span, double entry, double exit, bool is_reach) {
+void Profile::assign_times(SpeedSpan& span, double entry, double exit, bool is_reach) {
   Course course{.peak = entry};
   if (span.kind == SpanKind::Line) course = on_line(span, entry, exit);
   if (span.kind == SpanKind::Curve)
@@ -217,7 +217,7 @@ void Profile::forget_handed_out() {
   spans_.erase(spans_.begin(), spans_.begin() + static_cast<std::ptrdiff_t>(count));
   planned_ -= count;
   const auto first =
-      std::find_if(spans_.begin(), spans_.end(), [](const Span& span) { return span.kind == SpanKind::Curve; });
+      std::find_if(spans_.begin(), spans_.end(), [](const SpeedSpan& span) { return span.kind == SpanKind::Curve; });
   const std::size_t kept = first == spans_.end() ? first_bound_ + bounds_.size() : first->bounds;
   bounds_.erase(bounds_.begin(), bounds_.begin() + static_cast<std::ptrdiff_t>(kept - first_bound_));
   first_bound_ = kept;

@@ -24,7 +24,7 @@ class Profile {
   };
 
   /// An interval of the path with its own limits, and after planning, its phases.
-  struct Span {
+  struct SpeedSpan {
     SpanKind kind = SpanKind::Line;
     std::uint8_t phase_count = 0;  ///< Number of `phases` in use.
     double begin = 0;              ///< Path parameter s at the start, mm or degrees.
@@ -62,7 +62,7 @@ class Profile {
   std::size_t unplanned() const { return spans_.size() - planned_; }
 
   /// Returns the planned span `after` places after the next one, or null.
-  const Span* front(std::size_t after = 0) const {
+  const SpeedSpan* front(std::size_t after = 0) const {
     return handed_out_ + after < planned_ ? &spans_[handed_out_ + after] : nullptr;
   }
   void pop(std::size_t count = 1) { handed_out_ += count; }
@@ -78,15 +78,15 @@ class Profile {
   double time() const { return time_; }
 
  private:
-  Span& add(SpanKind kind, double begin, double length, double cap);
-  std::span<const kinematics::CurveBound> bounds(const Span& span, kinematics::Direction direction) const;
-  double reach(const Span& span, double x, kinematics::Direction direction) const;
+  SpeedSpan& add(SpanKind kind, double begin, double length, double cap);
+  std::span<const kinematics::CurveBound> bounds(const SpeedSpan& span, kinematics::Direction direction) const;
+  double reach(const SpeedSpan& span, double x, kinematics::Direction direction) const;
   std::size_t look_back();
   void look_back_from_rest();
   void plan_until(std::size_t end, double exit);
-  void assign_times(Span& span, double entry, double exit, bool is_reach);
+  void assign_times(SpeedSpan& span, double entry, double exit, bool is_reach);
 
-  std::vector<Span> spans_;
+  std::vector<SpeedSpan> spans_;
   std::vector<kinematics::CurveBound> bounds_;
   std::size_t first_bound_ = 0;  ///< Number of the first element of `bounds_`.
   std::size_t handed_out_ = 0;   ///< Number of popped spans in `spans_`.

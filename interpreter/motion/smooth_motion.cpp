@@ -52,7 +52,7 @@ void SmoothMotion::take_cells() {
 }
 
 void SmoothMotion::take_phases() {
-  while (const Profile::Span* const span = profile_.front()) {
+  while (const Profile::SpeedSpan* const span = profile_.front()) {
     for (std::size_t i = 0; i < span->phase_count; ++i) peak_trimmer_.append(span->phases[i]);
     profile_.pop();
     take_trimmed_phases();

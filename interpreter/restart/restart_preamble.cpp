@@ -245,7 +245,7 @@ class Preamble {
     if (!(way.norm() > geometry::kEqualCoordinate)) return;
     const bool is_straight = way.head<2>().norm() <= geometry::kEqualCoordinate;
     const std::string end = (is_straight ? "" : across(tip) + " ") + length('Z', tip.z());
-    const execution::Feed& feed = target_.feed_per_minute;
+    const execution::ProgrammedFeed& feed = target_.feed_per_minute;
     if (feed.number > 0) {
       const double unit = state_.mm_per_unit();
       const double minimum = std::min(options_.approach_feed, feed.number * feed.mm_per_unit) / unit;

@@ -29,7 +29,7 @@ class BlockSink final : public execution::Sink {
   void report(const syntax::Finding& finding) override {
     if (!error && is_error(finding)) error = finding;
   }
-  void move(const execution::Move& move, const execution::State& state) override {
+  void move(const execution::ProgrammedMove& move, const execution::State& state) override {
     if (move.kind != execution::MoveKind::Rapid) is_tool_unused = false;
     add(execution::in_machine(move, state));
   }

@@ -91,7 +91,7 @@ class Simulation {
   motion::Sample sample() const;
   double tool_length() const { return tool_length_; }  ///< Length of the mounted tool, mm.
   /// The spindle after the block in progress. An S counts only after the next M03 or M04.
-  const Timing::Spindle& spindle() const { return spindle_; }
+  const Timing::SpindleMotion& spindle() const { return spindle_; }
   DistanceToGo to_go() const;
   /// The segment of the current arc if the machine drives it as lines; otherwise none.
   std::optional<ArcSegment> segment() const;
@@ -147,7 +147,7 @@ class Simulation {
   double start_tool_length_ = 0;
   double travelled_ = 0;    ///< Length of the completed stretches of the current motion.
   double tool_length_ = 0;  ///< Length of the mounted tool, mm.
-  Timing::Spindle spindle_;
+  Timing::SpindleMotion spindle_;
   double time_ = 0;
   bool in_block_ = false;
   std::uint64_t line_ = 0;       ///< Line of the block in progress.

@@ -2,11 +2,11 @@
 
 namespace isocnc::simulation {
 
-Timing::Spindle spindle_after(int function, double speed) {
-  return function == 5 ? Timing::Spindle{} : Timing::Spindle{.function = function, .speed = speed};
+Timing::SpindleMotion spindle_after(int function, double speed) {
+  return function == 5 ? Timing::SpindleMotion{} : Timing::SpindleMotion{.function = function, .speed = speed};
 }
 
-Timing::Spindle spindle_after(const running::Event& event, const Timing::Spindle& before, double speed) {
+Timing::SpindleMotion spindle_after(const running::Event& event, const Timing::SpindleMotion& before, double speed) {
   if (std::holds_alternative<running::ToolEvent>(event.what)) return {};
   const auto* const function = std::get_if<running::FunctionEvent>(&event.what);
   const bool turns = function != nullptr && !dialect::is_user_function(function->number);

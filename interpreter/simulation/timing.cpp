@@ -188,7 +188,7 @@ double Timing::seconds_of(const running::Event& event) const {
   return waits ? 0 : -1;
 }
 
-Timing::Spindle Timing::spindle_after(int function) const {
+Timing::SpindleMotion Timing::spindle_after(int function) const {
   return simulation::spindle_after(function, spindle_speed_);
 }
 

@@ -58,11 +58,11 @@ struct TimedEvent {
 class Timing {
  public:
   /// State of the spindle. An S takes effect with the next M03 or M04 (I.4.2).
-  struct Spindle {
+  struct SpindleMotion {
     int function = 5;  ///< 3, 4 or 5.
     double speed = 0;  ///< Revolutions per minute; 0 while it stands, and before any S.
 
-    friend bool operator==(const Spindle&, const Spindle&) = default;
+    friend bool operator==(const SpindleMotion&, const SpindleMotion&) = default;
   };
 
   /// State of a machine at rest after a program (part) has run.
@@ -72,7 +72,7 @@ class Timing {
     geometry::Pose programmed;  ///< Programmed position, machine frame; differs from `tip` after a tool change.
     double tool_length = 0;
     geometry::Mat3 frame_axes = geometry::Mat3::Identity();  ///< Axes of the frame in force, machine frame.
-    Spindle spindle;
+    SpindleMotion spindle;
     double spindle_speed = 0;  ///< The last S; 0 before any.
   };
 
@@ -130,7 +130,7 @@ class Timing {
   void come_to_rest();
   void rest(const running::Event& event, double seconds);
   double seconds_of(const running::Event& event) const;
-  Spindle spindle_after(int function) const;
+  SpindleMotion spindle_after(int function) const;
   void turn_spindle(const running::Event& event);
 
   const TimedMachine* machine_;  ///< Must outlive this object.
@@ -141,7 +141,7 @@ class Timing {
   bool holds_motion_ = false;  ///< The last of waiting_ is a motion that a G09 may follow.
   bool stops_exactly_ = false;
   TipPosition position_;
-  Spindle spindle_;
+  SpindleMotion spindle_;
   double spindle_speed_ = 0;  ///< The last S; 0 before any.
 };
 

@@ -37,8 +37,9 @@ std::size_t Document::chunk_lines(std::size_t chunk) const {
 std::string_view Document::chunk_text(std::size_t chunk) const { return chunks_[chunk].chunk->text; }
 
 Document::Place Document::locate(std::size_t line) const {
-  const auto after = std::upper_bound(chunks_.begin(), chunks_.end(), line,
-                                      [](std::size_t wanted, const Slot& slot) { return wanted < slot.first_line; });
+  const auto after =
+      std::upper_bound(chunks_.begin(), chunks_.end(), line,
+                       [](std::size_t wanted, const ChunkEntry& entry) { return wanted < entry.first_line; });
   const auto chunk = static_cast<std::size_t>(after - chunks_.begin()) - 1;
   return {chunk, line - chunks_[chunk].first_line};
 }
@@ -66,7 +67,7 @@ std::string_view Document::terminator(std::size_t line) const {
 
 std::string Document::text() const {
   std::string all;
-  for (const Slot& slot : chunks_) all += slot.chunk->text;
+  for (const ChunkEntry& entry : chunks_) all += entry.chunk->text;
   return all;
 }
 
@@ -109,7 +110,7 @@ class Document::ChunkMaker {
     gathered_.begins.push_back(static_cast<std::uint32_t>(gathered_.text.size()));
     gathered_.text += line;
   }
-  std::vector<Slot> finish() {
+  std::vector<ChunkEntry> finish() {
     if (gathered_.lines() > 0) end_chunk();
     return std::move(chunks_);
   }
@@ -124,7 +125,7 @@ class Document::ChunkMaker {
   const std::size_t max_lines_;
   std::uint64_t& next_version_;
   Chunk gathered_;
-  std::vector<Slot> chunks_;
+  std::vector<ChunkEntry> chunks_;
 };
 
 /// Replaces `removed` lines by `text`, which consists of whole lines; only the last line of the document (`is_end`) may
@@ -149,7 +150,7 @@ void Document::rebuild(std::size_t first_line, std::size_t removed, std::string_
     const Chunk& source = *chunks_[last.chunk].chunk;
     for (std::size_t i = last.line + 1; i < source.lines(); ++i) maker.add(source.with_terminator(i));
   }
-  std::vector<Slot> fresh = maker.finish();
+  std::vector<ChunkEntry> fresh = maker.finish();
   const std::size_t count = fresh.size();
   if (is_new) {
     chunks_ = std::move(fresh);

@@ -90,7 +90,7 @@ class Document {
   struct Chunk;
   class ChunkMaker;
   /// The fields that every edit reads for all chunks, stored contiguously for speed.
-  struct Slot {
+  struct ChunkEntry {
     std::size_t first_line = 0;
     std::uint64_t version = 0;
     std::unique_ptr<Chunk> chunk;
@@ -106,7 +106,7 @@ class Document {
   void rebuild(std::size_t first_line, std::size_t removed, std::string_view text, bool is_end);
   void renumber(std::size_t first, std::size_t count);
 
-  std::vector<Slot> chunks_;
+  std::vector<ChunkEntry> chunks_;
   std::uint64_t next_version_ = 1;
 };
 

@@ -108,12 +108,12 @@ class Rereading {
 
   bool is_same_motion(const Instruction& a, const Instruction& b) const {
     switch (change_.motion) {
-      case LineChange::Motion::Keep:
+      case LineChange::MotionEdit::Keep:
         break;
-      case LineChange::Motion::Write:
+      case LineChange::MotionEdit::Write:
         if (a.kind != InstructionKind::Continuation) break;
         return b.kind == InstructionKind::G && b.g()->number == change_.motion_in_force;
-      case LineChange::Motion::Drop:
+      case LineChange::MotionEdit::Drop:
         return a.kind == InstructionKind::G && b.kind == InstructionKind::Continuation;
     }
     return a.kind == b.kind && a.row == b.row;
@@ -169,7 +169,7 @@ class Rereading {
 std::string_view Formatter::format(const LineTree& tree, const LineChange& change) {
   if (!tree.findings.empty()) return tree.text;
   const bool is_plain_style = !style_.max_decimals && style_.g_digits == GDigits::Keep && !style_.word_order;
-  const bool changes_nothing = !change.line_number && !change.target && change.motion == LineChange::Motion::Keep;
+  const bool changes_nothing = !change.line_number && !change.target && change.motion == LineChange::MotionEdit::Keep;
   if (!is_plain_style || !changes_nothing) return rewrite(tree, change);
   if (is_tidy(tree)) return tree.text;
   if (!std::all_of(tree.words.begin(), tree.words.end(), is_compact)) return rewrite(tree, change);
@@ -184,7 +184,7 @@ std::string_view Formatter::format(const LineTree& tree, const LineChange& chang
 std::string_view Formatter::rewrite(const LineTree& tree, const LineChange& change) {
   if (write(tree, change, style_.word_order ? Order::Canonical : Order::AsWritten)) return written();
   LineChange less = change;
-  less.motion = LineChange::Motion::Keep;
+  less.motion = LineChange::MotionEdit::Keep;
   if (write(tree, change, Order::AsWritten) || write(tree, less, Order::AsWritten)) return written();
   if (change.line_number || change.target) throw std::logic_error("a line number could not be written");
   return tree.text;
@@ -223,7 +223,7 @@ void Formatter::start(const LineTree& tree) {
 void Formatter::choose_order(const LineTree& tree, const LineChange& change) {
   if (tree.words.empty()) return;
   const Instruction* const motion = tree.motion();
-  const bool drops_first = change.motion == LineChange::Motion::Drop && motion != nullptr && motion->command == 0;
+  const bool drops_first = change.motion == LineChange::MotionEdit::Drop && motion != nullptr && motion->command == 0;
   const Word& first = tree.words[drops_first ? 1 : 0];
   for (const Span comment : tree.comments)
     if (comment.begin > first.begin && comment.begin < tree.words.back().begin) return;
@@ -263,7 +263,7 @@ void Formatter::move_feed(const LineTree& tree) {
 }
 
 void Formatter::write_words(const LineTree& tree, const LineChange& change) {
-  const Instruction* const motion = change.motion == LineChange::Motion::Keep ? nullptr : tree.motion();
+  const Instruction* const motion = change.motion == LineChange::MotionEdit::Keep ? nullptr : tree.motion();
   bool is_pending = motion != nullptr;
   const std::size_t number_at = change.line_number ? line_number_word(tree) : tree.words.size();
   bool needs_number = change.line_number && number_at == tree.words.size();
@@ -274,11 +274,11 @@ void Formatter::write_words(const LineTree& tree, const LineChange& change) {
     if (!joins) write_comments_before(tree, word.begin);
     if (needs_number) write_new_number(*change.line_number);
     needs_number = false;
-    if (is_pending && change.motion == LineChange::Motion::Write && word.owner == motion->number) {
+    if (is_pending && change.motion == LineChange::MotionEdit::Write && word.owner == motion->number) {
       write_motion(change.motion_in_force);
       is_pending = false;
     }
-    const bool is_dropped = is_pending && change.motion == LineChange::Motion::Drop && index == motion->command;
+    const bool is_dropped = is_pending && change.motion == LineChange::MotionEdit::Drop && index == motion->command;
     if (is_dropped) {
       // Comments inside the G stay.
     } else if (index == number_at) {

@@ -24,12 +24,12 @@ struct LineStyle {
 
 /// Changes of one line that depend on the whole program.
 struct LineChange {
-  enum class Motion : std::uint8_t { Keep, Write, Drop };  ///< The line's motion G: unchanged, added, removed.
+  enum class MotionEdit : std::uint8_t { Keep, Write, Drop };  ///< The line's motion G: unchanged, added, removed.
 
   std::optional<std::uint64_t> line_number;  ///< New N of the line, at most kMaxLineNumber.
   std::optional<std::uint64_t> target;       ///< New label after the line's GOTO.
-  Motion motion = Motion::Keep;
-  std::uint8_t motion_in_force = 0;  ///< Number of the G to write with Motion::Write: 0 to 3.
+  MotionEdit motion = MotionEdit::Keep;
+  std::uint8_t motion_in_force = 0;  ///< Number of the G to write with MotionEdit::Write: 0 to 3.
 };
 
 /// Formats lines. Handles one line at a time; equal lines give equal results. Where more than letter case and the

@@ -11,23 +11,23 @@
 
 namespace isocnc::syntax {
 
+/// Replacement of the chunks [first, first + removed) of a document by `inserted` new ones.
+struct ChunkChange {
+  std::size_t first = 0;
+  std::size_t removed = 0;
+  std::size_t inserted = 0;
+};
+
 /// A value for each chunk of a document. After edits, only the values of changed chunks are computed again.
 template <class T>
 class PerChunk {
  public:
-  /// Replacement of the chunks [first, first + removed) by `inserted` new ones.
-  struct Change {
-    std::size_t first = 0;
-    std::size_t removed = 0;
-    std::size_t inserted = 0;
-  };
-
   std::size_t size() const { return rows_.size(); }
   T& operator[](std::size_t chunk) { return rows_[chunk].value; }
   const T& operator[](std::size_t chunk) const { return rows_[chunk].value; }
 
   /// The change of the document since the last follow().
-  Change change_to(const Document& document) const {
+  ChunkChange change_to(const Document& document) const {
     const std::size_t count = document.chunk_count();
     const std::size_t common = std::min(count, rows_.size());
     std::size_t head = 0;
@@ -40,8 +40,8 @@ class PerChunk {
 
   /// Applies the change: `make(chunk)` computes the value of each new chunk.
   template <class Make>
-  void follow(const Document& document, const Change& change, Make make) {
-    std::vector<Row> fresh;
+  void follow(const Document& document, const ChunkChange& change, Make make) {
+    std::vector<Versioned> fresh;
     fresh.reserve(change.inserted);
     for (std::size_t i = change.first; i < change.first + change.inserted; ++i)
       fresh.push_back({document.chunk_version(i), make(i)});
@@ -55,19 +55,19 @@ class PerChunk {
 
   /// Calls change_to() and follow().
   template <class Make>
-  Change update(const Document& document, Make make) {
-    const Change change = change_to(document);
+  ChunkChange update(const Document& document, Make make) {
+    const ChunkChange change = change_to(document);
     follow(document, change, make);
     return change;
   }
 
  private:
-  struct Row {
+  struct Versioned {
     std::uint64_t version = 0;
     T value;
   };
 
-  std::vector<Row> rows_;
+  std::vector<Versioned> rows_;
 };
 
 }  // namespace isocnc::syntax

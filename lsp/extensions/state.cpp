@@ -56,7 +56,7 @@ Json state_json(const execution::State& state) {
                {"spindle", {{"function", state.spindle_function}, {"speed", state.spindle_speed}}},
                {"tool", nullptr},
                {"feed", nullptr}};
-  const execution::Feed feed = execution::feed_in_force(state);
+  const execution::ProgrammedFeed feed = execution::feed_in_force(state);
   if (state.feed_given) json["feed"] = feed.number * feed.mm_per_unit;
   if (state.tool != execution::ToolCode{})
     json["tool"] = fmt::format("{:d}{:02d}{:03d}", state.tool.head, state.tool.holder, state.tool.tool);

@@ -111,7 +111,7 @@ std::vector<TextEdit> formatted(const Snapshot& snapshot, const ProgramStyle& st
   each_line([&](const syntax::LineTree& line) {
     const syntax::LineChange change = formatter.next(line);
     const std::size_t at = number++;
-    const bool changes = change.motion != syntax::LineChange::Motion::Keep || change.line_number || change.target;
+    const bool changes = change.motion != syntax::LineChange::MotionEdit::Keep || change.line_number || change.target;
     if (!changes || at < first || at > last) return;
     if (auto edit = queries::line_edit(snapshot, at, formatter.written(line, change)))
       edits.push_back(std::move(*edit));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "interpreter/dialect/diagnostic.h"
@@ -39,6 +40,7 @@ struct Client {
   /// configuration, else the editor's own, else the environment's.
   dialect::Language language(std::optional<dialect::Language> configured) const;
 };
+using ClientPointer = std::shared_ptr<const Client>;
 
 /// Reads the parameters of `initialize`: the client's capabilities, its preferred encoding, its locale and the settings
 /// in its initializationOptions.

@@ -13,7 +13,7 @@ namespace isocnc::queries {
 struct LineRun {
   execution::State before;
   execution::State after;
-  std::optional<execution::Move> move;  ///< The line's motion, in the frame in force in `moved_in`.
+  std::optional<execution::ProgrammedMove> move;  ///< The line's motion, in the frame in force in `moved_in`.
   execution::State moved_in;
   double dwell = 0;  ///< Seconds.
 };

@@ -82,7 +82,7 @@ std::string_view FrameReader::read_header(std::string_view bytes, std::deque<Mes
     if (header_.size() < kLongestHeader) continue;
     header_.clear();
     state_ = ReadState::Lost;
-    frames.push_back({MessageFrame::Problem::NoLength, {}});
+    frames.push_back({MessageFrame::FramingError::NoLength, {}});
     return bytes.substr(i + 1);
   }
   return {};
@@ -94,10 +94,10 @@ void FrameReader::start_body(std::deque<MessageFrame>& frames) {
   length_ = length.value_or(0);
   if (!length) {
     state_ = ReadState::Lost;
-    frames.push_back({MessageFrame::Problem::NoLength, {}});
+    frames.push_back({MessageFrame::FramingError::NoLength, {}});
   } else if (length_ > longest_body_) {
     state_ = ReadState::Skipped;
-    frames.push_back({MessageFrame::Problem::TooLong, {}});
+    frames.push_back({MessageFrame::FramingError::TooLong, {}});
   } else if (length_ == 0) {
     frames.push_back({});
   } else {
@@ -109,7 +109,7 @@ std::string_view FrameReader::read_body(std::string_view bytes, std::deque<Messa
   const std::size_t taken = std::min(bytes.size(), length_ - body_.size());
   body_.append(bytes.substr(0, taken));
   if (body_.size() == length_) {
-    frames.push_back({MessageFrame::Problem::None, std::move(body_)});
+    frames.push_back({MessageFrame::FramingError::None, std::move(body_)});
     body_.clear();
     state_ = ReadState::Header;
   }

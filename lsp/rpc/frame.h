@@ -10,14 +10,14 @@ namespace isocnc::rpc {
 
 /// The body of one message, or the reason why there is none.
 struct MessageFrame {
-  enum class Problem : std::uint8_t {
+  enum class FramingError : std::uint8_t {
     None,
     NoLength,  ///< The header has no valid Content-Length, so that the end of the message is unknown.
     TooLong,   ///< The message is longer than the maximum; it is skipped.
   };
 
-  Problem problem = Problem::None;
-  std::string body;  ///< Empty if there is a problem.
+  FramingError error = FramingError::None;
+  std::string body;  ///< Empty if there is an error.
 };
 
 /// Cuts a stream of bytes into messages, as the language server protocol and the debug adapter protocol both frame

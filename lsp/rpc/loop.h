@@ -3,9 +3,10 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
-#include <functional>
 #include <map>
 #include <mutex>
+
+#include "lsp/rpc/task.h"
 
 namespace isocnc::rpc {
 
@@ -13,8 +14,6 @@ namespace isocnc::rpc {
 /// task must be short and must never wait: longer work is done on another thread, which posts a task with the result.
 class Loop {
  public:
-  using Task = std::function<void()>;
-
   void post(Task task);
   /// Runs the task at that time or later.
   void post_at(std::chrono::steady_clock::time_point time, Task task);

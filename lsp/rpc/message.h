@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -44,6 +45,7 @@ struct Call {
   /// The parameters: an object, an array or null.
   const Json& params() const;
 };
+using CallPointer = std::shared_ptr<const Call>;
 
 /// The client's answer to one of our requests.
 struct Response {

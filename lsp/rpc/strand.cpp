@@ -50,14 +50,14 @@ struct Strand::StrandTurn {
   StrandTurn& operator=(const StrandTurn&) = delete;
   ~StrandTurn() {
     if (has_come) return;
-    std::deque<Pool::Task> dropped;  // Destroyed after the lock is released.
+    std::deque<Task> dropped;  // Destroyed after the lock is released.
     const std::lock_guard lock(queue->mutex);
     dropped.swap(queue->tasks);
     queue->is_running = false;
   }
 };
 
-void Strand::post(Pool::Task task) {
+void Strand::post(Task task) {
   {
     const std::lock_guard lock(queue_->mutex);
     queue_->tasks.push_back(std::move(task));
@@ -74,7 +74,7 @@ void Strand::run(Queue& queue) {
   std::unique_lock lock(queue.mutex);
   while (!queue.tasks.empty()) {
     {
-      const Pool::Task task = std::move(queue.tasks.front());
+      const Task task = std::move(queue.tasks.front());
       queue.tasks.pop_front();
       lock.unlock();
       task();

@@ -3,19 +3,18 @@
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
+
+#include "lsp/rpc/task.h"
 
 namespace isocnc::rpc {
 
 /// A thread pool. Threads are created when there is work for them, up to a maximum, and then wait for more.
 class Pool {
  public:
-  using Task = std::function<void()>;
-
   explicit Pool(std::size_t max_threads) : max_threads_(max_threads) {}
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
@@ -43,12 +42,12 @@ class Strand {
  public:
   explicit Strand(Pool& pool) : pool_(pool), queue_(std::make_shared<Queue>()) {}
 
-  void post(Pool::Task task);
+  void post(Task task);
 
  private:
   struct Queue {
     std::mutex mutex;
-    std::deque<Pool::Task> tasks;
+    std::deque<Task> tasks;
     bool is_running = false;
   };
   struct StrandTurn;

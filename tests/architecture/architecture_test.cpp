@@ -194,6 +194,33 @@ TEST(Architecture, NoSwitchOverTheRolesOfGsHasADefault) {
   EXPECT_GT(count, 1);
 }
 
+/// The modules that define a type of this name, each with what the name stands for there; the same alias counts once.
+std::map<std::string, std::map<std::string, std::string>> owners_of_types() {
+  std::map<std::string, std::map<std::string, std::string>> owners;
+  for (const std::string& file : sources())
+    for (const TypeDefinition& type : types_defined_in(file)) {
+      if (type.alias.ends_with("::" + type.name)) continue;  // The same type, named without its class.
+      const std::string meaning = type.alias.empty() ? folder_of(file) : "= " + type.alias;
+      owners[type.name].emplace(meaning, file);
+    }
+  return owners;
+}
+
+/// So that a search for a type finds one owner.
+TEST(Architecture, NoTypeNameHasOwnersInTwoModules) {
+  const std::vector<std::string> shared = names_on_line_that(", which within a class lists the kinds of that class.");
+  const auto owners = owners_of_types();
+  EXPECT_GT(owners.size(), 500U);
+  EXPECT_EQ(owners.at("Clock").size(), 1U);
+  for (const std::string& name : shared) EXPECT_GT(owners.at(name).size(), 1U) << name;
+  for (const auto& [name, meanings] : owners) {
+    if (meanings.size() == 1 || std::count(shared.begin(), shared.end(), name) != 0) continue;
+    std::string places;
+    for (const auto& [meaning, file] : meanings) places += "\n  " + file;
+    ADD_FAILURE() << name << " is defined in" << places;
+  }
+}
+
 TEST(Architecture, EveryHeaderIsReadOnce) {
   for (const std::string& file : sources()) {
     if (!file.ends_with(".h")) continue;

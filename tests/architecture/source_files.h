@@ -21,4 +21,12 @@ struct Include {
 
 std::vector<Include> includes_of(const std::string& file);
 
+/// A type that a file defines at the level of a namespace or a class: not a forward declaration, not a specialization.
+struct TypeDefinition {
+  std::string name;   ///< Without namespaces and classes.
+  std::string alias;  ///< What an alias stands for; empty for other types.
+};
+
+std::vector<TypeDefinition> types_defined_in(const std::string& file);
+
 }  // namespace isocnc::architecture

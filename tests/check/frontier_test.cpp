@@ -9,7 +9,7 @@ namespace {
 
 const JumpMap kJumps("IF V1=1 GOTO N9\nN9\n");
 
-Group group_at(double x, Path path = {}) {
+Group group_at(double x, Decisions path = {}) {
   Group group{.state = execution::initial_state({}), .registers = Valuations::unknown(), .path = std::move(path)};
   group.state.position.tip.x() = x;
   return group;
@@ -20,7 +20,7 @@ TEST(Groups, AddingAKnownStateJoinsThePaths) {
   groups.add(group_at(1, {{3, true}, {1, false}}));
   groups.add(group_at(1, {{3, false}, {1, false}}));
   ASSERT_EQ(groups.size(), 1u);
-  EXPECT_EQ(groups[0].path, (Path{{1, false}}));
+  EXPECT_EQ(groups[0].path, (Decisions{{1, false}}));
 }
 
 TEST(Groups, JoiningUnitesWhatTheRegistersMayBe) {

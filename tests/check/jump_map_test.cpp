@@ -22,7 +22,7 @@ using Target = JumpMap::Target;
 
 JumpMap collected(std::string_view text) {
   JumpCollector collector;
-  each_event_in(text, [&](const JumpEvent& event) { collector.add(event.line, event); });
+  each_event_in(text, [&](const FlowEvent& event) { collector.add(event.line, event); });
   return std::move(collector).finish();
 }
 

@@ -33,7 +33,7 @@ TEST(BlockRecorder, RecordsAMotionWithTheStateInWhichItRuns) {
   const BlockRecorder done = recorded("G91 G02 X10 I5 J0 F200", before);
   EXPECT_FALSE(done.has_error());
   ASSERT_EQ(done.motions().size(), 1u);
-  const Move& arc = done.motion()->move;
+  const ProgrammedMove& arc = done.motion()->move;
   EXPECT_EQ(arc.kind, MoveKind::Arc);
   EXPECT_EQ(arc.from.tip, geometry::Vec3(1, 2, 3));
   EXPECT_EQ(arc.to.tip, geometry::Vec3(11, 2, 3));

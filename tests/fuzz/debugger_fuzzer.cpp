@@ -152,7 +152,7 @@ class Feeder {
 
   void send(const std::string& command, const Json& arguments) {
     const Json message = {{"seq", ++asked_}, {"type", "request"}, {"command", command}, {"arguments", arguments}};
-    adapter_.receive({rpc::MessageFrame::Problem::None, message.dump()});
+    adapter_.receive({rpc::MessageFrame::FramingError::None, message.dump()});
   }
 
   void check(const std::string& body) {

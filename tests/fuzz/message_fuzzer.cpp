@@ -22,7 +22,7 @@ static std::deque<MessageFrame> frames_of(std::string_view stream, std::size_t p
   return frames;
 }
 
-static bool same(const MessageFrame& a, const MessageFrame& b) { return a.problem == b.problem && a.body == b.body; }
+static bool same(const MessageFrame& a, const MessageFrame& b) { return a.error == b.error && a.body == b.body; }
 
 static void read(std::string_view stream) {
   const std::deque<MessageFrame> frames = frames_of(stream, stream.size() + 1);

@@ -268,7 +268,7 @@ class Typist {
   void notify(const std::string& method, const Json& params) {
     send({{"jsonrpc", "2.0"}, {"method", method}, {"params", params}});
   }
-  void send(const Json& message) { server_.receive({rpc::MessageFrame::Problem::None, rpc::write(message)}); }
+  void send(const Json& message) { server_.receive({rpc::MessageFrame::FramingError::None, rpc::write(message)}); }
 
   void check(const std::string& body) {
     const Json message = Json::parse(body);

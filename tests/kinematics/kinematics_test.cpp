@@ -197,7 +197,7 @@ TEST(Kinematics, TheLeverBoundsWhatTurningMoves) {
     const Coordinates tip = random.pose();
     const double length = random.tool_length();
     for (const Kinematics& kinematics : {random.head(), random.table()}) {
-      for (const Axis axis : {kB, kC}) {
+      for (const MachineAxis axis : {kB, kC}) {
         Coordinates more = tip;
         more[axis] += kStep;
         const Vec3 moved = (inverse(kinematics, more, length) - inverse(kinematics, tip, length)).head<3>();

@@ -26,8 +26,8 @@ Machine uniform_machine(double speed, double acceleration) {
 }
 
 Machine with_jerk(Machine machine, double jerk) {
-  for (const Axis axis : {kX, kY, kZ}) machine.axes[axis].jerk = jerk;
-  for (const Axis axis : {kB, kC}) machine.axes[axis].jerk = jerk / 3;
+  for (const MachineAxis axis : {kX, kY, kZ}) machine.axes[axis].jerk = jerk;
+  for (const MachineAxis axis : {kB, kC}) machine.axes[axis].jerk = jerk / 3;
   return machine;
 }
 

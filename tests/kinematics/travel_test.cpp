@@ -14,7 +14,7 @@ namespace {
 
 using geometry::Vec3;
 
-Machine with_range(Axis axis, double minimum, double maximum) {
+Machine with_range(MachineAxis axis, double minimum, double maximum) {
   Machine machine = uniform_machine(100, 100);
   machine.axes[axis].minimum = minimum;
   machine.axes[axis].maximum = maximum;

@@ -81,9 +81,9 @@ TEST(Messages, WhatIsWrongIsAnsweredAsTheProtocolAsks) {
     EXPECT_EQ(response.at("id"), Json::parse(message.id)) << message.body;
     EXPECT_EQ(error_code(response), message.code) << message.body;
   }
-  session.receive({rpc::MessageFrame::Problem::NoLength, {}});
+  session.receive({rpc::MessageFrame::FramingError::NoLength, {}});
   EXPECT_EQ(error_code(session.response_to(nullptr)), -32700);
-  session.receive({rpc::MessageFrame::Problem::TooLong, {}});
+  session.receive({rpc::MessageFrame::FramingError::TooLong, {}});
   EXPECT_EQ(error_code(session.response_to(nullptr)), -32700);
   // Invalid notifications get no answer and have no effect.
   session.send_raw(R"({"method":"no/such"})");

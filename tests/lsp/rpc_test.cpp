@@ -34,9 +34,9 @@ std::vector<std::string> read(const std::vector<std::string>& pieces, std::size_
   for (const std::string& piece : pieces) reader.read(piece, frames);
   std::vector<std::string> bodies;
   for (const MessageFrame& frame : frames)
-    bodies.push_back(frame.problem == MessageFrame::Problem::None       ? frame.body
-                     : frame.problem == MessageFrame::Problem::NoLength ? "<no length>"
-                                                                        : "<too long>");
+    bodies.push_back(frame.error == MessageFrame::FramingError::None       ? frame.body
+                     : frame.error == MessageFrame::FramingError::NoLength ? "<no length>"
+                                                                           : "<too long>");
   return bodies;
 }
 

@@ -35,7 +35,7 @@ class MessageClient {
     loop_.post([this, frame = std::move(frame)]() mutable { party_->receive(std::move(frame)); });
   }
   /// Sends the body of a message unchanged.
-  void send_raw(std::string body) { receive({rpc::MessageFrame::Problem::None, std::move(body)}); }
+  void send_raw(std::string body) { receive({rpc::MessageFrame::FramingError::None, std::move(body)}); }
 
   /// Waits for a message for which `fits` is true, and removes it from the received ones.
   Json wait_for(const std::function<bool(const Json&)>& fits) {

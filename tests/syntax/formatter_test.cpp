@@ -138,8 +138,8 @@ TEST(Formatter, WritesNewLineNumbersAndTargets) {
 }
 
 TEST(Formatter, WritesAndDropsMotions) {
-  const LineChange write{.motion = LineChange::Motion::Write, .motion_in_force = 1};
-  const LineChange drop{.motion = LineChange::Motion::Drop};
+  const LineChange write{.motion = LineChange::MotionEdit::Write, .motion_in_force = 1};
+  const LineChange drop{.motion = LineChange::MotionEdit::Drop};
   EXPECT_EQ(changed("N1 G41 X1 F5", write), "N1 G41 G01 X1 F5");
   EXPECT_EQ(changed("S5 (a) X1 G40", write), "S5 (a) G01 X1 G40");
   EXPECT_EQ(changed("N1 G41 G(a)1 X1 G09", drop), "N1 G41 (a) X1 G09");

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <functional>
+
+namespace isocnc::rpc {
+
+/// Work for a loop, a pool or a strand.
+using Task = std::function<void()>;
+
+}  // namespace isocnc::rpc
