@@ -8,8 +8,6 @@ using dialect::Text;
 
 static constexpr Text kToolChange{"tool change: {}", "cambio utensile: {}"};
 static constexpr Text kSpindleSpeed{"spindle speed: S{}", "velocità mandrino: S{}"};
-static constexpr Text kUpdate{"G990: technological parameters are read anew",
-                              "G990: aggiornamento della parametrica tecnologica"};
 
 static std::string tool_change_text(const running::ToolEvent& change, const SessionState& state) {
   std::string name = running::tool_name(change.tool);
@@ -32,7 +30,8 @@ std::string event_text(const running::Event& event, const SessionState& state) {
   if (const auto* const speed = std::get_if<running::SpindleSpeedEvent>(&event.what))
     return state.in_language(kSpindleSpeed, expressions::show_value(speed->speed));
   if (const auto* const call = std::get_if<running::FunctionEvent>(&event.what)) return function_text(*call, state);
-  if (std::holds_alternative<running::UpdateEvent>(event.what)) return std::string(state.in_language(kUpdate));
+  if (const auto* const signal = std::get_if<running::SignalEvent>(&event.what))
+    return fmt::format("G{}: {}", signal->code->number, state.in_language(signal->code->signal.message));
   return {};
 }
 

@@ -28,7 +28,7 @@ enum class ModalGroup : std::uint8_t {
 inline constexpr std::size_t kModalGroupCount = static_cast<std::size_t>(ModalGroup::None);
 
 /// What a G does. A switch over the roles names all of them, so that the compiler lists every place to which a new role
-/// matters. All roles but `Mode` belong to one G each.
+/// matters. All roles but `Mode` and `Signal` belong to one G each.
 enum class GRole : std::uint8_t {
   Rapid,
   Line,
@@ -48,9 +48,16 @@ enum class GRole : std::uint8_t {
   CompensationRight,
   Workpiece,
   Mode,        ///< Comes into force in its group; it has no further effect.
+  Signal,      ///< Changes no state; its row says all about its effect (GSignal).
   PendingEnd,  ///< The control waits for the next program at the end of this one.
   ApplyMdi,
-  WaitForUpdate,
+};
+
+/// The effect of a G whose role is `Signal`: an event without data.
+struct GSignal {
+  std::string_view kind;       ///< Kind of the event in traces.
+  bool stops_reading = false;  ///< The control executes all before it before it reads on, so the axes come to rest.
+  Text message;                ///< What the debugger reports.
 };
 
 /// A G code: all its properties that do not depend on the state of the machine.
@@ -65,6 +72,7 @@ struct GCode {
   DiagnosticId alone = kNoDiagnostic;      ///< Reported when it must be alone on its line and is not.
   DiagnosticId repeated = kNoDiagnostic;   ///< Reported when written again while in force.
   DiagnosticId misplaced = kNoDiagnostic;  ///< Reported when it follows dimensions on its line.
+  GSignal signal;
   std::string_view section;
 
   constexpr bool is_motion() const { return group == ModalGroup::Motion; }
@@ -252,8 +260,11 @@ inline constexpr GCode kGCodes[] = {
      .name = {"apply MDI instructions", "applicazione istruzioni MDI"},
      .section = "I.3.9"},
     {.number = 990,
-     .role = GRole::WaitForUpdate,
+     .role = GRole::Signal,
      .name = {"update the technological parameters", "aggiornamento della parametrica tecnologica"},
+     .signal = {.kind = "update",
+                .stops_reading = true,
+                .message = {"technological parameters are read anew", "aggiornamento della parametrica tecnologica"}},
      .section = "I.3.11"},
 };
 
@@ -298,7 +309,9 @@ constexpr bool is_motion_number(double number) {
 static_assert(std::all_of(std::begin(kGCodes), std::end(kGCodes), [](const GCode& code) {
   const auto is_same = [&](const GCode& other) { return other.role == code.role; };
   const bool has_own_role = std::count_if(std::begin(kGCodes), std::end(kGCodes), is_same) == 1;
-  return is_motion_number(code.number) == code.is_motion() && (has_own_role || code.role == GRole::Mode);
+  const bool is_signal = code.role == GRole::Signal;
+  return is_motion_number(code.number) == code.is_motion() && is_signal != code.signal.kind.empty() &&
+         (has_own_role || is_signal || code.role == GRole::Mode);
 }));
 
 /// The G codes in force when a program starts, by modal group; kNoMotion where none is (I.3).

@@ -161,8 +161,8 @@ void Executor::execute_g(const Instruction& instruction) {
     case GRole::CompensationRight:
     case GRole::Mode:
       return set_mode(*code, line_.command(instruction));
-    case GRole::WaitForUpdate:
-      return sink_.wait_for_update();
+    case GRole::Signal:
+      return sink_.signal(*code);
     case GRole::PendingEnd:
     case GRole::ApplyMdi:
       return;  // They concern the program after this one, and the operator.

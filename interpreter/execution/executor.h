@@ -18,7 +18,7 @@ namespace isocnc::execution {
 ///   run()  S first (I.4.2) -> each instruction by its kind -> F without a feed move, G09 and M06 of the next line
 ///            Continuation, motion G  -> motion()             motions.cpp   move, arc, feed, rotary axes
 ///            frame G                 -> mount_face() ...     frames.cpp    workpiece and face frames
-///            other G                 -> execute_g()          executor.cpp  modes, G04, G09, G990
+///            other G                 -> execute_g()          executor.cpp  modes, G04, G09, signals
 ///            M, T, V                 -> function() ...       executor.cpp
 ///
 /// Each step updates `state_`, then reports its effect and its findings to `sink_`.

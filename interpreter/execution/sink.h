@@ -92,8 +92,8 @@ class Sink {
   virtual void tool_change(ToolCode) {}
   virtual void frame_changed(const State&) {}
   virtual void exact_stop() {}
-  virtual void wait_for_update() {}    ///< G990 (I.3.11).
-  virtual void assign(int, double) {}  ///< Register 1 to 30; NaN: the value could not be read.
+  virtual void signal(const dialect::GCode&) {}  ///< A G whose effect has no data.
+  virtual void assign(int, double) {}            ///< Register 1 to 30; NaN: the value could not be read.
   virtual void end() {}
 
  private:

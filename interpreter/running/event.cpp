@@ -52,6 +52,7 @@ void put(OrderedJson& json, const JumpEvent& jump) {
   json["taken"] = jump.taken;
   json["target"] = jump.target_line + 1;
 }
+void put(OrderedJson&, const SignalEvent&) {}
 /// Any other event says all by its kind.
 template <class What>
 void put(OrderedJson&, const What&) {
@@ -70,10 +71,13 @@ std::string_view kind(const FunctionEvent& function) {
   return dialect::is_user_function(function.number) ? "m" : "spindle";
 }
 
+std::string_view kind(const SignalEvent& signal) { return signal.code->signal.kind; }
+
 template <class What>
 constexpr bool stops(const What&) {
   return requires { What::kStopsReading; };
 }
+bool stops(const SignalEvent& signal) { return signal.code->signal.stops_reading; }
 
 }  // namespace
 

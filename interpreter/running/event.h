@@ -12,7 +12,7 @@
 
 namespace isocnc::running {
 
-// The effects. `kKind` is the kind in traces; a move and a function have several, for which event.cpp decides. An event
+// The effects. `kKind` is the kind in traces; where there are several, event.cpp decides. An event
 // with `kStopsReading` makes the control execute all before it reads on (I.3.11, I.5), so no move is planned across it.
 
 using MoveEvent = execution::MachineMove;
@@ -50,10 +50,10 @@ struct JumpEvent {
   bool taken = false;
   std::uint64_t target_line = 0;  ///< Line at which the program continues, from 0.
 };
-/// A G990: the run waits until the control has reread its technological parameters (I.3.11).
-struct UpdateEvent {
-  static constexpr std::string_view kKind = "update";
-  static constexpr bool kStopsReading = true;
+/// A G whose effect has no data, such as G990, at which the run waits until the control has reread its technological
+/// parameters (I.3.11). The G's row holds the kind, and whether it stops reading.
+struct SignalEvent {
+  const dialect::GCode* code = nullptr;
 };
 /// A G09: the axes stop at the end of the last motion (I.3.8). Not in traces.
 struct ExactStopEvent {
@@ -66,13 +66,13 @@ struct EndEvent {
 /// One effect of a program, with its line (from 0).
 struct Event {
   std::uint64_t line = 0;
-  std::variant<MoveEvent, DwellEvent, SpindleSpeedEvent, FunctionEvent, ToolEvent, FrameEvent, JumpEvent, UpdateEvent,
+  std::variant<MoveEvent, DwellEvent, SpindleSpeedEvent, FunctionEvent, ToolEvent, FrameEvent, JumpEvent, SignalEvent,
                ExactStopEvent, EndEvent>
       what;
 };
 
 /// Name of the event's kind in traces: `rapid`, `feed`, `arc`, `dwell`, `spindle`, `tool`, `m`, `frame`, `jump`,
-/// `update`, `end`.
+/// `end`, or that of a signal.
 std::string_view kind_of(const Event& event);
 
 /// Whether the control executes all before the event before it reads on: at an IF and at a G990.

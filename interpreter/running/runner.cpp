@@ -50,7 +50,7 @@ class BlockSink final : public execution::Sink {
     if (!std::isnan(value)) registers_[static_cast<std::size_t>(reg)] = value;
   }
   void exact_stop() override { add(ExactStopEvent{}); }
-  void wait_for_update() override { add(UpdateEvent{}); }
+  void signal(const dialect::GCode& code) override { add(SignalEvent{&code}); }
   void end() override { add(EndEvent{}); }
 
  private:

@@ -149,9 +149,9 @@ void LineParser::check_g(const Instruction& checked) {
     case GRole::PlaneYZ:
     case GRole::DismountFace:
     case GRole::Mode:
+    case GRole::Signal:
     case GRole::PendingEnd:
     case GRole::ApplyMdi:
-    case GRole::WaitForUpdate:
       return;
   }
 }

@@ -55,6 +55,13 @@ TEST(Stepping, ReportsWhatTheOperatorWouldSee) {
   }
 }
 
+TEST(Stepping, ReportsASignalByTheTextInItsRow) {
+  DebugClient client;
+  client.launch("G990\nM02\n");
+  client.request("configurationDone");
+  EXPECT_EQ(client.event("output").at("output"), "G990: technological parameters are read anew\n");
+}
+
 TEST(Stepping, AnErrorStopsTheRunAndCanBeSteppedBackFrom) {
   DebugClient client;
   client.launch(kWrong);
