@@ -120,6 +120,8 @@ static std::vector<std::string> fixes_of(DiagnosticId id, Language language) {
     lines.push_back(fmt::format("{}: {}", kKinds[static_cast<std::size_t>(def.safety)].in(language),
                                 (is_shown ? *example : any).title_in(language)));
   }
+  if (lines.empty())
+    lines.push_back(fmt::format("{}: {}", kKinds[0].in(language), fixes::kMeaningUnknown.in(language)));
   return lines;
 }
 

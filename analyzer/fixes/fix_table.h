@@ -7,6 +7,10 @@
 
 namespace isocnc::fixes {
 
+/// Why a code has no fix, unless a row says something else.
+inline constexpr dialect::Text kMeaningUnknown = {"What is meant cannot be seen from the program.",
+                                                  "Dal programma non si capisce che cosa si intenda."};
+
 /// The fix of findings of one code, or the reason why there is none.
 struct FixDef {
   dialect::DiagnosticId diagnostic = dialect::kNoDiagnostic;
@@ -43,8 +47,6 @@ inline constexpr Text kStrayCenter = {"remove {text}: the circle is given withou
 
 inline constexpr Text kValueUnknown = {"Only the author knows the number.",
                                        "Il numero lo sa solo chi scrive il programma."};
-inline constexpr Text kMeaningUnknown = {"What is meant cannot be seen from the program.",
-                                         "Dal programma non si capisce che cosa si intenda."};
 inline constexpr Text kVectorUnknown = {"Only the author knows where the face's axes point.",
                                         "La direzione degli assi di faccia la sa solo chi scrive il programma."};
 inline constexpr Text kToolUnknown = {"Only the author knows which tool is meant.",
@@ -55,8 +57,8 @@ inline constexpr Text kAboutCheck = {"It is about the check, not about the progr
                                      "Riguarda la verifica, non il programma."};
 }  // namespace detail
 
-/// One or more rows for each code, in the order in which they are tried: the first that gives edits is the finding's
-/// fix.
+/// The fixes of each code in the order in which they are tried: the first that gives edits is the finding's fix. A code
+/// without a row has no fix, for kMeaningUnknown.
 inline constexpr auto kFixes = [] {
   using namespace detail;
   using enum Safety;
@@ -72,7 +74,6 @@ inline constexpr auto kFixes = [] {
       {"unknown-word"_diag, Unsafe, kComment, text_as_comment},
       {"word-without-number"_diag, Unsafe, kZero, zero_for_letter_o},
       {"word-without-number"_diag, Unsafe, kComment, text_as_comment},
-      {"number-without-letter"_diag, None, kMeaningUnknown},
       {"malformed-number"_diag, Unsafe, kWrite, point_for_comma},
       {"invalid-g-number"_diag, Unsafe, kWholeNumber, whole_number},
       {"invalid-m-number"_diag, Unsafe, kWholeNumber, whole_number},
@@ -93,7 +94,6 @@ inline constexpr auto kFixes = [] {
        Unsafe,
        {"take {new} from its own line", "portare qui la {new} dalla sua linea"},
        tool_of_other_line},
-      {"spindle-speed-not-positive"_diag, None, kMeaningUnknown},
       {"repeated-argument"_diag, Safe, kRepetition, removed_repetition},
       {"missing-arguments"_diag, None, kValueUnknown},
       {"frame-not-alone"_diag, Safe, kOwnLine, on_its_own_line},
@@ -109,7 +109,6 @@ inline constexpr auto kFixes = [] {
        Unsafe,
        {"move {text} to its coordinates on the next line", "spostare {text} davanti alle sue quote, sulla linea dopo"},
        command_to_next_line},
-      {"arc-end-outside-plane"_diag, None, kMeaningUnknown},
       {"circle-not-given"_diag, None, kValueUnknown},
       {"arc-radius-mismatch"_diag, Unsafe, kMeantCenter, center_from_other_origin},
       {"arc-radius-mismatch"_diag,
@@ -173,7 +172,6 @@ inline constexpr auto kFixes = [] {
       {"invalid-line-number"_diag, Unsafe, kWholeNumber, whole_number},
       {"invalid-register-number"_diag, Unsafe, kWholeNumber, whole_number},
       {"assignment-without-register"_diag, Unsafe, {"remove the =", "togliere il segno ="}, without_equals},
-      {"register-out-of-range"_diag, None, kMeaningUnknown},
       {"face-angle-out-of-range"_diag,
        Safe,
        {"write {new}, the same direction", "scrivere {new}, la stessa direzione"},
@@ -218,7 +216,6 @@ inline constexpr auto kFixes = [] {
        {"number the line {new}, which is free", "dare alla linea il numero {new}, che è libero"},
        free_label},
       {"m-params-not-alone"_diag, Safe, kOwnLine, on_its_own_line},
-      {"m-param-invalid"_diag, None, kMeaningUnknown},
       {"g09-misplaced"_diag,
        Unsafe,
        {"move {new} after the motion", "spostare {new} dopo il movimento"},
@@ -236,7 +233,6 @@ inline constexpr auto kFixes = [] {
        Safe,
        {"remove {new}, which {text} replaces", "togliere {new}, sostituita da {text}"},
        removed_earlier_mode},
-      {"spindle-stopped-feed"_diag, None, kMeaningUnknown},
       {"spindle-without-speed"_diag, None, kValueUnknown},
       {"spindle-reversed"_diag, Unsafe, kAbove, m05_above},
       {"tool-change-with-spindle-on"_diag, Unsafe, kAbove, m05_above},
@@ -245,22 +241,15 @@ inline constexpr auto kFixes = [] {
       {"end-with-compensation"_diag, Unsafe, kAbove, g40_above},
       {"feed-on-rapid"_diag, Safe, kIgnored, removed_on_every_path},
       {"feed-of-inverse-time"_diag, None, kValueUnknown},
-      {"arc-goes-nowhere"_diag, None, kMeaningUnknown},
       {"arc-barely-fits"_diag, Unsafe, kNearestCenter, center_between_ends},
       {"center-legal-both-ways"_diag, Unsafe, kMeantCenter, center_from_other_origin},
-      {"compensation-across-change"_diag, None, kMeaningUnknown},
       {"axes-nearly-orthogonal"_diag, None, kVectorUnknown},
       {"dwell-of-odd-length"_diag,
        Unsafe,
        {"write {new}, should milliseconds be meant", "scrivere {new}, se si intendevano millisecondi"},
        seconds_of_milliseconds},
-      {"never-runs"_diag, None, kMeaningUnknown},
-      {"condition-decided"_diag, None, kMeaningUnknown},
       {"end-in-incremental"_diag, Safe, kAbove, g90_above},
       {"end-in-inches"_diag, Safe, kAbove, g71_above},
-      {"motion-goes-nowhere"_diag, None, kMeaningUnknown},
-      {"register-never-assigned"_diag, None, kMeaningUnknown},
-      {"register-never-read"_diag, None, kMeaningUnknown},
       {"label-never-used"_diag, Safe, {"remove the number", "togliere il numero"}, removed_mark},
       {"line-number-not-growing"_diag,
        None,
@@ -272,19 +261,11 @@ inline constexpr auto kFixes = [] {
        {"All line ends of a program are changed at once, by an editor or by version control.",
         "I terminatori di linea si cambiano tutti insieme, con un editor o con il controllo di versione."}},
       {"axes-nearly-unit"_diag, None, kVectorUnknown},
-      {"unnamed-function"_diag, None, kMeaningUnknown},
       {"travel-exceeded"_diag, None, kValueUnknown},
       {"feed-above-machine"_diag, None, kValueUnknown},
       {"rotary-speed-above-machine"_diag, None, kValueUnknown},
       {"spindle-speed-above-machine"_diag, None, kValueUnknown},
-      {"rapid-below-clearance"_diag, None, kMeaningUnknown},
-      {"tool-never-cuts"_diag, None, kMeaningUnknown},
-      {"tool-already-mounted"_diag, None, kMeaningUnknown},
-      {"compensation-begins-on-arc"_diag, None, kMeaningUnknown},
-      {"compensation-gouge"_diag, None, kMeaningUnknown},
       {"inside-arc-too-small"_diag, None, kValueUnknown},
-      {"compensation-not-applied"_diag, None, kMeaningUnknown},
-      {"spindle-started-late"_diag, None, kMeaningUnknown},
       {"useless-suppression"_diag, Safe, {"remove {text}", "togliere {text}"}, removed_suppression},
       {"too-many-paths"_diag, None, kAboutCheck},
       {"line-too-long"_diag, None, kAboutCheck},
