@@ -2,14 +2,13 @@
 
 namespace isocnc::formats {
 
-/// All formats.
 static constexpr struct {
   std::string_view name;
   std::unique_ptr<Renderer> (*make)(const ReportStyle& style);
 } kFormats[] = {
-    {"text", make_text_renderer},   {"concise", make_concise_renderer},       {"json", make_json_renderer},
-    {"sarif", make_sarif_renderer}, {"github", make_github_renderer},         {"gitlab", make_gitlab_renderer},
-    {"junit", make_junit_renderer}, {"checkstyle", make_checkstyle_renderer},
+#define ISOCNC_FORMAT_ROW(name) {#name, make_##name##_renderer},
+    ISOCNC_FORMATS(ISOCNC_FORMAT_ROW)
+#undef ISOCNC_FORMAT_ROW
 };
 
 std::vector<std::string> format_names() {
