@@ -133,26 +133,6 @@ static bool set_playback(Controls& controls, int, double value) {
 
 namespace {
 
-struct QuantityGroup {
-  std::string_view name;
-  dialect::Text meaning;
-};
-
-constexpr std::array<QuantityGroup, dialect::kModalGroupCount> kGroups{{
-    {"MOTION", {"motion", "movimento"}},
-    {"PLANE", {"arc plane", "piano di interpolazione"}},
-    {"FACE", {"face frame", "sistema di riferimento di faccia"}},
-    {"REDUCTION", {"profile reduction", "riduzione profilo"}},
-    {"COMPENSATION", {"cutter compensation", "correzione raggio fresa"}},
-    {"INTERPOLATION", {"interpolation", "interpolazione"}},
-    {"UNITS", {"units", "unità di misura"}},
-    {"DISTANCE", {"absolute or incremental", "dimensioni assolute o incrementali"}},
-    {"WORKPIECE", {"workpiece frame", "sistema di riferimento di pezzo"}},
-    {"FEEDMODE", {"feed mode", "modo del feed"}},
-}};
-
-static_assert(!kGroups.back().name.empty(), "each modal group has a name");
-
 constexpr std::array<std::string_view, 5> kUnits{"mm", "mm", "mm", "°", "°"};
 
 /// `V1` to `V30`.
@@ -222,9 +202,9 @@ std::vector<Quantity> make_quantities() {
   std::vector<Quantity> all;
   add_positions(all);
   all.insert(all.end(), std::begin(kSingle), std::end(kSingle));
-  for (std::size_t i = 0; i < kGroups.size(); ++i)
-    all.push_back({.name = kGroups[i].name,
-                   .meaning = kGroups[i].meaning,
+  for (std::size_t i = 0; i < dialect::kModalGroupCount; ++i)
+    all.push_back({.name = dialect::kModalGroups[i].variable,
+                   .meaning = dialect::kModalGroups[i].name,
                    .unit = {},
                    .read = read_mode,
                    .index = static_cast<int>(i)});
@@ -256,8 +236,5 @@ std::optional<int> find_register(std::string_view name) {
   if (quantity == nullptr || quantity->read != read_register) return std::nullopt;
   return quantity->index;
 }
-
-std::string_view group_name(ModalGroup group) { return kGroups[static_cast<std::size_t>(group)].name; }
-dialect::Text group_meaning(ModalGroup group) { return kGroups[static_cast<std::size_t>(group)].meaning; }
 
 }  // namespace isocnc::expressions

@@ -77,8 +77,4 @@ geometry::Pose programmed_pose(const Moment& moment);
 geometry::Pose workpiece_pose(const Moment& moment);
 geometry::Pose machine_pose(const Moment& moment);
 
-/// The modal group that a quantity stands for, by the name: `MOTION`, `PLANE`.
-std::string_view group_name(dialect::ModalGroup group);
-dialect::Text group_meaning(dialect::ModalGroup group);
-
 }  // namespace isocnc::expressions

@@ -268,9 +268,9 @@ class Listing {
     std::string value = in_language(kNoMotion);
     if (const dialect::GCode* const code = moment_.state.g(group))
       value = fmt::format("G{:02} {} ({})", code->number, in_language(code->name), origin_of(group));
-    variables.push_back({.name = in_language(expressions::group_meaning(group)),
-                         .value = value,
-                         .evaluate_name = std::string(expressions::group_name(group))});
+    const dialect::ModalGroupNames& names = dialect::names_of(group);
+    variables.push_back(
+        {.name = in_language(names.name), .value = value, .evaluate_name = std::string(names.variable)});
   }
 
   const Session& session_;

@@ -27,6 +27,30 @@ enum class ModalGroup : std::uint8_t {
 
 inline constexpr std::size_t kModalGroupCount = static_cast<std::size_t>(ModalGroup::None);
 
+/// The names of a modal group.
+struct ModalGroupNames {
+  std::string_view key;       ///< In isocnc/state.
+  std::string_view variable;  ///< In the debugger's expressions.
+  Text name;                  ///< For people.
+};
+
+/// The names of all modal groups, by ModalGroup.
+inline constexpr std::array<ModalGroupNames, kModalGroupCount> kModalGroups = {{
+    {"motion", "MOTION", {"motion", "movimento"}},
+    {"plane", "PLANE", {"arc plane", "piano di interpolazione"}},
+    {"face", "FACE", {"face frame", "sistema di riferimento di faccia"}},
+    {"profileReduction", "REDUCTION", {"profile reduction", "riduzione profilo"}},
+    {"cutterCompensation", "COMPENSATION", {"cutter compensation", "correzione raggio fresa"}},
+    {"interpolation", "INTERPOLATION", {"interpolation", "interpolazione"}},
+    {"units", "UNITS", {"units", "unità di misura"}},
+    {"distance", "DISTANCE", {"absolute or incremental", "dimensioni assolute o incrementali"}},
+    {"workpiece", "WORKPIECE", {"workpiece frame", "sistema di riferimento di pezzo"}},
+    {"feedMode", "FEEDMODE", {"feed mode", "modo del feed"}},
+}};
+static_assert(!kModalGroups.back().key.empty(), "each modal group has names");
+
+constexpr const ModalGroupNames& names_of(ModalGroup group) { return kModalGroups[static_cast<std::size_t>(group)]; }
+
 /// What a G does. A switch over the roles names all of them, so that the compiler lists every place to which a new role
 /// matters. All roles but `Mode` and `Signal` belong to one G each.
 enum class GRole : std::uint8_t {

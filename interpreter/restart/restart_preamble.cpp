@@ -128,6 +128,24 @@ class Preamble {
   /// Whether only G93 has had an F, which a later G94 takes over (D43).
   bool has_only_inverse_feeds() const { return target_.feed_per_minute.number == 0 && target_.last_feed.number > 0; }
 
+  /// Whether a group is not simply written with its mode where that differs.
+  static bool has_own_step(ModalGroup group) {
+    switch (group) {
+      case ModalGroup::Motion:
+      case ModalGroup::Plane:
+      case ModalGroup::Face:
+      case ModalGroup::CutterCompensation:
+      case ModalGroup::Interpolation:
+      case ModalGroup::Units:
+      case ModalGroup::Distance:
+      case ModalGroup::Workpiece:
+      case ModalGroup::FeedMode:
+        return true;
+      default:
+        return false;
+    }
+  }
+
   /// Writes the modes that the program has written, defaults too. Otherwise writing them again further down would not
   /// be a repetition (W001).
   void set_modes() {
@@ -138,7 +156,10 @@ class Preamble {
     if (is_written(ModalGroup::Distance)) write(dialect::kAbsolute);
     if (is_written(ModalGroup::FeedMode) && !target_.inverse_time() && !has_only_inverse_feeds())
       write(dialect::kPerMinute);
-    if (differs(ModalGroup::ProfileReduction)) write(target_.mode(ModalGroup::ProfileReduction));
+    for (std::size_t i = 0; i < dialect::kModalGroupCount; ++i) {
+      const auto group = static_cast<ModalGroup>(i);
+      if (!has_own_step(group) && differs(group)) write(target_.mode(group));
+    }
     if (!first.empty()) add(first);
     if (is_written(ModalGroup::Interpolation)) add(fmt::format("G{}", target_.mode(ModalGroup::Interpolation)));
   }

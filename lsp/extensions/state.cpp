@@ -23,10 +23,6 @@ struct StateResult {
   std::optional<queries::LineRun> run;
 };
 
-constexpr const char* kGroupNames[] = {"motion",        "plane", "face",     "profileReduction", "cutterCompensation",
-                                       "interpolation", "units", "distance", "workpiece",        "feedMode"};
-static_assert(std::size(kGroupNames) == dialect::kModalGroupCount);
-
 Json vector_json(const geometry::Vec3& vector) { return {{"x", vector.x()}, {"y", vector.y()}, {"z", vector.z()}}; }
 
 /// The position as JSON; an axis whose position is unknown because of an error is null.
@@ -45,7 +41,7 @@ Json state_json(const execution::State& state) {
   Json in_force;
   for (std::size_t i = 0; i < dialect::kModalGroupCount; ++i) {
     const dialect::GCode* const code = state.g(static_cast<dialect::ModalGroup>(i));
-    in_force[kGroupNames[i]] = code ? Json(code->number) : Json();
+    in_force[dialect::kModalGroups[i].key] = code ? Json(code->number) : Json();
   }
   const bool knows_place = (state.unknown & execution::kLinearAxes) == 0 && state.is_frame_known();
   Json json = {{"inForce", in_force},
