@@ -127,9 +127,8 @@ int ExecutedBlock::spindle_function_before(const syntax::Word& word) const {
 
 bool ExecutedBlock::has_user_function() const {
   return std::any_of(line.instructions.begin(), line.instructions.end(), [&](const syntax::Instruction& instruction) {
-    const syntax::Word& command = line.command(instruction);
-    return instruction.kind == syntax::InstructionKind::Function && command.known() &&
-           dialect::is_user_function(static_cast<int>(command.value));
+    const std::optional<int> number = line.command(instruction).whole();
+    return instruction.kind == syntax::InstructionKind::Function && number && dialect::is_user_function(*number);
   });
 }
 

@@ -11,8 +11,8 @@ static void check_unnamed_function(const ExecutedBlock& block, execution::Sink& 
   for (const syntax::Instruction& instruction : block.line.instructions) {
     if (instruction.kind != syntax::InstructionKind::Function) continue;
     const syntax::Word& word = block.line.command(instruction);
-    const auto number = static_cast<int>(word.value);
-    if (dialect::is_user_function(number) && std::find(named.begin(), named.end(), number) == named.end())
+    const std::optional<int> number = word.whole();
+    if (number && dialect::is_user_function(*number) && std::find(named.begin(), named.end(), *number) == named.end())
       report(sink, "unnamed-function"_diag, word.span());
   }
 }

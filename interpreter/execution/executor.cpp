@@ -18,7 +18,7 @@ void take_spindle_speed(double number, State& state) {
 }
 
 /// Whether a number is that of G48 or G49.
-static bool is_interpolation_mode(double number) {
+static bool is_interpolation_mode(int number) {
   const dialect::GCode* const code = number >= 0 ? dialect::g_code(static_cast<std::size_t>(number)) : nullptr;
   return code && code->group == dialect::ModalGroup::Interpolation;
 }
@@ -32,7 +32,7 @@ void Executor::allow_for_lost_letter() {
   sink_.step(BlockStep::LostLetter, state_);
   state_.spindle = Spindle::Unknown;
   state_.speed_given = true;
-  const double value = number->is_plain_integer() ? number->value : -1;
+  const int value = number->is_plain_integer() ? number->whole().value_or(-1) : -1;
   if (dialect::is_motion_number(value)) return make_motion_illegible();
   if (value == dialect::kToolChange) {
     state_.tool_selected = true;
@@ -223,20 +223,20 @@ void Executor::dwell(const Instruction& instruction) {
 }
 
 void Executor::function(const Instruction& instruction) {
-  if (!line_.command(instruction).known()) {  // An M with an illegible number (reported) may have been any M.
+  const std::optional<int> m = line_.command(instruction).whole();
+  if (!m) {  // An M with an illegible number (reported) may have been any M.
     sink_.step(BlockStep::IllegibleFunction, state_);
     state_.spindle = Spindle::Unknown;
     return;
   }
-  const auto m = static_cast<int>(line_.command(instruction).value);
   if (m == dialect::kProgramEnd) {
     state_.ended = true;
     return sink_.end();
   }
-  if (dialect::is_user_function(m)) {
+  if (dialect::is_user_function(*m)) {
     sink_.step(BlockStep::UserFunction, state_);
   } else {
-    turn_spindle(m);
+    turn_spindle(*m);
   }
   if (!sink_.wants_effects()) return;
   std::array<FunctionParameter, dialect::kMaxFunctionParameters> parameters;
@@ -244,12 +244,10 @@ void Executor::function(const Instruction& instruction) {
   for (std::uint16_t i = instruction.begin; i + 1 < instruction.end && count < parameters.size(); ++i) {
     const Word& name = line_.words[i];
     const Word& value = line_.words[i + 1u];
-    const bool is_named = name.owner == instruction.number && name.letter == 'P' && name.is_plain_integer() &&
-                          name.value >= 1 && name.value <= dialect::kMaxFunctionParameters;
-    if (is_named && value.letter == syntax::kAssign && value.known())
-      parameters[count++] = {static_cast<int>(name.value), value.value};
+    const int number = name.owner == instruction.number && name.letter == 'P' ? name.parameter_number() : 0;
+    if (number != 0 && value.letter == syntax::kAssign && value.known()) parameters[count++] = {number, value.value};
   }
-  sink_.function(m, {parameters.data(), count});
+  sink_.function(*m, {parameters.data(), count});
 }
 
 void Executor::turn_spindle(int m) {
@@ -283,13 +281,13 @@ void Executor::stray_tool(const Instruction& instruction) {
 }
 
 void Executor::select_tool(const Word& word) {
-  const bool is_legible = word.known() && word.is_plain_integer() && word.digits == 6;
-  const ToolCode tool = is_legible ? tool_code(static_cast<int>(word.value)) : ToolCode{};
+  const std::optional<int> number = word.tool_number();
+  const ToolCode tool = number ? tool_code(*number) : ToolCode{};
   sink_.step(tool.head != 0 ? BlockStep::ToolMounted : BlockStep::ToolLost, state_);
   state_.tool_selected = true;  // A wrong number counts as a tool change, too (D44).
   state_.tool = tool;
   state_.tool_known = tool.head != 0;
-  if (!is_legible) return;
+  if (!number) return;
   const bool impossible =
       (state_.tool.head == 0 && state_.tool.holder != 0) || (state_.tool.holder == 0 && state_.tool.tool != 0);
   if (!impossible && !is_configured(state_.tool)) report("tool-not-configured"_diag, word.span());

@@ -53,8 +53,8 @@ bool LineParser::owns_any(const Instruction& owner, dialect::LetterSet set, bool
 
 /// An M whose number is not known may be one.
 static bool may_be_user_function(const Word& m) {
-  constexpr double kBeyondAll = 1e9;
-  return !(std::abs(m.value) < kBeyondAll) || dialect::is_user_function(static_cast<int>(m.value));
+  const std::optional<int> number = m.whole();
+  return !number || dialect::is_user_function(*number);
 }
 
 /// Whether an instruction must be alone on its line, and the diagnostic for a violation (D22).
@@ -296,11 +296,11 @@ void LineParser::check_parameters(const Instruction& function) {
     if (name.owner != function.number || name.letter != 'P') continue;
     const bool has_value = i + 1 < word_count() && word(i + 1u).letter == kAssign;
     const Span span = has_value ? hull(name.span(), word(i + 1u).span()) : name.span();
-    const bool named = name.is_plain_integer() && name.value >= 1 && name.value <= dialect::kMaxFunctionParameters;
-    const std::uint32_t bit = named ? 1u << static_cast<unsigned>(name.value) : 0;
+    const int number = name.parameter_number();
+    const std::uint32_t bit = 1u << static_cast<unsigned>(number);
     const bool valued = has_value && !word(i + 1u).has(Word::kMissing);
     if (takes_parameters && name.has(Word::kMalformed)) continue;  // The number has been reported.
-    if (!takes_parameters || !named || !valued || (seen & bit) != 0) {
+    if (!takes_parameters || number == 0 || !valued || (seen & bit) != 0) {
       report("m-param-invalid"_diag, span);
       if (!takes_parameters) return;
     }

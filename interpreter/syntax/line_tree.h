@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -44,6 +45,12 @@ struct Word {
 
   constexpr Span span() const { return {begin, end}; }
   bool known() const { return !std::isnan(value); }
+  /// The value if it is a whole number that fits, as in 8, -8 and 8.0; none if it is not known.
+  std::optional<int> whole() const {
+    constexpr double kMax = std::numeric_limits<int>::max();
+    if (!(std::abs(value) <= kMax) || std::trunc(value) != value) return std::nullopt;
+    return static_cast<int>(value);
+  }
   constexpr bool has(std::uint8_t flag) const { return (flags & flag) != 0; }
   /// Digits only, as G, M, N, T and V require.
   constexpr bool is_plain_integer() const { return (flags & (kSigned | kPoint | kMalformed | kMissing)) == 0; }
@@ -51,6 +58,12 @@ struct Word {
   constexpr int register_number() const {
     return is_plain_integer() && dialect::is_register(value) ? static_cast<int>(value) : 0;
   }
+  /// The parameter of a user M that a P names, 1 to 20; 0 if it names none.
+  constexpr int parameter_number() const {
+    return is_plain_integer() && value >= 1 && value <= dialect::kMaxFunctionParameters ? static_cast<int>(value) : 0;
+  }
+  /// The six digits of a T; none if it is not written so.
+  std::optional<int> tool_number() const { return is_plain_integer() && digits == 6 ? whole() : std::nullopt; }
 };
 
 enum class InstructionKind : std::uint8_t {

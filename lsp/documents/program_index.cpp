@@ -61,8 +61,8 @@ class LandmarkReader {
   std::uint64_t tool_of(const Instruction& instruction) const {
     for (std::size_t i = instruction.begin; i < instruction.end; ++i) {
       const Word& word = tree_.words[i];
-      if (word.owner == instruction.number && word.letter == 'T' && word.known() && word.is_plain_integer())
-        return static_cast<std::uint64_t>(word.value);
+      if (word.owner == instruction.number && word.letter == 'T' && word.is_plain_integer())
+        return static_cast<std::uint64_t>(word.whole().value_or(0));
     }
     return 0;
   }

@@ -282,8 +282,9 @@ class HoverWriter {
     static constexpr Text kTool = {"head {}, holder {}, tool {}", "testa {}, portautensile {}, utensile {}"};
     static constexpr Text kLength = {"length {} mm", "lunghezza {} mm"};
     static constexpr Text kRadius = {"radius {} mm", "raggio {} mm"};
-    if (!word_.is_plain_integer() || word_.digits != 6) return;
-    const execution::ToolCode code = execution::tool_code(static_cast<int>(word_.value));
+    const std::optional<int> number = word_.tool_number();
+    if (!number) return;
+    const execution::ToolCode code = execution::tool_code(*number);
     title(text(kTool, code.head, code.holder, code.tool));
     const configuration::Tool* const tool = snapshot_.configuration().machine.find_tool(code);
     if (!tool) return;

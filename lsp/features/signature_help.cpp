@@ -112,17 +112,17 @@ std::optional<Signature> of_function(const Snapshot& snapshot, const LineTree& l
                                      std::size_t column) {
   static constexpr Text kUser = {"function of the machine's user", "funzione dell'utente"};
   static constexpr Text kParameter = {"a number, handed to the function", "un numero, passato alla funzione"};
-  const Word& command = line.command(instruction);
-  if (!command.known() || !dialect::is_user_function(static_cast<int>(command.value))) return std::nullopt;
+  const std::optional<int> number = line.command(instruction).whole();
+  if (!number || !dialect::is_user_function(*number)) return std::nullopt;
   const Language language = snapshot.language();
-  Signature signature{fmt::format("M{}", command.value), std::string(kUser.in(language)), {}};
-  const auto* const function = snapshot.configuration().machine.find_function(command.value);
+  Signature signature{fmt::format("M{}", *number), std::string(kUser.in(language)), {}};
+  const auto* const function = snapshot.configuration().machine.find_function(*number);
   if (function && !function->name.empty()) signature.documentation = function->name;
   std::size_t last = 0;
   for (std::size_t i = instruction.begin; i < instruction.end; ++i) {
     const Word& word = line.words[i];
-    if (word.owner != instruction.number || word.letter != 'P' || !word.known() || word.begin >= column) continue;
-    if (word.value >= 1 && word.value <= dialect::kMaxFunctionParameters) last = static_cast<std::size_t>(word.value);
+    if (word.owner != instruction.number || word.letter != 'P' || word.begin >= column) continue;
+    if (const int parameter = word.parameter_number(); parameter != 0) last = static_cast<std::size_t>(parameter);
   }
   for (int i = 1; i <= dialect::kMaxFunctionParameters; ++i) {
     signature.label += fmt::format(" P{}=", i);

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -77,6 +80,34 @@ TEST(LineTree, WordsCarryWhatIsWrittenOfTheirNumber) {
   EXPECT_TRUE(tree.words[3].has(Word::kMalformed));
   EXPECT_FALSE(tree.words[2].known());
   EXPECT_FALSE(tree.words[3].known());
+}
+
+TEST(Word, IsWholeIfAnIntHoldsItsValue) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto whole = [](double value) {
+    Word word{};
+    word.value = value;
+    return word.whole();
+  };
+  EXPECT_EQ(whole(8), 8);
+  EXPECT_EQ(whole(-8), -8);
+  EXPECT_EQ(whole(-0.0), 0);
+  EXPECT_EQ(whole(2147483647), 2147483647);
+  for (const double other : {kNaN, 8.5, -0.1, 2147483648.0, -2147483648.0, 1e300, -1e300, kInfinity})
+    EXPECT_EQ(whole(other), std::nullopt) << other;
+}
+
+TEST(Word, NamesAToolBySixDigitsAndAParameterByOneOfTwentyNumbers) {
+  const auto tool = [](std::string_view t) { return ParsedLine(t).tree().words[0].tool_number(); };
+  EXPECT_EQ(tool("T101001"), 101001);
+  for (const char* const other : {"T10100", "T1010011", "T+101001", "T1010.01", "T", "T1x1001"})
+    EXPECT_EQ(tool(other), std::nullopt) << other;
+  const auto parameter = [](std::string_view p) { return ParsedLine(p).tree().words[0].parameter_number(); };
+  EXPECT_EQ(parameter("P1"), 1);
+  EXPECT_EQ(parameter("P20"), 20);
+  for (const char* const other : {"P0", "P21", "P+1", "P1.0", "P", "P99999999999"})
+    EXPECT_EQ(parameter(other), 0) << other;
 }
 
 TEST(LineTree, LettersAreUpperCase) {
