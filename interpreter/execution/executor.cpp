@@ -11,12 +11,6 @@ using syntax::Instruction;
 using syntax::InstructionKind;
 using syntax::Word;
 
-void take_spindle_speed(double number, State& state) {
-  if (!(number > 0)) return;  // Reported.
-  state.spindle_speed = number;
-  state.speed_given = true;
-}
-
 /// Whether a number is that of G48 or G49.
 static bool is_interpolation_mode(int number) {
   const dialect::GCode* const code = number >= 0 ? dialect::g_code(static_cast<std::size_t>(number)) : nullptr;

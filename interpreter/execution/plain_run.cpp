@@ -9,13 +9,6 @@ namespace isocnc::execution {
 using syntax::PlainLine;
 using syntax::Word;
 
-void take_feed(double number, State& state) {
-  state.feed_given = true;
-  if (!(number > 0)) return;  // Reported; the feed before it stays.
-  state.last_feed = {number, state.mm_per_unit()};
-  if (!state.inverse_time()) state.feed_per_minute = state.last_feed;
-}
-
 /// Whether a fast test shows that an arc is valid; Executor::arc() decides about the others.
 bool PlainRun::is_sound_arc(const PlainLine& line) {
   const Plane& plane = plane_in_force(state_);
