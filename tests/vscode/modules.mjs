@@ -12,13 +12,13 @@ export const requireFromExtension = createRequire(join(extension, 'package.json'
 const folder = mkdtempSync(join(tmpdir(), 'isocnc-modules-'));
 process.on('exit', () => rmSync(folder, { recursive: true, force: true }));
 
-/** A file of vscode-extension/src; `stubs` are sources of modules that it imports, by their names. */
-export async function module(name, stubs = {}) {
+/** A file of vscode-extension/src; `replacements` are sources of modules that it imports, by their names. */
+export async function module(name, replacements = {}) {
   const outfile = join(folder, `${name.replaceAll('/', '-')}.mjs`);
   const alias = {};
-  for (const [stubbed, source] of Object.entries(stubs)) {
-    alias[stubbed] = join(folder, `${stubbed.replaceAll('/', '-')}.stub.mjs`);
-    writeFileSync(alias[stubbed], source);
+  for (const [replaced, source] of Object.entries(replacements)) {
+    alias[replaced] = join(folder, `${replaced.replaceAll('/', '-')}.replacement.mjs`);
+    writeFileSync(alias[replaced], source);
   }
   requireFromExtension('esbuild').buildSync({ entryPoints: [join(extension, 'src', `${name}.ts`)], bundle: true, format: 'esm', platform: 'node', outfile, alias });
   return import(pathToFileURL(outfile));
