@@ -12,7 +12,7 @@
 
 #include "programs.h"
 #include "run_command.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace isocnc::commands {
 namespace {
@@ -53,7 +53,7 @@ class ConfigurationFile : public testing::Test {
   }
   void write(const std::string& name, std::string_view text) const { folder_.write(name, text); }
 
-  const TemporaryFolder folder_;
+  const support::TemporaryFolder folder_;
 };
 
 TEST_F(ConfigurationFile, DescribesTheMachine) {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "run_command.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 /// Whether the commands that the documentation shows run, and answer as it shows.
 namespace isocnc::commands {
@@ -91,7 +91,7 @@ std::vector<std::string> documents() {
 class Documentation : public testing::TestWithParam<std::string> {};
 
 TEST_P(Documentation, CommandsRunAndAnswerAsShown) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   fs::copy(kRoot / "examples", folder.path("examples"), fs::copy_options::recursive);
   fs::create_directory(folder.path("build"));
   for (const Shown& shown : shown_in(kRoot / GetParam())) {

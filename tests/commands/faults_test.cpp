@@ -10,8 +10,8 @@
 
 #include "framed.h"
 #include "run_command.h"
-#include "temporary_folder.h"
 #include "tests/support/random.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/text_of_file.h"
 
 /// What the world around a command may do to it, and what it owes then: the whole answer, or a word and the status of
@@ -79,7 +79,7 @@ class ScarceMemory : public testing::TestWithParam<std::string> {};
 
 TEST_P(ScarceMemory, IsReportedOrIsEnough) {
   if (!support::kTriesAll) GTEST_SKIP() << "sanitizers take what address space there is";
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   folder.write("good.iso", short_moves(100'000));
   folder.write("bad.iso", mistakes(60'000));
   folder.write("editor", editor_s_messages(short_moves(100'000)));
@@ -118,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(Commands, ScarceMemory,
 
 TEST(Faults, NoThreadsAreNoFailure) {
   if (!support::kTriesAll) GTEST_SKIP() << "sanitizers take what address space there is";
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   folder.write("good.iso", short_moves(100'000));
   // Each thread would take 8 MiB of it for its stack.
   const int status =
@@ -129,7 +129,7 @@ TEST(Faults, NoThreadsAreNoFailure) {
 
 /// Byte by byte, and read as slowly.
 TEST(Faults, SlowPipesLoseNothing) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   folder.write("bad.iso", mistakes(400));
   const std::string isolint = ISOCNC_BIN_DIR "/isolint --format json --stdin-filename bad.iso -";
   EXPECT_EQ(shell("cd " + folder.path() + " && " + isolint + " < bad.iso > whole"), 1);
@@ -145,7 +145,7 @@ TEST(Faults, SlowPipesLoseNothing) {
 class WrittenOver : public testing::TestWithParam<std::string> {};
 
 TEST_P(WrittenOver, IsReadToTheEnd) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   std::string text = "M06 T101001\n";
   for (int i = 0; i < 800'000; ++i) text += "G71 G00 X" + std::to_string(i % 1'000) + "\n";
   const std::string file = folder.write("large.iso", text);
@@ -171,7 +171,7 @@ INSTANTIATE_TEST_SUITE_P(Commands, WrittenOver,
                          [](const auto& tested) { return std::to_string(tested.index); });
 
 TEST(Faults, TenWriteOneProgramAndItIsWhole) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   std::string untidy;
   for (int i = 0; i < 20'000; ++i) untidy += "g01   x" + std::to_string(i) + " f500\n";
   const std::string file = folder.write("part.iso", untidy);
@@ -192,7 +192,7 @@ TEST(Faults, TenWriteOneProgramAndItIsWhole) {
 }
 
 TEST(Faults, ARemovedProgramIsReported) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const CommandResult result = run_command({"isolint", folder.path("gone.iso"), folder.path()});
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, HasSubstr("gone.iso: "));

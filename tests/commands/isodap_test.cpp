@@ -3,7 +3,7 @@
 
 #include "framed.h"
 #include "run_command.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace isocnc::commands {
 namespace {
@@ -31,7 +31,7 @@ TEST(Isodap, EndsAsTheProtocolAsks) {
 }
 
 TEST(Isodap, WritesAllThatItHasToSayBeforeItEnds) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string program = folder.write("part.iso", "M06 T101001\nM02\n");
   const CommandResult result =
       run_command({"isodap"}, {.input = kInitialize + launch(program) + kConfigurationDone + kDisconnect});

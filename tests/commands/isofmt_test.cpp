@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "run_command.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/text_of_file.h"
 
 namespace isocnc::commands {
@@ -29,7 +29,7 @@ std::string format(std::string input, std::vector<std::string> options = {}) {
 }
 
 TEST(Isofmt, PrintsOneProgram) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string file = folder.write("part.iso", kUntidy);
   for (const std::vector<std::string>& arguments :
        std::vector<std::vector<std::string>>{{"isofmt", file}, {"isofmt", "--stdout", file}}) {
@@ -43,7 +43,7 @@ TEST(Isofmt, PrintsOneProgram) {
 }
 
 TEST(Isofmt, WantsAModeForSeveralPrograms) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   folder.write("a.iso", kUntidy);
   folder.write("b.iso", kUntidy);
   const CommandResult result = run_command({"isofmt", folder.path()});
@@ -53,7 +53,7 @@ TEST(Isofmt, WantsAModeForSeveralPrograms) {
 }
 
 TEST(Isofmt, CountsTheProgramsThatItCouldRead) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   folder.write("a.iso", kTidy);
   const CommandResult result = run_command({"isofmt", "--check", "a.iso", "none.iso"}, {.folder = folder.path()});
   EXPECT_EQ(result.status, 2);
@@ -61,7 +61,7 @@ TEST(Isofmt, CountsTheProgramsThatItCouldRead) {
 }
 
 TEST(Isofmt, LeavesWhatIsNoTextAndGoesOn) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   folder.write("a.iso", std::string(100, '\0'));
   folder.write("b.iso", kTidy);
   const CommandResult result = run_command({"isofmt", "-i", "a.iso", "b.iso"}, {.folder = folder.path()});
@@ -74,7 +74,7 @@ TEST(Isofmt, LeavesWhatIsNoTextAndGoesOn) {
 /// Blanks in the name, and a byte-order mark: what is shown can be applied.
 TEST(Isofmt, ShowsDifferencesThatCanBeApplied) {
   for (const std::string mark : {"", "\xEF\xBB\xBF"}) {
-    const TemporaryFolder folder;
+    const support::TemporaryFolder folder;
     const std::string file = folder.write("a part.iso", mark + std::string(kUntidy));
     for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
              {"isofmt", "--diff"}, {"isolint", "--diff", "--severity", "W125=info"}}) {
@@ -99,7 +99,7 @@ TEST(Isofmt, ShowsDifferencesThatCanBeAppliedWhateverEndsTheLines) {
         "M06 T101001\rg71\nG71\r\nG71\rg0 x1\nM02\r", "M06 T101001\rG00 X1\n\n\n\n\n\n\nG71\nG71\ng00 x2\nM02\n",
         "M06 T101001\r\n\rG71\r\rG71 g00 x1\r\r\nM02\n"}) {
     for (const std::vector<std::string>& command : commands) {
-      const TemporaryFolder folder;
+      const support::TemporaryFolder folder;
       const std::string patched = folder.write("part.iso", before);
       const std::string rewritten = folder.write("other.iso", before);
       const auto run_with = [&](const std::string& option, const std::string& file) {
@@ -118,7 +118,7 @@ TEST(Isofmt, ShowsDifferencesThatCanBeAppliedWhateverEndsTheLines) {
 }
 
 TEST(Isofmt, ChecksPrograms) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   folder.write("a.iso", kUntidy);
   folder.write("b.iso", kTidy);
   folder.write("deep/c.nc", kUntidy);
@@ -131,7 +131,7 @@ TEST(Isofmt, ChecksPrograms) {
 }
 
 TEST(Isofmt, ShowsDifferences) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   std::string text;
   for (int i = 1; i <= 20; ++i) {
     text += i == 2 || i == 12 || i == 19 ? 'x' : 'X';
@@ -151,7 +151,7 @@ TEST(Isofmt, ShowsDifferences) {
 }
 
 TEST(Isofmt, RewritesProgramsInPlace) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string untidy = folder.write("a.iso", kUntidy);
   const std::string tidy = folder.write("b.iso", kTidy);
   ::chmod(untidy.c_str(), 0640);
@@ -173,7 +173,7 @@ TEST(Isofmt, KeepsByteOrderMarksLineEndsAndForeignBytes) {
   const std::string untidy = "\xEF\xBB\xBFg1x1\r\ng1x2(caf\xE9)\rm02 ";
   const std::string tidy = "\xEF\xBB\xBFG1 X1\r\nG1 X2 (caf\xE9)\rM02";
   EXPECT_EQ(format(untidy), tidy);
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string file = folder.write("a.iso", untidy);
   EXPECT_EQ(run_command({"isofmt", "-i", file}).status, 0);
   EXPECT_EQ(text_of_file(file), tidy);
@@ -183,7 +183,7 @@ TEST(Isofmt, KeepsByteOrderMarksLineEndsAndForeignBytes) {
 TEST(Isofmt, RewritesLargePrograms) {
   std::string start;
   while (start.size() < 1'000'000) start += "G1 X1 Y2\n";
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string file = folder.write("a.iso", start + "g1x5\n" + start);
   EXPECT_EQ(run_command({"isofmt", "-i", file}).status, 0);
   EXPECT_TRUE(text_of_file(file) == start + "G1 X5\n" + start);
@@ -198,7 +198,7 @@ TEST(Isofmt, TakesStyles) {
 }
 
 TEST(Isofmt, RefusesWhatCannotBeRenumberedAndGoesOn) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string bad = folder.write("a.iso", "if v1=1 goto n5\nn5\nn5\n");
   const std::string good = folder.write("b.iso", "n5 x1\n");
   const CommandResult result = run_command({"isofmt", "-i", "--renumber", "1:1", folder.path()});
@@ -211,7 +211,7 @@ TEST(Isofmt, RefusesWhatCannotBeRenumberedAndGoesOn) {
 }
 
 TEST(Isofmt, RefusesMistakenCommands) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string file = folder.write("a.iso", kUntidy);
   for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
            {},
@@ -239,7 +239,7 @@ TEST(Isofmt, RefusesMistakenCommands) {
 }
 
 TEST(Isofmt, ReportsLostOutput) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string file = folder.write("a.iso", kUntidy);
   for (const StandardOutput output : {StandardOutput::FullDisk, StandardOutput::ClosedPipe})
     for (const std::string mode : {"--stdout", "--diff", "--check"}) {
@@ -259,7 +259,7 @@ TEST(IsofmtExamples, DoWhatTheyDid) {
                                         "--modal",      "write",      "--renumber", "10:10",      "--renumber-all"};
   for (const auto& entry : std::filesystem::directory_iterator(ISOCNC_SOURCE_DIR "/examples")) {
     if (entry.path().extension() != ".iso") continue;
-    const TemporaryFolder folder;
+    const support::TemporaryFolder folder;
     const std::string file = folder.write("part.iso", text_of_file(entry.path()));
     std::vector<std::string> arguments = all;
     arguments.insert(arguments.begin(), {"isofmt", "-i", file});

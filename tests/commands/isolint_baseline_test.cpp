@@ -9,7 +9,7 @@
 
 #include "programs.h"
 #include "run_command.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/text_of_file.h"
 
 namespace isocnc::commands {
@@ -44,7 +44,7 @@ class IsolintBaseline : public testing::Test {
     return run({"--format", "concise", "--baseline", "known.json", "parts"}).out;
   }
 
-  const TemporaryFolder folder_;
+  const support::TemporaryFolder folder_;
 };
 
 TEST_F(IsolintBaseline, RecordsInPlaceOfReporting) {

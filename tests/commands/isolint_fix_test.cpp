@@ -11,7 +11,7 @@
 
 #include "programs.h"
 #include "run_command.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/text_of_file.h"
 
 namespace isocnc::commands {
@@ -50,7 +50,7 @@ CommandResult run_on(const std::string& input, std::vector<std::string> options)
 }
 
 TEST(IsolintFix, MendsWhatIsSafe) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string file = folder.write("part.iso", kMendable);
   const CommandResult result =
       run_command({"isolint", "--fix", "--format", "concise", "part.iso"}, {.folder = folder.path()});
@@ -62,7 +62,7 @@ TEST(IsolintFix, MendsWhatIsSafe) {
 }
 
 TEST(IsolintFix, MendsWhatIsLikelyWhenAskedTo) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string file = folder.write("part.iso", kMendable);
   const CommandResult result = run_command({"isolint", "--fix", "--unsafe-fixes", file});
   EXPECT_EQ(result.status, 1);
@@ -75,7 +75,7 @@ TEST(IsolintFix, MendsWhatIsLikelyWhenAskedTo) {
 }
 
 TEST(IsolintFix, MentionsUnsafeFixesButMakesNone) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string file = folder.write("part.iso", kMendable);
   EXPECT_THAT(run_command({"isolint", file}).out,
               AllOf(HasSubstr("= help: remove G71, already in force (--fix): G00 X10,5 ; gi\xC3\xB9\n"),
@@ -91,7 +91,7 @@ TEST(IsolintFix, DoesNotFixWhatIsNotSelected) {
   EXPECT_EQ(run_on(std::string(kMendable), {"--fix", "--ignore", "W001"}).out, kMendable);
   EXPECT_EQ(run_on(std::string(kMendable), {"--fix", "--select", "ISO"}).out, kMendable);
   EXPECT_EQ(run_on(std::string(kMendable), {"--fix", "--severity", "W001=off"}).out, kMendable);
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string file = folder.write("part.iso", kMendable);
   const std::string baseline = folder.path("known.json");
   EXPECT_EQ(run_command({"isolint", "--write-baseline", baseline, file}).status, 0);
@@ -115,7 +115,7 @@ TEST(IsolintFix, PrintsTheProgramOfStandardInput) {
   const CommandResult clean = run_on(std::string(kCleanProgram), {"--fix"});
   EXPECT_EQ(clean.status, 0);
   EXPECT_EQ(clean.out, kCleanProgram);
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const CommandResult apart =
       run_on(std::string(kMendable), {"--fix", "--format", "json", "--output", folder.path("found.json")});
   EXPECT_EQ(apart.out, kSafelyMended);
@@ -135,7 +135,7 @@ TEST(IsolintFix, KeepsByteOrderMarksLineEndsAndForeignBytes) {
   const std::string after = "\xEF\xBB\xBFM06 T101001\r\nG70 G00 X1 (caf\xE9)\rX2\r\nG00 X1\r\nM02";
   EXPECT_EQ(run_on(before, {"--fix", "--ignore", "W"}).out, before.substr(0, before.size() - 4) + "\r\nM02");
   EXPECT_EQ(run_on(before, {"--fix"}).out, after);
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string file = folder.write("part.iso", before);
   ::chmod(file.c_str(), 0640);
   EXPECT_EQ(run_command({"isolint", "--fix", file}).status, 0);
@@ -146,7 +146,7 @@ TEST(IsolintFix, KeepsByteOrderMarksLineEndsAndForeignBytes) {
 }
 
 TEST(IsolintFix, TouchesNothingThatStaysAsItIs) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string file = folder.write("part.iso", kCleanProgram);
   ::chmod(file.c_str(), 0440);
   struct stat before {};
@@ -159,7 +159,7 @@ TEST(IsolintFix, TouchesNothingThatStaysAsItIs) {
 }
 
 TEST(IsolintFix, ReportsThatAFileCannotBeReplaced) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string file = folder.write("part.iso", kMendable);
   const std::string other = folder.write("other.iso", kMendable);
   std::filesystem::create_hard_link(file, folder.path("name.txt"));
@@ -195,7 +195,7 @@ TEST(IsolintFix, CountsWhatRemains) {
 }
 
 TEST(IsolintDiff, ShowsAndChangesNothing) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string text = std::string(kMendable) + "(a)\n(b)\n(c)\n(d)\n(e)\n(f)\n(g)\n(h)\n(i)\n";
   const std::string file = folder.write("part.iso", text);
   for (const std::vector<std::string>& options :
@@ -231,7 +231,7 @@ TEST(IsolintDiff, ShowsLinesThatComeAndGo) {
 TEST(IsolintDiff, CanBeApplied) {
   int applied = 0;
   for (const auto& entry : std::filesystem::directory_iterator(ISOCNC_SOURCE_DIR "/examples/broken")) {
-    const TemporaryFolder folder;
+    const support::TemporaryFolder folder;
     const std::string patched = folder.write("patched.iso", text_of_file(entry.path()));
     const std::string fixed = folder.write("fixed.iso", text_of_file(entry.path()));
     const CommandResult diff =

@@ -14,7 +14,7 @@
 #include "analyzer/formats/renderers.h"
 #include "programs.h"
 #include "run_command.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/text_of_file.h"
 
 /// The formats for other programs. What they look like stands in formats/expected; after a change that is meant,
@@ -77,7 +77,7 @@ const std::string kHostileProgram = "M06 T101001 (" + std::string(200, 'a') +
 const std::string kHostileName = "a<b>&\"'\x01\xFF:,%\n.iso";
 
 std::string hostile_output(const std::string& format) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   folder.write(kHostileName, kHostileProgram);
   folder.write("empty.iso", "");
   const CommandResult result = run_command({"isolint", "--format", format, "."}, {.folder = folder.path()});
@@ -87,7 +87,7 @@ std::string hostile_output(const std::string& format) {
 
 /// Says what is wrong with an XML document, by the parser of Python.
 std::string xml_mistake(const std::string& document) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string file = folder.write("document.xml", document);
   const std::string log = folder.path("log");
   const std::string command =
@@ -194,7 +194,7 @@ TEST(IsolintSarif, ObeysThePublishedSchema) {
   wrong["runs"][0]["results"][0]["level"] = "serious";
   documents.push_back({{"valid", false}, {"document", wrong}});
 
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string task =
       folder.write("task.json", json{{"schema", json::parse(text_of_file(schema))}, {"documents", documents}}.dump());
   const std::string log = folder.path("log");

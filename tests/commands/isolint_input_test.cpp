@@ -14,8 +14,8 @@
 
 #include "programs.h"
 #include "run_command.h"
-#include "temporary_folder.h"
 #include "tests/support/in_child.h"
+#include "tests/support/temporary_folder.h"
 
 namespace isocnc::commands {
 namespace {
@@ -58,7 +58,7 @@ TEST(IsolintInput, StandardInputHasTheNameThatItIsGiven) {
 }
 
 TEST(IsolintInput, FilesAreShownInTheOrderGiven) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   std::vector<std::string> command = {"isolint", "--format", "concise", "--jobs", "4"};
   std::vector<std::string> expected;
   // Those at the front take longest.
@@ -76,7 +76,7 @@ TEST(IsolintInput, FilesAreShownInTheOrderGiven) {
 }
 
 TEST(IsolintInput, FindsTheSameWithAnyNumberOfJobs) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   std::string program = "M06 T101001\nG00 X1\nG01 X2 F100\n";
   for (int line = 0; line < 50'000; ++line) program += line % 5000 == 0 ? "G01\n" : "X" + std::to_string(line) + "\n";
   const std::string file = folder.write("long.iso", program + "M02\n");
@@ -86,7 +86,7 @@ TEST(IsolintInput, FindsTheSameWithAnyNumberOfJobs) {
 }
 
 TEST(IsolintInput, DirectoriesAreSearchedForPrograms) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   for (const std::string name : {"b.iso", "a/deep/x.NC", "a/y.cnc", "c.tap", "d.ngc", "notes.txt", ".git/z.iso"})
     folder.write(name, kBrokenProgram);
   const CommandResult result = run_command({"isolint", "--format", "concise"}, {.folder = folder.path()});
@@ -97,13 +97,13 @@ TEST(IsolintInput, DirectoriesAreSearchedForPrograms) {
 }
 
 TEST(IsolintInput, FilesThatAreNamedMayHaveAnyExtension) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string file = folder.write("notes.txt", kBrokenProgram);
   EXPECT_EQ(run_command({"isolint", file}).status, 1);
 }
 
 TEST(IsolintInput, GitIgnoreIsHonoredInAWorkTree) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   for (const std::string name : {"kept.iso", "dropped.iso", "old/x.iso"}) folder.write(name, kBrokenProgram);
   folder.write(".gitignore", "dropped.iso\n/old/\n");
   const std::vector<std::string> command = {"isolint", "--format", "concise"};
@@ -117,7 +117,7 @@ TEST(IsolintInput, GitIgnoreIsHonoredInAWorkTree) {
 }
 
 TEST(IsolintInput, EachFileIsCheckedOnce) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   folder.write("a.iso", kBrokenProgram);
   const CommandResult result =
       run_command({"isolint", "--format", "concise", "a.iso", "./a.iso", "."}, {.folder = folder.path()});
@@ -125,7 +125,7 @@ TEST(IsolintInput, EachFileIsCheckedOnce) {
 }
 
 TEST(IsolintInput, ADirectoryWithoutProgramsIsAFailure) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   folder.write("notes.txt", "nothing here");
   const CommandResult english = run_command({"isolint", folder.path()});
   EXPECT_EQ(english.status, 2);
@@ -134,7 +134,7 @@ TEST(IsolintInput, ADirectoryWithoutProgramsIsAFailure) {
 }
 
 TEST(IsolintInput, AMissingFileIsNamedAndTheOthersAreChecked) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   folder.write("a.iso", kBrokenProgram);
   const CommandResult result =
       run_command({"isolint", "--format", "concise", "gone.iso", "a.iso"}, {.folder = folder.path()});
@@ -145,7 +145,7 @@ TEST(IsolintInput, AMissingFileIsNamedAndTheOthersAreChecked) {
 
 TEST(IsolintInput, AFileThatMayNotBeReadIsAFailure) {
   if (!support::child_may_run(ISOCNC_BIN_DIR "/isolint")) GTEST_SKIP() << "only the superuser may run the programs";
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string file = folder.write("secret.iso", kCleanProgram);
   ::chmod(folder.path().c_str(), 0755);
   ::chmod(file.c_str(), 0);
@@ -157,7 +157,7 @@ TEST(IsolintInput, AFileThatMayNotBeReadIsAFailure) {
 }
 
 TEST(IsolintInput, AnEmptyProgramLacksItsEnd) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const CommandResult result = run_command({"isolint", "--format", "concise", folder.write("empty.iso", "")});
   EXPECT_EQ(result.status, 1);
   EXPECT_THAT(codes_in(result.out), ElementsAre("ISO045"));
@@ -191,7 +191,7 @@ struct NoProgram {
 class IsolintNoProgram : public testing::TestWithParam<NoProgram> {};
 
 TEST_P(IsolintNoProgram, IsRefusedWithAReason) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   folder.write("x.iso", GetParam().bytes);
   const CommandResult result = run_command({"isolint", "x.iso"}, {.folder = folder.path()});
   EXPECT_EQ(result.status, 2);
@@ -235,7 +235,7 @@ std::string repeated(std::string_view piece, std::size_t size) {
 }
 
 TEST(IsolintHugeLine, OneCommentIsNoFailure) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string file = folder.write("huge.iso", "M06 T101001\n;" + std::string(100 * kMegabyte, 'x') + "\nM02\n");
   const CommandResult result = run_command({"isolint", file});
   EXPECT_FALSE(result.timed_out);
@@ -244,7 +244,7 @@ TEST(IsolintHugeLine, OneCommentIsNoFailure) {
 }
 
 TEST(IsolintHugeLine, OfManyWordsIsCutWithANote) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string file = folder.write("huge.iso", "M06 T101001\n" + repeated("M08 ", 100 * kMegabyte) + "\nM02\n");
   const CommandResult result = run_command({"isolint", "--format", "concise", file});
   EXPECT_FALSE(result.timed_out);
@@ -255,7 +255,7 @@ class IsolintHugeLineOfMistakes : public testing::TestWithParam<std::string> {};
 
 /// Thousands of findings on one line: each must not cost a walk along it.
 TEST_P(IsolintHugeLineOfMistakes, EndsInTime) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string file =
       folder.write("huge.iso", "M06 T101001\n" + repeated("G00 X1 Y2 ", 100 * kMegabyte) + "\nM02\n");
   const CommandResult result =
@@ -274,7 +274,7 @@ TEST(IsolintManyPaths, FarAfterTheirJumpEndInTime) {
   for (int i = 0; i < 200'000; ++i) program += "X" + std::to_string(i) + " Y1 Z1\n";
   program += "IF V3 = 1 GOTO N50\nG93\nN50 G00 X3\nG01 X1 F3\n";
   for (int i = 0; i < 20'000; ++i) program += "X" + std::to_string(i) + "\n";
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string file = folder.write("long.iso", program + "M02\n");
   for (const std::string format : {"text", "json"}) {
     const CommandResult result =

@@ -5,7 +5,7 @@
 
 #include "programs.h"
 #include "run_command.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace isocnc::commands {
 namespace {

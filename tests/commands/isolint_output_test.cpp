@@ -9,7 +9,7 @@
 
 #include "programs.h"
 #include "run_command.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace isocnc::commands {
 namespace {
@@ -51,7 +51,7 @@ TEST(IsolintText, SaysNothingOfACleanProgramButTheCount) {
 
 /// A name, too, may hold what a terminal would obey.
 TEST(IsolintText, ShowsNamesAsTextAndNothingElse) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   folder.write("a\033[31m\nb.iso", kBrokenProgram);
   for (const std::string format : {"text", "concise"}) {
     const CommandResult result = run_command({"isolint", "--format", format, "."}, {.folder = folder.path()});
@@ -127,7 +127,7 @@ TEST(IsolintText, NamesWhatCannotBeSeen) {
 }
 
 TEST(IsolintText, NamesTheAxisThatGoesTooFar) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string machine =
       folder.write("m.json", R"({"machine": {"axes": {"Y": {"max": 100}, "C": {"min": -90}}}})");
   const json found = findings_in("M06 T101001\nG00 Y150\nG00 Y0 C-91\nM02\n", {"--config", machine});
@@ -188,7 +188,7 @@ std::vector<std::string> files_named_by(const std::string& format, const std::st
 }
 
 TEST(IsolintJson, IsSortedByFileWhateverTheOrderGiven) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   for (const std::string name : {"a.iso", "a/c.iso", "b.iso", "B.iso", "sub/a.iso"}) folder.write(name, kBrokenProgram);
   EXPECT_THAT(files_named_by("json", folder.path()), ElementsAre("B.iso", "a.iso", "a/c.iso", "b.iso", "sub/a.iso"));
   EXPECT_THAT(files_named_by("concise", folder.path()), ElementsAre("b.iso", "sub/a.iso", "a.iso", "B.iso", "a/c.iso"));

@@ -5,7 +5,7 @@
 
 #include "programs.h"
 #include "run_command.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/text_of_file.h"
 
 namespace isocnc::commands {
@@ -99,7 +99,7 @@ TEST(IsolintSelection, RefusesCodesThatItDoesNotKnow) {
 }
 
 TEST(IsolintSelection, LeavesThePathAfterAListAlone) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   folder.write("part.iso", kMixedProgram);
   const CommandResult result =
       run_command({"isolint", "--format", "concise", "--select", "W001", "part.iso"}, {.folder = folder.path()});
@@ -121,7 +121,7 @@ TEST(IsolintExitZero, DoesNotHideAFailure) {
 }
 
 TEST(IsolintOutputFile, HoldsWhatElseWouldBePrinted) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const CommandSetup mixed{.input = std::string(kMixedProgram), .folder = folder.path()};
   const std::string expected = run_command({"isolint", "-"}, mixed).out;
   const CommandResult result = run_command({"isolint", "--output", "findings.txt", "-"}, mixed);
@@ -142,7 +142,7 @@ TEST(IsolintOutputFile, SaysWhyItCannotBeWritten) {
 }
 
 TEST(IsolintOutputFile, IsNoneOfThePrograms) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string program = folder.write("part.iso", kMixedProgram);
   const CommandResult result = run_command({"isolint", "--output", "./part.iso", "."}, {.folder = folder.path()});
   EXPECT_EQ(result.status, 2);
@@ -151,7 +151,7 @@ TEST(IsolintOutputFile, IsNoneOfThePrograms) {
 }
 
 TEST(IsolintOutputFile, IsNothingThatIsRead) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   folder.write("part.iso", kMixedProgram);
   const std::string configuration = folder.write("isocnc.json", "{}\n");
   const std::string baseline = folder.write("known.json", "{\"version\": 1, \"findings\": []}\n");

@@ -8,7 +8,7 @@
 
 #include "programs.h"
 #include "run_command.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace isocnc::commands {
 namespace {
@@ -68,7 +68,7 @@ TEST(IsorunRestart, WritesTheProgramToStandardOutput) {
 }
 
 TEST(IsorunRestart, WritesTheProgramToAFile) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string output = folder.write("again.iso", "what stood there before");
   const CommandResult result = restart({"--restart-at", "6", "-o", output});
   EXPECT_EQ(result.status, 0);
@@ -77,7 +77,7 @@ TEST(IsorunRestart, WritesTheProgramToAFile) {
 }
 
 TEST(IsorunRestart, NamesTheProgram) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string file = folder.write("part.iso", kCutting);
   EXPECT_THAT(run_command({"isorun", "--restart-at", "6", file}).out,
               StartsWith("; restart of part.iso before its line 6\n"));
@@ -99,7 +99,7 @@ TEST(IsorunRestart, KeepsMarkAndLineEnds) {
 TEST(IsorunRestart, GoesDownAsAsked) {
   EXPECT_THAT(restart({"--restart-at", "6", "--clearance", "25.5", "--approach-feed", "300"}).out,
               HasSubstr("\nZ25.5\nG01 Z-5 F300\nF2000\n"));
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string machine = folder.write("machine.json", R"({"machine": {"clearance": 12}})");
   EXPECT_THAT(restart({"--restart-at", "6", "--machine", machine}).out, HasSubstr("\nZ12\nG01 Z-5 F1000\nF2000\n"));
   EXPECT_THAT(restart({"--restart-at", "6", "--machine", machine, "--clearance", "8"}).out, HasSubstr("\nZ8\nG01 "));
@@ -118,7 +118,7 @@ TEST(IsorunRestart, WhereItIsNotSafeNamesTheNearestLines) {
 }
 
 TEST(IsorunRestart, ThatIsRefusedLeavesTheFileAlone) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string output = folder.write("again.iso", "what stood there before");
   EXPECT_EQ(restart({"--restart-at", "8", "-o", output}).status, 1);
   EXPECT_EQ(content_of(output), "what stood there before");
@@ -173,7 +173,7 @@ TEST(IsorunRestart, ComplainsInTheReadersLanguage) {
 }
 
 TEST(IsorunRestart, DoesNotOverwriteTheProgram) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string file = folder.write("part.iso", kCutting);
   const CommandResult english =
       run_command({"isorun", "--restart-at", "6", "-o", "./part.iso", file}, {.folder = folder.path()});
@@ -187,7 +187,7 @@ TEST(IsorunRestart, DoesNotOverwriteTheProgram) {
 /// Z of the nose goes to 0 at most, the tool is 120 mm long.
 TEST(IsorunRestart, StaysWithinTheTravelOnItsPath) {
   const auto restart_on = [](const std::string& machine, const std::string& line, const std::string& language = "en") {
-    const TemporaryFolder folder;
+    const support::TemporaryFolder folder;
     return run_command(
         {"isorun", "--lang", language, "--machine", folder.write("machine.json", machine), "--restart-at", line, "-"},
         {.input = "G92 Z-300\nM06 T101001\nG00 X10 Y20 Z50\nG01 Z-5 F1000\nX200\nG00 Z60\nX-40\nZ5\n"
@@ -223,7 +223,7 @@ TEST(IsorunRestart, ThatCannotBeWrittenIsAFailure) {
 /// Each example is taken up again at every line; isolint reports no error in what comes out, and the control runs
 /// it to its end.
 TEST(IsorunRestart, OfEveryExampleHasNoErrors) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   std::size_t written = 0;
   for (const auto& entry : std::filesystem::directory_iterator(ISOCNC_SOURCE_DIR "/examples")) {
     if (entry.path().extension() != ".iso") continue;

@@ -11,7 +11,7 @@
 
 #include "programs.h"
 #include "run_command.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace isocnc::commands {
 namespace {
@@ -140,7 +140,7 @@ constexpr std::string_view kMachine = R"({"machine": {
 
 /// The example of docs/machine.md.
 TEST(IsorunMachine, TakesAHeadAsItIsMeasured) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string machine = folder.write("head.json", R"({"machine": {
     "kinematics": {"type": "head", "pivot": 100, "bFromC": {"x": 20}, "spindleFromB": {"y": 7}},
     "tools": [{"head": 1, "holder": 1, "tool": 1, "length": 50}]}})");
@@ -150,7 +150,7 @@ TEST(IsorunMachine, TakesAHeadAsItIsMeasured) {
 }
 
 TEST(IsorunMachine, GivesTimesAndTravel) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string machine = folder.write("machine.json", kMachine);
   const json summary = summary_of("M06 T101001\nG00 X50\nG03 X50 Y40 R20\nG00 Z30\nM50\nM02\n", {"--machine", machine});
   EXPECT_EQ(summary.at("error").at("code"), "ISO066");
@@ -175,7 +175,7 @@ TEST(IsorunMachine, OfTheExampleReachesAllThatTheExampleAsksFor) {
 }
 
 TEST(IsorunMachine, ReportsWhatIsAskedBeyondItsLimits) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string machine = folder.write(
       "machine.json", R"({"machine": {"maxFeed": 3000, "maxRotarySpeed": 600, "maxSpindleSpeed": 18000}})");
   const std::string program =
@@ -194,7 +194,7 @@ TEST(IsorunMachine, ReportsWhatIsAskedBeyondItsLimits) {
 }
 
 TEST(IsorunMachine, ReportsHowFarItsTravelIsLeftAndWhereFirst) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string machine = folder.write("machine.json", R"({"machine": {"axes": {"X": {"min": 0, "max": 100}}}})");
   const std::string program = "M06 T101001\nG00 X150\nX200\nX-5\nX120\nM02\n";
   const std::string text = run_command({"isorun", "--machine", machine, "-"}, {.input = program}).out;
@@ -211,7 +211,7 @@ constexpr std::string_view kGouging =
     "M06 T101001\nG01 X30 Y20 F5000\nG41 G01 X0 Y0\nY45\nG03 X-5 Y50 R5\nG01 X-40\nG40\nM02\n";
 
 TEST(IsorunCompensation, MovesTheTipByTheRadiusOfTheTool) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string machine = folder.write("machine.json", kCutter);
   const std::string program = "M06 T101001\nG00 Y-30\nG42 G01 X0 Y0 F1000\nX80\nY40\nM02\n";
   const std::vector<json> events = trace_of(program, {"--machine", machine});
@@ -224,7 +224,7 @@ TEST(IsorunCompensation, MovesTheTipByTheRadiusOfTheTool) {
 }
 
 TEST(IsorunCompensation, WarnsBesideTheSummary) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string machine = folder.write("machine.json", kCutter);
   const CommandSetup input{.input = std::string(kGouging)};
   const CommandResult result = run_command({"isorun", "--machine", machine, "-"}, input);

@@ -15,7 +15,7 @@
 
 #include "programs.h"
 #include "run_command.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace isocnc::commands {
 namespace {
@@ -28,7 +28,7 @@ using testing::StartsWith;
 
 /// The SVG of a program.
 std::string svg_of(const std::string& program, const std::string& name = "part.iso") {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string plot = folder.path("plot.svg");
   EXPECT_EQ(run_command({"isorun", "--plot", plot, folder.write(name, program)}).status, 0);
   std::stringstream svg;
@@ -69,7 +69,7 @@ TEST(IsorunPlot, ShowsFramesWithoutMotion) {
 
 /// Whether this isorun draws HTML; it says why when it does not.
 TEST(IsorunPlot, IsAPageOrSaysWhyNot) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string plot = folder.path("PLOT.HTML");
   const std::string program = folder.write("part.iso", "M06 T101001 ; </script><script>\nG00 X50\nM02\n");
   const CommandResult result = run_command({"isorun", "--plot", plot, program});
@@ -238,7 +238,7 @@ TEST(IsorunUsage, TakesNumbersAsProgramsWriteThem) {
 }
 
 TEST(IsorunUsage, TakesOneSettingAtATime) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string file = folder.write("part.iso", kCleanProgram);
   EXPECT_EQ(run_command({"isorun", "--set", "V1=1", file, "--until", "2"}).status, 0);
   EXPECT_EQ(run_command({"isorun", "--set", "V1=1", "--set", "V30=-2.5", file}).status, 0);
@@ -292,7 +292,7 @@ TEST(IsorunOutput, ThatCannotBeWrittenDoesNotHideTheErrorOfTheProgram) {
 }
 
 TEST(IsorunInput, ThatCannotBeReadIsAFailure) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string missing = folder.path("gone.iso");
   const std::string binary = folder.write("noise.iso", std::string(2000, '\x01'));
   const auto complaint = [](std::vector<std::string> command) {
@@ -311,7 +311,7 @@ TEST(IsorunInput, ThatCannotBeReadIsAFailure) {
 }
 
 TEST(IsorunInput, IsNotOverwrittenByItsTrace) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string file = folder.write("part.iso", kCleanProgram);
   const CommandResult result = run_command({"isorun", "--trace", "./part.iso", file}, {.folder = folder.path()});
   EXPECT_EQ(result.status, 2);
@@ -321,7 +321,7 @@ TEST(IsorunInput, IsNotOverwrittenByItsTrace) {
 
 /// Whatever is read stays as it is, and each output has a file of its own; links and other names make no difference.
 TEST(IsorunOutput, GoesToFilesOfItsOwn) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string program = folder.write("part.iso", kCleanProgram);
   const std::string configuration = folder.write("isocnc.json", "{}");
   const std::string machine = folder.write("machine.json", "{}");
@@ -371,7 +371,7 @@ TEST(IsorunInput, MayBeginWithAByteOrderMark) {
 }
 
 TEST(IsorunInput, InUtf16IsRefused) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   std::string wide = "\xFF\xFE";
   for (const char c : kCleanProgram) wide += std::string{c, '\0'};
   const CommandResult result = run_command({"isorun", folder.write("wide.iso", wide)});

@@ -15,7 +15,7 @@
 
 #include "programs.h"
 #include "run_command.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace isocnc::commands {
 namespace {
@@ -106,7 +106,7 @@ TEST(IsorunTrace, ReportsG990) {
 }
 
 TEST(IsorunTrace, ToAFileLeavesTheSummaryOnStandardOutput) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string trace = folder.path("trace.jsonl");
   const CommandResult result = run_command({"isorun", "--trace", trace, "-"}, {.input = std::string(kCleanProgram)});
   EXPECT_EQ(result.status, 0);
@@ -131,7 +131,7 @@ TEST(IsorunTrace, HasTheLengthsOfTheSummary) {
   const std::string program =
       "M06 T101001\nG00 X10 B90\nG00 B0 Z20\nG01 X50 F4000\nG03 X90 I70 J0 Z5\nG49\nX120 B30 C40\nG93\nG01 Y50 C0 F20\n"
       "G02 X150 R40 B0 F30\nG94\nM06 T101002\nG00 X0\nM02\n";
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string machine = folder.write("machine.json", R"({"machine": {"tools": [
     {"head": 1, "holder": 1, "tool": 1, "length": 60}, {"head": 1, "holder": 1, "tool": 2, "length": 90}]}})");
   std::map<std::string, double> sums;
@@ -160,7 +160,7 @@ TEST(IsorunSamples, FollowTheTipInSteps) {
 
 /// Home is where the spindle nose is, tool or none; a tool change moves no joint.
 TEST(IsorunSamples, BeginAtHomeAndShowTheToolThatIsMounted) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string machine = folder.write("machine.json", R"({"machine": {
     "home": {"x": 10, "y": 20, "z": 450, "c": 30}, "times": {"toolChange": 1},
     "tools": [{"head": 1, "holder": 1, "tool": 1, "length": 100}]}})");

@@ -1,7 +1,7 @@
 #include "run_command.h"
-#include "temporary_folder.h"
 #include "tests/support/in_child.h"
 #include "tests/support/random.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/text_of_file.h"
 
 #include <gmock/gmock.h>
@@ -84,7 +84,7 @@ class NeverLose : public testing::TestWithParam<Rewriter> {
     return after;
   }
 
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   std::size_t files = 0;
 };
 
@@ -153,7 +153,7 @@ INSTANTIATE_TEST_SUITE_P(Commands, NeverLose, testing::ValuesIn(rewriters()),
 
 /// Ctrl-C at some moment, most likely while the new text is being written: nothing is left beside the program.
 TEST(NeverLeave, WhenInterrupted) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::string before = untidy_program(500'000);
   const std::string file = folder.write("part.iso", before);
   const std::string command = "exec 2> /dev/null; cd " + folder.path() +
@@ -171,7 +171,7 @@ TEST(NeverLeave, WhenInterrupted) {
 class CutShort : public testing::TestWithParam<std::string> {};
 
 TEST_P(CutShort, IsReportedAndEndsTheRun) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   std::string text = "M06 T101001\n";
   for (int i = 0; i < 800'000; ++i) text += "G71 G00 X" + std::to_string(i % 1'000) + "\n";  // A warning for isolint.
   const std::string file = folder.write("large.iso", text);

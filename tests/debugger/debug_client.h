@@ -8,8 +8,8 @@
 
 #include "interpreter/dialect/diagnostic.h"
 #include "lsp/rpc/json.h"
-#include "tests/commands/temporary_folder.h"
 #include "tests/support/message_client.h"
+#include "tests/support/temporary_folder.h"
 
 namespace isocnc::debugger {
 
@@ -61,7 +61,7 @@ class DebugClient : public support::MessageClient {
   int end(bool by_disconnect = true);
 
  private:
-  commands::TemporaryFolder folder_;
+  support::TemporaryFolder folder_;
   std::filesystem::path program_;
   std::int64_t next_seq_ = 1;
 };

@@ -16,7 +16,7 @@ using support::codes_of;
 using support::fixed;
 using support::motions_of;
 using support::Random;
-using support::RandomProgram;
+using support::random_lines;
 
 struct Sample {
   std::string text;
@@ -63,14 +63,8 @@ std::string with_habits(Random& random, std::string line) {
   }
 }
 
-/// Half of the programs have few mistakes, so that more than a few blocks run.
 Sample random_sample(Random& random) {
-  RandomProgram program(random);
-  program.labels = random.one_in(2) ? 12 : 100;
-  program.end_chances = random.one_in(2) ? 60 : 1'000;
-  std::vector<std::string> lines = program.lines(random.between(1, 40));
-  if (random.one_in(2))
-    std::erase_if(lines, [](const std::string& line) { return !syntax::ParsedLine(line).tree().findings.empty(); });
+  std::vector<std::string> lines = random_lines(random, 40);
   for (std::string& line : lines) line = with_habits(random, std::move(line));
   const std::string line_end(random.any_of({"\n", "\r\n", "\r"}));
   Sample sample{support::joined(lines, line_end), line_end};

@@ -13,7 +13,7 @@ namespace isocnc::formatting {
 namespace {
 
 using support::Random;
-using support::RandomProgram;
+using support::random_lines;
 
 struct NamedStyle {
   std::string name;
@@ -56,14 +56,8 @@ std::string untidy(Random& random, const std::string& line) {
   return text;
 }
 
-/// Half of the programs have few mistakes, so that more than a few blocks run.
 std::string random_text(Random& random) {
-  RandomProgram program(random);
-  program.labels = random.one_in(2) ? 12 : 100;
-  program.end_chances = random.one_in(2) ? 60 : 1'000;
-  std::vector<std::string> lines = program.lines(random.between(1, 60));
-  if (random.one_in(2))
-    std::erase_if(lines, [](const std::string& line) { return !syntax::ParsedLine(line).tree().findings.empty(); });
+  std::vector<std::string> lines = random_lines(random, 60);
   for (std::string& line : lines)
     if (random.one_in(2)) line = untidy(random, line);
   std::string text = support::joined(lines, random.any_of({"\n", "\r\n", "\r"}));

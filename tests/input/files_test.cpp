@@ -1,5 +1,6 @@
 #include "analyzer/input/files.h"
 #include "tests/support/in_child.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,18 +24,8 @@ using testing::IsEmpty;
 /// Every test works in an empty directory of its own.
 class Files : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = fs::temp_directory_path() / "isocnc-files-XXXXXX";
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    directory_ = name;
-    before_ = fs::current_path();
-    fs::current_path(directory_);
-  }
-
-  void TearDown() override {
-    fs::current_path(before_);
-    fs::remove_all(directory_);
-  }
+  void SetUp() override { fs::current_path(directory_); }
+  void TearDown() override { fs::current_path(before_); }
 
   static void write(const fs::path& path, std::string_view text = "M02\n") {
     if (path.has_parent_path()) fs::create_directories(path.parent_path());
@@ -56,10 +47,11 @@ class Files : public testing::Test {
     return {selection.files.begin(), selection.files.end()};
   }
 
-  fs::path directory_;
+  const support::TemporaryFolder folder_;
+  const fs::path directory_ = folder_.path();
 
  private:
-  fs::path before_;
+  const fs::path before_ = fs::current_path();
 };
 
 TEST_F(Files, FileIsTakenWhateverItIsCalled) {

@@ -10,7 +10,7 @@
 #include "client_text.h"
 #include "lsp/protocol/uri.h"
 #include "session.h"
-#include "tests/commands/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 /// Diagnostics of isocnc.json, open or not, and the effects of its settings.
 namespace isocnc::lsp {
@@ -42,7 +42,7 @@ class ConfigurationFile : public testing::Test {
     return reported;
   }
 
-  const commands::TemporaryFolder temporary_;
+  const support::TemporaryFolder temporary_;
   const fs::path folder_ = fs::canonical(temporary_.path());
   Session session_;
 };

@@ -5,7 +5,7 @@
 
 #include "lsp/protocol/uri.h"
 #include "session.h"
-#include "tests/commands/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 /// Answers of features about one document.
 namespace isocnc::lsp {
@@ -119,7 +119,7 @@ TEST(Hover, IsPlainForEditorsThatShowPlainTextAlone) {
 
 /// Unescaped, such text would make an editor fetch the images that it names.
 TEST(Hover, ShowsTheWordsOfOthersAsTheyStand) {
-  const commands::TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   folder.write("isocnc.json", R"json({"machine": {
     "tools": [{"head": 1, "holder": 1, "tool": 1, "name": "![t](http://a.b/t.png)"}],
     "functions": {"M100": {"name": "<img src='http://a.b/f.png'> \\ *x*"}}}})json");

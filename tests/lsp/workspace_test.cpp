@@ -10,7 +10,7 @@
 
 #include "lsp/protocol/uri.h"
 #include "session.h"
-#include "tests/commands/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 /// Diagnostics and symbols of the programs in the workspace's folders, open or not.
 namespace isocnc::lsp {
@@ -48,7 +48,7 @@ class Workspace : public testing::Test {
   }
 
   using Reported = std::map<std::string, std::string>;
-  const commands::TemporaryFolder temporary_;
+  const support::TemporaryFolder temporary_;
   const fs::path folder_ = fs::canonical(temporary_.path());
   std::map<std::string, std::string> ids_;
   Session session_;
@@ -120,7 +120,7 @@ TEST_F(Workspace, SeesAChangeThatIsOlderThanWhatItKnows) {
 
 /// The author of the folder may have put symbolic links into it.
 TEST_F(Workspace, IsNotLeftThroughSymlinks) {
-  const commands::TemporaryFolder outside;
+  const support::TemporaryFolder outside;
   outside.write("part.iso", "G00 X10mm\nM02\n");
   fs::create_directory_symlink(outside.path(), folder_ / "away");
   fs::create_symlink(fs::path(outside.path()) / "part.iso", folder_ / "link.iso");

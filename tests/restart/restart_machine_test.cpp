@@ -13,6 +13,7 @@
 #include "interpreter/kinematics/kinematics.h"
 #include "interpreter/restart/restart.h"
 #include "interpreter/simulation/timed_run.h"
+#include "tests/restart/program_lines.h"
 #include "tests/support/random.h"
 
 /// What a restart promises of the machine: with tools of some radius and length it stands where it stood before the
@@ -116,16 +117,6 @@ std::span<const Motion> from_line(const Course& course, std::uint64_t line) {
 }
 std::span<const Motion> before_line(const Course& course, std::uint64_t line) {
   return std::span(course.motions).first(course.motions.size() - from_line(course, line).size());
-}
-
-std::size_t line_count(std::string_view text) {
-  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-}
-
-std::string rest_of(std::string_view text, std::uint64_t line) {
-  std::size_t offset = 0;
-  for (; line > 0; --line) offset = text.find('\n', offset) + 1;
-  return std::string(text.substr(offset));
 }
 
 /// How many restarts there were, of which kinds.

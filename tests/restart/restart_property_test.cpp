@@ -9,6 +9,7 @@
 
 #include "analyzer/check/check_text.h"
 #include "interpreter/restart/restart.h"
+#include "tests/restart/program_lines.h"
 #include "tests/support/random_program.h"
 
 /// What a restart promises, on random programs and lines: from the line on, the machine does what it does in the
@@ -191,16 +192,6 @@ bool is_same(const execution::State& a, const execution::State& b, bool with_mot
     if (i != static_cast<std::size_t>(ModalGroup::Face) && a.in_force[i] != b.in_force[i]) return false;
   return is_near(a.position, b.position) && feed_in_force(a) == feed_in_force(b) && a.tool == b.tool &&
          a.spindle_speed == b.spindle_speed && ((a.written ^ b.written) & kNotedGroups) == 0;
-}
-
-std::size_t line_count(std::string_view text) {
-  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-}
-
-std::string rest_of(std::string_view text, std::uint64_t line) {
-  std::size_t offset = 0;
-  for (; line > 0; --line) offset = text.find('\n', offset) + 1;
-  return std::string(text.substr(offset));
 }
 
 void expect_same_course(const std::string& program, const std::string& restarted, const RestartOptions& options) {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/syntax/tree_store.h"
 #include "tests/support/random.h"
 
 namespace isocnc::support {
@@ -218,6 +219,18 @@ inline std::string joined(const std::vector<std::string>& lines, std::string_vie
   std::string text;
   for (const std::string& line : lines) text.append(line).append(line_end);
   return text;
+}
+
+/// The lines of a program of up to `max` random lines. Half of the programs have few mistakes, so that more than a few
+/// blocks run.
+inline std::vector<std::string> random_lines(Random& random, int max) {
+  RandomProgram program(random);
+  program.labels = random.one_in(2) ? 12 : 100;
+  program.end_chances = random.one_in(2) ? 60 : 1'000;
+  std::vector<std::string> lines = program.lines(random.between(1, max));
+  if (random.one_in(2))
+    std::erase_if(lines, [](const std::string& line) { return !syntax::ParsedLine(line).tree().findings.empty(); });
+  return lines;
 }
 
 }  // namespace isocnc::support

@@ -1,5 +1,6 @@
 #include "interpreter/system/output_file.h"
 #include "tests/support/in_child.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/text_of_file.h"
 
 #include <fcntl.h>
@@ -20,24 +21,14 @@ namespace fs = std::filesystem;
 /// A folder of its own for each test.
 class OutputFiles : public testing::Test {
  protected:
-  OutputFiles() {
-    std::string name = fs::temp_directory_path() / "isocnc-output-XXXXXX";
-    if (::mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), name);
-    folder = name;
-    path = folder / "report";
-  }
-  ~OutputFiles() override {
-    std::error_code ignored;
-    fs::remove_all(folder, ignored);
-  }
-
   std::ptrdiff_t files_in_folder() const {
     return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
   }
   void put(std::string_view text) const { std::ofstream(path) << text; }
 
-  fs::path folder;
-  fs::path path;
+  const support::TemporaryFolder own;
+  const fs::path folder = own.path();
+  const fs::path path = folder / "report";
 };
 
 int write_whole(const fs::path& path, std::string_view text) {

@@ -1,6 +1,7 @@
 #include "interpreter/system/replace_file.h"
 #include "interpreter/system/temporary_file.h"
 #include "tests/support/in_child.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/text_of_file.h"
 
 #include <gmock/gmock.h>
@@ -26,17 +27,10 @@ using testing::Optional;
 /// A folder with one program in it.
 class FileReplacements : public testing::Test {
  protected:
-  FileReplacements() {
-    std::string name = fs::temp_directory_path() / "isocnc-replace-XXXXXX";
-    if (::mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), name);
-    folder = name;
-    file = folder / "part.iso";
-    std::ofstream(file) << "old\n";
-  }
+  FileReplacements() { std::ofstream(file) << "old\n"; }
   ~FileReplacements() override {
     std::error_code ignored;
     fs::permissions(folder, fs::perms::owner_all, ignored);
-    fs::remove_all(folder, ignored);
   }
 
   std::size_t files_in_folder() const {
@@ -48,8 +42,9 @@ class FileReplacements : public testing::Test {
     EXPECT_EQ(files_in_folder(), 1u);
   }
 
-  fs::path folder;
-  fs::path file;
+  const support::TemporaryFolder own;
+  const fs::path folder = own.path();
+  const fs::path file = folder / "part.iso";
 };
 
 std::optional<std::string> replace(const fs::path& file, std::string_view text) {

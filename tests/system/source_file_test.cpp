@@ -1,6 +1,7 @@
 #include "interpreter/system/source_file.h"
 #include "tests/support/in_child.h"
 #include "tests/support/random.h"
+#include "tests/support/temporary_folder.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -93,14 +94,7 @@ class Interruptions {
 /// Every test works in an empty directory of its own.
 class SourceFiles : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = fs::temp_directory_path() / "isocnc-source-XXXXXX";
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    directory_ = name;
-  }
-  void TearDown() override { fs::remove_all(directory_); }
-
-  fs::path path(const std::string& name = "part.iso") const { return directory_ / name; }
+  fs::path path(const std::string& name = "part.iso") const { return folder_.path(name); }
 
   fs::path write(const std::string& text) const {
     std::ofstream(path(), std::ios::binary) << text;
@@ -113,7 +107,7 @@ class SourceFiles : public testing::Test {
   }
 
  private:
-  fs::path directory_;
+  const support::TemporaryFolder folder_;
 };
 
 TEST_F(SourceFiles, TextIsTheFileByteByByteAfterAByteOrderMark) {

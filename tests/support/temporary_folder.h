@@ -9,7 +9,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace isocnc::commands {
+namespace isocnc::support {
 
 /// A new folder for files of a test, removed with this object.
 class TemporaryFolder {
@@ -43,4 +43,4 @@ class TemporaryFolder {
   std::string path_;
 };
 
-}  // namespace isocnc::commands
+}  // namespace isocnc::support
