@@ -6,12 +6,12 @@ namespace isocnc::check {
 
 void JumpCollector::add(std::uint64_t line, const FlowEvent& event) {
   if (event.kind == FlowEvent::Kind::Jump) sites_.push_back({line, event.jump});
-  steps_.emplace_back(event);
+  events_.emplace_back(event);
 }
 
 JumpMap JumpCollector::finish() && {
   JumpMap map(std::move(sites_));
-  if (!map.empty()) map.follow(steps_);
+  if (!map.empty()) map.follow(events_);
   return map;
 }
 

@@ -18,7 +18,7 @@ class JumpCollector {
 
  private:
   std::vector<JumpMap::Site> sites_;
-  std::vector<JumpMap::ReducedEvent> steps_;
+  std::vector<JumpMap::ReducedEvent> events_;
 };
 
 }  // namespace isocnc::check

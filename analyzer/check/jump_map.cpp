@@ -200,32 +200,32 @@ JumpMap::JumpMap(std::vector<Site> sites) : sites_(std::move(sites)), knows_labe
 }
 
 void JumpMap::read_labels(std::string_view text) {
-  std::vector<ReducedEvent> steps;
+  std::vector<ReducedEvent> events;
   scan_events(text, [&](const FlowEvent& event, const char*) {
-    if (event.kind != FlowEvent::Kind::Label || names(event.label)) steps.emplace_back(event);
+    if (event.kind != FlowEvent::Kind::Label || names(event.label)) events.emplace_back(event);
   });
-  follow(steps);
+  follow(events);
 }
 
 /// Computes what depends on the order of jumps, labels and assignments.
-void JumpMap::follow(const std::vector<ReducedEvent>& steps) {
-  if (compares_registers()) find_reads(steps);
-  find_targets(steps);
+void JumpMap::follow(const std::vector<ReducedEvent>& events) {
+  if (compares_registers()) find_reads(events);
+  find_targets(events);
 }
 
 /// Goes from the end of the program to its start: as all jumps go forward, one pass finds which registers are read
 /// later.
-void JumpMap::find_reads(const std::vector<ReducedEvent>& steps) {
+void JumpMap::find_reads(const std::vector<ReducedEvent>& events) {
   std::unordered_map<std::uint64_t, RegisterSet> read_at_label;
   RegisterSet read = 0;
   std::size_t jump = sites_.size();
-  for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
-    switch (step->kind) {
+  for (auto event = events.rbegin(); event != events.rend(); ++event) {
+    switch (event->kind) {
       case FlowEvent::Kind::Assignment:
-        read &= ~register_bit(step->reg);
+        read &= ~register_bit(event->reg);
         break;
       case FlowEvent::Kind::Label:
-        read_at_label[step->label] = read;
+        read_at_label[event->label] = read;
         break;
       case FlowEvent::Kind::Jump: {
         const syntax::Jump& condition = sites_[--jump].jump;
@@ -242,13 +242,13 @@ void JumpMap::find_reads(const std::vector<ReducedEvent>& steps) {
 }
 
 /// A line's label takes effect before its jump, so an IF cannot jump to its own line (D51).
-void JumpMap::find_targets(const std::vector<ReducedEvent>& steps) {
+void JumpMap::find_targets(const std::vector<ReducedEvent>& events) {
   std::unordered_map<std::uint64_t, std::size_t> last_definitions;
   std::vector<std::size_t> jumps;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    if (steps[i].kind == FlowEvent::Kind::Jump) jumps.push_back(i);
-    if (steps[i].kind != FlowEvent::Kind::Label) continue;
-    if (!last_definitions.insert_or_assign(steps[i].label, i).second) repeated_.insert(steps[i].label);
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    if (events[i].kind == FlowEvent::Kind::Jump) jumps.push_back(i);
+    if (events[i].kind != FlowEvent::Kind::Label) continue;
+    if (!last_definitions.insert_or_assign(events[i].label, i).second) repeated_.insert(events[i].label);
   }
   for (std::size_t jump = 0; jump < jumps.size(); ++jump) {
     const auto last = last_definitions.find(sites_[jump].jump.target);

@@ -129,9 +129,9 @@ class JumpMap {
   /// The map of the jumps alone, without labels.
   explicit JumpMap(std::vector<Site> sites);
   void read_labels(std::string_view text);
-  void follow(const std::vector<ReducedEvent>& steps);
-  void find_reads(const std::vector<ReducedEvent>& steps);
-  void find_targets(const std::vector<ReducedEvent>& steps);
+  void follow(const std::vector<ReducedEvent>& events);
+  void find_reads(const std::vector<ReducedEvent>& events);
+  void find_targets(const std::vector<ReducedEvent>& events);
 
   // A filter of 2^20 bits: most line numbers are no targets, and the hash of the number rules most of them out.
   static std::size_t filter_bit(std::uint64_t label) { return (label * 0x9E3779B97F4A7C15ULL) >> 44; }
