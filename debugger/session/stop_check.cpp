@@ -63,9 +63,13 @@ std::optional<Stop> StopCheck::judge_exceptions() {
   auto found = find_exception();
   if (!found) found = find_coming_overtravel();
   if (!found) return std::nullopt;
-  state_.exception = std::move(found);
-  return Stop{.reason = "exception",
-              .details = {{"text", state_.exception->code}, {"description", state_.exception->message}}};
+  return stop_at(std::move(*found));
+}
+
+Stop StopCheck::stop_at(breakpoints::Exception exception) {
+  state_.exception = std::move(exception);
+  return {.reason = "exception",
+          .details = {{"text", state_.exception->code}, {"description", state_.exception->message}}};
 }
 
 std::optional<breakpoints::Exception> StopCheck::find_exception() const {
@@ -114,12 +118,10 @@ std::optional<Stop> StopCheck::after_block(std::uint64_t block) {
 Stop StopCheck::at_error() {
   const running::RunResult& run = state_.debuggee->present().run();
   const dialect::Language language = state_.language();
-  state_.exception = breakpoints::Exception{.filter = breakpoints::ExceptionFilter::Errors,
-                                            .code = std::string(dialect::definition(run.error.id).code),
-                                            .message = running::error_message(run, language),
-                                            .explanation = analyzer::explain(run.error.id, language)};
-  return {.reason = "exception",
-          .details = {{"text", state_.exception->code}, {"description", state_.exception->message}}};
+  return stop_at({.filter = breakpoints::ExceptionFilter::Errors,
+                  .code = std::string(dialect::definition(run.error.id).code),
+                  .message = running::error_message(run, language),
+                  .explanation = analyzer::explain(run.error.id, language)});
 }
 
 void StopCheck::report_messages(const breakpoints::Breakpoints::BreakpointOutcome& outcome, std::uint64_t line) {

@@ -52,6 +52,7 @@ class StopCheck {
   bool ends_step_out() const;
   std::optional<Stop> judge_breakpoints();
   std::optional<Stop> judge_exceptions();
+  Stop stop_at(breakpoints::Exception exception);
   std::optional<breakpoints::Exception> find_exception() const;
   std::optional<breakpoints::Exception> find_coming_overtravel() const;
   void report_messages(const breakpoints::Breakpoints::BreakpointOutcome& outcome, std::uint64_t line);
