@@ -64,11 +64,9 @@ static void add_unassigned_registers(const std::vector<PlacedOutcome>& outcomes,
 }
 
 static syntax::Span without_blanks(std::string_view text) {
-  std::size_t begin = 0;
-  std::size_t end = text.size();
-  while (begin < end && text::is_blank(text[begin])) ++begin;
-  while (end > begin && text::is_blank(text[end - 1])) --end;
-  return {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
+  const std::string_view inner = text::trimmed(text);
+  const auto begin = static_cast<std::uint32_t>(inner.data() - text.data());
+  return {begin, begin + static_cast<std::uint32_t>(inner.size())};
 }
 
 /// Whether a line with a finding may have been meant as M02: `(M02`, `M`, `MO2`, `M0`, or `02` alone (D58).

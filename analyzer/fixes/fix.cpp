@@ -9,6 +9,7 @@
 #include "analyzer/fixes/habits.h"
 #include "analyzer/fixes/line_edits.h"
 #include "interpreter/dialect/format.h"
+#include "interpreter/syntax/formatter.h"
 #include "interpreter/syntax/tree_store.h"
 #include "interpreter/text/characters.h"
 
@@ -34,6 +35,13 @@ Habits& FixProgram::habits() {
   return *habits_;
 }
 
+std::optional<std::uint64_t> FixProgram::free_line_number() {
+  if (!last_line_number_) last_line_number_ = highest_line_number();
+  if (*last_line_number_ > syntax::kMaxLineNumber - 10) return std::nullopt;
+  last_line_number_ = *last_line_number_ / 10 * 10 + 10;
+  return last_line_number_;
+}
+
 std::string Fix::title_in(dialect::Language language) const {
   return dialect::format(title, language, fmt::arg("text", marked), fmt::arg("new", what));
 }
@@ -56,12 +64,7 @@ static std::optional<std::string> edited_line(const FixRequest& request, std::ve
     return edit.begin.line != request.number || edit.end.line != request.number;
   };
   if (std::any_of(edits.begin(), edits.end(), is_elsewhere)) return std::nullopt;
-  const auto by_place = [](const Edit& a, const Edit& b) { return a.begin < b.begin; };
-  std::stable_sort(edits.begin(), edits.end(), by_place);
-  std::string text(request.line.text);
-  for (auto edit = edits.rbegin(); edit != edits.rend(); ++edit)
-    text.replace(edit->begin.column, edit->end.column - edit->begin.column, edit->text);
-  return text;
+  return edited(request.line.text, std::move(edits));
 }
 
 bool helps(const FixRequest& request, const std::vector<Edit>& edits) {

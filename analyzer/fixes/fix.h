@@ -83,11 +83,15 @@ class FixProgram {
   /// Whether a GOTO names this label.
   virtual bool is_jumped_to(std::uint64_t label) = 0;
   /// A line number that the program does not have; each call gives a new one.
-  virtual std::optional<std::uint64_t> free_line_number() = 0;
+  std::optional<std::uint64_t> free_line_number();
 
   virtual Habits& habits();
 
  private:
+  /// The highest line number of the program.
+  virtual std::uint64_t highest_line_number() = 0;
+
+  std::optional<std::uint64_t> last_line_number_;  // The highest one, or the one that free_line_number() gave last.
   std::unique_ptr<Habits> habits_;
 };
 

@@ -21,15 +21,25 @@ Edit inserted(const FixRequest& request, std::uint32_t column, std::string text)
   return replaced(request, {column, column}, std::move(text));
 }
 
-Edit removed(const FixRequest& request, Span span) {
-  const std::string_view line = request.line.text;
+Span with_blanks(std::string_view line, Span span) {
   Span wide = span;
   while (wide.begin > 0 && text::is_blank(line[wide.begin - 1])) --wide.begin;
-  if (wide.begin == 0) {  // The indentation stays.
-    wide = span;
-    while (wide.end < line.size() && text::is_blank(line[wide.end])) ++wide.end;
-  }
-  return replaced(request, wide, {});
+  if (wide.begin > 0) return wide;
+  wide = span;  // The indentation stays.
+  while (wide.end < line.size() && text::is_blank(line[wide.end])) ++wide.end;
+  return wide;
+}
+
+Edit removed(const FixRequest& request, Span span) {
+  return replaced(request, with_blanks(request.line.text, span), {});
+}
+
+std::string edited(std::string_view line, std::vector<Edit> edits) {
+  std::stable_sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) { return a.begin < b.begin; });
+  std::string text(line);
+  for (auto edit = edits.rbegin(); edit != edits.rend(); ++edit)
+    text.replace(edit->begin.column, edit->end.column - edit->begin.column, edit->text);
+  return text;
 }
 
 /// Removes a line of `length` bytes with its end. For a last line without an end, removes the end of the line above and
@@ -56,12 +66,6 @@ std::string_view indentation(std::string_view line) {
   std::size_t blanks = 0;
   while (blanks < line.size() && text::is_blank(line[blanks])) ++blanks;
   return line.substr(0, blanks);
-}
-
-std::string_view trimmed(std::string_view text) {
-  text.remove_prefix(indentation(text).size());
-  while (!text.empty() && text::is_blank(text.back())) text.remove_suffix(1);
-  return text;
 }
 
 const Word* word_at(const LineTree& line, Span span) {

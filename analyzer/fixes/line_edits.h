@@ -10,10 +10,15 @@ namespace isocnc::fixes {
 
 Edit replaced(const FixRequest& request, syntax::Span span, std::string text);
 Edit inserted(const FixRequest& request, std::uint32_t column, std::string text);
-/// Removes a word with the blanks before it, or with those after it at the start of the line.
+/// A word with the blanks before it, or with those after it at the start of the line.
+syntax::Span with_blanks(std::string_view line, syntax::Span span);
+/// Removes a word with_blanks().
 Edit removed(const FixRequest& request, syntax::Span span);
 /// Like removed(), but removes the whole line if nothing else is on it.
 Edit removed_with_line(const FixRequest& request, syntax::Span span);
+
+/// A line with edits that are all on it.
+std::string edited(std::string_view line, std::vector<Edit> edits);
 
 /// Whether the line alone loses the finding with these edits and gains no other: a fix must not break something else.
 /// Effects of earlier lines and edits of other lines are not considered.
@@ -22,8 +27,6 @@ bool helps(const FixRequest& request, const std::vector<Edit>& edits);
 /// The blanks at the start of the line.
 std::string_view indentation(std::string_view line);
 bool is_blank(std::string_view text);
-/// The text without blanks at both ends.
-std::string_view trimmed(std::string_view text);
 
 /// The word that starts where the span does, or null.
 const syntax::Word* word_at(const syntax::LineTree& line, syntax::Span span);

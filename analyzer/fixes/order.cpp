@@ -133,7 +133,7 @@ Draft arguments_together(const FixRequest& request) {
     }
   }
   if (draft.edits.empty()) return {};
-  draft.what = trimmed(strays);
+  draft.what = text::trimmed(strays);
   draft.edits.insert(draft.edits.begin(), inserted(request, line.words[last].end, strays));
   return draft;
 }

@@ -161,15 +161,15 @@ Draft removed_suppression(const FixRequest& request) {
     const bool has_comma = span.end < line.size() && line[span.end] == ',';
     return {{removed(request, {span.begin, span.end + (has_comma ? 1u : 0u)})}};
   }
-  const std::string_view words = trimmed(text.substr(kCall.size()));
+  const std::string_view words = text::trimmed(text.substr(kCall.size()));
   const std::string_view verb = words.substr(0, words.find_first_of(" \t,"));
   if (!is_one_of(verb, {"ignore", "disable", "enable", "ignore-file"})) return {};
   const auto holds = [&](Span comment) { return comment.holds(span.begin); };
   const auto comment = std::find_if(request.line.comments.begin(), request.line.comments.end(), holds);
   if (comment == request.line.comments.end()) return {};
   const bool is_closed = line[comment->end - 1] == ')';
-  const std::string_view before = trimmed(line.substr(comment->begin + 1, span.begin - comment->begin - 1));
-  const std::string_view after = trimmed(line.substr(span.end, comment->end - (is_closed ? 1 : 0) - span.end));
+  const std::string_view before = text::trimmed(line.substr(comment->begin + 1, span.begin - comment->begin - 1));
+  const std::string_view after = text::trimmed(line.substr(span.end, comment->end - (is_closed ? 1 : 0) - span.end));
   const bool is_all = before.empty() && (after.empty() || after.front() == '-');
   return {{is_all ? removed_with_line(request, *comment) : removed(request, span)}};
 }

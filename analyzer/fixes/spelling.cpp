@@ -61,7 +61,7 @@ Draft point_for_comma(const FixRequest& request) {
 Draft whole_number(const FixRequest& request) {
   const std::string_view text = request.marked();
   const char letter = text::upper(text.front());
-  std::string_view number = trimmed(text.substr(1));
+  std::string_view number = text::trimmed(text.substr(1));
   if (!number.empty() && (number.front() == '-' || number.front() == '+')) number.remove_prefix(1);
   const std::size_t point = std::min(number.find('.'), number.size());
   const std::string_view digits = number.substr(0, point);
@@ -86,8 +86,8 @@ Draft without_sign(const FixRequest& request) {
 Draft without_equals(const FixRequest& request) {
   const std::string_view line = request.line.text;
   const std::uint32_t at = request.finding.span.begin;
-  const std::string_view before = trimmed(line.substr(0, at));
-  const std::string_view after = trimmed(line.substr(at + 1));
+  const std::string_view before = text::trimmed(line.substr(0, at));
+  const std::string_view after = text::trimmed(line.substr(at + 1));
   if (before.empty() || text::char_class(before.back()) != text::CharClass::Letter) return {};
   if (after.empty() || !text::is_number_char(after.front())) return {};
   return {{replaced(request, {at, at + 1}, {})}};
@@ -117,7 +117,7 @@ Draft comparison(const FixRequest& request) {
 
 /// GOTO 30: adds the N.
 Draft label_with_letter(const FixRequest& request) {
-  const std::string_view before = trimmed(request.line.text.substr(0, request.finding.span.begin));
+  const std::string_view before = text::trimmed(request.line.text.substr(0, request.finding.span.begin));
   const bool is_label = !before.empty() && is_letter_o(before.back()) && request.line.jump != nullptr;
   if (!is_label || !holds_only(request.marked(), "0123456789")) return {};
   return rewritten(request, "N" + std::string(request.marked()));
@@ -152,7 +152,7 @@ Draft free_label(const FixRequest& request) {
 }
 
 Draft closed_comment(const FixRequest& request) {
-  const auto end = request.finding.span.begin + static_cast<std::uint32_t>(trimmed(request.marked()).size());
+  const auto end = request.finding.span.begin + static_cast<std::uint32_t>(text::trimmed(request.marked()).size());
   return {{inserted(request, end, ")")}};
 }
 

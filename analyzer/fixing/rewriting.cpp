@@ -91,12 +91,7 @@ class LineRewriter {
   /// Removes a word with the blanks before it, or with those after it at the start of the line.
   void remove(Span span) {
     has_comment_ |= line_.text_of(span).find('(') != std::string_view::npos;
-    Span wide = span;
-    while (wide.begin > 0 && text::is_blank(line_.text[wide.begin - 1])) --wide.begin;
-    if (wide.begin == 0) {  // The indentation stays.
-      wide = span;
-      while (wide.end < line_.text.size() && text::is_blank(line_.text[wide.end])) ++wide.end;
-    }
+    Span wide = fixes::with_blanks(line_.text, span);
     for (const Edit& edit : edits_)  // Blanks between two words are removed once.
       if (edit.begin.column < wide.begin)
         wide.begin = std::max(wide.begin, static_cast<std::uint32_t>(edit.end.column));
@@ -114,13 +109,7 @@ class LineRewriter {
     std::sort(sorted.begin(), sorted.end(), [](const Edit& a, const Edit& b) { return a.begin < b.begin; });
     return sorted;
   }
-  std::string text() const {
-    std::string text(line_.text);
-    const std::vector<Edit> sorted = edits();
-    for (auto edit = sorted.rbegin(); edit != sorted.rend(); ++edit)
-      text.replace(edit->begin.column, edit->end.column - edit->begin.column, edit->text);
-    return text;
-  }
+  std::string text() const { return fixes::edited(line_.text, edits_); }
 
  private:
   const std::uint64_t number_;

@@ -90,7 +90,7 @@ std::optional<execution::State> TextProgram::state_before(std::uint64_t line) {
   return frontier.state_at(next.tree());
 }
 
-std::uint64_t TextProgram::highest_line_number() const {
+std::uint64_t TextProgram::highest_line_number() {
   std::uint64_t highest = 0;
   syntax::TreeStore store;
   const char* const end = text_.data() + text_.size();
@@ -101,13 +101,6 @@ std::uint64_t TextProgram::highest_line_number() const {
     if (tree.has_label()) highest = std::max(highest, tree.label);
   }
   return highest;
-}
-
-std::optional<std::uint64_t> TextProgram::free_line_number() {
-  if (!last_line_number_) last_line_number_ = highest_line_number();
-  if (*last_line_number_ > syntax::kMaxLineNumber - 10) return std::nullopt;
-  last_line_number_ = *last_line_number_ / 10 * 10 + 10;
-  return last_line_number_;
 }
 
 std::size_t TextProgram::offset(const syntax::Position& position) const {

@@ -29,7 +29,6 @@ class TextProgram final : public fixes::FixProgram {
   std::optional<execution::State> state_before(std::uint64_t line) override;
   bool is_read(std::uint64_t line) override;
   bool is_jumped_to(std::uint64_t label) override;
-  std::optional<std::uint64_t> free_line_number() override;
 
   /// The frontier before a line, up to line_count().
   const check::Frontier& frontier_before(std::uint64_t line);
@@ -44,7 +43,7 @@ class TextProgram final : public fixes::FixProgram {
   struct Walk;
 
   const std::vector<std::size_t>& starts() const;
-  std::uint64_t highest_line_number() const;
+  std::uint64_t highest_line_number() override;
 
   std::string_view text_;
   const rules::CheckSetup& setup_;
@@ -54,7 +53,6 @@ class TextProgram final : public fixes::FixProgram {
   std::optional<std::uint64_t> parsed_;
   std::optional<check::JumpMap> jumps_;
   std::unique_ptr<Walk> walk_;  // The check, up to the last line asked for.
-  std::optional<std::uint64_t> last_line_number_;
 };
 
 }  // namespace isocnc::fixing

@@ -24,19 +24,13 @@ struct SeverityOverride {
   std::optional<Severity> severity;
 };
 
-static std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && text::is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && text::is_blank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
 /// The words between the commas, without empty ones.
 static std::vector<std::string_view> words_of(const std::vector<std::string>& lists) {
   std::vector<std::string_view> words;
   for (const std::string_view list : lists)
     for (std::size_t at = 0; at <= list.size();) {
       const std::size_t comma = std::min(list.find(',', at), list.size());
-      const std::string_view word = trimmed(list.substr(at, comma - at));
+      const std::string_view word = text::trimmed(list.substr(at, comma - at));
       if (!word.empty()) words.push_back(word);
       at = comma + 1;
     }
@@ -68,8 +62,8 @@ static std::optional<SeverityOverride> parse_severity_override(std::string_view 
   static constexpr Text kForm = {"{}: write CODE=error, warning, info or off",
                                  "{}: scrivere CODICE=error, warning, info oppure off"};
   const std::size_t equals = std::min(word.find('='), word.size());
-  const std::string_view code = trimmed(word.substr(0, equals));
-  const std::string_view level = trimmed(word.substr(std::min(equals + 1, word.size())));
+  const std::string_view code = text::trimmed(word.substr(0, equals));
+  const std::string_view level = text::trimmed(word.substr(std::min(equals + 1, word.size())));
   SeverityOverride severity_override;
   bool known = equal_words(level, "off");
   for (const Severity severity : {Severity::Error, Severity::Warning, Severity::Info}) {

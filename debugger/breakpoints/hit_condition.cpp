@@ -2,7 +2,8 @@
 
 #include <utility>
 
-#include "debugger/expressions/text_parts.h"
+#include "debugger/expressions/read_number.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::breakpoints {
 
@@ -10,12 +11,12 @@ std::optional<HitCondition> HitCondition::read(std::string_view text) {
   static constexpr std::pair<std::string_view, Kind> kSigns[] = {
       {">=", Kind::GreaterEqual}, {"<=", Kind::LessEqual}, {"==", Kind::Equal}, {">", Kind::Greater},
       {"<", Kind::Less},          {"=", Kind::Equal},      {"%", Kind::Every}};
-  text = expressions::trimmed(text);
+  text = text::trimmed(text);
   HitCondition condition;
   for (const auto& [sign, kind] : kSigns) {
     if (!text.starts_with(sign)) continue;
     condition.kind_ = kind;
-    text = expressions::trimmed(text.substr(sign.size()));
+    text = text::trimmed(text.substr(sign.size()));
     break;
   }
   const auto count = expressions::read_number<std::uint64_t>(text);

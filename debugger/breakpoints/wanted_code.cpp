@@ -2,16 +2,16 @@
 
 #include <algorithm>
 
-#include "debugger/expressions/text_parts.h"
+#include "debugger/expressions/read_number.h"
 #include "interpreter/text/characters.h"
 
 namespace isocnc::breakpoints {
 
 std::optional<WantedCode> WantedCode::read(std::string_view name) {
-  name = expressions::trimmed(name);
+  name = text::trimmed(name);
   if (name.size() < 2) return std::nullopt;
   const char letter = text::upper(name.front());
-  const auto number = expressions::read_number<std::uint32_t>(expressions::trimmed(name.substr(1)));
+  const auto number = expressions::read_number<std::uint32_t>(text::trimmed(name.substr(1)));
   if (!number || (letter != 'G' && letter != 'M' && letter != 'T')) return std::nullopt;
   if (*number > (letter == 'T' ? 999999u : 999u)) return std::nullopt;
   return WantedCode{letter, *number};

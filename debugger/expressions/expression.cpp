@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "debugger/expressions/text_parts.h"
+#include "debugger/expressions/read_number.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/text/characters.h"
 #include "interpreter/text/unicode.h"

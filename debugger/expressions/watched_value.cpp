@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "debugger/expressions/text_parts.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::expressions {
 
@@ -21,7 +21,7 @@ std::variant<WatchedValue, ExpressionProblem> WatchedValue::compile(std::string_
   if (const auto* const problem = std::get_if<ExpressionProblem>(&value)) return *problem;
   WatchedValue result;
   result.value = std::get<Expression>(std::move(value));
-  result.name = trimmed(text);
+  result.name = text::trimmed(text);
   if (!has_threshold) return result;
   const std::size_t right = text.find_first_not_of('=', equals);
   const auto threshold = Expression::compile(right == std::string_view::npos ? "" : text.substr(right), language);

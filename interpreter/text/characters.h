@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <string_view>
 
 #ifdef __SSE2__
 #include <emmintrin.h>
@@ -50,11 +51,17 @@ inline constexpr auto kCharClasses = [] {
 
 inline CharClass char_class(char c) { return kCharClasses[static_cast<unsigned char>(c)]; }
 inline bool is_line_end(char c) { return c == '\n' || c == '\r'; }
-inline bool is_blank(char c) { return c == ' ' || c == '\t'; }
+constexpr bool is_blank(char c) { return c == ' ' || c == '\t'; }
 inline bool is_digit(char c) { return static_cast<unsigned char>(c - '0') < 10; }
 inline bool is_number_char(char c) {
   const CharClass cls = char_class(c);
   return cls == CharClass::Digit || cls == CharClass::NumberSign;
+}
+/// The text without blanks at both ends.
+constexpr std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
 }
 inline char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - ('a' - 'A')) : c; }
 

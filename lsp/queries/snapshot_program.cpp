@@ -63,12 +63,7 @@ bool SnapshotProgram::is_jumped_to(std::uint64_t label) {
   return !snapshot_.index().landmarks(documents::kinds(documents::LandmarkKind::Jump), label).empty();
 }
 
-std::optional<std::uint64_t> SnapshotProgram::free_line_number() {
-  const std::uint64_t highest = std::max(last_line_number_, snapshot_.index().highest_label());
-  if (highest > syntax::kMaxLineNumber - 10) return std::nullopt;
-  last_line_number_ = highest / 10 * 10 + 10;
-  return last_line_number_;
-}
+std::uint64_t SnapshotProgram::highest_line_number() { return snapshot_.index().highest_label(); }
 
 formatting::EachLine each_line_of(const documents::Snapshot& snapshot) {
   return [&snapshot](const std::function<void(const syntax::LineTree&)>& look) {

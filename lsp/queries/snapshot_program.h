@@ -23,13 +23,13 @@ class SnapshotProgram final : public fixes::FixProgram {
   fixes::Habits& habits() override;
   bool is_read(std::uint64_t line) override;
   bool is_jumped_to(std::uint64_t label) override;
-  std::optional<std::uint64_t> free_line_number() override;
 
  private:
+  std::uint64_t highest_line_number() override;
+
   const documents::Snapshot& snapshot_;
   std::optional<syntax::DocumentLine> line_;  // The line requested last.
   std::uint32_t lines_seen_ = 0;
-  std::uint64_t last_line_number_ = 0;  // The line number returned last by free_line_number().
 };
 
 /// Visits all lines of the snapshot's document; calls throw_if_unwanted() at intervals.

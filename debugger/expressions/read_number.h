@@ -6,9 +6,6 @@
 
 namespace isocnc::expressions {
 
-/// The text without the blanks around it.
-std::string_view trimmed(std::string_view text);
-
 /// The number that the text is, in digits and nothing else; none for other texts.
 template <class Number>
 std::optional<Number> read_number(std::string_view digits) {
