@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "analyzer/check/check_text.h"
+#include "analyzer/check/folding.h"
 #include "analyzer/check/side_by_side.h"
 #include "analyzer/command_line.h"
 #include "analyzer/explain.h"
@@ -179,11 +180,14 @@ class LintRun {
     const std::string_view text = source->text();
     std::size_t progress_bytes = 0;
     const auto advance_to = [&](std::size_t bytes) { progress_.add(bytes - std::exchange(progress_bytes, bytes)); };
-    check::Report report = selection::shown_report(check::check_text(text, settings.setup, jobs_for(text), advance_to),
-                                                   text, settings.selection);
-    const std::size_t all = report.findings.size();
-    checked.report = without_known(std::move(report), checked.name, text);
-    known_ += all - checked.report.findings.size();
+    const auto filter = [&](check::Report report, std::string_view) {
+      const std::size_t all = check::folded_size(report);
+      report = without_known(std::move(report), checked.name, text);
+      known_ += all - check::folded_size(report);
+      return report;
+    };
+    checked.report = selection::shown_report(check::check_text(text, settings.setup, jobs_for(text), advance_to), text,
+                                             settings.selection, filter);
     return checked;
   }
 

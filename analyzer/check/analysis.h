@@ -68,7 +68,7 @@ class Analysis {
     bool is_stale = true;   ///< Whether the chunk must be checked.
     CenterUse centers;      ///< A copy from the outcome.
     bool has_text = false;
-    bool has_more = false;         ///< Whether the outcome has findings, labels, jumps or assignments.
+    bool has_more = false;         ///< Whether the outcome has more than text.
     std::vector<FlowEvent> jumps;  ///< The events that concern jumps; labels only if a jump names them.
     LabelRange labels = LabelRange::any();
     std::unique_ptr<Checked> checked = std::make_unique<Checked>();

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "analyzer/check/folding.h"
 #include "analyzer/rules/rule.h"
 #include "interpreter/execution/plain_run.h"
 #include "interpreter/geometry/increment.h"
@@ -95,6 +96,12 @@ static bool is_far(const geometry::Pose& pose) {
   use.set |= axes_of(line.arguments);
 }
 
+/// Records the folds that a run of plain lines ends.
+static void note_plain_feed(const execution::PlainRun& run, const execution::State& state, std::uint64_t line,
+                            Outcome& outcome) {
+  if (run.has_taken_feed() && state.inverse_time()) outcome.end_folds(folds_ended_by(BlockStep::InverseTimeFeed), line);
+}
+
 template <class PlainLineAt>
 std::size_t Checker::check_plain(std::size_t count, std::uint64_t line_number, Outcome& outcome,
                                  PlainLineAt plain_line_at) {
@@ -113,6 +120,7 @@ std::size_t Checker::check_plain(std::size_t count, std::uint64_t line_number, O
   outcome.centers.open |= run.met_open_center();
   if (done == 0) return 0;
   group.memory.take(run, state);
+  note_plain_feed(run, state, line_number, outcome);
   outcome.has_text = true;
   outcome.last_text_line = line_number + done - 1;
   use.by_several |= !frontier.waiting().empty();
@@ -236,8 +244,8 @@ void Checker::execute_around_jump(const LineTree& line, std::uint64_t line_numbe
 /// Executes one line in each live group, and collects its findings and effects.
 class Checker::LineExecution final : public execution::Sink {
  public:
-  LineExecution(Checker& checker, const LineTree& line, Outcome& outcome)
-      : Sink(checker.checks_moves_), checker_(checker), line_(line), outcome_(outcome) {}
+  LineExecution(Checker& checker, const LineTree& line, std::uint64_t line_number, Outcome& outcome)
+      : Sink(checker.checks_moves_), checker_(checker), line_(line), line_number_(line_number), outcome_(outcome) {}
 
   void run() {
     const bool is_wrong = has_error_in_text();
@@ -252,6 +260,7 @@ class Checker::LineExecution final : public execution::Sink {
 
   void step(BlockStep step, const execution::State& before) override {
     checker_.frontier.live[group_].memory.take(step, before);
+    if (const FoldSet ended = folds_ended_by(step)) outcome_.end_folds(ended, line_number_);
   }
   void report(const Finding& finding) override { checker_.group_findings_.push_back({finding, group_}); }
   void centered_arc(const execution::CenteredArc& arc) override { checker_.judge_arc(arc, outcome_, *this); }
@@ -272,6 +281,7 @@ class Checker::LineExecution final : public execution::Sink {
     outcome_.centers.open |= run.met_open_center();
     note_plain_move(line_.plain(), run, group.state, outcome_.positions);
     group.memory.take(run, group.state);
+    note_plain_feed(run, group.state, line_number_, outcome_);
     return true;
   }
 
@@ -297,6 +307,7 @@ class Checker::LineExecution final : public execution::Sink {
 
   Checker& checker_;
   const LineTree& line_;
+  const std::uint64_t line_number_;
   Outcome& outcome_;
   std::size_t group_ = 0;                          // The group that executes the line.
   std::optional<execution::ProgrammedMove> move_;  // The line's motion, if motions are watched.
@@ -313,7 +324,7 @@ void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_num
     for (Group& group : live) execution::pass_by(group.state);
   } else if (!line.is_empty()) {
     group_findings_.clear();
-    LineExecution(*this, line, outcome).run();
+    LineExecution(*this, line, line_number, outcome).run();
     if (!group_findings_.empty()) report_common_findings(line_number, outcome);
   }
   if (live.size() == 1) return reduce_spread(1);
@@ -397,7 +408,7 @@ void Checker::report_common_findings(std::uint64_t line_number, Outcome& outcome
         outcome.paths.push_back(std::move(path));
       }
     }
-    outcome.findings.push_back(located);
+    outcome.report(located);
   }
 }
 

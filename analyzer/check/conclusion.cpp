@@ -5,6 +5,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "analyzer/check/folding.h"
 #include "interpreter/syntax/tree_store.h"
 #include "interpreter/text/characters.h"
 
@@ -134,8 +135,7 @@ static void add_findings_of_whole(const std::vector<PlacedOutcome>& outcomes, co
 }
 
 /// Sorts the findings and converts their paths to steps for users.
-static Report ordered(std::vector<LocatedFinding> findings, const std::vector<Decisions>& paths, const JumpMap& jumps) {
-  Report report{.findings = std::move(findings), .paths = {}};
+static void put_in_order(Report& report, const std::vector<Decisions>& paths, const JumpMap& jumps) {
   if (!std::is_sorted(report.findings.begin(), report.findings.end(), by_place))
     std::stable_sort(report.findings.begin(), report.findings.end(), by_place);
   keep_first_of_each(report.findings);
@@ -144,15 +144,20 @@ static Report ordered(std::vector<LocatedFinding> findings, const std::vector<De
     for (auto decision = path.rbegin(); decision != path.rend(); ++decision)
       steps.push_back({jumps.sites()[decision->jump].line, decision->taken});
   }
-  return report;
 }
 
 Report conclude(Outcome outcome, const Frontier& end, const JumpMap& jumps,
                 const std::function<std::string_view(std::uint64_t)>& text_of_line) {
-  std::vector<LocatedFinding> findings = std::move(outcome.findings);
+  MistakeNumbers mistakes;
+  mistakes.start(outcome);
+  for (LocatedFinding& located : outcome.findings) mistakes.number(located);
   std::vector<Decisions> paths = std::move(outcome.paths);
+  std::vector<LocatedFinding> findings = std::move(outcome.findings);
   add_findings_of_whole({{&outcome, 0}}, end, jumps, text_of_line, paths, findings);
-  return ordered(std::move(findings), paths, jumps);
+  Report report;
+  report.findings = std::move(findings);
+  put_in_order(report, paths, jumps);
+  return report;
 }
 
 namespace {
@@ -161,24 +166,37 @@ namespace {
 class ExcerptCollector {
  public:
   ExcerptCollector(const FirstFindingsOptions& options, FirstFindings& excerpt)
-      : options_(options), excerpt_(excerpt) {}
+      : options_(options), excerpt_(excerpt), folder_(excerpt.report) {}
 
   bool has_enough() const { return taken_ >= options_.max; }
   /// The line after the last finding taken.
   std::uint64_t end() const { return end_; }
 
+  /// Takes the findings of an outcome; all outcomes must come, in their order. Once there are enough, takes
+  /// repetitions only, and counts the other findings of folds.
   void take(const PlacedOutcome& placed) {
+    const bool had_enough = has_enough();
     const auto first_path = static_cast<std::int32_t>(paths.size());
-    for (LocatedFinding located : placed.outcome->findings) {
-      located.line += placed.first_line;
-      if (located.path >= 0) located.path += first_path;
-      take(located);
+    mistakes_.start(*placed.outcome);
+    if (!had_enough || placed.outcome->has_folds()) {
+      for (LocatedFinding located : placed.outcome->findings) {
+        mistakes_.number(located);
+        located.line += placed.first_line;
+        if (had_enough) {
+          if (folds(located) && !is_repetition(located, Folder::kLeftOut)) count(located.finding.id);
+          continue;
+        }
+        if (located.path >= 0) located.path += first_path;
+        if (!is_repetition(located, findings().size())) take(located);
+      }
     }
+    mistakes_.finish();
+    if (had_enough) return;
     const std::vector<Decisions>& theirs = placed.outcome->paths;
     paths.insert(paths.end(), theirs.begin(), theirs.end());
   }
   void take(const LocatedFinding& located) {
-    findings.push_back(located);
+    findings().push_back(located);
     end_ = located.line + 1;
     if (counts(located.finding.id)) ++taken_;
   }
@@ -187,21 +205,34 @@ class ExcerptCollector {
     if (counts(id)) excerpt_.left_out += number;
   }
 
-  std::vector<LocatedFinding> findings;
+  std::vector<LocatedFinding>& findings() { return excerpt_.report.findings; }
   std::vector<Decisions> paths;
 
  private:
   static bool is_reported_once(dialect::DiagnosticId id) {
     return std::find(std::begin(kReportedOnce), std::end(kReportedOnce), id) != std::end(kReportedOnce);
   }
+  static bool folds(const LocatedFinding& located) {
+    return dialect::definition(located.finding.id).folds != dialect::FoldKind::None;
+  }
+  std::optional<dialect::Severity> severity(dialect::DiagnosticId id) const {
+    return options_.severity ? options_.severity(id) : dialect::definition(id).severity;
+  }
   bool counts(dialect::DiagnosticId id) {
     for (std::size_t i = 0; i < std::size(kReportedOnce); ++i)
       if (kReportedOnce[i] == id && std::exchange(reported_[i], true)) return false;
-    return !options_.counts || options_.counts(id);
+    return severity(id).has_value();
+  }
+  bool is_repetition(const LocatedFinding& located, std::size_t index) {
+    if (!options_.folds || located.mistake < 0) return false;
+    const std::optional<dialect::Severity> shown = severity(located.finding.id);
+    return shown && folder_.fold(located, *shown, index);
   }
 
   const FirstFindingsOptions& options_;
   FirstFindings& excerpt_;
+  MistakeNumbers mistakes_;
+  Folder folder_;
   std::size_t taken_ = 0;
   std::uint64_t end_ = 0;
   std::array<bool, std::size(kReportedOnce)> reported_{};
@@ -214,16 +245,16 @@ FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const Finding
                        const FirstFindingsOptions& options) {
   FirstFindings excerpt;
   ExcerptCollector collector(options, excerpt);
-  auto next = outcomes.begin();
   FindingCounts left = counts;
-  for (; next != outcomes.end() && !collector.has_enough(); ++next) {
-    collector.take(*next);
-    left.remove(*next->outcome);
+  bool has_all = true;
+  for (const PlacedOutcome& placed : outcomes) {
+    has_all = !collector.has_enough();
+    if (has_all) left.remove(*placed.outcome);
+    collector.take(placed);
   }
-  const bool has_all = next == outcomes.end();
   for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
     const dialect::DiagnosticId id{static_cast<std::uint8_t>(i)};
-    if (left.of(id) > 0) collector.count(id, left.of(id));
+    if (left.of(id) > 0 && dialect::definition(id).folds == dialect::FoldKind::None) collector.count(id, left.of(id));
   }
   std::vector<LocatedFinding> of_whole;
   add_findings_of_whole(outcomes, end, jumps, text_of_line, collector.paths, of_whole);
@@ -235,7 +266,7 @@ FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const Finding
       collector.count(located.finding.id);
     }
   }
-  excerpt.report = ordered(std::move(collector.findings), collector.paths, jumps);
+  put_in_order(excerpt.report, collector.paths, jumps);
   return excerpt;
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -24,12 +25,15 @@ struct FirstFindings {
 
 /// Which findings an excerpt holds. Findings of one outcome come together, so there may be more than `max`.
 struct FirstFindingsOptions {
-  std::size_t max = static_cast<std::size_t>(-1);          ///< The maximum of findings that count.
-  std::function<bool(dialect::DiagnosticId)> counts = {};  ///< Which findings count; if empty, all do.
+  std::size_t max = static_cast<std::size_t>(-1);  ///< The maximum of findings that count.
+  /// The severity of each finding that counts, and nothing for the others; if empty, all count, with that of the table.
+  std::function<std::optional<dialect::Severity>(dialect::DiagnosticId)> severity = {};
+  bool folds = false;  ///< Whether the findings that count are folded (D66).
 };
 
-/// Makes the report: sorts the findings, adds those that need the whole program (E006, ISO045), and keeps the first of
-/// the findings that are reported once per program (D44). `text_of_line` gives a line's text.
+/// Makes the report: sorts the findings, numbers their mistakes (D66), adds those that need the whole program (E006,
+/// ISO045), and keeps the first of the findings that are reported once per program (D44). `text_of_line` gives a line's
+/// text.
 Report conclude(Outcome outcome, const Frontier& end, const JumpMap& jumps,
                 const std::function<std::string_view(std::uint64_t)>& text_of_line);
 /// The same for several outcomes in program order, with the summed `counts`. Outcomes with `has_text` alone may be

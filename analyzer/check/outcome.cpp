@@ -6,6 +6,24 @@ namespace isocnc::check {
 
 void Outcome::clear() { *this = Outcome{}; }
 
+void Outcome::report(const LocatedFinding& located) {
+  ended_folds &= static_cast<FoldSet>(~fold_bit(dialect::definition(located.finding.id).folds));
+  findings.push_back(located);
+}
+
+bool Outcome::has_folds() const {
+  return std::any_of(tally.begin(), tally.end(), [](const auto& counted) {
+    return dialect::definition(counted.first).folds != dialect::FoldKind::None;
+  });
+}
+
+void Outcome::end_folds(FoldSet folds, std::uint64_t line) {
+  const auto ending = static_cast<FoldSet>(folds & ~ended_folds);
+  if (ending == 0) return;
+  fold_ends.push_back({line, ending});
+  ended_folds |= ending;
+}
+
 void Outcome::count() {
   tally.clear();
   for (const LocatedFinding& located : findings) {

@@ -25,6 +25,10 @@ struct CenterUse {
   bool open = false;  ///< Whether an arc is legal as written and may be so with its center counted from the start.
 };
 
+/// A set of folds, one bit each.
+using FoldSet = std::uint8_t;
+constexpr FoldSet fold_bit(dialect::FoldKind fold) { return static_cast<FoldSet>(1u << static_cast<unsigned>(fold)); }
+
 /// The findings in a range of lines, and the facts needed to combine ranges.
 struct Outcome {
   struct Label {
@@ -32,6 +36,12 @@ struct Outcome {
     std::uint64_t line = 0;
     syntax::Span span;
     bool live = false;  ///< Whether a feasible path leads to the label.
+  };
+
+  /// A line that ends folds: findings from it on are no repetitions of those above it (D66).
+  struct FoldEnd {
+    std::uint64_t line = 0;
+    FoldSet folds = 0;
   };
 
   std::vector<LocatedFinding> findings;  ///< The findings, in the order of the lines.
@@ -43,10 +53,18 @@ struct Outcome {
   RegisterSet assigned = 0;  ///< Registers assigned a value; recorded only if some IF compares one.
   PositionUse positions;
   CenterUse centers;
+  /// The lines that end folds, ascending. Of those between two findings of a fold, only the first is recorded.
+  std::vector<FoldEnd> fold_ends;
+  FoldSet ended_folds = 0;  ///< Folds without a finding since they were last ended.
   std::vector<std::pair<dialect::DiagnosticId, std::size_t>> tally;  ///< Findings of each kind, after count().
 
   void clear();
   void count();
+  /// Appends a finding that may belong to a fold.
+  void report(const LocatedFinding& located);
+  /// Whether there is a finding that may belong to a fold; valid after count().
+  bool has_folds() const;
+  void end_folds(FoldSet folds, std::uint64_t line);
 };
 
 /// The number of findings of each kind in several outcomes; each needs a call of count() before.

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "interpreter/dialect/diagnostic_id.h"
@@ -27,6 +28,8 @@ struct LocatedFinding {
   std::uint64_t line = 0;  ///< The line, from 0.
   syntax::Finding finding;
   std::int32_t path = kEveryPath;             ///< An index into Report::paths.
+  std::int32_t mistake = -1;                  ///< Findings with the same number have the same cause (D66); -1: alone.
+  std::int32_t repetitions = -1;              ///< An index into Report::repetitions; -1: none.
   std::optional<dialect::Severity> selected;  ///< The severity that a selection has set.
 
   dialect::Severity severity() const { return selected.value_or(dialect::definition(finding.id).severity); }
@@ -42,10 +45,27 @@ struct PathStep {
   friend bool operator==(const PathStep&, const PathStep&) = default;
 };
 
+/// A line below a finding that shows the same mistake again (D66).
+struct Repetition {
+  std::uint64_t line = 0;  ///< The line, from 0.
+  dialect::DiagnosticId id = dialect::kNoDiagnostic;
+  syntax::Span span;
+
+  syntax::Finding finding() const { return {.id = id, .span = span}; }
+
+  friend bool operator==(const Repetition&, const Repetition&) = default;
+};
+
 /// All findings of a program, sorted by line and column.
 struct Report {
   std::vector<LocatedFinding> findings;
-  std::vector<std::vector<PathStep>> paths;  ///< The steps of each path, in the order of the program.
+  std::vector<std::vector<PathStep>> paths;          ///< The steps of each path, in the order of the program.
+  std::vector<std::vector<Repetition>> repetitions;  ///< What folded() has taken out of `findings`, by line.
+
+  std::span<const Repetition> repetitions_of(const LocatedFinding& located) const {
+    if (located.repetitions < 0) return {};
+    return repetitions[static_cast<std::size_t>(located.repetitions)];
+  }
 
   friend bool operator==(const Report&, const Report&) = default;
 };

@@ -43,7 +43,11 @@ std::optional<std::uint64_t> FixProgram::free_line_number() {
 }
 
 std::string Fix::title_in(dialect::Language language) const {
-  return dialect::format(title, language, fmt::arg("text", marked), fmt::arg("new", what));
+  static constexpr dialect::Text kOneMore = {"{}, and on 1 more line", "{}, e su un'altra linea"};
+  static constexpr dialect::Text kMore = {"{}, and on {} more lines", "{}, e su altre {} linee"};
+  const std::string text = dialect::format(title, language, fmt::arg("text", marked), fmt::arg("new", what));
+  if (more_lines == 0) return text;
+  return dialect::format(more_lines == 1 ? kOneMore : kMore, language, text, more_lines);
 }
 
 std::string Edit::text_with(std::string_view line_end) const {
@@ -107,6 +111,7 @@ std::optional<Fix> fix_of(const FindingPlace& place, FixProgram& program) {
                .marked = std::string(request.marked()),
                .what = std::move(draft.what),
                .edits = std::move(draft.edits),
+               .mends_repetitions = kFixes[row].mends_repetitions,
                .habit = draft.habit};
   }
   return std::nullopt;

@@ -49,6 +49,8 @@ struct Fix {
   std::string marked;  ///< The value of `{text}` in the title: the program text under the finding's mark.
   std::string what;    ///< The value of `{new}` in the title.
   std::vector<Edit> edits;
+  std::size_t more_lines = 0;      ///< The number of other lines on which the edits do the same.
+  bool mends_repetitions = false;  ///< Whether the edits of the first of some repeated findings mend them all (D66).
   /// With a habit, `edits` are those of the finding's own line; they fix nothing without the others of
   /// Program::habits().
   Habit habit = Habit::None;

@@ -19,6 +19,7 @@ struct FixDef {
   /// `{new}` (the text that the maker writes or moves). Without a fix: the reason, as a sentence.
   dialect::Text title;
   Maker make = nullptr;
+  bool mends_repetitions = false;  ///< Whether the fix of the first of some repeated findings mends them all (D66).
 };
 
 namespace detail {
@@ -121,7 +122,7 @@ inline constexpr auto kFixes = [] {
        radius_large_enough},
       {"arc-center-mismatch"_diag, Unsafe, kMeantCenter, center_from_other_origin},
       {"arc-center-mismatch"_diag, Unsafe, kNearestCenter, center_between_ends},
-      {"five-axis-not-enabled"_diag, Unsafe, kAbove, g49_above},
+      {"five-axis-not-enabled"_diag, Unsafe, kAbove, g49_above, true},
       {"g48-g49-not-alone"_diag, Safe, kOwnLine, on_its_own_line},
       {"misplaced-g41-g42"_diag,
        Unsafe,
@@ -144,7 +145,7 @@ inline constexpr auto kFixes = [] {
       {"initial-tool-missing"_diag, None, kToolUnknown},
       {"m02-missing"_diag, Unsafe, {"end the program with M02", "chiudere il programma con M02"}, end_of_program},
       {"repeated-spindle-speed"_diag, Safe, kRepetition, removed_repetition},
-      {"linear-coordinate-missing"_diag, Unsafe, kAbove, g49_above},
+      {"linear-coordinate-missing"_diag, Unsafe, kAbove, g49_above, true},
       {"center-undetermined-g17-i"_diag, Unsafe, kMeantCenter, center_from_other_origin},
       {"center-undetermined-g17-i"_diag, Unsafe, kOtherCenter, center_completed},
       {"center-undetermined-g17-j"_diag, Unsafe, kMeantCenter, center_from_other_origin},

@@ -20,16 +20,31 @@ static std::uint64_t first_reduced_line(const check::Report& report) {
   return std::numeric_limits<std::uint64_t>::max();
 }
 
-FindingFixes::FindingFixes(std::string_view text, const check::Report& report, const rules::CheckSetup& setup)
-    : program_(text, setup), setup_(setup), reduced_from_(first_reduced_line(report)) {}
-
-std::optional<Fix> FindingFixes::of(const check::LocatedFinding& located) {
-  const bool on_every_path = located.path < 0 && located.line < reduced_from_;
-  return fixes::fix_of({located.line, located.finding, on_every_path}, program_);
+std::optional<Fix> fix_of_all_lines(const check::LocatedFinding& located, const check::Report& report,
+                                    bool on_every_path, fixes::FixProgram& program, std::size_t max_lines) {
+  std::optional<Fix> fix = fixes::fix_of({located.line, located.finding, on_every_path}, program);
+  const std::span<const check::Repetition> repetitions = report.repetitions_of(located);
+  if (!fix || fix->mends_repetitions || repetitions.size() >= max_lines) return fix;
+  for (const check::Repetition& again : repetitions) {
+    const syntax::Finding finding = again.finding();
+    const std::optional<Fix> other = fixes::fix_of({again.line, finding, on_every_path}, program);
+    if (!other || other->edits.front().begin < fix->edits.back().end) continue;
+    fix->edits.insert(fix->edits.end(), other->edits.begin(), other->edits.end());
+    ++fix->more_lines;
+  }
+  return fix;
 }
 
-std::optional<Fix> FindingFixes::offered(const check::LocatedFinding& located) {
-  std::optional<Fix> fix = of(located);
+FindingFixes::FindingFixes(std::string_view text, const check::Report& report, const rules::CheckSetup& setup)
+    : program_(text, setup), report_(report), setup_(setup), reduced_from_(first_reduced_line(report)) {}
+
+std::optional<Fix> FindingFixes::of(const check::LocatedFinding& located, std::size_t max_lines) {
+  const bool on_every_path = located.path < 0 && located.line < reduced_from_;
+  return fix_of_all_lines(located, report_, on_every_path, program_, max_lines);
+}
+
+std::optional<Fix> FindingFixes::offered(const check::LocatedFinding& located, std::size_t max_lines) {
+  std::optional<Fix> fix = of(located, max_lines);
   if (!fix) return fix;
   if (!trial_) trial_.emplace(program_, setup_, program_.jumps());
   const bool improves = fix->habit == fixes::Habit::None
@@ -40,7 +55,7 @@ std::optional<Fix> FindingFixes::offered(const check::LocatedFinding& located) {
 }
 
 std::optional<Fix> FindingFixes::offered_in_full(const check::LocatedFinding& located) {
-  std::optional<Fix> fix = offered(located);
+  std::optional<Fix> fix = offered(located, static_cast<std::size_t>(-1));
   if (!fix || fix->habit == fixes::Habit::None) return fix;
   if (std::exchange(given_in_full_[static_cast<std::size_t>(fix->habit)], true)) return std::nullopt;
   fix->edits = all_edits(*fix, program_);

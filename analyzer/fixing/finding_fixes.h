@@ -24,16 +24,23 @@ struct ShownEdit {
   std::string text;
 };
 
+/// The maximum number of lines with edits of one fix, where a reader looks at them.
+inline constexpr std::size_t kMaxFixedLines = 1'000;
+
+/// The fix of a finding, with the edits for the lines that repeat it (D66), unless there are `max_lines` of them.
+std::optional<fixes::Fix> fix_of_all_lines(const check::LocatedFinding& located, const check::Report& report,
+                                           bool on_every_path, fixes::FixProgram& program, std::size_t max_lines);
+
 /// The fixes of a report's findings; fastest if asked for in the order of the findings.
 class FindingFixes {
  public:
   /// All must outlive this.
   FindingFixes(std::string_view text, const check::Report& report, const rules::CheckSetup& setup);
 
-  std::optional<fixes::Fix> of(const check::LocatedFinding& located);
+  std::optional<fixes::Fix> of(const check::LocatedFinding& located, std::size_t max_lines = kMaxFixedLines);
   /// of() without fixes that a trial rejects (FixTrial): what may be offered to users. For a habit, only the edits of
   /// the finding's own line.
-  std::optional<fixes::Fix> offered(const check::LocatedFinding& located);
+  std::optional<fixes::Fix> offered(const check::LocatedFinding& located, std::size_t max_lines = kMaxFixedLines);
   /// offered() with all edits of the fix. The edits of a habit come with the first of its findings; the others have no
   /// fix, since applying it twice would be wrong.
   std::optional<fixes::Fix> offered_in_full(const check::LocatedFinding& located);
@@ -46,6 +53,7 @@ class FindingFixes {
   std::size_t column(const syntax::Position& position);
 
   TextProgram program_;
+  const check::Report& report_;
   const rules::CheckSetup& setup_;
   std::optional<FixTrial> trial_;                         // Made when first needed.
   std::array<bool, fixes::kHabitCount> given_in_full_{};  // Habits already given by offered_in_full().

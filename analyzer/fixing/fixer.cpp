@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "analyzer/check/check_text.h"
+#include "analyzer/check/folding.h"
 #include "analyzer/fixing/finding_fixes.h"
 #include "analyzer/selection/style_findings.h"
 #include "analyzer/selection/suppressions.h"
@@ -167,7 +168,7 @@ class Fixer {
         changed_since_undone_ = false;
       }
     }
-    return {std::move(present_.text), std::move(present_.to_fix), fixed_, present_.filtered_out,
+    return {std::move(present_.text), check::folded(std::move(present_.to_fix)), fixed_, present_.filtered_out,
             std::move(present_.origins)};
   }
 
@@ -183,9 +184,9 @@ class Fixer {
     });
     version.found = selection::suppress(std::move(version.found), version.text, options_.selection);
     version.to_fix = options_.selection.shown(version.found);
-    const std::size_t selected = version.to_fix.findings.size();
+    const std::size_t selected = check::folded_size(version.to_fix);
     if (options_.finding_filter) version.to_fix = options_.finding_filter(std::move(version.to_fix), version.text);
-    version.filtered_out = selected - version.to_fix.findings.size();
+    version.filtered_out = selected - check::folded_size(version.to_fix);
     return version;
   }
 
@@ -194,10 +195,12 @@ class Fixer {
     std::vector<FixCandidate> all;
     FindingFixes fixes(present_.text, present_.found, options_.setup);
     Taken taken;
+    std::set<std::int32_t> mended;  // Mistakes whose first fix removes the findings below as well.
     for (const check::LocatedFinding& located : present_.to_fix.findings) {
-      if (undone_.contains(key_of(located))) continue;
+      if (undone_.contains(key_of(located)) || mended.contains(located.mistake)) continue;
       std::optional<Fix> fix = fixes.of(located);
       if (!fix || (fix->safety == Safety::Unsafe && !options_.unsafe)) continue;
+      if (fix->mends_repetitions && located.mistake >= 0) mended.insert(located.mistake);
       if (fix->habit != fixes::Habit::None) {
         if (undone_habits_[static_cast<std::size_t>(fix->habit)]) continue;
         return {{located, all_edits(*fix, fixes.program()), fix->habit}};
@@ -301,8 +304,8 @@ class Fixer {
   void count_fixed(const Version& next) {
     selection::Tally before;
     selection::Tally after;
-    before.add(present_.to_fix);
-    after.add(next.to_fix);
+    before.add(check::folded(present_.to_fix));
+    after.add(check::folded(next.to_fix));
     for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
       const dialect::DiagnosticId id{static_cast<std::uint8_t>(i)};
       fixed_ += before.of(id) - std::min(before.of(id), after.of(id));

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "analyzer/check/report.h"
 #include "analyzer/rules/check_setup.h"
-#include "analyzer/selection/selection.h"
+#include "analyzer/selection/shown_report.h"
 
 namespace isocnc::fixing {
 
@@ -20,7 +19,7 @@ struct FixOptions {
   int jobs = 1;
   /// Filter of the selected findings, for example by a baseline. Only those it returns are fixed; without a filter,
   /// all.
-  std::function<check::Report(check::Report, std::string_view)> finding_filter = {};
+  selection::FindingFilter finding_filter = {};
 };
 
 /// The result of fixing a text.
@@ -28,8 +27,8 @@ struct FixedText {
   static constexpr std::uint64_t kNew = UINT64_MAX;
 
   std::string text;
-  check::Report report;                ///< The remaining findings.
-  std::size_t fixed = 0;               ///< The number of findings fixed.
+  check::Report report;                ///< The remaining findings, folded (D66).
+  std::size_t fixed = 0;               ///< The number of findings fixed, counted likewise.
   std::size_t filtered_out = 0;        ///< The number of remaining findings that the filter dropped.
   std::vector<std::uint64_t> origins;  ///< For each line, its line in the original text, or kNew.
 };

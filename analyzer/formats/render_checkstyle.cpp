@@ -20,7 +20,7 @@ class CheckstyleRenderer final : public Renderer {
     syntax::LineFinder lines(program.text);
     output.buffer() += fmt::format("  <file name=\"{}\">\n", text::xml_escaped(plain_path(program.name)));
     for (const check::LocatedFinding& located : program.report.findings) {
-      const ShownFinding shown = show(located, lines, style_);
+      const ShownFinding shown = show(located, program.report, lines, style_);
       fmt::format_to(std::back_inserter(output.buffer()),
                      "    <error line=\"{}\" column=\"{}\" severity=\"{}\" message=\"{}\" source=\"isolint.{}\"/>\n",
                      shown.line, shown.column, dialect::severity_name(shown.severity, dialect::Language::English),

@@ -14,7 +14,7 @@ class ConciseRenderer final : public Renderer {
     const std::string name = printable(program.name);
     syntax::LineFinder lines(program.text);
     for (const check::LocatedFinding& located : program.report.findings) {
-      const ShownFinding shown = show(located, lines, style_);
+      const ShownFinding shown = show(located, program.report, lines, style_);
       fmt::format_to(std::back_inserter(output.buffer()), "{}:{}:{}: {}: {} [{}]\n", name, shown.line, shown.column,
                      dialect::severity_name(shown.severity, style_.language), printable(shown.message), shown.def.code);
       output.drain();

@@ -30,7 +30,7 @@ class GithubRenderer final : public Renderer {
     syntax::LineFinder lines(program.text);
     const StepTexts steps(program.text, program.report, style_.language);
     for (const check::LocatedFinding& located : program.report.findings) {
-      const ShownFinding shown = show(located, lines, style_);
+      const ShownFinding shown = show(located, program.report, lines, style_);
       fmt::format_to(std::back_inserter(output.buffer()),
                      "::{} file={},line={},endLine={},col={},endColumn={},title={} {}::{}{}\n",
                      kCommands[static_cast<std::size_t>(shown.severity)], file, shown.line, shown.line, shown.column,

@@ -23,7 +23,7 @@ class GitlabRenderer final : public Renderer {
     syntax::LineFinder lines(program.text);
     selection::Fingerprints fingerprints;
     for (const check::LocatedFinding& located : program.report.findings) {
-      const ShownFinding shown = show(located, lines, style_);
+      const ShownFinding shown = show(located, program.report, lines, style_);
       const selection::Fingerprint print = fingerprints.next(located.finding.id, shown.line_text);
       const std::string all =
           fmt::format("{}\n{}\n{:016x}\n{}", path, shown.def.code, print.line_hash, print.occurrence);

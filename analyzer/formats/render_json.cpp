@@ -32,7 +32,7 @@ class JsonRenderer final : public Renderer {
  private:
   OrderedJson to_json(std::string_view name, syntax::LineFinder& lines, const check::LocatedFinding& located,
                       const check::Report& report, const StepTexts& steps, fixing::FindingFixes& fixes) const {
-    const ShownFinding shown = show(located, lines, style_);
+    const ShownFinding shown = show(located, report, lines, style_);
     OrderedJson object;
     object["file"] = name;
     object["line"] = shown.line;
@@ -50,6 +50,10 @@ class JsonRenderer final : public Renderer {
       object["path"] = OrderedJson::array();
       for (const check::PathStep& step : report.paths[static_cast<std::size_t>(located.path)])
         object["path"].push_back({{"line", step.line + 1}, {"text", steps.of(step)}});
+    }
+    if (const auto repetitions = report.repetitions_of(located); !repetitions.empty()) {
+      object["repeats"] = repetitions.size();
+      object["lastLine"] = repetitions.back().line + 1;
     }
     return object;
   }

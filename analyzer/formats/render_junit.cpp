@@ -32,7 +32,7 @@ class JunitRenderer final : public Renderer {
     syntax::LineFinder lines(program.text);
     const StepTexts steps(program.text, program.report, style_.language);
     for (const check::LocatedFinding& located : program.report.findings) {
-      one(file, show(located, lines, style_), steps.note(located, program.report), output.buffer());
+      one(file, show(located, program.report, lines, style_), steps.note(located, program.report), output.buffer());
       output.drain();
     }
     output.buffer() += "  </testsuite>\n";

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -12,6 +14,9 @@ namespace isocnc::formats {
 using dialect::DiagnosticId;
 using dialect::Severity;
 using OrderedJson = nlohmann::ordered_json;
+
+/// The maximum number of related locations of a finding.
+static constexpr std::size_t kMaxRelated = 100;
 
 static std::string dumped(const OrderedJson& json) {
   return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
@@ -54,12 +59,13 @@ class SarifRenderer final : public Renderer {
     for (const check::LocatedFinding& located : program.report.findings) {
       output.buffer() += first_ ? "\n" : ",\n";
       first_ = false;
-      const ShownFinding shown = show(located, lines, style_);
+      const ShownFinding shown = show(located, program.report, lines, style_);
       OrderedJson object = result(shown, located.finding.id, artifact);
       const selection::Fingerprint print = fingerprints.next(located.finding.id, shown.line_text);
       object["partialFingerprints"]["primaryLocationLineHash"] =
           fmt::format("{:016x}:{}", print.line_hash, print.occurrence);
       if (located.path >= 0) object["codeFlows"] = code_flows(located, program.report, steps, shown, artifact);
+      if (located.repetitions >= 0) add_repetitions(located, program.report, lines, artifact, object);
       if (const std::optional<fixes::Fix> fix = fixes.offered_in_full(located))
         object["fixes"] = OrderedJson::array({fix_of(*fix, fixes, artifact)});
       output.buffer() += dumped(object);
@@ -125,6 +131,24 @@ class SarifRenderer final : public Renderer {
     OrderedJson flows = OrderedJson::array();
     flows.push_back({{"threadFlows", thread_flows}});
     return flows;
+  }
+
+  /// The lines below that repeat the finding: the first of them, the last one, and how many there are.
+  void add_repetitions(const check::LocatedFinding& located, const check::Report& report, syntax::LineFinder lines,
+                       const OrderedJson& artifact, OrderedJson& object) const {
+    static constexpr dialect::Text kAgain = {"here again", "anche qui"};
+    const std::span<const check::Repetition> repetitions = report.repetitions_of(located);
+    OrderedJson places = OrderedJson::array();
+    const auto add = [&](const check::Repetition& again) {
+      const ShownFinding shown = show({.line = again.line, .finding = again.finding()}, {}, lines, style_);
+      places.push_back(
+          {{"physicalLocation", location(shown, artifact)}, {"message", {{"text", kAgain.in(style_.language)}}}});
+    };
+    const std::size_t first = std::min(repetitions.size() - 1, kMaxRelated - 1);
+    for (std::size_t i = 0; i < first; ++i) add(repetitions[i]);
+    add(repetitions.back());
+    object["relatedLocations"] = places;
+    object["properties"] = {{"repeats", repetitions.size()}, {"lastLine", repetitions.back().line + 1}};
   }
 
   OrderedJson fix_of(const fixes::Fix& fix, fixing::FindingFixes& fixes, const OrderedJson& artifact) const {

@@ -86,7 +86,7 @@ class TextRenderer final : public Renderer {
   void one(std::string_view name, syntax::LineFinder& lines, RelatedPlaces& places,
            const check::LocatedFinding& located, const check::Report& report, const StepTexts& steps,
            std::string& out) const {
-    const ShownFinding shown = show(located, lines, style_);
+    const ShownFinding shown = show(located, report, lines, style_);
     const std::string_view line = shown.line_text;
     const syntax::Finding& finding = located.finding;
     const std::string_view color = paint(kSeverityColors[static_cast<std::size_t>(shown.severity)]);

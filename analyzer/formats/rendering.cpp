@@ -7,12 +7,31 @@
 #include <fmt/format.h>
 
 #include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/dialect/format.h"
 #include "interpreter/syntax/tree_store.h"
 #include "interpreter/text/characters.h"
 
 namespace isocnc::formats {
 
-ShownFinding show(const check::LocatedFinding& located, syntax::LineFinder& lines, const ReportStyle& style) {
+/// `(and 68 more lines, to line 91)`.
+static std::string note_on_repetitions(std::span<const check::Repetition> repetitions, dialect::Language language) {
+  static constexpr dialect::Text kOne = {"(and 1 more line, line {})", "(e un'altra linea, la {})"};
+  static constexpr dialect::Text kMore = {"(and {1} more lines, to line {0})", "(e altre {1} linee, fino alla {0})"};
+  return dialect::format(repetitions.size() == 1 ? kOne : kMore, language, repetitions.back().line + 1,
+                         repetitions.size());
+}
+
+std::string message_of(const check::LocatedFinding& located, const check::Report& report, std::string_view marked,
+                       dialect::Language language) {
+  const syntax::Finding& finding = located.finding;
+  std::string message = dialect::message(finding.id, language, marked, finding.values);
+  const std::span<const check::Repetition> repetitions = report.repetitions_of(located);
+  if (!repetitions.empty()) message += ' ' + note_on_repetitions(repetitions, language);
+  return message;
+}
+
+ShownFinding show(const check::LocatedFinding& located, const check::Report& report, syntax::LineFinder& lines,
+                  const ReportStyle& style) {
   const syntax::Finding& finding = located.finding;
   const std::string_view line = lines.line(located.line);
   const std::string_view marked = line.substr(finding.span.begin, finding.span.end - finding.span.begin);
@@ -23,7 +42,7 @@ ShownFinding show(const check::LocatedFinding& located, syntax::LineFinder& line
           .line = located.line + 1,
           .column = column,
           .end_column = column + column_of(marked, marked.size()) - 1,
-          .message = dialect::message(finding.id, style.language, marked, finding.values)};
+          .message = message_of(located, report, marked, style.language)};
 }
 
 StepTexts::StepTexts(std::string_view text, const check::Report& report, dialect::Language language)

@@ -33,7 +33,13 @@ struct ShownFinding {
   std::size_t end_column = 0;
   std::string message;  ///< The message; may hold any byte that the program holds.
 };
-ShownFinding show(const check::LocatedFinding& located, syntax::LineFinder& lines, const ReportStyle& style);
+ShownFinding show(const check::LocatedFinding& located, const check::Report& report, syntax::LineFinder& lines,
+                  const ReportStyle& style);
+
+/// The message of a finding, with the number of lines below that repeat it (D66). `marked` is the program text under
+/// its mark.
+std::string message_of(const check::LocatedFinding& located, const check::Report& report, std::string_view marked,
+                       dialect::Language language);
 
 /// The texts of the IFs on a report's paths, each made once, however many findings share it.
 class StepTexts {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -33,13 +34,16 @@ std::string Baseline::name_of(std::string_view program) const {
 
 void Baseline::add(std::string_view program, std::string_view text, const check::Report& report) {
   if (report.findings.empty()) return;
+  std::vector<std::pair<std::uint64_t, DiagnosticId>> places;
+  for (const check::LocatedFinding& located : report.findings) {
+    places.emplace_back(located.line, located.finding.id);
+    for (const check::Repetition& again : report.repetitions_of(located)) places.emplace_back(again.line, again.id);
+  }
+  std::sort(places.begin(), places.end());
   LineCounts& counts = programs_[name_of(program)];
   syntax::LineFinder lines(text);
   Fingerprints fingerprints;
-  for (const check::LocatedFinding& located : report.findings) {
-    const Fingerprint print = fingerprints.next(located.finding.id, lines.line(located.line));
-    ++counts[{located.finding.id, print.line_hash}];
-  }
+  for (const auto& [line, id] : places) ++counts[{id, fingerprints.next(id, lines.line(line)).line_hash}];
 }
 
 check::Report Baseline::without_known(check::Report report, std::string_view program, std::string_view text) const {

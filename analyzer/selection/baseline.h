@@ -23,8 +23,9 @@ class Baseline {
   /// The baseline in a file, or the error in it: `FILE:LINE: reason`.
   static std::variant<Baseline, std::string> read(const std::filesystem::path& file, dialect::Language language);
 
+  /// Adds the findings of a folded report, line by line.
   void add(std::string_view program, std::string_view text, const check::Report& report);
-  /// The report without the findings that the baseline knows.
+  /// The report without the findings that the baseline knows; not folded yet.
   check::Report without_known(check::Report report, std::string_view program, std::string_view text) const;
   std::string to_json() const;
 

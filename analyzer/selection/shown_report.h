@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string_view>
 
 #include "analyzer/check/report.h"
@@ -9,10 +10,15 @@
 
 namespace isocnc::selection {
 
+/// Takes findings out of a report, for example those that a baseline knows.
+using FindingFilter = std::function<check::Report(check::Report, std::string_view)>;
+
 /// The findings of a check that are shown: adds the selected style rules, keeps the selected findings, removes those
-/// that the program's comments suppress, and adds useless comments (W190) if selected. isolint, editors and debuggers
-/// all use this order.
-check::Report shown_report(check::Report found, std::string_view text, const Selection& selection);
+/// that the program's comments suppress, and adds useless comments (W190) if selected; `filter` may remove more. Then
+/// folds the others (D66): a removed line is missing in its fold, and no more. isolint, editors and debuggers all use
+/// this order.
+check::Report shown_report(check::Report found, std::string_view text, const Selection& selection,
+                           const FindingFilter& filter = {});
 /// The same for a document and the suppressions read from it.
 check::Report shown_report(check::Report found, const syntax::Document& document, Suppressions comments,
                            const Selection& selection);

@@ -1,9 +1,14 @@
 #include "debugger/session/warning_check.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "analyzer/check/check_text.h"
+#include "analyzer/check/folding.h"
+#include "analyzer/check/jump_map.h"
+#include "analyzer/formats/rendering.h"
 #include "analyzer/selection/program_settings.h"
 #include "analyzer/selection/shown_report.h"
 
@@ -12,11 +17,36 @@ namespace isocnc::session {
 using dialect::Language;
 using Warnings = std::multimap<std::uint64_t, breakpoints::Warning>;
 
-static breakpoints::Warning warning_of(const check::LocatedFinding& found, std::string_view line, Language language) {
+static breakpoints::Warning warning_of(const check::LocatedFinding& found, const check::Report& report,
+                                       std::string_view line, Language language) {
   const auto& finding = found.finding;
   const std::string_view marked =
       line.substr(std::min<std::size_t>(finding.span.begin, line.size()), finding.span.end - finding.span.begin);
-  return {finding.id, dialect::message(finding.id, language, marked, finding.values)};
+  return {finding.id, formats::message_of(found, report, marked, language)};
+}
+
+/// The lines with labels that jumps name, ascending.
+static std::vector<std::uint64_t> find_jump_targets(std::string_view text) {
+  const check::JumpMap jumps(text);
+  std::vector<std::uint64_t> lines;
+  if (jumps.empty()) return lines;
+  check::each_event_in(text, [&](const check::FlowEvent& event) {
+    if (event.kind == check::FlowEvent::Kind::Label && jumps.names(event.label)) lines.push_back(event.line);
+  });
+  return lines;
+}
+
+/// The lines on which a run may meet a warning first: its own, and of those that repeat it (D66) the first after each
+/// label, since a jump to it may have passed over the others.
+static std::set<std::uint64_t> first_lines(const check::LocatedFinding& found, const check::Report& report,
+                                           const std::vector<std::uint64_t>& jump_targets) {
+  std::set<std::uint64_t> lines = {found.line};
+  if (found.repetitions < 0) return lines;
+  for (auto target = std::upper_bound(jump_targets.begin(), jump_targets.end(), found.line);
+       target != jump_targets.end(); ++target)
+    if (const check::Repetition* const again = check::repetition_from(*target, found, report))
+      lines.insert(again->line);
+  return lines;
 }
 
 /// The warnings that isolint shows, by line from 0.
@@ -28,10 +58,13 @@ static Warnings find_warnings(const debuggee::Debuggee& debuggee, const std::fil
   const std::string_view text = debuggee.text().text();
   const rules::CheckSetup setup{debuggee.setup(), settings.setup.thresholds, settings.setup.every_motion};
   const check::Report report = selection::shown_report(check::check_text(text, setup), text, settings.selection);
+  const std::vector<std::uint64_t> jump_targets = find_jump_targets(text);
   Warnings warnings;
-  for (const check::LocatedFinding& found : report.findings)
-    if (found.severity() == dialect::Severity::Warning)
-      warnings.emplace(found.line, warning_of(found, debuggee.text().line(found.line), language));
+  for (const check::LocatedFinding& found : report.findings) {
+    if (found.severity() != dialect::Severity::Warning) continue;
+    const breakpoints::Warning warning = warning_of(found, report, debuggee.text().line(found.line), language);
+    for (const std::uint64_t line : first_lines(found, report, jump_targets)) warnings.emplace(line, warning);
+  }
   return warnings;
 }
 

@@ -20,6 +20,16 @@ struct Text {
   constexpr std::string_view in(Language language) const { return language == Language::Italian ? it : en; }
 };
 
+/// A mistake whose consequence repeats line after line until something that matters to it changes. The findings that it
+/// causes are shown as one (D66).
+enum class FoldKind : std::uint8_t {
+  None,
+  FiveAxes,         ///< G49 is missing. Ends where G48 or G49 is written.
+  InverseTimeFeed,  ///< Under G93 feed moves lack their F. Ends at one that has it, and where G93 or G94 is written.
+  IgnoredFeed,      ///< Under G93 F stands without a feed move. Ends likewise.
+};
+inline constexpr int kFoldCount = 4;
+
 /// Maximum number of values in one message.
 inline constexpr int kMaxArguments = 3;
 
@@ -32,6 +42,7 @@ struct DiagnosticDef {
   Severity severity = Severity::Error;
   bool is_off = false;                        ///< Reported only if selected by the user.
   bool is_reported_by_runs = false;           ///< Reported by isorun, which follows the tool, and not by isolint.
+  FoldKind folds = FoldKind::None;            ///< The mistake that may repeat it on the lines below.
   std::string_view section;                   ///< Section of the specification: `I.4.3`.
   std::string_view arguments[kMaxArguments];  ///< Names of the values, in the order in which they are reported.
   Text title;                                 ///< A few words for lists.

@@ -197,6 +197,8 @@ void Executor::set_mode(const dialect::GCode& code, const Word& word) {
       sink_.step(BlockStep::CompensationOn, state_);
     }
   }
+  if (code.group == dialect::ModalGroup::FeedMode) sink_.step(BlockStep::FeedMode, state_);
+  if (code.group == dialect::ModalGroup::Interpolation) sink_.step(BlockStep::InterpolationMode, state_);
   state_.set_mode(code);
   state_.written |= bit;
 }

@@ -62,6 +62,8 @@ enum class BlockStep : std::uint8_t {
   Feed,                 ///< An F under G94 that takes effect.
   InverseTimeFeedMove,  ///< G01, G02 or G03 under G93; its F comes after it.
   InverseTimeFeed,      ///< An F under G93 that takes effect.
+  FeedMode,             ///< G93 or G94, which may be in force already.
+  InterpolationMode,    ///< G48 or G49, which may be in force already.
   IllegibleMotion,      ///< Coordinates after a motion G that cannot be read (D57).
   CompensationOn,       ///< G41 or G42 while neither is in force.
   CompensationOff,      ///< G40.

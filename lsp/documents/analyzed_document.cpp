@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "analyzer/check/folding.h"
 #include "analyzer/selection/shown_report.h"
 #include "analyzer/selection/style_findings.h"
 #include "interpreter/system/source_file.h"
@@ -114,8 +115,8 @@ bool AnalyzedDocument::is_long() {
 check::FirstFindings AnalyzedDocument::excerpt(std::size_t maximum) {
   if (!is_long()) return {report(), 0};
   const selection::Selection& selection = settings_.program->selection;
-  check::FirstFindings first =
-      analysis_->excerpt({.max = maximum, .counts = [&](dialect::DiagnosticId id) { return selection.shows(id); }});
+  check::FirstFindings first = analysis_->excerpt(
+      {.max = maximum, .severity = [&](dialect::DiagnosticId id) { return selection.severity(id); }, .folds = true});
   first.report = selection.shown(std::move(first.report));
   return first;
 }
@@ -126,7 +127,12 @@ std::vector<check::LocatedFinding> AnalyzedDocument::findings_on(std::size_t lin
   const auto [begin, end] = std::equal_range(
       report().findings.begin(), report().findings.end(), check::LocatedFinding{.line = line, .finding = {}},
       [](const check::LocatedFinding& a, const check::LocatedFinding& b) { return a.line < b.line; });
-  return {begin, end};
+  std::vector<check::LocatedFinding> found(begin, end);
+  for (const check::LocatedFinding& located : report().findings) {
+    const check::Repetition* const again = check::repetition_from(line, located, report());
+    if (again && again->line == line) found.push_back({line, again->finding(), located.path});
+  }
+  return found;
 }
 
 protocol::ClientPosition AnalyzedDocument::to_client(const syntax::Position& position,

@@ -51,8 +51,8 @@ class AnalyzedDocument {
   /// The first findings of the report, at least `maximum` unless there are fewer, and the number of findings after
   /// them.
   check::FirstFindings excerpt(std::size_t maximum);
-  /// The report's findings on a line. If the report is very long, paths are missing, and so are findings that depend on
-  /// the whole program.
+  /// The report's findings on a line, repetitions included. If the report is very long, paths are missing, and so are
+  /// findings that depend on the whole program.
   std::vector<check::LocatedFinding> findings_on(std::size_t line);
   const ProgramIndex& index();
 

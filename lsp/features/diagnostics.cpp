@@ -3,6 +3,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,9 @@ using check::LocatedFinding;
 
 /// The maximum number of findings sent for one program; a last diagnostic gives the number of the others.
 static constexpr std::size_t kMaxFindings = 1000;
+/// The maximum number of lines with a hint that they repeat a finding above (D66), and of those that it names.
+static constexpr std::size_t kMaxHints = 1000;
+static constexpr std::size_t kMaxNamedLines = 10;
 
 /// The answer for a configuration, whose diagnostics are always pushed.
 static constexpr std::string_view kNothing = R"({"kind":"full","items":[]})";
@@ -67,24 +71,34 @@ class DiagnosticWriter {
       append(findings[i], list);
     }
     if (findings.size() > kMaxFindings) append_rest(findings[kMaxFindings], list);
+    append_hints(list);
     list += ']';
   }
 
  private:
   void append(const LocatedFinding& located, std::string& list) const {
-    const syntax::Finding& finding = located.finding;
-    const std::string_view marked = snapshot_.document()
-                                        .text_of_line(located.line)
-                                        .substr(finding.span.begin, finding.span.end - finding.span.begin);
-    append_head(located, 1 + static_cast<int>(located.severity()),
-                dialect::message(finding.id, language_, marked, finding.values), list);
-    list += constant_part(finding.id);
-    if (sends_related_ && located.path >= 0) list += R"(,"relatedInformation":)" + rpc::write(path_of(located));
+    append_head(located.line, located.finding.span, 1 + static_cast<int>(located.severity()), message_of(located),
+                list);
+    list += constant_part(located.finding.id);
+    if (sends_related_ && (located.path >= 0 || located.repetitions >= 0)) {
+      Json related = Json::array();
+      if (located.path >= 0) related = path_of(located);
+      add_repetitions(located, related);
+      list += R"(,"relatedInformation":)" + rpc::write(related);
+    }
     list += '}';
   }
 
-  void append_head(const LocatedFinding& located, int severity, const std::string& message, std::string& list) const {
-    const ClientRange range = snapshot_.to_client(located.line, located.finding.span);
+  std::string message_of(const LocatedFinding& located) const {
+    const syntax::Span span = located.finding.span;
+    const std::string_view marked =
+        snapshot_.document().text_of_line(located.line).substr(span.begin, span.end - span.begin);
+    return formats::message_of(located, first_.report, marked, language_);
+  }
+
+  void append_head(std::size_t line, syntax::Span span, int severity, const std::string& message,
+                   std::string& list) const {
+    const ClientRange range = snapshot_.to_client(line, span);
     fmt::format_to(
         std::back_inserter(list),
         FMT_COMPILE(R"({{"range":{{"start":{{"line":{},"character":{}}},"end":{{"line":{},"character":{}}}}},)"
@@ -135,13 +149,59 @@ class DiagnosticWriter {
     return steps;
   }
 
+  /// The first lines that repeat a finding, and the last one.
+  void add_repetitions(const LocatedFinding& located, Json& related) const {
+    static constexpr dialect::Text kAgain = {"here again", "anche qui"};
+    const std::span<const check::Repetition> all = first_.report.repetitions_of(located);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (i == kMaxNamedLines - 1) i = all.size() - 1;
+      related.push_back(
+          {{"location", protocol::Location{snapshot_.uri(), snapshot_.to_client(all[i].line, all[i].span)}},
+           {"message", kAgain.in(language_)}});
+    }
+  }
+
+  /// Fades what repeats a finding above, in the order of the findings.
+  void append_hints(std::string& list) const {
+    const std::vector<LocatedFinding>& findings = first_.report.findings;
+    std::size_t left = kMaxHints;
+    for (std::size_t i = 0; i < std::min(findings.size(), kMaxFindings) && left > 0; ++i) {
+      if (findings[i].repetitions < 0) continue;
+      const std::span<const check::Repetition> all = first_.report.repetitions_of(findings[i]);
+      const std::string message = dialect::format(kAsAbove, language_, findings[i].line + 1, message_of(findings[i]));
+      for (const check::Repetition& again : all.first(std::min(all.size(), left)))
+        append_hint(findings[i], again, message, list);
+      left -= std::min(all.size(), left);
+    }
+  }
+
+  void append_hint(const LocatedFinding& first, const check::Repetition& again, const std::string& message,
+                   std::string& list) const {
+    static constexpr int kHint = 4;
+    static constexpr int kUnnecessary = 1;  // Editors fade such text.
+    list += ',';
+    append_head(again.line, again.span, kHint, message, list);
+    list += constant_part(again.id);
+    fmt::format_to(std::back_inserter(list), R"(,"tags":[{}])", kUnnecessary);
+    if (sends_related_) {
+      const Json place = {
+          {"location", protocol::Location{snapshot_.uri(), snapshot_.to_client(first.line, first.finding.span)}},
+          {"message", kFirst.in(language_)}};
+      list += R"(,"relatedInformation":)" + rpc::write(Json::array({place}));
+    }
+    list += '}';
+  }
+
+  static constexpr dialect::Text kAsAbove = {"as on line {}: {}", "come alla linea {}: {}"};
+  static constexpr dialect::Text kFirst = {"here first", "qui la prima volta"};
+
   /// Appends one diagnostic for all further findings, at the place of the first of them.
   void append_rest(const LocatedFinding& next, std::string& list) const {
     static constexpr dialect::Text kRest = {"{} more findings are not shown; isolint reports them all",
                                             "altre {} segnalazioni non sono mostrate; isolint le riporta tutte"};
     const std::size_t count = first_.report.findings.size() + first_.left_out - kMaxFindings;
     list += ',';
-    append_head(next, 3, dialect::format(kRest, language_, count), list);
+    append_head(next.line, next.finding.span, 3, dialect::format(kRest, language_, count), list);
     list += '}';
   }
 

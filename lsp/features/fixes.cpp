@@ -1,11 +1,12 @@
 #include <algorithm>
-#include <span>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "analyzer/check/folding.h"
 #include "analyzer/fixes/fix.h"
+#include "analyzer/fixing/finding_fixes.h"
 #include "analyzer/fixing/fixer.h"
 #include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/dialect/format.h"
@@ -26,7 +27,7 @@ static constexpr std::string_view kQuickFix = "quickfix";
 static constexpr std::string_view kFixAll = "source.fixAll.isocnc";
 
 /// The maximum number of findings for which actions are offered at once.
-static constexpr std::ptrdiff_t kMaxFixed = 50;
+static constexpr std::size_t kMaxFixed = 50;
 
 /// The maximum number of edits sent with an action. Larger edits, which only fixes of a program's habit have, are made
 /// on request.
@@ -34,20 +35,31 @@ static constexpr std::size_t kMaxEdits = 1'000;
 
 namespace {
 
+/// A finding, and the line among those asked for on which it shows: its own, or one that repeats it (D66).
+struct FindingOnLine {
+  const LocatedFinding& located;
+  check::Repetition place;
+};
+
 /// The findings on the lines, up to kMaxFixed.
-std::span<const LocatedFinding> findings_of(const Snapshot& snapshot, const ActionParams& params) {
-  const std::vector<LocatedFinding>& all = snapshot.report().findings;
-  const auto first =
-      std::partition_point(all.begin(), all.end(), [&](const auto& each) { return each.line < params.first_line(); });
-  const auto after =
-      std::partition_point(first, all.end(), [&](const auto& each) { return each.line <= params.last_line(); });
-  return {first, std::min(after, first + std::min(kMaxFixed, after - first))};
+std::vector<FindingOnLine> findings_of(const Snapshot& snapshot, const ActionParams& params) {
+  std::vector<FindingOnLine> found;
+  const check::Report& report = snapshot.report();
+  for (const LocatedFinding& located : report.findings) {
+    if (located.line > params.last_line() || found.size() == kMaxFixed) break;
+    if (located.line >= params.first_line()) {
+      found.push_back({located, {located.line, located.finding.id, located.finding.span}});
+    } else if (const auto* const again = check::repetition_from(params.first_line(), located, report)) {
+      if (again->line <= params.last_line()) found.push_back({located, *again});
+    }
+  }
+  return found;
 }
 
 /// The client's diagnostic for a finding, in an array; null if the client has none.
-Json diagnostics_of(const Snapshot& snapshot, const LocatedFinding& located, const ActionParams& params) {
-  const Json start = snapshot.to_client(located.line, located.finding.span).start;
-  const Json code = dialect::definition(located.finding.id).code;
+Json diagnostics_of(const Snapshot& snapshot, const check::Repetition& place, const ActionParams& params) {
+  const Json start = snapshot.to_client(place.line, place.span).start;
+  const Json code = dialect::definition(place.id).code;
   for (const Json& diagnostic : params.diagnostics)
     if (diagnostic.is_object() && diagnostic.value("code", Json()) == code &&
         diagnostic.value(Json::json_pointer("/range/start"), Json()) == start)
@@ -57,15 +69,16 @@ Json diagnostics_of(const Snapshot& snapshot, const LocatedFinding& located, con
 
 void offer_fixes(const Snapshot& snapshot, const ActionParams& params, std::vector<Action>& actions) {
   SnapshotProgram program(snapshot);
-  for (const LocatedFinding& located : findings_of(snapshot, params)) {
+  for (const auto& [located, place] : findings_of(snapshot, params)) {
     const bool on_every_path = located.path < 0 && !snapshot.frontier_before(located.line).reduced;
-    const std::optional<Fix> fix = fixes::fix_of({located.line, located.finding, on_every_path}, program);
+    const std::optional<Fix> fix =
+        fixing::fix_of_all_lines(located, snapshot.report(), on_every_path, program, kMaxEdits);
     if (!fix) continue;
     const std::vector<Edit> edits = all_edits(*fix, program);
     Action& action = actions.emplace_back(Action{.title = fix->title_in(snapshot.language()),
                                                  .kind = kQuickFix,
                                                  .is_preferred = fix->safety == fixes::Safety::Safe,
-                                                 .diagnostics = diagnostics_of(snapshot, located, params),
+                                                 .diagnostics = diagnostics_of(snapshot, place, params),
                                                  .data = {{"habit", fix->habit}}});
     if (edits.size() <= kMaxEdits) action.edit = queries::workspace_edit(snapshot, queries::to_client(snapshot, edits));
   }
@@ -98,21 +111,21 @@ Edit silencing_line(const syntax::LineTree& line, std::size_t number, std::strin
 }
 
 void offer_silence(const Snapshot& snapshot, const ActionParams& params, std::vector<Action>& actions) {
-  const auto offer = [&](const Text& title, const LocatedFinding& located, const Edit& edit) {
-    const std::string_view code = dialect::definition(located.finding.id).code;
+  const auto offer = [&](const Text& title, const check::Repetition& place, const Edit& edit) {
+    const std::string_view code = dialect::definition(place.id).code;
     Action action{.title = dialect::format(title, snapshot.language(), code),
                   .kind = kQuickFix,
-                  .diagnostics = diagnostics_of(snapshot, located, params),
+                  .diagnostics = diagnostics_of(snapshot, place, params),
                   .edit = queries::workspace_edit(snapshot, queries::to_client(snapshot, {edit})),
                   .data = nullptr};
     const auto is_there = [&](const Action& each) { return each.title == action.title && each.edit == action.edit; };
     if (std::none_of(actions.begin(), actions.end(), is_there)) actions.push_back(std::move(action));
   };
-  for (const LocatedFinding& located : findings_of(snapshot, params)) {
-    const std::string_view code = dialect::definition(located.finding.id).code;
-    const syntax::DocumentLine line = snapshot.document().line(located.line);
-    offer(kSilenceLine, located, silencing_line(*line, located.line, code));
-    offer(kSilenceFile, located, {{0, 0}, {0, 0}, fmt::format(";isolint: ignore-file {}\n", code)});
+  for (const auto& [located, place] : findings_of(snapshot, params)) {
+    const std::string_view code = dialect::definition(place.id).code;
+    const syntax::DocumentLine line = snapshot.document().line(place.line);
+    offer(kSilenceLine, place, silencing_line(*line, place.line, code));
+    offer(kSilenceFile, place, {{0, 0}, {0, 0}, fmt::format(";isolint: ignore-file {}\n", code)});
   }
 }
 

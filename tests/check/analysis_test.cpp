@@ -189,7 +189,10 @@ TEST(Analysis, AnExcerptHasTheFirstFindingsAndCountsTheOthers) {
   const Report all = analysis.report();
   for (const std::size_t maximum : {0u, 1u, 100u, 4'999u, 100'000u}) {
     const auto is_even = [](dialect::DiagnosticId id) { return static_cast<int>(id) % 2 == 0; };
-    const FirstFindings excerpt = analysis.excerpt({.max = maximum, .counts = is_even});
+    const auto severity = [&](dialect::DiagnosticId id) {
+      return is_even(id) ? std::optional(dialect::Severity::Error) : std::nullopt;
+    };
+    const FirstFindings excerpt = analysis.excerpt({.max = maximum, .severity = severity});
     const std::vector<std::string> texts = support::texts_of(excerpt.report);
     const auto counted = [&](const Report& report) {
       return std::count_if(report.findings.begin(), report.findings.end(),

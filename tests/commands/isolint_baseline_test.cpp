@@ -80,6 +80,16 @@ TEST_F(IsolintBaseline, DoesNotMindEditsElsewhere) {
   EXPECT_THAT(found_in("M06 T101001\nG00 X10 U6\nM02\n"), StartsWith("parts/old.iso:2:9: "));
 }
 
+/// Of a mistake that repeats, each line is recorded; a new line of it is reported alone.
+TEST_F(IsolintBaseline, KnowsEachLineOfARepeatedMistake) {
+  folder_.write("parts/old.iso", "M06 T101001\nG01 X1 B1 F500\nX2 B2\nX3 B3\nM02\n");
+  EXPECT_EQ(run({"--write-baseline", "known.json", "parts"}).err, "1 error, 0 warnings in 2 files\n");
+  EXPECT_EQ(json::parse(text_of_file(folder_.path("known.json")))["findings"].size(), 3u);
+  EXPECT_EQ(run({"--baseline", "known.json", "parts"}).err, "0 errors, 0 warnings in 2 files; 1 in the baseline\n");
+  EXPECT_THAT(found_in("M06 T101001\nG01 X1 B1 F500\nX4 B4\nX2 B2\nX5 B5\nX3 B3\nM02\n"),
+              testing::AllOf(StartsWith("parts/old.iso:3:4: "), HasSubstr("(and 1 more line, line 5)")));
+}
+
 TEST_F(IsolintBaseline, NamesProgramsFromItsFolder) {
   run({"--write-baseline", "parts/known.json", "parts"});
   EXPECT_THAT(text_of_file(folder_.path("parts/known.json")), HasSubstr(R"("file": "old.iso")"));

@@ -107,6 +107,17 @@ TEST(IsolintFix, AddsNothingThatIsNotSelected) {
   EXPECT_EQ(run_on(program, {"--fix", "--unsafe-fixes", "--select", "ISO043"}).out, program);
 }
 
+/// One G49 mends all lines that lack it; an F without a feed move is removed from each line.
+TEST(IsolintFix, MendsRepeatedMistakes) {
+  const CommandResult once =
+      run_on("M06 T101001\nG01 X1 B1 F500\nX2 B2\nC3\nX4\nX5 B5\nM02\n", {"--fix", "--unsafe-fixes"});
+  EXPECT_EQ(once.out, "M06 T101001\nG49\nG01 X1 B1 F500\nX2 B2\nC3\nX4\nX5 B5\nM02\n");
+  EXPECT_THAT(once.err, HasSubstr("1 fixed"));
+  const CommandResult each = run_on("M06 T101001\nG93\nF4\nG00 X0 F5\nM08\nF6\nG01 X1 F7\nM02\n", {"--fix"});
+  EXPECT_EQ(each.out, "M06 T101001\nG93\nG00 X0\nM08\nG01 X1 F7\nM02\n");
+  EXPECT_THAT(each.err, HasSubstr("1 fixed"));
+}
+
 TEST(IsolintFix, PrintsTheProgramOfStandardInput) {
   const CommandResult result = run_on(std::string(kMendable), {"--fix", "--format", "concise"});
   EXPECT_EQ(result.status, 1);

@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "analyzer/formats/renderers.h"
@@ -53,9 +54,10 @@ class IsolintFormat : public testing::TestWithParam<Format> {};
 
 TEST_P(IsolintFormat, LooksAsExpected) {
   const auto& [name, language] = GetParam();
-  const CommandResult result = run_command({"isolint", "--format", name, "--lang", language, "--severity", "W001=info",
-                                            "jumps.iso", "./drill & 50%,side.iso", "../programs/clean.iso"},
-                                           {.folder = kFolder + "programs"});
+  const CommandResult result =
+      run_command({"isolint", "--format", name, "--lang", language, "--severity", "W001=info", "jumps.iso",
+                   "./drill & 50%,side.iso", "../programs/clean.iso", "five-axis.iso"},
+                  {.folder = kFolder + "programs"});
   EXPECT_EQ(result.status, 1);
   const std::string file = kFolder + "expected/" + name + "." + language;
   if (std::getenv("ISOCNC_UPDATE_EXPECTED") != nullptr) std::ofstream(file, std::ios::binary) << lasting(result.out);
@@ -120,6 +122,37 @@ TEST(IsolintJsonFormats, AreJsonWhateverTheProgramHolds) {
 }
 
 /// A line of its own for each annotation, and each line a command that the program's text has not made.
+/// A repeated mistake is one finding; the keys are absent where nothing repeats.
+TEST(IsolintJsonFormats, CountTheLinesThatRepeatAMistake) {
+  const std::string program = "M06 T101001\nG93\nG01 X1\nX2\nM08\nX3\nX4 F5\nX5\nM02\n";
+  const json found = json::parse(run_command({"isolint", "--format", "json", "-"}, {.input = program}).out);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0]["line"], 3);
+  EXPECT_EQ(found[0]["repeats"], 2);
+  EXPECT_EQ(found[0]["lastLine"], 6);
+  EXPECT_EQ(found[1]["line"], 8);
+  EXPECT_FALSE(found[1].contains("repeats") || found[1].contains("lastLine"));
+  const CommandResult counted = run_command({"isolint", "-"}, {.input = program});
+  EXPECT_EQ(counted.err, "2 errors, 0 warnings in 1 file\n");
+}
+
+json sarif_of(const std::string& program, std::vector<std::string> options = {}) {
+  options.insert(options.begin(), {"isolint", "--format", "sarif", "--stdin-filename", "part.iso", "-"});
+  return json::parse(run_command(options, {.input = program}).out);
+}
+
+/// The editor of a SARIF log may jump to the lines; of very many, only the first and the last are named.
+TEST(IsolintSarif, NamesTheLinesThatRepeatAMistake) {
+  std::string program = "M06 T101001\nG93\nG01 X0\n";
+  for (int i = 1; i <= 250; ++i) program += fmt::format("X{}\n", i);
+  const json result = sarif_of(program + "M02\n")["runs"][0]["results"][0];
+  ASSERT_EQ(result["relatedLocations"].size(), 100u);
+  EXPECT_EQ(result["relatedLocations"][0]["physicalLocation"]["region"]["startLine"], 4);
+  EXPECT_EQ(result["relatedLocations"][98]["physicalLocation"]["region"]["startLine"], 102);
+  EXPECT_EQ(result["relatedLocations"][99]["physicalLocation"]["region"]["startLine"], 253);
+  EXPECT_EQ(result["properties"], json::parse(R"({"repeats": 250, "lastLine": 253})"));
+}
+
 TEST(IsolintGithub, LetsNoTextEndACommand) {
   std::istringstream lines(hostile_output("github"));
   for (std::string line; std::getline(lines, line);) {
@@ -128,11 +161,6 @@ TEST(IsolintGithub, LetsNoTextEndACommand) {
     const std::string file = line.substr(0, line.find(",line="));
     EXPECT_EQ(std::count(file.begin() + 2, file.end(), ':') + std::count(file.begin(), file.end(), ','), 0) << file;
   }
-}
-
-json sarif_of(const std::string& program, std::vector<std::string> options = {}) {
-  options.insert(options.begin(), {"isolint", "--format", "sarif", "--stdin-filename", "part.iso", "-"});
-  return json::parse(run_command(options, {.input = program}).out);
 }
 
 /// What the specification of SARIF 2.1.0 requires of the objects used, and which values it allows.

@@ -354,6 +354,22 @@ TEST(Breakpoints, WarningsAreThoseThatIsolintShows) {
   EXPECT_EQ(with_w190.line(), 2);
 }
 
+/// A warning that repeats stops the run once, at the first line that it reaches.
+TEST(Breakpoints, WarningsThatRepeatStopTheRunOnce) {
+  const char* const program = "M06 T101001\nG93\nIF VGPL = 1 GOTO N10\nF4\nF5\nN10 G00 X1\nF6\nF7\nM05\nM02\n";
+  DebugClient client;
+  client.launch(program, {{"breakOnWarnings", true}, {"vgpl", 1}});
+  EXPECT_EQ(client.run("configurationDone").at("text"), "W003");
+  EXPECT_EQ(client.line(), 7);
+  EXPECT_THAT(client.request("exceptionInfo", {{"threadId", 1}}).at("description").get<std::string>(),
+              HasSubstr("(and 3 more lines, to line 8)"));
+  DebugClient straight;
+  straight.launch("M06 T101001\nG93\nF4\nF5\nG00 X1\nF6\nM05\nG17\nG17\nM02\n", {{"breakOnWarnings", true}});
+  EXPECT_EQ(straight.run("configurationDone").at("text"), "W003");
+  EXPECT_EQ(straight.line(), 3);
+  EXPECT_EQ(straight.run("continue").at("text"), "W001");
+}
+
 /// The filters that the client sets do not turn off what the launch asks for.
 TEST(Breakpoints, WarningsStopTheRunBesideTheFiltersOfTheClient) {
   DebugClient client;

@@ -127,13 +127,28 @@ TEST(OfferedFixes, AreTriedHoweverManyThereAre) {
     for (int i = 0; i < 9'000; ++i) text += "G01 X" + std::to_string(i % 977) + " C" + std::to_string(i % 7 + 1) + "\n";
     text += end;
     const rules::CheckSetup setup;
-    const check::Report report = support::found_in(text);
+    const check::Report report = selection::Selection().shown(check::check_text(text, setup));  // Not folded.
     FindingFixes fixes(text, report, setup);
     return std::count_if(report.findings.begin(), report.findings.end(),
                          [&](const check::LocatedFinding& located) { return fixes.offered(located).has_value(); });
   };
   EXPECT_EQ(offered("G49\nM02\n"), 0);
   EXPECT_EQ(offered("M02\n"), 9'000);
+}
+
+/// The fix of a mistake that repeats (D66): one G49 mends all lines, an ignored F is removed from each.
+TEST(OfferedFixes, MendAllLinesThatRepeatAFinding) {
+  const rules::CheckSetup setup;
+  const auto after = [&](std::string_view text) {
+    const check::Report report = support::found_in(text);
+    FindingFixes fixes(text, report, setup);
+    std::optional<fixes::Fix> fix = fixes.offered_in_full(report.findings.at(0));
+    return edited(text, fix.value().edits, fixes.program()) + fix->title_in(dialect::Language::Italian);
+  };
+  EXPECT_EQ(after("M06 T101001\nG01 X1 B1 F900\nX2\nX3 B3\nM02\n"),
+            "M06 T101001\nG49\nG01 X1 B1 F900\nX2\nX3 B3\nM02\ninserire prima una linea con G49");
+  EXPECT_EQ(after("M06 T101001\nG93\nF4\nG00 X0 F5\nF6\nM02\n"),
+            "M06 T101001\nG93\nG00 X0\nM02\ntogliere F4, che viene ignorata, e su altre 2 linee");
 }
 
 /// Where many states make each trial dear, what shows on the spot is still seen: the tool change that a fix would make

@@ -17,6 +17,8 @@ struct ExpectedFinding {
   std::size_t end = 0;
   std::string code;
   std::vector<std::size_t> via;  ///< Lines of IFs that lead to it, from 1.
+  std::size_t repeats = 0;       ///< The number of lines below that repeat it (D66).
+  std::size_t last_line = 0;     ///< The last of them, from 1.
 
   auto operator<=>(const ExpectedFinding&) const = default;
 };
@@ -41,6 +43,7 @@ struct Part {
   double vgpl = 0;
   std::vector<std::string> selected;  ///< Rules that are off by default, as `W124=warning`.
   bool is_about_rules = false;        ///< In tests/programs/rules: lint findings are marked, too.
+  bool is_folded = false;             ///< In D66.iso: lines that repeat a finding are not marked.
 };
 
 std::vector<Part> read_golden(const std::filesystem::path& file);

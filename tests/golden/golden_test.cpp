@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "analyzer/check/check_text.h"
+#include "analyzer/check/folding.h"
 #include "analyzer/formats/rendering.h"
 #include "analyzer/selection/style_findings.h"
 #include "analyzer/selection/suppressions.h"
@@ -19,22 +20,25 @@ namespace {
 
 /// A finding as a golden file would mark it, with the line's text, so that a difference can be read.
 std::string shown(const ExpectedFinding& finding, const std::string& line) {
-  return fmt::format("\n  {} at {}-{} of line {}: {}\n", finding.code, finding.begin, finding.end, finding.line + 1,
-                     line);
+  const std::string repeats =
+      finding.repeats == 0 ? "" : fmt::format(" and {} more, to {}", finding.repeats, finding.last_line);
+  return fmt::format("\n  {} at {}-{} of line {}{}: {}\n", finding.code, finding.begin, finding.end, finding.line + 1,
+                     repeats, line);
 }
 
 std::string line_of(const std::string& program, std::size_t index) {
   return std::string(syntax::LineFinder(program).line(index));
 }
 
-/// What isolint would report.
+/// What isolint would report; in most parts before it is folded, so that each line shows what is judged.
 check::Report reported_in(const Part& part) {
   selection::Selection selection;
   EXPECT_THAT(selection.follow({.severities = part.selected}, dialect::Language::English), testing::IsEmpty());
   rules::CheckSetup setup{.machine = part.setup};
   setup.every_motion = !part.selected.empty();
   check::Report report = selection::with_style(check::check_text(part.program, setup), part.program, selection);
-  return selection.shown(selection::suppress(std::move(report), part.program, selection));
+  report = selection.shown(selection::suppress(std::move(report), part.program, selection));
+  return part.is_folded ? check::folded(std::move(report)) : report;
 }
 
 std::vector<std::string> found_in(const Part& part, const check::Report& report) {
@@ -43,10 +47,13 @@ std::vector<std::string> found_in(const Part& part, const check::Report& report)
     if (!part.is_about_rules && support::is_lint(dialect::definition(located.finding.id).code)) continue;
     const std::string line = line_of(part.program, located.line);
     const syntax::Span span = located.finding.span;
+    const std::span<const check::Repetition> repeated = report.repetitions_of(located);
     found.push_back(shown({.line = located.line,
                            .begin = text::column_of(line, span.begin) - 1,
                            .end = text::column_of(line, span.end) - 1,
-                           .code = std::string(dialect::definition(located.finding.id).code)},
+                           .code = std::string(dialect::definition(located.finding.id).code),
+                           .repeats = repeated.size(),
+                           .last_line = repeated.empty() ? 0 : repeated.back().line + 1},
                           line));
   }
   return found;
@@ -69,8 +76,9 @@ TEST_P(Golden, FindsWhatIsMarkedAndNothingElse) {
   for (const Part& part : read_golden(GetParam())) {
     std::vector<std::string> expected;
     for (const ExpectedFinding& finding : part.findings) {
-      expected.push_back(
-          shown({finding.line, finding.begin, finding.end, finding.code, {}}, line_of(part.program, finding.line)));
+      ExpectedFinding without_path = finding;
+      without_path.via.clear();
+      expected.push_back(shown(without_path, line_of(part.program, finding.line)));
     }
     const check::Report report = reported_in(part);
     const std::vector<std::string> found = found_in(part, report);

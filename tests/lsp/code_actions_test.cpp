@@ -72,6 +72,15 @@ constexpr Case kFixes[] = {
     {"number the line N80", "M06 T101001\nIF VGPL = 1 GOTO N5\nN5 G00 X1\n[!!]N5 G00 X2\nN73 X4\nM02\n",
      "M06 T101001\nIF VGPL = 1 GOTO N5\nN5 G00 X1\nN80 G00 X2\nN73 X4\nM02\n"},
     {"silence", "M06 T101001\n[!!]G00 X10\nM02\n", nullptr},
+    // One G49 mends all lines that lack it, and is offered on each; what is ignored on each line is removed there.
+    {"insert G49 above", "M06 T101001\n[!!]G01 X0 B5 F500\nX2 B6\nM02\n",
+     "M06 T101001\nG49\nG01 X0 B5 F500\nX2 B6\nM02\n"},
+    {"insert G49 above", "M06 T101001\nG01 X0 B5 F500\n[!!]X2 B6\nM02\n",
+     "M06 T101001\nG49\nG01 X0 B5 F500\nX2 B6\nM02\n"},
+    {"silence ISO032 on this line", "M06 T101001\nG01 X0 B5 F500\n[!!]X2 B6\nM02\n",
+     "M06 T101001\nG01 X0 B5 F500\nX2 B6 ;isolint: ignore ISO032\nM02\n"},
+    {"remove F4, which is ignored, and on 2 more lines", "M06 T101001\nG93\n[!!]F4\nG00 X0 F5\nF6\nM02\n",
+     "M06 T101001\nG93\nG00 X0\nM02\n"},
 };
 
 TEST_F(CodeActions, FindingsAreFixedOrSilenced) {

@@ -247,6 +247,47 @@ TEST(Diagnostics, ReportThePathToWhatIsWrong) {
                                                            "end": {"line": 2, "character": 19}})"));
 }
 
+/// A repeated mistake is one finding with the lines that repeat it; these are hints that name it.
+TEST(Diagnostics, FadeTheLinesThatRepeatAMistake) {
+  Session session;
+  session.start({{"textDocument", {{"publishDiagnostics", {{"relatedInformation", true}}}}}}, {{"locale", "en"}});
+  session.open(kUri, "M06 T101001\nG01 X0 B5 F500\nX1\nX2 B6\nC90\nM02\n");
+  const Json found = session.diagnostics(kUri, 1);
+  ASSERT_EQ(found.size(), 3u) << found;
+  EXPECT_EQ(found[0]["code"], "ISO032");
+  EXPECT_EQ(found[0]["severity"], 1);
+  const std::string message = found[0]["message"];
+  EXPECT_THAT(message, testing::EndsWith(" (and 2 more lines, to line 5)"));
+  ASSERT_EQ(found[0]["relatedInformation"].size(), 2u);
+  EXPECT_EQ(found[0]["relatedInformation"][1]["location"]["range"],
+            Json::parse(R"({"start": {"line": 4, "character": 0}, "end": {"line": 4, "character": 3}})"));
+  EXPECT_EQ(found[1]["range"],
+            Json::parse(R"({"start": {"line": 3, "character": 3}, "end": {"line": 3, "character": 5}})"));
+  for (int i = 1; i < 3; ++i) {
+    EXPECT_EQ(found[i]["severity"], 4);
+    EXPECT_EQ(found[i]["tags"], Json::array({1}));
+    EXPECT_EQ(found[i]["message"], "as on line 2: " + message);
+    EXPECT_EQ(found[i]["relatedInformation"][0]["location"]["range"]["start"]["line"], 1);
+  }
+  EXPECT_EQ(found[2]["code"], "ISO047");
+  EXPECT_THAT(session.request("textDocument/hover", at(4, 1))["contents"]["value"].get<std::string>(),
+              testing::HasSubstr("**ISO047**"));
+}
+
+/// However many lines repeat a mistake, it is one finding, and the others are reported.
+TEST(Diagnostics, FoldThousandsOfLines) {
+  Session session;
+  session.start(Json::object(), {{"locale", "it"}});
+  std::string text = "M06 T101001\nG01 X0 F500\n";
+  for (int i = 1; i <= 6'000; ++i) text += fmt::format("X{} B{}\n", i, i);
+  session.open(kUri, text + "G01 X1 X2\nM02\n");
+  const Json found = session.diagnostics(kUri, 1);
+  ASSERT_EQ(found.size(), 1'002u);
+  EXPECT_THAT(found[0]["message"].get<std::string>(), testing::EndsWith(" (e altre 5999 linee, fino alla 6002)"));
+  EXPECT_EQ(found[1]["code"], "ISO016");
+  EXPECT_EQ(found[2]["severity"], 4);
+}
+
 /// An editor may send the mark as part of the text.
 TEST(ByteOrderMark, CountsAsACharacterOfTheFirstLine) {
   Session session;

@@ -19,6 +19,9 @@ inline std::vector<std::string> texts_of(const check::Report& report) {
     if (located.path >= 0)
       for (const check::PathStep& step : report.paths.at(static_cast<std::size_t>(located.path)))
         text += fmt::format(" via {}{}", step.taken ? "" : "not ", step.line);
+    if (located.mistake >= 0) text += fmt::format(" mistake {}", located.mistake);
+    for (const check::Repetition& again : report.repetitions_of(located))
+      text += fmt::format(" again {} {} {}", again.line, dialect::definition(again.id).code, text_of(again.span));
     texts.push_back(std::move(text));
   }
   return texts;
