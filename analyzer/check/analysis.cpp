@@ -272,7 +272,8 @@ void Analysis::check_chunk(std::size_t chunk, const syntax::ChunkTrees& trees, C
   row.centers = outcome.centers;
   row.is_stale = false;
   row.has_text = outcome.has_text;
-  row.has_more = !outcome.findings.empty() || !outcome.fold_ends.empty() || !outcome.labels.empty() ||
+  row.has_more = !outcome.findings.empty() || !outcome.fold_ends.empty() ||
+                 outcome.leads_anywhere_from != Outcome::kNowhere || !outcome.labels.empty() ||
                  !outcome.live_jumps.empty() || outcome.assigned != 0;
   outcome.findings.shrink_to_fit();
   outcome.count();

@@ -60,6 +60,14 @@ static bool is_error(const Finding& finding) {
   return dialect::definition(finding.id).severity == dialect::Severity::Error && finding.id != "m02-not-alone"_diag;
 }
 
+/// Whether the line has a jump, reported as wrong, whose label cannot be read, or whose IF is missing.
+static bool jumps_anywhere(const LineTree& line) {
+  if (line.findings.empty()) return false;
+  if (line.jump) return !line.jump->has_target;
+  return std::any_of(line.words.begin(), line.words.end(),
+                     [](const syntax::Word& word) { return word.letter == syntax::kGoto; });
+}
+
 /// Whether one of the findings from index `first` on is an error.
 static bool has_error(const std::vector<LocatedFinding>& findings, std::size_t first) {
   return std::any_of(findings.begin() + static_cast<std::ptrdiff_t>(first), findings.end(),
@@ -163,6 +171,7 @@ void Checker::check_any(const LineTree& line, std::uint64_t line_number, Outcome
   const std::size_t first = outcome.findings.size();
   for (const Finding& finding : line.findings)
     if (!is_reported_above(finding, live)) outcome.findings.push_back({line_number, finding});
+  if (jumps_anywhere(line)) outcome.leads_anywhere_from = std::min(outcome.leads_anywhere_from, line_number);
   if (line.jump && line.jump->has_target) {
     execute_around_jump(line, line_number, outcome);
   } else {
@@ -417,6 +426,8 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
   const syntax::Jump& jump = *line.jump;
   const std::uint32_t ordinal = frontier.next_jump++;
   outcome.live_jumps.push_back(ordinal);
+  if (jumps_.target_of(ordinal) != JumpMap::Target::Below)
+    outcome.leads_anywhere_from = std::min(outcome.leads_anywhere_from, line_number);
   switch (jumps_.target_of(ordinal)) {
     case JumpMap::Target::Below:
       break;

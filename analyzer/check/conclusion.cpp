@@ -121,6 +121,9 @@ static void keep_first_of_each(std::vector<LocatedFinding>& findings) {
   }
 }
 
+/// Reported in vain below a jump that may lead anywhere.
+static constexpr dialect::DiagnosticId kDeadCode = "never-runs"_diag;
+
 static bool by_place(const LocatedFinding& a, const LocatedFinding& b) {
   return a.line != b.line ? a.line < b.line : a.finding.span.begin < b.finding.span.begin;
 }
@@ -149,6 +152,9 @@ static void put_in_order(Report& report, const std::vector<Decisions>& paths, co
 Report conclude(Outcome outcome, const Frontier& end, const JumpMap& jumps,
                 const std::function<std::string_view(std::uint64_t)>& text_of_line) {
   MistakeNumbers mistakes;
+  std::erase_if(outcome.findings, [&](const LocatedFinding& located) {
+    return located.finding.id == kDeadCode && located.line > outcome.leads_anywhere_from;
+  });
   mistakes.start(outcome);
   for (LocatedFinding& located : outcome.findings) mistakes.number(located);
   std::vector<Decisions> paths = std::move(outcome.paths);
@@ -172,18 +178,27 @@ class ExcerptCollector {
   /// The line after the last finding taken.
   std::uint64_t end() const { return end_; }
 
+  /// Whether findings of a code must be looked at one by one, and not only be counted.
+  static bool needs_look(dialect::DiagnosticId id) {
+    return dialect::definition(id).folds != dialect::FoldKind::None || id == kDeadCode;
+  }
+
   /// Takes the findings of an outcome; all outcomes must come, in their order. Once there are enough, takes
-  /// repetitions only, and counts the other findings of folds.
+  /// repetitions only, and counts the other findings that need a look.
   void take(const PlacedOutcome& placed) {
     const bool had_enough = has_enough();
     const auto first_path = static_cast<std::int32_t>(paths.size());
+    const auto& tally = placed.outcome->tally;
+    const auto needs_a_look = [](const auto& counted) { return needs_look(counted.first); };
     mistakes_.start(*placed.outcome);
-    if (!had_enough || placed.outcome->has_folds()) {
+    if (!had_enough || std::any_of(tally.begin(), tally.end(), needs_a_look)) {
       for (LocatedFinding located : placed.outcome->findings) {
+        const bool may_run = leads_anywhere_ || located.line > placed.outcome->leads_anywhere_from;
+        if (located.finding.id == kDeadCode && may_run) continue;
         mistakes_.number(located);
         located.line += placed.first_line;
         if (had_enough) {
-          if (folds(located) && !is_repetition(located, Folder::kLeftOut)) count(located.finding.id);
+          if (needs_look(located.finding.id) && !is_repetition(located, Folder::kLeftOut)) count(located.finding.id);
           continue;
         }
         if (located.path >= 0) located.path += first_path;
@@ -191,6 +206,7 @@ class ExcerptCollector {
       }
     }
     mistakes_.finish();
+    leads_anywhere_ |= placed.outcome->leads_anywhere_from != Outcome::kNowhere;
     if (had_enough) return;
     const std::vector<Decisions>& theirs = placed.outcome->paths;
     paths.insert(paths.end(), theirs.begin(), theirs.end());
@@ -212,9 +228,6 @@ class ExcerptCollector {
   static bool is_reported_once(dialect::DiagnosticId id) {
     return std::find(std::begin(kReportedOnce), std::end(kReportedOnce), id) != std::end(kReportedOnce);
   }
-  static bool folds(const LocatedFinding& located) {
-    return dialect::definition(located.finding.id).folds != dialect::FoldKind::None;
-  }
   std::optional<dialect::Severity> severity(dialect::DiagnosticId id) const {
     return options_.severity ? options_.severity(id) : dialect::definition(id).severity;
   }
@@ -233,6 +246,7 @@ class ExcerptCollector {
   FirstFindings& excerpt_;
   MistakeNumbers mistakes_;
   Folder folder_;
+  bool leads_anywhere_ = false;
   std::size_t taken_ = 0;
   std::uint64_t end_ = 0;
   std::array<bool, std::size(kReportedOnce)> reported_{};
@@ -254,7 +268,7 @@ FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const Finding
   }
   for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
     const dialect::DiagnosticId id{static_cast<std::uint8_t>(i)};
-    if (left.of(id) > 0 && dialect::definition(id).folds == dialect::FoldKind::None) collector.count(id, left.of(id));
+    if (left.of(id) > 0 && !ExcerptCollector::needs_look(id)) collector.count(id, left.of(id));
   }
   std::vector<LocatedFinding> of_whole;
   add_findings_of_whole(outcomes, end, jumps, text_of_line, collector.paths, of_whole);

@@ -11,12 +11,6 @@ void Outcome::report(const LocatedFinding& located) {
   findings.push_back(located);
 }
 
-bool Outcome::has_folds() const {
-  return std::any_of(tally.begin(), tally.end(), [](const auto& counted) {
-    return dialect::definition(counted.first).folds != dialect::FoldKind::None;
-  });
-}
-
 void Outcome::end_folds(FoldSet folds, std::uint64_t line) {
   const auto ending = static_cast<FoldSet>(folds & ~ended_folds);
   if (ending == 0) return;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -44,6 +45,8 @@ struct Outcome {
     FoldSet folds = 0;
   };
 
+  static constexpr std::uint64_t kNowhere = std::numeric_limits<std::uint64_t>::max();
+
   std::vector<LocatedFinding> findings;  ///< The findings, in the order of the lines.
   std::vector<Decisions> paths;
   std::vector<Label> labels;              ///< Definitions of labels that some GOTO names.
@@ -53,6 +56,8 @@ struct Outcome {
   RegisterSet assigned = 0;  ///< Registers assigned a value; recorded only if some IF compares one.
   PositionUse positions;
   CenterUse centers;
+  /// The first line with a jump that may lead anywhere below, as its label cannot be read or found (D63).
+  std::uint64_t leads_anywhere_from = kNowhere;
   /// The lines that end folds, ascending. Of those between two findings of a fold, only the first is recorded.
   std::vector<FoldEnd> fold_ends;
   FoldSet ended_folds = 0;  ///< Folds without a finding since they were last ended.
@@ -62,8 +67,6 @@ struct Outcome {
   void count();
   /// Appends a finding that may belong to a fold.
   void report(const LocatedFinding& located);
-  /// Whether there is a finding that may belong to a fold; valid after count().
-  bool has_folds() const;
   void end_folds(FoldSet folds, std::uint64_t line);
 };
 

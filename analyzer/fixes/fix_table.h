@@ -210,6 +210,8 @@ inline constexpr auto kFixes = [] {
        Unsafe,
        {"write {new}: labels start with N", "scrivere {new}: le etichette iniziano con N"},
        label_with_letter},
+      {"if-malformed"_diag, Unsafe, kZero, label_with_zeros},
+      {"if-malformed"_diag, Unsafe, kWholeNumber, whole_number},
       {"label-not-found"_diag, None, kLabelUnknown},
       {"backward-jump"_diag, None, kLabelUnknown},
       {"duplicate-label"_diag,

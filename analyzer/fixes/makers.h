@@ -40,6 +40,7 @@ Draft without_equals(const FixRequest& request);
 Draft angle_in_range(const FixRequest& request);
 Draft comparison(const FixRequest& request);
 Draft label_with_letter(const FixRequest& request);
+Draft label_with_zeros(const FixRequest& request);
 Draft code_of_this_control(const FixRequest& request);
 Draft time_by_p(const FixRequest& request);
 Draft seconds_of_milliseconds(const FixRequest& request);

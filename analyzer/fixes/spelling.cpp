@@ -123,6 +123,14 @@ Draft label_with_letter(const FixRequest& request) {
   return rewritten(request, "N" + std::string(request.marked()));
 }
 
+/// GOTO N4O: the letter O for a zero.
+Draft label_with_zeros(const FixRequest& request) {
+  std::string text(request.marked());
+  if (text::upper(text.front()) != 'N' || !holds_only(std::string_view(text).substr(1), "0123456789Oo")) return {};
+  std::replace_if(text.begin(), text.end(), is_letter_o, '0');
+  return text == request.marked() ? Draft{} : rewritten(request, std::move(text));
+}
+
 /// G20 and G21, which set inches and millimeters on other controls.
 Draft code_of_this_control(const FixRequest& request) {
   const Word* const word = word_at(request.line, request.finding.span);

@@ -137,7 +137,28 @@ bool LineParser::read_variable(Jump& jump, const Word& written, bool has_operato
   return true;
 }
 
-/// Reads the label after the GOTO at `index`.
+/// The last word of the text in the place of a label that is none: N4O, LABEL, NV1, "N40".
+std::uint16_t LineParser::end_of_target(std::uint16_t index) const {
+  while (index + 1 < word_count()) {
+    const Word& next = word(index + 1u);
+    const bool is_number = next.letter == 'V' && word(index).has(Word::kMissing);
+    const bool is_quoted = next.letter == 'N' && word(index).letter == kError;
+    if (!is_no_word(next) && !is_number && !is_quoted) break;
+    ++index;
+  }
+  return index;
+}
+
+/// Reports the text in the place of a label that is none. Returns its last word.
+std::uint16_t LineParser::report_target(std::uint16_t index) {
+  const std::uint16_t last = end_of_target(index);
+  const Span target = hull(word(index).span(), word(last).span());
+  take_back_within(target);
+  report("if-malformed"_diag, target);
+  return last;
+}
+
+/// Reads the label after the GOTO at `index`. A target that is none leaves open where the jump leads (D63).
 std::uint16_t LineParser::read_target(Jump& jump, std::uint16_t index) {
   const auto at = static_cast<std::uint16_t>(index + 1);
   if (at >= word_count() || word(at).letter == 'G' || word(at).letter == kIf) {
@@ -146,28 +167,33 @@ std::uint16_t LineParser::read_target(Jump& jump, std::uint16_t index) {
     return index;
   }
   const Word& label = word(at);
-  if (label.letter != 'N' || !label.is_plain_integer()) {
-    if (!label.has(Word::kReported)) report("if-malformed"_diag, label.span());  // N1O: reported at the O.
-    return at;
-  }
+  if (label.letter != 'N' || !label.is_plain_integer()) return report_target(at);
   jump.has_target = true;
   jump.target = label_of(label);
   jump.target_span = label.span();
   return at;
 }
 
-/// Handles a GOTO without IF, or a second GOTO on the line, which is reported at the first: it must be alone.
+/// Handles a GOTO without IF, or a second GOTO on the line, which is reported at the first: it must be alone. Its
+/// target, right or wrong, belongs to the same mistake.
 std::uint16_t LineParser::add_lone_goto(std::uint16_t index) {
   if (line_.jump < 0) {
+    const auto is_of_condition = [&](const Word& it) {
+      return it.letter == kVgpl ||
+             (it.letter == kError && text::char_class(begin_[it.begin]) == text::CharClass::Compare);
+    };
     for (std::uint16_t i = 0; i < index; ++i)  // V5 > 30 GOTO N340: the IF is missing.
-      if (word(i).letter == kError && text::char_class(begin_[word(i).begin]) == text::CharClass::Compare)
-        take_back("unknown-word"_diag, word(i).span());
+      if (is_of_condition(word(i))) take_back("unknown-word"_diag, word(i).span());
     report("if-malformed"_diag, word(index).span());
   }
   const auto at = static_cast<std::uint16_t>(index + 1);
   if (at >= word_count()) return index;
   const char letter = word(at).letter;
-  return letter == 'N' || letter == kNumber || letter == kError ? at : index;
+  if (letter != 'N' && letter != kNumber && letter != kError) return index;
+  const bool is_label = letter == 'N' && word(at).is_plain_integer();
+  const std::uint16_t last = is_label ? at : end_of_target(at);
+  if (!is_label) take_back_within(hull(word(at).span(), word(last).span()));
+  return last;
 }
 
 }  // namespace isocnc::syntax

@@ -116,6 +116,8 @@ class LineParser {
   bool read_variable(Jump& jump, const Word& written, bool has_operator);
   std::optional<Span> comparison_in_comment(std::uint32_t begin, std::uint32_t end) const;
   void report_half_jump(std::uint16_t where, std::uint16_t end);
+  std::uint16_t end_of_target(std::uint16_t index) const;
+  std::uint16_t report_target(std::uint16_t index);
   std::uint16_t read_target(Jump& jump, std::uint16_t index);
   std::uint16_t add_lone_goto(std::uint16_t index);
 
