@@ -35,6 +35,7 @@ using Maker = Draft (*)(const FixRequest&);
 Draft zero_for_letter_o(const FixRequest& request);
 Draft point_for_comma(const FixRequest& request);
 Draft whole_number(const FixRequest& request);
+Draft plain_minus(const FixRequest& request);
 Draft without_sign(const FixRequest& request);
 Draft without_equals(const FixRequest& request);
 Draft angle_in_range(const FixRequest& request);

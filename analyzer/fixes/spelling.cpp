@@ -7,6 +7,7 @@
 #include "analyzer/fixes/habits.h"
 #include "analyzer/fixes/line_edits.h"
 #include "interpreter/text/characters.h"
+#include "interpreter/text/unicode.h"
 
 namespace isocnc::fixes {
 
@@ -72,6 +73,14 @@ Draft whole_number(const FixRequest& request) {
   const bool is_known_g = letter != 'G' || dialect::g_code(static_cast<std::size_t>(value)) != nullptr;
   if (!is_known_g || (letter == 'M' && value == 0) || (letter == 'T' && digits.size() != 6)) return {};
   return rewritten(request, std::string(1, text.front()) + std::string(digits));
+}
+
+/// X-30 with a minus or a dash from a text processor (D67).
+Draft plain_minus(const FixRequest& request) {
+  const auto length = static_cast<std::uint32_t>(text::foreign_minus_length(request.marked()));
+  if (length == 0) return {};
+  const std::uint32_t begin = request.finding.span.begin;
+  return {{replaced(request, {begin, begin + length}, "-")}};
 }
 
 Draft without_sign(const FixRequest& request) {
@@ -159,7 +168,28 @@ Draft free_label(const FixRequest& request) {
   return rewritten(request, fmt::format("{}{}", request.marked().front(), *number));
 }
 
+static bool is_letter(char c) {
+  return (text::upper(c) >= 'A' && text::upper(c) <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
+}
+
+/// Whether text that is to become a comment may hold words that move the machine (D67): X, Y or Z with a number
+/// anywhere, and other letters unless they end a name (SUB1, PROGRAM 12).
+static bool may_move_machine(std::string_view text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const std::string_view after = text::trimmed(text.substr(i + 1));
+    const char letter = text::upper(text[i]);
+    const bool has_number =
+        !after.empty() && (text::is_number_char(after.front()) || text::foreign_minus_length(after) > 0);
+    if (!has_number || letter < 'A' || letter > 'Z') continue;
+    const bool ends_name = i > 0 && is_letter(text[i - 1]);
+    if (dialect::contains(dialect::letters("XYZ"), letter)) return true;
+    if (!ends_name && dialect::contains(dialect::letters("BCIJKRGMT"), letter)) return true;
+  }
+  return false;
+}
+
 Draft closed_comment(const FixRequest& request) {
+  if (may_move_machine(request.marked().substr(1))) return {};
   const auto end = request.finding.span.begin + static_cast<std::uint32_t>(text::trimmed(request.marked()).size());
   return {{inserted(request, end, ")")}};
 }
@@ -170,12 +200,8 @@ Draft opened_comment(const FixRequest& request) {
   const syntax::LineTree tree = before.tree();
   std::size_t first = tree.words.size();
   while (const std::size_t prose = syntax::prose_at_end(tree.words.first(first))) first -= prose;
-  if (first == tree.words.size()) return {};
+  if (first == tree.words.size() || may_move_machine(tree.text.substr(tree.words[first].begin))) return {};
   return {{inserted(request, tree.words[first].begin, "(")}};
-}
-
-static bool is_letter(char c) {
-  return (text::upper(c) >= 'A' && text::upper(c) <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
 }
 
 /// Extends the span by the letters that it cuts off from a word, and the number after that: PROGRA M 12.
@@ -192,10 +218,12 @@ static Span whole_words(std::string_view line, Span span) {
 
 /// Text for people in place of words of the program.
 Draft text_as_comment(const FixRequest& request) {
+  if (text::foreign_minus_length(request.marked()) > 0) return {};  // A number.
   const Span span = whole_words(request.line.text, request.finding.span);
   const std::string_view text = request.line.text_of(span);
   static constexpr std::string_view kSigns = "()%#=;";
-  if (std::count_if(text.begin(), text.end(), is_letter) < 3 || text.find_first_of(kSigns) != std::string_view::npos)
+  if (std::count_if(text.begin(), text.end(), is_letter) < 3 || text.find_first_of(kSigns) != std::string_view::npos ||
+      may_move_machine(text))
     return {};
   return {{inserted(request, span.begin, "("), inserted(request, span.end, ")")}};
 }

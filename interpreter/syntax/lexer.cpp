@@ -4,6 +4,7 @@
 
 #include "interpreter/syntax/line_parser.h"
 #include "interpreter/syntax/number.h"
+#include "interpreter/text/unicode.h"
 
 namespace isocnc::syntax {
 
@@ -113,11 +114,31 @@ const char* LineParser::lex_with_number(const char* start, const char* p) {
   return number.end;
 }
 
+/// The start of the number after a sign that only looks like a minus (D67); null if there is no such number.
+const char* LineParser::digits_of_foreign_minus(const char* p) const {
+  if (p == end_ || text::char_class(*p) != text::CharClass::Other) return nullptr;
+  const char* const digits = p + text::foreign_minus_length({p, static_cast<std::size_t>(end_ - p)});
+  const bool is_number = digits != p && digits != end_ && (text::is_digit(*digits) || *digits == '.');
+  return is_number ? digits : nullptr;
+}
+
+/// Reads a word whose number has a sign at `minus` that only looks like a minus. The number is what it looks like.
+const char* LineParser::lex_with_foreign_minus(char letter, const char* start, const char* minus) {
+  const Number number = scan_number(digits_of_foreign_minus(minus), end_);
+  Word& added = add_word(letter, start, number);
+  added.value = 0.0 - added.value;
+  added.flags |= Word::kSigned | Word::kReported;
+  report("unknown-word"_diag, {column(minus), column(number.end)});
+  note_comments_inside(start, number.end);
+  return number.end;
+}
+
 /// Reads a keyword, a letter with a comment before its number, or a letter without a number.
 const char* LineParser::lex_without_number(const char* start, const char* p) {
   const char letter = text::upper(*start);
   const char* const after = skip_space(p);
   if (after != end_ && text::is_number_char(*after)) return lex_with_number(start, after);  // X(comment)10
+  if (!in_condition_ && digits_of_foreign_minus(after)) return lex_with_foreign_minus(letter, start, after);
   if (const char* end = lex_keyword(start, letter)) return end;
   Word& added = add_word(letter, start, start + 1);
   added.value = std::numeric_limits<double>::quiet_NaN();
@@ -237,6 +258,7 @@ const char* LineParser::lex_number_alone(const char* p) {
 const char* LineParser::lex_equals(const char* p) {
   if (in_condition_ && !after_goto_) return lex_comparison(p);
   const char* const at = skip_space(p + 1);
+  if (digits_of_foreign_minus(at)) return lex_with_foreign_minus(kAssign, p, at);
   if (at == end_ || !text::is_number_char(*at)) {
     Word& added = add_word(kAssign, p, p + 1);
     added.value = std::numeric_limits<double>::quiet_NaN();
@@ -297,6 +319,7 @@ bool LineParser::garbles_number(char first) {
 
 /// One finding for a series of characters that do not start a word, together with the number after them (D10).
 const char* LineParser::lex_unknown(const char* p) {
+  if (in_condition_ && !after_goto_ && digits_of_foreign_minus(p)) return lex_with_foreign_minus(kNumber, p, p);
   const char* const start = p;
   const char* after = p;
   for (;;) {

@@ -281,7 +281,7 @@ void LineParser::check_dwell(const Instruction& dwell) {
   if (!is_garbled) check_arguments(dwell, "dwell-time-missing"_diag);
   for (std::uint16_t i = dwell.begin; i < dwell.end; ++i) {
     const Word& time = word(i);
-    if (time.owner == dwell.number && time.letter == 'P' && time.value < 0)
+    if (time.owner == dwell.number && time.letter == 'P' && time.value < 0 && !time.has(Word::kReported))
       report("negative-dwell"_diag, time.span(), {time.value});
   }
 }

@@ -244,7 +244,8 @@ bool LineParser::add_line_number(std::uint16_t index) {
 
 void LineParser::add_feed(std::uint16_t index) {
   const Word& written = word(index);
-  if (written.value <= 0) report("feed-not-positive"_diag, written.span(), {written.value});
+  if (written.value <= 0 && !written.has(Word::kReported))
+    report("feed-not-positive"_diag, written.span(), {written.value});
   if (line_.feed < 0) {
     line_.feed = index;
   } else if (word(static_cast<std::size_t>(line_.feed)).has(Word::kMissing)) {
@@ -256,7 +257,8 @@ void LineParser::add_feed(std::uint16_t index) {
 
 void LineParser::add_spindle_speed(std::uint16_t index) {
   const Word& written = word(index);
-  if (written.value <= 0) report("spindle-speed-not-positive"_diag, written.span(), {written.value});
+  if (written.value <= 0 && !written.has(Word::kReported))
+    report("spindle-speed-not-positive"_diag, written.span(), {written.value});
   if (line_.spindle < 0) {
     line_.spindle = index;
   } else if (word(static_cast<std::size_t>(line_.spindle)).has(Word::kMissing)) {

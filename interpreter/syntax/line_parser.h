@@ -43,6 +43,8 @@ class LineParser {
   const char* lex_word(const char* start);
   const char* lex_with_number(const char* start, const char* p);
   const char* lex_without_number(const char* start, const char* p);
+  const char* digits_of_foreign_minus(const char* p) const;
+  const char* lex_with_foreign_minus(char letter, const char* start, const char* minus);
   const char* lex_keyword(const char* p, char letter);
   const char* lex_comment(const char* p);
   void drop_comment_text();

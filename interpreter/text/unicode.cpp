@@ -18,6 +18,23 @@ std::size_t sequence_length(std::string_view text) {
   return too_long || out_of_range ? 0 : length;
 }
 
+std::size_t foreign_minus_length(std::string_view text) {
+  static constexpr std::string_view kSigns[] = {
+      "\xE2\x80\x90",  // U+2010 hyphen
+      "\xE2\x80\x91",  // U+2011 non-breaking hyphen
+      "\xE2\x80\x92",  // U+2012 figure dash
+      "\xE2\x80\x93",  // U+2013 en dash
+      "\xE2\x80\x94",  // U+2014 em dash
+      "\xE2\x88\x92",  // U+2212 minus
+      "\xEF\xB9\xA3",  // U+FE63 small hyphen-minus
+      "\xEF\xBC\x8D",  // U+FF0D fullwidth hyphen-minus
+      "\x96",          // The en dash of Windows-1252
+  };
+  for (const std::string_view sign : kSigns)
+    if (text.starts_with(sign)) return sign.size();
+  return 0;
+}
+
 std::size_t column_of(std::string_view line, std::size_t byte) {
   std::size_t column = 1;
   for (std::size_t at = 0; at < std::min(byte, line.size()); ++column)
