@@ -46,25 +46,24 @@ void Analysis::read_jumps(std::size_t chunk, Row& row) const {
   row.jumps.shrink_to_fit();
 }
 
-/// Finds the wanted labels (ascending) in a chunk that may define some of them. Returns whether it defines any.
-bool Analysis::read_labels(std::size_t chunk, const std::vector<std::uint64_t>& wanted) {
+/// Reads the events of a chunk again, with the labels that jumps name now, if it may define some of those added (both
+/// ascending). Returns whether it defines any of them.
+bool Analysis::read_labels(std::size_t chunk, const std::vector<std::uint64_t>& added,
+                           const std::vector<std::uint64_t>& named) {
   Row& row = rows_[chunk];
-  const auto first = std::lower_bound(wanted.begin(), wanted.end(), row.labels.min);
-  if (first == wanted.end() || *first > row.labels.max) return false;
+  const auto first = std::lower_bound(added.begin(), added.end(), row.labels.min);
+  if (first == added.end() || *first > row.labels.max) return false;
   row.labels = {};
-  const auto others = static_cast<std::ptrdiff_t>(row.jumps.size());
+  row.jumps.clear();
+  bool has_added = false;
   each_event_in(document_.chunk_text(chunk), [&](const FlowEvent& event) {
-    if (event.kind != FlowEvent::Kind::Label) return;
-    row.labels.add(event.label);
-    if (std::binary_search(first, wanted.end(), event.label)) row.jumps.push_back(event);
+    const bool is_label = event.kind == FlowEvent::Kind::Label;
+    if (is_label) row.labels.add(event.label);
+    if (is_label && !std::binary_search(named.begin(), named.end(), event.label)) return;
+    has_added |= is_label && std::binary_search(first, added.end(), event.label);
+    row.jumps.push_back(event);
   });
-  // A line's label takes effect before its other events.
-  std::inplace_merge(row.jumps.begin(), row.jumps.begin() + others, row.jumps.end(),
-                     [](const FlowEvent& a, const FlowEvent& b) {
-                       const auto rank = [](const FlowEvent& event) { return event.kind != FlowEvent::Kind::Label; };
-                       return a.line != b.line ? a.line < b.line : rank(a) < rank(b);
-                     });
-  return static_cast<std::ptrdiff_t>(row.jumps.size()) > others;
+  return has_added;
 }
 
 /// Calls `take` with each event that concerns jumps, in all chunks, and its line.
@@ -101,7 +100,7 @@ void Analysis::follow_labels(const std::vector<std::uint64_t>& named) {
   };
   for (std::size_t chunk = 0; chunk < rows_.size(); ++chunk) {
     const bool has_lost = !removed.empty() && std::erase_if(rows_[chunk].jumps, is_removed) > 0;
-    if (read_labels(chunk, added) || has_lost) rows_[chunk].is_stale = true;
+    if (read_labels(chunk, added, named) || has_lost) rows_[chunk].is_stale = true;
   }
 }
 

@@ -86,7 +86,7 @@ class Analysis {
   JumpMap find_jumps();
   std::vector<std::uint64_t> labels_named() const;
   void follow_labels(const std::vector<std::uint64_t>& named);
-  bool read_labels(std::size_t chunk, const std::vector<std::uint64_t>& wanted);
+  bool read_labels(std::size_t chunk, const std::vector<std::uint64_t>& added, const std::vector<std::uint64_t>& named);
   void check_changed_jumps_again(const JumpMap& old_jumps);
   bool check_from(std::size_t chunk, Frontier frontier, const std::function<bool()>& stop);
   void check_chunk(std::size_t chunk, const syntax::ChunkTrees& trees, Checker& checker);

@@ -155,7 +155,31 @@ void Checker::check(const LineTree& line, std::uint64_t line_number, Outcome& ou
     check_any(line, line_number, outcome);
 }
 
+/// Checks two blocks whose line break is lost, one after the other (D68).
+void Checker::check_two_blocks(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+  const std::size_t first = outcome.findings.size();
+  bool is_read = false;
+  std::uint32_t offset = 0;
+  for (const std::string_view block : line.blocks()) {
+    const syntax::ParsedLine parsed(block);
+    const std::size_t first_of_block = outcome.findings.size();
+    const std::size_t first_label = outcome.labels.size();
+    is_read |= !frontier.live.empty() || frontier.waiting().contains(parsed.tree().label);
+    check_any(parsed.tree(), line_number, outcome);
+    const auto shift = [&](syntax::Span& span) { span = {span.begin + offset, span.end + offset}; };
+    for (std::size_t i = first_of_block; i < outcome.findings.size(); ++i) {
+      shift(outcome.findings[i].finding.span);
+      shift(outcome.findings[i].finding.related);
+    }
+    for (std::size_t i = first_label; i < outcome.labels.size(); ++i) shift(outcome.labels[i].span);
+    offset = static_cast<std::uint32_t>(block.size());
+  }
+  if (is_read) outcome.findings.push_back({line_number, line.findings.front()});
+  sort_by_column(outcome.findings, first);
+}
+
 void Checker::check_any(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+  if (line.has(LineTree::kTwoBlocks)) return check_two_blocks(line, line_number, outcome);
   if (!line.words.empty() || !line.comments.empty() || !line.findings.empty()) {
     outcome.has_text = true;
     outcome.last_text_line = line_number;

@@ -49,6 +49,7 @@ class Checker {
   void reduce_spread(std::size_t lines);
   void report_dead_code(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void arrive(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
+  void check_two_blocks(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void execute_around_jump(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void execute_in_all_groups(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void assign(Group& group, int reg, double value, Outcome& outcome) const;

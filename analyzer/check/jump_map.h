@@ -10,6 +10,7 @@
 
 #include "interpreter/execution/execute.h"
 #include "interpreter/syntax/line_tree.h"
+#include "interpreter/syntax/tree_store.h"
 
 namespace isocnc::check {
 
@@ -35,9 +36,9 @@ struct FlowEvent {
 /// Fast test: whether a text may hold assignments or jumps.
 bool may_hold_jumps(std::string_view text);
 
-/// Calls `take` with the events of a line in the order in which they take effect: label, assignments, jump.
+/// Calls `take` with the events of a block in the order in which they take effect: label, assignments, jump.
 template <class Take>
-void each_event(const syntax::LineTree& line, Take take) {
+void each_event_of_block(const syntax::LineTree& line, Take take) {
   if (line.has_label()) take(FlowEvent{.kind = FlowEvent::Kind::Label, .label = line.label});
   for (const syntax::Instruction& instruction : line.instructions) {
     if (instruction.kind != syntax::InstructionKind::Assignment) continue;
@@ -47,6 +48,21 @@ void each_event(const syntax::LineTree& line, Take take) {
                      .value = assigned->value});
   }
   if (line.jump && line.jump->has_target) take(FlowEvent{.kind = FlowEvent::Kind::Jump, .jump = *line.jump});
+}
+
+/// Calls `take` with the events of a line: of its block, or of both where a line break is lost (D68).
+template <class Take>
+void each_event(const syntax::LineTree& line, Take take) {
+  if (!line.has(syntax::LineTree::kTwoBlocks)) return each_event_of_block(line, take);
+  std::uint32_t offset = 0;
+  for (const std::string_view block : line.blocks()) {
+    const syntax::ParsedLine parsed(block);
+    each_event_of_block(parsed.tree(), [&](FlowEvent event) {
+      event.jump.shift(offset);
+      take(event);
+    });
+    offset = static_cast<std::uint32_t>(block.size());
+  }
 }
 
 /// Calls `take` with the events of a text, without parsing lines that hold none; FlowEvent::line counts from its start.

@@ -74,6 +74,7 @@ Draft move_after_feed_motion(const FixRequest& request);
 Draft change_before_tool(const FixRequest& request);
 Draft move_tool_after_change(const FixRequest& request);
 Draft motions_on_two_lines(const FixRequest& request);
+Draft line_break_between_blocks(const FixRequest& request);
 
 // lines.cpp: adds a missing word or line, or moves one from a neighboring line.
 Draft g27_above(const FixRequest& request);

@@ -213,4 +213,10 @@ Draft motions_on_two_lines(const FixRequest& request) {
   return {{line_end_before(request, request.finding.span.begin)}};
 }
 
+/// N10 G00 X5 N20 G01 X9: breaks the line where its second block starts (D68).
+Draft line_break_between_blocks(const FixRequest& request) {
+  if (!request.line.has(LineTree::kTwoBlocks)) return {};
+  return {{line_end_before(request, request.finding.span.begin)}};
+}
+
 }  // namespace isocnc::fixes

@@ -235,6 +235,8 @@ bool LineParser::add_line_number(std::uint16_t index) {
   if (line_.jump >= 0 && !store_.jumps_[static_cast<std::size_t>(line_.jump)].has_target) return false;
   if (!written.is_plain_integer() || (line_.flags & LineTree::kHasLabel) != 0) {
     if (!written.has(Word::kReported)) report("invalid-line-number"_diag, written.span());
+    if (written.is_plain_integer() && label_of(written) != line_.label)
+      second_number_ = second_number_ == kNone ? index : kSeveral;
     return false;
   }
   line_.flags |= LineTree::kHasLabel;

@@ -13,6 +13,7 @@ const char* LineParser::parse() {
   line_.length = column(end);
   structure();
   if (needs_check_) check();
+  if (second_number_ >= 0) find_two_blocks();
   line_.words = word_count();
   line_.instructions = static_cast<std::uint16_t>(instruction_count());
   line_.comments = static_cast<std::uint32_t>(store_.comments_.size() - line_.first_comment);
@@ -127,6 +128,20 @@ std::uint16_t LineParser::add_between_series(std::uint16_t index) {
   contiguous_ = false;
   if (letter != 'M') function_open_ = false;
   return last;
+}
+
+/// N10 G00 X5 N20 G01 X9: two blocks whose line break is lost. The line has no finding but that at the second number,
+/// if each block has none by itself (D68).
+void LineParser::find_two_blocks() {
+  const Span second = word(static_cast<std::size_t>(second_number_)).span();
+  const auto is_block = [&](Span span) {
+    const ParsedLine parsed(text_of(span));
+    return parsed.tree().findings.empty() && !parsed.tree().is_empty();
+  };
+  if (!is_block({0, second.begin}) || !is_block({second.begin, line_.length})) return;
+  take_back_within({0, line_.length});
+  report("invalid-line-number"_diag, second);
+  line_.flags = LineTree::kHasLabel | LineTree::kTwoBlocks;
 }
 
 /// Whether the word before is this letter, without a number.

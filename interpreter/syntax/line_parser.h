@@ -73,6 +73,8 @@ class LineParser {
   void own(Instruction& owner, std::uint16_t index);
 
   // Text that was meant as a comment (line_prose.cpp).
+  void find_two_blocks();
+
   bool is_foreign_word(const Word& unknown) const;
   bool is_unit(const Word& first, const Word& second) const;
   bool is_number_of_prose(std::uint16_t index) const;
@@ -182,6 +184,8 @@ class LineParser {
   int taker_ = kNone;             ///< The instruction that takes the next argument.
   bool contiguous_ = false;       ///< The argument series of `taker_` is unbroken so far (D17).
   dialect::LetterSet taken_ = 0;  ///< Letters of the arguments of `taker_`.
+  static constexpr int kSeveral = -2;
+  int second_number_ = kNone;     ///< The word with the second line number, unless there are several more.
   int function_ = kNone;          ///< The last M that may have parameters.
   bool function_open_ = false;    ///< The position is directly after that M or its parameters.
   int motions_ = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -115,6 +116,11 @@ struct Jump {
   Span variable_span;  ///< The register or VGPL.
   Span target_span;    ///< The label after GOTO.
 
+  /// Moves the jump to the right.
+  void shift(std::uint32_t columns) {
+    for (Span* const span : {&if_span, &variable_span, &target_span})
+      *span = {span->begin + columns, span->end + columns};
+  }
   bool condition_is_known() const {
     return variable != kUnknownVariable && comparison != Comparison::Invalid && !std::isnan(value);
   }
@@ -140,8 +146,9 @@ struct PlainLine {
 struct LineTree {
   static constexpr std::uint8_t kAloneViolated = 1;  ///< An instruction that must be alone is not; once per line (D22).
   static constexpr std::uint8_t kHasLabel = 2;
-  static constexpr std::uint8_t kCut = 4;       ///< The line has more words than are parsed (W192).
-  static constexpr std::uint8_t kUnclosed = 8;  ///< A comment is not closed; words that seem missing may be in it.
+  static constexpr std::uint8_t kCut = 4;         ///< The line has more words than are parsed (W192).
+  static constexpr std::uint8_t kUnclosed = 8;    ///< A comment is not closed; words that seem missing may be in it.
+  static constexpr std::uint8_t kTwoBlocks = 16;  ///< Two blocks whose line break is lost; see blocks() (D68).
 
   std::string_view text;  ///< Text of the line without its terminator.
   std::span<const Word> words;
@@ -176,6 +183,11 @@ struct LineTree {
   /// Whether an instruction of the line is M02.
   bool ends_program(const Instruction& instruction) const {
     return instruction.kind == InstructionKind::Function && command(instruction).value == dialect::kProgramEnd;
+  }
+  /// The two blocks of a line with kTwoBlocks. Its only finding is at the number of the second.
+  std::array<std::string_view, 2> blocks() const {
+    const std::uint32_t second = findings.front().span.begin;
+    return {text.substr(0, second), text.substr(second)};
   }
   PlainLine plain() const {
     return {.words = words,

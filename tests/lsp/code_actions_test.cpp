@@ -77,8 +77,6 @@ constexpr Case kFixes[] = {
      "M06 T101001\nG49\nG01 X0 B5 F500\nX2 B6\nM02\n"},
     {"insert G49 above", "M06 T101001\nG01 X0 B5 F500\n[!!]X2 B6\nM02\n",
      "M06 T101001\nG49\nG01 X0 B5 F500\nX2 B6\nM02\n"},
-    {"silence ISO032 on this line", "M06 T101001\nG01 X0 B5 F500\n[!!]X2 B6\nM02\n",
-     "M06 T101001\nG01 X0 B5 F500\nX2 B6 ;isolint: ignore ISO032\nM02\n"},
     {"remove F4, which is ignored, and on 2 more lines", "M06 T101001\nG93\n[!!]F4\nG00 X0 F5\nF6\nM02\n",
      "M06 T101001\nG93\nG00 X0\nM02\n"},
 };
@@ -263,6 +261,12 @@ TEST_F(CodeActions, RenumberingIsACommandToo) {
   session_.ask("workspace/executeCommand", {{"command", "isocnc.renumber"}, {"arguments", {{{"uri", kUri}}}}});
   const Json edits = session_.wait_for("workspace/applyEdit")["params"]["edit"]["changes"][kUri];
   EXPECT_EQ(ClientText(program).with(edits), "M06 T101001\nIF VGPL = 1 GOTO N20\nN10 G00 X1\nN20 X2\nM02\n");
+}
+
+/// A line that repeats a finding is silenced by itself.
+TEST_F(CodeActions, SilenceALineThatRepeatsAFinding) {
+  EXPECT_EQ(after("M06 T101001\nG01 X0 B5 F500\n[!!]X2 B6\nM02\n", "silence ISO032 on this line", "quickfix"),
+            "M06 T101001\nG01 X0 B5 F500\nX2 B6 ;isolint: ignore ISO032\nM02\n");
 }
 
 /// With more findings than the whole report is made for, those of the line are still found.
