@@ -172,13 +172,21 @@ const char* LineParser::lex_keyword(const char* p, char letter) {
     const char* const end = match_keyword(p, "IF");
     if (!end) return nullptr;
     const char* const next = skip_space(end);
-    if (next != end_ && text::is_number_char(*next) && !goto_follows(next)) return nullptr;
+    const bool may_be_text = (next != end_ && text::is_number_char(*next)) || ends_in_text();
+    if (may_be_text && !goto_follows(next)) return nullptr;  // I F2000, ENDIF
     add_word(kIf, p, end);
     note_comments_inside(p, end);
     in_condition_ = true;
     return end;
   }
   return nullptr;
+}
+
+/// Whether the words so far end in letters without numbers, or in text that is no word.
+bool LineParser::ends_in_text() const {
+  if (word_count() == 0) return false;
+  const Word& last = word(word_count() - 1u);
+  return last.letter == kError || last.has(Word::kMissing);
 }
 
 const char* LineParser::match_keyword(const char* p, const char* keyword) const {

@@ -54,6 +54,7 @@ class LineParser {
   const char* lex_unknown(const char* p);
   bool garbles_number(char first);
   const char* skip_space(const char* p) const;
+  bool ends_in_text() const;
   const char* match_keyword(const char* p, const char* keyword) const;
   bool goto_follows(const char* p);
   void note_comments_inside(const char* p, const char* end);
@@ -72,13 +73,15 @@ class LineParser {
   Instruction& add_instruction(InstructionKind kind, std::uint16_t command);
   void own(Instruction& owner, std::uint16_t index);
 
-  // Text that was meant as a comment (line_prose.cpp).
   void find_two_blocks();
 
+  // Text that was meant as a comment (line_prose.cpp).
   bool is_foreign_word(const Word& unknown) const;
   bool is_unit(const Word& first, const Word& second) const;
+  bool is_prose(std::size_t index) const;
   bool is_number_of_prose(std::uint16_t index) const;
   std::uint16_t end_of_prose(std::uint16_t index, bool& is_odd) const;
+  std::uint16_t end_of_text(std::uint16_t index) const;
   void report_prose(std::uint16_t first, std::uint16_t end);
   void join_prose();
 
@@ -181,11 +184,11 @@ class LineParser {
   const char* last_goto_ = nullptr;
 
   static constexpr int kNone = -1;
+  static constexpr int kSeveral = -2;
+  int second_number_ = kNone;     ///< The word with the second line number, unless there are several more.
   int taker_ = kNone;             ///< The instruction that takes the next argument.
   bool contiguous_ = false;       ///< The argument series of `taker_` is unbroken so far (D17).
   dialect::LetterSet taken_ = 0;  ///< Letters of the arguments of `taker_`.
-  static constexpr int kSeveral = -2;
-  int second_number_ = kNone;     ///< The word with the second line number, unless there are several more.
   int function_ = kNone;          ///< The last M that may have parameters.
   bool function_open_ = false;    ///< The position is directly after that M or its parameters.
   int motions_ = 0;

@@ -26,22 +26,34 @@ bool LineParser::is_unit(const Word& first, const Word& second) const {
   return unit == "IN" || unit == "DEG" || (unit.size() == 2 && unit[0] == unit[1]);
 }
 
-/// Whether a word is a number that belongs to the text before it: PROGRAM 12, CALL SUB1.
+/// Whether a word is a number that belongs to the text before it: SIDE B 2, CALL SUB1, fine lato 2, WHILE V1 < 5. X, Y,
+/// Z and codes do not: DOOR X10 has a coordinate.
 bool LineParser::is_number_of_prose(std::uint16_t index) const {
-  const char letter = index < word_count() ? word(index).letter : '\0';
+  static constexpr dialect::LetterSet kNames =
+      (dialect::kDimensionLetters & ~dialect::letters("XYZ")) | dialect::letters("NT");
+  if (index >= word_count() || !is_prose(index - 1u)) return false;
+  const char letter = word(index).letter;
+  if (letter == kNumber || letter == kError) return true;
+  if (letter == 'V') return !is_assigned(index) && index + 1 < word_count() && word(index + 1u).letter == kError;
+  const double value = word(index).value;
+  const bool is_code = value >= 0 && value <= 999 && dialect::g_code(static_cast<std::size_t>(value)) != nullptr;
+  if (letter == 'G' && !is_code) return true;
   const char before = text::upper(begin_[word(index - 1u).begin]);
-  const bool follows_letter = before >= 'A' && before <= 'Z';
-  return letter == kNumber || (follows_letter && contains(dialect::kDimensionLetters | dialect::letters("NT"), letter));
+  return before >= 'A' && before <= 'Z' && contains(kNames, letter);
+}
+
+/// Whether a word is a letter without a number, or text that is no word.
+bool LineParser::is_prose(std::size_t index) const {
+  const Word& it = word(index);
+  return it.letter == kError || (it.has(Word::kMissing) && it.letter >= 'A' && it.letter <= 'Z');
 }
 
 /// The end of the letters without numbers, and of text that is no word, from a word on. `is_odd`: whether they contain
 /// something that is never valid there, as `X Y Z` does not.
 std::uint16_t LineParser::end_of_prose(std::uint16_t index, bool& is_odd) const {
-  const auto is_prose = [&](const Word& it) {
-    return it.letter == kError ? !is_foreign_word(it) : it.has(Word::kMissing) && it.letter >= 'A' && it.letter <= 'Z';
-  };
+  const auto is_foreign = [&](const Word& it) { return it.letter == kError && is_foreign_word(it); };
   dialect::LetterSet seen = 0;
-  for (; index < word_count() && is_prose(word(index)); ++index) {
+  for (; index < word_count() && is_prose(index) && !is_foreign(word(index)); ++index) {
     const char letter = word(index).letter;
     is_odd |= letter == kError || !contains(dialect::kDimensionLetters, letter) || contains(seen, letter);
     if (letter != kError) seen |= dialect::letter_bit(letter);
@@ -49,11 +61,23 @@ std::uint16_t LineParser::end_of_prose(std::uint16_t index, bool& is_odd) const 
   return index;
 }
 
+/// The end of a text of which some words have been found: numbers and further words belong to it, as in `pausa 2 s`.
+std::uint16_t LineParser::end_of_text(std::uint16_t index) const {
+  for (;;) {
+    bool is_odd = false;
+    const bool is_number = is_number_of_prose(index);
+    const std::uint16_t end = is_number ? static_cast<std::uint16_t>(index + 1) : end_of_prose(index, is_odd);
+    if (end == index) return end;
+    index = end;
+  }
+}
+
 /// Replaces the findings of several words by one.
 void LineParser::report_prose(std::uint16_t first, std::uint16_t end) {
   const Span span = hull(word(first).span(), word(end - 1u).span());
   take_back_within(span);
-  report(word(first).letter == kError ? "unknown-word"_diag : "word-without-number"_diag, span);
+  const char letter = word(first).letter;
+  report(letter == kError || letter == kNumber ? "unknown-word"_diag : "word-without-number"_diag, span);
 }
 
 /// Joins letters without numbers that were meant as a comment: one finding, not one for each letter.
@@ -63,11 +87,15 @@ void LineParser::join_prose() {
     bool is_odd = false;
     std::uint16_t end = end_of_prose(i, is_odd);
     const bool is_only_unit = end - i == 2 && is_unit(word(i), word(i + 1u));
-    if (!is_only_unit && (end - i < 3 || !is_odd)) {
+    const bool ends_in_name = is_odd && end - i == 2 && end < word_count() && word(end).letter == kError;  // END1
+    if (!is_only_unit && !ends_in_name && (end - i < 3 || !is_odd)) {
       i = std::max(i, end);
       continue;
     }
-    if (!is_only_unit && is_number_of_prose(end)) ++end;
+    if (!is_only_unit) {
+      end = end_of_text(end);
+      if (i > 0 && word(i - 1u).letter == kNumber) --i;  // 2 s di pausa
+    }
     report_prose(i, end);
     if (is_only_unit && word(i).letter == word(i + 1u).letter && contains(dialect::kDimensionLetters, word(i).letter))
       ++i;  // XX: the first X remains a word.
