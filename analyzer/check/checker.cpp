@@ -246,32 +246,16 @@ void Checker::assign(Group& group, int reg, double value, Outcome& outcome) cons
   }
 }
 
-/// The line with some of its instructions only, and with F and S only if they are among its words [first, last).
-static LineTree part_of(const LineTree& line, std::span<const syntax::Instruction> instructions, std::size_t first,
-                        std::size_t last) {
-  LineTree part = line;
-  part.instructions = instructions;
-  const auto is_inside = [&](std::int32_t word) {
-    return word >= static_cast<std::int32_t>(first) && word < static_cast<std::int32_t>(last);
-  };
-  if (!is_inside(line.feed)) part.feed = -1;
-  if (!is_inside(line.spindle)) part.spindle = -1;
-  return part;
-}
-
 /// Words after an IF on its line (E002) are executed only if the IF does not jump (D56).
 void Checker::execute_around_jump(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   if (line.findings.empty()) {  // The IF is alone on the line.
     execute_in_all_groups(line, line_number, outcome);
     return branch(line, line_number, outcome);
   }
-  const auto is_jump = [](const syntax::Instruction& each) { return each.kind == syntax::InstructionKind::Jump; };
-  const auto jump = std::find_if(line.instructions.begin(), line.instructions.end(), is_jump);
-  const auto count = static_cast<std::size_t>(jump - line.instructions.begin()) + 1;
-  execute_in_all_groups(part_of(line, line.instructions.first(count), 0, jump->end), line_number, outcome);
+  const execution::JumpLine parts = execution::around_jump(line);
+  execute_in_all_groups(parts.before, line_number, outcome);
   branch(line, line_number, outcome);
-  const LineTree rest = part_of(line, line.instructions.subspan(count), jump->end, line.words.size());
-  if (!rest.is_empty() && !frontier.live.empty()) execute_in_all_groups(rest, line_number, outcome);
+  if (!parts.after.is_empty() && !frontier.live.empty()) execute_in_all_groups(parts.after, line_number, outcome);
 }
 
 /// Executes one line in each live group, and collects its findings and effects.

@@ -1,6 +1,8 @@
 #include "interpreter/execution/execute.h"
 
+#include <algorithm>
 #include <limits>
+#include <span>
 
 #include "interpreter/execution/executor.h"
 
@@ -34,6 +36,27 @@ std::optional<Assigned> lone_assignment(const syntax::LineTree& line) {
   if (!is_lone(InstructionKind::Assignment, line) || line.instructions[0].end != line.instructions[0].command + 2)
     return std::nullopt;
   return assigned_by(line.instructions[0], line);
+}
+
+/// The line with some of its instructions only, and with F and S only if they are among its words [first, last).
+static syntax::LineTree part_of(const syntax::LineTree& line, std::span<const Instruction> instructions,
+                                std::size_t first, std::size_t last) {
+  syntax::LineTree part = line;
+  part.instructions = instructions;
+  const auto is_inside = [&](std::int32_t word) {
+    return word >= static_cast<std::int32_t>(first) && word < static_cast<std::int32_t>(last);
+  };
+  if (!is_inside(line.feed)) part.feed = -1;
+  if (!is_inside(line.spindle)) part.spindle = -1;
+  return part;
+}
+
+JumpLine around_jump(const syntax::LineTree& line) {
+  const auto is_jump = [](const Instruction& each) { return each.kind == InstructionKind::Jump; };
+  const auto jump = std::find_if(line.instructions.begin(), line.instructions.end(), is_jump);
+  const auto count = static_cast<std::size_t>(jump - line.instructions.begin()) + 1;
+  return {part_of(line, line.instructions.first(count), 0, jump->end),
+          part_of(line, line.instructions.subspan(count), jump->end, line.words.size())};
 }
 
 void pass_by(State& state) {

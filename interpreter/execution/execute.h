@@ -26,6 +26,13 @@ std::optional<Assigned> lone_assignment(const syntax::LineTree& line);
 /// Whether the line holds one valid IF and nothing else.
 bool is_lone_jump(const syntax::LineTree& line);
 
+/// A line with a jump, in the order of its execution (D56).
+struct JumpLine {
+  syntax::LineTree before;  ///< The part up to the jump, executed before its condition is evaluated.
+  syntax::LineTree after;   ///< What stands after it, executed only if it does not jump.
+};
+JumpLine around_jump(const syntax::LineTree& line);
+
 /// Shortcut for execute() on lines with a lone assignment or jump, which do not move the machine. The caller handles
 /// the register or the jump.
 void pass_by(State& state);

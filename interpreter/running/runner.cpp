@@ -123,12 +123,30 @@ void Runner::step_line() {
   execute_line(tree);
 }
 
+/// Executes a line. Words after an IF on it (E002) are executed only if the IF does not jump (D56). Returns whether it
+/// jumps.
+bool Runner::execute_around_jump(const syntax::LineTree& tree, execution::Sink& sink) {
+  const auto execute = [&](const syntax::LineTree& part) {
+    execution::execute(part, result_.state, options_->setup, sink);
+  };
+  if (tree.jump == nullptr || !tree.jump->has_target || tree.findings.empty()) {
+    execute(tree);
+    return tree.jump != nullptr && holds(*tree.jump);
+  }
+  const execution::JumpLine parts = execution::around_jump(tree);
+  execute(parts.before);
+  const bool is_taken = holds(*tree.jump);
+  if (!is_taken && !result_.state.ended) execute(parts.after);
+  return is_taken;
+}
+
 void Runner::execute_line(const syntax::LineTree& tree) {
   BlockSink sink(place_.line, workbench_.events, result_);
   for (const syntax::Finding& finding : tree.findings) sink.report(finding);
   const Registers registers_before = result_.registers;
   const execution::State before = result_.state;
-  if (!sink.error || !options_->stop_at_errors) execution::execute(tree, result_.state, options_->setup, sink);
+  bool is_taken = false;
+  if (!sink.error || !options_->stop_at_errors) is_taken = execute_around_jump(tree, sink);
   if (sink.error && options_->stop_at_errors) {
     workbench_.events.clear();
     result_.state = before;
@@ -142,12 +160,11 @@ void Runner::execute_line(const syntax::LineTree& tree) {
   const char* const below = text::skip_line_end(workbench_.line_end, text.data() + text.size());
   const LinePlace from = std::exchange(place_, {place_.line + 1, static_cast<std::size_t>(below - text.data())});
   workbench_.holds_line = false;
-  if (tree.jump != nullptr && tree.jump->has_target) branch(*tree.jump, from);
+  if (tree.jump != nullptr && tree.jump->has_target) branch(*tree.jump, is_taken, from);
 }
 
 /// Jumps to a line below with the label, or ends the run with an error (E004, E005).
-void Runner::branch(const syntax::Jump& jump, const LinePlace& from) {
-  const bool is_taken = holds(jump);
+void Runner::branch(const syntax::Jump& jump, bool is_taken, const LinePlace& from) {
   if (is_taken) {
     const std::optional<LinePlace> jump_target = program_->jump_target(from, jump.target);
     if (!jump_target) {

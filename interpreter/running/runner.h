@@ -117,7 +117,8 @@ class Runner {
   bool empty_line_comes();
   void step_line();
   void execute_line(const syntax::LineTree& tree);
-  void branch(const syntax::Jump& jump, const LinePlace& from);
+  bool execute_around_jump(const syntax::LineTree& tree, execution::Sink& sink);
+  void branch(const syntax::Jump& jump, bool is_taken, const LinePlace& from);
   bool holds(const syntax::Jump& jump) const;
   void end(Ending ending, std::uint64_t line);
   void fail(const syntax::Finding& error);
