@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace isocnc::execution {
 
@@ -11,15 +12,14 @@ using syntax::Instruction;
 using syntax::InstructionKind;
 using syntax::Word;
 
-/// Whether a number is that of G48 or G49.
-static bool is_interpolation_mode(int number) {
-  const dialect::GCode* const code = number >= 0 ? dialect::g_code(static_cast<std::size_t>(number)) : nullptr;
-  return code && code->group == dialect::ModalGroup::Interpolation;
+/// The G whose letter a number may have lost; null if there is none.
+static const dialect::GCode* lost_g(int number) {
+  return number >= 0 && number <= 999 ? dialect::g_code(static_cast<std::size_t>(number)) : nullptr;
 }
 
 /// Handles a number whose letter is lost (D58). It may have been a motion (01), a tool change (06), a mode (49), else
-/// the coordinate of some axis, a feed or a speed. Everything that depends on it becomes unknown, so that no second
-/// finding follows.
+/// the coordinate of some axis, a feed, a speed or a register. Everything that depends on it becomes unknown, so that
+/// no second finding follows.
 void Executor::allow_for_lost_letter() {
   const Word* const number = line_.number_without_letter();
   if (!number) return;
@@ -27,16 +27,46 @@ void Executor::allow_for_lost_letter() {
   state_.spindle = Spindle::Unknown;
   state_.speed_given = true;
   const int value = number->is_plain_integer() ? number->whole().value_or(-1) : -1;
+  const bool is_assigned = line_.words.size() > 1 && line_.words[1].letter == syntax::kAssign;
+  if (is_assigned && dialect::is_register(value))
+    return sink_.assign(value, std::numeric_limits<double>::quiet_NaN());
   if (dialect::is_motion_number(value)) return make_motion_illegible();
+  const dialect::GCode* const code = lost_g(value);
   if (value == dialect::kToolChange) {
     state_.tool_selected = true;
-  } else if (is_interpolation_mode(value)) {
-    state_.set_mode(dialect::ModalGroup::Interpolation, dialect::kFiveAxis);  // G49 allows more than G48.
-    state_.written &= static_cast<std::uint16_t>(~(1u << static_cast<unsigned>(dialect::ModalGroup::Interpolation)));
+  } else if (code && code->group == dialect::ModalGroup::Interpolation) {
+    allow_for_lost_g(*code);
   } else {
     blur_axes_not_named();
     state_.feed_reported = true;
+    if (code && code->group != dialect::ModalGroup::None) allow_for_lost_g(*code);
   }
+}
+
+/// Handles a number that may be a modal G without its letter. The G takes effect as far as that is harmless if it was
+/// none, and what is in force is not known until the next G of its group.
+void Executor::allow_for_lost_g(const dialect::GCode& code) {
+  using dialect::ModalGroup;
+  state_.in_doubt |= State::bit(code.group);
+  state_.written &= static_cast<std::uint16_t>(~State::bit(code.group));
+  if (code.is_frame()) {
+    frame_is_lost_ = true;
+    leave_face();
+    state_.unknown = kAllAxes;
+    if (code.group == ModalGroup::Workpiece) state_.workpiece_unknown = kLinearAxes;
+  } else if (code.group == ModalGroup::Units || code.group == ModalGroup::Distance) {
+    state_.unknown = kAllAxes;
+    state_.set_mode(code);
+  } else if (code.group != ModalGroup::CutterCompensation || code.role == GRole::CompensationOff) {
+    state_.set_mode(code);
+  }
+}
+
+/// A G of the group has been written: it is known again what is in force.
+void Executor::end_doubt(dialect::ModalGroup group) {
+  if (!state_.is_in_doubt(group)) return;
+  state_.in_doubt &= static_cast<std::uint16_t>(~State::bit(group));
+  if (group == dialect::ModalGroup::Face || group == dialect::ModalGroup::Workpiece) blur_linear_axes();
 }
 
 void Executor::make_motion_illegible() {
@@ -101,7 +131,8 @@ void Executor::run() {
   }
   if (!line_.findings.empty()) blur_axes_of_late_mode();
   if (line_.feed >= 0 && !feed_move_) apply_feed_without_motion();
-  state_.exact_stop_fits = feed_move_;
+  // A number may be a feed move that has lost its letter (D58).
+  state_.exact_stop_fits = feed_move_ || line_.number_without_letter() != nullptr;
   const bool is_compensated = state_.mode(dialect::ModalGroup::CutterCompensation) != 40;
   if (is_compensated && (feed_move_ || rapid_move_) && moves_in_plane())
     sink_.step(BlockStep::CompensatedMotion, state_);
@@ -199,6 +230,7 @@ void Executor::set_mode(const dialect::GCode& code, const Word& word) {
   }
   if (code.group == dialect::ModalGroup::FeedMode) sink_.step(BlockStep::FeedMode, state_);
   if (code.group == dialect::ModalGroup::Interpolation) sink_.step(BlockStep::InterpolationMode, state_);
+  end_doubt(code.group);
   state_.set_mode(code);
   state_.written |= bit;
 }
@@ -306,8 +338,11 @@ void Executor::assign(const Instruction& instruction) {
 /// In G93 an F without a feed move is ignored; in G94 an F on the line of a rapid is ignored, too (D43).
 void Executor::apply_feed_without_motion() {
   const Word& word = line_.words[static_cast<std::size_t>(line_.feed)];
-  if (state_.inverse_time()) {
-    if (!(word.value <= 0) && !state_.motion_illegible) report("feed-ignored"_diag, word.span());
+  if (state_.is_in_doubt(dialect::ModalGroup::FeedMode)) {
+    take_feed();
+  } else if (state_.inverse_time()) {
+    const bool may_have_motion = state_.motion_illegible || line_.number_without_letter();
+    if (!(word.value <= 0) && !may_have_motion) report("feed-ignored"_diag, word.span());
   } else if (!rapid_move_) {
     take_feed();
   }

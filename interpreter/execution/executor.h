@@ -78,6 +78,8 @@ class Executor {
   bool motion_is_legible() const { return state_.motion() != nullptr; }
   static bool may_be_motion(const syntax::Word& g, const Arguments& arguments);
   void allow_for_lost_letter();
+  void allow_for_lost_g(const dialect::GCode& code);
+  void end_doubt(dialect::ModalGroup group);
   void make_motion_illegible();
   void blur_axes_not_named();
   void blur_axes_of_late_mode();
@@ -92,6 +94,8 @@ class Executor {
   State& state_;
   const Setup& setup_;
   Sink& sink_;
+  /// Whether the coordinates of the line may belong to a frame G that has lost its letter.
+  bool frame_is_lost_ = false;
   bool feed_move_ = false;  ///< Whether the line has had an interpolated motion.
   bool rapid_move_ = false;
 };

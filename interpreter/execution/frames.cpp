@@ -48,6 +48,7 @@ AxisSet Executor::read_origin(const Arguments& arguments, Vec3& origin) const {
 }
 
 void Executor::workpiece_frame(const Instruction& instruction) {
+  end_doubt(dialect::ModalGroup::Workpiece);
   if (state_.face_mounted) {
     report("workpiece-frame-under-face"_diag, line_.command(instruction).span());
     leave_face();
@@ -64,10 +65,12 @@ void Executor::workpiece_frame(const Instruction& instruction) {
 }
 
 void Executor::dismount_face(const Instruction& instruction) {
-  if (!state_.face_mounted && !state_.dismount_tolerated && !repetition_is_reported(*instruction.g()))
+  const bool is_known = !state_.is_in_doubt(dialect::ModalGroup::Face);
+  if (!state_.face_mounted && is_known && !state_.dismount_tolerated && !repetition_is_reported(*instruction.g()))
     report("g27-without-face"_diag, line_.command(instruction).span());
   state_.dismount_tolerated = false;
   leave_face();
+  end_doubt(dialect::ModalGroup::Face);
   sink_.frame_changed(state_);
 }
 
@@ -131,6 +134,7 @@ void Executor::mount_face(const Instruction& instruction, const dialect::GCode& 
   if (is_at_tip && (arguments.present() & dialect::letters("IJKPQR")) == 0) return go_home(arguments, code);
   if (state_.face_mounted && !repetition_is_reported(code)) report("face-already-mounted"_diag, place);
   leave_face();
+  end_doubt(dialect::ModalGroup::Face);
   state_.dismount_tolerated = false;
   Frame face;
   face.origin = state_.position.tip;

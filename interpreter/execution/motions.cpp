@@ -20,6 +20,7 @@ using syntax::Span;
 
 void Executor::motion(const Instruction& instruction) {
   const bool is_continuation = instruction.kind == InstructionKind::Continuation;
+  if (is_continuation && frame_is_lost_) return;
   const Arguments arguments(line_, instruction);
   if (!is_continuation) {
     state_.set_mode(*instruction.g());
@@ -84,7 +85,7 @@ void Executor::move_illegibly(const Arguments& arguments) {
 bool Executor::motion_is_in_force(const Arguments& arguments) {
   if (motion_is_legible()) return true;
   move_illegibly(arguments);
-  if (state_.motion_illegible) return false;
+  if (state_.motion_illegible || line_.number_without_letter()) return false;
   bool reported = line_.has(syntax::LineTree::kAloneViolated) ||
                   arguments.first().has(syntax::Word::kReported | syntax::Word::kMissing);
   for (const syntax::Finding& finding : line_.findings)
@@ -97,7 +98,8 @@ bool Executor::motion_is_in_force(const Arguments& arguments) {
 /// Reports letters that the motion does not take (D16).
 void Executor::report_strays(const Arguments& arguments, const GCode& code) {
   if (line_.has(syntax::LineTree::kAloneViolated)) return;
-  Span center;  // I5 J0 with a G01 that should be a G02 is one mistake.
+  if (line_.number_without_letter()) return;  // 04 P2: the argument of what has lost its letter (D58).
+  Span center;                                // I5 J0 with a G01 that should be a G02 is one mistake.
   for (char letter = 'A'; letter <= 'Z'; ++letter) {
     if (!dialect::contains(arguments.present() & ~code.arguments, letter) ||
         arguments.word(letter).has(syntax::Word::kReported | syntax::Word::kMissing))
@@ -121,6 +123,7 @@ void Executor::check_first_motion(Span place) {
 /// A feed move needs an F: on its own line in G93, on its own or an earlier line in G94 (I.3.7, D43).
 void Executor::check_feed(Span place) {
   if (line_.feed >= 0) return take_feed();
+  if (state_.is_in_doubt(dialect::ModalGroup::FeedMode)) return;
   if (state_.inverse_time()) {
     // A number without its letter may be the F (D58).
     if (line_.findings.empty() || !line_.number_without_letter()) report("inverse-time-feed-missing"_diag, place);
@@ -144,6 +147,8 @@ ProgrammedFeed Executor::feed_in_force() const {
 /// Whether the motion obeys three-axis interpolation, which moves no rotary axis; a G01 under it needs a linear axis
 /// (I.3.4.2, I.3.5, D41).
 bool Executor::check_rotary_axes(const Arguments& arguments, const GCode& code, Span place) {
+  using dialect::ModalGroup;
+  if (state_.is_in_doubt(ModalGroup::Interpolation) || state_.is_in_doubt(ModalGroup::Distance)) return true;
   if (code.role == GRole::Line && (arguments.present() & dialect::kLinearLetters) == 0) {
     report("linear-coordinate-missing"_diag, place);
     return false;
@@ -166,9 +171,12 @@ bool Executor::check_rotary_axes(const Arguments& arguments, const GCode& code, 
 void Executor::move_to(const Arguments& arguments) {
   const double scale = state_.mm_per_unit();
   const bool incremental = state_.incremental();
+  const bool is_distance_known = !state_.is_in_doubt(dialect::ModalGroup::Distance);
+  const bool is_length_known = !state_.is_in_doubt(dialect::ModalGroup::Units);
   const auto move_axis = [&](Axis axis, double& position, double target) {
     const AxisSet bit = axis_bit(axis);
-    if (!std::isfinite(target)) {
+    const bool is_known = is_distance_known && (is_length_known || (bit & kLinearAxes) == 0);
+    if (!std::isfinite(target) || !is_known) {
       state_.unknown |= bit;
       position = 0;
     } else if (!incremental) {
@@ -277,6 +285,10 @@ void Executor::report_centered_arc(const Arguments& arguments, const Plane& plan
 
 /// Checks an arc, and computes it unless `move` is null.
 void Executor::arc(const Arguments& arguments, const GCode& code, Span place, ProgrammedMove* move) {
+  using dialect::ModalGroup;
+  constexpr std::uint16_t kRead =
+      State::bit(ModalGroup::Plane) | State::bit(ModalGroup::Distance) | State::bit(ModalGroup::Units);
+  if ((state_.in_doubt & kRead) != 0) return;
   const Plane& plane = plane_in_force(state_);
   if (!arc_is_described(arguments, plane, place)) return;
   std::optional<geometry::ArcGiven> given = read_arc(arguments, plane);

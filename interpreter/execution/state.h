@@ -19,6 +19,7 @@ constexpr char letter_of(Axis axis) { return dialect::kAxisLetters[static_cast<s
 using AxisSet = std::uint8_t;
 constexpr AxisSet axis_bit(Axis axis) { return static_cast<AxisSet>(1u << static_cast<unsigned>(axis)); }
 inline constexpr AxisSet kLinearAxes = 0b00111;
+inline constexpr AxisSet kAllAxes = 0b11111;
 
 /// A feed rate as written, and the length of its unit: 25.4 mm under G70. The unit holds for linear axes only; rotary
 /// axes alone move in degrees per minute under G70 as well as G71 (I.3.7).
@@ -42,6 +43,8 @@ struct State {
   AxisSet unknown = 0;      ///< Axes whose position is unknown after an error; checks that depend on them are skipped.
   std::array<std::uint8_t, dialect::kModalGroupCount> in_force = dialect::kDefaultModes;  ///< G number by group.
   std::uint16_t written = 0;  ///< Groups of which a member has been written (D3).
+  std::uint16_t in_doubt =
+      0;  ///< Groups of which the member in force is not known: a G may have lost its letter (D58).
 
   geometry::Vec3 workpiece_origin = geometry::Vec3::Zero();  ///< Machine frame (G92).
   geometry::Frame face;                                      ///< In the workpiece frame; identity unless mounted.
@@ -71,6 +74,11 @@ struct State {
   bool motion_illegible = false;  ///< The last motion G is illegible, or a cycle of another control (E001).
   bool ended = false;             ///< M02 has been read.
 
+  static constexpr std::uint16_t bit(dialect::ModalGroup group) {
+    return static_cast<std::uint16_t>(1u << static_cast<unsigned>(group));
+  }
+  /// Whether it is not known which G of the group is in force; checks that depend on it are skipped.
+  bool is_in_doubt(dialect::ModalGroup group) const { return (in_doubt & bit(group)) != 0; }
   std::uint8_t mode(dialect::ModalGroup group) const { return in_force[static_cast<std::size_t>(group)]; }
   void set_mode(dialect::ModalGroup group, std::uint8_t number) { in_force[static_cast<std::size_t>(group)] = number; }
   void set_mode(const dialect::GCode& code) { set_mode(code.group, static_cast<std::uint8_t>(code.number)); }
@@ -89,7 +97,11 @@ struct State {
   bool spindle_turns() const { return spindle == Spindle::Clockwise || spindle == Spindle::Counterclockwise; }
 
   /// Whether the place of the frame in force on the machine is known.
-  bool is_frame_known() const { return workpiece_unknown == 0 && !face_undefined && !face_unplaced; }
+  bool is_frame_known() const {
+    const auto frames =
+        static_cast<std::uint16_t>(bit(dialect::ModalGroup::Face) | bit(dialect::ModalGroup::Workpiece));
+    return workpiece_unknown == 0 && !face_undefined && !face_unplaced && (in_doubt & frames) == 0;
+  }
   /// Transforms a point from the frame in force to the machine frame, mm.
   geometry::Vec3 to_machine(const geometry::Vec3& p) const {
     return workpiece_origin + (face_mounted ? face.to_outer(p) : p);

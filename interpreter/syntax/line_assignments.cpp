@@ -52,6 +52,8 @@ bool LineParser::lacks_value(std::uint16_t assign) const {
 bool LineParser::is_equals_reported_before(std::uint16_t index) const {
   const Word& before = word(index - 1u);
   if (before.letter == kError || before.letter == kVgpl) return true;  // #1=5
+  if (before.letter == kNumber) return true;                           // 2=1: a V has lost its letter.
+  if (before.letter == 'P' && word(0).letter == kNumber) return true;  // 100 P1=2
   if (before.letter == 'P' && line_.jump >= 0) return true;            // IF ... GOTO N9 P1=2: IF must be alone.
   return index > 1 && word(index - 2u).has(Word::kMissing);            // CR=5, VI=5: reported at the C or V.
 }
