@@ -163,9 +163,10 @@ static std::vector<JumpMap::Site> sites_in(std::string_view text) {
     while (begin != text.data() && !text::is_line_end(begin[-1])) --begin;
     store.clear();
     p = store.append_line(begin, end);
-    const syntax::LineTree tree = store.tree(0, begin);
-    if (tree.jump && tree.jump->has_target)
-      sites.push_back({counter.line_of(static_cast<std::size_t>(begin - text.data())), *tree.jump});
+    each_event(store.tree(0, begin), [&](const FlowEvent& event) {
+      if (event.kind != FlowEvent::Kind::Jump) return;
+      sites.push_back({counter.line_of(static_cast<std::size_t>(begin - text.data())), event.jump});
+    });
   }
   return sites;
 }

@@ -117,8 +117,9 @@ const char* LineParser::lex_with_number(const char* start, const char* p) {
 /// The start of the number after a sign that only looks like a minus (D67); null if there is no such number.
 const char* LineParser::digits_of_foreign_minus(const char* p) const {
   if (p == end_ || text::char_class(*p) != text::CharClass::Other) return nullptr;
-  const char* const digits = p + text::foreign_minus_length({p, static_cast<std::size_t>(end_ - p)});
-  const bool is_number = digits != p && digits != end_ && (text::is_digit(*digits) || *digits == '.');
+  const std::size_t length = text::foreign_minus_length({p, static_cast<std::size_t>(end_ - p)});
+  const char* const digits = skip_space(p + length);
+  const bool is_number = length > 0 && digits != end_ && (text::is_digit(*digits) || *digits == '.');
   return is_number ? digits : nullptr;
 }
 

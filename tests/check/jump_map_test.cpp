@@ -96,7 +96,10 @@ TEST(JumpCollector, MakesAnEmptyMapOfLabelsAlone) {
 std::string random_program(Random& random) {
   const auto number = [&] { return random.between(1, 4); };
   const auto line = [&]() -> std::string {
-    switch (random.between(0, 7)) {
+    switch (random.between(0, 8)) {
+      case 8:  // Two blocks on one line (D68).
+        return fmt::format("N{} IF V{}=1 GOTO N{} N{} IF V{}=2 GOTO N{}", number(), number(), number(), number(),
+                           number(), number());
       case 0:
         return fmt::format("IF V{}={} GOTO N{}", number(), number(), number());
       case 1:

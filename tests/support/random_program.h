@@ -194,7 +194,21 @@ class RandomProgram {
                                        "X1 \xE2\x82\xAC",
                                        "IF",
                                        "VGPL",
-                                       "G1 X1 (a) G9"}));
+                                       "G1 X1 (a) G9",
+                                       "90 X5",
+                                       "29 X1 C90",
+                                       "2=1",
+                                       "pausa 2 s",
+                                       "GOTO N1O",
+                                       "G1 X\xE2\x88\x92"
+                                       "5 Y1",
+                                       "IF V1<\xE2\x80\x93"
+                                       "1 GOTO N2",
+                                       "N1 G0 X1 N2 G1 X2",
+                                       "N3 IF V1=2 GOTO N4 N5 V1=3",
+                                       "N6 V2=1 N7 IF V2=1 GOTO N8",
+                                       "N9 IF VGPL=1 GOTO N10 N11 IF V3<2 GOTO N12",
+                                       "N10 M02 N12 G1 X3"}));
   }
 
   std::string noise() {
