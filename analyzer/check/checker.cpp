@@ -7,9 +7,10 @@
 #include <utility>
 
 #include "analyzer/check/folding.h"
+#include "analyzer/check/position_shift.h"
 #include "analyzer/rules/rule.h"
+#include "interpreter/execution/line_parts.h"
 #include "interpreter/execution/plain_run.h"
-#include "interpreter/geometry/increment.h"
 #include "interpreter/syntax/tree_store.h"
 
 namespace isocnc::check {
@@ -22,15 +23,6 @@ using syntax::PlainLine;
 
 /// The maximum number of decisions in a path; longer paths keep the latest ones.
 static constexpr std::size_t kLongestPath = 64;
-/// The maximum number of valuations kept apart in one group.
-static constexpr std::size_t kMaxValuations = 256;
-/// The maximum of Frontier::branching_cost. Each line adds the number of live groups beyond the first and takes off
-/// kSpreadPerLine: a few groups can be followed forever, many only for a limited stretch.
-static constexpr std::uint32_t kSpreadLimit = 20'000'000;
-/// The maximum number of groups once some have been dropped: the rest of the program must not take long.
-static constexpr std::size_t kMaxStatesReduced = 16;
-/// The branching cost that each line takes off.
-static constexpr std::uint32_t kSpreadPerLine = 32;
 /// The maximum number of labels that paths wait for at once.
 static constexpr std::size_t kMaxWaiting = 16'384;
 
@@ -80,17 +72,11 @@ static bool is_reported_above(const Finding& finding, const Groups& before) {
          std::all_of(before.begin(), before.end(), [](const Group& group) { return group.state.tool_prepared; });
 }
 
-/// The axes that some letters name.
-static constexpr execution::AxisSet axes_of(dialect::LetterSet letters) {
-  static_assert(dialect::kLinearLetters == 7u << 23 && dialect::kRotaryLetters == 3u << 1);
-  return static_cast<execution::AxisSet>((letters >> 23 & 7u) | (letters >> 1 & 3u) << 3);
-}
-
-/// Whether a coordinate is beyond half the range in which increments add up exactly; a shift may use the other half.
-static bool is_far(const geometry::Pose& pose) {
-  constexpr double kFar = geometry::kFarthestStep / 2;
-  return !(std::abs(pose.tip[0]) <= kFar && std::abs(pose.tip[1]) <= kFar && std::abs(pose.tip[2]) <= kFar &&
-           std::abs(pose.b) <= kFar && std::abs(pose.c) <= kFar);
+/// What the block before lacks on all paths.
+static execution::Lack lack_of_all(const Groups& live) {
+  const execution::Lack& first = live[0].state.lack;
+  const bool is_same = std::all_of(live.begin(), live.end(), [&](const Group& it) { return it.state.lack == first; });
+  return is_same ? first : execution::Lack{};
 }
 
 /// Records a line executed by a plain run. Under G91 only the words of an arc matter, under G90 its start as well.
@@ -101,7 +87,7 @@ static bool is_far(const geometry::Pose& pose) {
     return;
   }
   if (run.was_arc()) use.read |= static_cast<execution::AxisSet>(execution::kLinearAxes & ~use.set);
-  use.set |= axes_of(line.arguments);
+  use.set |= execution::axes_of(line.arguments);
 }
 
 /// Records the folds that a run of plain lines ends.
@@ -133,7 +119,7 @@ std::size_t Checker::check_plain(std::size_t count, std::uint64_t line_number, O
   outcome.last_text_line = line_number + done - 1;
   use.by_several |= !frontier.waiting().empty();
   outcome.positions = use;
-  reduce_spread(done);
+  frontier.reduce_spread(done);
   return done;
 }
 
@@ -192,6 +178,16 @@ void Checker::check_any(const LineTree& line, std::uint64_t line_number, Outcome
   }
   frontier.dead_reported = false;
   outcome.positions.by_several |= live.size() > 1 || !frontier.waiting().empty();
+  if (const auto parts = execution::SplitLine::split(line, lack_of_all(live))) {
+    execute_carried(parts->carried(), line_number, outcome);
+    return check_block(parts->rest(), line_number, outcome);
+  }
+  check_block(line, line_number, outcome);
+}
+
+/// Checks a line, or what is left of it.
+void Checker::check_block(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+  Groups& live = frontier.live;
   const std::size_t first = outcome.findings.size();
   for (const Finding& finding : line.findings)
     if (!is_reported_above(finding, live)) outcome.findings.push_back({line_number, finding});
@@ -208,11 +204,6 @@ void Checker::check_any(const LineTree& line, std::uint64_t line_number, Outcome
   frontier.dead_reported = has_error(outcome.findings, first);
 }
 
-void Checker::reduce_spread(std::size_t lines) {
-  frontier.branching_cost -=
-      static_cast<std::uint32_t>(std::min<std::size_t>(frontier.branching_cost, kSpreadPerLine * lines));
-}
-
 /// Unreachable lines are not executed; W116 is reported at the first of them, and nothing else (D51).
 void Checker::report_dead_code(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   if (frontier.dead_reported || line.is_empty()) return;
@@ -227,7 +218,7 @@ void Checker::report_dead_code(const LineTree& line, std::uint64_t line_number, 
 /// Handles a label: paths that jumped here continue. A label on no feasible path is recorded as well.
 void Checker::arrive(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   if (!jumps_.names(line.label)) return;
-  if (frontier.arrive(line)) bound_states(line, line_number, outcome);
+  if (frontier.arrive(line) && frontier.bound_live()) admit_reduction(line, line_number, outcome);
   for (const syntax::Word& word : line.words) {
     if (word.letter != 'N' || word.owner != syntax::Word::kNoOwner) continue;
     outcome.labels.push_back({line.label, line_number, word.span(), !frontier.live.empty()});
@@ -319,7 +310,7 @@ class Checker::LineExecution final : public execution::Sink {
       if (move_) rules::run_move_rules(block, *move_, *this);
     }
     const bool has_findings = !line_.findings.empty() || static_cast<std::ptrdiff_t>(findings.size()) > first;
-    checker_.note_line(line_, before, state, has_findings, outcome_.positions);
+    note_line(line_, before, state, has_findings || checker_.checks_moves_, outcome_.positions);
   }
 
   Checker& checker_;
@@ -329,6 +320,20 @@ class Checker::LineExecution final : public execution::Sink {
   std::size_t group_ = 0;                          // The group that executes the line.
   std::optional<execution::ProgrammedMove> move_;  // The line's motion, if motions are watched.
 };
+
+/// Executes words that belong to the block before (SplitLine). What they make wrong has been reported there. The words
+/// of a frame or a dwell move no axis, but whatever they name is unknown.
+void Checker::execute_carried(const LineTree& words, std::uint64_t line_number, Outcome& outcome) {
+  Groups& live = frontier.live;
+  const bool is_of_motion = live[0].state.lack.is_of_motion;
+  LineExecution(*this, words, line_number, outcome).run();
+  group_findings_.clear();
+  outcome.positions.read |= static_cast<execution::AxisSet>(execution::kAllAxes & ~outcome.positions.set);
+  if (is_of_motion) return;
+  for (const syntax::Word& word : words.words)
+    if (dialect::contains(dialect::kCoordinateLetters, word.letter))
+      for (Group& group : live) group.state.unknown |= execution::axes_of(dialect::letter_bit(word.letter));
+}
 
 void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   Groups& live = frontier.live;
@@ -344,40 +349,9 @@ void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_num
     LineExecution(*this, line, line_number, outcome).run();
     if (!group_findings_.empty()) report_common_findings(line_number, outcome);
   }
-  if (live.size() == 1) return reduce_spread(1);
+  if (live.size() == 1) return frontier.reduce_spread(1);
   live.converge();
-  bound_states(line, line_number, outcome);
-}
-
-static constexpr execution::AxisSet kAllAxes = (1u << execution::kAxisCount) - 1;
-
-/// Records what the judgment of a line that is not plain depends on; in complicated cases, all axes.
-void Checker::note_line(const LineTree& line, const execution::State& before, const execution::State& after,
-                        bool has_findings, PositionUse& use) const {
-  bool moves = false;
-  bool changes_frame = false;
-  for (const syntax::Instruction& instruction : line.instructions) {
-    const bool is_g = instruction.kind == syntax::InstructionKind::G;
-    const dialect::GCode* const code = is_g ? instruction.g() : nullptr;
-    moves |= instruction.is_motion();
-    changes_frame |= is_g && (!code || code->is_frame());
-  }
-  if (!moves && !changes_frame) return;
-  use.far |= is_far(after.position);
-  const bool is_clear =
-      !has_findings && !changes_frame && !checks_moves_ && before.unknown == after.unknown && after.motion() != nullptr;
-  if (is_clear && after.incremental()) return;
-  dialect::LetterSet letters = 0;
-  for (const syntax::Word& word : line.words)
-    if (dialect::contains(dialect::kCoordinateLetters, word.letter)) letters |= dialect::letter_bit(word.letter);
-  // A straight move under G49 is legal from any start. Otherwise the start matters: for an arc, or for a rotary axis
-  // that must not turn.
-  const bool is_straight = after.motion() && !after.motion()->is_arc();
-  const execution::AxisSet read = !is_clear     ? kAllAxes
-                                  : is_straight ? axes_of(letters & dialect::kRotaryLetters)
-                                                : kAllAxes;
-  use.read |= static_cast<execution::AxisSet>(read & ~use.set);
-  if (is_clear) use.set |= axes_of(letters);
+  if (frontier.bound_live()) admit_reduction(line, line_number, outcome);
 }
 
 /// Judges an arc whose circle is given by its center, and collects evidence on how centers are meant (D70).
@@ -477,7 +451,7 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
   frontier.live.keep_first(staying);
   if (!jumping.empty()) {
     Groups& waiting = frontier.jump(jump.target, std::move(jumping));
-    if (reduce(waiting)) admit_reduction(line, line_number, outcome);
+    if (frontier.reduce(waiting)) admit_reduction(line, line_number, outcome);
   }
   if (may_jump != may_stay && !frontier.reduced) {
     outcome.findings.push_back({line_number, {.id = "condition-decided"_diag, .span = jump.if_span}});
@@ -487,33 +461,6 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
     frontier.drop_highest_label();
     admit_reduction(line, line_number, outcome);
   }
-}
-
-/// Limits the number of groups; returns whether there were too many.
-bool Checker::reduce(Groups& groups) const {
-  const std::size_t max = frontier.reduced ? kMaxStatesReduced : kMaxStates;
-  if (groups.size() <= max) return false;
-  groups.reduce_to(max / 2);
-  return true;
-}
-
-void Checker::bound_states(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
-  Groups& live = frontier.live;
-  bool reduced = false;
-  frontier.branching_cost += static_cast<std::uint32_t>(live.size()) - 1;
-  frontier.branching_cost -= std::min(frontier.branching_cost, kSpreadPerLine);
-  reduced |= reduce(live);
-  if (frontier.branching_cost > kSpreadLimit) {
-    live.reduce_to(1);
-    frontier.branching_cost = 0;
-    reduced = true;
-  }
-  for (Group& group : live) {
-    if (group.registers.size() <= kMaxValuations) continue;
-    group.registers.reduce_to(kMaxValuations / 2);
-    reduced = true;
-  }
-  if (reduced) admit_reduction(line, line_number, outcome);
 }
 
 /// Reports once (W191) that some paths are not followed from here on.

@@ -13,9 +13,6 @@
 
 namespace isocnc::check {
 
-/// The maximum number of machine states followed at once; beyond it some are dropped (W191).
-inline constexpr std::size_t kMaxStates = 512;
-
 /// Checks a program line by line on every feasible path. Its only state is `frontier`, so that a check can continue
 /// from any earlier frontier.
 class Checker {
@@ -45,18 +42,16 @@ class Checker {
 
   template <class PlainLineAt>
   std::size_t check_plain(std::size_t count, std::uint64_t line_number, Outcome& outcome, PlainLineAt plain_line_at);
-  /// Lowers Frontier::branching_cost by what `lines` lines with one live state allow.
-  void reduce_spread(std::size_t lines);
   void report_dead_code(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void arrive(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void check_two_blocks(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
+  void execute_carried(const syntax::LineTree& words, std::uint64_t line_number, Outcome& outcome);
+  void check_block(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void execute_around_jump(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void execute_in_all_groups(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void assign(Group& group, int reg, double value, Outcome& outcome) const;
   void report_common_findings(std::uint64_t line_number, Outcome& outcome);
   void branch(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
-  bool reduce(Groups& groups) const;
-  void bound_states(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void admit_reduction(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
 
   struct GroupFinding {
@@ -64,8 +59,6 @@ class Checker {
     std::size_t group = 0;
   };
 
-  void note_line(const syntax::LineTree& line, const execution::State& before, const execution::State& after,
-                 bool has_findings, PositionUse& use) const;
   void judge_arc(const execution::CenteredArc& arc, Outcome& outcome, execution::Sink& sink) const;
 
   const rules::CheckSetup& setup_;

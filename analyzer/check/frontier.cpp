@@ -7,6 +7,16 @@
 
 namespace isocnc::check {
 
+/// The maximum number of valuations kept apart in one group.
+static constexpr std::size_t kMaxValuations = 256;
+/// The maximum of Frontier::branching_cost. Each line adds the number of live groups beyond the first and takes off
+/// kSpreadPerLine: a few groups can be followed forever, many only for a limited stretch.
+static constexpr std::uint32_t kSpreadLimit = 20'000'000;
+/// The maximum number of groups once some have been dropped: the rest of the program must not take long.
+static constexpr std::size_t kMaxStatesReduced = 16;
+/// The branching cost that each line takes off.
+static constexpr std::uint32_t kSpreadPerLine = 32;
+
 /// The decisions that both paths share; both paths have the latest first.
 static Decisions common_decisions(const Decisions& a, const Decisions& b) {
   Decisions common;
@@ -134,6 +144,35 @@ std::optional<execution::State> Frontier::state_at(const syntax::LineTree& next)
   const Groups groups = live_at(next);
   if (groups.size() != 1 || reduced) return std::nullopt;
   return groups[0].state;
+}
+
+bool Frontier::reduce(Groups& groups) const {
+  const std::size_t max = reduced ? kMaxStatesReduced : kMaxStates;
+  if (groups.size() <= max) return false;
+  groups.reduce_to(max / 2);
+  return true;
+}
+
+bool Frontier::bound_live() {
+  bool is_reduced = false;
+  branching_cost += static_cast<std::uint32_t>(live.size()) - 1;
+  branching_cost -= std::min(branching_cost, kSpreadPerLine);
+  is_reduced |= reduce(live);
+  if (branching_cost > kSpreadLimit) {
+    live.reduce_to(1);
+    branching_cost = 0;
+    is_reduced = true;
+  }
+  for (Group& group : live) {
+    if (group.registers.size() <= kMaxValuations) continue;
+    group.registers.reduce_to(kMaxValuations / 2);
+    is_reduced = true;
+  }
+  return is_reduced;
+}
+
+void Frontier::reduce_spread(std::size_t lines) {
+  branching_cost -= static_cast<std::uint32_t>(std::min<std::size_t>(branching_cost, kSpreadPerLine * lines));
 }
 
 }  // namespace isocnc::check

@@ -13,6 +13,9 @@
 
 namespace isocnc::check {
 
+/// The maximum number of machine states followed at once; beyond it some are dropped (W191).
+inline constexpr std::size_t kMaxStates = 512;
+
 /// Paths through the program that have led to the same machine state, and so have the same findings from here on.
 struct Group {
   execution::State state;
@@ -65,6 +68,13 @@ struct Frontier : syntax::ForwardPaths<Groups> {
   /// The state before line `next`, if it is the same on all paths. Nothing if there are several states or some are
   /// unknown.
   std::optional<execution::State> state_at(const syntax::LineTree& next) const;
+
+  /// Limits the number of groups; returns whether there were too many.
+  bool reduce(Groups& groups) const;
+  /// Limits what the live groups take; returns whether they took too much.
+  bool bound_live();
+  /// Lowers `branching_cost` by what `lines` lines with one live state allow.
+  void reduce_spread(std::size_t lines);
 
   friend bool operator==(const Frontier&, const Frontier&) = default;
 };

@@ -86,4 +86,31 @@ std::optional<PositionShift> shift_between(const Frontier& from, const Frontier&
   return shifted == to ? shift : std::nullopt;
 }
 
+void note_line(const syntax::LineTree& line, const execution::State& before, const execution::State& after,
+               bool is_judged, PositionUse& use) {
+  bool moves = false;
+  bool changes_frame = false;
+  for (const syntax::Instruction& instruction : line.instructions) {
+    const bool is_g = instruction.kind == syntax::InstructionKind::G;
+    const dialect::GCode* const code = is_g ? instruction.g() : nullptr;
+    moves |= instruction.is_motion();
+    changes_frame |= is_g && (!code || code->is_frame());
+  }
+  if (!moves && !changes_frame) return;
+  use.far |= is_far(after.position);
+  const bool is_clear = !is_judged && !changes_frame && before.unknown == after.unknown && after.motion() != nullptr;
+  if (is_clear && after.incremental()) return;
+  dialect::LetterSet letters = 0;
+  for (const syntax::Word& word : line.words)
+    if (dialect::contains(dialect::kCoordinateLetters, word.letter)) letters |= dialect::letter_bit(word.letter);
+  // A straight move under G49 is legal from any start. Otherwise the start matters: for an arc, or for a rotary axis
+  // that must not turn.
+  const bool is_straight = after.motion() && !after.motion()->is_arc();
+  const execution::AxisSet read = !is_clear     ? execution::kAllAxes
+                                  : is_straight ? execution::axes_of(letters & dialect::kRotaryLetters)
+                                                : execution::kAllAxes;
+  use.read |= static_cast<execution::AxisSet>(read & ~use.set);
+  if (is_clear) use.set |= execution::axes_of(letters);
+}
+
 }  // namespace isocnc::check

@@ -61,7 +61,7 @@ JumpLine around_jump(const syntax::LineTree& line) {
 
 void pass_by(State& state) {
   state.exact_stop_fits = false;
-  state.expects_tool = false;
+  state.lack = {};
 }
 
 }  // namespace isocnc::execution

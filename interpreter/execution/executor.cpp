@@ -136,9 +136,9 @@ void Executor::run() {
   const bool is_compensated = state_.mode(dialect::ModalGroup::CutterCompensation) != 40;
   if (is_compensated && (feed_move_ || rapid_move_) && moves_in_plane())
     sink_.step(BlockStep::CompensatedMotion, state_);
-  const Instruction* const last = line_.instructions.empty() ? nullptr : &line_.instructions.back();
-  state_.expects_tool = last != nullptr && last->kind == InstructionKind::ToolChange &&
-                        last->end == last->command + 1 && !last->has(Instruction::kReportedElsewhere);
+  for (const syntax::Finding& finding : line_.findings) lack_.take(finding.id);
+  if (!lack_.empty()) lack_.remove_words_of(line_);
+  state_.lack = lack_;
 }
 
 /// Whether the line has a coordinate of the plane in force.
@@ -150,6 +150,7 @@ bool Executor::moves_in_plane() const {
 
 void Executor::report(dialect::DiagnosticId id, syntax::Span span, std::initializer_list<double> values,
                       syntax::Span related) {
+  lack_.take(id);
   syntax::Finding finding{.id = id, .span = span, .related = related};
   std::copy(values.begin(), values.end(), finding.values.begin());
   sink_.report(finding);
@@ -301,7 +302,8 @@ void Executor::stray_tool(const Instruction& instruction) {
   const Word& word = line_.command(instruction);
   const Word* const number = line_.number_without_letter();
   const bool is_lost_change = number && number->value == dialect::kToolChange;  // 06 T101001 (D58)
-  const bool follows_change = is_lost_change || (state_.expects_tool && instruction.has(Instruction::kFirst));
+  const bool follows_change =
+      is_lost_change || (dialect::contains(state_.lack.letters, 'T') && instruction.has(Instruction::kFirst));
   const bool is_legible = word.is_plain_integer() && word.digits == 6;  // An illegible T has been reported already.
   if (!follows_change && is_legible) report("tool-without-m06"_diag, word.span());
   state_.tool_prepared = !follows_change && instruction.has(Instruction::kFirst);

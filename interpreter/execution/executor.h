@@ -98,6 +98,7 @@ class Executor {
   bool frame_is_lost_ = false;
   bool feed_move_ = false;  ///< Whether the line has had an interpolated motion.
   bool rapid_move_ = false;
+  Lack lack_;  ///< What the line lacks, as far as it has been reported.
 };
 
 }  // namespace isocnc::execution

@@ -49,7 +49,6 @@ void PlainRun::finish() {
   state_.set_mode(dialect::g_code(motion_));
   state_.motion_illegible = false;
   state_.exact_stop_fits = motion_ != dialect::GRole::Rapid;
-  state_.expects_tool = false;
   state_.tool_prepared = false;
 }
 

@@ -20,7 +20,7 @@ class PlainRun {
         scale_(state.mm_per_unit()),
         straight_(state.five_axis() ? dialect::kCoordinateLetters : dialect::kLinearLetters),
         incremental_(state.incremental()),
-        may_run_(state.tool_selected && state.unknown == 0 && state.in_doubt == 0),
+        may_run_(state.tool_selected && state.unknown == 0 && state.in_doubt == 0 && state.lack.empty()),
         feed_holds_(state.feed_given && !state.inverse_time()),
         motion_(state.motion() ? state.motion()->role : kNoMotion) {}
   PlainRun(const PlainRun&) = delete;

@@ -19,8 +19,8 @@ bool judged_alike(const State& a, const State& b) {
          a.face_undefined == b.face_undefined && a.face_unplaced == b.face_unplaced &&
          a.dismount_tolerated == b.dismount_tolerated && a.tool_selected == b.tool_selected &&
          a.tool_reported == b.tool_reported && a.feed_given == b.feed_given && a.feed_reported == b.feed_reported &&
-         a.exact_stop_fits == b.exact_stop_fits && a.expects_tool == b.expects_tool &&
-         a.tool_prepared == b.tool_prepared && a.motion_illegible == b.motion_illegible && a.ended == b.ended;
+         a.exact_stop_fits == b.exact_stop_fits && a.lack == b.lack && a.tool_prepared == b.tool_prepared &&
+         a.motion_illegible == b.motion_illegible && a.ended == b.ended;
 }
 
 void join(State& into, const State& other) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "interpreter/dialect/codes.h"
+#include "interpreter/execution/lack.h"
 #include "interpreter/execution/setup.h"
 #include "interpreter/geometry/frame.h"
 
@@ -20,6 +21,12 @@ using AxisSet = std::uint8_t;
 constexpr AxisSet axis_bit(Axis axis) { return static_cast<AxisSet>(1u << static_cast<unsigned>(axis)); }
 inline constexpr AxisSet kLinearAxes = 0b00111;
 inline constexpr AxisSet kAllAxes = 0b11111;
+
+/// The axes that some letters name.
+constexpr AxisSet axes_of(dialect::LetterSet letters) {
+  static_assert(dialect::kLinearLetters == 7u << 23 && dialect::kRotaryLetters == 3u << 1);
+  return static_cast<AxisSet>((letters >> 23 & 7u) | (letters >> 1 & 3u) << 3);
+}
 
 /// A feed rate as written, and the length of its unit: 25.4 mm under G70. The unit holds for linear axes only; rotary
 /// axes alone move in degrees per minute under G70 as well as G71 (I.3.7).
@@ -67,8 +74,7 @@ struct State {
   bool feed_given = false;
   bool feed_reported = false;    ///< ISO066 has been reported, or the missing F may have lost its letter (D58).
   bool exact_stop_fits = false;  ///< A G09 at the start of the next line would follow a feed move (D23).
-  /// The previous line ended in an M06 without T (reported); a T at the start of this line belongs to it.
-  bool expects_tool = false;
+  Lack lack;                     ///< What the previous block lacks.
   /// The last T had no M06 (reported), and no motion followed; an M06 without T mounts this tool.
   bool tool_prepared = false;
   bool motion_illegible = false;  ///< The last motion G is illegible, or a cycle of another control (E001).

@@ -61,13 +61,15 @@ void LineParser::take_argument(std::uint16_t index) {
 void LineParser::spoil_repeated(const Instruction& owner, std::uint16_t index) {
   Word& repeated = word(index);
   Span first;
+  bool is_earlier = false;  // The first one is before the instruction's G.
   for (std::uint16_t i = owner.begin; i < index; ++i) {
     if (word(i).owner != owner.number || word(i).letter != repeated.letter) continue;
     if (first.empty()) first = word(i).span();
+    is_earlier |= i < owner.command;
     word(i).value = std::numeric_limits<double>::quiet_NaN();
   }
-  // In R1=1 R2=2 the number has been reported, so the repetition is not.
-  const bool is_reported = is_assigned(index) || repeated.has(Word::kMissing | Word::kMalformed);
+  // In R1=1 R2=2 the number has been reported, in Z5 G01 Z-2 the first Z; so the repetition is not.
+  const bool is_reported = is_assigned(index) || is_earlier || repeated.has(Word::kMissing | Word::kMalformed);
   repeated.value = std::numeric_limits<double>::quiet_NaN();
   repeated.flags |= Word::kReported;
   if (!is_reported) report("repeated-argument"_diag, repeated.span(), {}, first);
@@ -145,6 +147,7 @@ void LineParser::take_earlier_words(Instruction& g) {
     own(g, i);
   }
   earlier.flags |= Instruction::kReportedElsewhere;
+  misplaced_count_ = 0;  // X5 G91 G00 Y5: the mode is before the G, only the X5 is not after it.
 }
 
 /// Whether a word is a tool change without its T, so that the tool's number continues the M's number: M06 101001 (D59).

@@ -1,0 +1,71 @@
+#include "interpreter/execution/line_parts.h"
+
+#include <algorithm>
+#include <string>
+
+namespace isocnc::execution {
+
+using syntax::LineTree;
+using syntax::Word;
+
+/// The number of words up to the label of a GOTO without its IF; 0 if the line does not hold one.
+static std::size_t rest_of_jump(std::span<const Word> words) {
+  const auto is_jump = [](const Word& word) { return word.letter == syntax::kGoto || word.letter == syntax::kIf; };
+  const auto jump = std::find_if(words.begin(), words.end(), is_jump);
+  if (jump == words.end() || jump->letter == syntax::kIf) return 0;
+  const auto label = jump + 1;
+  const bool has_label = label != words.end() && (label->letter == 'N' || label->letter == syntax::kNumber);
+  return static_cast<std::size_t>(jump - words.begin()) + (has_label ? 2 : 1);
+}
+
+/// The number of words at the start of a line that are among those that the block before lacks.
+static std::size_t count_carried(std::span<const Word> words, const Lack& lack) {
+  if (words.empty() || lack.empty()) return 0;
+  if (lack.jump)
+    if (const std::size_t count = rest_of_jump(words)) return count;
+  if (lack.value && (words[0].letter == syntax::kAssign || words[0].letter == syntax::kNumber)) return 1;
+  std::size_t count = 0;
+  dialect::LetterSet seen = 0;
+  while (count < words.size() && dialect::contains(lack.letters & ~seen, words[count].letter) &&
+         !words[count].has(Word::kMissing))
+    seen |= dialect::letter_bit(words[count++].letter);
+  return count;
+}
+
+/// Whether an instruction goes on after the first `count` words, each letter once: then all of it is one block.
+static bool cuts_instruction(const LineTree& line, std::size_t count) {
+  if (count == line.words.size()) return false;
+  const std::uint16_t owner = line.words[count - 1].owner;
+  if (owner == Word::kNoOwner || line.words[count].owner != owner) return false;
+  for (const syntax::Instruction& it : line.instructions)
+    if (it.number == owner && it.kind == syntax::InstructionKind::G && it.command >= count) return false;
+  dialect::LetterSet seen = 0;
+  for (const Word& word : line.words) {
+    if (word.owner != owner || word.letter < 'A') continue;
+    if (dialect::contains(seen, word.letter)) return false;
+    seen |= dialect::letter_bit(word.letter);
+  }
+  return true;
+}
+
+/// Whether an F among the carried words may be the line's own: it is alone there, or before a feed move without
+/// another.
+static bool has_own_feed(const LineTree& carried, const LineTree& rest) {
+  return carried.feed >= 0 && rest.feed < 0 && (rest.is_empty() || rest.motion() != nullptr);
+}
+
+std::optional<SplitLine> SplitLine::split(const LineTree& line, const Lack& lack) {
+  const std::size_t count = count_carried(line.words, lack);
+  if (count == 0 || cuts_instruction(line, count)) return std::nullopt;
+  std::string carried(line.text);
+  std::string rest(line.text);
+  const std::size_t end = line.words[count - 1].end;
+  std::fill(carried.begin() + static_cast<std::ptrdiff_t>(end), carried.end(), ' ');
+  std::fill(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+  SplitLine parts(carried, rest);
+  const bool is_lone_feed = parts.carried().instructions.empty();
+  if (is_lone_feed && has_own_feed(parts.carried(), parts.rest())) return std::nullopt;
+  return parts;
+}
+
+}  // namespace isocnc::execution
