@@ -4,7 +4,7 @@ namespace isocnc::rules {
 
 /// The plane, the frame or the tool changes while G41 or G42 is in force.
 static void check_compensation_across_change(const ExecutedBlock& block, execution::Sink& sink) {
-  if (!block.compensated()) return;
+  if (!block.compensated() || block.before.is_in_doubt(dialect::ModalGroup::CutterCompensation)) return;
   const double mode = block.before.mode(dialect::ModalGroup::CutterCompensation);
   const syntax::Word* const ended = block.g(GRole::CompensationOff);
   const auto report_change = [&](const syntax::Word& word) {

@@ -5,7 +5,7 @@ namespace isocnc::rules {
 /// M02 without G40 before it.
 static void check_end_with_compensation(const ExecutedBlock& block, execution::Sink& sink) {
   const syntax::Word* const end = block.m(dialect::kProgramEnd);
-  if (end && block.after.is_compensated())
+  if (end && block.after.is_compensated() && !block.after.is_in_doubt(dialect::ModalGroup::CutterCompensation))
     report(sink, "end-with-compensation"_diag, end->span(), block.after.mode(dialect::ModalGroup::CutterCompensation));
 }
 

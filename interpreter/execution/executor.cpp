@@ -199,6 +199,7 @@ void Executor::execute_g(const Instruction& instruction) {
 void Executor::execute_unknown_g(const Instruction& instruction) {
   const Arguments arguments(line_, instruction);
   const Word& g = line_.command(instruction);
+  if (doubt_unknown_g(g, arguments)) return move_illegibly(arguments);
   if (may_be_motion(g, arguments)) make_motion_illegible();
   if (g.has(Word::kMalformed)) blur_axes_not_named();  // G01 -20: the letter of some axis is lost.
   move_illegibly(arguments);
@@ -218,7 +219,7 @@ bool Executor::repetition_is_reported(const dialect::GCode& code) const {
 }
 
 void Executor::set_mode(const dialect::GCode& code, const Word& word) {
-  const auto bit = static_cast<std::uint16_t>(1u << static_cast<unsigned>(code.group));
+  const std::uint16_t bit = State::bit(code.group);
   const bool repeats = state_.mode(code.group) == code.number && (state_.written & bit) != 0;
   if (repeats && code.repeated != dialect::kNoDiagnostic && !repetition_is_reported(code))
     report(code.repeated, word.span());

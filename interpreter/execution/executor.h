@@ -4,6 +4,7 @@
 #include <optional>
 #include <string_view>
 
+#include "interpreter/dialect/near_codes.h"
 #include "interpreter/execution/arguments.h"
 #include "interpreter/execution/execute.h"
 #include "interpreter/execution/feed.h"
@@ -62,10 +63,12 @@ class Executor {
   void report_centered_arc(const Arguments& arguments, const Plane& plane, const geometry::ArcGiven& given,
                            const geometry::Circle& circle);
   void report_circle(const Arguments& arguments, const geometry::Circle& circle, const Plane& plane);
+  void report_missing_circle(syntax::Span place);
   bool arc_is_described(const Arguments& arguments, const Plane& plane, syntax::Span place);
 
   // frames.cpp
   void workpiece_frame(const syntax::Instruction& instruction);
+  bool names_face(const syntax::Instruction& dismount) const;
   void dismount_face(const syntax::Instruction& instruction);
   void mount_face(const syntax::Instruction& instruction, const dialect::GCode& code);
   void go_home(const Arguments& arguments, const dialect::GCode& code);
@@ -80,6 +83,12 @@ class Executor {
   void allow_for_lost_letter();
   void allow_for_lost_g(const dialect::GCode& code);
   void end_doubt(dialect::ModalGroup group);
+  // doubts.cpp
+  void doubt(const dialect::GCode& code);
+  void doubt(dialect::ModalGroup group);
+  void doubt(dialect::GCodeSet codes, dialect::LetterSet arguments);
+  bool doubt_unknown_g(const syntax::Word& g, const Arguments& arguments);
+  void doubt_code_before(const Arguments& arguments);
   void make_motion_illegible();
   void blur_axes_not_named();
   void blur_axes_of_late_mode();

@@ -49,8 +49,10 @@ AxisSet Executor::read_origin(const Arguments& arguments, Vec3& origin) const {
 
 void Executor::workpiece_frame(const Instruction& instruction) {
   end_doubt(dialect::ModalGroup::Workpiece);
-  if (state_.face_mounted) {
-    report("workpiece-frame-under-face"_diag, line_.command(instruction).span());
+  const bool is_in_doubt = state_.is_in_doubt(dialect::ModalGroup::Face);
+  if (state_.face_mounted || is_in_doubt) {
+    if (!is_in_doubt) report("workpiece-frame-under-face"_diag, line_.command(instruction).span());
+    end_doubt(dialect::ModalGroup::Face);
     leave_face();
     state_.dismount_tolerated = true;
   }
@@ -64,7 +66,14 @@ void Executor::workpiece_frame(const Instruction& instruction) {
   sink_.frame_changed(state_);
 }
 
+/// Whether words of a face follow a G27, which takes none: a G24, G28 or G29 was meant.
+bool Executor::names_face(const Instruction& dismount) const {
+  const std::size_t next = dismount.command + 1u;
+  return next < line_.words.size() && dialect::contains(dialect::kDimensionLetters, line_.words[next].letter);
+}
+
 void Executor::dismount_face(const Instruction& instruction) {
+  if (names_face(instruction)) return doubt(dialect::ModalGroup::Face);
   const bool is_known = !state_.is_in_doubt(dialect::ModalGroup::Face);
   if (!state_.face_mounted && is_known && !state_.dismount_tolerated && !repetition_is_reported(*instruction.g()))
     report("g27-without-face"_diag, line_.command(instruction).span());
@@ -102,6 +111,7 @@ void Executor::go_home(const Arguments& arguments, const dialect::GCode& code) {
   Mat3 ignored;
   if (!line_.has(syntax::LineTree::kAloneViolated)) read_axes(arguments, code, ignored);
   if (!state_.face_mounted) state_.dismount_tolerated = true;
+  if (arguments.empty()) doubt(dialect::ModalGroup::Face);  // G28 alone may be a G27.
   blur_linear_axes();
 }
 
@@ -132,7 +142,8 @@ void Executor::mount_face(const Instruction& instruction, const dialect::GCode& 
   const Arguments arguments(line_, instruction);
   const bool is_at_tip = code.role == GRole::FaceAtTip;
   if (is_at_tip && (arguments.present() & dialect::letters("IJKPQR")) == 0) return go_home(arguments, code);
-  if (state_.face_mounted && !repetition_is_reported(code)) report("face-already-mounted"_diag, place);
+  const bool is_mounted = state_.face_mounted && !state_.is_in_doubt(dialect::ModalGroup::Face);
+  if (is_mounted && !repetition_is_reported(code)) report("face-already-mounted"_diag, place);
   leave_face();
   end_doubt(dialect::ModalGroup::Face);
   state_.dismount_tolerated = false;

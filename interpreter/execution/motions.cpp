@@ -12,6 +12,7 @@ namespace isocnc::execution {
 using namespace dialect::literals;
 using dialect::GCode;
 using dialect::GRole;
+using dialect::ModalGroup;
 using geometry::ArcProblem;
 using geometry::Vec3;
 using syntax::Instruction;
@@ -25,6 +26,7 @@ void Executor::motion(const Instruction& instruction) {
   if (!is_continuation) {
     state_.set_mode(*instruction.g());
     state_.motion_illegible = false;
+    end_doubt(ModalGroup::Motion);
   } else if (!motion_is_in_force(arguments)) {
     return;
   }
@@ -91,7 +93,8 @@ bool Executor::motion_is_in_force(const Arguments& arguments) {
   for (const syntax::Finding& finding : line_.findings)
     reported |= finding.id == "stray-argument"_diag || finding.id == "units-after-dimensions"_diag ||
                 finding.id == "distance-mode-after-dimensions"_diag;
-  if (!reported) report("stray-argument"_diag, arguments.first().span());
+  if (!reported && !line_.number_without_letter()) report("stray-argument"_diag, arguments.first().span());
+  doubt_code_before(arguments);
   return false;
 }
 
@@ -112,6 +115,7 @@ void Executor::report_strays(const Arguments& arguments, const GCode& code) {
     }
   }
   if (!center.empty()) report("stray-argument"_diag, center);
+  doubt_code_before(arguments);
 }
 
 void Executor::check_first_motion(Span place) {
@@ -123,7 +127,7 @@ void Executor::check_first_motion(Span place) {
 /// A feed move needs an F: on its own line in G93, on its own or an earlier line in G94 (I.3.7, D43).
 void Executor::check_feed(Span place) {
   if (line_.feed >= 0) return take_feed();
-  if (state_.is_in_doubt(dialect::ModalGroup::FeedMode)) return;
+  if (state_.is_in_doubt(ModalGroup::FeedMode)) return;
   if (state_.inverse_time()) {
     // A number without its letter may be the F (D58).
     if (line_.findings.empty() || !line_.number_without_letter()) report("inverse-time-feed-missing"_diag, place);
@@ -147,12 +151,12 @@ ProgrammedFeed Executor::feed_in_force() const {
 /// Whether the motion obeys three-axis interpolation, which moves no rotary axis; a G01 under it needs a linear axis
 /// (I.3.4.2, I.3.5, D41).
 bool Executor::check_rotary_axes(const Arguments& arguments, const GCode& code, Span place) {
-  using dialect::ModalGroup;
-  if (state_.is_in_doubt(ModalGroup::Interpolation) || state_.is_in_doubt(ModalGroup::Distance)) return true;
+  if (state_.is_in_doubt(ModalGroup::Interpolation)) return true;
   if (code.role == GRole::Line && (arguments.present() & dialect::kLinearLetters) == 0) {
     report("linear-coordinate-missing"_diag, place);
     return false;
   }
+  if (state_.is_in_doubt(ModalGroup::Distance)) return true;
   Span changed;
   for (const char letter : {'B', 'C'}) {
     if (!arguments.has(letter)) continue;
@@ -164,15 +168,18 @@ bool Executor::check_rotary_axes(const Arguments& arguments, const GCode& code, 
     const Span span = arguments.word(letter).span();
     changed = changed.empty() ? span : syntax::hull(changed, span);
   }
-  if (!changed.empty()) report("five-axis-not-enabled"_diag, changed);
-  return changed.empty();
+  if (changed.empty()) return true;
+  report("five-axis-not-enabled"_diag, changed);
+  // A G49 may be missing, so that the G48 after it repeats nothing.
+  state_.written &= static_cast<std::uint16_t>(~State::bit(ModalGroup::Interpolation));
+  return false;
 }
 
 void Executor::move_to(const Arguments& arguments) {
   const double scale = state_.mm_per_unit();
   const bool incremental = state_.incremental();
-  const bool is_distance_known = !state_.is_in_doubt(dialect::ModalGroup::Distance);
-  const bool is_length_known = !state_.is_in_doubt(dialect::ModalGroup::Units);
+  const bool is_distance_known = !state_.is_in_doubt(ModalGroup::Distance);
+  const bool is_length_known = !state_.is_in_doubt(ModalGroup::Units);
   const auto move_axis = [&](Axis axis, double& position, double target) {
     const AxisSet bit = axis_bit(axis);
     const bool is_known = is_distance_known && (is_length_known || (bit & kLinearAxes) == 0);
@@ -202,10 +209,28 @@ bool Executor::has_illegible_equals() const {
          std::any_of(line_.words.begin(), line_.words.end(), is_illegible);
 }
 
+/// Reports an arc without center and radius. It may have been meant as a line (G02 in place of G01), and so may the
+/// lines below that continue it without center and radius.
+void Executor::report_missing_circle(Span place) {
+  if (!line_.has(syntax::LineTree::kUnclosed) && !has_illegible_equals()) report("circle-not-given"_diag, place);
+  doubt(ModalGroup::Motion);
+}
+
 /// Whether an arc has all words that its geometry needs; reports the first problem in the order of D45.
 bool Executor::arc_is_described(const Arguments& arguments, const Plane& plane, Span place) {
+  const bool has_circle = (arguments.present() & (dialect::kCenterLetters | dialect::letter_bit('R'))) != 0;
+  if (has_circle) {
+    end_doubt(ModalGroup::Motion);
+  } else if (state_.is_in_doubt(ModalGroup::Motion)) {
+    return false;
+  }
+  if (state_.is_in_doubt(ModalGroup::Plane)) {
+    if (!has_circle) report_missing_circle(place);
+    return false;
+  }
   if (!arguments.has(plane.u_letter) && !arguments.has(plane.v_letter)) {
     report("arc-end-outside-plane"_diag, arguments.span_of(dialect::kCoordinateLetters));
+    if (!has_circle) doubt(ModalGroup::Motion);
     return false;
   }
   if (arguments.has(plane.stray_center)) {
@@ -213,11 +238,11 @@ bool Executor::arc_is_described(const Arguments& arguments, const Plane& plane, 
       report(plane.stray, arguments.word(plane.stray_center).span());
     return false;
   }
-  if (!arguments.has(plane.u_center) && !arguments.has(plane.v_center) && !arguments.has('R')) {
-    if (!line_.has(syntax::LineTree::kUnclosed) && !has_illegible_equals()) report("circle-not-given"_diag, place);
+  if (!has_circle) {
+    report_missing_circle(place);
     return false;
   }
-  if (state_.face_mounted && !state_.face_undefined) {
+  if (state_.face_mounted && !state_.face_undefined && !state_.is_in_doubt(ModalGroup::Face)) {
     const double cosine = state_.face.axes.col(plane.u).dot(state_.face.axes.col(plane.v));
     if (std::abs(cosine) >= geometry::kOrthogonalCosine) {
       report("arc-plane-not-orthogonal"_diag, place, {std::acos(cosine) * 180 / std::numbers::pi});
@@ -285,12 +310,9 @@ void Executor::report_centered_arc(const Arguments& arguments, const Plane& plan
 
 /// Checks an arc, and computes it unless `move` is null.
 void Executor::arc(const Arguments& arguments, const GCode& code, Span place, ProgrammedMove* move) {
-  using dialect::ModalGroup;
-  constexpr std::uint16_t kRead =
-      State::bit(ModalGroup::Plane) | State::bit(ModalGroup::Distance) | State::bit(ModalGroup::Units);
-  if ((state_.in_doubt & kRead) != 0) return;
   const Plane& plane = plane_in_force(state_);
   if (!arc_is_described(arguments, plane, place)) return;
+  if (state_.is_in_doubt(ModalGroup::Units) || state_.is_in_doubt(ModalGroup::Distance)) return;
   std::optional<geometry::ArcGiven> given = read_arc(arguments, plane);
   if (!given) return;
   given->counterclockwise = code.role == GRole::CounterclockwiseArc;

@@ -50,8 +50,9 @@ struct State {
   AxisSet unknown = 0;      ///< Axes whose position is unknown after an error; checks that depend on them are skipped.
   std::array<std::uint8_t, dialect::kModalGroupCount> in_force = dialect::kDefaultModes;  ///< G number by group.
   std::uint16_t written = 0;  ///< Groups of which a member has been written (D3).
-  std::uint16_t in_doubt =
-      0;  ///< Groups of which the member in force is not known: a G may have lost its letter (D58).
+  /// Groups of which the member in force is not known: a G may have lost its letter (D58), or may have been meant as
+  /// another that is one slip away.
+  std::uint16_t in_doubt = 0;
 
   geometry::Vec3 workpiece_origin = geometry::Vec3::Zero();  ///< Machine frame (G92).
   geometry::Frame face;                                      ///< In the workpiece frame; identity unless mounted.

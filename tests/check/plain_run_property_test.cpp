@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "analyzer/rules/memory.h"
 #include "interpreter/execution/execute.h"
@@ -28,6 +29,14 @@ class CountingSink final : public Sink {
   rules::Memory& memory_;
 };
 
+/// The start of each line.
+std::vector<const char*> line_starts(const std::string& text) {
+  std::vector<const char*> starts = {text.data()};
+  for (const char& c : text)
+    if (c == '\n') starts.push_back(&c + 1);
+  return starts;
+}
+
 /// Rows of plain lines are executed by a function of their own, which must leave the very state, and memory of the lint
 /// rules, that execute() leaves, and pass over nothing that is wrong.
 TEST(PlainRunProperty, LeavesTheStateAndTheMemoryOfExecute) {
@@ -42,6 +51,7 @@ TEST(PlainRunProperty, LeavesTheStateAndTheMemoryOfExecute) {
       text += "X1 Y" + std::to_string(random.between(-9, 9)) + "\nG0 Z5\n";
     syntax::TreeStore trees;
     trees.append_lines(text.data(), text.data() + text.size(), text.data() + text.size());
+    const std::vector<const char*> starts = line_starts(text);
     State state = initial_state(setup);
     State expected = state;
     rules::Memory memory;
@@ -57,12 +67,13 @@ TEST(PlainRunProperty, LeavesTheStateAndTheMemoryOfExecute) {
       rows += done > 0 ? 1 : 0;
       longest = std::max(longest, done);
       CountingSink unheard(expected_memory);
-      for (; done > 0; --done) execute(trees.tree(line++, nullptr), expected, setup, unheard);
+      for (; done > 0; --done, ++line) execute(trees.tree(line, starts[line]), expected, setup, unheard);
       ASSERT_EQ(unheard.findings, 0) << "seed " << seed << ", line " << line;
       ASSERT_EQ(state, expected) << "seed " << seed << ", line " << line;
       ASSERT_EQ(memory, expected_memory) << "seed " << seed << ", line " << line;
       if (line == trees.size()) break;
-      execute(trees.tree(line++, nullptr), state, setup, unheard);
+      execute(trees.tree(line, starts[line]), state, setup, unheard);
+      ++line;
       expected = state;
       memory = expected_memory;
     }
@@ -80,11 +91,12 @@ TEST(LoneAssignment, AndLoneJumpLeaveTheStateOfExecute) {
     const std::string text = support::joined(RandomProgram(random).lines(60));
     syntax::TreeStore trees;
     trees.append_lines(text.data(), text.data() + text.size(), text.data() + text.size());
+    const std::vector<const char*> starts = line_starts(text);
     State state = initial_state(setup);
     rules::Memory memory;
     CountingSink unheard(memory);
     for (std::size_t line = 0; line < trees.size() && !state.ended; ++line) {
-      const syntax::LineTree tree = trees.tree(line, nullptr);
+      const syntax::LineTree tree = trees.tree(line, starts[line]);
       State shortened = state;
       const rules::Memory remembered = memory;
       const bool is_lone = lone_assignment(tree).has_value() || is_lone_jump(tree);

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "interpreter/dialect/codes.h"
+
+namespace isocnc::dialect {
+
+/// A set of G codes, one bit for each row of kGCodes.
+using GCodeSet = std::uint64_t;
+static_assert(std::size(kGCodes) <= 64);
+
+/// The G codes that may have been meant by what is written after a G: those that one slip of the keyboard makes of its
+/// digits (one lost, added or replaced, or swapped with the next).
+GCodeSet codes_near(std::string_view number);
+
+/// The G code of a number as it is written, an O read as a zero; null if there is none.
+const GCode* code_written(std::string_view number);
+
+/// Whether a number is that of a G of other controls, often left in programs (G54). Their cycles take arguments.
+bool is_of_other_controls(std::string_view number, bool has_arguments);
+
+}  // namespace isocnc::dialect
