@@ -14,7 +14,11 @@ std::uint16_t LineParser::add_assignment(std::uint16_t index) {
   Instruction& added = add_instruction(InstructionKind::Assignment, index);
   const Word& name = word(index);
   const bool has_value = is_assigned(index);
-  const bool is_garbled = index + 1 < word_count() && word(index + 1u).letter == kError;  // V1 := 5
+  const auto is_error = [&](std::size_t at) { return at < word_count() && word(at).letter == kError; };
+  // V1 := 5, V1 = O, = 5 V1, V1 IF > 5: another word is reported.
+  const bool is_garbled = is_error(index + 1u) ||
+                          (has_value && word(index + 1u).has(Word::kMissing) && is_error(index + 2u)) ||
+                          follows_lone_equals(index) || precedes_if(index);
   if (!name.has(Word::kMissing | Word::kReported) && !is_garbled) {
     if (!name.is_plain_integer()) {
       report("invalid-register-number"_diag, name.span());
@@ -29,6 +33,11 @@ std::uint16_t LineParser::add_assignment(std::uint16_t index) {
   own(added, last);
   if (lacks_value(last)) own_in_place_of_value(added, ++last);
   return last;
+}
+
+/// Whether the word before is a `=` of no register or parameter: = 10 V5.
+bool LineParser::follows_lone_equals(std::uint16_t index) const {
+  return index > 0 && word(index - 1u).letter == kAssign && word(index - 1u).owner == Word::kNoOwner;
 }
 
 /// Handles V5=X: the word in the place of the value lacks a number as well, but the value is reported.
@@ -83,6 +92,17 @@ bool LineParser::own_equals(std::uint16_t index, std::uint16_t last) {
   return owner.is_unknown_g() && is_reported;
 }
 
+/// Handles P20 M100=5: the P before the M is part of the same mistake.
+void LineParser::take_parameter_before_function(std::uint16_t equals) {
+  if (equals < 2 || word(equals - 1u).letter != 'M' || word(equals - 2u).letter != 'P') return;
+  Word& parameter = word(equals - 2u);
+  if (parameter.owner == Word::kNoOwner || instruction(parameter.owner).begin != equals - 2) return;
+  instruction(parameter.owner).flags |= Instruction::kReportedElsewhere;
+  parameter.letter = kError;
+  parameter.flags |= Word::kReported;
+  needs_check_ = true;
+}
+
 /// X=20 is X20; in R1=10 either number may be meant (D61).
 void LineParser::spoil_word_before(std::uint16_t index) {
   Word& before = word(index - 1u);
@@ -99,7 +119,10 @@ void LineParser::spoil_word_before(std::uint16_t index) {
 std::uint16_t LineParser::add_equals(std::uint16_t index) {
   auto last = static_cast<std::uint16_t>(index + (lacks_value(index) && !is_between_coordinates(index) ? 1 : 0));
   if (index > 0) {
+    if (last == index && index + 1 < word_count() && word(index - 1u).letter == kError)  // #1 = #2 + 1
+      take_back("unknown-word"_diag, word(index + 1u).span());
     if (is_equals_reported_before(index) || own_equals(index, last)) return last;
+    take_parameter_before_function(index);
     const bool is_stray_parameter = word(index - 1u).letter == 'P' && word(index - 1u).owner == Word::kNoOwner;
     if (is_stray_parameter && std::exchange(stray_parameter_, true)) return last;
     spoil_word_before(index);

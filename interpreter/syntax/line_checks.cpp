@@ -276,7 +276,8 @@ void LineParser::check_face_angles(const Instruction& frame) {
 }
 
 void LineParser::check_dwell(const Instruction& dwell) {
-  bool is_garbled = false;  // G04 U1: reported at the U.
+  // G04 U1 is reported at the U, and P1 G04 at the G04.
+  bool is_garbled = dwell.command > 0 && word(dwell.command - 1u).letter == 'P';
   for (std::size_t i = dwell.command + 1u; i < word_count(); ++i) is_garbled |= word(i).letter == kError;
   if (!is_garbled) check_arguments(dwell, "dwell-time-missing"_diag);
   for (std::uint16_t i = dwell.begin; i < dwell.end; ++i) {
@@ -299,7 +300,7 @@ void LineParser::check_parameters(const Instruction& function) {
     const int number = name.parameter_number();
     const std::uint32_t bit = 1u << static_cast<unsigned>(number);
     const bool valued = has_value && !word(i + 1u).has(Word::kMissing);
-    if (takes_parameters && name.has(Word::kMalformed)) continue;  // The number has been reported.
+    if (takes_parameters && (name.has(Word::kMalformed) || follows_lone_equals(i))) continue;  // Reported: M100 =5 P20.
     if (!takes_parameters || number == 0 || !valued || (seen & bit) != 0) {
       report("m-param-invalid"_diag, span);
       if (!takes_parameters) return;

@@ -69,10 +69,27 @@ void LineParser::spoil_repeated(const Instruction& owner, std::uint16_t index) {
     word(i).value = std::numeric_limits<double>::quiet_NaN();
   }
   // In R1=1 R2=2 the number has been reported, in Z5 G01 Z-2 the first Z; so the repetition is not.
-  const bool is_reported = is_assigned(index) || is_earlier || repeated.has(Word::kMissing | Word::kMalformed);
+  const bool is_reported = is_assigned(index) || is_earlier || repeated.has(Word::kMissing | Word::kMalformed) ||
+                           !starts_second_block(index);
   repeated.value = std::numeric_limits<double>::quiet_NaN();
   repeated.flags |= Word::kReported;
   if (!is_reported) report("repeated-argument"_diag, repeated.span(), {}, first);
+}
+
+/// Whether a word that the line has already is the first such word, so that it is reported. Those after it are the rest
+/// of the block that it starts, after a lost line break (G00 X1 Y2X3 Y4), unless this block has them twice as well.
+bool LineParser::starts_second_block(std::uint16_t index) {
+  if (second_block_ == kNone) {
+    second_block_ = index;
+    return true;
+  }
+  for (auto i = static_cast<std::size_t>(second_block_); i < index; ++i)
+    if (word(i).letter == word(index).letter && (word(i).letter != 'G' || is_motion_g(word(i)))) return true;
+  return false;
+}
+
+bool LineParser::is_motion_g(const Word& g) const {
+  return g.owner != Word::kNoOwner && instruction(g.owner).is_motion();
 }
 
 /// The number meant by a misspelled but clear word, such as G1.0, M+6 or G-1; otherwise NaN.
@@ -126,8 +143,9 @@ void LineParser::note_g(const dialect::GCode& code, std::uint16_t index) {
     after_motion_ = true;
     if (++motions_ == 1) {
       first_motion_ = word(index).span();
-    } else {
+    } else if (starts_second_block(index)) {
       report("second-motion"_diag, word(index).span(), {}, first_motion_);
+      misplaced_count_ = 0;  // G00 X5 G91 G01 X9: the mode is before the second motion.
     }
   }
   if (code.misplaced != dialect::kNoDiagnostic && dimensions_seen_ && misplaced_count_ < std::size(misplaced_))
@@ -193,8 +211,16 @@ void LineParser::add_tool_change(std::uint16_t index) {
   Instruction& added = add_instruction(InstructionKind::ToolChange, index);
   const std::uint16_t count = word_count();
   auto next = static_cast<std::uint16_t>(index + 1);
-  while (next < count && word(next).letter == kError) ++next;
+  const auto is_doubled = [&](std::size_t at) {  // TT101001
+    return word(at).letter == 'T' && word(at).has(Word::kMissing) && at + 1 < count && word(at + 1).letter == 'T';
+  };
+  while (next < count && (word(next).letter == kError || is_doubled(next))) ++next;
   if (next < count && word(next).letter == 'T') return own(added, next);
+  if (next < count && word(next).is_plain_integer() && word(next).digits == 6) {  // R101001: another letter for T.
+    report_missing("tool-change-without-tool"_diag, added);
+    word(next).letter = kError;
+    return;
+  }
   // The T may be before the M06 (and has been reported) or further on; in both cases there is one finding, not two.
   for (std::size_t i = 0; i + 1 < instruction_count(); ++i)
     if (instruction(i).kind == InstructionKind::StrayTool) return void(added.flags |= Instruction::kReportedElsewhere);
@@ -255,7 +281,7 @@ void LineParser::add_feed(std::uint16_t index) {
     line_.feed = index;
   } else if (word(static_cast<std::size_t>(line_.feed)).has(Word::kMissing)) {
     line_.feed = index;  // FF900: reported at the first F.
-  } else if (!written.has(Word::kMissing | Word::kMalformed)) {
+  } else if (!written.has(Word::kMissing | Word::kMalformed) && starts_second_block(index)) {
     report("repeated-feed"_diag, written.span(), {}, word(static_cast<std::size_t>(line_.feed)).span());
   }
 }
@@ -268,7 +294,7 @@ void LineParser::add_spindle_speed(std::uint16_t index) {
     line_.spindle = index;
   } else if (word(static_cast<std::size_t>(line_.spindle)).has(Word::kMissing)) {
     line_.spindle = index;
-  } else if (!written.has(Word::kMissing | Word::kMalformed)) {
+  } else if (!written.has(Word::kMissing | Word::kMalformed) && starts_second_block(index)) {
     report("repeated-spindle-speed"_diag, written.span(), {}, word(static_cast<std::size_t>(line_.spindle)).span());
   }
   needs_check_ |= instruction_count() > 0;

@@ -42,13 +42,20 @@ std::uint16_t LineParser::end_jump(std::uint16_t last) {
   return static_cast<std::uint16_t>(word_count() - 1);
 }
 
-/// Reads the words from IF to the label, both included. One finding for a malformed condition, one for a malformed
+/// Reads the words from IF to the label, both included. One finding for a malformed condition, else one for a malformed
 /// label. Returns the last word that belongs to the jump.
 std::uint16_t LineParser::read_condition(Jump& jump, std::uint16_t index) {
   std::uint16_t goto_at = index;
   while (goto_at < word_count() && word(goto_at).letter != kGoto) ++goto_at;
-  if (!read_comparison(jump, static_cast<std::uint16_t>(index + 1), goto_at)) jump.variable = Jump::kUnknownVariable;
-  return goto_at < word_count() ? read_target(jump, goto_at) : end_of_condition(index);
+  const bool is_right = read_comparison(jump, static_cast<std::uint16_t>(index + 1), goto_at);
+  if (!is_right) jump.variable = Jump::kUnknownVariable;
+  if (goto_at == word_count()) return end_of_condition(index);
+  const std::size_t findings = store_.findings_.size();
+  const std::uint16_t last = read_target(jump, goto_at);
+  // IF VGPL = 1 N30 GOTO: what the target lacks is in the condition.
+  if (!is_right && store_.findings_.size() > findings && store_.findings_.back().id == "if-malformed"_diag)
+    store_.findings_.pop_back();
+  return last;
 }
 
 /// Reads the words from `at` to the GOTO: variable, operator, number. False if one of them, or the GOTO, is malformed

@@ -81,7 +81,7 @@ std::uint16_t LineParser::add(std::uint16_t index) {
     case kAssign:
       return add_equals(index);
     case kVgpl:
-      report("unknown-word"_diag, word(index).span());
+      if (!precedes_if(index)) report("unknown-word"_diag, word(index).span());
       return index;
     case kError:
       if (is_taken_by_unknown_g(index)) take_back("unknown-word"_diag, word(index).span());
@@ -155,6 +155,11 @@ bool LineParser::is_taken_by_unknown_g(std::uint16_t index) const {
   if (taker_ == kNone || !contiguous_) return false;
   const bool spoils_number = taker().command + 1 == index && word(taker().command).has(Word::kMalformed);
   return taker().is_unknown_g() && !spoils_number;
+}
+
+/// Whether an IF follows the word: VGPL IF = 1. The IF is reported.
+bool LineParser::precedes_if(std::uint16_t index) const {
+  return index + 1 < word_count() && word(index + 1u).letter == kIf;
 }
 
 /// Whether a `=` follows the word.

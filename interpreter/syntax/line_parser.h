@@ -67,6 +67,9 @@ class LineParser {
   std::uint16_t add(std::uint16_t index);
   std::uint16_t add_between_series(std::uint16_t index);
   bool follows_letter(std::uint16_t index, char letter) const;
+  bool precedes_if(std::uint16_t index) const;
+  void take_parameter_before_function(std::uint16_t equals);
+  bool follows_lone_equals(std::uint16_t index) const;
   bool is_assigned(std::uint16_t index) const;
   bool stands_for_number(std::uint16_t index) const;
   bool is_taken_by_unknown_g(std::uint16_t index) const;
@@ -91,6 +94,8 @@ class LineParser {
   void start_continuation(std::uint16_t index);
   void take_argument(std::uint16_t index);
   void spoil_repeated(const Instruction& owner, std::uint16_t index);
+  bool starts_second_block(std::uint16_t index);
+  bool is_motion_g(const Word& g) const;
   void add_g(std::uint16_t index);
   std::uint8_t row_of_g(std::uint16_t index);
   void note_g(const dialect::GCode& code, std::uint16_t index);
@@ -186,6 +191,7 @@ class LineParser {
   static constexpr int kNone = -1;
   static constexpr int kSeveral = -2;
   int second_number_ = kNone;     ///< The word with the second line number, unless there are several more.
+  int second_block_ = kNone;      ///< The first word that the line has already.
   int taker_ = kNone;             ///< The instruction that takes the next argument.
   bool contiguous_ = false;       ///< The argument series of `taker_` is unbroken so far (D17).
   dialect::LetterSet taken_ = 0;  ///< Letters of the arguments of `taker_`.
