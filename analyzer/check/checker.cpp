@@ -72,11 +72,11 @@ static bool is_reported_above(const Finding& finding, const Groups& before) {
          std::all_of(before.begin(), before.end(), [](const Group& group) { return group.state.tool_prepared; });
 }
 
-/// What the block before lacks on all paths.
-static execution::Lack lack_of_all(const Groups& live) {
-  const execution::Lack& first = live[0].state.lack;
-  const bool is_same = std::all_of(live.begin(), live.end(), [&](const Group& it) { return it.state.lack == first; });
-  return is_same ? first : execution::Lack{};
+/// What the block before lacks on some path.
+static execution::Lack lack_of_any(const Groups& live) {
+  const auto lacks = [](const Group& group) { return !group.state.lack.empty(); };
+  const auto group = std::find_if(live.begin(), live.end(), lacks);
+  return group == live.end() ? execution::Lack{} : group->state.lack;
 }
 
 /// Records a line executed by a plain run. Under G91 only the words of an arc matter, under G90 its start as well.
@@ -178,7 +178,7 @@ void Checker::check_any(const LineTree& line, std::uint64_t line_number, Outcome
   }
   frontier.dead_reported = false;
   outcome.positions.by_several |= live.size() > 1 || !frontier.waiting().empty();
-  if (const auto parts = execution::SplitLine::split(line, lack_of_all(live))) {
+  if (const auto parts = execution::SplitLine::split(line, lack_of_any(live))) {
     execute_carried(parts->carried(), line_number, outcome);
     return check_block(parts->rest(), line_number, outcome);
   }
@@ -325,7 +325,7 @@ class Checker::LineExecution final : public execution::Sink {
 /// of a frame or a dwell move no axis, but whatever they name is unknown.
 void Checker::execute_carried(const LineTree& words, std::uint64_t line_number, Outcome& outcome) {
   Groups& live = frontier.live;
-  const bool is_of_motion = live[0].state.lack.is_of_motion;
+  const bool is_of_motion = lack_of_any(live).is_of_motion;
   LineExecution(*this, words, line_number, outcome).run();
   group_findings_.clear();
   outcome.positions.read |= static_cast<execution::AxisSet>(execution::kAllAxes & ~outcome.positions.set);

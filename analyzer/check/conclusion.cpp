@@ -70,13 +70,14 @@ static syntax::Span without_blanks(std::string_view text) {
   return {begin, begin + static_cast<std::uint32_t>(inner.size())};
 }
 
-/// Whether a line with a finding may have been meant as M02: `(M02`, `M`, `MO2`, `M0`, or `02` alone (D58).
+/// Whether a line with a finding may have been meant as M02: `(M02`, `M`, `MO2`, `M0`, `N02`, or `02` alone (D58).
 static bool may_hide_end(std::string_view text) {
   const syntax::ParsedLine parsed(text);
   const LineTree tree = parsed.tree();
   if (tree.has(LineTree::kUnclosed)) return true;
   return std::any_of(tree.words.begin(), tree.words.end(), [&](const syntax::Word& word) {
     if (word.letter == syntax::kNumber) return word.value == dialect::kProgramEnd && tree.instructions.empty();
+    if (word.letter == 'N') return word.value == dialect::kProgramEnd && !tree.findings.empty();  // N90 N02
     return word.letter == 'M' && (!word.known() || word.has(syntax::Word::kMalformed));
   });
 }

@@ -83,4 +83,50 @@ void Executor::doubt_code_before(const Arguments& arguments) {
   if (g->g()->group != ModalGroup::None) doubt(g->g()->group);
 }
 
+/// A second N may be an M that was hit wrong (N10 N06 T101001).
+void Executor::allow_for_wrong_line_number() {
+  const auto is_number = [](const syntax::Finding& finding) { return finding.id == "invalid-line-number"_diag; };
+  if (std::none_of(line_.findings.begin(), line_.findings.end(), is_number)) return;
+  sink_.step(BlockStep::IllegibleFunction, state_);
+  state_.spindle = Spindle::Unknown;
+}
+
+/// The letters in whose place another was hit, the key beside it: D1000 may be F1000 (D F), T30 in a motion R30 or Y30.
+dialect::LetterSet Executor::garbled_letters() const {
+  struct Neighbors {
+    char letter;
+    std::string_view meant;
+  };
+  static constexpr Neighbors kNeighbors[] = {{'D', "FSX"}, {'E', "R"},  {'G', "FYB"}, {'H', "GJ"},
+                                             {'L', "K"},   {'N', "B"},  {'O', "IP"},  {'T', "RYF"},
+                                             {'U', "YIX"}, {'V', "CB"}, {'W', "QZ"}};
+  const auto is_garbled = [&](const Word& word) {
+    if (word.letter == 'T') return word.digits != 6;
+    if (word.letter == syntax::kError) return word.digits > 0;
+    return word.letter == 'G' || word.letter == 'N' || word.letter == 'V';
+  };
+  const auto is_reported = [&](const Word& word) {
+    const auto is_here = [&](const syntax::Finding& finding) {
+      const bool is_of_g = finding.id == "unsupported-g"_diag || finding.id == "invalid-g-number"_diag;
+      return finding.span.begin == word.begin && (word.letter != 'G' || is_of_g);
+    };
+    return std::any_of(line_.findings.begin(), line_.findings.end(), is_here);
+  };
+  dialect::LetterSet letters = 0;
+  dialect::LetterSet present = 0;
+  for (const Word& word : line_.words) {
+    if (word.letter >= 'A' && word.letter <= 'Z') present |= dialect::letter_bit(word.letter);
+    if (!is_garbled(word) || !is_reported(word)) continue;
+    const char letter = static_cast<char>(line_.text[word.begin] & ~0x20);
+    for (const auto& [hit, meant] : kNeighbors)
+      if (hit == letter) letters |= dialect::letters(meant);
+  }
+  return letters & ~present;
+}
+
+/// The axes that a garbled word may have named are unknown.
+void Executor::blur_garbled_axes() {
+  if (feed_move_ || rapid_move_) state_.unknown |= axes_of(garbled_);
+}
+
 }  // namespace isocnc::execution

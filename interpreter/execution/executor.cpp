@@ -37,8 +37,10 @@ void Executor::allow_for_lost_letter() {
   } else if (code && code->group == dialect::ModalGroup::Interpolation) {
     allow_for_lost_g(*code);
   } else {
-    blur_axes_not_named();
-    state_.feed_reported = true;
+    if (number->letter == syntax::kNumber) {  // Not in H27, where the G of a G27 was hit wrong.
+      blur_axes_not_named();
+      state_.feed_reported = true;
+    }
     if (code && code->group != dialect::ModalGroup::None) allow_for_lost_g(*code);
   }
 }
@@ -96,7 +98,11 @@ void Executor::blur_axes_of_late_mode() {
 }
 
 void Executor::run() {
-  if (!line_.findings.empty()) allow_for_lost_letter();
+  if (!line_.findings.empty()) {
+    allow_for_lost_letter();
+    allow_for_wrong_line_number();
+    garbled_ = garbled_letters();
+  }
   // S takes effect before the line's motion, wherever it stands (I.4.2).
   if (line_.spindle >= 0) {
     const double speed = line_.words[static_cast<std::size_t>(line_.spindle)].value;
@@ -130,6 +136,7 @@ void Executor::run() {
     if (state_.ended) return;
   }
   if (!line_.findings.empty()) blur_axes_of_late_mode();
+  if (garbled_ != 0) blur_garbled_axes();
   if (line_.feed >= 0 && !feed_move_) apply_feed_without_motion();
   // A number may be a feed move that has lost its letter (D58).
   state_.exact_stop_fits = feed_move_ || line_.number_without_letter() != nullptr;
@@ -299,10 +306,18 @@ void Executor::tool_change(const Instruction& instruction) {
   state_.tool_selected = true;  // Without T, or with a T reported elsewhere, it still counts as a change.
 }
 
+/// Whether a T follows an N06, which has been reported as a second line number.
+bool Executor::follows_wrong_m06(const Instruction& tool) const {
+  if (tool.command == 0) return false;
+  const Word& before = line_.words[tool.command - 1u];
+  return before.letter == 'N' && before.value == dialect::kToolChange && !line_.findings.empty();
+}
+
 void Executor::stray_tool(const Instruction& instruction) {
   const Word& word = line_.command(instruction);
   const Word* const number = line_.number_without_letter();
-  const bool is_lost_change = number && number->value == dialect::kToolChange;  // 06 T101001 (D58)
+  const bool is_lost_change =
+      (number && number->value == dialect::kToolChange) || follows_wrong_m06(instruction);  // 06 T101001 (D58)
   const bool follows_change =
       is_lost_change || (dialect::contains(state_.lack.letters, 'T') && instruction.has(Instruction::kFirst));
   const bool is_legible = word.is_plain_integer() && word.digits == 6;  // An illegible T has been reported already.

@@ -41,6 +41,7 @@ class Executor {
   void function(const syntax::Instruction& instruction);
   void turn_spindle(int m);
   void tool_change(const syntax::Instruction& instruction);
+  bool follows_wrong_m06(const syntax::Instruction& tool) const;
   void stray_tool(const syntax::Instruction& instruction);
   void select_tool(const syntax::Word& word);
   bool is_configured(ToolCode tool) const;
@@ -49,6 +50,7 @@ class Executor {
 
   // motions.cpp
   void motion(const syntax::Instruction& instruction);
+  bool follows_wrong_motion(const Arguments& arguments) const;
   bool motion_is_in_force(const Arguments& arguments);
   void report_strays(const Arguments& arguments, const dialect::GCode& code);
   void check_first_motion(syntax::Span place);
@@ -88,6 +90,10 @@ class Executor {
   void doubt(dialect::ModalGroup group);
   void doubt(dialect::GCodeSet codes, dialect::LetterSet arguments);
   bool doubt_unknown_g(const syntax::Word& g, const Arguments& arguments);
+  void allow_for_wrong_line_number();
+  dialect::LetterSet garbled_letters() const;
+  void blur_garbled_axes();
+  bool may_have(dialect::LetterSet letters) const { return (garbled_ & letters) != 0; }
   void doubt_code_before(const Arguments& arguments);
   void make_motion_illegible();
   void blur_axes_not_named();
@@ -107,7 +113,8 @@ class Executor {
   bool frame_is_lost_ = false;
   bool feed_move_ = false;  ///< Whether the line has had an interpolated motion.
   bool rapid_move_ = false;
-  Lack lack_;  ///< What the line lacks, as far as it has been reported.
+  dialect::LetterSet garbled_ = 0;  ///< Letters in whose place a word of the line may have been hit wrong.
+  Lack lack_;                       ///< What the line lacks, as far as it has been reported.
 };
 
 }  // namespace isocnc::execution

@@ -23,7 +23,12 @@ static std::size_t count_carried(std::span<const Word> words, const Lack& lack) 
   if (words.empty() || lack.empty()) return 0;
   if (lack.jump)
     if (const std::size_t count = rest_of_jump(words)) return count;
-  if (lack.value && (words[0].letter == syntax::kAssign || words[0].letter == syntax::kNumber)) return 1;
+  if (lack.value && (words[0].letter == syntax::kAssign || words[0].letter == syntax::kNumber)) {
+    std::size_t count = 1;  // = 2.5 P2=-3: the parameters after it, too.
+    while (count + 1 < words.size() && words[count].letter == 'P' && words[count + 1].letter == syntax::kAssign)
+      count += 2;
+    return count;
+  }
   std::size_t count = 0;
   dialect::LetterSet seen = 0;
   while (count < words.size() && dialect::contains(lack.letters & ~seen, words[count].letter) &&

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -40,6 +41,10 @@ void Executor::motion(const Instruction& instruction) {
   if ((arguments.present() & dialect::kCoordinateLetters) == 0) {
     const bool only_center = is_continuation && (arguments.present() & ~code.arguments) == 0;
     if (only_center && !has_illegible_equals()) report("missing-coordinate"_diag, place);
+    const auto is_missing = [&](const syntax::Finding& it) {
+      return it.id == "missing-coordinate"_diag && it.span == place;
+    };
+    if (std::any_of(line_.findings.begin(), line_.findings.end(), is_missing)) blur_linear_axes();
     if (line_.feed >= 0 && code.is_feed_move()) take_feed();
     return;
   }
@@ -83,17 +88,35 @@ void Executor::move_illegibly(const Arguments& arguments) {
   if (state_.motion_illegible) sink_.step(BlockStep::IllegibleMotion, state_);
 }
 
+/// Whether coordinates follow a word that may have been a motion G: an F that was hit for G (F00 X10), or the word of
+/// another control (L X10). It has been reported.
+bool Executor::follows_wrong_motion(const Arguments& arguments) const {
+  const auto first = static_cast<std::size_t>(&arguments.first() - line_.words.data());
+  if (first == 0) return false;
+  const syntax::Word& before = line_.words[first - 1];
+  if (before.letter == syntax::kError) return std::isalpha(static_cast<unsigned char>(line_.text[before.begin])) != 0;
+  const auto is_of_feed = [](const syntax::Finding& finding) {
+    return finding.id == "feed-not-positive"_diag || finding.id == "repeated-feed"_diag;
+  };
+  return before.letter == 'F' && dialect::is_motion_number(before.value) &&
+         std::any_of(line_.findings.begin(), line_.findings.end(), is_of_feed);
+}
+
 /// Coordinates before any motion G belong to no instruction: one finding per line (D21).
 bool Executor::motion_is_in_force(const Arguments& arguments) {
   if (motion_is_legible()) return true;
   move_illegibly(arguments);
   if (state_.motion_illegible || line_.number_without_letter()) return false;
+  if (follows_wrong_motion(arguments)) {
+    make_motion_illegible();
+    return false;
+  }
   bool reported = line_.has(syntax::LineTree::kAloneViolated) ||
                   arguments.first().has(syntax::Word::kReported | syntax::Word::kMissing);
   for (const syntax::Finding& finding : line_.findings)
     reported |= finding.id == "stray-argument"_diag || finding.id == "units-after-dimensions"_diag ||
                 finding.id == "distance-mode-after-dimensions"_diag;
-  if (!reported && !line_.number_without_letter()) report("stray-argument"_diag, arguments.first().span());
+  if (!reported) report("stray-argument"_diag, arguments.first().span());
   doubt_code_before(arguments);
   return false;
 }
@@ -128,6 +151,10 @@ void Executor::check_first_motion(Span place) {
 void Executor::check_feed(Span place) {
   if (line_.feed >= 0) return take_feed();
   if (state_.is_in_doubt(ModalGroup::FeedMode)) return;
+  if (may_have(dialect::letters("F"))) {
+    state_.feed_reported = true;
+    return;
+  }
   if (state_.inverse_time()) {
     // A number without its letter may be the F (D58).
     if (line_.findings.empty() || !line_.number_without_letter()) report("inverse-time-feed-missing"_diag, place);
@@ -212,7 +239,9 @@ bool Executor::has_illegible_equals() const {
 /// Reports an arc without center and radius. It may have been meant as a line (G02 in place of G01), and so may the
 /// lines below that continue it without center and radius.
 void Executor::report_missing_circle(Span place) {
-  if (!line_.has(syntax::LineTree::kUnclosed) && !has_illegible_equals()) report("circle-not-given"_diag, place);
+  const bool may_be_given = may_have(dialect::kCenterLetters | dialect::letters("R")) ||
+                            line_.has(syntax::LineTree::kUnclosed) || has_illegible_equals();
+  if (!may_be_given) report("circle-not-given"_diag, place);
   doubt(ModalGroup::Motion);
 }
 
@@ -229,6 +258,7 @@ bool Executor::arc_is_described(const Arguments& arguments, const Plane& plane, 
     return false;
   }
   if (!arguments.has(plane.u_letter) && !arguments.has(plane.v_letter)) {
+    if (may_have(dialect::kLinearLetters)) return false;
     report("arc-end-outside-plane"_diag, arguments.span_of(dialect::kCoordinateLetters));
     if (!has_circle) doubt(ModalGroup::Motion);
     return false;
@@ -313,6 +343,7 @@ void Executor::arc(const Arguments& arguments, const GCode& code, Span place, Pr
   const Plane& plane = plane_in_force(state_);
   if (!arc_is_described(arguments, plane, place)) return;
   if (state_.is_in_doubt(ModalGroup::Units) || state_.is_in_doubt(ModalGroup::Distance)) return;
+  if (may_have(dialect::kLinearLetters | dialect::kCenterLetters | dialect::letters("R"))) return;
   std::optional<geometry::ArcGiven> given = read_arc(arguments, plane);
   if (!given) return;
   given->counterclockwise = code.role == GRole::CounterclockwiseArc;

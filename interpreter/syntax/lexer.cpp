@@ -338,15 +338,20 @@ const char* LineParser::lex_unknown(const char* p) {
     if (cls != text::CharClass::Other && (cls != text::CharClass::Compare || in_condition_)) break;
     after = p + 1;
   }
+  Number number;
   if (p != end_ && text::is_number_char(*p)) {
-    after = scan_number(p, end_).end;
+    number = scan_number(p, end_);
+    after = number.end;
     const char* const close = skip_space(after);
     if (*start == '[' && close != end_ && *close == ']') after = close + 1;  // [10]
   }
   note_comments_inside(start, after);
   has_prose_ = true;
   const bool in_place_of_number = !in_condition_ && garbles_number(text::upper(*start));
-  const Word& added = add_word(kError, start, after);
+  Word& added = add_word(kError, start, after);
+  added.value = number.value;
+  added.digits = number.digits;
+  added.flags = flags_of(number);
   if (!in_condition_ && !in_place_of_number) report("unknown-word"_diag, added.span());
   end_target();
   return after;

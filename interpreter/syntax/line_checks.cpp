@@ -88,6 +88,7 @@ bool LineParser::shares_line(const Instruction& alone) const {
   for (std::uint16_t i = 0; i < word_count(); ++i) {
     const Word& other = word(i);
     if (other.letter == 'N' || other.letter == kError || other.letter == kNumber || other.has(Word::kMissing)) continue;
+    if (other.letter == 'T' && other.owner == Word::kNoOwner) continue;  // G92 X100 T50: reported at the T.
     if (other.owner == alone.number) {
       if (i == alone.command || (!code && !is_end) || (code && contains(code->arguments, other.letter))) continue;
       if (dwell_without_time && !other.has(Word::kBreak)) continue;  // G04 X10: the X is in the place of the P.
@@ -224,6 +225,12 @@ void LineParser::report_broken_series(const Instruction& motion, std::uint16_t b
   if (!is_reported) report("stray-argument"_diag, stray.span(), {}, word(motion.command).span());
 }
 
+/// Whether a word may be an argument whose letter was hit wrong: U5 of another control, or a T without its six digits.
+bool LineParser::is_garbled_argument(std::size_t index) const {
+  const Word& it = word(index);
+  return it.letter == 'T' ? it.digits != 6 : it.letter == kError && is_foreign_word(it);
+}
+
 /// Reports a motion G without coordinates, unless a finding explains their absence.
 void LineParser::check_coordinates(const Instruction& motion) {
   if (owns_any(motion, dialect::kCoordinateLetters)) return;
@@ -238,7 +245,7 @@ void LineParser::check_coordinates(const Instruction& motion) {
   // G00 U5: another control's axis, reported at the U.
   std::size_t next = motion.command + 1u;
   while (next < word_count() && word(next).letter == 'F') ++next;
-  if (next < word_count() && word(next).letter == kError && is_foreign_word(word(next))) return;
+  if (next < word_count() && is_garbled_argument(next)) return;
   report_missing("missing-coordinate"_diag, motion);
 }
 
@@ -260,6 +267,8 @@ void LineParser::check_vectors(const Instruction& frame) {
   const bool shares_line = (line_.flags & LineTree::kAloneViolated) != 0;
   if (shares_line && frame.is(GRole::FaceAtTip) && !owns_any(frame, letters("IJKPQR"))) return;
   if (is_zero_return(frame)) return;
+  for (std::size_t i = frame.command + 1u; i < word_count(); ++i)  // G28 X1 J1 E1: reported at the E.
+    if (is_garbled_argument(i)) return;
   const std::string_view axes = frame.g()->axes;
   if (!owns_any(frame, letters(axes.substr(0, 3)))) report_missing("missing-i-vector"_diag, frame);
   if (!owns_any(frame, letters(axes.substr(3, 3)))) report_missing("missing-j-vector"_diag, frame);

@@ -162,6 +162,8 @@ void LineParser::take_earlier_words(Instruction& g) {
       report("stray-argument"_diag, word(i).span(), {}, word(g.command).span());
     reported = true;
     word(i).flags = static_cast<std::uint8_t>((word(i).flags & ~Word::kBreak) | Word::kReported);
+    // B440 G01 X5: more probably the N of the line.
+    if (contains(dialect::kRotaryLetters, word(i).letter)) word(i).value = std::numeric_limits<double>::quiet_NaN();
     own(g, i);
   }
   earlier.flags |= Instruction::kReportedElsewhere;
@@ -229,6 +231,14 @@ void LineParser::add_tool_change(std::uint16_t index) {
     if (word(i).letter == 'M' && std::abs(word(i).value) == dialect::kToolChange) return;
     if (word(i).letter == 'T') return void(word(i).owner = added.number);
   }
+}
+
+/// Whether a T without its six digits is in an argument series: a letter that was hit wrong, as R30 or Y30.
+bool LineParser::is_in_series(std::uint16_t index) const {
+  if (taker_ == kNone || !contiguous_ || word(index).digits == 6 || word(index).owner != Word::kNoOwner) return false;
+  for (std::uint16_t i = 0; i < word_count(); ++i)
+    if (word(i).letter == 'M' && word(i).value == dialect::kToolChange) return false;
+  return taker().command + 1 == index || word(index - 1u).owner == taker().number;
 }
 
 void LineParser::add_tool(std::uint16_t index) {

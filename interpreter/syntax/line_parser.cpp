@@ -108,6 +108,10 @@ std::uint16_t LineParser::add_between_series(std::uint16_t index) {
       add_m(index);
       break;
     case 'T':
+      if (is_in_series(index)) {
+        check_tool_number(word(index));
+        return index;
+      }
       add_tool(index);
       break;
     case 'V':

@@ -102,6 +102,7 @@ class LineParser {
   void take_earlier_words(Instruction& g);
   void add_m(std::uint16_t index);
   void add_tool_change(std::uint16_t index);
+  bool is_in_series(std::uint16_t index) const;
   void add_tool(std::uint16_t index);
   std::uint64_t label_of(const Word& number) const;
   bool add_line_number(std::uint16_t index);
@@ -142,6 +143,7 @@ class LineParser {
   void check_misplaced_modes();
   void check_motion(const Instruction& motion);
   void report_broken_series(const Instruction& motion, std::uint16_t broken, bool has_arguments);
+  bool is_garbled_argument(std::size_t index) const;
   void check_coordinates(const Instruction& motion);
   bool is_zero_return(const Instruction& frame) const;
   void check_vectors(const Instruction& frame);

@@ -167,9 +167,15 @@ struct LineTree {
 
   constexpr bool has(std::uint8_t flag) const { return (flags & flag) != 0; }
   constexpr bool has_label() const { return has(kHasLabel); }
-  /// The number without a letter that starts the line (ISO005), or null. Digits after an N belong to the N.
+  /// The number without a letter that starts the line (ISO005), or the one whose G was hit as H; else null. Digits
+  /// after an N belong to the N.
   const Word* number_without_letter() const {
-    return !words.empty() && words.front().letter == kNumber ? &words.front() : nullptr;
+    if (words.empty()) return nullptr;
+    if (words.front().letter == kNumber) return &words.front();
+    const std::size_t first = words.size() > 1 && words.front().letter == 'N' ? 1 : 0;
+    const Word& word = words[first];
+    const bool is_h = word.letter == kError && word.digits > 0 && (text[word.begin] | 0x20) == 'h';
+    return is_h ? &word : nullptr;
   }
   /// Whether the line has only blanks, comments and N: a block without effect (D13).
   bool is_empty() const { return instructions.empty() && feed < 0 && spindle < 0 && !number_without_letter(); }
