@@ -273,7 +273,7 @@ void Analysis::check_chunk(std::size_t chunk, const syntax::ChunkTrees& trees, C
   row.has_text = outcome.has_text;
   row.has_more = !outcome.findings.empty() || !outcome.fold_ends.empty() ||
                  outcome.leads_anywhere_from != Outcome::kNowhere || !outcome.labels.empty() ||
-                 !outcome.live_jumps.empty() || outcome.assigned != 0;
+                 !outcome.misspelled_labels.empty() || !outcome.live_jumps.empty() || outcome.assigned != 0;
   outcome.findings.shrink_to_fit();
   outcome.count();
   counts_.remove(row.checked->outcome);

@@ -191,6 +191,8 @@ void Checker::check_block(const LineTree& line, std::uint64_t line_number, Outco
   const std::size_t first = outcome.findings.size();
   for (const Finding& finding : line.findings)
     if (!is_reported_above(finding, live)) outcome.findings.push_back({line_number, finding});
+  if (!line.findings.empty())
+    if (const std::optional<double> label = misspelled_label(line)) outcome.misspelled_labels.push_back(*label);
   if (jumps_anywhere(line)) outcome.leads_anywhere_from = std::min(outcome.leads_anywhere_from, line_number);
   if (line.jump && line.jump->has_target) {
     execute_around_jump(line, line_number, outcome);
@@ -344,7 +346,7 @@ void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_num
     }
   } else if (execution::is_lone_jump(line)) {
     for (Group& group : live) execution::pass_by(group.state);
-  } else if (!line.is_empty()) {
+  } else if (!line.is_empty() || !line.findings.empty()) {
     group_findings_.clear();
     LineExecution(*this, line, line_number, outcome).run();
     if (!group_findings_.empty()) report_common_findings(line_number, outcome);
@@ -414,7 +416,9 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
     case JumpMap::Target::Below:
       break;
     case JumpMap::Target::NotFound:
-      outcome.findings.push_back({line_number, {.id = "label-not-found"_diag, .span = jump.target_span}});
+      outcome.findings.push_back(
+          {line_number,
+           {.id = "label-not-found"_diag, .span = jump.target_span, .values = {static_cast<double>(jump.target)}}});
       return;
     case JumpMap::Target::Above:
       outcome.findings.push_back({line_number, {.id = "backward-jump"_diag, .span = jump.target_span}});

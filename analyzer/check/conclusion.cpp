@@ -12,6 +12,7 @@
 namespace isocnc::check {
 
 using namespace dialect::literals;
+using syntax::Finding;
 using syntax::LineTree;
 
 bool all_jumps_resolve(const Outcome& outcome, const JumpMap& jumps) {
@@ -122,8 +123,11 @@ static void keep_first_of_each(std::vector<LocatedFinding>& findings) {
   }
 }
 
-/// Reported in vain below a jump that may lead anywhere.
-static constexpr dialect::DiagnosticId kDeadCode = "never-runs"_diag;
+/// Whether a finding assumes that all ways to its line are known (W116, W117). After a jump that may lead anywhere, no
+/// such finding is made.
+static bool assumes_all_paths(dialect::DiagnosticId id) {
+  return id == "never-runs"_diag || id == "condition-decided"_diag;
+}
 
 static bool by_place(const LocatedFinding& a, const LocatedFinding& b) {
   return a.line != b.line ? a.line < b.line : a.finding.span.begin < b.finding.span.begin;
@@ -150,11 +154,18 @@ static void put_in_order(Report& report, const std::vector<Decisions>& paths, co
   }
 }
 
+/// Whether a finding says that a label is missing (E004) that has been misspelled, which has been reported there.
+static bool is_reported_at_label(const Finding& finding, const std::vector<double>& misspelled) {
+  return finding.id == "label-not-found"_diag &&
+         std::find(misspelled.begin(), misspelled.end(), finding.values[0]) != misspelled.end();
+}
+
 Report conclude(Outcome outcome, const Frontier& end, const JumpMap& jumps,
                 const std::function<std::string_view(std::uint64_t)>& text_of_line) {
   MistakeNumbers mistakes;
   std::erase_if(outcome.findings, [&](const LocatedFinding& located) {
-    return located.finding.id == kDeadCode && located.line > outcome.leads_anywhere_from;
+    return (assumes_all_paths(located.finding.id) && located.line > outcome.leads_anywhere_from) ||
+           is_reported_at_label(located.finding, outcome.misspelled_labels);
   });
   mistakes.start(outcome);
   for (LocatedFinding& located : outcome.findings) mistakes.number(located);
@@ -181,7 +192,8 @@ class ExcerptCollector {
 
   /// Whether findings of a code must be looked at one by one, and not only be counted.
   static bool needs_look(dialect::DiagnosticId id) {
-    return dialect::definition(id).folds != dialect::FoldKind::None || id == kDeadCode;
+    return dialect::definition(id).folds != dialect::FoldKind::None || assumes_all_paths(id) ||
+           id == "label-not-found"_diag;
   }
 
   /// Takes the findings of an outcome; all outcomes must come, in their order. Once there are enough, takes
@@ -195,7 +207,8 @@ class ExcerptCollector {
     if (!had_enough || std::any_of(tally.begin(), tally.end(), needs_a_look)) {
       for (LocatedFinding located : placed.outcome->findings) {
         const bool may_run = leads_anywhere_ || located.line > placed.outcome->leads_anywhere_from;
-        if (located.finding.id == kDeadCode && may_run) continue;
+        if (assumes_all_paths(located.finding.id) && may_run) continue;
+        if (is_reported_at_label(located.finding, misspelled_labels)) continue;
         mistakes_.number(located);
         located.line += placed.first_line;
         if (had_enough) {
@@ -224,6 +237,7 @@ class ExcerptCollector {
 
   std::vector<LocatedFinding>& findings() { return excerpt_.report.findings; }
   std::vector<Decisions> paths;
+  std::vector<double> misspelled_labels;  ///< Of all outcomes; to be filled in before the first is taken.
 
  private:
   static bool is_reported_once(dialect::DiagnosticId id) {
@@ -260,6 +274,9 @@ FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const Finding
                        const FirstFindingsOptions& options) {
   FirstFindings excerpt;
   ExcerptCollector collector(options, excerpt);
+  for (const PlacedOutcome& placed : outcomes)
+    collector.misspelled_labels.insert(collector.misspelled_labels.end(), placed.outcome->misspelled_labels.begin(),
+                                       placed.outcome->misspelled_labels.end());
   FindingCounts left = counts;
   bool has_all = true;
   for (const PlacedOutcome& placed : outcomes) {

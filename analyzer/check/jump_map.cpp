@@ -62,6 +62,28 @@ static bool may_belong_to_goto(std::string_view text, std::size_t offset) {
   return before == 'G' || before == ')';
 }
 
+std::optional<double> misspelled_label(const syntax::LineTree& line) {
+  if (line.words.empty()) return std::nullopt;
+  const syntax::Word& first = line.words.front();
+  std::string_view digits = line.text.substr(first.begin);
+  if (first.letter != syntax::kNumber) {
+    const char letter = text::upper(digits.front());
+    const bool is_wrong_n = letter == 'N' && !first.is_plain_integer();
+    if (!is_wrong_n && std::string_view("BHJM").find(letter) == std::string_view::npos) return std::nullopt;
+    digits.remove_prefix(1);
+  }
+  double number = 0;
+  bool has_digit = false;
+  for (const char c : digits) {
+    if (text::is_blank(c)) continue;
+    const bool is_o = text::upper(c) == 'O';
+    if (!is_o && !text::is_digit(c)) break;
+    number = 10 * number + (is_o ? 0 : c - '0');
+    has_digit = true;
+  }
+  return has_digit ? std::optional(number) : std::nullopt;
+}
+
 bool may_hold_jumps(std::string_view text) {
   static constexpr std::string_view kLetters = "VvOo";
   return std::any_of(kLetters.begin(), kLetters.end(),

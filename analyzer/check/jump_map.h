@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <unordered_set>
 #include <vector>
@@ -32,6 +33,10 @@ struct FlowEvent {
   /// Whether two events mean the same, wherever they are in the program.
   bool means_the_same(const FlowEvent& other) const;
 };
+
+/// The number of a line with findings, where its first word may be a misspelled line number: N3O, 30, or B30 with the
+/// key beside N.
+std::optional<double> misspelled_label(const syntax::LineTree& line);
 
 /// Fast test: whether a text may hold assignments or jumps.
 bool may_hold_jumps(std::string_view text);

@@ -58,6 +58,9 @@ struct Outcome {
   CenterUse centers;
   /// The first line with a jump that may lead anywhere below, as its label cannot be read or found (D63).
   std::uint64_t leads_anywhere_from = kNowhere;
+  /// The numbers of lines whose line number has been reported as another word (N3O, 30, B30): jumps to them are not
+  /// reported as well.
+  std::vector<double> misspelled_labels;
   /// The lines that end folds, ascending. Of those between two findings of a fold, only the first is recorded.
   std::vector<FoldEnd> fold_ends;
   FoldSet ended_folds = 0;  ///< Folds without a finding since they were last ended.

@@ -6,9 +6,9 @@
 namespace isocnc::dialect {
 
 /// Codes of other controls that are often left in programs.
-static constexpr int kForeign[] = {10, 15, 16, 20, 21, 30, 31, 43, 44, 52, 53, 54, 55, 56,
-                                   57, 61, 63, 64, 66, 67, 68, 69, 80, 95, 96, 97, 98, 99};
-/// Cycles, which take arguments.
+static constexpr int kForeign[] = {10, 20, 21, 30, 31, 43, 44, 52, 53, 54, 55, 56, 57,
+                                   63, 64, 66, 67, 68, 69, 80, 95, 96, 97, 98, 99};
+/// Cycles, which take arguments, but neither angles nor centers.
 static constexpr int kCycles[] = {33, 65, 73, 74, 76, 81, 82, 83, 84, 85, 86, 87, 88, 89};
 
 template <std::size_t count>
@@ -16,8 +16,7 @@ static bool is_among(const int (&numbers)[count], int number) {
   return std::find(std::begin(numbers), std::end(numbers), number) != std::end(numbers);
 }
 
-/// The digits up to the first blank, with an O read as a zero. A blank may stand where the letter of the next word is
-/// lost: G28 0.5.
+/// The digits at the start, with an O read as a zero. Blanks mean nothing (D6).
 static std::string digits_of(std::string_view number) {
   std::string digits;
   for (const char c : number) {
@@ -25,7 +24,7 @@ static std::string digits_of(std::string_view number) {
       digits += c;
     } else if (c == 'O' || c == 'o') {
       digits += '0';
-    } else {
+    } else if (c != ' ' && c != '\t') {
       break;
     }
   }
@@ -53,11 +52,16 @@ const GCode* code_written(std::string_view number) {
   return digits.empty() || digits.size() > 3 ? nullptr : g_code(static_cast<std::size_t>(std::stoi(digits)));
 }
 
-bool is_of_other_controls(std::string_view number, bool has_arguments) {
+const GCode* code_in_front(std::string_view number) {
   const std::string digits = digits_of(number);
-  if (digits.empty() || digits.size() > 3) return false;
+  return digits.size() < 3 ? nullptr : g_code(static_cast<std::size_t>(std::stoi(digits.substr(0, 2))));
+}
+
+bool is_of_other_controls(std::string_view number, LetterSet arguments) {
+  const std::string digits = digits_of(number);
+  if (digits.empty() || digits.size() > 3 || (arguments & letters("ABCIJK")) != 0) return false;
   const int value = std::stoi(digits);
-  return is_among(kForeign, value) || (has_arguments && is_among(kCycles, value));
+  return is_among(kForeign, value) || (arguments != 0 && is_among(kCycles, value));
 }
 
 GCodeSet codes_near(std::string_view number) {

@@ -12,8 +12,9 @@ using syntax::Instruction;
 using syntax::InstructionKind;
 
 void execute(const syntax::LineTree& line, State& state, const Setup& setup, Sink& sink) {
-  if (line.is_empty()) return;
-  Executor(line, state, setup, sink).run();
+  Executor executor(line, state, setup, sink);
+  if (!line.is_empty()) return executor.run();
+  if (!line.findings.empty()) executor.pass_unreadable();
 }
 
 /// Whether the line holds one valid instruction of this kind and nothing else.

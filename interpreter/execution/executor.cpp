@@ -101,12 +101,14 @@ void Executor::run() {
   if (!line_.findings.empty()) {
     allow_for_lost_letter();
     allow_for_wrong_line_number();
+    allow_for_lost_register();
     garbled_ = garbled_letters();
   }
   // S takes effect before the line's motion, wherever it stands (I.4.2).
   if (line_.spindle >= 0) {
     const double speed = line_.words[static_cast<std::size_t>(line_.spindle)].value;
     if (speed > 0) sink_.step(BlockStep::SpindleSpeed, state_);
+    state_.speed_given = true;  // Also by one that cannot be read.
     take_spindle_speed(speed, state_);
     if (speed > 0) sink_.spindle_speed(speed);
   }
@@ -158,6 +160,7 @@ bool Executor::moves_in_plane() const {
 void Executor::report(dialect::DiagnosticId id, syntax::Span span, std::initializer_list<double> values,
                       syntax::Span related) {
   lack_.take(id);
+  last_reported_ = span;
   syntax::Finding finding{.id = id, .span = span, .related = related};
   std::copy(values.begin(), values.end(), finding.values.begin());
   sink_.report(finding);
@@ -207,15 +210,16 @@ void Executor::execute_unknown_g(const Instruction& instruction) {
   const Arguments arguments(line_, instruction);
   const Word& g = line_.command(instruction);
   if (doubt_unknown_g(g, arguments)) return move_illegibly(arguments);
-  if (may_be_motion(g, arguments)) make_motion_illegible();
-  if (g.has(Word::kMalformed)) blur_axes_not_named();  // G01 -20: the letter of some axis is lost.
+  const bool has_taken_word = takes_number(g);
+  if (has_taken_word || may_be_motion(arguments)) make_motion_illegible();
+  if (has_taken_word) blur_axes_not_named();  // G01 -20, G01 540: the letter of some axis is lost.
   move_illegibly(arguments);
 }
 
 /// Whether a G that is unknown to this control or illegible may have been meant as a motion that stays in force (D57):
-/// one on a line with coordinates, or one that has taken in a coordinate whose letter is lost (G01 -20).
-bool Executor::may_be_motion(const Word& g, const Arguments& arguments) {
-  return (arguments.present() & dialect::kCoordinateLetters) != 0 || g.has(Word::kMalformed);
+/// one on a line with coordinates.
+bool Executor::may_be_motion(const Arguments& arguments) {
+  return (arguments.present() & dialect::kCoordinateLetters) != 0;
 }
 
 /// Whether a repetition (G27 G27, G49 G49) has been reported at the first code, which must be alone on its line.
@@ -223,6 +227,12 @@ bool Executor::repetition_is_reported(const dialect::GCode& code) const {
   const auto is_same = [&](const Instruction& each) { return each.g() == &code; };
   return line_.has(syntax::LineTree::kAloneViolated) &&
          std::count_if(line_.instructions.begin(), line_.instructions.end(), is_same) > 1;
+}
+
+/// Whether the line has a finding at this word.
+bool Executor::is_reported(const Word& word) const {
+  return std::any_of(line_.findings.begin(), line_.findings.end(),
+                     [&](const syntax::Finding& finding) { return finding.span == word.span(); });
 }
 
 void Executor::set_mode(const dialect::GCode& code, const Word& word) {
@@ -242,6 +252,7 @@ void Executor::set_mode(const dialect::GCode& code, const Word& word) {
   end_doubt(code.group);
   state_.set_mode(code);
   state_.written |= bit;
+  if (code.group == dialect::ModalGroup::CutterCompensation && is_reported(word)) doubt(code.group);  // G41 for G40.
 }
 
 /// G09 belongs to the feed move before it: directly after its arguments, or first on the next line (D23).
@@ -254,8 +265,23 @@ void Executor::exact_stop(const Instruction& instruction) {
   report("g09-misplaced"_diag, line_.command(instruction).span());
 }
 
+/// Whether the words after a G04 are those of a motion: two coordinates, or a circle.
+static bool names_motion(const Arguments& arguments) {
+  const dialect::LetterSet linear = arguments.present() & dialect::kLinearLetters;
+  const bool has_circle = (arguments.present() & (dialect::kCenterLetters | dialect::letters("R"))) != 0;
+  return has_circle || (linear & (linear - 1)) != 0;
+}
+
 void Executor::dwell(const Instruction& instruction) {
-  const double seconds = Arguments(line_, instruction).value_or('P', 0);
+  const Arguments arguments(line_, instruction);
+  if (!arguments.has('P') && (arguments.present() & dialect::kCoordinateLetters) != 0) {
+    // G04 X10 Y5 for G00, and not X1.5 in the place of P1.5.
+    if (names_motion(arguments) || line_.feed >= 0 || !motion_is_legible()) make_motion_illegible();
+    move_illegibly(arguments);
+  } else if (arguments.empty()) {
+    doubt_lone_g(instruction);
+  }
+  const double seconds = arguments.value_or('P', 0);
   if (seconds >= 0) sink_.dwell(seconds);
 }
 

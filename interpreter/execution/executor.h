@@ -29,11 +29,14 @@ class Executor {
       : line_(line), state_(state), setup_(setup), sink_(sink) {}
 
   void run();
+  /// Handles a line that holds no word that can be read: D1000, for an F1000.
+  void pass_unreadable();
 
  private:
   bool moves_in_plane() const;
   void execute_g(const syntax::Instruction& instruction);
   void execute_unknown_g(const syntax::Instruction& instruction);
+  bool is_reported(const syntax::Word& word) const;
   void set_mode(const dialect::GCode& code, const syntax::Word& word);
   bool repetition_is_reported(const dialect::GCode& code) const;
   void exact_stop(const syntax::Instruction& instruction);
@@ -50,6 +53,9 @@ class Executor {
 
   // motions.cpp
   void motion(const syntax::Instruction& instruction);
+  bool follows_foreign_word(const Arguments& arguments) const;
+  void move_of_foreign_word(const Arguments& arguments);
+  dialect::LetterSet end_in_rotary_word(const Arguments& arguments, const dialect::GCode& code) const;
   bool follows_wrong_motion(const Arguments& arguments) const;
   bool motion_is_in_force(const Arguments& arguments);
   void report_strays(const Arguments& arguments, const dialect::GCode& code);
@@ -81,7 +87,8 @@ class Executor {
   bool read_point(const Arguments& arguments, geometry::Vec3& point) const;
   AxisSet read_origin(const Arguments& arguments, geometry::Vec3& origin) const;
   bool motion_is_legible() const { return state_.motion() != nullptr; }
-  static bool may_be_motion(const syntax::Word& g, const Arguments& arguments);
+  static bool may_be_motion(const Arguments& arguments);
+  bool takes_number(const syntax::Word& g) const;
   void allow_for_lost_letter();
   void allow_for_lost_g(const dialect::GCode& code);
   void end_doubt(dialect::ModalGroup group);
@@ -91,9 +98,15 @@ class Executor {
   void doubt(dialect::GCodeSet codes, dialect::LetterSet arguments);
   bool doubt_unknown_g(const syntax::Word& g, const Arguments& arguments);
   void allow_for_wrong_line_number();
+  void allow_for_lost_register();
   dialect::LetterSet garbled_letters() const;
   void blur_garbled_axes();
   bool may_have(dialect::LetterSet letters) const { return (garbled_ & letters) != 0; }
+  const syntax::Instruction* g_before(const Arguments& arguments) const;
+  bool follows_reported_g(const Arguments& arguments) const;
+  bool fits_near_code(const syntax::Instruction& g, const Arguments& arguments) const;
+  void doubt_near_g(const syntax::Instruction& g, const Arguments& arguments);
+  void doubt_lone_g(const syntax::Instruction& g);
   void doubt_code_before(const Arguments& arguments);
   void make_motion_illegible();
   void blur_axes_not_named();
@@ -114,6 +127,7 @@ class Executor {
   bool feed_move_ = false;  ///< Whether the line has had an interpolated motion.
   bool rapid_move_ = false;
   dialect::LetterSet garbled_ = 0;  ///< Letters in whose place a word of the line may have been hit wrong.
+  syntax::Span last_reported_;      ///< The span of the last finding that depends on the state.
   Lack lack_;                       ///< What the line lacks, as far as it has been reported.
 };
 

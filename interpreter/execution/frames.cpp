@@ -6,6 +6,7 @@ namespace isocnc::execution {
 
 using namespace dialect::literals;
 using dialect::GRole;
+using dialect::ModalGroup;
 using geometry::Frame;
 using geometry::Mat3;
 using geometry::Vec3;
@@ -48,15 +49,17 @@ AxisSet Executor::read_origin(const Arguments& arguments, Vec3& origin) const {
 }
 
 void Executor::workpiece_frame(const Instruction& instruction) {
-  end_doubt(dialect::ModalGroup::Workpiece);
-  const bool is_in_doubt = state_.is_in_doubt(dialect::ModalGroup::Face);
+  end_doubt(ModalGroup::Workpiece);
+  const bool is_in_doubt = state_.is_in_doubt(ModalGroup::Face);
   if (state_.face_mounted || is_in_doubt) {
     if (!is_in_doubt) report("workpiece-frame-under-face"_diag, line_.command(instruction).span());
-    end_doubt(dialect::ModalGroup::Face);
+    end_doubt(ModalGroup::Face);
     leave_face();
     state_.dismount_tolerated = true;
   }
   const Arguments arguments(line_, instruction);
+  if ((arguments.present() & ~instruction.g()->arguments) != 0) doubt_near_g(instruction, arguments);  // G92 B90
+  if (arguments.empty()) doubt_lone_g(instruction);
   Vec3 origin;
   const AxisSet unknown = read_origin(arguments, origin);
   state_.unknown |= state_.workpiece_unknown | unknown;
@@ -73,13 +76,13 @@ bool Executor::names_face(const Instruction& dismount) const {
 }
 
 void Executor::dismount_face(const Instruction& instruction) {
-  if (names_face(instruction)) return doubt(dialect::ModalGroup::Face);
-  const bool is_known = !state_.is_in_doubt(dialect::ModalGroup::Face);
+  if (names_face(instruction)) return doubt(ModalGroup::Face);
+  const bool is_known = !state_.is_in_doubt(ModalGroup::Face);
   if (!state_.face_mounted && is_known && !state_.dismount_tolerated && !repetition_is_reported(*instruction.g()))
     report("g27-without-face"_diag, line_.command(instruction).span());
   state_.dismount_tolerated = false;
   leave_face();
-  end_doubt(dialect::ModalGroup::Face);
+  end_doubt(ModalGroup::Face);
   sink_.frame_changed(state_);
 }
 
@@ -111,7 +114,7 @@ void Executor::go_home(const Arguments& arguments, const dialect::GCode& code) {
   Mat3 ignored;
   if (!line_.has(syntax::LineTree::kAloneViolated)) read_axes(arguments, code, ignored);
   if (!state_.face_mounted) state_.dismount_tolerated = true;
-  if (arguments.empty()) doubt(dialect::ModalGroup::Face);  // G28 alone may be a G27.
+  if (arguments.empty()) doubt(ModalGroup::Face);  // G28 alone may be a G27.
   blur_linear_axes();
 }
 
@@ -141,11 +144,12 @@ void Executor::mount_face(const Instruction& instruction, const dialect::GCode& 
   const syntax::Span place = line_.command(instruction).span();
   const Arguments arguments(line_, instruction);
   const bool is_at_tip = code.role == GRole::FaceAtTip;
+  if (arguments.empty()) doubt_lone_g(instruction);
   if (is_at_tip && (arguments.present() & dialect::letters("IJKPQR")) == 0) return go_home(arguments, code);
-  const bool is_mounted = state_.face_mounted && !state_.is_in_doubt(dialect::ModalGroup::Face);
+  const bool is_mounted = state_.face_mounted && !state_.is_in_doubt(ModalGroup::Face);
   if (is_mounted && !repetition_is_reported(code)) report("face-already-mounted"_diag, place);
   leave_face();
-  end_doubt(dialect::ModalGroup::Face);
+  end_doubt(ModalGroup::Face);
   state_.dismount_tolerated = false;
   Frame face;
   face.origin = state_.position.tip;
@@ -153,6 +157,7 @@ void Executor::mount_face(const Instruction& instruction, const dialect::GCode& 
   const bool has_axes = read_face_axes(arguments, code, place, face.axes);
   state_.set_mode(code);
   enter_face(has_origin && has_axes ? face : Frame{}, has_origin && has_axes, is_at_tip);
+  if (!has_axes && fits_near_code(instruction, arguments)) doubt(ModalGroup::Face);  // G24 P2 for G04.
   sink_.frame_changed(state_);
 }
 

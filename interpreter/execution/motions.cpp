@@ -13,6 +13,7 @@ namespace isocnc::execution {
 using namespace dialect::literals;
 using dialect::GCode;
 using dialect::GRole;
+using dialect::LetterSet;
 using dialect::ModalGroup;
 using geometry::ArcProblem;
 using geometry::Vec3;
@@ -20,10 +21,25 @@ using syntax::Instruction;
 using syntax::InstructionKind;
 using syntax::Span;
 
+/// The letter of the end of an arc that may have been meant by a rotary word, the other of the two being there:
+/// G03 C-10 Y5 I0 J5.
+LetterSet Executor::end_in_rotary_word(const Arguments& arguments, const GCode& code) const {
+  const Plane& plane = plane_in_force(state_);
+  if (!code.is_arc() || arguments.has(plane.u_letter) == arguments.has(plane.v_letter)) return 0;
+  return dialect::letter_bit(arguments.has(plane.u_letter) ? plane.v_letter : plane.u_letter);
+}
+
+/// Whether words give the center or the radius of an arc.
+static bool names_circle(const Arguments& arguments) {
+  return (arguments.present() & (dialect::kCenterLetters | dialect::letter_bit('R'))) != 0;
+}
+
 void Executor::motion(const Instruction& instruction) {
   const bool is_continuation = instruction.kind == InstructionKind::Continuation;
   if (is_continuation && frame_is_lost_) return;
   const Arguments arguments(line_, instruction);
+  if (is_continuation && follows_foreign_word(arguments)) return move_of_foreign_word(arguments);
+  if (is_continuation && follows_wrong_motion(arguments)) make_motion_illegible();
   if (!is_continuation) {
     state_.set_mode(*instruction.g());
     state_.motion_illegible = false;
@@ -40,22 +56,31 @@ void Executor::motion(const Instruction& instruction) {
   if ((arguments.present() & ~code.arguments) != 0) report_strays(arguments, code);
   if ((arguments.present() & dialect::kCoordinateLetters) == 0) {
     const bool only_center = is_continuation && (arguments.present() & ~code.arguments) == 0;
-    if (only_center && !has_illegible_equals()) report("missing-coordinate"_diag, place);
+    const bool is_explained = has_illegible_equals() || line_.has(syntax::LineTree::kAloneViolated);  // J10 M02
+    if (only_center && !is_explained) report("missing-coordinate"_diag, place);
     const auto is_missing = [&](const syntax::Finding& it) {
       return it.id == "missing-coordinate"_diag && it.span == place;
     };
-    if (std::any_of(line_.findings.begin(), line_.findings.end(), is_missing)) blur_linear_axes();
+    if (std::any_of(line_.findings.begin(), line_.findings.end(), is_missing)) {
+      blur_linear_axes();
+      if (!is_continuation) doubt_lone_g(instruction);
+    }
     if (line_.feed >= 0 && code.is_feed_move()) take_feed();
     return;
   }
   check_first_motion(place);
   if (code.is_feed_move()) {
     check_feed(place);
+    if (is_continuation && state_.is_in_doubt(ModalGroup::Motion) && !names_circle(arguments))
+      return move_to(arguments);
     const bool has_only_linear = (arguments.present() & dialect::kRotaryLetters) == 0;
     if (!state_.five_axis() && (!has_only_linear || (arguments.present() & dialect::kLinearLetters) == 0)) {
       const bool is_right = check_rotary_axes(arguments, code, place);
       // B and C alone: the finding that they may not turn is enough (D64).
+      if (!is_right && arguments.has('C') && !arguments.has('X'))
+        state_.unknown |= axis_bit(Axis::X);  // C350 for X350.
       if (!is_right && (arguments.present() & dialect::kLinearLetters) == 0) return move_to(arguments);
+      if (!is_right) garbled_ |= end_in_rotary_word(arguments, code);
     }
   }
   if (sink_.wants_effects()) return move_with_effects(arguments, code, place);
@@ -88,18 +113,35 @@ void Executor::move_illegibly(const Arguments& arguments) {
   if (state_.motion_illegible) sink_.step(BlockStep::IllegibleMotion, state_);
 }
 
-/// Whether coordinates follow a word that may have been a motion G: an F that was hit for G (F00 X10), or the word of
-/// another control (L X10). It has been reported.
+/// Whether coordinates follow a word of another control, which has been reported: L X10, TRANS X10.
+bool Executor::follows_foreign_word(const Arguments& arguments) const {
+  const auto first = static_cast<std::size_t>(&arguments.first() - line_.words.data());
+  if (first == 0 || line_.words[first - 1].letter != syntax::kError) return false;
+  return std::isalpha(static_cast<unsigned char>(line_.text[line_.words[first - 1].begin])) != 0;
+}
+
+/// What these coordinates mean is not known; nor is the motion, if there has been none.
+void Executor::move_of_foreign_word(const Arguments& arguments) {
+  if (!motion_is_legible()) make_motion_illegible();
+  move_illegibly(arguments);
+}
+
+/// Whether coordinates follow an F that was hit for a G: F00 X10. It has been reported.
 bool Executor::follows_wrong_motion(const Arguments& arguments) const {
   const auto first = static_cast<std::size_t>(&arguments.first() - line_.words.data());
   if (first == 0) return false;
   const syntax::Word& before = line_.words[first - 1];
-  if (before.letter == syntax::kError) return std::isalpha(static_cast<unsigned char>(line_.text[before.begin])) != 0;
   const auto is_of_feed = [](const syntax::Finding& finding) {
     return finding.id == "feed-not-positive"_diag || finding.id == "repeated-feed"_diag;
   };
-  return before.letter == 'F' && dialect::is_motion_number(before.value) &&
+  return before.letter == 'F' && before.digits == 2 && dialect::is_motion_number(before.value) &&
          std::any_of(line_.findings.begin(), line_.findings.end(), is_of_feed);
+}
+
+/// Whether words are those of a face whose G is missing: Y1 I-1 R1.
+static bool names_axis_vectors(const Arguments& arguments) {
+  return (arguments.present() & dialect::letters("APQ")) != 0 ||
+         (arguments.has('R') && (arguments.present() & dialect::kCenterLetters) != 0);
 }
 
 /// Coordinates before any motion G belong to no instruction: one finding per line (D21).
@@ -107,16 +149,13 @@ bool Executor::motion_is_in_force(const Arguments& arguments) {
   if (motion_is_legible()) return true;
   move_illegibly(arguments);
   if (state_.motion_illegible || line_.number_without_letter()) return false;
-  if (follows_wrong_motion(arguments)) {
-    make_motion_illegible();
-    return false;
-  }
   bool reported = line_.has(syntax::LineTree::kAloneViolated) ||
                   arguments.first().has(syntax::Word::kReported | syntax::Word::kMissing);
   for (const syntax::Finding& finding : line_.findings)
     reported |= finding.id == "stray-argument"_diag || finding.id == "units-after-dimensions"_diag ||
                 finding.id == "distance-mode-after-dimensions"_diag;
-  if (!reported) report("stray-argument"_diag, arguments.first().span());
+  if (!reported && !follows_reported_g(arguments)) report("stray-argument"_diag, arguments.first().span());
+  if (arguments.first().letter != 'X' || names_axis_vectors(arguments)) doubt(ModalGroup::Face);  // B90 for G29 B90.
   doubt_code_before(arguments);
   return false;
 }
@@ -125,19 +164,25 @@ bool Executor::motion_is_in_force(const Arguments& arguments) {
 void Executor::report_strays(const Arguments& arguments, const GCode& code) {
   if (line_.has(syntax::LineTree::kAloneViolated)) return;
   if (line_.number_without_letter()) return;  // 04 P2: the argument of what has lost its letter (D58).
-  Span center;                                // I5 J0 with a G01 that should be a G02 is one mistake.
+  const bool follows_g = g_before(arguments) != nullptr;
+  if (follows_g && follows_reported_g(arguments)) return doubt_code_before(arguments);
+  // I5 J0 with a G01 that should be a G02 is one mistake, and so are A1 J1 R1 after a G42 that should be a G24.
+  const LetterSet joined =
+      follows_g ? code.arguments | arguments.present() : dialect::kCenterLetters | dialect::letter_bit('R');
+  Span together;
   for (char letter = 'A'; letter <= 'Z'; ++letter) {
     if (!dialect::contains(arguments.present() & ~code.arguments, letter) ||
         arguments.word(letter).has(syntax::Word::kReported | syntax::Word::kMissing))
       continue;
     const Span span = arguments.word(letter).span();
-    if (!dialect::contains(dialect::kCenterLetters | dialect::letter_bit('R'), letter)) {
+    if (!dialect::contains(joined, letter)) {
       report("stray-argument"_diag, span);
     } else {
-      center = center.empty() ? span : syntax::hull(center, span);
+      together = together.empty() ? span : syntax::hull(together, span);
     }
   }
-  if (!center.empty()) report("stray-argument"_diag, center);
+  if (!together.empty()) report("stray-argument"_diag, together);
+  if (arguments.has('A') && !arguments.has('Z')) garbled_ |= dialect::letter_bit('Z');  // The key above it.
   doubt_code_before(arguments);
 }
 
@@ -178,6 +223,8 @@ ProgrammedFeed Executor::feed_in_force() const {
 /// Whether the motion obeys three-axis interpolation, which moves no rotary axis; a G01 under it needs a linear axis
 /// (I.3.4.2, I.3.5, D41).
 bool Executor::check_rotary_axes(const Arguments& arguments, const GCode& code, Span place) {
+  // B230 G04 P1: reported at the G04.
+  if (line_.has(syntax::LineTree::kAloneViolated)) return true;
   if (state_.is_in_doubt(ModalGroup::Interpolation)) return true;
   if (code.role == GRole::Line && (arguments.present() & dialect::kLinearLetters) == 0) {
     report("linear-coordinate-missing"_diag, place);
@@ -247,7 +294,7 @@ void Executor::report_missing_circle(Span place) {
 
 /// Whether an arc has all words that its geometry needs; reports the first problem in the order of D45.
 bool Executor::arc_is_described(const Arguments& arguments, const Plane& plane, Span place) {
-  const bool has_circle = (arguments.present() & (dialect::kCenterLetters | dialect::letter_bit('R'))) != 0;
+  const bool has_circle = names_circle(arguments);
   if (has_circle) {
     end_doubt(ModalGroup::Motion);
   } else if (state_.is_in_doubt(ModalGroup::Motion)) {
@@ -258,7 +305,7 @@ bool Executor::arc_is_described(const Arguments& arguments, const Plane& plane, 
     return false;
   }
   if (!arguments.has(plane.u_letter) && !arguments.has(plane.v_letter)) {
-    if (may_have(dialect::kLinearLetters)) return false;
+    if (may_have(dialect::letter_bit(plane.u_letter) | dialect::letter_bit(plane.v_letter))) return false;
     report("arc-end-outside-plane"_diag, arguments.span_of(dialect::kCoordinateLetters));
     if (!has_circle) doubt(ModalGroup::Motion);
     return false;
@@ -343,7 +390,9 @@ void Executor::arc(const Arguments& arguments, const GCode& code, Span place, Pr
   const Plane& plane = plane_in_force(state_);
   if (!arc_is_described(arguments, plane, place)) return;
   if (state_.is_in_doubt(ModalGroup::Units) || state_.is_in_doubt(ModalGroup::Distance)) return;
-  if (may_have(dialect::kLinearLetters | dialect::kCenterLetters | dialect::letters("R"))) return;
+  const LetterSet in_plane = dialect::letter_bit(plane.u_letter) | dialect::letter_bit(plane.v_letter) |
+                             dialect::letter_bit(plane.u_center) | dialect::letter_bit(plane.v_center);
+  if (may_have(in_plane | dialect::letter_bit('R'))) return;
   std::optional<geometry::ArcGiven> given = read_arc(arguments, plane);
   if (!given) return;
   given->counterclockwise = code.role == GRole::CounterclockwiseArc;

@@ -57,10 +57,21 @@ bool LineParser::lacks_value(std::uint16_t assign) const {
   return letter == kAssign || contains(kInPlace, letter);
 }
 
+/// Whether a V or a parameter before a `=` has none of its own, which has been reported.
+bool LineParser::lacks_equals_before(std::uint16_t equals) const {
+  for (std::uint16_t i = 0; i < equals; ++i)
+    if (contains(dialect::letters("VP"), word(i).letter) && word(i).owner != Word::kNoOwner && !is_assigned(i))
+      return true;
+  return false;
+}
+
 /// Whether the error of a `=` has been reported at the words before it.
 bool LineParser::is_equals_reported_before(std::uint16_t index) const {
   const Word& before = word(index - 1u);
-  if (before.letter == kError || before.letter == kVgpl) return true;  // #1=5
+  if (before.letter == kError || before.letter == kVgpl) return true;       // #1=5
+  if (before.letter == kAssign && lacks_equals_before(index)) return true;  // V1 V2 = 0 = 3.5
+  if (before.letter == 'M' && !before.known() && !before.has(Word::kMissing))
+    return true;                                                       // M101 1=2: reported at the M.
   if (before.letter == kNumber) return true;                           // 2=1: a V has lost its letter.
   if (before.letter == 'P' && word(0).letter == kNumber) return true;  // 100 P1=2
   if (before.letter == 'P' && line_.jump >= 0) return true;            // IF ... GOTO N9 P1=2: IF must be alone.

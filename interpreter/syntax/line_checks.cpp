@@ -228,7 +228,7 @@ void LineParser::report_broken_series(const Instruction& motion, std::uint16_t b
 /// Whether a word may be an argument whose letter was hit wrong: U5 of another control, or a T without its six digits.
 bool LineParser::is_garbled_argument(std::size_t index) const {
   const Word& it = word(index);
-  return it.letter == 'T' ? it.digits != 6 : it.letter == kError && is_foreign_word(it);
+  return it.letter == 'T' ? !is_tool(it) : it.letter == kError && is_foreign_word(it);
 }
 
 /// Reports a motion G without coordinates, unless a finding explains their absence.
@@ -309,12 +309,15 @@ void LineParser::check_parameters(const Instruction& function) {
     const int number = name.parameter_number();
     const std::uint32_t bit = 1u << static_cast<unsigned>(number);
     const bool valued = has_value && !word(i + 1u).has(Word::kMissing);
-    if (takes_parameters && (name.has(Word::kMalformed) || follows_lone_equals(i))) continue;  // Reported: M100 =5 P20.
+    if (takes_parameters && (name.has(Word::kMalformed | Word::kMissing) || follows_lone_equals(i)))
+      continue;  // Reported: M100 =5 P20.
     if (!takes_parameters || number == 0 || !valued || (seen & bit) != 0) {
       report("m-param-invalid"_diag, span);
       if (!takes_parameters) return;
     }
-    seen |= bit;
+    const bool is_doubled =
+        !has_value && i + 1 < word_count() && word(i + 1u).letter == 'P' && word(i + 1u).value == name.value;
+    if (!is_doubled) seen |= bit;  // P2 P2=1: one finding.
   }
 }
 

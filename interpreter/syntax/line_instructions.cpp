@@ -158,7 +158,7 @@ void LineParser::take_earlier_words(Instruction& g) {
   bool reported = false;
   for (std::uint16_t i = earlier.begin; i < earlier.end; ++i) {
     if (word(i).owner != earlier.number) continue;
-    if (!reported && !word(i).has(Word::kMissing))
+    if (!reported && !word(i).has(Word::kMissing | Word::kReported))
       report("stray-argument"_diag, word(i).span(), {}, word(g.command).span());
     reported = true;
     word(i).flags = static_cast<std::uint8_t>((word(i).flags & ~Word::kBreak) | Word::kReported);
@@ -233,11 +233,16 @@ void LineParser::add_tool_change(std::uint16_t index) {
   }
 }
 
+/// Whether an M06 is followed by a tool.
+bool LineParser::has_tool(std::size_t change) const {
+  return change + 1 < word_count() && word(change + 1).letter == 'T' && word(change + 1).digits == 6;
+}
+
 /// Whether a T without its six digits is in an argument series: a letter that was hit wrong, as R30 or Y30.
 bool LineParser::is_in_series(std::uint16_t index) const {
-  if (taker_ == kNone || !contiguous_ || word(index).digits == 6 || word(index).owner != Word::kNoOwner) return false;
+  if (taker_ == kNone || !contiguous_ || is_tool(word(index)) || word(index).owner != Word::kNoOwner) return false;
   for (std::uint16_t i = 0; i < word_count(); ++i)
-    if (word(i).letter == 'M' && word(i).value == dialect::kToolChange) return false;
+    if (word(i).letter == 'M' && word(i).value == dialect::kToolChange && !has_tool(i)) return false;
   return taker().command + 1 == index || word(index - 1u).owner == taker().number;
 }
 

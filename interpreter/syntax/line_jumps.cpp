@@ -181,10 +181,18 @@ std::uint16_t LineParser::read_target(Jump& jump, std::uint16_t index) {
   return at;
 }
 
+/// Takes back the finding at a letter before VGPL or a V, where a GOTO follows: F VGPL = 1, for IF.
+void LineParser::take_back_half_if(std::uint16_t index) {
+  for (std::uint16_t i = 0; i + 1 < index; ++i)
+    if (word(i).has(Word::kMissing) && (word(i + 1u).letter == kVgpl || word(i + 1u).letter == 'V'))
+      take_back("word-without-number"_diag, word(i).span());
+}
+
 /// Handles a GOTO without IF, or a second GOTO on the line, which is reported at the first: it must be alone. Its
 /// target, right or wrong, belongs to the same mistake.
 std::uint16_t LineParser::add_lone_goto(std::uint16_t index) {
   if (line_.jump < 0) {
+    take_back_half_if(index);
     const auto is_of_condition = [&](const Word& it) {
       return it.letter == kVgpl ||
              (it.letter == kError && text::char_class(begin_[it.begin]) == text::CharClass::Compare);

@@ -112,6 +112,11 @@ std::uint16_t LineParser::add_between_series(std::uint16_t index) {
         check_tool_number(word(index));
         return index;
       }
+      if (word(index).owner != Word::kNoOwner &&
+          !follows_letter_of(index, 'M')) {  // M06 G00 T101001 X1: reported at the M06.
+        add_tool(index);
+        return index;
+      }
       add_tool(index);
       break;
     case 'V':
@@ -151,6 +156,11 @@ void LineParser::find_two_blocks() {
 /// Whether the word before is this letter, without a number.
 bool LineParser::follows_letter(std::uint16_t index, char letter) const {
   return index > 0 && word(index - 1u).letter == letter && word(index - 1u).has(Word::kMissing);
+}
+
+/// Whether the word before has this letter.
+bool LineParser::follows_letter_of(std::uint16_t index, char letter) const {
+  return index > 0 && word(index - 1u).letter == letter;
 }
 
 /// Whether unknown text belongs to the unknown G before it, which has been reported (G43 H1). Text inside the number of

@@ -67,7 +67,9 @@ class LineParser {
   std::uint16_t add(std::uint16_t index);
   std::uint16_t add_between_series(std::uint16_t index);
   bool follows_letter(std::uint16_t index, char letter) const;
+  bool follows_letter_of(std::uint16_t index, char letter) const;
   bool precedes_if(std::uint16_t index) const;
+  bool lacks_equals_before(std::uint16_t equals) const;
   void take_parameter_before_function(std::uint16_t equals);
   bool follows_lone_equals(std::uint16_t index) const;
   bool is_assigned(std::uint16_t index) const;
@@ -102,6 +104,7 @@ class LineParser {
   void take_earlier_words(Instruction& g);
   void add_m(std::uint16_t index);
   void add_tool_change(std::uint16_t index);
+  bool has_tool(std::size_t change) const;
   bool is_in_series(std::uint16_t index) const;
   void add_tool(std::uint16_t index);
   std::uint64_t label_of(const Word& number) const;
@@ -132,6 +135,7 @@ class LineParser {
   std::uint16_t end_of_target(std::uint16_t index) const;
   std::uint16_t report_target(std::uint16_t index);
   std::uint16_t read_target(Jump& jump, std::uint16_t index);
+  void take_back_half_if(std::uint16_t index);
   std::uint16_t add_lone_goto(std::uint16_t index);
 
   // Checks of the line's instructions (line_checks.cpp).
@@ -161,6 +165,7 @@ class LineParser {
   void check_unbroken(const Instruction& checked);
   void check_tool_number(const Word& tool);
 
+  static bool is_tool(const Word& word) { return word.is_plain_integer() && word.digits == 6; }
   void report(dialect::DiagnosticId id, Span span, std::initializer_list<double> values = {}, Span related = {});
   void take_back(dialect::DiagnosticId id, Span span);
   void take_back_within(Span span);

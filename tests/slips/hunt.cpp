@@ -23,13 +23,8 @@ static std::string code_of(const LocatedFinding& located) {
 }
 
 std::vector<std::string> codes_in(const std::string& text) {
-  static const std::set<std::string> kRepeats = {"ISO032", "ISO041", "W003"};
   std::vector<std::string> codes;
-  for (const LocatedFinding& located : report_of(text).findings) {
-    const std::string code = code_of(located);
-    if (!codes.empty() && codes.back() == code && kRepeats.contains(code)) continue;
-    codes.push_back(code);
-  }
+  for (const LocatedFinding& located : report_of(text).findings) codes.push_back(code_of(located));
   return codes;
 }
 
