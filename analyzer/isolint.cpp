@@ -20,6 +20,7 @@
 #include "analyzer/fixing/program_fixing.h"
 #include "analyzer/formats/renderers.h"
 #include "analyzer/input/files.h"
+#include "analyzer/messages_page.h"
 #include "analyzer/selection/baseline.h"
 #include "analyzer/selection/program_settings.h"
 #include "analyzer/selection/shown_report.h"
@@ -461,6 +462,7 @@ ExitStatus run_main(int argc, char** argv) {
     return ExitStatus::Failure;
   }
   if (options.rules_page) return say(rules_page(), options);
+  if (options.messages_page) return say(messages_page(), options);
   if (options.config_schema) return say(configuration::json_schema(), options);
   if (options.config_keys) return say(configuration::key_page(), options);
   if (options.machine_page) return say(configuration::machine_page(), options);

@@ -69,8 +69,8 @@ install(EXPORT isocnc NAMESPACE isocnc:: FILE isocnc-targets.cmake DESTINATION $
         ${unless_asked})
 install(DIRECTORY interpreter analyzer DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/isocnc COMPONENT development ${unless_asked}
         FILES_MATCHING PATTERN "*.h")
-install(FILES ${CMAKE_BINARY_DIR}/parts/dialect/diagnostic_names.inc DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/isocnc
-        COMPONENT development ${unless_asked})
+install(FILES ${CMAKE_BINARY_DIR}/parts/dialect/diagnostic_names.inc ${CMAKE_BINARY_DIR}/parts/dialect/cause_names.inc
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/isocnc COMPONENT development ${unless_asked})
 configure_package_config_file(cmake/isocnc-config.cmake.in ${packaged}/isocnc-config.cmake
                               INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${packaged}/isocnc-config-version.cmake COMPATIBILITY SameMinorVersion)

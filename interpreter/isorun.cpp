@@ -199,7 +199,7 @@ void print_error(const RunCommandOptions& options, const running::RunResult& res
 
 void print_warning(const RunCommandOptions& options, const simulation::RunWarning& warning) {
   print_finding(options, warning.line, warning.id,
-                dialect::message(warning.id, options.reader_language(), "", warning.values));
+                dialect::message(warning.id, options.reader_language(), {.values = warning.values}));
 }
 
 /// A file that the run reads or writes, with its name for users.

@@ -106,6 +106,23 @@ Draft m06_before_tool(const FixRequest& request) {
   return {{inserted(request, request.finding.span.begin, "M06 ")}};
 }
 
+/// Whether a line continues a motion of an earlier line, without a word that gives a circle.
+static bool continues_without_circle(const LineTree& line) {
+  const Instruction* const motion = line.motion();
+  const auto gives_circle = [](const Word& word) { return dialect::contains(dialect::letters("IJKR"), word.letter); };
+  return motion && motion->kind == InstructionKind::Continuation &&
+         std::none_of(line.words.begin(), line.words.end(), gives_circle);
+}
+
+/// X20 Y10 after an arc: the straight line lacks its G01. Of several such lines only the first needs it.
+Draft g01_before_coordinates(const FixRequest& request) {
+  using namespace dialect::literals;
+  if (!request.finding.has("circle-not-given/continuation"_cause)) return {};
+  const std::optional<std::uint64_t> above = block_beside(request, -1);
+  if (above && continues_without_circle(syntax::ParsedLine(request.program.text(*above)).tree())) return {};
+  return {{inserted(request, request.finding.span.begin, "G01 ")}};
+}
+
 static bool has_tool_alone(const LineTree& line) {
   return line.instructions.size() == 1 && line.feed < 0 && line.spindle < 0 &&
          line.instructions.front().kind == InstructionKind::StrayTool && line.findings.empty();

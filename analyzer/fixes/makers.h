@@ -88,6 +88,7 @@ Draft end_of_program(const FixRequest& request);
 Draft m06_before_tool(const FixRequest& request);
 Draft tool_of_other_line(const FixRequest& request);
 Draft tool_to_later_change(const FixRequest& request);
+Draft g01_before_coordinates(const FixRequest& request);
 Draft command_to_next_line(const FixRequest& request);
 
 // arcs.cpp: corrects circles that do not fit.

@@ -46,6 +46,11 @@ std::optional<Wanted> wanted_by(const check::LocatedFinding& located, std::strin
   const dialect::DiagnosticId id = located.finding.id;
   if (id == "face-already-mounted"_diag || id == "workpiece-frame-under-face"_diag)
     return Wanted{.note = kMounted, .mounts_face = true};
+  // The message says which G has stayed in force.
+  if (located.finding.has("circle-not-given/continuation"_cause) ||
+      located.finding.has("missing-coordinate/continuation"_cause))
+    return Wanted{.note = kSet,
+                  .code_row = dialect::kGCodeRows[static_cast<std::size_t>(located.finding.values.front())]};
   const bool is_label = id == "duplicate-label"_diag;
   if (!is_label && id != "redundant-modal"_diag) return std::nullopt;
   // Parses only the marked word: the line may be huge.

@@ -21,10 +21,9 @@ static std::string note_on_repetitions(std::span<const check::Repetition> repeti
                          repetitions.size());
 }
 
-std::string message_of(const check::LocatedFinding& located, const check::Report& report, std::string_view marked,
+std::string message_of(const check::LocatedFinding& located, const check::Report& report, std::string_view line,
                        dialect::Language language) {
-  const syntax::Finding& finding = located.finding;
-  std::string message = dialect::message(finding.id, language, marked, finding.values);
+  std::string message = syntax::message(located.finding, line, language);
   const std::span<const check::Repetition> repetitions = report.repetitions_of(located);
   if (!repetitions.empty()) message += ' ' + note_on_repetitions(repetitions, language);
   return message;
@@ -42,7 +41,7 @@ ShownFinding show(const check::LocatedFinding& located, const check::Report& rep
           .line = located.line + 1,
           .column = column,
           .end_column = column + column_of(marked, marked.size()) - 1,
-          .message = message_of(located, report, marked, style.language)};
+          .message = message_of(located, report, line, style.language)};
 }
 
 StepTexts::StepTexts(std::string_view text, const check::Report& report, dialect::Language language)

@@ -36,9 +36,8 @@ struct ShownFinding {
 ShownFinding show(const check::LocatedFinding& located, const check::Report& report, syntax::LineFinder& lines,
                   const ReportStyle& style);
 
-/// The message of a finding, with the number of lines below that repeat it (D66). `marked` is the program text under
-/// its mark.
-std::string message_of(const check::LocatedFinding& located, const check::Report& report, std::string_view marked,
+/// The message of a finding, with the number of lines below that repeat it (D66). `line` is the text of its line.
+std::string message_of(const check::LocatedFinding& located, const check::Report& report, std::string_view line,
                        dialect::Language language);
 
 /// The texts of the IFs on a report's paths, each made once, however many findings share it.

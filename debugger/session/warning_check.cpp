@@ -17,14 +17,6 @@ namespace isocnc::session {
 using dialect::Language;
 using Warnings = std::multimap<std::uint64_t, breakpoints::Warning>;
 
-static breakpoints::Warning warning_of(const check::LocatedFinding& found, const check::Report& report,
-                                       std::string_view line, Language language) {
-  const auto& finding = found.finding;
-  const std::string_view marked =
-      line.substr(std::min<std::size_t>(finding.span.begin, line.size()), finding.span.end - finding.span.begin);
-  return {finding.id, formats::message_of(found, report, marked, language)};
-}
-
 /// The lines with labels that jumps name, ascending.
 static std::vector<std::uint64_t> find_jump_targets(std::string_view text) {
   const check::JumpMap jumps(text);
@@ -62,8 +54,9 @@ static Warnings find_warnings(const debuggee::Debuggee& debuggee, const std::fil
   Warnings warnings;
   for (const check::LocatedFinding& found : report.findings) {
     if (found.severity() != dialect::Severity::Warning) continue;
-    const breakpoints::Warning warning = warning_of(found, report, debuggee.text().line(found.line), language);
-    for (const std::uint64_t line : first_lines(found, report, jump_targets)) warnings.emplace(line, warning);
+    const std::string_view line = debuggee.text().line(found.line);
+    const breakpoints::Warning warning{found.finding.id, formats::message_of(found, report, line, language)};
+    for (const std::uint64_t at : first_lines(found, report, jump_targets)) warnings.emplace(at, warning);
   }
   return warnings;
 }

@@ -33,9 +33,20 @@ inline constexpr int kFoldCount = 4;
 /// Maximum number of values in one message.
 inline constexpr int kMaxArguments = 3;
 
+/// Maximum number of causes of one code that have a message of their own, beside the usual one.
+inline constexpr int kMaxCauses = 6;
+
+/// A cause of a finding with a message of its own, where one text could not say what to write.
+struct CauseDef {
+  std::string_view cause;  ///< `no-motion`: unique within its code; used in the code.
+  Text message;            ///< As DiagnosticDef::message.
+  std::string_view wrong;  ///< As DiagnosticDef::wrong: a program with one finding, of this cause.
+};
+
 /// One kind of finding: a row of the table of diagnostics, with all its texts.
 ///
-/// `message` may name `{text}` (the program text under the finding's mark) and the values in `arguments`, by name.
+/// A message may name `{text}` (the program text under the finding's mark), `{other}` (that under its second mark) and
+/// the values in `arguments`, by name.
 struct DiagnosticDef {
   std::string_view code;  ///< `ISO012`, `E004`, `W001`: stable; used in selections and suppressions.
   std::string_view name;  ///< `head-not-selected`: stable; used in the code and by readers.
@@ -46,7 +57,8 @@ struct DiagnosticDef {
   std::string_view section;                   ///< Section of the specification: `I.4.3`.
   std::string_view arguments[kMaxArguments];  ///< Names of the values, in the order in which they are reported.
   Text title;                                 ///< A few words for lists.
-  Text message;                               ///< One line, without a full stop.
+  Text message;                               ///< One line, without a full stop; of the usual cause.
+  CauseDef causes[kMaxCauses] = {};           ///< The other causes; those without a name are unused.
   Text explanation;        ///< Why the control stops and what to do; the first sentence can be read alone.
   std::string_view wrong;  ///< A program with this one finding; `[!` and `!]` enclose the marked text.
   std::string_view right;  ///< The same program, corrected; it has no finding.

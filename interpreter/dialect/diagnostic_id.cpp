@@ -67,17 +67,33 @@ static std::string spelled_out(std::string_view text) {
   return result;
 }
 
-/// Name of the argument whose value is the number of an axis.
-static constexpr std::string_view kAxisArgument = "axis";
-
-static std::string axis_name(double axis) {
-  const auto index = static_cast<std::size_t>(axis);
-  return std::string(kAxisLetters.substr(std::min(index, kAxisLetters.size()), 1));
+static std::string letter_at(std::string_view letters, double index) {
+  return std::string(letters.substr(std::min(static_cast<std::size_t>(index), letters.size()), 1));
 }
 
-std::string message(DiagnosticId id, Language language, std::string_view text, std::span<const double> values) {
-  const DiagnosticDef& def = definition(id);
-  const std::string_view pattern = def.message.in(language);
+/// A value as a message shows it. The name of the argument says what it is: the number of an axis (`axis`,
+/// `otheraxis`), of the center's coordinate on an axis (`center`), of a G (`g`), or a number.
+static std::string shown_value(std::string_view name, double value) {
+  if (name.ends_with("axis")) return letter_at(kAxisLetters, value);
+  if (name.ends_with("center")) return letter_at("IJK", value);
+  if (name == "g") return fmt::format("G{:02}", static_cast<int>(value));
+  return format_value(value);
+}
+
+std::size_t cause_count(const DiagnosticDef& def) {
+  const auto is_unused = [](const CauseDef& cause) { return cause.cause.empty(); };
+  return 1 + static_cast<std::size_t>(std::find_if(std::begin(def.causes), std::end(def.causes), is_unused) -
+                                      std::begin(def.causes));
+}
+
+const Text& message_text(Cause cause) {
+  const DiagnosticDef& def = definition(cause.id);
+  return cause.number == 0 ? def.message : def.causes[cause.number - 1].message;
+}
+
+std::string message(Cause cause, Language language, const Quoted& quoted) {
+  const DiagnosticDef& def = definition(cause.id);
+  const std::string_view pattern = message_text(cause).in(language);
   std::string result;
   result.reserve(pattern.size() + 32);
   for (std::size_t at = 0; at < pattern.size();) {
@@ -86,10 +102,10 @@ std::string message(DiagnosticId id, Language language, std::string_view text, s
     if (close == std::string_view::npos) return result.append(pattern.substr(at));
     result.append(pattern.substr(at, open - at));
     const std::string_view name = pattern.substr(open + 1, close - open - 1);
-    if (name == "text") result.append(spelled_out(shortened(text)));
-    for (std::size_t i = 0; i < values.size() && i < kMaxArguments; ++i)
-      if (def.arguments[i] == name)
-        result.append(name == kAxisArgument ? axis_name(values[i]) : format_value(values[i]));
+    if (name == "text") result.append(spelled_out(shortened(quoted.text)));
+    if (name == "other") result.append(spelled_out(shortened(quoted.other)));
+    for (std::size_t i = 0; i < quoted.values.size() && i < kMaxArguments; ++i)
+      if (def.arguments[i] == name) result.append(shown_value(name, quoted.values[i]));
     at = close + 1;
   }
   return result;

@@ -30,6 +30,22 @@ static_assert(kDiagnosticCount < 255);
 /// The table, in `diagnostic_table.cpp`.
 extern const DiagnosticDef kDiagnostics[kDiagnosticCount];
 
+/// The other causes, as `stray-argument/no-motion`, in the order of the table.
+inline constexpr std::string_view kCauseNames[] = {
+#include <cause_names.inc>
+};
+
+/// A diagnostic, and which of its messages tells what to do about it.
+struct Cause {
+  DiagnosticId id = kNoDiagnostic;
+  std::uint8_t number = 0;  ///< 0: the usual cause; else an index into DiagnosticDef::causes, plus 1.
+
+  // NOLINTNEXTLINE(google-explicit-constructor): a diagnostic alone stands for its usual cause.
+  constexpr Cause(DiagnosticId diagnostic, std::uint8_t cause = 0) : id(diagnostic), number(cause) {}
+
+  friend bool operator==(const Cause&, const Cause&) = default;
+};
+
 namespace detail {
 /// Never defined: the call makes a misspelt name fail to compile.
 void no_diagnostic_has_this_name();
@@ -43,6 +59,19 @@ consteval DiagnosticId operator""_diag(const char* name, std::size_t length) {
   detail::no_diagnostic_has_this_name();
   return kNoDiagnostic;
 }
+
+/// `"stray-argument/no-motion"_cause`: a misspelt name does not compile.
+consteval Cause operator""_cause(const char* name, std::size_t length) {
+  const std::string_view wanted(name, length);
+  const std::string_view diagnostic = wanted.substr(0, wanted.find('/') + 1);
+  std::uint8_t number = 0;
+  for (const std::string_view each : kCauseNames) {
+    if (each.starts_with(diagnostic)) ++number;
+    if (each == wanted) return {operator""_diag(name, diagnostic.size() - 1), number};
+  }
+  detail::no_diagnostic_has_this_name();
+  return kNoDiagnostic;
+}
 }  // namespace literals
 
 inline const DiagnosticDef& definition(DiagnosticId id) { return kDiagnostics[static_cast<std::size_t>(id)]; }
@@ -50,8 +79,21 @@ inline const DiagnosticDef& definition(DiagnosticId id) { return kDiagnostics[st
 /// The diagnostic with this code (`ISO012`, any case) or name (`head-not-selected`).
 std::optional<DiagnosticId> find_diagnostic(std::string_view code_or_name);
 
-/// The message in `language`, with `text` (the program text under the mark) and the values inserted.
-std::string message(DiagnosticId id, Language language, std::string_view text, std::span<const double> values);
+/// Number of causes of a diagnostic, the usual one included.
+std::size_t cause_count(const DiagnosticDef& def);
+
+/// The message of a cause, without what it quotes.
+const Text& message_text(Cause cause);
+
+/// What a message quotes.
+struct Quoted {
+  std::string_view text = {};   ///< The program text under the finding's mark.
+  std::string_view other = {};  ///< That under its second mark.
+  std::span<const double> values = {};
+};
+
+/// The message of a cause in `language`.
+std::string message(Cause cause, Language language, const Quoted& quoted);
 
 /// A value as messages show it: at most four decimals, no trailing zeros.
 std::string format_value(double value);

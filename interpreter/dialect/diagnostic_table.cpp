@@ -50,6 +50,23 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .title = {.en = "Unknown word", .it = "Parola non riconosciuta"},
      .message = {.en = "{text} is not a word of this control: words start with A B C F G I J K M N P Q R S T V X Y Z",
                  .it = "parola {text} non riconosciuta: le parole iniziano con A B C F G I J K M N P Q R S T V X Y Z"},
+     .causes =
+         {{.cause = "prose",
+           .message = {.en = "\"{text}\" is text outside a comment: put it in parentheses, or after a ;",
+                       .it = "«{text}» è testo fuori da un commento: metterlo fra parentesi, o dopo un ;"},
+           .wrong = "M06 T101001\n[!END OF PART!]\nM02\n"},
+          {.cause = "outside-if",
+           .message = {.en = "{text} belongs in the condition of an IF, as in IF VGPL = 1 GOTO N30",
+                       .it = "{text} va solo nella condizione di un IF, come in IF VGPL = 1 GOTO N30"},
+           .wrong = "M06 T101001\nG00 X10 [!VGPL!]\nM02\n"},
+          {.cause = "letter-for-digit",
+           .message = {.en = "{text} puts a letter into the number before it: write a digit, 0 for O, 1 for l",
+                       .it = "{text} mette una lettera nel numero che precede: scrivere una cifra, 0 per O, 1 per l"},
+           .wrong = "M06 T101001\nG00 X1[!O!]\nM02\n"},
+          {.cause = "no-digits",
+           .message = {.en = "{text} is no number: it has no digits",
+                       .it = "{text} non è un numero: non ci sono cifre"},
+           .wrong = "M06 T101001\n[!,!] G00 X10\nM02\n"}},
      .explanation = {.en = "The control knows no word with D, E, H, L, O, U or W, nor characters such as %, # or *. "
                            "Use the letter that serves the purpose here, or put the text in a comment. Programs "
                            "written for other controls often start with % or with an O number: delete both.",
@@ -65,7 +82,16 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.2.2",
      .arguments = {},
      .title = {.en = "Word without a number", .it = "Parola senza numero"},
-     .message = {.en = "no number follows {text}", .it = "a {text} non segue un numero"},
+     .message = {.en = "no number follows {text}: every letter needs one, and a zero is written, too",
+                 .it = "dopo {text} manca il numero: ogni lettera ne vuole uno, e anche lo zero va scritto"},
+     .causes = {{.cause = "prose",
+                 .message = {.en = "\"{text}\" is text outside a comment: put it in parentheses, or after a ;",
+                             .it = "«{text}» è testo fuori da un commento: metterlo fra parentesi, o dopo un ;"},
+                 .wrong = "M06 T101001\n[!FINE LATO!]\nM02\n"},
+                {.cause = "letter-for-digit",
+                 .message = {.en = "the letter {other} follows {text}: write a digit, 0 for O, 1 for l",
+                             .it = "dopo {text} c'è la lettera {other}: scrivere una cifra, 0 per O, 1 per l"},
+                 .wrong = "M06 T101001\n[!G!]O X10\nM02\n"}},
      .explanation = {.en =
                          "A word is a letter with its number: the letter alone means nothing to the control. Write the "
                          "number after it, or delete the letter. Zero must be written too: X0, not X.",
@@ -80,8 +106,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.2.2",
      .arguments = {},
      .title = {.en = "Number without a letter", .it = "Numero senza lettera"},
-     .message = {.en = "no letter stands before the number {text}",
-                 .it = "il numero {text} non è preceduto da una lettera"},
+     .message = {.en = "no letter stands before the number {text}: write the one that it belongs to",
+                 .it = "davanti al numero {text} manca la lettera: scrivere quella a cui appartiene"},
      .explanation = {.en = "Without its letter the control cannot tell what the number is for. Write the letter "
                            "before it (X, F, N and so on), or delete the number. Spaces do not separate numbers: X10 "
                            "20 is read as X1020.",
@@ -96,8 +122,15 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.2.1",
      .arguments = {},
      .title = {.en = "Malformed number", .it = "Formato numerico errato"},
-     .message = {.en = "{text} is not a valid number: only one sign, digits and one decimal point are allowed",
-                 .it = "{text} non è un numero valido: sono ammessi solo un segno, le cifre e un punto decimale"},
+     .message = {.en = "{text} has a comma: decimals follow a point, as in 10.5",
+                 .it = "{text} ha una virgola: i decimali si scrivono dopo un punto, come in 10.5"},
+     .causes =
+         {{.cause = "shape",
+           .message =
+               {.en = "{text} is not a number: the control reads one sign, digits and one decimal point, as in -12.5",
+                .it =
+                    "{text} non è un numero: il controllo legge un segno, le cifre e un punto decimale, come in -12.5"},
+           .wrong = "M06 T101001\nG00 X[!1.2.3!]\nM02\n"}},
      .explanation = {.en = "A number may start with + or -, and its decimals follow a point, never a comma. Write "
                            "10.5, .35 or -3. A second sign, a second point and separators for thousands are not "
                            "allowed.",
@@ -172,9 +205,27 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .name = "stray-argument",
      .severity = Severity::Error,
      .section = "I.3.4",
-     .arguments = {},
+     .arguments = {"g"},
      .title = {.en = "Stray argument", .it = "Quota o componente fuori posto"},
-     .message = {.en = "no command here takes {text}", .it = "nessun comando in questo punto ammette {text}"},
+     .message = {.en = "{other} cuts {text} off from its command: write {text} right after the other arguments",
+                 .it = "{other} stacca {text} dal suo comando: scrivere {text} subito dopo gli altri argomenti"},
+     .causes = {{.cause = "no-motion",
+                 .message = {.en = "no motion G is in force for {text}: write G00, G01, G02 or G03 before it",
+                             .it =
+                                 "per {text} non è in presa alcuna G di movimento: scrivere prima G00, G01, G02 o G03"},
+                 .wrong = "M06 T101001\n[!X10!]\nG00 X20\nM02\n"},
+                {.cause = "no-such-axis",
+                 .message = {.en = "no motion takes {text}: a motion has X Y Z B C, an arc I J K R as well",
+                             .it = "nessun movimento ammette {text}: un movimento ha X Y Z B C, un arco anche I J K R"},
+                 .wrong = "M06 T101001\nG00 X10 [!A5!]\nM02\n"},
+                {.cause = "no-arc",
+                 .message = {.en = "{g} has no center or radius: {text} goes with an arc, G02 or G03",
+                             .it = "la {g} non ha centro né raggio: {text} va con un arco, G02 o G03"},
+                 .wrong = "M06 T101001\nG01 X10 [!I5 J0!] F1000\nM02\n"},
+                {.cause = "before-its-g",
+                 .message = {.en = "{text} stands before its G: write {other} first",
+                             .it = "{text} sta prima della sua G: scrivere prima {other}"},
+                 .wrong = "M06 T101001\n[!X10!] G00\nM02\n"}},
      .explanation = {.en = "A coordinate or component counts only directly after the command that takes it, or alone "
                            "on its line while a motion G is in force. S, N or another command in between breaks the "
                            "series of arguments: write S before the G or after its last coordinate. G00 and G01 take "
@@ -222,8 +273,12 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.4.3",
      .arguments = {},
      .title = {.en = "Tool change without a tool", .it = "Cambio utensile senza T"},
-     .message = {.en = "no T follows {text}: it does not say which tool to load",
-                 .it = "alla {text} non segue la T: manca l'attrezzaggio da montare"},
+     .message = {.en = "no T follows {text}: it does not say which tool to mount",
+                 .it = "alla {text} non segue la T: non è indicato l'utensile da montare"},
+     .causes = {{.cause = "tool-elsewhere",
+                 .message = {.en = "{other} does not follow {text} at once: write both together, as in M06 T101001",
+                             .it = "{other} non segue subito la {text}: scriverle insieme, come in M06 T101001"},
+                 .wrong = "[!M06!] S5000 T101001\nM02\n"}},
      .explanation = {.en = "M06 must be followed at once by the T of the tool to load. Write both together and in "
                            "this order: M06 T101001. A T before M06, on another line or after another word does not "
                            "count.",
@@ -238,8 +293,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.4.2",
      .arguments = {"speed"},
      .title = {.en = "Spindle speed not positive", .it = "Velocità del mandrino negativa o nulla"},
-     .message = {.en = "spindle speed {speed} rpm: it must be greater than 0",
-                 .it = "velocità di rotazione del mandrino {speed} giri/min: deve essere maggiore di 0"},
+     .message = {.en = "spindle speed {speed} rev/min: S must be greater than 0",
+                 .it = "giri del mandrino {speed}: la S deve essere maggiore di 0"},
      .explanation = {.en = "S gives the spindle speed only, neither the stop nor the direction, so it is always "
                            "positive. To stop the spindle write M05. To turn it counterclockwise write M04 and a "
                            "positive S.",
@@ -254,8 +309,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.7",
      .arguments = {},
      .title = {.en = "Repeated argument", .it = "Argomento ripetuto"},
-     .message = {.en = "{text} repeats a letter that this command already has",
-                 .it = "{text} ripete una lettera già data allo stesso comando"},
+     .message = {.en = "{text} comes after {other}: a command takes each letter once",
+                 .it = "{text} viene dopo {other}: un comando vuole ogni lettera una sola volta"},
      .explanation = {.en = "Each letter may be given once per command: the control does not choose between two "
                            "values. Delete the wrong one or correct its letter.",
                      .it = "Ogni lettera si può dare una sola volta per comando: fra due valori il controllo non "
@@ -268,8 +323,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.7",
      .arguments = {},
      .title = {.en = "Missing arguments", .it = "Mancanza di argomenti"},
-     .message = {.en = "{text} has none of the arguments that it needs",
-                 .it = "{text} senza nessuno degli argomenti richiesti"},
+     .message = {.en = "{text} has no argument: it needs at least one of X, Y, Z, B and C",
+                 .it = "{text} senza argomenti: ne serve almeno uno fra X, Y, Z, B e C"},
      .explanation = {.en = "Without arguments the control does not know what the command should do. After G29 write "
                            "at least one of X, Y, Z (origin), C and B (angles). Those left out are 0.",
                      .it = "Senza argomenti il controllo non sa che cosa fare del comando. Dopo la G29 scrivere "
@@ -282,8 +337,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.2",
      .arguments = {},
      .title = {.en = "Reference frame not alone on its line", .it = "Sistema di riferimento non da solo sulla linea"},
-     .message = {.en = "{text} must stand alone on its line, with nothing but its own arguments",
-                 .it = "{text} deve stare da sola sulla linea, con i suoi soli argomenti"},
+     .message = {.en = "{text} must stand alone on its line with its own arguments, without {other}",
+                 .it = "{text} deve stare da sola sulla linea con i suoi argomenti, senza {other}"},
      .explanation = {.en = "On a line that changes the reference frame anything else could be taken in the old frame "
                            "or in the new one. Put the other words on a line before or after it; only a line number N "
                            "may stay. Check the letters too: G92 takes X Y Z, G29 takes X Y Z B C, G27 takes none.",
@@ -385,8 +440,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.2",
      .arguments = {},
      .title = {.en = "Face frame already in force", .it = "Sistema di riferimento di faccia già in presa"},
-     .message = {.en = "{text} while a face frame is in force: it must be dismounted with G27 first",
-                 .it = "{text} con un sistema di riferimento di faccia già in presa: prima va smontato con la G27"},
+     .message = {.en = "a face frame is in force already: dismount it with G27 before {text}",
+                 .it = "c'è già una faccia in presa: smontarla con la G27 prima della {text}"},
      .explanation = {.en = "The control does not pass straight from one face frame to another. Write G27 on a line of "
                            "its own before this one. The rule is the same for G24, G28 and G29.",
                      .it = "Il controllo non passa direttamente da un sistema di riferimento di faccia a un altro. "
@@ -411,9 +466,18 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .name = "missing-coordinate",
      .severity = Severity::Error,
      .section = "I.3.4",
-     .arguments = {},
+     .arguments = {"g"},
      .title = {.en = "Missing coordinate", .it = "Nessuna quota specificata"},
-     .message = {.en = "no coordinate comes with {text}", .it = "{text} senza alcuna quota"},
+     .message = {.en = "{text} has no coordinate: write at least one directly after it",
+                 .it = "{text} senza alcuna quota: scriverne almeno una subito dopo"},
+     .causes = {{.cause = "series-broken",
+                 .message = {.en = "{other} cuts {text} off from its coordinates: write them directly after {text}",
+                             .it = "{other} stacca la {text} dalle sue quote: scriverle subito dopo la {text}"},
+                 .wrong = "M06 T101001\n[!G00!] S5000 X10\nM02\n"},
+                {.cause = "continuation",
+                 .message = {.en = "{g} is still in force, but {text} gives it no end: a coordinate is missing",
+                             .it = "è ancora in presa la {g}, ma {text} non ne dà il punto finale: manca una quota"},
+                 .wrong = "M06 T101001\nG02 X10 Y10 R10 F1000\n[!I10!] J0\nM02\n"}},
      .explanation = {.en = "A motion G needs at least one coordinate directly after it, even if it is meant for the "
                            "lines that follow. Write the coordinate right after the G. S or N in between cuts the "
                            "coordinate off from its G.",
@@ -426,11 +490,10 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .name = "arc-end-outside-plane",
      .severity = Severity::Error,
      .section = "I.3.4.3.a",
-     .arguments = {},
+     .arguments = {"g", "axis", "otheraxis"},
      .title = {.en = "Arc end outside the plane", .it = "Punto finale dell'arco fuori dal piano"},
-     .message = {.en = "{text} is not in the arc plane: G17 needs X or Y, G18 needs X or Z, G19 needs Y or Z",
-                 .it = "{text} non appartiene al piano di interpolazione: con G17 serve X o Y, con G18 X o Z, con "
-                       "G19 Y o Z"},
+     .message = {.en = "with {g} in force an arc needs an end in {axis} or {otheraxis}: {text} is not enough",
+                 .it = "con la {g} in presa un arco vuole una quota finale {axis} o {otheraxis}: {text} non basta"},
      .explanation = {.en = "The end of an arc needs at least one of the two coordinates of its plane. Add it, or "
                            "select the right plane with G17, G18 or G19. The third coordinate may be added to make a "
                            "helix. For a full turn repeat a coordinate of the start.",
@@ -444,9 +507,14 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .name = "circle-not-given",
      .severity = Severity::Error,
      .section = "I.3.4.3.a",
-     .arguments = {},
+     .arguments = {"g", "center", "othercenter"},
      .title = {.en = "Circle not given", .it = "Mancanza dei dati del cerchio"},
-     .message = {.en = "{text} has neither radius nor center", .it = "{text} senza raggio né centro"},
+     .message = {.en = "{text} has neither radius nor center: write R, or {center} and {othercenter}",
+                 .it = "{text} senza raggio né centro: scrivere R, oppure {center} e {othercenter}"},
+     .causes = {{.cause = "continuation",
+                 .message = {.en = "{g} is still in force, and {text} has no radius or center: is G01 missing?",
+                             .it = "è ancora in presa la {g}, e {text} non ha raggio né centro: manca una G01?"},
+                 .wrong = "M06 T101001\nG02 X10 Y10 R10 F1000\n[!X20!] Y10\nM02\n"}},
      .explanation = {.en = "Many circles pass through the same start and end, so the control needs the radius or the "
                            "center. Add R for an arc of up to 180°, or the center: I J with G17, I K with G18, J K "
                            "with G19. With G90 the center is given as a position, with G91 as a distance from the "
@@ -480,10 +548,13 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .arguments = {"radius", "needed"},
      .title = {.en = "Arc radius too small", .it = "Raggio del cerchio insufficiente"},
      .message =
-         {.en =
-              "radius {radius} mm is too small: it must be positive and at least half the way to the end, {needed} mm",
-          .it = "il raggio di {radius} mm è insufficiente: deve essere positivo e almeno metà della distanza tra gli "
-                "estremi, {needed} mm"},
+         {.en = "with R {radius} mm the arc does not reach its end: R must be at least {needed} mm, half the distance",
+          .it = "con R {radius} mm l'arco non arriva al punto finale: R deve essere almeno {needed} mm, metà della "
+                "distanza"},
+     .causes = {{.cause = "not-positive",
+                 .message = {.en = "{text}: R must be greater than 0; for more than 180° give the center",
+                             .it = "{text}: R deve essere maggiore di 0; oltre i 180° dare il centro"},
+                 .wrong = "M06 T101001\nG02 X10 Y10 [!R-10!] F1000\nM02\n"}},
      .explanation = {.en = "No circle of this radius reaches from the start of the arc to its end. Enlarge R, or "
                            "check the two points: R cannot be less than half the distance between them. R is always "
                            "positive: for an arc of more than 180° give the center, not a negative R.",
@@ -499,10 +570,20 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.4.3.a",
      .arguments = {"start", "end"},
      .title = {.en = "Arc center does not fit", .it = "Centro dell'arco incongruente"},
-     .message = {.en = "the center is {start} mm from the start and {end} mm from the end of the arc: it takes one "
-                       "radius, above 0",
-                 .it = "il centro dista {start} mm dal punto iniziale e {end} mm dal punto finale dell'arco: il raggio "
-                       "deve essere uno solo, maggiore di 0"},
+     .message = {.en = "the center must be equally far from both ends of the arc: it is {start} mm from the start and "
+                       "{end} mm from the end",
+                 .it = "il centro deve avere la stessa distanza dai due estremi dell'arco: dista {start} mm dal punto "
+                       "iniziale e {end} mm da quello finale"},
+     .causes = {{.cause = "from-start",
+                 .message = {.en = "in G90 {text} is a position, not a distance from the start: it is {start} mm from "
+                                   "the start and {end} mm from the end of the arc, which must be equal",
+                             .it = "in G90 {text} è una posizione, non una distanza dal punto iniziale: dista {start} "
+                                   "mm dal punto iniziale e {end} mm da quello finale, che devono essere uguali"},
+                 .wrong = "M06 T101001\nG00 X100\nG02 X120 Y0 [!I10 J0!] F1000\nM02\n"},
+                {.cause = "on-start",
+                 .message = {.en = "{text} puts the center on the start of the arc, where it leaves no radius",
+                             .it = "{text} mette il centro sul punto iniziale dell'arco: il raggio è nullo"},
+                 .wrong = "M06 T101001\nG02 X10 Y10 [!I0 J0!] F1000\nM02\n"}},
      .explanation = {.en = "Start and end of an arc must lie on one circle, equally far from its center and not on "
                            "it. Check the center and the end point. With G90 I, J and K are the position of the "
                            "center, with G91 its distance from the start.",
@@ -518,12 +599,14 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.5",
      .arguments = {},
      .title = {.en = "Five-axis interpolation not enabled", .it = "Interpolazione a 5 assi non abilitata"},
-     .message = {.en = "{text} moves a rotary axis, but three-axis interpolation (G48) is in force",
-                 .it = "{text} muove un rotante, ma è in presa l'interpolazione a 3 assi (G48)"},
+     .message = {.en =
+                     "with G48 in force no rotary axis may turn in a feed move: for {text} write G49 on a line before",
+                 .it = "con la G48 in presa i rotanti non si muovono in lavoro: per {text} scrivere prima una G49 su "
+                       "una linea a sé"},
      .explanation = {.en = "With G48 in force B and C may move in rapid only, not in a feed move. Write G49 on a line "
                            "of its own before this move, or position the rotary axes with G00 first.",
-                     .it = "Con la G48 in presa B e C si muovono solo in rapido, non in interpolazione. Scrivere "
-                           "prima una G49 su una linea a sé, oppure posizionare i rotanti con una G00."},
+                     .it = "Con la G48 in presa B e C si muovono solo in rapido, non in lavoro. Scrivere prima una G49 "
+                           "su una linea a sé, oppure posizionare i rotanti con una G00."},
      .wrong = "M06 T101001\nG01 X10 [!C45!] F1000\nM02\n",
      .right = "M06 T101001\nG49\nG01 X10 C45 F1000\nM02\n"},
     {.code = "ISO033",
@@ -532,7 +615,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.5",
      .arguments = {},
      .title = {.en = "G48 or G49 not alone on its line", .it = "G48/G49 non da sola sulla linea"},
-     .message = {.en = "{text} must stand alone on its line", .it = "{text} deve stare da sola sulla linea"},
+     .message = {.en = "{text} must stand alone on its line, without {other}",
+                 .it = "{text} deve stare da sola sulla linea, senza {other}"},
      .explanation = {.en = "The control changes between three-axis and five-axis interpolation only on a line that "
                            "holds nothing else. Move the other words to the next line, where the new setting holds. A "
                            "line number N may stay.",
@@ -566,7 +650,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .explanation = {.en = "Cutter compensation is switched off once the last compensated motion is complete, not "
                            "before it. Write G40 after the coordinates of that motion, or on a line of its own. In a "
                            "start line with several G codes it needs its own line too.",
-                     .it = "La correzione raggio fresa si toglie quando l'ultimo movimento corretto è completo, non "
+                     .it = "La correzione raggio fresa si toglie quando l'ultimo movimento compensato è completo, non "
                            "prima. Scrivere la G40 dopo le quote di quel movimento, oppure su una linea a sé. Anche "
                            "fra le impostazioni di inizio programma la G40 va su una linea sua."},
      .wrong = "M06 T101001\nG41 G01 X10 F1000\n[!G40!] G01 Y20\nM02\n",
@@ -577,8 +661,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.10",
      .arguments = {"seconds"},
      .title = {.en = "Negative dwell time", .it = "Tempo di attesa negativo"},
-     .message = {.en = "dwell time {seconds} s: it must not be negative",
-                 .it = "tempo di attesa {seconds} s: non può essere negativo"},
+     .message = {.en = "dwell time {seconds} s: P must not be negative",
+                 .it = "tempo di attesa {seconds} s: la P non può essere negativa"},
      .explanation = {.en = "P is the time to wait in seconds, and waiting less than 0 seconds makes no sense. Write a "
                            "positive value. 0 is allowed and does not wait.",
                      .it = "La P è il tempo di attesa in secondi, e un'attesa negativa non ha senso. Scrivere un "
@@ -591,8 +675,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.10",
      .arguments = {},
      .title = {.en = "G04 not alone on its line", .it = "G04 non da sola sulla linea"},
-     .message = {.en = "{text} must stand alone on its line, with nothing but its P",
-                 .it = "{text} deve stare da sola sulla linea, con la sola P"},
+     .message = {.en = "{text} must stand alone on its line with its P, without {other}",
+                 .it = "{text} deve stare da sola sulla linea con la sua P, senza {other}"},
      .explanation =
          {.en = "A dwell needs a line of its own: it could otherwise come before or after the other words "
                 "of the line. Move them to the line before or after, as they should be executed. A line "
@@ -658,12 +742,12 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .arguments = {},
      .title = {.en = "F missing in inverse time", .it = "F mancante con la G93"},
      .message = {.en = "{text} has no F: with G93 in force every feed move needs its own",
-                 .it = "{text} senza F: con la G93 in presa ogni movimento in interpolazione vuole la sua"},
-     .explanation = {.en = "In inverse time (G93) F belongs to one move only: it is 1 divided by the minutes that the "
-                           "move should take. Write F on this line, or return to feed rate per minute with G94.",
-                     .it = "Con l'inverso del tempo (G93) la F vale per un solo movimento: è 1 diviso la durata "
-                           "voluta in minuti. Scrivere la F su questa linea, oppure tornare al feed rate in unità al "
-                           "minuto con la G94."},
+                 .it = "{text} senza F: con la G93 in presa ogni movimento in lavoro vuole la sua"},
+     .explanation =
+         {.en = "In inverse time (G93) F belongs to one move only: it is 1 divided by the minutes that the "
+                "move should take. Write F on this line, or return to feed rate per minute with G94.",
+          .it = "Con l'inverso del tempo (G93) la F vale per un solo movimento: è 1 diviso la durata voluta in minuti. "
+                "Scrivere la F su questa linea, oppure tornare con la G94 all'avanzamento al minuto."},
      .wrong = "M06 T101001\nG93 G01 X10 F4\n[!G01!] Y20\nM02\n",
      .right = "M06 T101001\nG93 G01 X10 F4\nG01 Y20 F4\nM02\n"},
     {.code = "ISO042",
@@ -671,15 +755,15 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .severity = Severity::Error,
      .section = "I.3.7",
      .arguments = {"feed"},
-     .title = {.en = "Feed rate not positive", .it = "Feed rate negativo o nullo"},
-     .message = {.en = "feed rate {feed}: it must be greater than 0",
-                 .it = "feed rate {feed}: deve essere maggiore di 0"},
-     .explanation = {.en = "With a feed rate of 0 or less the tool would never arrive. Write a positive F: the "
-                           "direction comes from the coordinates. This holds for an F next to G00 too, although it is "
-                           "ignored there.",
-                     .it = "Con un feed rate negativo o nullo l'utensile non arriverebbe mai. Scrivere una F "
-                           "positiva: il verso del movimento lo danno le quote. Vale anche per una F accanto a una "
-                           "G00, dove pure viene ignorata."},
+     .title = {.en = "Feed rate not positive", .it = "Avanzamento negativo o nullo"},
+     .message = {.en = "feed rate {feed}: F must be greater than 0",
+                 .it = "avanzamento {feed}: la F deve essere maggiore di 0"},
+     .explanation =
+         {.en = "With a feed rate of 0 or less the tool would never arrive. Write a positive F: the "
+                "direction comes from the coordinates. This holds for an F next to G00 too, although it is "
+                "ignored there.",
+          .it = "Con un avanzamento negativo o nullo l'utensile non arriverebbe mai. Scrivere una F positiva: il verso "
+                "del movimento lo danno le quote. Vale anche per una F accanto a una G00, dove pure viene ignorata."},
      .wrong = "M06 T101001\nG01 X10 F1000\nG01 Y20 [!F0!]\nM02\n",
      .right = "M06 T101001\nG01 X10 F1000\nG01 Y20 F500\nM02\n"},
     {.code = "ISO043",
@@ -688,7 +772,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.4.1",
      .arguments = {},
      .title = {.en = "M02 not alone on its line", .it = "M02 non da sola sulla linea"},
-     .message = {.en = "{text} must stand alone on its line", .it = "{text} deve stare da sola sulla linea"},
+     .message = {.en = "{text} must stand alone on its line, without {other}",
+                 .it = "{text} deve stare da sola sulla linea, senza {other}"},
      .explanation = {.en = "The program end needs a line of its own, with a line number N at most. Move the other "
                            "words to the line before: what comes after M02 is ignored.",
                      .it = "La fine programma vuole una linea a sé, al più con il numero di riga N. Spostare le "
@@ -701,8 +786,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.4.3",
      .arguments = {},
      .title = {.en = "Initial tool missing", .it = "Attrezzaggio iniziale mancante"},
-     .message = {.en = "no tool change (M06) before the first motion",
-                 .it = "nessun cambio utensile (M06) prima del primo movimento"},
+     .message = {.en = "no tool change before the first motion: write M06 and its T first",
+                 .it = "nessun cambio utensile prima del primo movimento: scrivere prima M06 e la sua T"},
      .explanation = {.en = "Before the first motion the control must know which head, holder and tool are mounted. "
                            "Write M06 and its T on a line before it, for example M06 T101001. To move without a tool "
                            "write M06 T000000.",
@@ -730,7 +815,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.4.2",
      .arguments = {},
      .title = {.en = "Repeated spindle speed", .it = "S ripetuta"},
-     .message = {.en = "{text}: only one S is allowed on a line", .it = "{text}: su una linea è ammessa una sola S"},
+     .message = {.en = "{text} comes after {other}: a line takes one S",
+                 .it = "{text} viene dopo {other}: su una linea è ammessa una sola S"},
      .explanation = {.en = "The control sets one spindle speed per line and does not choose between two. Delete the "
                            "wrong S, or put it on another line.",
                      .it = "Il controllo imposta una sola velocità del mandrino per linea: fra due valori non "
@@ -850,7 +936,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.4.3",
      .arguments = {},
      .title = {.en = "T without M06", .it = "T senza M06"},
-     .message = {.en = "no M06 stands directly before {text}", .it = "manca la M06 subito prima di {text}"},
+     .message = {.en = "{text} has no M06 before it: write M06 {text}",
+                 .it = "{text} senza la sua M06: scrivere M06 {text}"},
      .explanation = {.en = "T has a meaning only as the argument of a tool change, directly after M06. Write M06 "
                            "T101001, in this order. T alone does not preselect a tool on this control.",
                      .it = "La T ha senso solo come argomento del cambio utensile, subito dopo la M06. Scrivere M06 "
@@ -864,8 +951,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .arguments = {},
      .title = {.en = "Workpiece frame changed under a face frame",
                .it = "Cambio di sistema di pezzo con faccia in presa"},
-     .message = {.en = "{text} while a face frame is in force: it must be dismounted with G27 first",
-                 .it = "{text} con un sistema di riferimento di faccia in presa: prima va smontato con la G27"},
+     .message = {.en = "a face frame is in force: dismount it with G27 before {text}",
+                 .it = "c'è una faccia in presa: smontarla con la G27 prima della {text}"},
      .explanation = {.en = "A face frame is measured from the workpiece frame, which therefore cannot change beneath "
                            "it. Write G27 on a line of its own before G92. If the face is still needed, mount it "
                            "again afterwards.",
@@ -880,10 +967,12 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.2.0",
      .arguments = {},
      .title = {.en = "Invalid line number", .it = "Numero di riga non valido"},
-     .message = {.en = "{text} is not a valid line number: a line has one at most, a whole number without sign, point "
-                       "or comma",
-                 .it = "{text} non è un numero di riga valido: al più uno per linea, intero, senza segno, punto o "
-                       "virgola"},
+     .message = {.en = "{text} is not a line number: N takes a whole number, without sign, point or comma",
+                 .it = "{text} non è un numero di riga: alla N segue un numero intero, senza segno, punto o virgola"},
+     .causes = {{.cause = "second",
+                 .message = {.en = "{text} is the second line number on this line: a line has one at most",
+                             .it = "{text} è il secondo numero di riga su questa linea: ce ne può essere uno solo"},
+                 .wrong = "M06 T101001\nN10 G00 X5 [!N20!]\nM02\n"}},
      .explanation = {.en = "After N the control expects a plain whole number, such as N20 or N20000. Correct it, or "
                            "delete the whole word: line numbers are optional.",
                      .it = "Dopo la N il controllo si aspetta un semplice numero intero, come N20 o N20000. "
@@ -910,7 +999,20 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.6",
      .arguments = {},
      .title = {.en = "Assignment without a register", .it = "Assegnazione senza registro"},
-     .message = {.en = "no register stands before this =", .it = "questo segno = non è preceduto da un registro"},
+     .message = {.en = "no register stands before this =: an assignment is written as in V5 = 10",
+                 .it = "davanti a questo segno = manca il registro: l'assegnazione si scrive come in V5 = 10"},
+     .causes = {{.cause = "letter",
+                 .message = {.en = "{other} takes no =: its number follows at once, as in {other}1",
+                             .it = "{other} non vuole il segno =: il numero segue subito, come in {other}1"},
+                 .wrong = "M06 T101001\nG00 X[!=!]20\nM02\n"},
+                {.cause = "word",
+                 .message = {.en = "{other} takes no =: only a register does, as in V5 = 10",
+                             .it = "{other} non vuole il segno =: lo vuole solo un registro, come in V5 = 10"},
+                 .wrong = "M06 T101001\nG00 X1[!=!]10\nM02\n"},
+                {.cause = "parameter",
+                 .message = {.en = "{other} has no M before it: parameters follow their M, as in M100 P1=5",
+                             .it = "{other} senza una M davanti: i parametri seguono la loro M, come in M100 P1=5"},
+                 .wrong = "P1[!=!]5\nM02\n"}},
      .explanation = {.en = "The control does not know where to put the value: a = needs a register before it, as in "
                            "V5 = 10. Coordinates take no =: write X10, not X=10. Otherwise = appears only in the "
                            "parameters of an M (M100 P1=5) and in an IF.",
@@ -971,8 +1073,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.7",
      .arguments = {},
      .title = {.en = "Second motion on a line", .it = "Più di una G di movimento"},
-     .message = {.en = "{text}: only one motion G is allowed on a line",
-                 .it = "{text}: su una linea è ammessa una sola G di movimento"},
+     .message = {.en = "{text} comes after {other}: a line takes one motion G",
+                 .it = "{text} viene dopo {other}: su una linea è ammessa una sola G di movimento"},
      .explanation = {.en = "A line carries out one motion at most. Put the second one, with its coordinates, on the "
                            "next line.",
                      .it = "Una linea esegue al più un movimento. Scrivere il secondo, con le sue quote, sulla linea "
@@ -985,8 +1087,12 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.6",
      .arguments = {},
      .title = {.en = "Register without a value", .it = "Registro senza valore"},
-     .message = {.en = "{text} gets no value: = and a number must follow",
-                 .it = "a {text} non viene assegnato alcun valore: devono seguire = e un numero"},
+     .message = {.en = "{text} gets no value: write = and a number after it",
+                 .it = "{text} senza valore: scrivere dopo = e un numero"},
+     .causes = {{.cause = "no-number",
+                 .message = {.en = "{text} takes a number, and {other} is none",
+                             .it = "{text} vuole un numero, e {other} non lo è"},
+                 .wrong = "[!V1!] = V2\nM02\n"}},
      .explanation = {.en = "Naming a register means giving it a value: on its own it does nothing. Write V5 = 10, or "
                            "delete it. A coordinate cannot be taken from a register: besides assignments, V appears "
                            "only in the condition of an IF.",
@@ -1016,10 +1122,11 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.7",
      .arguments = {},
      .title = {.en = "Repeated feed rate", .it = "F ripetuta"},
-     .message = {.en = "{text}: only one F is allowed on a line", .it = "{text}: su una linea è ammessa una sola F"},
+     .message = {.en = "{text} comes after {other}: a line takes one F",
+                 .it = "{text} viene dopo {other}: su una linea è ammessa una sola F"},
      .explanation = {.en = "The control takes one feed rate per line and does not choose between two. Delete the "
                            "wrong F, or put it on another line.",
-                     .it = "Il controllo accetta un solo feed rate per linea: fra due valori non sceglie. Cancellare "
+                     .it = "Il controllo accetta un solo avanzamento per linea: fra due valori non sceglie. Cancellare "
                            "la F sbagliata o spostarla su un'altra linea."},
      .wrong = "M06 T101001\nG01 X10 F1000 [!F500!]\nM02\n",
      .right = "M06 T101001\nG01 X10 F1000\nM02\n"},
@@ -1028,14 +1135,18 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .severity = Severity::Error,
      .section = "I.3.7",
      .arguments = {},
-     .title = {.en = "Feed rate missing", .it = "Feed rate mancante"},
-     .message = {.en = "{text} has no feed rate: no F has been given yet",
-                 .it = "{text} senza feed rate: finora non è stata data alcuna F"},
-     .explanation = {.en = "The control cannot start the first feed move without a speed. Write F on this line or on "
-                           "one before it. An F on the line of a G00 is ignored and does not count.",
-                     .it = "Il controllo non può iniziare il primo movimento in interpolazione senza una velocità. "
-                           "Scrivere la F su questa linea o su una precedente. Una F sulla linea di una G00 viene "
-                           "ignorata e non conta."},
+     .title = {.en = "Feed rate missing", .it = "Avanzamento mancante"},
+     .message = {.en = "{text} has no feed rate: no F has been given so far",
+                 .it = "{text} senza avanzamento: finora non è stata data alcuna F"},
+     .causes = {{.cause = "on-rapid",
+                 .message = {.en = "{text} has no feed rate: F so far stands on rapids only, which ignore it",
+                             .it = "{text} senza avanzamento: finora la F sta solo su rapidi, che la ignorano"},
+                 .wrong = "M06 T101001\nG00 X10 F1000\n[!G01!] X20\nM02\n"}},
+     .explanation =
+         {.en = "The control cannot start the first feed move without a speed. Write F on this line or on "
+                "one before it. An F on the line of a G00 is ignored and does not count.",
+          .it = "Il controllo non può iniziare il primo movimento in lavoro senza un avanzamento. Scrivere la F su "
+                "questa linea o su una precedente. Una F sulla linea di una G00 viene ignorata e non conta."},
      .wrong = "M06 T101001\n[!G01!] X10\nM02\n",
      .right = "M06 T101001\nG01 X10 F1000\nM02\n"},
     {.code = "ISO067",
@@ -1045,11 +1156,11 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .arguments = {},
      .title = {.en = "Tool not configured", .it = "Attrezzaggio non configurato"},
      .message = {.en = "{text} names a head, holder or tool that the machine file does not list",
-                 .it = "{text} indica una testa, un portautensile o un utensile non configurato in parametrica"},
+                 .it = "{text} indica una testa, un portautensile o un utensile che il file macchina non elenca"},
      .explanation = {.en = "The control changes only to a head, holder and tool that are configured on the machine. "
                            "Correct T. If the tool is really there, add it to the machine file.",
                      .it = "Il controllo monta solo testa, portautensile e utensile configurati sulla macchina. "
-                           "Correggere la T. Se l'utensile c'è davvero, aggiungerlo in parametrica."},
+                           "Correggere la T. Se l'utensile c'è davvero, aggiungerlo al file macchina."},
      .wrong = "M06 [!T202002!]\nM02\n",
      .right = "M06 T101001\nM02\n"},
     {.code = "ISO068",
@@ -1091,7 +1202,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.5",
      .arguments = {},
      .title = {.en = "IF not alone on its line", .it = "IF non da solo sulla linea"},
-     .message = {.en = "IF ... GOTO must stand alone on its line", .it = "IF ... GOTO deve stare da solo sulla linea"},
+     .message = {.en = "IF ... GOTO must stand alone on its line, without {other}",
+                 .it = "IF ... GOTO deve stare da solo sulla linea, senza {other}"},
      .explanation = {.en = "At an IF the control stops reading ahead, checks the condition and jumps, so the line may "
                            "hold nothing else. Move the other instructions to the line before, or after if they "
                            "belong to the case without the jump. A line number N may stay.",
@@ -1107,10 +1219,31 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.5",
      .arguments = {},
      .title = {.en = "Malformed IF", .it = "IF scritto male"},
-     .message = {.en = "the jump cannot be read at {text}: it is IF, VGPL or V1 to V30, one of = < > <= >= <>, a "
-                       "number, GOTO, N and number",
-                 .it = "salto non leggibile in {text}: si scrive IF, VGPL o V1-V30, uno fra = < > <= >= <>, un "
-                       "numero, GOTO, N e numero"},
+     .message = {.en = "write the jump as IF VGPL = 1 GOTO N30: \"{text}\" is no part of it",
+                 .it = "il salto si scrive IF VGPL = 1 GOTO N30: «{text}» non ne fa parte"},
+     .causes =
+         {{.cause = "incomplete",
+           .message = {.en = "write the jump as IF VGPL = 1 GOTO N30: a part is missing after \"{text}\"",
+                       .it = "il salto si scrive IF VGPL = 1 GOTO N30: dopo «{text}» manca qualcosa"},
+           .wrong = "M06 T101001\nIF VGPL = [!1!]\nG00 X10\nM02\n"},
+          {.cause = "condition-in-comment",
+           .message = {.en = "write the jump as IF VGPL = 1 GOTO N30: \"{text}\" is a comment, not a condition",
+                       .it = "il salto si scrive IF VGPL = 1 GOTO N30: «{text}» è un commento, non una condizione"},
+           .wrong = "M06 T101001\nIF [!(VGPL = 1)!] GOTO N30\nG00 X10\nN30 M02\n"},
+          {.cause = "label",
+           .message =
+               {.en = "write the jump as IF VGPL = 1 GOTO N30: the label \"{text}\" must be N and a whole number",
+                .it = "il salto si scrive IF VGPL = 1 GOTO N30: l'etichetta «{text}» deve essere una N con un numero "
+                      "intero"},
+           .wrong = "M06 T101001\nIF VGPL = 1 GOTO [!30!]\nG00 X10\nN30 M02\n"},
+          {.cause = "after-label",
+           .message = {.en = "write the jump as IF VGPL = 1 GOTO N30: \"{text}\" may not follow its label",
+                       .it = "il salto si scrive IF VGPL = 1 GOTO N30: dopo l'etichetta non ci può essere «{text}»"},
+           .wrong = "M06 T101001\nIF VGPL = 1 GOTO N30 [!ELSE N20!]\nN20 G00 X10\nN30 M02\n"},
+          {.cause = "goto-alone",
+           .message = {.en = "write the jump as IF VGPL = 1 GOTO N30: this GOTO has no IF",
+                       .it = "il salto si scrive IF VGPL = 1 GOTO N30: questo GOTO è senza IF"},
+           .wrong = "M06 T101001\n[!GOTO!] N30\nG00 X10\nN30 M02\n"}},
      .explanation = {.en = "The control reads a jump in one form only, such as IF VGPL = 34.5 GOTO N30 or IF V5 >= 2 "
                            "GOTO N100. Write all its parts in this order. A condition compares with one number: two "
                            "registers cannot be compared, nor two conditions combined. What stands in parentheses is a "
@@ -1175,8 +1308,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.4.4",
      .arguments = {},
      .title = {.en = "M with parameters not alone on its line", .it = "M con parametri non da sola sulla linea"},
-     .message = {.en = "{text} has parameters and must stand alone on its line",
-                 .it = "{text} ha dei parametri e deve stare da sola sulla linea"},
+     .message = {.en = "{text} has parameters and must stand alone on its line, without {other}",
+                 .it = "{text} ha dei parametri e deve stare da sola sulla linea, senza {other}"},
      .explanation =
          {.en = "The control runs an M with parameters only if it is the single instruction on its line. "
                 "Move the other instructions to the line before or after it. A line number N may stay.",
@@ -1191,10 +1324,21 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.4.4",
      .arguments = {},
      .title = {.en = "Invalid M parameter", .it = "Parametro non valido per la M"},
-     .message = {.en = "{text} is not a valid parameter: user M functions take P1 to P20, each once, with = and a "
-                       "number",
-                 .it = "{text} non è un parametro valido: le M dell'utente ammettono da P1 a P20, una volta "
-                       "ciascuno, con = e un numero"},
+     .message = {.en = "{text} is no parameter: an M function has P1 to P20",
+                 .it = "{text} non è un parametro: una funzione M ha da P1 a P20"},
+     .causes = {{.cause = "no-value",
+                 .message = {.en = "{text} has no value: write = and a number, as in P1=5",
+                             .it = "{text} senza valore: scrivere = e un numero, come in P1=5"},
+                 .wrong = "M100 [!P1!]\nM02\n"},
+                {.cause = "repeated",
+                 .message = {.en = "{text} comes after {other}: an M function takes each parameter once",
+                             .it = "{text} viene dopo {other}: una funzione M vuole ogni parametro una sola volta"},
+                 .wrong = "M100 P1=5 [!P1=6!]\nM02\n"},
+                {.cause = "fixed-function",
+                 .message = {.en = "{other} takes no parameters: {text} goes with a function of the user, such as M100",
+                             .it =
+                                 "{other} non ha parametri: {text} va con una funzione dell'utente, per esempio M100"},
+                 .wrong = "M05 [!P1=1!]\nM02\n"}},
      .explanation = {.en = "A user M function has 20 places for values, P1 to P20, and each value needs its place. "
                            "Write the parameters as in M100 P1=2.5 P2=-3. M03, M04 and M05 take none.",
                      .it = "Una M definita dall'utente ha 20 posti per i valori, da P1 a P20, e ogni valore vuole il "
@@ -1207,15 +1351,19 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.8",
      .arguments = {},
      .title = {.en = "Misplaced G09", .it = "Posizione errata della G09"},
-     .message = {.en = "{text} must directly follow a feed move, on its line or first on the next",
-                 .it = "{text} deve seguire subito un movimento in interpolazione, sulla sua linea o all'inizio "
-                       "della successiva"},
+     .message =
+         {.en = "{text} must directly follow a feed move, on its line or first on the next",
+          .it = "{text} deve seguire subito un movimento in lavoro, sulla sua linea o all'inizio della successiva"},
+     .causes = {{.cause = "after-rapid",
+                 .message = {.en = "{text} must follow a feed move: a rapid stops at its end anyway",
+                             .it = "{text} deve seguire un movimento in lavoro: un rapido si ferma comunque alla fine"},
+                 .wrong = "M06 T101001\nG00 X10 [!G09!]\nM02\n"}},
      .explanation = {.en = "G09 stops the axes at the end of the feed move just before it, and here there is none. "
                            "Write it after the coordinates of the move or first on the next line. After a rapid (G00) "
                            "it is not allowed.",
-                     .it = "La G09 arresta gli assi alla fine del movimento in interpolazione che la precede, e qui "
-                           "non ce n'è uno. Scriverla dopo le quote del movimento o all'inizio della linea "
-                           "successiva. Dopo un rapido (G00) non è ammessa."},
+                     .it = "La G09 arresta gli assi alla fine del movimento in lavoro che la precede, e qui non ce n'è "
+                           "uno. Scriverla dopo le quote del movimento o all'inizio della linea successiva. Dopo un "
+                           "rapido (G00) non è ammessa."},
      .wrong = "M06 T101001\n[!G09!] G01 X10 F1000\nM02\n",
      .right = "M06 T101001\nG01 X10 F1000 G09\nM02\n"},
     {.code = "W001",
@@ -1255,13 +1403,13 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .arguments = {},
      .title = {.en = "F ignored", .it = "F ignorata"},
      .message = {.en = "{text} is ignored: with G93 in force F counts only on the line of a feed move",
-                 .it = "{text} viene ignorata: con la G93 in presa la F vale solo sulla linea di un movimento in "
-                       "interpolazione"},
-     .explanation = {.en = "In inverse time (G93) F stands for the time of the move on its own line, and this line "
-                           "has no feed move. Delete F, or write it on the line of the move that it is meant for.",
-                     .it = "Con l'inverso del tempo (G93) la F dà il tempo del movimento sulla stessa linea, e qui "
-                           "non ci sono movimenti in interpolazione. Togliere la F, oppure scriverla sulla linea del "
-                           "movimento a cui serve."},
+                 .it =
+                     "{text} viene ignorata: con la G93 in presa la F vale solo sulla linea di un movimento in lavoro"},
+     .explanation =
+         {.en = "In inverse time (G93) F stands for the time of the move on its own line, and this line "
+                "has no feed move. Delete F, or write it on the line of the move that it is meant for.",
+          .it = "Con l'inverso del tempo (G93) la F dà il tempo del movimento sulla stessa linea, e qui non ci sono "
+                "movimenti in lavoro. Togliere la F, oppure scriverla sulla linea del movimento a cui serve."},
      .wrong = "M06 T101001\nG93 G01 X10 F4\nG00 Z5 [!F4!]\nM02\n",
      .right = "M06 T101001\nG93 G01 X10 F4\nG00 Z5\nM02\n"},
     {.code = "W101",
@@ -1292,11 +1440,10 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
               "in the material the tool breaks. Write M03 or M04 with its S before it. A false alarm where a probe or "
               "a "
               "drag knife is moved with the spindle stopped, or where the shop's tool change starts the spindle.",
-          .it =
-              "Il mandrino è stato fermato con la M05, oppure ha una velocità S ma nessuno l'ha avviato, e ora arriva "
-              "un movimento in lavoro: nel materiale l'utensile si rompe. Scrivere prima una M03 o una M04 con la sua "
-              "S. Falso allarme se si lavora apposta a mandrino fermo, per esempio con un tastatore o una lama "
-              "trascinata, o se il mandrino parte già con il cambio utensile."},
+          .it = "Il mandrino è stato fermato con la M05, oppure ha una velocità S ma nessuno l'ha avviato, e ora "
+                "arriva un movimento in lavoro: nel materiale l'utensile si rompe. Scrivere prima una M03 o una M04 "
+                "con la sua S. Falso allarme se si lavora apposta a mandrino fermo, per esempio con un tastatore o un "
+                "coltello, o se il mandrino parte già con il cambio utensile."},
      .wrong = "M06 T101001\nS12000 M03\nG01 X10 F1000\nM05\n[!X20!]\nM02\n",
      .right = "M06 T101001\nS12000 M03\nG01 X10 F1000\nM05\nG00 X20\nM02\n"},
     {.code = "W103",
@@ -1406,8 +1553,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.7",
      .arguments = {"feed"},
      .title = {.en = "No F since G93", .it = "Nessuna F dopo la G93"},
-     .message = {.en = "no F since G93: the feed is {feed} mm/min from here on",
-                 .it = "nessuna F dopo la G93: da qui il feed rate è di {feed} mm/min"},
+     .message = {.en = "no F since G93: the feed rate is {feed} mm/min from here on",
+                 .it = "nessuna F dopo la G93: da qui l'avanzamento è di {feed} mm/min"},
      .explanation =
          {.en = "Back in G94 without a new F the last F of G94 holds again; where there was none, the F of G93, which "
                 "stood for a time, is read as a speed. Write an F on the first feed move after G94. A false alarm "
@@ -1422,9 +1569,10 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .severity = Severity::Warning,
      .section = "I.3.4.3.a",
      .arguments = {},
-     .title = {.en = "Arc that goes nowhere", .it = "Arco che non si muove"},
-     .message = {.en = "an arc by radius that ends where it starts does not move: a full turn needs its center",
-                 .it = "un arco dato con il raggio che finisce dove comincia non si muove: per il giro completo serve "
+     .title = {.en = "Arc that goes nowhere", .it = "Arco senza sviluppo"},
+     .message = {.en =
+                     "an arc with a radius alone that ends where it starts does not move: a full turn needs its center",
+                 .it = "un arco con il solo raggio che finisce dove comincia non si muove: per un giro completo serve "
                        "il centro"},
      .explanation =
          {.en = "With R alone the sweep is at most 180 degrees, and from a point to itself there is none. Give the "
@@ -1440,8 +1588,10 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.4.3.a",
      .arguments = {"found", "wanted"},
      .title = {.en = "Arc that fits only by the tolerance", .it = "Arco accettato solo per la tolleranza"},
-     .message = {.en = "the arc fits only by the tolerance: {found} mm here, {wanted} mm there",
-                 .it = "l'arco passa solo per la tolleranza: {found} mm da una parte, {wanted} mm dall'altra"},
+     .message = {.en = "the center is {found} mm from the start and {wanted} mm from the end: the arc fits only within "
+                       "the tolerance",
+                 .it = "il centro dista {found} mm dal punto iniziale e {wanted} mm da quello finale: l'arco passa "
+                       "solo grazie alla tolleranza"},
      .explanation = {.en = "The two distances differ by more than half of what the control still accepts, so the arc "
                            "is drawn with a visible step or not at all on a stricter control. Give center and end with "
                            "more decimals. A false alarm where the program has only two decimals on purpose.",
@@ -1457,12 +1607,13 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.12",
      .arguments = {"mode"},
      .title = {.en = "Change under cutter compensation", .it = "Cambio con la correzione raggio fresa in presa"},
-     .message = {.en = "{text} while G{mode} is in force", .it = "{text} con la G{mode} in presa"},
-     .explanation = {.en = "Plane, frame or tool change while the path is offset for the old one. End the compensation "
-                           "with G40 before it. A false alarm only where the shop's control is known to allow it.",
-                     .it = "Cambia il piano, il riferimento o l'utensile mentre il percorso è corretto per quello di "
-                           "prima. Togliere prima la correzione con la G40. Falso allarme solo se è certo che il "
-                           "controllo lo consente."},
+     .message = {.en = "{text} while cutter compensation (G{mode}) is in force: write G40 before it",
+                 .it = "{text} con la correzione raggio fresa (G{mode}) in presa: scrivere prima la G40"},
+     .explanation =
+         {.en = "Plane, frame or tool change while the path is offset for the old one. End the compensation "
+                "with G40 before it. A false alarm only where the shop's control is known to allow it.",
+          .it = "Cambia il piano, il riferimento o l'utensile mentre il percorso è compensato per quello di prima. "
+                "Togliere prima la correzione con la G40. Falso allarme solo se è certo che il controllo lo consente."},
      .wrong = "M06 T101001\nG41 G01 X10 F1000\n[!G18!]\nX20\nG40\nM02\n",
      .right = "M06 T101001\nG41 G01 X10 F1000\nG40\nG18\nX20\nM02\n"},
     {.code = "W114",
@@ -1471,8 +1622,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.2",
      .arguments = {"angle"},
      .title = {.en = "Face axes not quite orthogonal", .it = "Assi di faccia non proprio ortogonali"},
-     .message = {.en = "the face axes are {angle} degrees off the right angle",
-                 .it = "gli assi di faccia si scostano di {angle} gradi dall'angolo retto"},
+     .message = {.en = "the face axes are {angle}° off the right angle",
+                 .it = "gli assi di faccia si scostano di {angle}° dall'angolo retto"},
      .explanation = {.en = "The control takes the axes as orthogonal, but their components have so few decimals that "
                            "the coordinates along them are slightly oblique. Write them with six decimals or more, or "
                            "use G29 with angles. A false alarm where axes are meant to be oblique by so little.",
@@ -1572,7 +1723,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .is_off = true,
      .section = "I.3.4",
      .arguments = {},
-     .title = {.en = "Motion that goes nowhere", .it = "Movimento che non si muove"},
+     .title = {.en = "Motion that goes nowhere", .it = "Movimento senza spostamento"},
      .message = {.en = "the tool is there already: nothing moves", .it = "l'utensile è già lì: non si muove nulla"},
      .explanation = {.en = "The motion ends where it starts. Often a post-processor only repeats the point, but a "
                            "wrong coordinate can hide there, or a G91 that was forgotten. Off by default, since "
@@ -1589,7 +1740,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.6",
      .arguments = {},
      .title = {.en = "Register compared but never set", .it = "Registro confrontato ma mai impostato"},
-     .message = {.en = "nothing in this program sets {text}", .it = "niente in questo programma imposta {text}"},
+     .message = {.en = "nothing in this program gives {text} a value",
+                 .it = "niente in questo programma dà un valore a {text}"},
      .explanation = {.en = "The IF compares a register that the program gives no value anywhere. Check its number, or "
                            "set it at the top of the program. Off by default; a false alarm where the register is set "
                            "from outside, by the GPL or by a program that ran before.",
@@ -1636,9 +1788,10 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.2.1",
      .arguments = {"last"},
      .title = {.en = "Line number that does not grow", .it = "Numero di riga che non cresce"},
-     .message = {.en = "{text} comes after N{last}", .it = "{text} viene dopo N{last}"},
-     .explanation = {.en = "The number is the same as the one before, or smaller. The control does not mind, but who "
-                           "searches for a line to restart from finds the wrong one; isofmt --renumber puts them in "
+     .message = {.en = "{text} comes after N{last}: line numbers should grow",
+                 .it = "{text} viene dopo N{last}: i numeri di riga dovrebbero crescere"},
+     .explanation = {.en = "The number is the same as the one before, or smaller. The control does not mind, but a "
+                           "search for the line to restart from finds the wrong one; isofmt --renumber puts them in "
                            "order. Off by default; a false alarm where parts are numbered each from its own start.",
                      .it = "Il numero è uguale a quello precedente, o minore. Al controllo non importa, ma chi cerca "
                            "la linea da cui ripartire trova quella sbagliata; isofmt --renumber li rimette in ordine. "
@@ -1684,8 +1837,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.1",
      .arguments = {},
      .title = {.en = "Mixed line ends", .it = "Terminatori di linea diversi"},
-     .message = {.en = "from here on lines end otherwise than above",
-                 .it = "da qui le linee finiscono in modo diverso dalle precedenti"},
+     .message = {.en = "from here on the line ends differ from those above",
+                 .it = "da qui i terminatori di linea sono diversi da quelli precedenti"},
      .explanation =
          {.en = "The program has lines that end in CR, in LF or in both, as happens when pieces of several files are "
                 "joined. The control reads them all; editors and version control may show lines doubled, or all as "
@@ -1705,9 +1858,9 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .message = {.en = "this axis vector is {length} long: is a digit missing?",
                  .it = "il modulo di questo versore è {length}: manca una cifra?"},
      .explanation = {.en = "The control makes the vector a unit one and goes on, so only its direction counts. Its "
-                           "length is further from 1 than three decimals explain and nearer than somebody would "
-                           "choose: a component may have a wrong digit, and then the direction is wrong. A false alarm "
-                           "where the components are rounded to two decimals.",
+                           "length is further from 1 than three decimals explain and nearer than a length chosen on "
+                           "purpose: a component may have a wrong digit, and then the direction is wrong. A false "
+                           "alarm where the components are rounded to two decimals.",
                      .it = "Il controllo normalizza il versore e prosegue: conta solo la direzione. Il modulo è più "
                            "lontano da 1 di quanto spieghino tre decimali, ma troppo vicino per essere voluto: una "
                            "componente può avere una cifra sbagliata, e allora è sbagliata la direzione. Falso allarme "
@@ -1721,7 +1874,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .arguments = {},
      .title = {.en = "M function that the machine file does not name",
                .it = "Funzione M non indicata nel file macchina"},
-     .message = {.en = "the machine file names no {text}", .it = "il file macchina non indica nessuna {text}"},
+     .message = {.en = "{text} is not among the M functions of the machine file",
+                 .it = "{text} non è fra le funzioni M del file macchina"},
      .explanation = {.en =
                          "The machine file lists the M functions of the shop, and this is none of them. Check the "
                          "number, or add the function to isocnc.json. Only reported where the file has such a list; a "
@@ -1736,17 +1890,21 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .severity = Severity::Warning,
      .section = "I.3.4",
      .arguments = {"axis", "reached", "limit"},
-     .title = {.en = "Axis travel exceeded", .it = "Corsa di un asse superata"},
-     .message = {.en = "the machine's {axis} goes to {reached}, and its travel ends at {limit}",
-                 .it = "l'asse {axis} della macchina va a {reached}, ma la sua corsa finisce a {limit}"},
-     .explanation = {.en = "On the way of this motion, the bulge of an arc included, the tool tip leaves the travel "
-                           "that the machine file gives, in machine coordinates. Check the coordinate and the "
-                           "workpiece origin, or the file. A false alarm where the file gives the travel of the joints "
-                           "of a tilting head, which is not that of the tip.",
-                     .it = "Durante questo movimento, compresa la pancia di un arco, la punta dell'utensile esce dalla "
-                           "corsa indicata nel file macchina, in coordinate macchina. Controllare la coordinata e "
-                           "l'origine pezzo, oppure il file. Falso allarme se il file indica la corsa dei carri di una "
-                           "testa orientabile, che non è quella della punta."},
+     .title = {.en = "Axis travel exceeded", .it = "Asse fuori corsa"},
+     .message =
+         {.en = "{axis} goes to {reached} in machine coordinates, and its travel ends at {limit}",
+          .it =
+              "l'asse {axis} va fuori corsa: arriva a {reached} in coordinate macchina, e la corsa finisce a {limit}"},
+     .explanation =
+         {.en =
+              "On the way of this motion, the bulge of an arc included, the tool tip leaves the travel that the "
+              "machine "
+              "file gives, in machine coordinates. Check the coordinate and the workpiece origin, or the file. A false "
+              "alarm where the file gives the travel of the joints of a tilting head, which is not that of the tip.",
+          .it = "Durante questo movimento, compresa la freccia di un arco, la punta dell'utensile esce dalla corsa "
+                "indicata nel file macchina, in coordinate macchina. Controllare la coordinata e l'origine pezzo, "
+                "oppure il file. Falso allarme se il file indica la corsa dei carri di una testa orientabile, che non "
+                "è quella della punta."},
      .wrong = "M06 T101001\nG00 [!X1200!] Y10\nM02\n",
      .right = "M06 T101001\nG00 X900 Y10\nM02\n"},
     {.code = "W131",
@@ -1754,14 +1912,14 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .severity = Severity::Warning,
      .section = "I.3.7",
      .arguments = {"feed", "limit"},
-     .title = {.en = "Feed above the machine's", .it = "Feed rate oltre quello della macchina"},
-     .message = {.en = "{text} means {feed} mm/min, and the machine does {limit}",
-                 .it = "{text} vale {feed} mm/min, ma la macchina arriva a {limit}"},
+     .title = {.en = "Feed rate above the machine's", .it = "Avanzamento oltre quello della macchina"},
+     .message = {.en = "{text} means {feed} mm/min, more than the machine's {limit}",
+                 .it = "{text} vale {feed} mm/min, oltre i {limit} della macchina"},
      .explanation =
          {.en = "The feed is above what the machine file allows; in G93 it follows from the length of the motion. The "
                 "machine will be slower than the program asks, so the cut differs from what was planned. A false alarm "
                 "where the program counts on the machine to slow down.",
-          .it = "Il feed rate supera quello ammesso dal file macchina; in G93 dipende dalla lunghezza del movimento. "
+          .it = "L'avanzamento supera quello ammesso dal file macchina; in G93 dipende dalla lunghezza del movimento. "
                 "La macchina andrà più piano di quanto chiede il programma, e la lavorazione sarà diversa da quella "
                 "prevista. Falso allarme se il programma conta sul rallentamento della macchina."},
      .wrong = "M06 T101001\nG01 X100 [!F15000!]\nM02\n",
@@ -1772,14 +1930,14 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.7",
      .arguments = {"speed", "limit"},
      .title = {.en = "Rotary axis faster than the machine", .it = "Asse rotante oltre la velocità della macchina"},
-     .message = {.en = "{text} turns at {speed} degrees/min, and the machine does {limit}",
-                 .it = "{text} gira a {speed} gradi/min, ma la macchina arriva a {limit}"},
+     .message = {.en = "{text} would turn at {speed} degrees/min, more than the machine's {limit}",
+                 .it = "{text} girerebbe a {speed} gradi/min, oltre i {limit} della macchina"},
      .explanation = {.en = "At this feed the rotary axis would have to turn faster than the machine file allows, as "
                            "happens near a singular position or on short moves. Lower the feed, or spread the turn "
                            "over a longer way. A false alarm where the program counts on the machine to slow down.",
-                     .it = "Con questo feed rate l'asse rotante dovrebbe girare più in fretta di quanto ammette il "
+                     .it = "Con questo avanzamento l'asse rotante dovrebbe girare più in fretta di quanto ammette il "
                            "file macchina, come capita vicino a una posizione singolare o su tratti corti. Ridurre "
-                           "il feed rate, o distribuire la rotazione su un tratto più lungo. Falso allarme se il "
+                           "l'avanzamento, o distribuire la rotazione su un tratto più lungo. Falso allarme se il "
                            "programma conta sul rallentamento della macchina."},
      .wrong = "M06 T101001\nG49\nG01 X10 [!C90!] F5000\nM02\n",
      .right = "M06 T101001\nG49\nG01 X10 C90 F100\nM02\n"},
@@ -1912,8 +2070,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3",
      .arguments = {},
      .title = {.en = "Motion without its compensation", .it = "Movimento senza la sua correzione"},
-     .message = {.en = "this motion runs as programmed: it turns B or C, or the axes in force are oblique",
-                 .it = "questo movimento resta come programmato: ruota B o C, oppure gli assi in presa sono obliqui"},
+     .message = {.en = "this motion runs without compensation: it turns B or C, or the axes in force are oblique",
+                 .it = "questo movimento resta senza correzione: ruota B o C, oppure gli assi in presa sono obliqui"},
      .explanation =
          {.en = "G41 and G42 move the tool sideways in the arc plane, which takes axes at right angles and a tool that "
                 "keeps its direction. The simulated machine ends the compensation before such a motion and takes it up "
@@ -1975,8 +2133,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.2.3",
      .arguments = {},
      .title = {.en = "isolint comment without effect", .it = "Commento per isolint senza effetto"},
-     .message = {.en = "{text} changes nothing in what is reported",
-                 .it = "{text} non cambia nulla di ciò che viene segnalato"},
+     .message = {.en = "\"{text}\" changes nothing in what is reported",
+                 .it = "«{text}» non cambia nulla di ciò che viene segnalato"},
      .explanation = {.en = "The comment names nothing that is found where it counts, or a code that does not exist. "
                            "With ignore it counts on its own line, with disable from its line to the line before "
                            "enable, with ignore-file in the whole program. If the program has been mended, delete the "
@@ -2003,10 +2161,10 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                            "From here on whatever differs between them (position, feed rate, tool and so on) counts "
                            "as unknown, so mistakes that depend on it may go unreported. The control itself runs the "
                            "program as usual.",
-                     .it = "La verifica segue uno per uno solo un certo numero di stati macchina, e i salti "
-                           "precedenti ne danno di più. Da qui in poi tutto ciò che li distingue (posizione, feed "
-                           "rate, utensile e così via) si considera ignoto: gli errori che ne dipendono possono non "
-                           "essere segnalati. La macchina esegue comunque il programma come sempre."},
+                     .it = "La verifica segue uno per uno solo un certo numero di stati macchina, e i salti precedenti "
+                           "ne danno di più. Da qui in poi tutto ciò che li distingue (posizione, avanzamento, "
+                           "utensile e così via) si considera ignoto: gli errori che ne dipendono possono non essere "
+                           "segnalati. La macchina esegue comunque il programma come sempre."},
      .wrong = "",
      .right = ""},
     {.code = "W192",
@@ -2029,5 +2187,20 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
 
 static_assert(std::ranges::equal(kDiagnostics, kDiagnosticNames, {}, &DiagnosticDef::name),
               "CMakeLists.txt reads one name from each row: a line with `.name = \"...\"`");
+
+/// Whether kCauseNames holds the names of all causes, in the order of the table.
+static constexpr bool names_are_complete() {
+  const std::string_view* name = std::begin(kCauseNames);
+  for (const DiagnosticDef& def : kDiagnostics) {
+    for (const CauseDef& cause : def.causes) {
+      if (cause.cause.empty()) continue;
+      if (name == std::end(kCauseNames) || name->size() != def.name.size() + 1 + cause.cause.size()) return false;
+      if (!name->starts_with(def.name) || !name->ends_with(cause.cause)) return false;
+      ++name;
+    }
+  }
+  return name == std::end(kCauseNames);
+}
+static_assert(names_are_complete(), "CMakeLists.txt reads the name of each cause: a line with `.cause = \"...\"`");
 
 }  // namespace isocnc::dialect

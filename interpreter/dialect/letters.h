@@ -86,5 +86,6 @@ inline constexpr LetterSet kCoordinateLetters = letters(kAxisLetters);
 inline constexpr LetterSet kLinearLetters = letters("XYZ");
 inline constexpr LetterSet kRotaryLetters = letters("BC");
 inline constexpr LetterSet kCenterLetters = letters("IJK");
+inline constexpr LetterSet kCircleLetters = letters("IJKR");
 
 }  // namespace isocnc::dialect

@@ -28,8 +28,7 @@ void Executor::allow_for_lost_letter() {
   state_.speed_given = true;
   const int value = number->is_plain_integer() ? number->whole().value_or(-1) : -1;
   const bool is_assigned = line_.words.size() > 1 && line_.words[1].letter == syntax::kAssign;
-  if (is_assigned && dialect::is_register(value))
-    return sink_.assign(value, std::numeric_limits<double>::quiet_NaN());
+  if (is_assigned && dialect::is_register(value)) return sink_.assign(value, std::numeric_limits<double>::quiet_NaN());
   if (dialect::is_motion_number(value)) return make_motion_illegible();
   const dialect::GCode* const code = lost_g(value);
   if (value == dialect::kToolChange) {
@@ -40,6 +39,7 @@ void Executor::allow_for_lost_letter() {
     if (number->letter == syntax::kNumber) {  // Not in H27, where the G of a G27 was hit wrong.
       blur_axes_not_named();
       state_.feed_reported = true;
+      state_.feed_on_rapid = false;
     }
     if (code && code->group != dialect::ModalGroup::None) allow_for_lost_g(*code);
   }
@@ -157,15 +157,6 @@ bool Executor::moves_in_plane() const {
                      [&](const Word& word) { return word.letter == plane.u_letter || word.letter == plane.v_letter; });
 }
 
-void Executor::report(dialect::DiagnosticId id, syntax::Span span, std::initializer_list<double> values,
-                      syntax::Span related) {
-  lack_.take(id);
-  last_reported_ = span;
-  syntax::Finding finding{.id = id, .span = span, .related = related};
-  std::copy(values.begin(), values.end(), finding.values.begin());
-  sink_.report(finding);
-}
-
 void Executor::execute_g(const Instruction& instruction) {
   const dialect::GCode* const code = instruction.g();
   if (!code) return execute_unknown_g(instruction);
@@ -262,13 +253,14 @@ void Executor::exact_stop(const Instruction& instruction) {
                         : instruction.has(Instruction::kFirst) && state_.exact_stop_fits;
   if (fits) return sink_.exact_stop();
   if (state_.motion_illegible) return;
-  report("g09-misplaced"_diag, line_.command(instruction).span());
+  const bool follows_rapid = instruction.has(Instruction::kFollowsMotion) && rapid_move_;
+  report(follows_rapid ? "g09-misplaced/after-rapid"_cause : "g09-misplaced"_diag, line_.command(instruction).span());
 }
 
 /// Whether the words after a G04 are those of a motion: two coordinates, or a circle.
 static bool names_motion(const Arguments& arguments) {
   const dialect::LetterSet linear = arguments.present() & dialect::kLinearLetters;
-  const bool has_circle = (arguments.present() & (dialect::kCenterLetters | dialect::letters("R"))) != 0;
+  const bool has_circle = (arguments.present() & dialect::kCircleLetters) != 0;
   return has_circle || (linear & (linear - 1)) != 0;
 }
 
@@ -389,6 +381,8 @@ void Executor::apply_feed_without_motion() {
     if (!(word.value <= 0) && !may_have_motion) report("feed-ignored"_diag, word.span());
   } else if (!rapid_move_) {
     take_feed();
+  } else if (!state_.feed_given && !state_.feed_reported) {
+    state_.feed_on_rapid = true;
   }
 }
 

@@ -70,8 +70,12 @@ class Executor {
   std::optional<geometry::ArcGiven> read_arc(const Arguments& arguments, const Plane& plane) const;
   void report_centered_arc(const Arguments& arguments, const Plane& plane, const geometry::ArcGiven& given,
                            const geometry::Circle& circle);
-  void report_circle(const Arguments& arguments, const geometry::Circle& circle, const Plane& plane);
-  void report_missing_circle(syntax::Span place);
+  bool fits_from_start(const geometry::ArcGiven& given, const Plane& plane) const;
+  void report_center(syntax::Span centers, const geometry::ArcGiven& given, const geometry::Circle& circle,
+                     const Plane& plane);
+  void report_circle(const Arguments& arguments, const geometry::ArcGiven& given, const geometry::Circle& circle,
+                     const Plane& plane);
+  void report_missing_circle(const Plane& plane, syntax::Span place);
   bool arc_is_described(const Arguments& arguments, const Plane& plane, syntax::Span place);
 
   // frames.cpp
@@ -115,8 +119,12 @@ class Executor {
   void move_illegibly(const Arguments& arguments);
   void blur_linear_axes() { state_.unknown |= kLinearAxes; }
 
-  void report(dialect::DiagnosticId id, syntax::Span span, std::initializer_list<double> values = {},
-              syntax::Span related = {});
+  void report(dialect::Cause cause, syntax::Span span, std::initializer_list<double> values = {},
+              syntax::Span related = {}) {
+    lack_.take(cause.id);
+    last_reported_ = span;
+    sink_.report(syntax::finding_of(cause, span, values, related));
+  }
 
   const syntax::LineTree& line_;
   State& state_;

@@ -4,6 +4,7 @@ namespace isocnc::execution {
 
 void take_feed(double number, State& state) {
   state.feed_given = true;
+  state.feed_on_rapid = false;
   if (!(number > 0)) return;  // Reported; the feed before it stays.
   state.last_feed = {number, state.mm_per_unit()};
   if (!state.inverse_time()) state.feed_per_minute = state.last_feed;

@@ -12,8 +12,7 @@ using syntax::Word;
 
 namespace {
 
-constexpr dialect::LetterSet kCircle = dialect::kCenterLetters | dialect::letters("R");
-constexpr dialect::LetterSet kArc = dialect::kCoordinateLetters | kCircle | dialect::letters("F");
+constexpr dialect::LetterSet kArc = dialect::kCoordinateLetters | dialect::kCircleLetters | dialect::letters("F");
 constexpr dialect::LetterSet kFace = dialect::letters("XYZABCIJKPQR");
 
 struct Row {
@@ -31,7 +30,7 @@ constexpr Row kMotions[] = {{"missing-coordinate"_diag, kArc},
                             {"center-undetermined-g18-k"_diag, kArc},
                             {"center-undetermined-g19-j"_diag, kArc},
                             {"center-undetermined-g19-k"_diag, kArc},
-                            {"feed-missing"_diag, kCircle | dialect::letters("F")},
+                            {"feed-missing"_diag, dialect::kCircleLetters | dialect::letters("F")},
                             {"inverse-time-feed-missing"_diag, dialect::letters("F")}};
 
 /// The same for other instructions.

@@ -30,9 +30,7 @@ LetterSet Executor::end_in_rotary_word(const Arguments& arguments, const GCode& 
 }
 
 /// Whether words give the center or the radius of an arc.
-static bool names_circle(const Arguments& arguments) {
-  return (arguments.present() & (dialect::kCenterLetters | dialect::letter_bit('R'))) != 0;
-}
+static bool names_circle(const Arguments& arguments) { return (arguments.present() & dialect::kCircleLetters) != 0; }
 
 void Executor::motion(const Instruction& instruction) {
   const bool is_continuation = instruction.kind == InstructionKind::Continuation;
@@ -57,7 +55,8 @@ void Executor::motion(const Instruction& instruction) {
   if ((arguments.present() & dialect::kCoordinateLetters) == 0) {
     const bool only_center = is_continuation && (arguments.present() & ~code.arguments) == 0;
     const bool is_explained = has_illegible_equals() || line_.has(syntax::LineTree::kAloneViolated);  // J10 M02
-    if (only_center && !is_explained) report("missing-coordinate"_diag, place);
+    if (only_center && !is_explained)
+      report("missing-coordinate/continuation"_cause, place, {static_cast<double>(code.number)});
     const auto is_missing = [&](const syntax::Finding& it) {
       return it.id == "missing-coordinate"_diag && it.span == place;
     };
@@ -154,8 +153,13 @@ bool Executor::motion_is_in_force(const Arguments& arguments) {
   for (const syntax::Finding& finding : line_.findings)
     reported |= finding.id == "stray-argument"_diag || finding.id == "units-after-dimensions"_diag ||
                 finding.id == "distance-mode-after-dimensions"_diag;
-  if (!reported && !follows_reported_g(arguments)) report("stray-argument"_diag, arguments.first().span());
-  if (arguments.first().letter != 'X' || names_axis_vectors(arguments)) doubt(ModalGroup::Face);  // B90 for G29 B90.
+  const char first = arguments.first().letter;
+  if (!reported && !follows_reported_g(arguments)) {
+    const bool is_of_motion = dialect::contains(dialect::kCoordinateLetters | dialect::kCircleLetters, first);
+    report(is_of_motion ? "stray-argument/no-motion"_cause : "stray-argument/no-such-axis"_cause,
+           arguments.first().span());
+  }
+  if (first != 'X' || names_axis_vectors(arguments)) doubt(ModalGroup::Face);  // B90 for G29 B90.
   doubt_code_before(arguments);
   return false;
 }
@@ -167,21 +171,26 @@ void Executor::report_strays(const Arguments& arguments, const GCode& code) {
   const bool follows_g = g_before(arguments) != nullptr;
   if (follows_g && follows_reported_g(arguments)) return doubt_code_before(arguments);
   // I5 J0 with a G01 that should be a G02 is one mistake, and so are A1 J1 R1 after a G42 that should be a G24.
-  const LetterSet joined =
-      follows_g ? code.arguments | arguments.present() : dialect::kCenterLetters | dialect::letter_bit('R');
+  const LetterSet joined = follows_g ? code.arguments | arguments.present() : dialect::kCircleLetters;
   Span together;
+  LetterSet reported = 0;
   for (char letter = 'A'; letter <= 'Z'; ++letter) {
     if (!dialect::contains(arguments.present() & ~code.arguments, letter) ||
         arguments.word(letter).has(syntax::Word::kReported | syntax::Word::kMissing))
       continue;
     const Span span = arguments.word(letter).span();
+    reported |= dialect::letter_bit(letter);
     if (!dialect::contains(joined, letter)) {
-      report("stray-argument"_diag, span);
+      report("stray-argument/no-such-axis"_cause, span);
     } else {
       together = together.empty() ? span : syntax::hull(together, span);
     }
   }
-  if (!together.empty()) report("stray-argument"_diag, together);
+  if (!together.empty()) {
+    const bool is_circle = (reported & joined & ~dialect::kCircleLetters) == 0;
+    report(is_circle ? "stray-argument/no-arc"_cause : "stray-argument/no-such-axis"_cause, together,
+           {static_cast<double>(code.number)});
+  }
   if (arguments.has('A') && !arguments.has('Z')) garbled_ |= dialect::letter_bit('Z');  // The key above it.
   doubt_code_before(arguments);
 }
@@ -204,8 +213,9 @@ void Executor::check_feed(Span place) {
     // A number without its letter may be the F (D58).
     if (line_.findings.empty() || !line_.number_without_letter()) report("inverse-time-feed-missing"_diag, place);
   } else if (!state_.feed_given && !state_.feed_reported) {
-    report("feed-missing"_diag, place);
+    report(state_.feed_on_rapid ? "feed-missing/on-rapid"_cause : "feed-missing"_diag, place);
     state_.feed_reported = true;
+    state_.feed_on_rapid = false;
   }
 }
 
@@ -283,13 +293,16 @@ bool Executor::has_illegible_equals() const {
          std::any_of(line_.words.begin(), line_.words.end(), is_illegible);
 }
 
-/// Reports an arc without center and radius. It may have been meant as a line (G02 in place of G01), and so may the
-/// lines below that continue it without center and radius.
-void Executor::report_missing_circle(Span place) {
-  const bool may_be_given = may_have(dialect::kCenterLetters | dialect::letters("R")) ||
-                            line_.has(syntax::LineTree::kUnclosed) || has_illegible_equals();
-  if (!may_be_given) report("circle-not-given"_diag, place);
+/// Reports an arc without center and radius; `place` is its G, or a coordinate under a G of an earlier line. It may
+/// have been meant as a line (G02 in place of G01), and so may the lines below that continue it without either.
+void Executor::report_missing_circle(const Plane& plane, Span place) {
   doubt(ModalGroup::Motion);
+  if (may_have(dialect::kCircleLetters) || line_.has(syntax::LineTree::kUnclosed) || has_illegible_equals()) return;
+  const bool is_continuation = line_.word_at(place.begin)->letter != 'G';
+  const double first = std::min(plane.u, plane.v);
+  const double second = std::max(plane.u, plane.v);
+  report(is_continuation ? "circle-not-given/continuation"_cause : "circle-not-given"_diag, place,
+         {static_cast<double>(state_.motion()->number), first, second});
 }
 
 /// Whether an arc has all words that its geometry needs; reports the first problem in the order of D45.
@@ -301,12 +314,15 @@ bool Executor::arc_is_described(const Arguments& arguments, const Plane& plane, 
     return false;
   }
   if (state_.is_in_doubt(ModalGroup::Plane)) {
-    if (!has_circle) report_missing_circle(place);
+    if (!has_circle) report_missing_circle(plane, place);
     return false;
   }
   if (!arguments.has(plane.u_letter) && !arguments.has(plane.v_letter)) {
     if (may_have(dialect::letter_bit(plane.u_letter) | dialect::letter_bit(plane.v_letter))) return false;
-    report("arc-end-outside-plane"_diag, arguments.span_of(dialect::kCoordinateLetters));
+    const double first = std::min(plane.u, plane.v);
+    const double second = std::max(plane.u, plane.v);
+    report("arc-end-outside-plane"_diag, arguments.span_of(dialect::kCoordinateLetters),
+           {static_cast<double>(state_.mode(ModalGroup::Plane)), first, second});
     if (!has_circle) doubt(ModalGroup::Motion);
     return false;
   }
@@ -316,7 +332,7 @@ bool Executor::arc_is_described(const Arguments& arguments, const Plane& plane, 
     return false;
   }
   if (!has_circle) {
-    report_missing_circle(place);
+    report_missing_circle(plane, place);
     return false;
   }
   if (state_.face_mounted && !state_.face_undefined && !state_.is_in_doubt(ModalGroup::Face)) {
@@ -329,7 +345,25 @@ bool Executor::arc_is_described(const Arguments& arguments, const Plane& plane, 
   return true;
 }
 
-void Executor::report_circle(const Arguments& arguments, const geometry::Circle& circle, const Plane& plane) {
+/// Whether an arc under G90 fits, or nearly so, once its center counts from the start, as on other controls (D70).
+bool Executor::fits_from_start(const geometry::ArcGiven& given, const Plane& plane) const {
+  if (state_.incremental()) return false;
+  const geometry::PlanePoint start{state_.position.tip[plane.u], state_.position.tip[plane.v]};
+  return geometry::read_center_in_both_modes(given, start, false, setup_.arc_tolerance)
+      .nearly_fits_other(setup_.arc_tolerance);
+}
+
+/// Reports a center that is not equally far from both ends.
+void Executor::report_center(Span centers, const geometry::ArcGiven& given, const geometry::Circle& circle,
+                             const Plane& plane) {
+  const dialect::Cause cause = circle.found <= geometry::kEqualCoordinate ? "arc-center-mismatch/on-start"_cause
+                               : fits_from_start(given, plane)            ? "arc-center-mismatch/from-start"_cause
+                                                                          : "arc-center-mismatch"_diag;
+  report(cause, centers, {circle.found, circle.wanted});
+}
+
+void Executor::report_circle(const Arguments& arguments, const geometry::ArcGiven& given,
+                             const geometry::Circle& circle, const Plane& plane) {
   const Span centers = arguments.span_of(dialect::kCenterLetters);
   switch (circle.problem) {
     case ArcProblem::None:
@@ -339,11 +373,12 @@ void Executor::report_circle(const Arguments& arguments, const geometry::Circle&
     case ArcProblem::CenterUndeterminedByV:
       return report(plane.undetermined_by_v, centers);
     case ArcProblem::CenterMismatch:
-      return report("arc-center-mismatch"_diag, centers, {circle.found, circle.wanted});
+      return report_center(centers, given, circle, plane);
     case ArcProblem::RadiusMismatch:
       return report("arc-radius-mismatch"_diag, arguments.word('R').span(), {circle.found, circle.wanted});
     case ArcProblem::RadiusTooSmall:
-      return report("arc-radius-too-small"_diag, arguments.word('R').span(), {circle.found, circle.wanted});
+      return report(circle.found > 0 ? "arc-radius-too-small"_diag : "arc-radius-too-small/not-positive"_cause,
+                    arguments.word('R').span(), {circle.found, circle.wanted});
   }
 }
 
@@ -398,7 +433,7 @@ void Executor::arc(const Arguments& arguments, const GCode& code, Span place, Pr
   given->counterclockwise = code.role == GRole::CounterclockwiseArc;
   const geometry::Circle circle = geometry::find_circle(*given, setup_.arc_tolerance);
   if (given->center_u || given->center_v) report_centered_arc(arguments, plane, *given, circle);
-  if (circle.problem != ArcProblem::None) return report_circle(arguments, circle, plane);
+  if (circle.problem != ArcProblem::None) return report_circle(arguments, *given, circle, plane);
   if (!move || circle.goes_nowhere) return;
   move->kind = MoveKind::Arc;
   move->center = state_.position.tip;

@@ -26,6 +26,7 @@ bool judged_alike(const State& a, const State& b) {
 void join(State& into, const State& other) {
   if (into.spindle != other.spindle) into.spindle = Spindle::Unknown;
   into.speed_given |= other.speed_given;
+  into.feed_on_rapid |= other.feed_on_rapid;
   into.tool_known = into.tool_known && other.tool_known && into.tool == other.tool;
 }
 

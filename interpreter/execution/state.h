@@ -74,6 +74,7 @@ struct State {
   bool tool_reported = false;  ///< ISO044 has been reported.
   bool feed_given = false;
   bool feed_reported = false;    ///< ISO066 has been reported, or the missing F may have lost its letter (D58).
+  bool feed_on_rapid = false;    ///< On some path the only F so far is on the line of a rapid, which ignores it (D43).
   bool exact_stop_fits = false;  ///< A G09 at the start of the next line would follow a feed move (D23).
   Lack lack;                     ///< What the previous block lacks.
   /// The last T had no M06 (reported), and no motion followed; an M06 without T mounts this tool.
@@ -125,7 +126,7 @@ State initial_state(const Setup& setup);
 ProgrammedFeed feed_in_force(const State& state);
 
 /// Whether all later blocks get the same findings after `a` as after `b`: the states may differ only in the values of
-/// feed, spindle and tool, on which no check of the dialect depends.
+/// feed, spindle and tool, on which no check of the dialect depends, and in `feed_on_rapid`, which selects a message.
 bool judged_alike(const State& a, const State& b);
 
 /// Lets `into` stand for both of two states that are judged alike. Where their spindles or tools differ, they are

@@ -180,7 +180,7 @@ static OrderedJson json_of(const RunWarning& warning, Language language) {
   return {{"line", warning.line + 1},
           {"code", def.code},
           {"name", def.name},
-          {"message", dialect::message(warning.id, language, "", warning.values)}};
+          {"message", dialect::message(warning.id, language, {.values = warning.values})}};
 }
 
 static OrderedJson json_of(const State& state) {

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
 
 #include "interpreter/dialect/diagnostic_id.h"
 
@@ -21,15 +25,35 @@ struct Span {
 /// The smallest span that holds both.
 constexpr Span hull(Span a, Span b) { return {a.begin < b.begin ? a.begin : b.begin, a.end > b.end ? a.end : b.end}; }
 
-/// A problem of a line, as data: its kind, its place on the line and the values found. dialect::message() makes the
-/// text when it is shown, in the user's language.
+/// A problem of a line, as data: its kind, its place on the line and the values found. message() makes the text when it
+/// is shown, in the user's language.
 struct Finding {
   dialect::DiagnosticId id = dialect::kNoDiagnostic;
+  std::uint8_t cause = 0;  ///< Selects the message, dialect::Cause::number.
   Span span;
   Span related;  ///< A second place on the same line that explains the first (the first F of two); may be empty.
   std::array<double, dialect::kMaxArguments> values{};
 
+  bool has(dialect::Cause wanted) const { return id == wanted.id && cause == wanted.number; }
+
   friend bool operator==(const Finding&, const Finding&) = default;
 };
+
+/// A finding of this cause.
+inline Finding finding_of(dialect::Cause cause, Span span, std::initializer_list<double> values = {},
+                          Span related = {}) {
+  Finding finding{.id = cause.id, .cause = cause.number, .span = span, .related = related};
+  std::copy(values.begin(), values.end(), finding.values.begin());
+  return finding;
+}
+
+/// The message of a finding of this line.
+inline std::string message(const Finding& finding, std::string_view line, dialect::Language language) {
+  const auto text_of = [&](Span span) {
+    return line.substr(std::min<std::size_t>(span.begin, line.size()), span.end - span.begin);
+  };
+  return dialect::message({finding.id, finding.cause}, language,
+                          {.text = text_of(finding.span), .other = text_of(finding.related), .values = finding.values});
+}
 
 }  // namespace isocnc::syntax

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <string_view>
@@ -107,8 +108,7 @@ const char* LineParser::lex_with_number(const char* start, const char* p) {
   const Number number = scan_number(p, end_);
   const char letter = text::upper(*start);
   add_word(letter, start, number);
-  if (number.malformed && !in_condition_ && !has_own_code(letter))
-    report("malformed-number"_diag, {column(p), column(number.end)});
+  if (number.malformed && !in_condition_ && !has_own_code(letter)) report_number(p, number.end);
   if (p != start + 1 || number.has_more_inside(p)) note_comments_inside(start, number.end);
   end_target();
   return number.end;
@@ -134,6 +134,11 @@ const char* LineParser::lex_with_foreign_minus(char letter, const char* start, c
   return number.end;
 }
 
+void LineParser::report_number(const char* begin, const char* end) {
+  const bool has_comma = std::find(begin, end, ',') != end;
+  report(has_comma ? "malformed-number"_diag : "malformed-number/shape"_cause, {column(begin), column(end)});
+}
+
 /// Reads a keyword, a letter with a comment before its number, or a letter without a number.
 const char* LineParser::lex_without_number(const char* start, const char* p) {
   const char letter = text::upper(*start);
@@ -147,9 +152,19 @@ const char* LineParser::lex_without_number(const char* start, const char* p) {
   has_prose_ = true;
   // Before a `=` the value is given in a wrong form (ISO058); inside a condition, E003 reports the error.
   const bool assigned = after != end_ && *after == '=' && letter != 'V';
-  if (!in_condition_ && !assigned) report("word-without-number"_diag, added.span());
+  if (!in_condition_ && !assigned) report_letter_alone(start, after);
   end_target();
   return start + 1;
+}
+
+/// Whether a character is a letter that looks like a digit: O like 0, L like 1.
+static bool looks_like_digit(char c) { return text::upper(c) == 'O' || text::upper(c) == 'L'; }
+
+/// Reports the letter at `start`, which has no number; `after` is what follows it.
+void LineParser::report_letter_alone(const char* start, const char* after) {
+  const Span letter{column(start), column(start) + 1};
+  if (after == end_ || !looks_like_digit(*after)) return report("word-without-number"_diag, letter);
+  report("word-without-number/letter-for-digit"_cause, letter, {}, {column(after), column(after) + 1});
 }
 
 /// Reads IF, GOTO and VGPL. They cannot be words: I and V are followed by a letter here, and O does not start a word.
@@ -257,7 +272,7 @@ const char* LineParser::lex_number_alone(const char* p) {
     end_target();
   } else if (number.digits == 0) {
     added.letter = kError;
-    report("unknown-word"_diag, added.span());
+    report("unknown-word/no-digits"_cause, added.span());
   } else {
     report("number-without-letter"_diag, added.span());
   }
@@ -276,7 +291,7 @@ const char* LineParser::lex_equals(const char* p) {
   }
   const Number number = scan_number(at, end_);
   add_word(kAssign, p, number);
-  if (number.malformed) report("malformed-number"_diag, {column(at), column(number.end)});
+  if (number.malformed) report_number(at, number.end);
   note_comments_inside(p, number.end);
   return number.end;
 }
@@ -308,22 +323,33 @@ const char* LineParser::lex_comparison(const char* p) {
   return after;
 }
 
-/// Whether unknown text is in the place of the last word's number (G#1, MO6), which has been reported. Text that
-/// continues a number (X1O, X1L, X1E5) makes that number unknown.
-bool LineParser::garbles_number(char first) {
-  if (word_count() == 0) return false;
+/// What unknown text does to the number of the last word: it is in its place (G#1, MO6), which has been reported, or
+/// continues it (X1O, X1L, X1E5), which makes that number unknown.
+LineParser::BesideNumber LineParser::garble_number(char first) {
+  using enum BesideNumber;
+  if (word_count() == 0) return No;
   Word& before = word(word_count() - 1u);
   const bool is_word = before.letter >= 'A' && before.letter <= 'Z';
-  if (is_word && before.has(Word::kMissing)) return true;
-  if (first == ']' && word_count() > 2 && begin_[word(word_count() - 2u).begin] == '[') return true;  // X[V1]
+  if (is_word && before.has(Word::kMissing)) return InItsPlace;
+  if (first == ']' && word_count() > 2 && begin_[word(word_count() - 2u).begin] == '[') return InItsPlace;  // X[V1]
   const bool is_code = dialect::contains(dialect::letters("GMN"), before.letter);  // No exponent: GOTO N10 ELSE.
-  const bool reads_as_digit = first == 'O' || first == 'L';
-  if (is_word && reads_as_digit && before.digits == 0 && before.has(Word::kMalformed)) return true;  // X-O.5
-  if ((is_word || before.letter == kAssign) && (reads_as_digit || (first == 'E' && !is_code))) {
-    before.value = std::numeric_limits<double>::quiet_NaN();
-    before.flags |= Word::kMalformed | Word::kReported;
-  }
-  return false;
+  const bool reads_as_digit = looks_like_digit(first);
+  if (is_word && reads_as_digit && before.digits == 0 && before.has(Word::kMalformed)) return InItsPlace;  // X-O.5
+  if ((!is_word && before.letter != kAssign) || (!reads_as_digit && (first != 'E' || is_code))) return No;
+  before.value = std::numeric_limits<double>::quiet_NaN();
+  before.flags |= Word::kMalformed | Word::kReported;
+  return Continues;
+}
+
+/// The cause of text that is no word.
+static dialect::Cause cause_of_unknown(std::string_view text, bool continues_number) {
+  const auto compares = [](char c) {
+    const text::CharClass cls = text::char_class(c);
+    return cls == text::CharClass::Compare || text::is_blank(c) || text::is_number_char(c);
+  };
+  if (std::all_of(text.begin(), text.end(), compares)) return "unknown-word/outside-if"_cause;
+  if (continues_number && looks_like_digit(text.front())) return "unknown-word/letter-for-digit"_cause;
+  return "unknown-word"_diag;
 }
 
 /// One finding for a series of characters that do not start a word, together with the number after them (D10).
@@ -347,12 +373,15 @@ const char* LineParser::lex_unknown(const char* p) {
   }
   note_comments_inside(start, after);
   has_prose_ = true;
-  const bool in_place_of_number = !in_condition_ && garbles_number(text::upper(*start));
+  const BesideNumber beside = in_condition_ ? BesideNumber::No : garble_number(text::upper(*start));
   Word& added = add_word(kError, start, after);
   added.value = number.value;
   added.digits = number.digits;
   added.flags = flags_of(number);
-  if (!in_condition_ && !in_place_of_number) report("unknown-word"_diag, added.span());
+  if (!in_condition_ && beside != BesideNumber::InItsPlace)
+    report(
+        cause_of_unknown(text_of(added.span()), beside == BesideNumber::Continues && text::is_number_char(start[-1])),
+        added.span());
   end_target();
   return after;
 }

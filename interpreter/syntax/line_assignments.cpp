@@ -25,7 +25,9 @@ std::uint16_t LineParser::add_assignment(std::uint16_t index) {
     } else if (!dialect::is_register(name.value)) {
       report("register-out-of-range"_diag, name.span(), {name.value});
     } else if (!has_value || word(index + 1u).has(Word::kMissing)) {
-      report_missing("register-not-assigned"_diag, added);
+      const bool has_word = has_value && lacks_value(static_cast<std::uint16_t>(index + 1));
+      report_missing(has_word ? "register-not-assigned/no-number"_cause : "register-not-assigned"_diag, added,
+                     has_word ? word(index + 2u).span() : Span{});
     }
   }
   if (!has_value) return index;
@@ -126,6 +128,19 @@ void LineParser::spoil_word_before(std::uint16_t index) {
   before.flags |= Word::kReported;
 }
 
+/// Reports a `=` whose place is wrong. The cause is what stands before it.
+void LineParser::report_equals(std::uint16_t index) {
+  const Span equals{word(index).begin, word(index).begin + 1};
+  const Word* const before = index > 0 ? &word(index - 1u) : nullptr;
+  if (!before || before->letter < 'A' || before->letter > 'Z')
+    return report("assignment-without-register"_diag, equals);
+  const dialect::Cause cause = before->has(Word::kMissing) ? "assignment-without-register/letter"_cause
+                               : before->letter == 'P' && before->owner == Word::kNoOwner
+                                   ? "assignment-without-register/parameter"_cause
+                                   : "assignment-without-register/word"_cause;
+  report(cause, equals, {}, before->span());
+}
+
 /// Reports a `=` that follows neither a V nor an M's P (ISO058). Returns the last word that belongs to it.
 std::uint16_t LineParser::add_equals(std::uint16_t index) {
   auto last = static_cast<std::uint16_t>(index + (lacks_value(index) && !is_between_coordinates(index) ? 1 : 0));
@@ -136,13 +151,12 @@ std::uint16_t LineParser::add_equals(std::uint16_t index) {
     take_parameter_before_function(index);
     const bool is_stray_parameter = word(index - 1u).letter == 'P' && word(index - 1u).owner == Word::kNoOwner;
     if (is_stray_parameter && std::exchange(stray_parameter_, true)) return last;
-    spoil_word_before(index);
   }
+  report_equals(index);
+  if (index > 0) spoil_word_before(index);
   while (last > index && last + 1 < word_count() && word(last + 1u).has(Word::kMissing)) ++last;  // X=IC(5)
   for (auto i = static_cast<std::uint16_t>(index + 1); i <= last; ++i)
     take_back("word-without-number"_diag, word(i).span());
-  const Word& equals = word(index);
-  report("assignment-without-register"_diag, {equals.begin, equals.begin + 1});
   return last;
 }
 

@@ -80,8 +80,8 @@ bool LineParser::must_be_alone(const Instruction& checked, dialect::DiagnosticId
   return diagnostic != dialect::kNoDiagnostic;
 }
 
-/// Whether the line holds a correct word that is neither part of the instruction nor the line number.
-bool LineParser::shares_line(const Instruction& alone) const {
+/// The line's first correct word that is neither part of the instruction nor the line number, or null.
+const Word* LineParser::company_of(const Instruction& alone) const {
   const dialect::GCode* const code = alone.kind == InstructionKind::G ? alone.g() : nullptr;
   const bool is_end = alone.kind == InstructionKind::Function && word(alone.command).value == dialect::kProgramEnd;
   const bool dwell_without_time = alone.is(GRole::Dwell) && !owns_any(alone, letters("P"));
@@ -96,18 +96,19 @@ bool LineParser::shares_line(const Instruction& alone) const {
     const bool is_time = dwell_without_time && i == alone.command + 1 && contains(letters("FS"), other.letter);
     if (is_time) continue;                                                   // G04 F2: the form of other controls.
     if (other.letter == kAssign && other.owner == Word::kNoOwner) continue;  // A stray `=` is reported elsewhere.
-    return true;
+    return &other;
   }
-  return false;
+  return nullptr;
 }
 
 void LineParser::check_alone() {
   for (std::size_t i = 0; i < instruction_count(); ++i) {
     const Instruction& checked = instruction(i);
     dialect::DiagnosticId diagnostic;
-    if (checked.has(Instruction::kReportedElsewhere) || !must_be_alone(checked, diagnostic) || !shares_line(checked))
-      continue;
-    report(diagnostic, word(checked.command).span());
+    if (checked.has(Instruction::kReportedElsewhere) || !must_be_alone(checked, diagnostic)) continue;
+    const Word* const company = company_of(checked);
+    if (!company) continue;
+    report(diagnostic, word(checked.command).span(), {}, company->span());
     line_.flags |= LineTree::kAloneViolated;
     return;
   }
@@ -181,7 +182,18 @@ void LineParser::check_unbroken(const Instruction& checked) {
   if ((line_.flags & LineTree::kAloneViolated) != 0) return;
   for (std::uint16_t i = checked.begin; i < checked.end; ++i)
     if (word(i).owner == checked.number && word(i).has(Word::kBreak))
-      return report("stray-argument"_diag, word(i).span(), {}, word(checked.command).span());
+      return report("stray-argument"_diag, word(i).span(), {}, breaker_of(checked, i));
+}
+
+/// The word that separates an argument from the earlier part of its series.
+Span LineParser::breaker_of(const Instruction& owner, std::uint16_t broken) const {
+  std::uint16_t breaker = broken;
+  while (word(breaker - 1u).owner != owner.number) --breaker;
+  const auto breaks_no_series = [](const Word& it) {
+    return it.letter == 'F' || it.letter == kError || it.letter == kNumber || it.has(Word::kMissing);
+  };
+  while (breaker + 1 < broken && breaks_no_series(word(breaker))) ++breaker;
+  return word(breaker).span();
 }
 
 /// Whether a word between a motion and an argument separated from it has a finding of its own.
@@ -218,11 +230,12 @@ void LineParser::check_motion(const Instruction& motion) {
 /// Reports the first argument that is separated from its motion; without other arguments, the motion lacks them all.
 void LineParser::report_broken_series(const Instruction& motion, std::uint16_t broken, bool has_arguments) {
   if (breaker_is_reported(motion, broken)) return;
-  if (!has_arguments) return report_missing("missing-coordinate"_diag, motion);
+  if (!has_arguments)
+    return report_missing("missing-coordinate/series-broken"_cause, motion, breaker_of(motion, broken));
   Word& stray = word(broken);
   const bool is_reported = stray.has(Word::kMissing | Word::kReported);
   stray.flags |= Word::kReported;
-  if (!is_reported) report("stray-argument"_diag, stray.span(), {}, word(motion.command).span());
+  if (!is_reported) report("stray-argument"_diag, stray.span(), {}, breaker_of(motion, broken));
 }
 
 /// Whether a word may be an argument whose letter was hit wrong: U5 of another control, or a T without its six digits.
@@ -296,6 +309,13 @@ void LineParser::check_dwell(const Instruction& dwell) {
   }
 }
 
+/// The first parameter with this number of a user M.
+const Word& LineParser::first_parameter(const Instruction& function, double number) const {
+  std::uint16_t i = function.begin;
+  while (word(i).owner != function.number || word(i).letter != 'P' || word(i).value != number) ++i;
+  return word(i);
+}
+
 /// M100 P1=2.5 P2=-3: P1 to P20, each at most once, each with a value; M02 to M05 take none (I.4.4, D48).
 void LineParser::check_parameters(const Instruction& function) {
   const bool takes_parameters = may_be_user_function(word(function.command));
@@ -311,9 +331,14 @@ void LineParser::check_parameters(const Instruction& function) {
     const bool valued = has_value && !word(i + 1u).has(Word::kMissing);
     if (takes_parameters && (name.has(Word::kMalformed | Word::kMissing) || follows_lone_equals(i)))
       continue;  // Reported: M100 =5 P20.
-    if (!takes_parameters || number == 0 || !valued || (seen & bit) != 0) {
+    if (!takes_parameters)
+      return report("m-param-invalid/fixed-function"_cause, span, {}, word(function.command).span());
+    if (number == 0) {
       report("m-param-invalid"_diag, span);
-      if (!takes_parameters) return;
+    } else if (!valued) {
+      report("m-param-invalid/no-value"_cause, span);
+    } else if ((seen & bit) != 0) {
+      report("m-param-invalid/repeated"_cause, span, {}, first_parameter(function, name.value).span());
     }
     const bool is_doubled =
         !has_value && i + 1 < word_count() && word(i + 1u).letter == 'P' && word(i + 1u).value == name.value;

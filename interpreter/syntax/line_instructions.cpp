@@ -159,7 +159,7 @@ void LineParser::take_earlier_words(Instruction& g) {
   for (std::uint16_t i = earlier.begin; i < earlier.end; ++i) {
     if (word(i).owner != earlier.number) continue;
     if (!reported && !word(i).has(Word::kMissing | Word::kReported))
-      report("stray-argument"_diag, word(i).span(), {}, word(g.command).span());
+      report("stray-argument/before-its-g"_cause, word(i).span(), {}, word(g.command).span());
     reported = true;
     word(i).flags = static_cast<std::uint8_t>((word(i).flags & ~Word::kBreak) | Word::kReported);
     // B440 G01 X5: more probably the N of the line.
@@ -226,11 +226,13 @@ void LineParser::add_tool_change(std::uint16_t index) {
   // The T may be before the M06 (and has been reported) or further on; in both cases there is one finding, not two.
   for (std::size_t i = 0; i + 1 < instruction_count(); ++i)
     if (instruction(i).kind == InstructionKind::StrayTool) return void(added.flags |= Instruction::kReportedElsewhere);
-  report_missing("tool-change-without-tool"_diag, added);
-  for (auto i = static_cast<std::uint16_t>(index + 1); i < count; ++i) {
-    if (word(i).letter == 'M' && std::abs(word(i).value) == dialect::kToolChange) return;
-    if (word(i).letter == 'T') return void(word(i).owner = added.number);
+  for (; next < count; ++next) {
+    if (word(next).letter == 'M' && std::abs(word(next).value) == dialect::kToolChange) break;
+    if (word(next).letter != 'T') continue;
+    word(next).owner = added.number;
+    return report_missing("tool-change-without-tool/tool-elsewhere"_cause, added, word(next).span());
   }
+  report_missing("tool-change-without-tool"_diag, added);
 }
 
 /// Whether an M06 is followed by a tool.
@@ -277,8 +279,10 @@ bool LineParser::add_line_number(std::uint16_t index) {
   if (written.has(Word::kMissing)) return false;
   // IF VGPL = 1 THEN N10: the target of the jump, not the number of the line.
   if (line_.jump >= 0 && !store_.jumps_[static_cast<std::size_t>(line_.jump)].has_target) return false;
-  if (!written.is_plain_integer() || (line_.flags & LineTree::kHasLabel) != 0) {
-    if (!written.has(Word::kReported)) report("invalid-line-number"_diag, written.span());
+  const bool is_second = (line_.flags & LineTree::kHasLabel) != 0;
+  if (!written.is_plain_integer() || is_second) {
+    if (!written.has(Word::kReported))
+      report(is_second ? "invalid-line-number/second"_cause : "invalid-line-number"_diag, written.span());
     if (written.is_plain_integer() && label_of(written) != line_.label)
       second_number_ = second_number_ == kNone ? index : kSeveral;
     return false;

@@ -38,7 +38,7 @@ std::uint16_t LineParser::end_jump(std::uint16_t last) {
   findings.erase(std::remove_if(findings.begin() + line_.first_finding, findings.end(),
                                 [&](const Finding& finding) { return finding.span.begin >= rest.begin; }),
                  findings.end());
-  report("if-malformed"_diag, rest);
+  report("if-malformed/after-label"_cause, rest);
   return static_cast<std::uint16_t>(word_count() - 1);
 }
 
@@ -118,8 +118,8 @@ void LineParser::report_half_jump(std::uint16_t where, std::uint16_t end) {
   half_jump_ = true;
   const std::uint32_t after = where < word_count() ? word(where).begin : line_.length;
   if (const std::optional<Span> comment = comparison_in_comment(word(where - 1u).end, after))
-    return report("if-malformed"_diag, *comment);
-  if (where == end) return report("if-malformed"_diag, word(where - 1u).span());
+    return report("if-malformed/condition-in-comment"_cause, *comment);
+  if (where == end) return report("if-malformed/incomplete"_cause, word(where - 1u).span());
   auto last = where;
   while (last + 1 < end && is_no_word(word(last)) && is_no_word(word(last + 1u))) ++last;
   report("if-malformed"_diag, hull(word(where).span(), word(last).span()));
@@ -161,7 +161,7 @@ std::uint16_t LineParser::report_target(std::uint16_t index) {
   const std::uint16_t last = end_of_target(index);
   const Span target = hull(word(index).span(), word(last).span());
   take_back_within(target);
-  report("if-malformed"_diag, target);
+  report("if-malformed/label"_cause, target);
   return last;
 }
 
@@ -170,7 +170,7 @@ std::uint16_t LineParser::read_target(Jump& jump, std::uint16_t index) {
   const auto at = static_cast<std::uint16_t>(index + 1);
   if (at >= word_count() || word(at).letter == 'G' || word(at).letter == kIf) {
     half_jump_ = true;
-    report("if-malformed"_diag, word(index).span());
+    report("if-malformed/incomplete"_cause, word(index).span());
     return index;
   }
   const Word& label = word(at);
@@ -199,7 +199,7 @@ std::uint16_t LineParser::add_lone_goto(std::uint16_t index) {
     };
     for (std::uint16_t i = 0; i < index; ++i)  // V5 > 30 GOTO N340: the IF is missing.
       if (is_of_condition(word(i))) take_back("unknown-word"_diag, word(i).span());
-    report("if-malformed"_diag, word(index).span());
+    report("if-malformed/goto-alone"_cause, word(index).span());
   }
   const auto at = static_cast<std::uint16_t>(index + 1);
   if (at >= word_count()) return index;

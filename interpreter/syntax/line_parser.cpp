@@ -25,15 +25,11 @@ const char* LineParser::parse() {
   return end;
 }
 
-void LineParser::report(dialect::DiagnosticId id, Span span, std::initializer_list<double> values, Span related) {
-  const bool is_reported = store_.findings_.size() > line_.first_finding && store_.findings_.back().id == id &&
+void LineParser::report(dialect::Cause cause, Span span, std::initializer_list<double> values, Span related) {
+  const bool is_reported = store_.findings_.size() > line_.first_finding && store_.findings_.back().id == cause.id &&
                            store_.findings_.back().span == span;
   if (is_reported) return;  // Two checks may find the same error (IF IF).
-  Finding& finding = store_.findings_.emplace_back();
-  finding.id = id;
-  finding.span = span;
-  finding.related = related;
-  std::copy(values.begin(), values.end(), finding.values.begin());
+  store_.findings_.push_back(finding_of(cause, span, values, related));
 }
 
 /// Removes a finding, where one mistake has been reported twice.
@@ -52,8 +48,8 @@ void LineParser::take_back_within(Span span) {
 }
 
 /// Reports a missing word, unless a comment is not closed: the word may be in it, and the comment has been reported.
-void LineParser::report_missing(dialect::DiagnosticId id, const Instruction& lacking) {
-  if ((line_.flags & LineTree::kUnclosed) == 0) report(id, word(lacking.command).span());
+void LineParser::report_missing(dialect::Cause cause, const Instruction& lacking, Span related) {
+  if ((line_.flags & LineTree::kUnclosed) == 0) report(cause, word(lacking.command).span(), {}, related);
 }
 
 void LineParser::structure() {
@@ -81,7 +77,7 @@ std::uint16_t LineParser::add(std::uint16_t index) {
     case kAssign:
       return add_equals(index);
     case kVgpl:
-      if (!precedes_if(index)) report("unknown-word"_diag, word(index).span());
+      if (!precedes_if(index)) report("unknown-word/outside-if"_cause, word(index).span());
       return index;
     case kError:
       if (is_taken_by_unknown_g(index)) take_back("unknown-word"_diag, word(index).span());

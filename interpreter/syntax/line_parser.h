@@ -45,6 +45,8 @@ class LineParser {
   const char* lex_without_number(const char* start, const char* p);
   const char* digits_of_foreign_minus(const char* p) const;
   const char* lex_with_foreign_minus(char letter, const char* start, const char* minus);
+  void report_number(const char* begin, const char* end);
+  void report_letter_alone(const char* start, const char* after);
   const char* lex_keyword(const char* p, char letter);
   const char* lex_comment(const char* p);
   void drop_comment_text();
@@ -52,7 +54,8 @@ class LineParser {
   const char* lex_equals(const char* p);
   const char* lex_comparison(const char* p);
   const char* lex_unknown(const char* p);
-  bool garbles_number(char first);
+  enum class BesideNumber : std::uint8_t { No, InItsPlace, Continues };
+  BesideNumber garble_number(char first);
   const char* skip_space(const char* p) const;
   bool ends_in_text() const;
   const char* match_keyword(const char* p, const char* keyword) const;
@@ -120,6 +123,7 @@ class LineParser {
   bool is_between_coordinates(std::uint16_t assign) const;
   bool own_equals(std::uint16_t index, std::uint16_t last);
   void spoil_word_before(std::uint16_t index);
+  void report_equals(std::uint16_t index);
   std::uint16_t add_equals(std::uint16_t index);
 
   // IF and GOTO (line_jumps.cpp).
@@ -142,7 +146,7 @@ class LineParser {
   void check();
   void check_alone();
   bool must_be_alone(const Instruction& checked, dialect::DiagnosticId& diagnostic) const;
-  bool shares_line(const Instruction& alone) const;
+  const Word* company_of(const Instruction& alone) const;
   bool neighbor_has_arguments_of(const Instruction& alone) const;
   void check_misplaced_modes();
   void check_motion(const Instruction& motion);
@@ -154,9 +158,11 @@ class LineParser {
   void check_face_angles(const Instruction& frame);
   void check_g(const Instruction& checked);
   void check_dwell(const Instruction& dwell);
+  const Word& first_parameter(const Instruction& function, double number) const;
   void check_parameters(const Instruction& function);
   void check_compensation(const Instruction& checked);
   bool breaker_is_reported(const Instruction& motion, std::uint16_t broken) const;
+  Span breaker_of(const Instruction& owner, std::uint16_t broken) const;
   bool is_interpolation_mode(const Word& checked) const;
   bool stands_alone(const Instruction& alone) const;
   bool has_reported_company() const;
@@ -166,10 +172,10 @@ class LineParser {
   void check_tool_number(const Word& tool);
 
   static bool is_tool(const Word& word) { return word.is_plain_integer() && word.digits == 6; }
-  void report(dialect::DiagnosticId id, Span span, std::initializer_list<double> values = {}, Span related = {});
+  void report(dialect::Cause cause, Span span, std::initializer_list<double> values = {}, Span related = {});
   void take_back(dialect::DiagnosticId id, Span span);
   void take_back_within(Span span);
-  void report_missing(dialect::DiagnosticId id, const Instruction& lacking);
+  void report_missing(dialect::Cause cause, const Instruction& lacking, Span related = {});
   std::uint32_t column(const char* p) const { return static_cast<std::uint32_t>(p - begin_); }
   std::string_view text_of(Span span) const { return {begin_ + span.begin, span.end - span.begin}; }
   Word& word(std::size_t index) { return store_.words_[line_.first_word + index]; }

@@ -77,7 +77,9 @@ void LineParser::report_prose(std::uint16_t first, std::uint16_t end) {
   const Span span = hull(word(first).span(), word(end - 1u).span());
   take_back_within(span);
   const char letter = word(first).letter;
-  report(letter == kError || letter == kNumber ? "unknown-word"_diag : "word-without-number"_diag, span);
+  if (letter == kError || letter == kNumber) return report("unknown-word/prose"_cause, span);
+  const bool is_doubled = end - first == 2 && letter == word(end - 1u).letter;  // XX
+  report(is_doubled ? "word-without-number"_diag : "word-without-number/prose"_cause, span);
 }
 
 /// Joins letters without numbers that were meant as a comment: one finding, not one for each letter.

@@ -90,10 +90,7 @@ class DiagnosticWriter {
   }
 
   std::string message_of(const LocatedFinding& located) const {
-    const syntax::Span span = located.finding.span;
-    const std::string_view marked =
-        snapshot_.document().text_of_line(located.line).substr(span.begin, span.end - span.begin);
-    return formats::message_of(located, first_.report, marked, language_);
+    return formats::message_of(located, first_.report, snapshot_.document().text_of_line(located.line), language_);
   }
 
   void append_head(std::size_t line, syntax::Span span, int severity, const std::string& message,

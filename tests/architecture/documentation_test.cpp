@@ -33,6 +33,11 @@ TEST(Documentation, RulesPageIsTheTable) {
   EXPECT_TRUE(same) << "isolint --rules-page > docs/rules.md";
 }
 
+TEST(Documentation, MessagesPageIsTheTable) {
+  const bool same = read("docs/messages.md") == output_of("'" ISOCNC_BIN_DIR "/isolint' --messages-page");
+  EXPECT_TRUE(same) << "isolint --messages-page > docs/messages.md";
+}
+
 /// The text of a file after the first `before`, up to the next quote, blank or bracket.
 std::string text_after(const std::string& before, const std::string& file) {
   const std::string text = read(file);

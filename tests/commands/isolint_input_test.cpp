@@ -121,7 +121,7 @@ TEST(IsolintInput, EachFileIsCheckedOnce) {
   folder.write("a.iso", kBrokenProgram);
   const CommandResult result =
       run_command({"isolint", "--format", "concise", "a.iso", "./a.iso", "."}, {.folder = folder.path()});
-  EXPECT_EQ(result.out, "a.iso:3:1: error: no coordinate comes with G01 [ISO026]\n");
+  EXPECT_EQ(result.out, "a.iso:3:1: error: G01 has no coordinate: write at least one directly after it [ISO026]\n");
 }
 
 TEST(IsolintInput, ADirectoryWithoutProgramsIsAFailure) {

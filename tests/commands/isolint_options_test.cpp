@@ -157,6 +157,7 @@ INSTANTIATE_TEST_SUITE_P(Commands, IsolintOutput,
                                          Saying{"ListRules", {"isolint", "--list-rules"}},
                                          Saying{"Explain", {"isolint", "--explain", "ISO031"}},
                                          Saying{"RulesPage", {"isolint", "--rules-page"}},
+                                         Saying{"MessagesPage", {"isolint", "--messages-page"}},
                                          Saying{"Version", {"isolint", "--version"}},
                                          Saying{"Help", {"isolint", "--help"}}),
                          [](const auto& tested) { return tested.param.name; });

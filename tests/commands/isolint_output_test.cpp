@@ -31,7 +31,7 @@ TEST(IsolintText, ShowsTheLineItsMarkAndTheReason) {
   const CommandResult result = run_command({"isolint", "-"}, {.input = std::string(kBrokenProgram)});
   EXPECT_EQ(
       result.out,
-      "error[ISO026]: no coordinate comes with G01\n"
+      "error[ISO026]: G01 has no coordinate: write at least one directly after it\n"
       " --> <stdin>:3:1\n"
       "  |\n"
       "3 | G01\n"
@@ -132,16 +132,16 @@ TEST(IsolintText, NamesTheAxisThatGoesTooFar) {
       folder.write("m.json", R"({"machine": {"axes": {"Y": {"max": 100}, "C": {"min": -90}}}})");
   const json found = findings_in("M06 T101001\nG00 Y150\nG00 Y0 C-91\nM02\n", {"--config", machine});
   ASSERT_EQ(found.size(), 2u);
-  EXPECT_EQ(found[0]["message"], "the machine's Y goes to 150, and its travel ends at 100");
-  EXPECT_THAT(found[1]["message"].get<std::string>(), StartsWith("the machine's C goes to -91"));
+  EXPECT_EQ(found[0]["message"], "Y goes to 150 in machine coordinates, and its travel ends at 100");
+  EXPECT_THAT(found[1]["message"].get<std::string>(), StartsWith("C goes to -91 in machine coordinates"));
 }
 
 TEST(IsolintConcise, PrintsOneLineForEachFinding) {
   const CommandResult result = run_command({"isolint", "--format", "concise", "--select", "ISO", "-"},
                                            {.input = "M06 T101001\nG01 X10\n(é) M03 M02\nM02\n"});
   EXPECT_EQ(result.out,
-            "<stdin>:2:1: error: G01 has no feed rate: no F has been given yet [ISO066]\n"
-            "<stdin>:3:9: error: M02 must stand alone on its line [ISO043]\n");
+            "<stdin>:2:1: error: G01 has no feed rate: no F has been given so far [ISO066]\n"
+            "<stdin>:3:9: error: M02 must stand alone on its line, without M03 [ISO043]\n");
   EXPECT_EQ(result.err, "");
   EXPECT_EQ(result.status, 1);
 }
@@ -166,7 +166,7 @@ TEST(IsolintJson, HasEveryKeyInItsOrder) {
                          {"severity", "error"},
                          {"code", "ISO026"},
                          {"name", "missing-coordinate"},
-                         {"message", "no coordinate comes with G01"},
+                         {"message", "G01 has no coordinate: write at least one directly after it"},
                          {"fix", nullptr},
                          {"path", nullptr}};
   for (const auto& [key, value] : expected.items()) EXPECT_EQ(json(findings[0][key]), value) << key;
@@ -231,7 +231,7 @@ TEST(IsolintJson, SpeaksTheReadersLanguageInMessagesAlone) {
   const json finding = findings_in(kBrokenProgram, {"--lang", "it"}).at(0);
   EXPECT_EQ(finding["severity"], "error");
   EXPECT_EQ(finding["name"], "missing-coordinate");
-  EXPECT_EQ(finding["message"], "G01 senza alcuna quota");
+  EXPECT_EQ(finding["message"], "G01 senza alcuna quota: scriverne almeno una subito dopo");
 }
 
 constexpr std::string_view kForkedProgram =
@@ -289,7 +289,7 @@ TEST(IsolintLanguage, IsWhatTheOptionSays) {
   const CommandSetup italian{.input = std::string(kBrokenProgram), .environment = {{"LC_ALL", "it_IT.UTF-8"}}};
   EXPECT_THAT(run_command({"isolint", "--lang", "en", "-"}, italian).out, StartsWith("error["));
   const CommandResult result = run_command({"isolint", "--lang", "it", "-"}, {.input = std::string(kBrokenProgram)});
-  EXPECT_THAT(result.out, StartsWith("errore[ISO026]: G01 senza alcuna quota\n"));
+  EXPECT_THAT(result.out, StartsWith("errore[ISO026]: G01 senza alcuna quota: scriverne almeno una subito dopo\n"));
   EXPECT_EQ(result.err, "1 errore, 0 avvisi in 1 file\n");
 }
 

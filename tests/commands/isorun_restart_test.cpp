@@ -128,7 +128,7 @@ TEST(IsorunRestart, OfAProgramInErrorReportsTheError) {
   const CommandResult result = restart({"--restart-at", "2"}, kBrokenProgram);
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(result.out, "");
-  EXPECT_EQ(result.err, "<stdin>:3: error: no coordinate comes with G01 [ISO026]\n");
+  EXPECT_EQ(result.err, "<stdin>:3: error: G01 has no coordinate: write at least one directly after it [ISO026]\n");
 }
 
 TEST(IsorunRestart, BeyondTheLastLineIsAFailure) {

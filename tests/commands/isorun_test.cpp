@@ -108,7 +108,7 @@ TEST(IsorunError, StopsTheProgramAsTheControlWould) {
       run_command({"isorun", "--trace", "-", "-"}, {.input = "M06 T101001\nG00 X10\nG01\nG00 X20\nM02\n"});
   EXPECT_EQ(result.status, 1);
   EXPECT_THAT(kinds_in(events_in(result.out)), ElementsAre("tool", "rapid"));
-  EXPECT_EQ(result.err, "<stdin>:3: error: no coordinate comes with G01 [ISO026]\n");
+  EXPECT_EQ(result.err, "<stdin>:3: error: G01 has no coordinate: write at least one directly after it [ISO026]\n");
 }
 
 TEST(IsorunError, IsReportedBesideTheSummary) {
@@ -288,7 +288,8 @@ TEST(IsorunOutput, ThatCannotBeWrittenDoesNotHideTheErrorOfTheProgram) {
   const CommandResult result =
       run_command({"isorun", "-"}, {.input = std::string(kBrokenProgram), .standard_output = StandardOutput::FullDisk});
   EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(result.err, HasSubstr("<stdin>:3: error: no coordinate comes with G01 [ISO026]\n"));
+  EXPECT_THAT(result.err,
+              HasSubstr("<stdin>:3: error: G01 has no coordinate: write at least one directly after it [ISO026]\n"));
 }
 
 TEST(IsorunInput, ThatCannotBeReadIsAFailure) {

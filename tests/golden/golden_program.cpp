@@ -94,7 +94,7 @@ static void read_directive(Part& part, const std::string& what, const std::strin
 
 std::vector<Part> read_golden(const std::filesystem::path& file) {
   static const std::regex kMarker(
-      R"(^; *(\^+) +([A-Z]+[0-9]+)(?: +and +([0-9]+) +more, +to +([0-9]+))?(?: +via +([0-9, ]+))? *$)");
+      R"(^; *(\^+) +([A-Z]+[0-9]+)(?:/([a-z-]+))?(?: +and +([0-9]+) +more, +to +([0-9]+))?(?: +via +([0-9, ]+))? *$)");
   static const std::regex kEffect(R"(^; *-> +(.*)$)");
   static const std::regex kDirective(R"(^; (machine|run|rules): (.*)$)");
   std::ifstream input(file, std::ios::binary);
@@ -114,9 +114,10 @@ std::vector<Part> read_golden(const std::filesystem::path& file) {
                               .end = 0,
                               .code = match[2]};
       finding.end = finding.begin + static_cast<std::size_t>(match.length(1));
-      if (match[3].matched) finding.repeats = std::stoul(match[3]);
-      if (match[4].matched) finding.last_line = std::stoul(match[4]);
-      std::string via = match[5];
+      finding.cause = match[3];
+      if (match[4].matched) finding.repeats = std::stoul(match[4]);
+      if (match[5].matched) finding.last_line = std::stoul(match[5]);
+      std::string via = match[6];
       std::replace(via.begin(), via.end(), ',', ' ');
       std::istringstream numbers(via);
       for (std::size_t number; numbers >> number;) finding.via.push_back(number);

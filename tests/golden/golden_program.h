@@ -19,6 +19,7 @@ struct ExpectedFinding {
   std::vector<std::size_t> via;  ///< Lines of IFs that lead to it, from 1.
   std::size_t repeats = 0;       ///< The number of lines below that repeat it (D66).
   std::size_t last_line = 0;     ///< The last of them, from 1.
+  std::string cause;             ///< Its name in the table, `usual` for the code's own message; empty: any.
 
   auto operator<=>(const ExpectedFinding&) const = default;
 };

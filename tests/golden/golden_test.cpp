@@ -87,6 +87,24 @@ TEST_P(Golden, FindsWhatIsMarkedAndNothingElse) {
   }
 }
 
+std::string_view cause_of(const syntax::Finding& finding) {
+  return finding.cause == 0 ? "usual" : dialect::definition(finding.id).causes[finding.cause - 1].cause;
+}
+
+TEST_P(Golden, KnowsTheCause) {
+  for (const Part& part : read_golden(GetParam())) {
+    const check::Report report = reported_in(part);
+    for (const ExpectedFinding& finding : part.findings) {
+      if (finding.cause.empty()) continue;
+      for (const check::LocatedFinding& located : report.findings)
+        if (located.line == finding.line && dialect::definition(located.finding.id).code == finding.code &&
+            text::column_of(line_of(part.program, located.line), located.finding.span.begin) - 1 == finding.begin) {
+          EXPECT_EQ(cause_of(located.finding), finding.cause) << part.name << " line " << finding.line + 1;
+        }
+    }
+  }
+}
+
 TEST_P(Golden, NamesTheJumpThatLeadsToAFinding) {
   for (const Part& part : read_golden(GetParam())) {
     const check::Report report = reported_in(part);

@@ -4,12 +4,7 @@
 #include <regex>
 #include <set>
 
-#include "analyzer/check/check_text.h"
-#include "analyzer/explain.h"
-#include "analyzer/formats/rendering.h"
-#include "analyzer/selection/selection.h"
-#include "analyzer/selection/style_findings.h"
-#include "analyzer/selection/suppressions.h"
+#include "analyzer/examples.h"
 #include "interpreter/running/runner.h"
 #include "interpreter/simulation/compensation.h"
 #include "tests/support/report_text.h"
@@ -21,29 +16,11 @@ using analyzer::MarkedProgram;
 using analyzer::read_marked;
 using check::Report;
 
-/// The setup that the programs of the table are written for: one tool, so that ISO067 can be shown.
-rules::CheckSetup table_setup(const DiagnosticDef& def) {
-  rules::CheckSetup setup;
-  if (def.code == "ISO067") setup.machine.tools = {{1, 1, 1}};
-  if (def.code == "W129") setup.machine.functions = {100};
-  if (def.code == "W130") setup.machine.limits.travel[0] = {0, 1000};
-  if (def.code == "W131") setup.machine.limits.feed = 10'000;
-  if (def.code == "W132") setup.machine.limits.rotary_speed = 3'600;
-  if (def.code == "W133") setup.machine.limits.spindle_speed = 18'000;
-  if (def.code == "W134") setup.machine.clearance = 5;
-  setup.every_motion = def.is_off;
-  return setup;
-}
-
 /// What isolint would report with the row's code selected, too; without opinions, where the row is about the control's
 /// own codes.
-Report reported_in(std::string_view program, const DiagnosticDef& def) {
-  selection::Selection selection;
-  EXPECT_THAT(selection.follow({.severities = {std::string(def.code) + "=warning"}}, Language::English),
-              testing::IsEmpty());
-  Report report = selection::with_style(check::check_text(program, table_setup(def)), program, selection);
-  report = selection.shown(selection::suppress(std::move(report), program, selection));
-  if (!support::is_lint(def.code))
+Report reported_in(std::string_view program, DiagnosticId id) {
+  Report report = analyzer::example_report(program, id);
+  if (!support::is_lint(definition(id).code))
     std::erase_if(report.findings, [](const auto& it) { return support::is_lint(definition(it.finding.id).code); });
   return report;
 }
@@ -76,65 +53,103 @@ std::string codes_of(const Report& report) {
   return codes;
 }
 
-class Table : public testing::TestWithParam<DiagnosticDef> {};
+/// The diagnostics, each with its causes.
+std::vector<Cause> all_causes() {
+  std::vector<Cause> causes;
+  for (std::uint8_t row = 0; row < kDiagnosticCount; ++row)
+    for (std::uint8_t number = 0; number < cause_count(kDiagnostics[row]); ++number)
+      causes.emplace_back(DiagnosticId{row}, number);
+  return causes;
+}
+
+class Table : public testing::TestWithParam<Cause> {};
 
 TEST_P(Table, WrongProgramHasThisOneFindingAtItsMark) {
-  const DiagnosticDef& def = GetParam();
-  if (def.wrong.empty()) GTEST_SKIP() << "cannot be shown in a few lines";
-  const MarkedProgram wrong = read_marked(def.wrong);
+  const Cause cause = GetParam();
+  const DiagnosticDef& def = definition(cause.id);
+  if (analyzer::wrong_program(cause).empty()) GTEST_SKIP() << "cannot be shown in a few lines";
+  const MarkedProgram wrong = read_marked(analyzer::wrong_program(cause));
   ASSERT_TRUE(wrong.has_mark);
   if (def.is_reported_by_runs) {
     EXPECT_EQ(warnings_of_run(wrong.text), std::string(def.code) + "@" + std::to_string(wrong.line + 1) + " ")
         << wrong.text;
     return;
   }
-  const Report report = reported_in(wrong.text, def);
+  const Report report = reported_in(wrong.text, cause.id);
   ASSERT_EQ(report.findings.size(), 1u) << wrong.text << codes_of(report);
   EXPECT_EQ(definition(report.findings[0].finding.id).code, def.code) << wrong.text;
+  EXPECT_EQ(report.findings[0].finding.cause, cause.number) << wrong.text;
   EXPECT_EQ(codes_of(report), std::string(def.code) + "@" + std::to_string(wrong.line + 1) + ":" +
                                   std::to_string(wrong.begin) + "-" + std::to_string(wrong.end) + " ")
       << wrong.text;
 }
 
 TEST_P(Table, RightProgramHasNone) {
-  const DiagnosticDef& def = GetParam();
+  const DiagnosticDef& def = definition(GetParam().id);
   const std::string_view right = def.right.empty() ? "M02\n" : def.right;
-  EXPECT_EQ(codes_of(reported_in(right, def)), "") << right;
+  EXPECT_EQ(codes_of(reported_in(right, GetParam().id)), "") << right;
   if (def.is_reported_by_runs) {
     EXPECT_EQ(warnings_of_run(right), "") << right;
   }
 }
 
 TEST_P(Table, TextsAreThereInBothLanguages) {
-  const DiagnosticDef& def = GetParam();
-  for (const Text& text : {def.title, def.message, def.explanation}) {
+  const DiagnosticDef& def = definition(GetParam().id);
+  const Text& message = message_text(GetParam());
+  for (const Text& text : {def.title, message, def.explanation}) {
     EXPECT_FALSE(text.en.empty());
     EXPECT_FALSE(text.it.empty());
   }
   EXPECT_FALSE(def.section.empty());
-  EXPECT_FALSE(def.message.en.ends_with('.'));
-  EXPECT_FALSE(def.message.it.ends_with('.'));
+  EXPECT_FALSE(message.en.ends_with('.'));
+  EXPECT_FALSE(message.it.ends_with('.'));
 }
 
 /// A message names only what is reported with it, and both languages name the same.
 TEST_P(Table, MessagesNameTheirValues) {
-  const DiagnosticDef& def = GetParam();
-  const auto names_in = [](std::string_view message) {
+  const DiagnosticDef& def = definition(GetParam().id);
+  const Text& message = message_text(GetParam());
+  const auto names_in = [](std::string_view text) {
     static const std::regex kName(R"(\{([a-z]*)\})");
-    const std::string text(message);
+    const std::string copy(text);
     std::set<std::string> names;
-    for (std::sregex_iterator it(text.begin(), text.end(), kName); it != std::sregex_iterator(); ++it)
+    for (std::sregex_iterator it(copy.begin(), copy.end(), kName); it != std::sregex_iterator(); ++it)
       names.insert((*it)[1]);
     return names;
   };
-  std::set<std::string> allowed = {"text"};
+  std::set<std::string> allowed = {"text", "other"};
   for (const std::string_view name : def.arguments) allowed.insert(std::string(name));
-  for (const std::string& name : names_in(def.message.en)) EXPECT_TRUE(allowed.contains(name)) << name;
-  EXPECT_EQ(names_in(def.message.en), names_in(def.message.it));
+  for (const std::string& name : names_in(message.en)) EXPECT_TRUE(allowed.contains(name)) << name;
+  EXPECT_EQ(names_in(message.en), names_in(message.it));
 }
 
-INSTANTIATE_TEST_SUITE_P(Diagnostics, Table, testing::ValuesIn(kDiagnostics),
-                         [](const auto& row) { return std::string(row.param.code); });
+/// Each cause can be seen in a program, and its message then says all it has to.
+TEST_P(Table, HasAnExampleWhoseMessageIsComplete) {
+  const std::optional<analyzer::Example> example = analyzer::example_of(GetParam());
+  ASSERT_TRUE(example) << definition(GetParam().id).code;
+  const bool quotes_other = message_text(GetParam()).en.find("{other}") != std::string_view::npos;
+  EXPECT_EQ(example->finding.related.empty() && quotes_other, false);
+  for (const Language language : {Language::English, Language::Italian}) {
+    const std::string message = example->message(language);
+    EXPECT_EQ(message.find_first_of("{}"), std::string::npos) << message;
+    EXPECT_EQ(message.find("  "), std::string::npos) << message;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Diagnostics, Table, testing::ValuesIn(all_causes()), [](const auto& row) {
+  const DiagnosticDef& def = definition(row.param.id);
+  std::string name(def.code);
+  if (row.param.number > 0) name += "_" + std::string(def.causes[row.param.number - 1].cause);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+/// Two causes of one code have two messages; else they would be one.
+TEST(Diagnostics, DifferInTheirCauses) {
+  std::set<std::pair<DiagnosticId, std::string_view>> messages;
+  for (const Cause& cause : all_causes())
+    EXPECT_TRUE(messages.emplace(cause.id, message_text(cause).en).second) << message_text(cause).en;
+}
 
 TEST(Diagnostics, AreFoundByCodeAndName) {
   EXPECT_EQ(find_diagnostic("iso031"), "arc-center-mismatch"_diag);

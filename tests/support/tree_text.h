@@ -14,7 +14,8 @@ inline std::string text_of(syntax::Span span) { return fmt::format("{}-{}", span
 
 /// A finding with all its members. Equal texts mean equal numbers, also for an unknown number.
 inline std::string text_of(const syntax::Finding& finding) {
-  std::string text = fmt::format("{} at {}", dialect::definition(finding.id).code, text_of(finding.span));
+  std::string text =
+      fmt::format("{}/{} at {}", dialect::definition(finding.id).code, finding.cause, text_of(finding.span));
   if (!finding.related.empty()) text += " related " + text_of(finding.related);
   for (const double value : finding.values) text += fmt::format(" {}", value + 0.0);
   return text;

@@ -1,0 +1,148 @@
+#include "analyzer/examples.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "analyzer/check/check_text.h"
+#include "analyzer/fixes/fix_table.h"
+#include "analyzer/fixing/finding_fixes.h"
+#include "analyzer/selection/shown_report.h"
+#include "interpreter/running/runner.h"
+#include "interpreter/simulation/compensation.h"
+#include "interpreter/syntax/line_finder.h"
+#include "interpreter/syntax/line_tree.h"
+
+namespace isocnc::analyzer {
+
+using namespace dialect::literals;
+using dialect::Cause;
+using dialect::DiagnosticDef;
+using dialect::DiagnosticId;
+
+MarkedProgram read_marked(std::string_view program) {
+  MarkedProgram marked;
+  std::size_t line = 0;
+  std::size_t line_start = 0;
+  for (std::size_t i = 0; i < program.size(); ++i) {
+    const std::string_view rest = program.substr(i);
+    if (rest.starts_with("[!")) {
+      marked.has_mark = true;
+      marked.line = line;
+      marked.begin = marked.text.size() - line_start;
+      ++i;
+    } else if (rest.starts_with("!]")) {
+      marked.end = marked.text.size() - line_start;
+      ++i;
+    } else {
+      marked.text.push_back(program[i]);
+      if (program[i] != '\n') continue;
+      ++line;
+      line_start = marked.text.size();
+    }
+  }
+  return marked;
+}
+
+std::string_view wrong_program(Cause cause) {
+  const DiagnosticDef& def = dialect::definition(cause.id);
+  return cause.number == 0 ? def.wrong : def.causes[cause.number - 1].wrong;
+}
+
+rules::CheckSetup example_setup(DiagnosticId id) {
+  rules::CheckSetup setup;
+  if (id == "tool-not-configured"_diag) setup.machine.tools = {{1, 1, 1}};
+  if (id == "unnamed-function"_diag) setup.machine.functions = {100};
+  if (id == "travel-exceeded"_diag) setup.machine.limits.travel[0] = {0, 1000};
+  if (id == "feed-above-machine"_diag) setup.machine.limits.feed = 10'000;
+  if (id == "rotary-speed-above-machine"_diag) setup.machine.limits.rotary_speed = 3'600;
+  if (id == "spindle-speed-above-machine"_diag) setup.machine.limits.spindle_speed = 18'000;
+  if (id == "rapid-below-clearance"_diag) setup.machine.clearance = 5;
+  setup.every_motion = dialect::definition(id).is_off;
+  return setup;
+}
+
+check::Report example_report(std::string_view program, DiagnosticId id) {
+  selection::Selection selection;
+  selection.follow({.severities = {std::string(dialect::definition(id).code) + "=warning"}},
+                   dialect::Language::English);
+  return selection::shown_report(check::check_text(program, example_setup(id)), program, selection);
+}
+
+/// A program with more machine states than are followed: each of its jumps doubles them.
+static std::string program_of_many_paths() {
+  constexpr int kJumps = 10;
+  std::string program = "M06 T101001\nG91\n";
+  for (int i = 1; i <= kJumps; ++i) program += fmt::format("IF VGPL = {0} GOTO N{0}\nG00 X{1}\nN{0}\n", i, 1 << i);
+  return program + "M02\n";
+}
+
+static std::string program_of_long_line() {
+  std::string program = "M06 T101001\nG00";
+  for (std::size_t i = 0; i < syntax::kMaxWords; ++i) program += fmt::format(" X{}", i);
+  return program + "\nM02\n";
+}
+
+/// The program that shows a cause, without marks.
+static std::string program_of(Cause cause) {
+  if (cause.id == "too-many-paths"_diag) return program_of_many_paths();
+  if (cause.id == "line-too-long"_diag) return program_of_long_line();
+  if (cause.id == "center-legal-both-ways"_diag)
+    return "M06 T101001\nG00 X100\nG02 X120 Y0 I10 J0 F1000\nG02 X120 Y0 I5 J0\nM02\n";
+  return read_marked(wrong_program(cause)).text;
+}
+
+/// The warning of a run with a cutter of 10 mm radius.
+static std::optional<Example> example_of_run(DiagnosticId id) {
+  const MarkedProgram program = read_marked(dialect::definition(id).wrong);
+  simulation::TimedMachine machine;
+  machine.tool_radii[{1, 1, 1}] = 10;
+  std::optional<Example> example;
+  const auto take_warning = [&](const simulation::RunWarning& warning) {
+    if (warning.id != id) return;
+    syntax::LineFinder lines(program.text);
+    const syntax::Span mark{static_cast<std::uint32_t>(program.begin), static_cast<std::uint32_t>(program.end)};
+    example = Example{.line = std::string(lines.line(warning.line)),
+                      .finding = {.id = id, .span = mark, .values = warning.values}};
+  };
+  simulation::Compensation compensation(machine);
+  const simulation::Compensation::Listeners listeners{.event = [](const running::Event&) {}, .warning = take_warning};
+  running::run(program.text, {}, [&](const running::Event& event) { compensation.take(event, listeners); });
+  compensation.finish(listeners);
+  return example;
+}
+
+std::optional<Example> example_of(Cause cause) {
+  if (dialect::definition(cause.id).is_reported_by_runs) return example_of_run(cause.id);
+  const std::string program = program_of(cause);
+  const rules::CheckSetup setup = example_setup(cause.id);
+  const check::Report report = example_report(program, cause.id);
+  fixing::FindingFixes fixes(program, report, setup);
+  syntax::LineFinder lines(program);
+  for (const check::LocatedFinding& located : report.findings)
+    if (located.finding.has(cause))
+      return Example{
+          .line = std::string(lines.line(located.line)), .finding = located.finding, .fix = fixes.offered(located)};
+  return std::nullopt;
+}
+
+std::vector<fixes::Fix> example_fixes(DiagnosticId id) {
+  std::vector<fixes::Fix> offered;
+  for (std::uint8_t number = 0; number < dialect::cause_count(dialect::definition(id)); ++number)
+    if (std::optional<Example> example = example_of({id, number}); example && example->fix)
+      offered.push_back(*std::move(example->fix));
+  std::vector<fixes::Fix> all;
+  for (const fixes::FixDef& row : fixes::kFixes) {
+    if (row.diagnostic != id) continue;
+    const auto is_of_row = [&](const fixes::Fix& fix) { return fix.title.en == row.title.en; };
+    const auto found = std::find_if(offered.begin(), offered.end(), is_of_row);
+    all.push_back(found != offered.end()
+                      ? *found
+                      : fixes::Fix{.safety = row.safety, .title = row.title, .marked = "...", .what = "..."});
+  }
+  if (all.empty()) all.push_back({.safety = fixes::Safety::None, .title = fixes::kMeaningUnknown});
+  return all;
+}
+
+}  // namespace isocnc::analyzer
