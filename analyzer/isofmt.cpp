@@ -64,7 +64,7 @@ struct FormatCommandOptions {
 
 void complain(std::string_view what) { command_line::complain("isofmt", what); }
 
-constexpr Text kWrongRenumber{"--renumber wants a start and a step, such as 10:10 or 5:5, or keep, not {}",
+constexpr Text kWrongRenumber{"--renumber takes a start and a step, such as 10:10 or 5:5, or keep, not {}",
                               "--renumber vuole un inizio e un passo, come 10:10 o 5:5, oppure keep, non {}"};
 constexpr Text kRenumberAllAlone{"--renumber-all goes with --renumber START:STEP",
                                  "--renumber-all va con --renumber INIZIO:PASSO"};

@@ -94,16 +94,18 @@ bool read_register(std::string_view setting, running::RunOptions& run) {
   return true;
 }
 
-constexpr Text kWrongSetting{"--set wants a register and a plain number, V1=0 to V30=-2.5, not {}",
+constexpr Text kWrongSetting{"--set takes a register and a plain number, V1=0 to V30=-2.5, not {}",
                              "--set vuole un registro e un numero semplice, da V1=0 a V30=-2.5, non {}"};
-constexpr Text kWrongVgpl{"--vgpl wants a plain number, such as -2.5, not {}",
+constexpr Text kWrongVgpl{"--vgpl takes a plain number, such as -2.5, not {}",
                           "--vgpl vuole un numero semplice, come -2.5, non {}"};
-constexpr Text kWrongUntil{"--until wants a line, from 1, not {}", "--until vuole una riga, da 1, non {}"};
-constexpr Text kWrongRestart{"--restart-at wants a line, from 1, not {}", "--restart-at vuole una riga, da 1, non {}"};
-constexpr Text kWrongClearance{"--clearance wants a plain number of mm, such as 30, not {}",
+constexpr Text kWrongUntil{"--until takes a line, counted from 1, not {}",
+                           "--until vuole una riga, contata da 1, non {}"};
+constexpr Text kWrongRestart{"--restart-at takes a line, counted from 1, not {}",
+                             "--restart-at vuole una riga, contata da 1, non {}"};
+constexpr Text kWrongClearance{"--clearance takes a plain number of mm, such as 30, not {}",
                                "--clearance vuole un numero semplice in mm, come 30, non {}"};
 constexpr Text kWrongApproachFeed{
-    "--approach-feed wants a plain number of mm/min above 0, such as 1000, not {}",
+    "--approach-feed takes a plain number of mm/min above 0, such as 1000, not {}",
     "--approach-feed vuole un numero semplice in mm/min maggiore di 0, come 1000, non {}"};
 constexpr Text kOverwrites{"this would overwrite {}", "così si sovrascriverebbe {}"};
 constexpr Text kProgram{"the program", "il programma"};
@@ -111,7 +113,7 @@ constexpr Text kConfiguration{"the configuration", "la configurazione"};
 constexpr Text kMachineFile{"the machine's file", "il file della macchina"};
 constexpr Text kOneFile{"{} and {} would both be written there", "ci scriverebbero sia {} sia {}"};
 constexpr Text kStandardOutput{"standard output", "lo standard output"};
-constexpr Text kWrongSeconds{"--dt wants a plain number of seconds, from 0.0001, such as 0.01, not {}",
+constexpr Text kWrongSeconds{"--dt takes a plain number of seconds, from 0.0001, such as 0.01, not {}",
                              "--dt vuole un numero semplice di secondi, da 0.0001, come 0.01, non {}"};
 constexpr Text kWrongPlot{"--plot writes a file whose name ends in .svg or .html, unlike {}",
                           "--plot scrive un file il cui nome finisce in .svg o .html, non come {}"};
@@ -119,7 +121,7 @@ constexpr Text kNoPage{
     "this isorun draws no {}: it was built without npm, which --plot FILE.html takes; --plot FILE.svg works",
     "questo isorun non disegna {}: è stato compilato senza npm, che serve per --plot FILE.html; --plot FILE.svg "
     "funziona"};
-constexpr Text kOneStandardOutput{"--trace - and --samples - both want standard output",
+constexpr Text kOneStandardOutput{"--trace - and --samples - both take standard output",
                                   "--trace - e --samples - vogliono tutti e due lo standard output"};
 
 /// Prints an error and returns none.

@@ -9,7 +9,7 @@ namespace isocnc::fixes {
 
 /// Why a code has no fix, unless a row says something else.
 inline constexpr dialect::Text kMeaningUnknown = {"What is meant cannot be seen from the program.",
-                                                  "Dal programma non si capisce che cosa si intenda."};
+                                                  "Dal programma non si capisce che cosa si voleva fare."};
 
 /// The fix of findings of one code, or the reason why there is none.
 struct FixDef {
@@ -52,7 +52,7 @@ inline constexpr Text kVectorUnknown = {"Only the author knows where the face's 
                                         "La direzione degli assi di faccia la sa solo chi scrive il programma."};
 inline constexpr Text kToolUnknown = {"Only the author knows which tool is meant.",
                                       "L'utensile lo sa solo chi scrive il programma."};
-inline constexpr Text kLabelUnknown = {"Only the author knows where the jump is to lead.",
+inline constexpr Text kLabelUnknown = {"Only the author knows where the jump should lead.",
                                        "La destinazione del salto la sa solo chi scrive il programma."};
 inline constexpr Text kAboutCheck = {"It is about the check, not about the program.",
                                      "Riguarda la verifica, non il programma."};
@@ -97,7 +97,7 @@ inline constexpr auto kFixes = [] {
        move_tool_after_change},
       {"tool-change-without-tool"_diag,
        Unsafe,
-       {"take {new} from its own line", "portare qui la {new} dalla sua linea"},
+       {"move {new} here from its own line", "portare qui la {new} dalla sua linea"},
        tool_of_other_line},
       {"repeated-argument"_diag, Safe, kRepetition, removed_repetition},
       {"missing-arguments"_diag, None, kValueUnknown},
@@ -173,7 +173,7 @@ inline constexpr auto kFixes = [] {
       {"tool-without-m06"_diag, Unsafe, {"write M06 before {text}", "scrivere M06 prima di {text}"}, m06_before_tool},
       {"workpiece-frame-under-face"_diag,
        Unsafe,
-       {"move the {new} below to a line above", "spostare prima, su una sua linea, la {new} che segue"},
+       {"move the {new} from below to a line above this one", "spostare prima, su una sua linea, la {new} che segue"},
        later_g27_above},
       {"workpiece-frame-under-face"_diag, Unsafe, kAbove, g27_above},
       {"invalid-line-number"_diag,
@@ -260,7 +260,7 @@ inline constexpr auto kFixes = [] {
       {"axes-nearly-orthogonal"_diag, None, kVectorUnknown},
       {"dwell-of-odd-length"_diag,
        Unsafe,
-       {"write {new}, should milliseconds be meant", "scrivere {new}, se si intendevano millisecondi"},
+       {"write {new}, if milliseconds were meant", "scrivere {new}, se si intendevano millisecondi"},
        seconds_of_milliseconds},
       {"end-in-incremental"_diag, Safe, kAbove, g90_above},
       {"end-in-inches"_diag, Safe, kAbove, g71_above},

@@ -178,7 +178,7 @@ class BaselineReader final : public nlohmann::json_sax<nlohmann::json> {
     const std::string_view what = error.what();
     const std::size_t column = std::min(what.find("column "), what.size());
     const std::size_t reason = what.find(": ", column);
-    static constexpr Text kNoJson = {"no JSON: ", "non è JSON: "};
+    static constexpr Text kNoJson = {"not JSON: ", "non è JSON: "};
     mistake_ = std::string(kNoJson.in(language_)) +
                std::string(reason == std::string_view::npos ? what : what.substr(reason + 2));
     return false;
@@ -199,7 +199,7 @@ class BaselineReader final : public nlohmann::json_sax<nlohmann::json> {
     return false;
   }
   bool missing(std::string_view key) {
-    static constexpr Text kMissing = {"no {} in what ends here", "manca {} in ciò che finisce qui"};
+    static constexpr Text kMissing = {"{} is missing from what ends here", "manca {} in ciò che finisce qui"};
     mistake_ = dialect::format(kMissing, language_, key);
     return false;
   }

@@ -47,7 +47,7 @@ std::string shortened(std::string_view text);
 namespace mistakes {
 inline constexpr dialect::Text kByteOrderMark = {"a byte-order mark stands here; save the file as UTF-8 without it",
                                                  "qui c'è un byte-order mark: il file va salvato in UTF-8 senza BOM"};
-inline constexpr dialect::Text kNoUtf8 = {"this is no UTF-8; save the file as UTF-8",
+inline constexpr dialect::Text kNoUtf8 = {"this is not UTF-8; save the file as UTF-8",
                                           "questo non è UTF-8: il file va salvato in UTF-8"};
 inline constexpr dialect::Text kControl = {"a control character, where only text may stand",
                                            "un carattere di controllo, dove ci può essere solo testo"};
@@ -69,9 +69,9 @@ inline constexpr dialect::Text kStringTab = {"a tab within a text; write \\t", "
 inline constexpr dialect::Text kCommentOpen = {"a comment without its end", "commento senza fine"};
 inline constexpr dialect::Text kBadComment = {"a comment starts with // or /*", "un commento inizia con // o /*"};
 inline constexpr dialect::Text kBadNumber = {"not a number as JSON writes it", "non è un numero come li scrive JSON"};
-inline constexpr dialect::Text kHugeNumber = {"a number too large to count with", "numero troppo grande"};
+inline constexpr dialect::Text kHugeNumber = {"a number that is too large", "numero troppo grande"};
 
-inline constexpr dialect::Text kWrongKind = {"this is {0}; {1} is wanted", "questo è {0}; ci vuole {1}"};
+inline constexpr dialect::Text kWrongKind = {"this is {0}, and {1} is needed", "questo è {0}; ci vuole {1}"};
 inline constexpr dialect::Text kUnknownKey = {"unknown key", "chiave sconosciuta"};
 inline constexpr dialect::Text kKeyTwice = {"this key stands on line {0} already", "chiave già presente alla riga {0}"};
 inline constexpr dialect::Text kKeyMissing = {"the key {0} is missing", "manca la chiave {0}"};
@@ -79,20 +79,20 @@ inline constexpr dialect::Text kNotWhole = {"{0} is not a whole number", "{0} no
 inline constexpr dialect::Text kTooSmall = {"{0} is too small: at least {1}", "{0} è troppo piccolo: almeno {1}"};
 inline constexpr dialect::Text kNotAbove = {"{0} is too small: more than {1}", "{0} è troppo piccolo: più di {1}"};
 inline constexpr dialect::Text kTooBig = {"{0} is too large: at most {1}", "{0} è troppo grande: al massimo {1}"};
-inline constexpr dialect::Text kNoChoice = {"{0} is none of {1}", "{0} non è fra {1}"};
+inline constexpr dialect::Text kNoChoice = {"{0} is not one of {1}", "{0} non è fra {1}"};
 inline constexpr dialect::Text kUnknownCode = {"there is no code {0} (isolint --list-rules)",
                                                "il codice {0} non esiste (isolint --list-rules)"};
-inline constexpr dialect::Text kBadGlob = {"{0} is no pattern of paths", "{0} non è un modello di percorso"};
-inline constexpr dialect::Text kLeavesFolder = {"{0}: only programs in the folder of this file, or below, have it",
+inline constexpr dialect::Text kBadGlob = {"{0} is not a path pattern", "{0} non è un modello di percorso"};
+inline constexpr dialect::Text kLeavesFolder = {"{0}: this file counts only for programs in its folder, or below",
                                                 "{0}: questo file vale solo per i programmi nella sua cartella o "
                                                 "nelle sue sottocartelle"};
 inline constexpr dialect::Text kNegatedGlob = {"{0}: a ! means nothing here; write \\! for a name that starts with it",
                                                "{0}: qui il ! non ha significato; per un nome che inizia così "
                                                "scrivere \\!"};
-inline constexpr dialect::Text kBadExtension = {"{0} is no extension, such as .iso",
+inline constexpr dialect::Text kBadExtension = {"{0} is not an extension, such as .iso",
                                                 "{0} non è un'estensione, come .iso"};
-inline constexpr dialect::Text kBadFunction = {"{0} is no user M: those are M1 to M999, less M2 to M6",
-                                               "{0} non è una M dell'utente: vanno da M1 a M999, escluse M2-M6"};
+inline constexpr dialect::Text kBadFunction = {"{0} is not a user M function: those are M1 and M7 to M999",
+                                               "{0} non è una M dell'utente: sono la M1 e quelle da M7 a M999"};
 inline constexpr dialect::Text kEmptyList = {"the list is empty", "l'elenco è vuoto"};
 inline constexpr dialect::Text kEmpty = {"the text is empty", "il testo è vuoto"};
 inline constexpr dialect::Text kMinAboveMax = {"min is more than max", "min è maggiore di max"};

@@ -11,7 +11,7 @@ namespace isocnc::system {
 using dialect::Language;
 using dialect::Text;
 
-static constexpr Text kNotRegular{"is no regular file", "non è un file regolare"};
+static constexpr Text kNotRegular{"is not a regular file", "non è un file regolare"};
 static constexpr Text kHasOtherNames{"has other names (hard links), which would keep the old text; left as it is",
                                      "ha altri nomi (hard link), che terrebbero il testo vecchio: resta com'è"};
 static constexpr Text kHasChanged{"has been changed meanwhile by another program; left as it is",

@@ -197,7 +197,7 @@ TEST_F(ConfigurationFile, IsRefusedWhenItIsNoText) {
   EXPECT_THAT(said("\xEF\xBB\xBF{}"), StartsWith("isocnc.json:1:1: error: a byte-order mark"));
   EXPECT_THAT(said(std::string("{\0}\0", 4)), StartsWith("isocnc.json:"));
   EXPECT_THAT(said(std::string("\xFF\xFE{\0}\0", 6)), StartsWith("isocnc.json: error: is UTF-16"));
-  EXPECT_THAT(said("{\"language\": \"\xE8\"}"), StartsWith("isocnc.json:1:15: error: this is no UTF-8"));
+  EXPECT_THAT(said("{\"language\": \"\xE8\"}"), StartsWith("isocnc.json:1:15: error: this is not UTF-8"));
   EXPECT_THAT(said(std::string(200'000, '[')), StartsWith("isocnc.json:1:33: error: nested too deeply"));
   EXPECT_THAT(said("{}" + std::string(2'000'000, ' ')), StartsWith("isocnc.json:1:1: error: larger than"));
 }

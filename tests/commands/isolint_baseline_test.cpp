@@ -127,17 +127,17 @@ TEST_F(IsolintBaseline, IsNoProgramAndNotReadAndWrittenAtOnce) {
 
 TEST_F(IsolintBaseline, ReportsTheLineOfAMistake) {
   const std::pair<std::string, std::string> mistakes[] = {
-      {"", "1: no JSON: syntax error"},
-      {"{\n  \"version\": 1,\n  \"findings\": [\n", "3: no JSON: syntax error"},
-      {"{\"version\": 1,\n\"findings\": [],\n}", "3: no JSON: syntax error"},
+      {"", "1: not JSON: syntax error"},
+      {"{\n  \"version\": 1,\n  \"findings\": [\n", "3: not JSON: syntax error"},
+      {"{\"version\": 1,\n\"findings\": [],\n}", "3: not JSON: syntax error"},
       {"[]", "1: an object was expected here\n"},
       {"{\n\"version\": 2\n}", "2: no version of baselines that is known here\n"},
       {"{\n\"version\": \"1\"\n}", "2: not a value of version\n"},
       {"{\"version\": 1,\n\"finding\": []}", "2: unknown key: finding\n"},
-      {"{\"version\": 1\n}\n", "2: no findings in what ends here\n"},
-      {"{\"findings\": []\n}\n", "2: no version in what ends here\n"},
+      {"{\"version\": 1\n}\n", "2: findings is missing from what ends here\n"},
+      {"{\"findings\": []\n}\n", "2: version is missing from what ends here\n"},
       {"{\"version\": 1,\n\"findings\": [\n[]]}", "3: an object was expected here\n"},
-      {"{\"version\": 1,\n\"findings\": [\n{\"file\": \"a\"}]}", "3: no code in what ends here\n"},
+      {"{\"version\": 1,\n\"findings\": [\n{\"file\": \"a\"}]}", "3: code is missing from what ends here\n"},
       {"{\"version\": 1,\n\"findings\": [\n{\"code\":\n\"ISO31\"}]}",
        "4: unknown code: ISO31; did you mean ISO031? (--list-rules)\n"},
       {"{\"version\": 1,\n\"findings\": [{\"line\":\n\"0x12\"}]}", "3: not a value of line\n"},

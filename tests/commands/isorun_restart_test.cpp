@@ -160,14 +160,15 @@ TEST(IsorunRestart, RefusesWhatItDoesNotUnderstand) {
 }
 
 TEST(IsorunRestart, ComplainsInTheReadersLanguage) {
-  EXPECT_EQ(restart({"--restart-at", "0"}).err, "isorun: --restart-at wants a line, from 1, not 0\n");
-  EXPECT_EQ(restart({"--restart-at", "0", "--lang", "it"}).err, "isorun: --restart-at vuole una riga, da 1, non 0\n");
+  EXPECT_EQ(restart({"--restart-at", "0"}).err, "isorun: --restart-at takes a line, counted from 1, not 0\n");
+  EXPECT_EQ(restart({"--restart-at", "0", "--lang", "it"}).err,
+            "isorun: --restart-at vuole una riga, contata da 1, non 0\n");
   EXPECT_EQ(restart({"--restart-at", "1", "--clearance", "x"}).err,
-            "isorun: --clearance wants a plain number of mm, such as 30, not x\n");
+            "isorun: --clearance takes a plain number of mm, such as 30, not x\n");
   EXPECT_EQ(restart({"--restart-at", "1", "--clearance", "x", "--lang", "it"}).err,
             "isorun: --clearance vuole un numero semplice in mm, come 30, non x\n");
   EXPECT_EQ(restart({"--restart-at", "1", "--approach-feed", "0"}).err,
-            "isorun: --approach-feed wants a plain number of mm/min above 0, such as 1000, not 0\n");
+            "isorun: --approach-feed takes a plain number of mm/min above 0, such as 1000, not 0\n");
   EXPECT_EQ(restart({"--restart-at", "1", "--approach-feed", "0", "--lang", "it"}).err,
             "isorun: --approach-feed vuole un numero semplice in mm/min maggiore di 0, come 1000, non 0\n");
 }

@@ -97,8 +97,8 @@ TEST(IsorunOptions, RefuseWhatMakesNoSense) {
   };
   EXPECT_EQ(said({"--plot", "a.png"}), "isorun: --plot writes a file whose name ends in .svg or .html, unlike a.png\n");
   EXPECT_EQ(said({"--plot", ".html"}), "isorun: --plot writes a file whose name ends in .svg or .html, unlike .html\n");
-  EXPECT_THAT(said({"--samples", "x", "--dt", "0"}), StartsWith("isorun: --dt wants a plain number of seconds"));
-  EXPECT_EQ(said({"--trace", "-", "--samples", "-"}), "isorun: --trace - and --samples - both want standard output\n");
+  EXPECT_THAT(said({"--samples", "x", "--dt", "0"}), StartsWith("isorun: --dt takes a plain number of seconds"));
+  EXPECT_EQ(said({"--trace", "-", "--samples", "-"}), "isorun: --trace - and --samples - both take standard output\n");
   EXPECT_EQ(said({"--plot", "/no/such/folder/x.svg"}),
             "isorun: /no/such/folder/x.svg: cannot write: No such file or directory\n");
 }
@@ -250,14 +250,14 @@ TEST(IsorunUsage, ComplainsInTheReadersLanguage) {
     return run_command(options, {.input = std::string(kCleanProgram)}).err;
   };
   EXPECT_EQ(complaint({"--set", "V31=1", "-"}),
-            "isorun: --set wants a register and a plain number, V1=0 to V30=-2.5, not V31=1\n");
+            "isorun: --set takes a register and a plain number, V1=0 to V30=-2.5, not V31=1\n");
   EXPECT_EQ(complaint({"--lang", "it", "--set", "V31=1", "-"}),
             "isorun: --set vuole un registro e un numero semplice, da V1=0 a V30=-2.5, non V31=1\n");
-  EXPECT_EQ(complaint({"--vgpl", "nan", "-"}), "isorun: --vgpl wants a plain number, such as -2.5, not nan\n");
+  EXPECT_EQ(complaint({"--vgpl", "nan", "-"}), "isorun: --vgpl takes a plain number, such as -2.5, not nan\n");
   EXPECT_EQ(complaint({"--vgpl", "nan", "--lang", "it", "-"}),
             "isorun: --vgpl vuole un numero semplice, come -2.5, non nan\n");
-  EXPECT_EQ(complaint({"--until", "0", "-"}), "isorun: --until wants a line, from 1, not 0\n");
-  EXPECT_EQ(complaint({"--until", "0", "--lang", "it", "-"}), "isorun: --until vuole una riga, da 1, non 0\n");
+  EXPECT_EQ(complaint({"--until", "0", "-"}), "isorun: --until takes a line, counted from 1, not 0\n");
+  EXPECT_EQ(complaint({"--until", "0", "--lang", "it", "-"}), "isorun: --until vuole una riga, contata da 1, non 0\n");
 }
 
 TEST(IsorunUsage, LetsNoControlCharacterThrough) {

@@ -139,7 +139,7 @@ TEST(Protocol, SpeaksTheLanguageOfTheClient) {
   EXPECT_THAT(refusal({{"speed", -1}}), HasSubstr("speed non può essere"));
   EXPECT_THAT(refusal({{"program", "/nowhere/x.iso"}}), HasSubstr("non si può leggere"));
   client.write("isocnc.json", R"({"language": "en", "machine": {"axes": 7}})");
-  EXPECT_THAT(refusal(Json::object()), HasSubstr("is wanted")) << "the configuration decides";
+  EXPECT_THAT(refusal(Json::object()), HasSubstr("is needed")) << "the configuration decides";
 }
 
 /// One breakpoint that cannot be read leaves the others alone.

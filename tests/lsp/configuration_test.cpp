@@ -59,7 +59,7 @@ TEST_F(ConfigurationFile, MistakesAreMarkedWhileItIsTyped) {
       {"{\"machine\":\n{\"maxFeed\": 0}}", "1:12-13 machine.maxFeed: 0 is too small: at least 1 mm/min"},
       {R"({"machine": {"maxFeed": -12.5, "clearance": 1}})",
        "0:24-29 machine.maxFeed: -12.5 is too small: at least 1 mm/min"},
-      {R"({"machine": [1]})", "0:12-13 machine: this is a list [ ]; an object { } is wanted"},
+      {R"({"machine": [1]})", "0:12-13 machine: this is a list [ ], and an object { } is needed"},
       {R"({"è😀": 1})", "0:1-6 è😀: unknown key"},
       {"{\"language\": \"it", "0:13-16 a text without its closing quote"},
       {"{\"language\": ", "0:13-13 the file ends here, but a bracket is still open or a value missing"},
@@ -78,7 +78,7 @@ TEST_F(ConfigurationFile, MistakesAreReportedOnceForAllItsPrograms) {
   write("isocnc.json", "{\n\"language\": 7}");
   start();
   session_.open(uri("a.iso"), "M02\n");
-  EXPECT_THAT(reported_for("isocnc.json"), ElementsAre("1:12-13 language: this is a number; text is wanted"));
+  EXPECT_THAT(reported_for("isocnc.json"), ElementsAre("1:12-13 language: this is a number, and text is needed"));
   session_.open(uri("b.iso"), "M02\n");
   session_.diagnostics(uri("b.iso"), 1);
   EXPECT_FALSE(session_.has([&](const Json& message) {

@@ -126,8 +126,8 @@ TEST_F(FileReplacements, DoNotBringBackARemovedFile) {
 }
 
 TEST_F(FileReplacements, RefuseWhatIsNoPlainFile) {
-  EXPECT_THAT(replace(folder, "new\n"), Optional(HasSubstr("no regular file")));
-  EXPECT_THAT(replace("/dev/null", "new\n"), Optional(HasSubstr("no regular file")));
+  EXPECT_THAT(replace(folder, "new\n"), Optional(HasSubstr("not a regular file")));
+  EXPECT_THAT(replace("/dev/null", "new\n"), Optional(HasSubstr("not a regular file")));
   EXPECT_THAT(replace(folder / "none.iso", "new\n"), Optional(HasSubstr("No such file")));
   fs::create_hard_link(file, folder / "other.iso");
   EXPECT_THAT(replace(file, "new\n"), Optional(HasSubstr("hard links")));
