@@ -15,8 +15,7 @@ using syntax::Word;
 /// The maximum distance of a related place, in bytes.
 static constexpr std::size_t kReach = 1'000'000;
 
-static constexpr dialect::Text kMounted = {"the face frame was mounted here",
-                                           "il s.d.r. di faccia è stato messo in presa qui"};
+static constexpr dialect::Text kMounted = {"the face frame was mounted here", "la faccia è stata messa in presa qui"};
 static constexpr dialect::Text kSet = {"in force since here", "in presa da qui"};
 static constexpr dialect::Text kFirstLabel = {"the label stands here already", "l'etichetta c'è già qui"};
 

@@ -170,7 +170,7 @@ constexpr Quantity kSingle[] = {
      .unit = "1/min",
      .read = read_spindle_speed,
      .set = set_spindle_speed},
-    {.name = "F", .meaning = {"feed rate as written", "feed come scritto"}, .read = read_feed, .set = set_feed},
+    {.name = "F", .meaning = {"feed rate as written", "avanzamento come scritto"}, .read = read_feed, .set = set_feed},
     {.name = "SPEED",
      .meaning = {"present speed of the tip", "velocità attuale della punta"},
      .unit = "mm/min",

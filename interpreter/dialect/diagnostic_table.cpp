@@ -219,8 +219,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                              .it = "nessun movimento ammette {text}: un movimento ha X Y Z B C, un arco anche I J K R"},
                  .wrong = "M06 T101001\nG00 X10 [!A5!]\nM02\n"},
                 {.cause = "no-arc",
-                 .message = {.en = "{g} has no center or radius: {text} goes with an arc, G02 or G03",
-                             .it = "la {g} non ha centro né raggio: {text} va con un arco, G02 o G03"},
+                 .message = {.en = "{g} has no center or radius: write {text} with an arc, G02 or G03",
+                             .it = "la {g} non ha centro né raggio: scrivere {text} con un arco, G02 o G03"},
                  .wrong = "M06 T101001\nG01 X10 [!I5 J0!] F1000\nM02\n"},
                 {.cause = "before-its-g",
                  .message = {.en = "{text} stands before its G: write {other} first",
@@ -574,16 +574,17 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                        "{end} mm from the end",
                  .it = "il centro deve avere la stessa distanza dai due estremi dell'arco: dista {start} mm dal punto "
                        "iniziale e {end} mm da quello finale"},
-     .causes = {{.cause = "from-start",
-                 .message = {.en = "in G90 {text} is a position, not a distance from the start: it is {start} mm from "
-                                   "the start and {end} mm from the end of the arc, which must be equal",
-                             .it = "in G90 {text} è una posizione, non una distanza dal punto iniziale: dista {start} "
-                                   "mm dal punto iniziale e {end} mm da quello finale, che devono essere uguali"},
-                 .wrong = "M06 T101001\nG00 X100\nG02 X120 Y0 [!I10 J0!] F1000\nM02\n"},
-                {.cause = "on-start",
-                 .message = {.en = "{text} puts the center on the start of the arc, where it leaves no radius",
-                             .it = "{text} mette il centro sul punto iniziale dell'arco: il raggio è nullo"},
-                 .wrong = "M06 T101001\nG02 X10 Y10 [!I0 J0!] F1000\nM02\n"}},
+     .causes =
+         {{.cause = "from-start",
+           .message = {.en = "in G90 the center {text} is a position, not a distance from the start: it is {start} mm "
+                             "from the start and {end} mm from the end of the arc, which must be equal",
+                       .it = "in G90 il centro {text} è una posizione, non una distanza dal punto iniziale: dista "
+                             "{start} mm dal punto iniziale e {end} mm da quello finale, che devono essere uguali"},
+           .wrong = "M06 T101001\nG00 X100\nG02 X120 Y0 [!I10 J0!] F1000\nM02\n"},
+          {.cause = "on-start",
+           .message = {.en = "with {text} the center is the start of the arc, which leaves no radius",
+                       .it = "con {text} il centro è il punto iniziale dell'arco: il raggio è nullo"},
+           .wrong = "M06 T101001\nG02 X10 Y10 [!I0 J0!] F1000\nM02\n"}},
      .explanation = {.en = "Start and end of an arc must lie on one circle, equally far from its center and not on "
                            "it. Check the center and the end point. With G90 I, J and K are the position of the "
                            "center, with G91 its distance from the start.",
@@ -1388,7 +1389,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .arguments = {},
      .title = {.en = "G27 without a face frame", .it = "G27 senza faccia in presa"},
      .message = {.en = "{text} has nothing to dismount: no face frame is in force",
-                 .it = "{text} non ha nulla da smontare: nessun sistema di riferimento di faccia è in presa"},
+                 .it = "{text} non ha nulla da smontare: nessuna faccia è in presa"},
      .explanation = {.en = "The control ignores a G27 when the workpiece frame is already the one in use. Delete it, "
                            "or check whether a G24, G28 or G29 is missing before it.",
                      .it = "Il controllo ignora la G27 se si sta già lavorando nel sistema di riferimento di pezzo. "
@@ -1510,7 +1511,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .arguments = {},
      .title = {.en = "Program end with a face frame mounted", .it = "Fine programma con la faccia in presa"},
      .message = {.en = "the program ends with a face frame mounted",
-                 .it = "il programma finisce con un sistema di riferimento di faccia in presa"},
+                 .it = "il programma finisce con una faccia in presa"},
      .explanation =
          {.en = "The face frame has not been dismounted with G27 before the end of the program. Write G27 on a line of "
                 "its own before M02. No false alarms are known.",

@@ -37,7 +37,7 @@ inline constexpr LetterDef kLetters[] = {
     {'C',
      {"rotary axis about Z, degrees; third component of i (G24)",
       "asse rotante intorno a Z, gradi; componente Z di i (G24)"}},
-    {'F', {"feed rate", "velocità di avanzamento (feed rate)"}},
+    {'F', {"feed rate", "avanzamento"}},
     {'G', {"general function", "funzione generale"}},
     {'I',
      {"X of an arc's center; first component of the face's j axis",

@@ -194,8 +194,8 @@ class DiagnosticWriter {
 
   /// Appends one diagnostic for all further findings, at the place of the first of them.
   void append_rest(const LocatedFinding& next, std::string& list) const {
-    static constexpr dialect::Text kRest = {"{} more findings are not shown; isolint reports them all",
-                                            "altre {} segnalazioni non sono mostrate; isolint le riporta tutte"};
+    static constexpr dialect::Text kRest = {"findings that are not shown: {}; isolint reports them all",
+                                            "segnalazioni non mostrate: {}; isolint le riporta tutte"};
     const std::size_t count = first_.report.findings.size() + first_.left_out - kMaxFindings;
     list += ',';
     append_head(next.line, next.finding.span, 3, dialect::format(kRest, language_, count), list);
