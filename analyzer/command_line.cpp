@@ -131,12 +131,13 @@ static void add_options(command_line::ProgramApp& program, LintCommandOptions& o
       "--show-config", options.show_config,
       {"Print the configuration of PATH, and where it is", "Stampa la configurazione di PATH, e dove si trova"});
   // Options that generate docs/isocnc.schema.json, a table of docs/configuration.md, docs/machine.md,
-  // docs/rules.md and docs/messages.md.
+  // docs/rules.md, docs/messages.md and docs/other-controls.md.
   program.add_flag("--config-schema", options.config_schema, {}).hidden();
   program.add_flag("--config-keys", options.config_keys, {}).hidden();
   program.add_flag("--machine-page", options.machine_page, {}).hidden();
   program.add_flag("--rules-page", options.rules_page, {}).hidden();
   program.add_flag("--messages-page", options.messages_page, {}).hidden();
+  program.add_flag("--foreign-page", options.foreign_page, {}).hidden();
 
   std::vector<std::string> codes;
   for (const dialect::DiagnosticDef& def : dialect::kDiagnostics) codes.emplace_back(def.code);

@@ -31,6 +31,7 @@ struct LintCommandOptions {
   bool list_rules = false;
   bool rules_page = false;
   bool messages_page = false;
+  bool foreign_page = false;
   bool show_config = false;
   bool config_schema = false;
   bool config_keys = false;

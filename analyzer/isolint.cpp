@@ -18,6 +18,7 @@
 #include "analyzer/explain.h"
 #include "analyzer/fixing/fixer.h"
 #include "analyzer/fixing/program_fixing.h"
+#include "analyzer/foreign_page.h"
 #include "analyzer/formats/renderers.h"
 #include "analyzer/input/files.h"
 #include "analyzer/messages_page.h"
@@ -463,6 +464,7 @@ ExitStatus run_main(int argc, char** argv) {
   }
   if (options.rules_page) return say(rules_page(), options);
   if (options.messages_page) return say(messages_page(), options);
+  if (options.foreign_page) return say(foreign_page(options.reader_language()), options);
   if (options.config_schema) return say(configuration::json_schema(), options);
   if (options.config_keys) return say(configuration::key_page(), options);
   if (options.machine_page) return say(configuration::machine_page(), options);

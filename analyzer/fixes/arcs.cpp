@@ -89,6 +89,32 @@ Draft removed_contradicting_radius(const FixRequest& request) {
   return is_certain ? removed_mark(request) : Draft{};
 }
 
+/// R-10, an arc of more than 180 degrees on other controls: gives its center.
+Draft center_of_larger_arc(const FixRequest& request) {
+  const Word* const radius = word_at(request.line, request.finding.span);
+  const std::optional<State> before = request.program.state_before(request.number);
+  if (!radius || !before || !(radius->value < 0) || request.marked().find('(') != std::string_view::npos) return {};
+  // The same arc with a center, whose ends are then known.
+  const execution::Plane& plane = execution::plane_in_force(*before);
+  std::string text(request.line.text);
+  text.replace(radius->begin, radius->end - radius->begin, {plane.u_center, '0', ' ', plane.v_center, '0'});
+  const syntax::ParsedLine parsed(text);
+  const std::optional<ArcOfProgram> arc = arc_on(parsed.tree(), *before, request.program.setup());
+  if (!arc) return {};
+  const PlanePoint chord = arc->given.end;
+  const double length = chord.norm();
+  const double size = -radius->value * arc->mm_per_unit;
+  if (!(length > request.program.setup().arc_tolerance) || !(size > length / 2)) return {};
+  const double height = std::sqrt(size * size - length * length / 4) / length;
+  const double side = arc->given.counterclockwise ? height : -height;
+  const PlanePoint center{chord.u / 2 + side * chord.v, chord.v / 2 - side * chord.u};
+  int decimals = 3;
+  const double enough = request.program.setup().arc_tolerance / 4;
+  while (decimals < kMaxDecimals && !(misfit(*arc, rounded_center(*arc, center, decimals)) < enough)) ++decimals;
+  std::string words = center_written(*arc, request.number, center, decimals).words;
+  return {{replaced(request, radius->span(), words)}, words};
+}
+
 /// R9.999 for a chord of 20: a rounding error.
 Draft radius_large_enough(const FixRequest& request) {
   const double radius = request.finding.values[0];

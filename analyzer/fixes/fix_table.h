@@ -31,6 +31,7 @@ inline constexpr Text kModeFirst = {"move {new} to the start of the line", "spos
 inline constexpr Text kRepetition = {"remove {text}, which is there already", "togliere {text}, che c'è già"};
 inline constexpr Text kIgnored = {"remove {text}, which is ignored", "togliere {text}, che viene ignorata"};
 inline constexpr Text kTogether = {"move {new} to the other arguments", "spostare {new} vicino agli altri argomenti"};
+inline constexpr Text kNotNeeded = {"remove {text}, which is not needed here", "togliere {text}, che qui non serve"};
 inline constexpr Text kWrite = {"write {new}", "scrivere {new}"};
 inline constexpr Text kWriteDecimal = {"write {new}, with a decimal point", "scrivere {new}, con il punto decimale"};
 inline constexpr Text kWholeNumber = {"write {new}, without sign and point", "scrivere {new}, senza segno né punto"};
@@ -76,11 +77,18 @@ inline constexpr auto kFixes = [] {
        Unsafe,
        {"remove {text}, which belongs to other controls", "togliere {text}, che è di altri controlli"},
        removed_foreign_frame},
+      {"unknown-word"_diag, Safe, kNotNeeded, removed_certainly_superfluous},
+      {"unknown-word"_diag, Unsafe, kNotNeeded, removed_foreign_word},
+
       {"unknown-word"_diag, Unsafe, kComment, text_as_comment},
       {"word-without-number"_diag, Unsafe, kZero, zero_for_letter_o},
+      {"word-without-number"_diag, Safe, kWrite, radius_of_arc},
+      {"word-without-number"_diag, Unsafe, kWrite, message_as_comment},
+      {"word-without-number"_diag, Unsafe, kNotNeeded, removed_foreign_word},
       {"word-without-number"_diag, Unsafe, kComment, text_as_comment},
       {"malformed-number"_diag, Unsafe, kWrite, point_for_comma},
       {"invalid-g-number"_diag, Unsafe, kWholeNumber, whole_number},
+      {"invalid-g-number"_diag, Unsafe, kNotNeeded, removed_foreign_word},
       {"invalid-m-number"_diag, Unsafe, kWholeNumber, whole_number},
       {"invalid-tool-number"_diag, Unsafe, kWholeNumber, whole_number},
       {"units-after-dimensions"_diag, Unsafe, kModeFirst, mode_first},
@@ -127,9 +135,18 @@ inline constexpr auto kFixes = [] {
        Unsafe,
        {"write {new}, a half circle", "scrivere {new}, una semicirconferenza"},
        radius_large_enough},
+      {"arc-radius-too-small"_diag,
+       Unsafe,
+       {"write {new}, the center of the larger arc", "scrivere {new}, il centro dell'arco maggiore"},
+       center_of_larger_arc},
       {"arc-center-mismatch"_diag, Unsafe, kMeantCenter, center_from_other_origin},
       {"arc-center-mismatch"_diag, Unsafe, kNearestCenter, center_between_ends},
       {"five-axis-not-enabled"_diag, Unsafe, kAbove, g49_above, true},
+      {"g48-g49-not-alone"_diag,
+       Unsafe,
+       {"remove {text}: there is no tool length compensation to end",
+        "togliere {text}: qui non c'è compensazione della lunghezza da annullare"},
+       removed_length_cancel},
       {"g48-g49-not-alone"_diag, Safe, kOwnLine, on_its_own_line},
       {"misplaced-g41-g42"_diag,
        Unsafe,
@@ -150,6 +167,7 @@ inline constexpr auto kFixes = [] {
       {"feed-not-positive"_diag, None, kValueUnknown},
       {"m02-not-alone"_diag, Safe, kOwnLine, on_its_own_line},
       {"initial-tool-missing"_diag, None, kToolUnknown},
+      {"m02-missing"_diag, Unsafe, {"write {new} for M30", "scrivere {new} al posto di M30"}, m02_for_m30},
       {"m02-missing"_diag, Unsafe, {"end the program with M02", "chiudere il programma con M02"}, end_of_program},
       {"repeated-spindle-speed"_diag, Safe, kRepetition, removed_repetition},
       {"linear-coordinate-missing"_diag, Unsafe, kAbove, g49_above, true},
@@ -211,11 +229,19 @@ inline constexpr auto kFixes = [] {
        Unsafe,
        {"remove {text}: there are no canned cycles to end", "togliere {text}: qui non ci sono cicli fissi da chiudere"},
        removed_canned_cycle_end},
+      {"unsupported-g"_diag,
+       Unsafe,
+       {"write the moves of each hole, also on the lines below",
+        "scrivere i movimenti di ogni foro, anche sulle linee sotto"},
+       moves_of_cycle},
+      {"unsupported-g"_diag, Safe, kNotNeeded, removed_certainly_superfluous},
+      {"unsupported-g"_diag, Unsafe, kNotNeeded, removed_foreign_word},
       {"if-not-alone"_diag,
        Safe,
        {"put the jump on a line of its own", "mettere il salto su una linea a sé"},
        on_its_own_line},
       {"if-malformed"_diag, Unsafe, kWrite, comparison},
+
       {"if-malformed"_diag, Unsafe, kWriteDecimal, point_for_comma},
       {"if-malformed"_diag,
        Unsafe,

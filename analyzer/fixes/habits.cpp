@@ -109,6 +109,11 @@ class CenterSurvey {
 
 }  // namespace
 
+bool is_foreign_unit(const Word& word) {
+  return word.letter == 'G' && word.is_plain_integer() &&
+         (word.value == 20 || word.value == 21 || word.value == 700 || word.value == 710);
+}
+
 LineTree Habits::line(std::uint64_t number) {
   const std::string_view text = program_.text(number);
   line_.clear();
@@ -145,7 +150,8 @@ void Habits::find_centers() {
         .rewrites = survey->rewrites(), .is_shown = survey->is_shown(), .is_open = survey->is_open()};
 }
 
-/// On other controls G20 and G21 set inches and millimeters; rewriting only some of them would mix the units.
+/// On other controls G20 and G21, or G700 and G710, set inches and millimeters; rewriting only some of them would mix
+/// the units.
 Habits::FoundRewrites Habits::find_foreign_units() {
   FoundRewrites found;
   for (std::uint64_t number = 0; number < program_.line_count(); ++number) {
@@ -153,10 +159,10 @@ Habits::FoundRewrites Habits::find_foreign_units() {
     const LineTree tree = line(number);
     LineRewrite rewrite{.line = number};
     for (const Word& word : tree.words) {
-      if (word.letter != 'G' || !word.is_plain_integer() || (word.value != 20 && word.value != 21)) continue;
+      if (!is_foreign_unit(word)) continue;
       const syntax::Finding finding{.id = "unsupported-g"_diag, .span = word.span()};
       const FixRequest request{number, finding, true, tree, program_};
-      rewrite.what = word.value == 20 ? "G70" : "G71";
+      rewrite.what = word.value == 20 || word.value == 700 ? "G70" : "G71";
       rewrite.edits.push_back(replaced(request, word.span(), rewrite.what));
       if (!helps(request, rewrite.edits)) return {.is_shown = true};
     }

@@ -11,6 +11,9 @@
 
 namespace isocnc::fixes {
 
+/// Whether a word is a G of other controls for inches (G20, G700) or millimeters (G21, G710).
+bool is_foreign_unit(const syntax::Word& word);
+
 /// The rewriting of one line.
 struct LineRewrite {
   std::uint64_t line = 0;

@@ -78,6 +78,21 @@ Draft end_of_program(const FixRequest& request) {
   return {{inserted(request, static_cast<std::uint32_t>(line.size()), std::move(text))}};
 }
 
+/// M30, which ends the program on other controls.
+Draft m02_for_m30(const FixRequest& request) {
+  const LineTree& line = request.line;
+  const bool is_alone = line.instructions.size() == 1 && line.feed < 0 && line.spindle < 0 && line.findings.empty();
+  if (!is_alone || line.instructions.front().kind != InstructionKind::Function) return {};
+  const Word& m30 = line.command(line.instructions.front());
+  if (m30.value != 30 || line.instructions.front().end != line.instructions.front().command + 1) return {};
+  const std::string line_start = "\n" + std::string(indentation(line.text));
+  const std::optional<State> state = request.program.state_before(request.program.line_count());
+  std::string blocks = state ? blocks_before_end(*state, line_start) : "";
+  Draft draft{{replaced(request, m30.span(), "M02")}, "M02"};
+  if (!blocks.empty()) draft.edits.insert(draft.edits.begin(), inserted(request, 0, blocks.substr(1) + "\n"));
+  return draft;
+}
+
 /// The nearest line above (step -1) or below (1) that holds a block.
 static std::optional<std::uint64_t> block_beside(const FixRequest& request, int step) {
   std::uint64_t number = request.number;

@@ -85,11 +85,22 @@ Draft m05_above(const FixRequest& request);
 Draft g90_above(const FixRequest& request);
 Draft g71_above(const FixRequest& request);
 Draft end_of_program(const FixRequest& request);
+Draft m02_for_m30(const FixRequest& request);
 Draft m06_before_tool(const FixRequest& request);
 Draft tool_of_other_line(const FixRequest& request);
 Draft tool_to_later_change(const FixRequest& request);
 Draft g01_before_coordinates(const FixRequest& request);
 Draft command_to_next_line(const FixRequest& request);
+
+// foreign.cpp: words and statements of other controls.
+Draft removed_foreign_word(const FixRequest& request);
+Draft removed_certainly_superfluous(const FixRequest& request);
+Draft removed_length_cancel(const FixRequest& request);
+Draft message_as_comment(const FixRequest& request);
+Draft radius_of_arc(const FixRequest& request);
+
+// drilling_cycle.cpp
+Draft moves_of_cycle(const FixRequest& request);
 
 // arcs.cpp: corrects circles that do not fit.
 Draft center_from_other_origin(const FixRequest& request);
@@ -97,5 +108,6 @@ Draft removed_contradicting_radius(const FixRequest& request);
 Draft center_between_ends(const FixRequest& request);
 Draft center_completed(const FixRequest& request);
 Draft radius_large_enough(const FixRequest& request);
+Draft center_of_larger_arc(const FixRequest& request);
 
 }  // namespace isocnc::fixes

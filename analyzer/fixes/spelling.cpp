@@ -91,15 +91,23 @@ Draft without_sign(const FixRequest& request) {
   return rewritten(request, std::move(text));
 }
 
-/// X=5, which other controls accept.
-Draft without_equals(const FixRequest& request) {
-  const std::string_view line = request.line.text;
-  const std::uint32_t at = request.finding.span.begin;
+/// Whether the = at a column stands between a letter and its number.
+static bool is_between_letter_and_number(std::string_view line, std::uint32_t at) {
   const std::string_view before = text::trimmed(line.substr(0, at));
   const std::string_view after = text::trimmed(line.substr(at + 1));
-  if (before.empty() || text::char_class(before.back()) != text::CharClass::Letter) return {};
-  if (after.empty() || !text::is_number_char(after.front())) return {};
-  return {{replaced(request, {at, at + 1}, {})}};
+  return !before.empty() && text::char_class(before.back()) == text::CharClass::Letter && !after.empty() &&
+         text::is_number_char(after.front());
+}
+
+/// X=5 Y=2, which other controls accept: all of a line, which has one finding for them.
+Draft without_equals(const FixRequest& request) {
+  Draft draft;
+  for (const Word& word : request.line.words) {
+    if (word.letter != syntax::kAssign || word.begin < request.finding.span.begin) continue;
+    if (!is_between_letter_and_number(request.line.text, word.begin)) return {};
+    draft.edits.push_back(replaced(request, {word.begin, word.begin + 1}, {}));
+  }
+  return draft;
 }
 
 static int decimals_of(std::string_view number) {
@@ -140,10 +148,10 @@ Draft label_with_zeros(const FixRequest& request) {
   return text == request.marked() ? Draft{} : rewritten(request, std::move(text));
 }
 
-/// G20 and G21, which set inches and millimeters on other controls.
+/// G20, G21, G700 and G710, which set inches and millimeters on other controls.
 Draft code_of_this_control(const FixRequest& request) {
   const Word* const word = word_at(request.line, request.finding.span);
-  const bool is_unit = word && word->is_plain_integer() && (word->value == 20 || word->value == 21);
+  const bool is_unit = word && is_foreign_unit(*word);
   return is_unit ? habit_draft(request, Habit::ForeignUnits) : Draft{};
 }
 
@@ -218,7 +226,8 @@ static Span whole_words(std::string_view line, Span span) {
 
 /// Text for people in place of words of the program.
 Draft text_as_comment(const FixRequest& request) {
-  if (text::foreign_minus_length(request.marked()) > 0) return {};  // A number.
+  if (text::foreign_minus_length(request.marked()) > 0) return {};          // A number.
+  if (syntax::foreign_form(request.finding, request.line.text)) return {};  // It has a purpose on another control.
   const Span span = whole_words(request.line.text, request.finding.span);
   const std::string_view text = request.line.text_of(span);
   static constexpr std::string_view kSigns = "()%#=;";

@@ -36,7 +36,7 @@ struct ShownFinding {
 ShownFinding show(const check::LocatedFinding& located, const check::Report& report, syntax::LineFinder& lines,
                   const ReportStyle& style);
 
-/// The message of a finding, with the number of lines below that repeat it (D66). `line` is the text of its line.
+/// The message of a finding of this line, with the number of lines below that repeat it (D66).
 std::string message_of(const check::LocatedFinding& located, const check::Report& report, std::string_view line,
                        dialect::Language language);
 

@@ -67,6 +67,8 @@ static std::string spelled_out(std::string_view text) {
   return result;
 }
 
+std::string quote(std::string_view text) { return spelled_out(shortened(text)); }
+
 static std::string letter_at(std::string_view letters, double index) {
   return std::string(letters.substr(std::min(static_cast<std::size_t>(index), letters.size()), 1));
 }
@@ -102,8 +104,8 @@ std::string message(Cause cause, Language language, const Quoted& quoted) {
     if (close == std::string_view::npos) return result.append(pattern.substr(at));
     result.append(pattern.substr(at, open - at));
     const std::string_view name = pattern.substr(open + 1, close - open - 1);
-    if (name == "text") result.append(spelled_out(shortened(quoted.text)));
-    if (name == "other") result.append(spelled_out(shortened(quoted.other)));
+    if (name == "text") result.append(quote(quoted.text));
+    if (name == "other") result.append(quote(quoted.other));
     for (std::size_t i = 0; i < quoted.values.size() && i < kMaxArguments; ++i)
       if (def.arguments[i] == name) result.append(shown_value(name, quoted.values[i]));
     at = close + 1;

@@ -85,6 +85,9 @@ std::size_t cause_count(const DiagnosticDef& def);
 /// The message of a cause, without what it quotes.
 const Text& message_text(Cause cause);
 
+/// Program text as messages quote it: shortened, and with names for invisible characters.
+std::string quote(std::string_view text);
+
 /// What a message quotes.
 struct Quoted {
   std::string_view text = {};   ///< The program text under the finding's mark.

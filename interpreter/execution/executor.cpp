@@ -71,6 +71,18 @@ void Executor::end_doubt(dialect::ModalGroup group) {
   if (group == dialect::ModalGroup::Face || group == dialect::ModalGroup::Workpiece) blur_linear_axes();
 }
 
+/// Handles a statement of another control that may move the tool there, or call lines that do: where it is, the motion
+/// in force, the spindle and the tool are then unknown.
+void Executor::allow_for_call() {
+  sink_.step(BlockStep::LostLetter, state_);
+  make_motion_illegible();
+  blur_axes_not_named();
+  state_.spindle = Spindle::Unknown;
+  state_.speed_given = true;
+  state_.feed_reported = true;
+  state_.tool_selected = true;
+}
+
 void Executor::make_motion_illegible() {
   state_.set_mode(dialect::ModalGroup::Motion, dialect::kNoMotion);
   state_.motion_illegible = true;
@@ -104,6 +116,7 @@ void Executor::run() {
     allow_for_lost_register();
     garbled_ = garbled_letters();
   }
+  if (line_.has(syntax::LineTree::kMayMove)) allow_for_call();
   // S takes effect before the line's motion, wherever it stands (I.4.2).
   if (line_.spindle >= 0) {
     const double speed = line_.words[static_cast<std::size_t>(line_.spindle)].value;

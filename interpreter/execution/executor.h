@@ -112,6 +112,7 @@ class Executor {
   void doubt_near_g(const syntax::Instruction& g, const Arguments& arguments);
   void doubt_lone_g(const syntax::Instruction& g);
   void doubt_code_before(const Arguments& arguments);
+  void allow_for_call();
   void make_motion_illegible();
   void blur_axes_not_named();
   void blur_axes_of_late_mode();

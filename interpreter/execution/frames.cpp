@@ -145,6 +145,8 @@ void Executor::mount_face(const Instruction& instruction, const dialect::GCode& 
   const Arguments arguments(line_, instruction);
   const bool is_at_tip = code.role == GRole::FaceAtTip;
   if (arguments.empty()) doubt_lone_g(instruction);
+  const bool is_chamfer = code.role == GRole::FaceByAxes && arguments.present() == dialect::letters("R");
+  if (is_chamfer) return;  // Of other controls; reported.
   if (is_at_tip && (arguments.present() & dialect::letters("IJKPQR")) == 0) return go_home(arguments, code);
   const bool is_mounted = state_.face_mounted && !state_.is_in_doubt(ModalGroup::Face);
   if (is_mounted && !repetition_is_reported(code)) report("face-already-mounted"_diag, place);

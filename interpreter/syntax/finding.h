@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/dialect/foreign_form.h"
 
 namespace isocnc::syntax {
 
@@ -47,8 +48,15 @@ inline Finding finding_of(dialect::Cause cause, Span span, std::initializer_list
   return finding;
 }
 
+/// The form of other controls that a finding of this line shows, or null.
+inline const dialect::ForeignForm* foreign_form(const Finding& finding, std::string_view line) {
+  return dialect::foreign_form(finding.id, line, finding.span.begin, finding.span.end);
+}
+
 /// The message of a finding of this line.
 inline std::string message(const Finding& finding, std::string_view line, dialect::Language language) {
+  if (const dialect::ForeignForm* const form = foreign_form(finding, line))
+    return dialect::message(*form, language, line, finding.span.begin, finding.span.end);
   const auto text_of = [&](Span span) {
     return line.substr(std::min<std::size_t>(span.begin, line.size()), span.end - span.begin);
   };

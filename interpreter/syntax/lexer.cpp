@@ -2,6 +2,7 @@
 #include <cstring>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "interpreter/syntax/line_parser.h"
 #include "interpreter/syntax/number.h"
@@ -107,6 +108,10 @@ const char* LineParser::lex_word(const char* start) {
 const char* LineParser::lex_with_number(const char* start, const char* p) {
   const Number number = scan_number(p, end_);
   const char letter = text::upper(*start);
+  if (number.malformed && !in_condition_) {
+    const char* const after = number.digits == 0 ? lex_formula(start, number.end) : lex_corner(start, p, number.end);
+    if (after) return after;
+  }
   add_word(letter, start, number);
   if (number.malformed && !in_condition_ && !has_own_code(letter)) report_number(p, number.end);
   if (p != start + 1 || number.has_more_inside(p)) note_comments_inside(start, number.end);
@@ -146,6 +151,7 @@ const char* LineParser::lex_without_number(const char* start, const char* p) {
   if (after != end_ && text::is_number_char(*after)) return lex_with_number(start, after);  // X(comment)10
   if (!in_condition_ && digits_of_foreign_minus(after)) return lex_with_foreign_minus(letter, start, after);
   if (const char* end = lex_keyword(start, letter)) return end;
+  if (const char* const end = in_condition_ ? nullptr : lex_formula(start, after)) return end;
   Word& added = add_word(letter, start, start + 1);
   added.value = std::numeric_limits<double>::quiet_NaN();
   added.flags = Word::kMissing;
@@ -165,6 +171,63 @@ void LineParser::report_letter_alone(const char* start, const char* after) {
   const Span letter{column(start), column(start) + 1};
   if (after == end_ || !looks_like_digit(*after)) return report("word-without-number"_diag, letter);
   report("word-without-number/letter-for-digit"_cause, letter, {}, {column(after), column(after) + 1});
+}
+
+/// The end of a formula of other controls: #1, #<name>, [#1+5], Q1. Null where there is none.
+const char* LineParser::end_of_formula(const char* p) const {
+  while (p != end_ && *p == '#') ++p;
+  if (p != end_ && (*p == '[' || *p == '<')) {
+    const char close = *p == '[' ? ']' : '>';
+    int depth = 0;
+    for (; p != end_ && !text::is_line_end(*p) && *p != ';'; ++p) {
+      depth += *p == '[' || *p == '<' ? 1 : 0;
+      depth -= *p == ']' || *p == '>' ? 1 : 0;
+      if (*p == close && depth == 0) return p + 1;
+    }
+    return nullptr;
+  }
+  if (p != end_ && text::upper(*p) == 'Q') ++p;
+  const char* const digits = p;
+  while (p != end_ && text::is_digit(*p)) ++p;
+  return p == digits ? nullptr : p;
+}
+
+/// Reads a letter whose number other controls compute, at `p`: X#1, Z-#100, X[#1+5], X+Q1. One finding for all of the
+/// line. Null where there is no formula.
+const char* LineParser::lex_formula(const char* start, const char* p) {
+  p = skip_space(p);
+  if (p == end_ || (*p != '#' && *p != '[' && text::upper(*p) != 'Q')) return nullptr;
+  const char* const end = end_of_formula(p);
+  if (!end) return nullptr;
+  Word& letter = add_word(text::upper(*start), start, start + 1);
+  letter.value = std::numeric_limits<double>::quiet_NaN();
+  letter.flags = Word::kMissing;
+  if (!std::exchange(has_formula_, true)) report("word-without-number"_diag, letter.span());
+  Word& formula = add_word(kError, p, end);
+  formula.value = std::numeric_limits<double>::quiet_NaN();
+  formula.flags = Word::kReported;
+  return end;
+}
+
+/// Reads a letter whose number, at `p`, is followed by the chamfer or rounding of other controls: X10 ,C2 and X10,R2.
+/// Null where there is none; X10, R2 has a comma too many.
+const char* LineParser::lex_corner(const char* start, const char* p, const char* number_end) {
+  const char* const comma = number_end - 1;
+  const char* const corner = skip_space(number_end);
+  const bool is_separator = corner != number_end && !text::is_blank(*(comma - 1));
+  if (*comma != ',' || is_separator || corner == end_) return nullptr;
+  const char letter = text::upper(*corner);
+  const char* const size = skip_space(corner + 1);
+  if ((letter != 'C' && letter != 'R') || size == end_ || !text::is_number_char(*size)) return nullptr;
+  const Number number = scan_number(p, comma);
+  if (number.malformed) return nullptr;
+  add_word(text::upper(*start), start, number);
+  const char* const end = scan_number(size, end_).end;
+  Word& added = add_word(letter, corner, end);
+  added.value = std::numeric_limits<double>::quiet_NaN();
+  added.flags = Word::kMalformed | Word::kReported;
+  report("unknown-word"_diag, {column(comma), column(end)});
+  return end;
 }
 
 /// Reads IF, GOTO and VGPL. They cannot be words: I and V are followed by a letter here, and O does not start a word.
@@ -333,7 +396,8 @@ LineParser::BesideNumber LineParser::garble_number(char first) {
   if (is_word && before.has(Word::kMissing)) return InItsPlace;
   if (first == ']' && word_count() > 2 && begin_[word(word_count() - 2u).begin] == '[') return InItsPlace;  // X[V1]
   const bool is_code = dialect::contains(dialect::letters("GMN"), before.letter);  // No exponent: GOTO N10 ELSE.
-  const bool reads_as_digit = looks_like_digit(first);
+  const bool is_apart = text::is_blank(begin_[before.end]);
+  const bool reads_as_digit = looks_like_digit(first) && !(first == 'L' && is_apart);  // G10 L2: of other controls.
   if (is_word && reads_as_digit && before.digits == 0 && before.has(Word::kMalformed)) return InItsPlace;  // X-O.5
   if ((!is_word && before.letter != kAssign) || (!reads_as_digit && (first != 'E' || is_code))) return No;
   before.value = std::numeric_limits<double>::quiet_NaN();
@@ -350,6 +414,21 @@ static dialect::Cause cause_of_unknown(std::string_view text, bool continues_num
   if (std::all_of(text.begin(), text.end(), compares)) return "unknown-word/outside-if"_cause;
   if (continues_number && looks_like_digit(text.front())) return "unknown-word/letter-for-digit"_cause;
   return "unknown-word"_diag;
+}
+
+/// Whether text is U or W with a number, as the word before it: increments of other controls, which have one finding.
+bool LineParser::continues_increments(const char* start, const char* end) {
+  const auto is_increment = [&](const char* letter, const char* after) {
+    const bool is_letter = text::upper(*letter) == 'U' || text::upper(*letter) == 'W';
+    return is_letter && after != letter + 1 && text::is_number_char(*(after - 1));
+  };
+  if (word_count() == 0 || word(word_count() - 1u).letter != kError || store_.findings_.empty()) return false;
+  Word& before = word(word_count() - 1u);
+  Finding& finding = store_.findings_.back();
+  if (!is_increment(begin_ + before.begin, begin_ + before.end) || !is_increment(start, end)) return false;
+  if (finding.span != before.span()) return false;
+  before.end = finding.span.end = column(end);
+  return true;
 }
 
 /// One finding for a series of characters that do not start a word, together with the number after them (D10).
@@ -374,6 +453,7 @@ const char* LineParser::lex_unknown(const char* p) {
   note_comments_inside(start, after);
   has_prose_ = true;
   const BesideNumber beside = in_condition_ ? BesideNumber::No : garble_number(text::upper(*start));
+  if (!in_condition_ && continues_increments(start, after)) return after;
   Word& added = add_word(kError, start, after);
   added.value = number.value;
   added.digits = number.digits;

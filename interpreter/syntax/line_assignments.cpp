@@ -77,7 +77,8 @@ bool LineParser::is_equals_reported_before(std::uint16_t index) const {
   if (before.letter == kNumber) return true;                           // 2=1: a V has lost its letter.
   if (before.letter == 'P' && word(0).letter == kNumber) return true;  // 100 P1=2
   if (before.letter == 'P' && line_.jump >= 0) return true;            // IF ... GOTO N9 P1=2: IF must be alone.
-  return index > 1 && word(index - 2u).has(Word::kMissing);            // CR=5, VI=5: reported at the C or V.
+  const bool follows_letter = index > 1 && word(index - 2u).has(Word::kMissing);  // CR=5, VI=5: reported at the C or V.
+  return follows_letter && index - 2 > stray_value_;
 }
 
 /// Whether both letters around a `=` have numbers, so that the second is not the value of the first: G92 Y20= Z146
@@ -141,22 +142,45 @@ void LineParser::report_equals(std::uint16_t index) {
   report(cause, equals, {}, before->span());
 }
 
+/// The last word of the value after a `=`: X=IC(5), X=R1, R1=R2+5, T="NAME".
+std::uint16_t LineParser::end_of_value(std::uint16_t index) const {
+  auto last = static_cast<std::uint16_t>(index + (lacks_value(index) && !is_between_coordinates(index) ? 1 : 0));
+  const auto goes_on = [&](std::uint16_t next) {
+    const bool is_text = word(next).has(Word::kMissing) || word(next).letter == kError;
+    return is_text && word(next).letter != kAssign && !is_assigned(next);
+  };
+  while (word(index).has(Word::kMissing) && last + 1 < word_count() && goes_on(static_cast<std::uint16_t>(last + 1)))
+    ++last;
+  return last;
+}
+
+/// Whether another `=` after a letter, or after an S or M of another spindle, has been reported on the line: X=R1 Y=R2
+/// and S1=500 M1=3 are one habit each. `last` is the last word of the value.
+bool LineParser::repeats_equals(std::uint16_t index, std::uint16_t last) {
+  const bool is_habit =
+      index > 0 && (word(index - 1u).has(Word::kMissing) || contains(dialect::letters("MS"), word(index - 1u).letter));
+  return is_habit && std::exchange(stray_value_, last) != kNone;
+}
+
 /// Reports a `=` that follows neither a V nor an M's P (ISO058). Returns the last word that belongs to it.
 std::uint16_t LineParser::add_equals(std::uint16_t index) {
-  auto last = static_cast<std::uint16_t>(index + (lacks_value(index) && !is_between_coordinates(index) ? 1 : 0));
+  const std::uint16_t last = end_of_value(index);
   if (index > 0) {
     if (last == index && index + 1 < word_count() && word(index - 1u).letter == kError)  // #1 = #2 + 1
       take_back("unknown-word"_diag, word(index + 1u).span());
     if (is_equals_reported_before(index) || own_equals(index, last)) return last;
     take_parameter_before_function(index);
-    const bool is_stray_parameter = word(index - 1u).letter == 'P' && word(index - 1u).owner == Word::kNoOwner;
+    const char letter = word(index - 1u).letter;
+    const bool is_stray_parameter = letter == 'Q' || (letter == 'P' && word(index - 1u).owner == Word::kNoOwner);
     if (is_stray_parameter && std::exchange(stray_parameter_, true)) return last;
   }
-  report_equals(index);
+  const bool is_repeated = repeats_equals(index, last);
+  if (last > index) take_back_within(hull(word(index + 1u).span(), word(last).span()));
+  const Word& equals = word(index);
+  const bool is_sum = equals.has(Word::kMalformed) && text_of(equals.span()).find(',') == std::string_view::npos;
+  if (is_sum) take_back_within(equals.span());  // X=10+5
+  if (!is_repeated) report_equals(index);
   if (index > 0) spoil_word_before(index);
-  while (last > index && last + 1 < word_count() && word(last + 1u).has(Word::kMissing)) ++last;  // X=IC(5)
-  for (auto i = static_cast<std::uint16_t>(index + 1); i <= last; ++i)
-    take_back("word-without-number"_diag, word(i).span());
   return last;
 }
 

@@ -173,6 +173,8 @@ void LineParser::check_arguments(const Instruction& checked, dialect::Diagnostic
   if (owns_any(checked, checked.g()->arguments, !shared_line_reported)) return check_unbroken(checked);
   // G92 C5: the C, which has been reported, is in the place of a missing argument.
   if (shared_line_reported && owns_any(checked, dialect::kDimensionLetters)) return;
+  const std::size_t next = checked.command + 1u;
+  if (shared_line_reported && next < word_count() && word(next).letter == 'S') return;  // G92 S2000
   if (neighbor_has_arguments_of(checked)) return;
   report_missing(when_missing, checked);
 }
@@ -259,6 +261,7 @@ void LineParser::check_coordinates(const Instruction& motion) {
   std::size_t next = motion.command + 1u;
   while (next < word_count() && word(next).letter == 'F') ++next;
   if (next < word_count() && is_garbled_argument(next)) return;
+  if (next < word_count() && word(next).letter == 'V' && !is_assigned(static_cast<std::uint16_t>(next))) return;
   report_missing("missing-coordinate"_diag, motion);
 }
 
@@ -280,6 +283,8 @@ void LineParser::check_vectors(const Instruction& frame) {
   const bool shares_line = (line_.flags & LineTree::kAloneViolated) != 0;
   if (shares_line && frame.is(GRole::FaceAtTip) && !owns_any(frame, letters("IJKPQR"))) return;
   if (is_zero_return(frame)) return;
+  if (frame.is(GRole::FaceByAxes) && owns_any(frame, letters("R")) && !owns_any(frame, letters("ABCIJKPQXYZ")))
+    return report_missing("missing-i-vector"_diag, frame);         // G24 R5, a chamfer of other controls.
   for (std::size_t i = frame.command + 1u; i < word_count(); ++i)  // G28 X1 J1 E1: reported at the E.
     if (is_garbled_argument(i)) return;
   const std::string_view axes = frame.g()->axes;

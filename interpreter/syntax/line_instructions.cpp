@@ -13,7 +13,7 @@ using dialect::contains;
 
 void LineParser::add_dimension(std::uint16_t index) {
   if (follows_letter(index, 'V') && is_assigned(index)) return;  // VI=5: reported at the V.
-  if (is_parameter(index)) {
+  if (is_parameter(index) || is_foreign_parameter(index)) {
     own(instruction(static_cast<std::size_t>(function_)), index);
     needs_check_ = true;
     return;
@@ -34,6 +34,14 @@ void LineParser::add_dimension(std::uint16_t index) {
 /// Whether a word is a parameter of the last M: M100 P1=2.5.
 bool LineParser::is_parameter(std::uint16_t index) const {
   return word(index).letter == 'P' && function_ != kNone && (function_open_ || is_assigned(index));
+}
+
+/// Whether a Q follows a parameter without value, as other controls write both: M101 P1 Q2. Reported at the P.
+bool LineParser::is_foreign_parameter(std::uint16_t index) const {
+  if (word(index).letter != 'Q' || !function_open_) return false;
+  std::uint16_t before = index;
+  while (before > 0 && word(before - 1u).letter == kError) --before;
+  return before > 0 && word(before - 1u).letter == 'P' && word(before - 1u).owner != Word::kNoOwner;
 }
 
 void LineParser::start_continuation(std::uint16_t index) {
@@ -122,6 +130,17 @@ void LineParser::add_g(std::uint16_t index) {
   dimensions_seen_ |= has_dimensions;
 }
 
+/// Whether a G98 or G99 belongs to a drilling cycle of the line, where all of it is reported.
+bool LineParser::belongs_to_cycle(std::uint16_t index) const {
+  const auto is_cycle = [](const Word& it) {
+    return it.letter == 'G' && (it.value == 73 || it.value == 74 || it.value == 76 || (it.value > 80 && it.value < 90));
+  };
+  if (word(index).value != 98 && word(index).value != 99) return false;
+  for (std::uint16_t i = 0; i < word_count(); ++i)
+    if (is_cycle(word(i))) return true;
+  return false;
+}
+
 /// The row of a G, also of one that is misspelled but clear. Reports what is wrong with its number.
 std::uint8_t LineParser::row_of_g(std::uint16_t index) {
   Word& written = word(index);
@@ -129,7 +148,7 @@ std::uint8_t LineParser::row_of_g(std::uint16_t index) {
   const std::uint8_t row =
       std::isnan(meant) ? dialect::kUnknownGCode : dialect::kGCodeRows[static_cast<std::size_t>(meant)];
   if (written.is_plain_integer() && written.value <= 999) {
-    if (row == dialect::kUnknownGCode) report("unsupported-g"_diag, written.span());
+    if (row == dialect::kUnknownGCode && !belongs_to_cycle(index)) report("unsupported-g"_diag, written.span());
     return row;
   }
   if (!written.has(Word::kMissing | Word::kReported)) report("invalid-g-number"_diag, written.span());

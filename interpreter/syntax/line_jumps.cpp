@@ -27,9 +27,28 @@ std::uint16_t LineParser::add_jump(std::uint16_t index) {
   return last;
 }
 
+/// Reports a condition of another control once, from its IF to the end of the line: IF [#1 EQ 5] GOTO 10.
+bool LineParser::take_foreign_jump() {
+  const Span begin = store_.jumps_[static_cast<std::size_t>(line_.jump)].if_span;
+  const char* const condition = skip_space(begin_ + begin.end);
+  const bool has_bracket = condition != end_ && *condition == '[';
+  const bool has_several = store_.findings_.size() > line_.first_finding + 1;
+  const auto is_goto = [](const Word& it) { return it.letter == kGoto; };
+  const Word* const words = &word(0);
+  const bool has_goto = std::any_of(words, words + word_count(), is_goto);
+  if ((has_goto && !has_several && !has_bracket) || !dialect::foreign_statement({begin_, line_.length})) return false;
+  const Span span = hull(begin, word(word_count() - 1u).span());
+  take_back_within(span);
+  report("if-malformed"_diag, span);
+  for (std::uint16_t i = 0; i < word_count(); ++i)
+    if (word(i).begin > begin.begin && word(i).owner == Word::kNoOwner) word(i).letter = kError;
+  return true;
+}
+
 /// Handles text after the label that is not a word: a malformed part of the jump, up to the end of the line (GOTO N10
 /// ELSE N20). Returns the last word that belongs to the jump.
 std::uint16_t LineParser::end_jump(std::uint16_t last) {
+  if (take_foreign_jump()) return static_cast<std::uint16_t>(word_count() - 1);
   const auto next = static_cast<std::uint16_t>(last + 1);
   if (next >= word_count() || !store_.jumps_[static_cast<std::size_t>(line_.jump)].has_target) return last;
   if (!is_no_word(word(next))) return last;

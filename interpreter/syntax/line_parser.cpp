@@ -14,6 +14,7 @@ const char* LineParser::parse() {
   structure();
   if (needs_check_) check();
   if (second_number_ >= 0) find_two_blocks();
+  if (has_prose_) drop_block_end();
   line_.words = word_count();
   line_.instructions = static_cast<std::uint16_t>(instruction_count());
   line_.comments = static_cast<std::uint32_t>(store_.comments_.size() - line_.first_comment);
@@ -53,7 +54,8 @@ void LineParser::report_missing(dialect::Cause cause, const Instruction& lacking
 }
 
 void LineParser::structure() {
-  if (has_prose_) join_prose();
+  const bool is_statement = (has_prose_ || starts_with_unknown_g()) && take_statement();
+  if (has_prose_ && !is_statement) join_prose();
   for (std::uint16_t i = 0; i < word_count(); ++i) i = add(i);
 }
 
@@ -80,7 +82,7 @@ std::uint16_t LineParser::add(std::uint16_t index) {
       if (!precedes_if(index)) report("unknown-word/outside-if"_cause, word(index).span());
       return index;
     case kError:
-      if (is_taken_by_unknown_g(index)) take_back("unknown-word"_diag, word(index).span());
+      if (is_taken_by_unknown_g(index) || is_taken_by_call(index)) take_back("unknown-word"_diag, word(index).span());
       return index;
     default:
       return add_between_series(index);
@@ -170,6 +172,11 @@ bool LineParser::is_taken_by_unknown_g(std::uint16_t index) const {
 /// Whether an IF follows the word: VGPL IF = 1. The IF is reported.
 bool LineParser::precedes_if(std::uint16_t index) const {
   return index + 1 < word_count() && word(index + 1u).letter == kIf;
+}
+
+/// Whether unknown text is the count of a call of other controls (M98 P1000 L2), which has been reported at the P.
+bool LineParser::is_taken_by_call(std::uint16_t index) const {
+  return function_open_ && index > 0 && word(index - 1u).letter == 'P' && text::upper(begin_[word(index).begin]) == 'L';
 }
 
 /// Whether a `=` follows the word.

@@ -48,6 +48,9 @@ class LineParser {
   void report_number(const char* begin, const char* end);
   void report_letter_alone(const char* start, const char* after);
   const char* lex_keyword(const char* p, char letter);
+  const char* end_of_formula(const char* p) const;
+  const char* lex_formula(const char* start, const char* p);
+  const char* lex_corner(const char* start, const char* p, const char* number_end);
   const char* lex_comment(const char* p);
   void drop_comment_text();
   const char* lex_number_alone(const char* p);
@@ -56,6 +59,7 @@ class LineParser {
   const char* lex_unknown(const char* p);
   enum class BesideNumber : std::uint8_t { No, InItsPlace, Continues };
   BesideNumber garble_number(char first);
+  bool continues_increments(const char* start, const char* end);
   const char* skip_space(const char* p) const;
   bool ends_in_text() const;
   const char* match_keyword(const char* p, const char* keyword) const;
@@ -78,30 +82,38 @@ class LineParser {
   bool is_assigned(std::uint16_t index) const;
   bool stands_for_number(std::uint16_t index) const;
   bool is_taken_by_unknown_g(std::uint16_t index) const;
+  bool is_taken_by_call(std::uint16_t index) const;
   Instruction& add_instruction(InstructionKind kind, std::uint16_t command);
   void own(Instruction& owner, std::uint16_t index);
 
   void find_two_blocks();
 
-  // Text that was meant as a comment (line_prose.cpp).
+  // Statements of other controls, and text that was meant as a comment (line_prose.cpp).
+  Span statement_span(std::uint16_t first) const;
+  bool starts_with_unknown_g() const;
+  bool take_statement();
+  void drop_block_end();
   bool is_foreign_word(const Word& unknown) const;
   bool is_unit(const Word& first, const Word& second) const;
   bool is_prose(std::size_t index) const;
   bool is_number_of_prose(std::uint16_t index) const;
   std::uint16_t end_of_prose(std::uint16_t index, bool& is_odd) const;
   std::uint16_t end_of_text(std::uint16_t index) const;
+  bool ends_with_foreign_word(std::uint16_t first, std::uint16_t end) const;
   void report_prose(std::uint16_t first, std::uint16_t end);
   void join_prose();
 
   // Letters with numbers (line_instructions.cpp).
   void add_dimension(std::uint16_t index);
   bool is_parameter(std::uint16_t index) const;
+  bool is_foreign_parameter(std::uint16_t index) const;
   void start_continuation(std::uint16_t index);
   void take_argument(std::uint16_t index);
   void spoil_repeated(const Instruction& owner, std::uint16_t index);
   bool starts_second_block(std::uint16_t index);
   bool is_motion_g(const Word& g) const;
   void add_g(std::uint16_t index);
+  bool belongs_to_cycle(std::uint16_t index) const;
   std::uint8_t row_of_g(std::uint16_t index);
   void note_g(const dialect::GCode& code, std::uint16_t index);
   void take_earlier_words(Instruction& g);
@@ -120,6 +132,8 @@ class LineParser {
   void own_in_place_of_value(Instruction& owner, std::uint16_t index);
   bool lacks_value(std::uint16_t assign) const;
   bool is_equals_reported_before(std::uint16_t index) const;
+  std::uint16_t end_of_value(std::uint16_t index) const;
+  bool repeats_equals(std::uint16_t index, std::uint16_t last);
   bool is_between_coordinates(std::uint16_t assign) const;
   bool own_equals(std::uint16_t index, std::uint16_t last);
   void spoil_word_before(std::uint16_t index);
@@ -128,6 +142,7 @@ class LineParser {
 
   // IF and GOTO (line_jumps.cpp).
   std::uint16_t add_jump(std::uint16_t index);
+  bool take_foreign_jump();
   std::uint16_t end_jump(std::uint16_t last);
   std::uint16_t read_condition(Jump& jump, std::uint16_t index);
   bool read_comparison(Jump& jump, std::uint16_t at, std::uint16_t goto_at);
@@ -196,8 +211,9 @@ class LineParser {
 
   /// The position is between IF and the label after GOTO, where a comparison and a bare number are valid.
   bool in_condition_ = false;
-  bool after_goto_ = false;  ///< The next word is the label.
-  bool has_prose_ = false;   ///< Some letter has no number, or some text is not a word.
+  bool after_goto_ = false;   ///< The next word is the label.
+  bool has_formula_ = false;  ///< A letter whose number other controls would compute has been reported.
+  bool has_prose_ = false;    ///< Some letter has no number, or some text is not a word.
   /// The line's last GOTO, or the line's start without a GOTO; null before the search.
   const char* last_goto_ = nullptr;
 
@@ -218,6 +234,7 @@ class LineParser {
   bool needs_check_ = false;
   bool half_jump_ = false;              ///< A part of the IF is missing.
   bool stray_parameter_ = false;        ///< A parameter without its M has been reported.
+  int stray_value_ = kNone;             ///< The last word of the value of a reported `=`.
   bool after_unknown_ = false;          ///< The continuation follows a word unknown to this control.
   bool after_motion_ = false;           ///< The previous word belongs to a motion (G09).
   bool compensation_reported_ = false;  ///< A misplaced G40 to G42 has been reported (once per line).

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "interpreter/syntax/line_parser.h"
@@ -10,12 +11,67 @@ namespace isocnc::syntax {
 using namespace dialect::literals;
 using dialect::contains;
 
+/// The span from a word to the line's last, with the arguments of a call in parentheses: CYCLE81(5,0,2,-10).
+Span LineParser::statement_span(std::uint16_t first) const {
+  Span span = hull(word(first).span(), word(word_count() - 1u).span());
+  for (std::size_t i = line_.first_comment; i < store_.comments_.size(); ++i)
+    if (store_.comments_[i].begin == span.end && begin_[span.end] == '(') span.end = store_.comments_[i].end;
+  return span;
+}
+
+/// Whether a word is a G that this control does not have.
+static bool is_unknown_g(const Word& word) {
+  const std::optional<int> number = word.letter == 'G' && word.is_plain_integer() ? word.whole() : std::nullopt;
+  return number && dialect::g_code(static_cast<std::size_t>(*number)) == nullptr;
+}
+
+/// Whether the line starts with a G that only other controls have.
+bool LineParser::starts_with_unknown_g() const {
+  std::uint16_t first = 0;
+  while (first < word_count() && word(first).letter == 'N') ++first;
+  return first < word_count() && is_unknown_g(word(first));
+}
+
+/// Reports a statement of another control once, and takes its words together as one that cannot be read.
+bool LineParser::take_statement() {
+  const dialect::ForeignForm* const form = dialect::foreign_statement({begin_, line_.length});
+  if (!form) return false;
+  std::uint16_t first = 0;
+  while (first < word_count() && word(first).letter == 'N' && !word(first).has(Word::kMissing)) ++first;
+  if (first == word_count() || word(first).letter == kIf) return false;  // A condition has its own diagnostic.
+  const Span span = statement_span(first);
+  take_back_within(span);
+  const bool is_text = form->diagnostics[0] == "unknown-word"_diag;
+  const bool starts_word = word(first).letter != kError;
+  report(is_text && starts_word ? "word-without-number"_diag : form->diagnostics[0], span);
+  while (word_count() > first + 1) store_.words_.pop_back();
+  Word& statement = word(first);
+  statement.letter = kError;
+  statement.begin = span.begin;
+  statement.end = span.end;
+  statement.value = std::numeric_limits<double>::quiet_NaN();
+  statement.flags = Word::kReported;
+  if (form->may_move) line_.flags |= LineTree::kMayMove;
+  return true;
+}
+
+/// Takes back the finding of a * at the end of a block of another control whose line has a finding already.
+void LineParser::drop_block_end() {
+  const Word* const last = word_count() > 1 ? &word(word_count() - 1u) : nullptr;
+  const auto findings = store_.findings_.size() - line_.first_finding;
+  if (last && last->letter == kError && text_of(last->span()) == "*" && findings > 1)
+    take_back("unknown-word"_diag, last->span());
+}
+
 /// Whether unknown characters are a letter of another control with its number (H2, D3): a word, not plain text.
 bool LineParser::is_foreign_word(const Word& unknown) const {
   const std::string_view text = text_of(unknown.span());
   const std::string_view after = text.substr(1);
+  const auto belongs = [](char c) {  // U0 W0: two increments that have one finding.
+    return text::is_blank(c) || text::is_number_char(c) || text::upper(c) == 'U' || text::upper(c) == 'W';
+  };
   return text::upper(text.front()) >= 'A' && text::upper(text.front()) <= 'Z' && !after.empty() &&
-         std::all_of(after.begin(), after.end(), [](char c) { return text::is_blank(c) || text::is_number_char(c); });
+         text::is_number_char(after.back()) && std::all_of(after.begin(), after.end(), belongs);
 }
 
 /// Whether two words are a unit (X10mm, X2in, C90deg), or one letter without a number written twice.
@@ -51,7 +107,9 @@ bool LineParser::is_prose(std::size_t index) const {
 /// The end of the letters without numbers, and of text that is no word, from a word on. `is_odd`: whether they contain
 /// something that is never valid there, as `X Y Z` does not.
 std::uint16_t LineParser::end_of_prose(std::uint16_t index, bool& is_odd) const {
-  const auto is_foreign = [&](const Word& it) { return it.letter == kError && is_foreign_word(it); };
+  const auto is_foreign = [&](const Word& it) {
+    return it.letter == kError && (is_foreign_word(it) || it.has(Word::kReported));
+  };
   dialect::LetterSet seen = 0;
   for (; index < word_count() && is_prose(index) && !is_foreign(word(index)); ++index) {
     const char letter = word(index).letter;
@@ -72,10 +130,18 @@ std::uint16_t LineParser::end_of_text(std::uint16_t index) const {
   }
 }
 
+/// Whether words are one that another control has (SUPA), so that words after it are no part of a text.
+bool LineParser::ends_with_foreign_word(std::uint16_t first, std::uint16_t end) const {
+  if (end == word_count()) return false;
+  const Span text = hull(word(first).span(), word(end - 1u).span());
+  return dialect::foreign_form("word-without-number"_diag, {begin_, line_.length}, text.begin, text.end) != nullptr;
+}
+
 /// Replaces the findings of several words by one.
 void LineParser::report_prose(std::uint16_t first, std::uint16_t end) {
   const Span span = hull(word(first).span(), word(end - 1u).span());
   take_back_within(span);
+  if (first > 0 && is_unknown_g(word(first - 1u))) return;  // G641 ADIS=0.1: reported at the G.
   const char letter = word(first).letter;
   if (letter == kError || letter == kNumber) return report("unknown-word/prose"_cause, span);
   const bool is_doubled = end - first == 2 && letter == word(end - 1u).letter;  // XX
@@ -94,7 +160,7 @@ void LineParser::join_prose() {
       i = std::max(i, end);
       continue;
     }
-    if (!is_only_unit) {
+    if (!is_only_unit && !ends_with_foreign_word(i, end)) {
       end = end_of_text(end);
       if (i > 0 && word(i - 1u).letter == kNumber) --i;  // 2 s di pausa
     }

@@ -149,6 +149,7 @@ struct LineTree {
   static constexpr std::uint8_t kCut = 4;         ///< The line has more words than are parsed (W192).
   static constexpr std::uint8_t kUnclosed = 8;    ///< A comment is not closed; words that seem missing may be in it.
   static constexpr std::uint8_t kTwoBlocks = 16;  ///< Two blocks whose line break is lost; see blocks() (D68).
+  static constexpr std::uint8_t kMayMove = 32;    ///< A statement of another control, which may move the tool there.
 
   std::string_view text;  ///< Text of the line without its terminator.
   std::span<const Word> words;
@@ -178,7 +179,9 @@ struct LineTree {
     return is_h ? &word : nullptr;
   }
   /// Whether the line has only blanks, comments and N: a block without effect (D13).
-  bool is_empty() const { return instructions.empty() && feed < 0 && spindle < 0 && !number_without_letter(); }
+  bool is_empty() const {
+    return instructions.empty() && feed < 0 && spindle < 0 && !number_without_letter() && !has(kMayMove);
+  }
   const Word& command(const Instruction& instruction) const { return words[instruction.command]; }
   /// The first motion, or null.
   const Instruction* motion() const {

@@ -38,6 +38,15 @@ TEST(Documentation, MessagesPageIsTheTable) {
   EXPECT_TRUE(same) << "isolint --messages-page > docs/messages.md";
 }
 
+TEST(Documentation, PagesOfOtherControlsAreTheTable) {
+  for (const auto& [page, language] :
+       {std::pair{"docs/other-controls.md", "en"}, std::pair{"docs/it/altri-controlli.md", "it"}}) {
+    const std::string command = std::string("isolint --lang ") + language + " --foreign-page";
+    const bool same = read(page) == output_of("'" ISOCNC_BIN_DIR "/'" + command);
+    EXPECT_TRUE(same) << command << " > " << page;
+  }
+}
+
 /// The text of a file after the first `before`, up to the next quote, blank or bracket.
 std::string text_after(const std::string& before, const std::string& file) {
   const std::string text = read(file);
