@@ -130,8 +130,8 @@ static void add_options(command_line::ProgramApp& program, LintCommandOptions& o
   program.add_flag(
       "--show-config", options.show_config,
       {"Print the configuration of PATH, and where it is", "Stampa la configurazione di PATH, e dove si trova"});
-  // Options that generate docs/isocnc.schema.json, a table of docs/configuration.md, docs/machine.md,
-  // docs/rules.md, docs/messages.md and docs/other-controls.md.
+  // Options that generate docs/isocnc.schema.json, a table of docs/configuration.md, docs/machine.md, docs/rules.md,
+  // docs/messages.md and docs/other-controls.md; with --lang it, the pages of docs/it/.
   program.add_flag("--config-schema", options.config_schema, {}).hidden();
   program.add_flag("--config-keys", options.config_keys, {}).hidden();
   program.add_flag("--machine-page", options.machine_page, {}).hidden();
@@ -152,18 +152,32 @@ CommandLine read_command_line(int argc, const char* const* argv) {
        "Verifica i programmi ISOCNC e segnala dove il controllo si fermerebbe."},
       {.program = "isolint",
        .version = ISOCNC_VERSION,
-       .purpose = "check ISOCNC programs",
+       .purpose = {"check ISOCNC programs", "verifica i programmi ISOCNC"},
        .operands = "[PATH...]",
        .paragraphs =
-           {"isolint reports what the ISOCNC control would stop at (codes ISO and E), and what a machinist would frown "
-            "at (W), at the place where it stands, on every path through IF and GOTO.",
-            "Comments in a program silence findings: (isolint: ignore ISO031) its line, (isolint: disable ISO031) and "
-            "(isolint: enable ISO031) a stretch, (isolint: ignore-file) the program.",
-            "What is reported, and the machine that programs are checked for, may be written into an isocnc.json "
-            "beside the programs or above them."},
-       .exit = {{"0", "No errors; there may be warnings, within --max-warnings, and notes."},
-                {"1", "Errors were found, or too many warnings, or with --diff a difference."},
-                {"2", "A mistake in the command or in an isocnc.json, or something could not be read or written."}},
+           {{"isolint reports what the ISOCNC control would stop at (codes ISO and E), and what a machinist would "
+             "frown at (W), at the place where it stands, on every path through IF and GOTO.",
+             "isolint segnala dove il controllo ISOCNC si fermerebbe (codici ISO ed E) e ciò che farebbe storcere il "
+             "naso a un operatore (W), nel punto esatto, su ogni percorso che passa per gli IF ... GOTO."},
+            {"Comments in a program silence findings: (isolint: ignore ISO031) its line, (isolint: disable ISO031) and "
+             "(isolint: enable ISO031) a stretch, (isolint: ignore-file) the program.",
+             "I commenti in un programma tolgono le segnalazioni: (isolint: ignore ISO031) sulla sua linea, "
+             "(isolint: disable ISO031) e (isolint: enable ISO031) in un tratto, (isolint: ignore-file) in tutto il "
+             "programma."},
+            {"What is reported, and the machine that programs are checked for, may be written into an isocnc.json "
+             "beside the programs or above them.",
+             "Che cosa segnalare, e per quale macchina, si può scrivere in un isocnc.json nella cartella dei "
+             "programmi o in una sopra."}},
+       .exit =
+           {{"0",
+             {"No errors; there may be warnings, within --max-warnings, and notes.",
+              "Nessun errore; ci possono essere avvisi, entro --max-warnings, e note."}},
+            {"1",
+             {"Errors were found, or too many warnings, or with --diff a difference.",
+              "Ci sono errori, o troppi avvisi, oppure con --diff una differenza."}},
+            {"2",
+             {"A mistake in the command or in an isocnc.json, or something could not be read or written.",
+              "Un errore nel comando o in un isocnc.json, oppure qualcosa che non si è potuto leggere o scrivere."}}},
        .see_also = {"isofmt", "isorun"}});
   add_options(program, read.options);
   auto said = program.read(argc, argv);

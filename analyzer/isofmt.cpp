@@ -358,16 +358,27 @@ ExitStatus run_main(int argc, char** argv) {
        "Formatta i programmi ISOCNC. Ciò che un programma fa non cambia."},
       {.program = "isofmt",
        .version = ISOCNC_VERSION,
-       .purpose = "format ISOCNC programs",
+       .purpose = {"format ISOCNC programs", "formatta i programmi ISOCNC"},
        .operands = "PATH...",
-       .paragraphs = {"isofmt writes words in upper case with one blank between them. Comments, line ends and the end "
-                      "of the last "
-                      "line stay as they are, and so does all that a program does.",
-                      "A program that is rewritten in place is either the old or the new one, whole, whatever happens "
-                      "meanwhile."},
-       .exit = {{"0", "Done; with --check and --diff, nothing would be changed."},
-                {"1", "With --check or --diff: a program would be changed."},
-                {"2", "A mistake in the command or in an isocnc.json, or something could not be read or written."}},
+       .paragraphs = {{"isofmt writes words in upper case with one blank between them. Comments, line ends and the end "
+                       "of the last "
+                       "line stay as they are, and so does all that a program does.",
+                       "isofmt scrive le parole in maiuscolo, separate da uno spazio. I commenti, i terminatori di "
+                       "linea e la fine dell'ultima linea restano come sono, e così tutto ciò che un programma fa."},
+                      {"A program that is rewritten in place is either the old or the new one, whole, whatever happens "
+                       "meanwhile.",
+                       "Un programma riscritto sul posto è quello vecchio o quello nuovo, sempre intero, qualunque "
+                       "cosa succeda nel frattempo."}},
+       .exit =
+           {{"0",
+             {"Done; with --check and --diff, nothing would be changed.",
+              "Fatto; con --check e --diff: non c'è nulla da cambiare."}},
+            {"1",
+             {"With --check or --diff: a program would be changed.",
+              "Con --check o --diff: c'è un programma da cambiare."}},
+            {"2",
+             {"A mistake in the command or in an isocnc.json, or something could not be read or written.",
+              "Un errore nel comando o in un isocnc.json, oppure qualcosa che non si è potuto leggere o scrivere."}}},
        .see_also = {"isolint", "isorun"}});
   add_options(program, options);
   if (const auto status = program.answer(argc, argv)) return *status;

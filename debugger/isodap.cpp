@@ -37,14 +37,23 @@ system::ExitStatus run_main(int argc, char** argv) {
        "Il debug adapter per i programmi ISOCNC: un editor lo avvia e parla con lui."},
       {.program = "isodap",
        .version = ISOCNC_VERSION,
-       .purpose = "debug adapter for ISOCNC programs",
+       .purpose = {"debug adapter for ISOCNC programs", "debug adapter per i programmi ISOCNC"},
        .operands = "",
-       .paragraphs = {"isodap speaks the debug adapter protocol. An editor starts it, and steps a program by it, "
-                      "forwards and backwards, on the simulated machine of isorun.",
-                      "The isocnc.json beside the program or above describes the machine, as for isorun."},
-       .exit = {{"0", "The editor has disconnected."},
-                {"1", "The editor has disconnected without ending the session."},
-                {"2", "A mistake in the command, or the port is not available."}},
+       .paragraphs =
+           {{"isodap speaks the debug adapter protocol. An editor starts it, and steps a program by it, "
+             "forwards and backwards, on the simulated machine of isorun.",
+             "isodap parla il debug adapter protocol. Un editor lo avvia e con esso esegue un programma passo "
+             "passo, avanti e indietro, sulla macchina simulata di isorun."},
+            {"The isocnc.json beside the program or above describes the machine, as for isorun.",
+             "La macchina è descritta dall'isocnc.json nella cartella del programma o in una sopra, come per "
+             "isorun."}},
+       .exit = {{"0", {"The editor has disconnected.", "L'editor si è scollegato."}},
+                {"1",
+                 {"The editor has disconnected without ending the session.",
+                  "L'editor si è scollegato senza chiudere la sessione."}},
+                {"2",
+                 {"A mistake in the command, or the port is not available.",
+                  "Un errore nel comando, oppure la porta non è disponibile."}}},
        .see_also = {"isorun", "isols", "isolint"}});
   program.add_option("--server", options.port, {"PORT", "PORTA"},
                      {"Wait for one editor on this port of the loopback\ninterface; 0: any. Else "

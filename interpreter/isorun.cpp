@@ -380,19 +380,31 @@ ExitStatus run_main(int argc, char** argv) {
       {"Runs an ISOCNC program and reports what it does.", "Esegue un programma ISOCNC e dice che cosa fa."},
       {.program = "isorun",
        .version = ISOCNC_VERSION,
-       .purpose = "run an ISOCNC program",
+       .purpose = {"run an ISOCNC program", "esegue un programma ISOCNC"},
        .operands = "FILE",
-       .paragraphs = {"isorun runs a program block by block as the control would, up to M02 or to the first error, "
-                      "and reports what it does.",
-                      "With --restart-at it writes a program that brings the machine into the state before that line, "
-                      "approaches from above, and goes on with the lines from there. Where that is not safe it says "
-                      "why, and names the nearest lines where it is."},
-       .exit = {{"0",
-                 "The program ran to its M02, or to the line of --until; or the restart program has been written."},
-                {"1",
-                 "An error stopped the program, as it would stop the control; or there is no safe restart before the "
-                 "line."},
-                {"2", "A mistake in the command or in an isocnc.json, or something could not be read or written."}},
+       .paragraphs = {{"isorun runs a program block by block as the control would, up to M02 or to the first error, "
+                       "and reports what it does.",
+                       "isorun esegue un programma blocco per blocco come il controllo, fino alla M02 o al primo "
+                       "errore, e dice che cosa fa."},
+                      {"With --restart-at it writes a program that brings the machine into the state before that line, "
+                       "approaches from above, and goes on with the lines from there. Where that is not safe it says "
+                       "why, and names the nearest lines where it is.",
+                       "Con --restart-at scrive un programma che rimette la macchina nello stato prima di quella "
+                       "linea, si avvicina dall'alto e prosegue con le linee da lì in poi. Dove non è sicuro dice "
+                       "perché, e indica le linee più vicine da cui lo è."}},
+       .exit =
+           {{"0",
+             {"The program ran to its M02, or to the line of --until; or the restart program has been written.",
+              "Il programma è arrivato alla sua M02, o alla linea di --until; oppure il programma di ripresa è "
+              "stato scritto."}},
+            {"1",
+             {"An error stopped the program, as it would stop the control; or there is no safe restart before the "
+              "line.",
+              "Un errore ha fermato il programma, come fermerebbe il controllo; oppure prima della linea non c'è "
+              "una ripresa sicura."}},
+            {"2",
+             {"A mistake in the command or in an isocnc.json, or something could not be read or written.",
+              "Un errore nel comando o in un isocnc.json, oppure qualcosa che non si è potuto leggere o scrivere."}}},
        .see_also = {"isolint", "isofmt"}});
   program
       .add_option("FILE", options.file, {" ", " "},

@@ -38,14 +38,22 @@ system::ExitStatus run_main(int argc, char** argv) {
        "Il language server per i programmi ISOCNC: un editor lo avvia e parla con lui."},
       {.program = "isols",
        .version = ISOCNC_VERSION,
-       .purpose = "language server for ISOCNC programs",
+       .purpose = {"language server for ISOCNC programs", "language server per i programmi ISOCNC"},
        .operands = "",
-       .paragraphs = {"isols speaks the language server protocol, version 3.17. An editor starts it, and shows "
-                      "what isolint would find while the program is being written.",
-                      "Programs are checked as the isocnc.json beside them or above says, as by isolint."},
-       .exit = {{"0", "The editor has shut the server down."},
-                {"1", "The editor has disconnected, or ended the server without shutting it down."},
-                {"2", "A mistake in the command, or the port is not available."}},
+       .paragraphs = {{"isols speaks the language server protocol, version 3.17. An editor starts it, and shows "
+                       "what isolint would find while the program is being written.",
+                       "isols parla il language server protocol, versione 3.17. Un editor lo avvia e, mentre si scrive "
+                       "il programma, mostra ciò che troverebbe isolint."},
+                      {"Programs are checked as the isocnc.json beside them or above says, as by isolint.",
+                       "I programmi vengono verificati come dice l'isocnc.json nella loro cartella o in una sopra, "
+                       "come con isolint."}},
+       .exit = {{"0", {"The editor has shut the server down.", "L'editor ha chiuso il server."}},
+                {"1",
+                 {"The editor has disconnected, or ended the server without shutting it down.",
+                  "L'editor si è scollegato, o ha terminato il server senza chiuderlo."}},
+                {"2",
+                 {"A mistake in the command, or the port is not available.",
+                  "Un errore nel comando, oppure la porta non è disponibile."}}},
        .see_also = {"isolint", "isofmt", "isorun"}});
   const command_line::ProgramOption stdio = program.add_flag(
       "--stdio", options.stdio,

@@ -55,9 +55,15 @@ ProgramOption ProgramOption::check(std::function<std::string(const std::string&,
 
 ProgramOption ProgramOption::hidden() const { return with(option_->group("")); }
 
+/// Whether the manual page is requested: by the first word, or by the first one after `--lang`.
+static bool requests_manual_page(int argc, const char* const* argv) {
+  const std::string_view first = argc > 1 ? argv[1] : "";
+  const int at = first == "--lang" ? 3 : first.starts_with("--lang=") ? 2 : 1;
+  return argc > at && std::string_view(argv[at]) == "--manual-page";
+}
+
 /// The language given by `--lang`, otherwise by the environment. Words after -- are not options.
 static Language language_of_command(int argc, const char* const* argv) {
-  if (argc > 1 && std::string_view(argv[1]) == "--manual-page") return Language::English;
   for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i) {
     const std::string_view argument = argv[i];
     const std::string_view next = i + 1 < argc ? argv[i + 1] : "";
@@ -66,7 +72,7 @@ static Language language_of_command(int argc, const char* const* argv) {
                                                                      : "";
     if (const auto language = dialect::language_named(value)) return *language;
   }
-  return dialect::language_of_environment();
+  return requests_manual_page(argc, argv) ? Language::English : dialect::language_of_environment();
 }
 
 ProgramApp::ProgramApp(int argc, const char* const* argv, const Text& description, ManualTexts texts)
@@ -145,7 +151,7 @@ ProgramOption ProgramApp::add_language(std::string& value, const Text& descripti
 
 ProgramApp::CommandReply ProgramApp::read(int argc, const char* const* argv) {
   const std::string_view request = argc > 1 ? argv[1] : "";
-  if (request == "--manual-page") return {.answer = manual_page(), .complaint = {}};
+  if (requests_manual_page(argc, argv)) return {.answer = manual_page(), .complaint = {}};
   if (request == "--complete")
     return {.answer = completions(argc > 3 ? argv[3] : "", argc > 4 ? argv[4] : ""), .complaint = {}};
   command_.assign(argv + std::min(argc, 1), argv + argc);
@@ -313,14 +319,24 @@ static std::string roff_names(const CLI::Option& option) {
 }
 
 std::string ProgramApp::manual_page() const {
+  static constexpr Text kCollection = {"ISOCNC programs", "Programmi ISOCNC"};
+  static constexpr Text kName = {"NAME", "NOME"};
+  static constexpr Text kSynopsis = {"SYNOPSIS", "SINTASSI"};
+  static constexpr Text kOptionsPlace = {"options", "opzioni"};
+  static constexpr Text kDescription = {"DESCRIPTION", "DESCRIZIONE"};
+  static constexpr Text kOptions = {"OPTIONS", "OPZIONI"};
+  static constexpr Text kExitStatus = {"EXIT STATUS", "STATO D'USCITA"};
+  static constexpr Text kSeeAlso = {"SEE ALSO", "VEDERE ANCHE"};
   std::string capitals = texts_.program;
   std::transform(capitals.begin(), capitals.end(), capitals.begin(),
                  [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  std::string page = fmt::format(".TH {} 1 \"\" \"isocnc {}\" \"ISOCNC programs\"\n", capitals, texts_.version);
-  page += fmt::format(".SH NAME\n{} \\- {}\n.SH SYNOPSIS\n", texts_.program, roff(texts_.purpose));
-  page += fmt::format("\\fB{}\\fR [\\fIoptions\\fR] {}\n.SH DESCRIPTION\n", texts_.program, roff(texts_.operands));
-  for (const std::string_view paragraph : texts_.paragraphs) page += fmt::format(".PP\n{}\n", roff(paragraph));
-  page += ".SH OPTIONS\n";
+  std::string page = fmt::format(".TH {} 1 \"\" \"isocnc {}\" \"{}\"\n", capitals, texts_.version, text(kCollection));
+  page += fmt::format(".SH {}\n{} \\- {}\n", text(kName), texts_.program, roff(text(texts_.purpose)));
+  page += fmt::format(".SH {}\n\\fB{}\\fR [\\fI{}\\fR] {}\n", text(kSynopsis), texts_.program, text(kOptionsPlace),
+                      roff(texts_.operands));
+  page += fmt::format(".SH {}\n", text(kDescription));
+  for (const Text& paragraph : texts_.paragraphs) page += fmt::format(".PP\n{}\n", roff(text(paragraph)));
+  page += fmt::format(".SH {}\n", text(kOptions));
   for (const std::string& group : app_->get_groups()) {
     if (group.empty()) continue;
     page += fmt::format(".SS {}\n", roff(group));
@@ -328,9 +344,9 @@ std::string ProgramApp::manual_page() const {
       if (option->get_group() == group)
         page += fmt::format(".TP\n{}\n{}\n", roff_names(*option), roff(option->get_description()));
   }
-  page += ".SH EXIT STATUS\n";
-  for (const auto& [status, meaning] : texts_.exit) page += fmt::format(".TP\n{}\n{}\n", status, roff(meaning));
-  page += ".SH SEE ALSO\n";
+  page += fmt::format(".SH {}\n", text(kExitStatus));
+  for (const auto& [status, meaning] : texts_.exit) page += fmt::format(".TP\n{}\n{}\n", status, roff(text(meaning)));
+  page += fmt::format(".SH {}\n", text(kSeeAlso));
   for (std::size_t i = 0; i < texts_.see_also.size(); ++i)
     page += fmt::format("\\fB{}\\fR(1){}\n", texts_.see_also[i], i + 1 < texts_.see_also.size() ? "," : "");
   return page;

@@ -26,11 +26,11 @@ namespace isocnc::command_line {
 struct ManualTexts {
   std::string program;
   std::string version;
-  std::string purpose;                                              ///< `check ISOCNC programs`
-  std::string operands;                                             ///< `PATH...`
-  std::vector<std::string_view> paragraphs;                         ///< Paragraphs of the description.
-  std::vector<std::pair<std::string_view, std::string_view>> exit;  ///< Exit statuses with their meaning.
-  std::vector<std::string_view> see_also;                           ///< `isofmt`
+  dialect::Text purpose;                                         ///< `check ISOCNC programs`
+  std::string operands;                                          ///< `PATH...`
+  std::vector<dialect::Text> paragraphs;                         ///< Paragraphs of the description.
+  std::vector<std::pair<std::string_view, dialect::Text>> exit;  ///< Exit statuses with their meaning.
+  std::vector<std::string_view> see_also;                        ///< `isofmt`
 };
 
 /// The help's name for a value that is a file.
@@ -65,12 +65,12 @@ class ProgramOption {
 };
 
 /// The command line of a program: its options, and the requests it answers itself. These are `--help` and `--version`;
-/// `--manual-page`, for man(1); and `--complete PROGRAM WORD PREVIOUS`, as `complete -C` of bash calls it: it prints
-/// the completions of the word, one per line, and nothing for file names.
+/// `--manual-page`, for man(1), also after `--lang`; and `--complete PROGRAM WORD PREVIOUS`, as `complete -C` of bash
+/// calls it: it prints the completions of the word, one per line, and nothing for file names.
 class ProgramApp {
  public:
-  /// Determines the language of the help and of errors from the command itself first (`--lang` at any position); the
-  /// manual page is English.
+  /// Determines the language of the help and of errors from the command itself first (`--lang` at any position). The
+  /// language of the manual page does not depend on the locale: English without `--lang`.
   ProgramApp(int argc, const char* const* argv, const dialect::Text& description, ManualTexts texts);
   ~ProgramApp();
 

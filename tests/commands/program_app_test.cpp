@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 #include "run_command.h"
@@ -138,11 +139,40 @@ TEST_P(Program, GuessesTheOptionThatWasMeant) {
 }
 
 TEST_P(Program, ManualPageIsTheOneThatIsInstalled) {
-  const std::string file = ISOCNC_SOURCE_DIR "/docs/man/" + GetParam() + ".1";
-  std::stringstream installed;
-  installed << std::ifstream(file, std::ios::binary).rdbuf();
-  EXPECT_EQ(run_command({GetParam(), "--manual-page"}).out, installed.str())
-      << "write it anew: " << GetParam() << " --manual-page > docs/man/" << GetParam() << ".1";
+  for (const auto& [folder, language] : {std::pair("docs/man/", "en"), std::pair("docs/man/it/", "it")}) {
+    const std::string file = folder + GetParam() + ".1";
+    std::stringstream installed;
+    installed << std::ifstream(ISOCNC_SOURCE_DIR "/" + file, std::ios::binary).rdbuf();
+    EXPECT_EQ(run_command({GetParam(), "--lang", language, "--manual-page"}).out, installed.str())
+        << "write it anew: " << GetParam() << " --lang " << language << " --manual-page > " << file;
+  }
+}
+
+/// What a line of a manual page has in all languages: its request, or its options without the names of their values.
+std::string common_part(const std::string& line) {
+  if (line.starts_with('.')) return line.substr(0, line.find(' '));
+  return line.starts_with("\\fB") ? line.substr(0, line.find("\\fI")) : "";
+}
+
+/// Whether a line is a sentence, in which words follow each other: no request, option, exit status or list of values.
+bool is_sentence(const std::string& line) {
+  static const std::regex kWords("[a-z]{2,} [a-z]{2,}");
+  return !line.starts_with('.') && !line.starts_with("\\f") && std::regex_search(line, kWords);
+}
+
+TEST_P(Program, ManualPageIsInItalianThroughout) {
+  const std::vector<std::string> english = lines_of(run_command({GetParam(), "--manual-page"}).out);
+  using Command = std::vector<std::string>;
+  for (const Command& command :
+       {Command{GetParam(), "--lang=it", "--manual-page"}, Command{GetParam(), "--manual-page", "--lang", "it"}}) {
+    const std::vector<std::string> italian = lines_of(run_command(command).out);
+    ASSERT_EQ(italian.size(), english.size());
+    for (std::size_t i = 0; i < english.size(); ++i) {
+      EXPECT_EQ(common_part(italian[i]), common_part(english[i]));
+      const bool is_heading = english[i].starts_with(".S");
+      EXPECT_TRUE(italian[i] != english[i] || !(is_heading || is_sentence(english[i]))) << english[i];
+    }
+  }
 }
 
 TEST_P(Program, CompletesOptionsAndLanguages) {

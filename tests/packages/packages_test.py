@@ -57,8 +57,10 @@ class Installed(unittest.TestCase):
             self.assertIn(VERSION, must(prefix / "bin" / program, "--version"))
             sections = must("readelf", "--section-headers", "--wide", prefix / "bin" / program)
             self.assertNotIn(".symtab", sections, f"{program} is not stripped")
-            manual = gzip.decompress((prefix / f"share/man/man1/{program}.1.gz").read_bytes()).decode()
-            self.assertIn(f'"isocnc {VERSION}"', manual)
+            for folder, heading in (("man1", "SEE ALSO"), ("it/man1", "VEDERE ANCHE")):
+                manual = gzip.decompress((prefix / f"share/man/{folder}/{program}.1.gz").read_bytes()).decode()
+                self.assertIn(f'"isocnc {VERSION}"', manual)
+                self.assertIn(f".SH {heading}\n", manual)
             self.assertTrue((prefix / f"share/bash-completion/completions/{program}").is_file())
             self.assertTrue((prefix / f"share/fish/vendor_completions.d/{program}.fish").is_file())
         self.assertTrue((prefix / "share/zsh/vendor-completions/_isocnc").is_file())
