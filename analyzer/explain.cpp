@@ -102,7 +102,7 @@ static std::vector<std::string> keys_of(std::string_view code, Language language
                                         const std::function<std::string(std::string_view path)>& named) {
   static constexpr Text kElse = {", else ", ", altrimenti "};
   std::vector<std::string> lines;
-  for (const configuration::CodeOption& option : configuration::options_of(code))
+  for (const configuration::CodeOption& option : configuration::options_of(code, language))
     lines.push_back(named(option.path) +
                     (option.fallback.empty() ? "" : std::string(kElse.in(language)) + option.fallback));
   return lines;
@@ -132,29 +132,42 @@ std::string list_rules(Language language) {
   return result;
 }
 
-std::string rules_page() {
-  std::string page =
+/// A code's section of the page. The English one quotes the Italian text, since findings in both languages lead there.
+static std::string rules_section(const DiagnosticDef& def, Language language) {
+  static constexpr Text kMachinePage = {"machine.md", "macchina.md"};
+  static constexpr Text kConfigurationPage = {"configuration.md#keys", "configurazione.md#chiavi"};
+  static constexpr Text kOption = {"Option", "Opzione"};
+  std::string section = fmt::format("\n## {} {}\n\n", def.code, def.name);
+  section += fmt::format("**{}** · {} · {} {}\n\n{}\n", def.title.in(language), severity_text(def, language),
+                         kSection.in(language), def.section, def.explanation.in(language));
+  if (language == Language::English) section += fmt::format("\n> **{}.** {}\n", def.title.it, def.explanation.it);
+  const DiagnosticId id{static_cast<std::uint8_t>(&def - dialect::kDiagnostics)};
+  if (!def.wrong.empty()) section += fmt::format("\n{}\n\n{}", kWrong.in(language), shown_wrong(id, language));
+  if (!def.right.empty()) section += fmt::format("\n{}\n\n{}", kRight.in(language), shown(def.right));
+  section += '\n';
+  for (const std::string& fix : fixes_of(id, language)) section += fmt::format("- {}\n", fix);
+  const auto linked = [language](std::string_view path) {
+    return fmt::format("[`{}`]({})", path,
+                       (path.starts_with("machine.") ? kMachinePage : kConfigurationPage).in(language));
+  };
+  for (const std::string& key : keys_of(def.code, language, linked))
+    section += fmt::format("- {}: {}\n", kOption.in(language), key);
+  return section;
+}
+
+std::string rules_page(Language language) {
+  static constexpr Text kIntroduction = {
       "# Codes\n\n"
-      "What `isolint` reports, and `isorun` where it says so, in English and Italian. `isolint --explain CODE` shows "
-      "the "
-      "same in the terminal.\n"
-      "This page is made from the table in `interpreter/dialect/diagnostic_table.cpp` (`isolint --rules-page`).\n";
-  for (const DiagnosticDef& def : dialect::kDiagnostics) {
-    page += fmt::format("\n## {} {}\n\n", def.code, def.name);
-    page += fmt::format("**{}** · {} · specification {}\n\n", def.title.en, severity_text(def, Language::English),
-                        def.section);
-    page += fmt::format("{}\n\n> **{}.** {}\n", def.explanation.en, def.title.it, def.explanation.it);
-    const DiagnosticId id{static_cast<std::uint8_t>(&def - dialect::kDiagnostics)};
-    if (!def.wrong.empty()) page += fmt::format("\nWrong:\n\n{}", shown_wrong(id, Language::English));
-    if (!def.right.empty()) page += fmt::format("\nRight:\n\n{}", shown(def.right));
-    page += '\n';
-    for (const std::string& fix : fixes_of(id, Language::English)) page += fmt::format("- {}\n", fix);
-    const auto linked = [](std::string_view path) {
-      return fmt::format("[`{}`]({})", path, path.starts_with("machine.") ? "machine.md" : "configuration.md#keys");
-    };
-    for (const std::string& key : keys_of(def.code, Language::English, linked))
-      page += fmt::format("- Option: {}\n", key);
-  }
+      "What `isolint` reports, and `isorun` where it says so, in English and Italian ([in italiano](it/codici.md)). "
+      "`isolint --explain CODE` shows the same in the terminal.\n"
+      "This page is made from the table in `interpreter/dialect/diagnostic_table.cpp` (`isolint --rules-page`).\n",
+      "# Codici\n\n"
+      "Che cosa segnala `isolint`, e `isorun` dove è scritto ([in English](../rules.md)). "
+      "`isolint --lang it --explain CODICE` mostra lo stesso nel terminale.\n"
+      "Questa pagina nasce dalla tabella in `interpreter/dialect/diagnostic_table.cpp` (`isolint --lang it "
+      "--rules-page`).\n"};
+  std::string page(kIntroduction.in(language));
+  for (const DiagnosticDef& def : dialect::kDiagnostics) page += rules_section(def, language);
   return page;
 }
 

@@ -462,12 +462,12 @@ ExitStatus run_main(int argc, char** argv) {
     command_line::complain_of_command("isolint", *command.complaint);
     return ExitStatus::Failure;
   }
-  if (options.rules_page) return say(rules_page(), options);
+  if (options.rules_page) return say(rules_page(options.reader_language()), options);
   if (options.messages_page) return say(messages_page(), options);
   if (options.foreign_page) return say(foreign_page(options.reader_language()), options);
   if (options.config_schema) return say(configuration::json_schema(), options);
-  if (options.config_keys) return say(configuration::key_page(), options);
-  if (options.machine_page) return say(configuration::machine_page(), options);
+  if (options.config_keys) return say(configuration::key_page(options.reader_language()), options);
+  if (options.machine_page) return say(configuration::machine_page(options.reader_language()), options);
   if (options.show_config) return show_config(options);
   if (options.list_rules) return say(list_rules(options.reader_language()), options);
   if (!options.explain.empty()) return explain_code(options);

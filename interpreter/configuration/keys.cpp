@@ -9,6 +9,21 @@
 
 namespace isocnc::configuration {
 
+using dialect::Text;
+
+namespace units {
+static constexpr Text kMillimeters = {"mm", "mm"};
+static constexpr Text kDegrees = {"degrees", "gradi"};
+static constexpr Text kSeconds = {"s", "s"};
+static constexpr Text kMillimetersPerMinute = {"mm/min", "mm/min"};
+static constexpr Text kDegreesPerMinute = {"degrees/min", "gradi/min"};
+static constexpr Text kRevolutionsPerMinute = {"rev/min", "giri/min"};
+static constexpr Text kAcceleration = {"mm/s^2", "mm/s^2"};
+static constexpr Text kRotaryAcceleration = {"degrees/s^2", "gradi/s^2"};
+static constexpr Text kJerk = {"mm/s^3", "mm/s^3"};
+static constexpr Text kRotaryJerk = {"degrees/s^3", "gradi/s^3"};
+}  // namespace units
+
 static constexpr std::string_view kSeverities[] = {"error", "warning", "info", "off"};
 static constexpr std::string_view kModal[] = {"keep", "write", "fold"};
 static constexpr std::string_view kMachineKinds[] = {"three-axis", "head", "table"};
@@ -36,7 +51,7 @@ struct AxisKeys {
   bool is_rotary;
   std::size_t index;
 
-  std::string_view unit() const { return is_rotary ? "degrees" : "mm"; }
+  Text unit() const { return is_rotary ? units::kDegrees : units::kMillimeters; }
   NumberRange range() const { return is_rotary ? kAngle : kLength; }
 };
 static constexpr std::array<AxisKeys, 5> kAxes = {
@@ -51,14 +66,16 @@ static double& home_of(Configuration& configuration, const AxisKeys& axis) {
 static std::string lower(std::string_view letter) { return {static_cast<char>(letter.front() - 'A' + 'a')}; }
 
 static void add_home(std::vector<Key>& keys) {
-  keys.push_back({.path = "machine.home",
-                  .documentation = "Where the spindle nose stands when a program starts, in machine coordinates."});
+  keys.push_back(
+      {.path = "machine.home",
+       .documentation = {"Where the spindle nose stands when a program starts, in machine coordinates.",
+                         "Dove si trova il naso del mandrino all'avvio del programma, in coordinate macchina."}});
   for (const AxisKeys& axis : kAxes)
     keys.push_back({.path = "machine.home." + lower(axis.letter),
                     .kind = KeyKind::Number,
                     .range = axis.range(),
                     .unit = axis.unit(),
-                    .documentation = "The coordinate at home.",
+                    .documentation = {"The coordinate at home.", "La quota di home."},
                     .slot = [axis](Configuration& c, std::size_t) -> ValueSlot { return &home_of(c, axis); }});
 }
 
@@ -68,15 +85,18 @@ static std::optional<Objection> min_above_max(const execution::Travel& travel) {
 }
 
 static void add_axes(std::vector<Key>& keys) {
-  keys.push_back({.path = "machine.axes",
-                  .documentation = "From where to where the axes go, in machine coordinates (W130), and how fast."});
+  keys.push_back(
+      {.path = "machine.axes",
+       .documentation = {"From where to where the axes go, in machine coordinates (W130), and how fast.",
+                         "Da dove a dove vanno gli assi, in coordinate macchina (W130), e quanto in fretta."}});
   for (const AxisKeys& axis : kAxes) {
     const std::string path = "machine.axes." + std::string(axis.letter);
     const auto travel = [axis](Configuration& c) -> execution::Travel& {
       return c.machine.setup.limits.travel[axis.index];
     };
     keys.push_back({.path = path,
-                    .documentation = "The travel of the axis; open where an end is left out.",
+                    .documentation = {"The travel of the axis; open where an end is left out.",
+                                      "La corsa dell'asse; senza limite dove manca un estremo."},
                     .objection = [axis](const Configuration& c, std::size_t) {
                       return min_above_max(c.machine.setup.limits.travel[axis.index]);
                     }});
@@ -84,34 +104,37 @@ static void add_axes(std::vector<Key>& keys) {
                     .kind = KeyKind::Number,
                     .range = axis.range(),
                     .unit = axis.unit(),
-                    .documentation = "The minimum coordinate.",
+                    .documentation = {"The minimum coordinate.", "La quota minima."},
                     .slot = [travel](Configuration& c, std::size_t) -> ValueSlot { return &travel(c).minimum; }});
     keys.push_back({.path = path + ".max",
                     .kind = KeyKind::Number,
                     .range = axis.range(),
                     .unit = axis.unit(),
-                    .documentation = "The maximum coordinate.",
+                    .documentation = {"The maximum coordinate.", "La quota massima."},
                     .slot = [travel](Configuration& c, std::size_t) -> ValueSlot { return &travel(c).maximum; }});
     keys.push_back(
         {.path = path + ".rapid",
          .kind = KeyKind::Number,
          .range = kSpeed,
-         .unit = axis.is_rotary ? "degrees/min" : "mm/min",
-         .documentation = "The maximum speed of the axis, in rapids and in feed moves.",
+         .unit = axis.is_rotary ? units::kDegreesPerMinute : units::kMillimetersPerMinute,
+         .documentation = {"The maximum speed of the axis, in rapids and in feed moves.",
+                           "La velocità massima dell'asse, in rapido e in interpolazione."},
          .slot = [axis](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.rapids[axis.index]; }});
     keys.push_back({.path = path + ".acceleration",
                     .kind = KeyKind::Number,
                     .range = kAcceleration,
-                    .unit = axis.is_rotary ? "degrees/s^2" : "mm/s^2",
-                    .documentation = "The maximum acceleration of the axis, also when it slows down.",
+                    .unit = axis.is_rotary ? units::kRotaryAcceleration : units::kAcceleration,
+                    .documentation = {"The maximum acceleration of the axis, also when it slows down.",
+                                      "L'accelerazione massima dell'asse, anche quando frena."},
                     .slot = [axis](Configuration& c, std::size_t) -> ValueSlot {
                       return &c.machine.timed.motion.axes[axis.index].acceleration;
                     }});
     keys.push_back({.path = path + ".jerk",
                     .kind = KeyKind::Number,
                     .range = {0, 1e7, true},
-                    .unit = axis.is_rotary ? "degrees/s^3" : "mm/s^3",
-                    .documentation = "The maximum jerk of the axis; without it, the acceleration may change at once.",
+                    .unit = axis.is_rotary ? units::kRotaryJerk : units::kJerk,
+                    .documentation = {"The maximum jerk of the axis; without it, the acceleration may change at once.",
+                                      "Il jerk massimo dell'asse; senza, l'accelerazione può cambiare di colpo."},
                     .slot = [axis](Configuration& c, std::size_t) -> ValueSlot {
                       return &c.machine.timed.motion.axes[axis.index].jerk;
                     }});
@@ -122,50 +145,58 @@ static void add_limits(std::vector<Key>& keys) {
   keys.push_back({.path = "machine.maxFeed",
                   .kind = KeyKind::Number,
                   .range = kSpeed,
-                  .unit = "mm/min",
-                  .documentation = "The greatest feed rate (W131).",
+                  .unit = units::kMillimetersPerMinute,
+                  .documentation = {"The greatest feed rate (W131).", "Il feed rate massimo (W131)."},
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.setup.limits.feed; }});
   keys.push_back(
       {.path = "machine.maxRotarySpeed",
        .kind = KeyKind::Number,
        .range = kSpeed,
-       .unit = "degrees/min",
-       .documentation = "The maximum speed of B and C (W132).",
+       .unit = units::kDegreesPerMinute,
+       .documentation = {"The maximum speed of B and C (W132).", "La velocità massima di B e C (W132)."},
        .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.setup.limits.rotary_speed; }});
   keys.push_back(
       {.path = "machine.maxSpindleSpeed",
        .kind = KeyKind::Number,
        .range = kSpeed,
-       .unit = "rev/min",
-       .documentation = "The greatest S (W133).",
+       .unit = units::kRevolutionsPerMinute,
+       .documentation = {"The greatest S (W133).", "La S massima (W133)."},
        .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.setup.limits.spindle_speed; }});
-  keys.push_back({.path = "machine.tolerances", .documentation = "How exact the control wants programs to be."});
-  keys.push_back({.path = "machine.tolerances.arc",
-                  .kind = KeyKind::Number,
-                  .range = {1e-6, 10},
-                  .unit = "mm",
-                  .documentation = "How far the given points of an arc may be from a circle (ISO029, ISO030, ISO031).",
-                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.setup.arc_tolerance; }});
+  keys.push_back({.path = "machine.tolerances",
+                  .documentation = {"How exact the control wants programs to be.",
+                                    "La precisione che il controllo pretende dai programmi."}});
+  keys.push_back(
+      {.path = "machine.tolerances.arc",
+       .kind = KeyKind::Number,
+       .range = {1e-6, 10},
+       .unit = units::kMillimeters,
+       .documentation = {"How far the given points of an arc may be from a circle (ISO029, ISO030, ISO031).",
+                         "Di quanto i punti dati di un arco possono scostarsi da un cerchio (ISO029, ISO030, ISO031)."},
+       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.setup.arc_tolerance; }});
   keys.push_back(
       {.path = "machine.tolerances.chord",
        .kind = KeyKind::Number,
        .range = kRounding,
-       .unit = "mm",
-       .documentation = "How far the lines that replace an arc in G49 may be from it (I.3.4.3.a).",
+       .unit = units::kMillimeters,
+       .documentation = {"How far the lines that replace an arc in G49 may be from it (I.3.4.3.a).",
+                         "Di quanto i tratti che sostituiscono un arco in G49 possono scostarsi da esso (I.3.4.3.a)."},
        .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.timed.motion.chord_tolerance; }});
   keys.push_back(
       {.path = "machine.tolerances.corner",
        .kind = KeyKind::Number,
        .range = kRounding,
-       .unit = "mm",
-       .documentation = "How far from the programmed path the tip may round a corner.",
+       .unit = units::kMillimeters,
+       .documentation = {"How far from the programmed path the tip may round a corner.",
+                         "Di quanto la punta può scostarsi dal percorso programmato per arrotondare uno spigolo."},
        .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.timed.motion.corner_tolerance; }});
-  keys.push_back({.path = "machine.clearance",
-                  .kind = KeyKind::Number,
-                  .range = kLength,
-                  .unit = "mm",
-                  .documentation = "The Z of the face frame below which no rapid should go (W134).",
-                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.setup.clearance; }});
+  keys.push_back(
+      {.path = "machine.clearance",
+       .kind = KeyKind::Number,
+       .range = kLength,
+       .unit = units::kMillimeters,
+       .documentation = {"The Z of the face frame below which no rapid should go (W134).",
+                         "La Z del riferimento di faccia sotto la quale nessun rapido dovrebbe scendere (W134)."},
+       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.setup.clearance; }});
 }
 
 static geometry::Vec3& head_offset(Configuration& configuration, bool is_spindle) {
@@ -178,7 +209,7 @@ static geometry::Vec3& table_point(Configuration& configuration, bool is_of_c) {
   return is_of_c ? kinematics.c_point : kinematics.b_point;
 }
 
-static void add_point(std::vector<Key>& keys, const std::string& path, std::string_view documentation,
+static void add_point(std::vector<Key>& keys, const std::string& path, const Text& documentation,
                       geometry::Vec3& (*point)(Configuration&, bool), bool which) {
   keys.push_back({.path = path, .documentation = documentation});
   for (int axis = 0; axis < 3; ++axis)
@@ -186,53 +217,75 @@ static void add_point(std::vector<Key>& keys, const std::string& path, std::stri
         {.path = path + "." + std::string(1, static_cast<char>('x' + axis)),
          .kind = KeyKind::Number,
          .range = kLength,
-         .unit = "mm",
+         .unit = units::kMillimeters,
          .documentation = documentation,
          .slot = [point, which, axis](Configuration& c, std::size_t) -> ValueSlot { return &point(c, which)[axis]; }});
 }
 
 static void add_kinematics(std::vector<Key>& keys) {
-  keys.push_back({.path = "machine.kinematics", .documentation = "How B and C carry the tool or the workpiece."});
-  keys.push_back({.path = "machine.kinematics.type",
-                  .kind = KeyKind::Choice,
-                  .choices = kMachineKinds,
-                  .documentation = "No rotary axes; a head that C turns and B tilts; a table that B tilts and C turns.",
-                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.kind; }});
+  keys.push_back(
+      {.path = "machine.kinematics",
+       .documentation = {"How B and C carry the tool or the workpiece.", "Come B e C portano l'utensile o il pezzo."}});
+  keys.push_back(
+      {.path = "machine.kinematics.type",
+       .kind = KeyKind::Choice,
+       .choices = kMachineKinds,
+       .documentation =
+           {"No rotary axes; a head that C turns and B tilts; a table that B tilts and C turns.",
+            "Nessun rotante; una testa girata da C e inclinata da B; una tavola inclinata da B e girata da C."},
+       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.kind; }});
   keys.push_back(
       {.path = "machine.kinematics.pivot",
        .kind = KeyKind::Number,
        .range = {0, 1e4},
-       .unit = "mm",
-       .documentation = "Head: from the B axis down to the spindle nose, with B at 0.",
+       .unit = units::kMillimeters,
+       .documentation = {"Head: from the B axis down to the spindle nose, with B at 0.",
+                         "Testa: dall'asse B giù fino al naso del mandrino, con B a 0."},
        .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.timed.motion.kinematics.pivot; }});
-  add_point(keys, "machine.kinematics.bFromC", "Head: from the C axis to the B axis, with B and C at 0.", head_offset,
-            false);
-  add_point(keys, "machine.kinematics.spindleFromB", "Head: from the B axis to the spindle axis, with B and C at 0.",
+  add_point(
+      keys, "machine.kinematics.bFromC",
+      {"Head: from the C axis to the B axis, with B and C at 0.", "Testa: dall'asse C all'asse B, con B e C a 0."},
+      head_offset, false);
+  add_point(keys, "machine.kinematics.spindleFromB",
+            {"Head: from the B axis to the spindle axis, with B and C at 0.",
+             "Testa: dall'asse B all'asse del mandrino, con B e C a 0."},
             head_offset, true);
-  add_point(keys, "machine.kinematics.bPoint", "Table: a point of the B axis, in machine coordinates.", table_point,
-            false);
-  add_point(keys, "machine.kinematics.cPoint", "Table: a point of the C axis, in machine coordinates, with B at 0.",
+  add_point(keys, "machine.kinematics.bPoint",
+            {"Table: a point of the B axis, in machine coordinates.",
+             "Tavola: un punto dell'asse B, in coordinate macchina."},
+            table_point, false);
+  add_point(keys, "machine.kinematics.cPoint",
+            {"Table: a point of the C axis, in machine coordinates, with B at 0.",
+             "Tavola: un punto dell'asse C, in coordinate macchina, con B a 0."},
             table_point, true);
 }
 
 static void add_times(std::vector<Key>& keys) {
-  const auto add = [&](std::string_view name, std::string_view documentation, auto member) {
+  const auto add = [&](std::string_view name, const Text& documentation, auto member) {
     keys.push_back({.path = "machine.times." + std::string(name),
                     .kind = KeyKind::Number,
                     .range = {0, 1e5},
-                    .unit = "s",
+                    .unit = units::kSeconds,
                     .documentation = documentation,
                     .slot = [member](Configuration& c, std::size_t) -> ValueSlot {
                       return &(c.machine.timed.durations.*member);
                     }});
   };
-  keys.push_back({.path = "machine.times", .documentation = "How long the machine takes for what is no motion."});
-  add("toolChange", "An M06, from rest to rest; also of the tool that is mounted.",
+  keys.push_back({.path = "machine.times",
+                  .documentation = {"How long the machine takes for what is no motion.",
+                                    "Quanto tempo prende alla macchina ciò che non è movimento."}});
+  add("toolChange",
+      {"An M06, from rest to rest; also of the tool that is mounted.",
+       "Una M06, da fermo a fermo; anche quella dell'utensile già montato."},
       &simulation::Durations::tool_change);
   add("spindle",
-      "An M03, M04 or M05, until the spindle has its speed or stands; one that changes neither takes no time.",
+      {"An M03, M04 or M05, until the spindle has its speed or stands; one that changes neither takes no time.",
+       "Una M03, M04 o M05, finché il mandrino è a regime o fermo; quella che non cambia né verso né giri non prende "
+       "tempo."},
       &simulation::Durations::spindle);
-  add("channel", "A G09 in G48, until the interpolation channel is full again (I.3.8).",
+  add("channel",
+      {"A G09 in G48, until the interpolation channel is full again (I.3.8).",
+       "Una G09 in G48, finché il canale di interpolazione è di nuovo pieno (I.3.8)."},
       &simulation::Durations::channel);
 }
 
@@ -244,7 +297,7 @@ static std::optional<Objection> tool_twice(const Configuration& configuration, s
 }
 
 static void add_tools(std::vector<Key>& keys) {
-  const auto add = [&](std::string_view name, NumberRange range, std::string_view documentation, auto member) {
+  const auto add = [&](std::string_view name, NumberRange range, const Text& documentation, auto member) {
     keys.push_back({.path = "machine.tools[]." + std::string(name),
                     .kind = KeyKind::Integer,
                     .range = range,
@@ -254,30 +307,37 @@ static void add_tools(std::vector<Key>& keys) {
                       return &((*c.machine.tools)[index].code.*member);
                     }});
   };
-  keys.push_back({.path = "machine.tools",
-                  .kind = KeyKind::Objects,
-                  .documentation = "The tools that the machine has; without this list M06 takes any (ISO067).",
-                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.tools; },
-                  .objection = tool_twice});
-  add("head", {1, 9}, "The head: the first digit of the T.", &execution::ToolCode::head);
-  add("holder", {1, 99}, "The holder: the second and third digit.", &execution::ToolCode::holder);
-  add("tool", {1, 999}, "The tool: the last three digits.", &execution::ToolCode::tool);
+  keys.push_back(
+      {.path = "machine.tools",
+       .kind = KeyKind::Objects,
+       .documentation = {"The tools that the machine has; without this list M06 takes any (ISO067).",
+                         "Gli utensili che la macchina ha; senza questo elenco la M06 li accetta tutti (ISO067)."},
+       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.tools; },
+       .objection = tool_twice});
+  add("head", {1, 9}, {"The head: the first digit of the T.", "La testa: la prima cifra della T."},
+      &execution::ToolCode::head);
+  add("holder", {1, 99}, {"The holder: the second and third digit.", "Il portautensile: la seconda e la terza cifra."},
+      &execution::ToolCode::holder);
+  add("tool", {1, 999}, {"The tool: the last three digits.", "L'utensile: le ultime tre cifre."},
+      &execution::ToolCode::tool);
   keys.push_back({.path = "machine.tools[].name",
                   .kind = KeyKind::Text,
-                  .documentation = "What the shop calls the tool.",
+                  .documentation = {"What the shop calls the tool.", "Come lo chiama l'officina."},
                   .slot = [](Configuration& c, std::size_t i) -> ValueSlot { return &(*c.machine.tools)[i].name; }});
   keys.push_back({.path = "machine.tools[].length",
                   .kind = KeyKind::Number,
                   .range = {0, 1e4, true},
-                  .unit = "mm",
-                  .documentation = "From the spindle nose to the tip.",
+                  .unit = units::kMillimeters,
+                  .documentation = {"From the spindle nose to the tip.", "Dal naso del mandrino alla punta."},
                   .slot = [](Configuration& c, std::size_t i) -> ValueSlot { return &(*c.machine.tools)[i].length; }});
-  keys.push_back({.path = "machine.tools[].radius",
-                  .kind = KeyKind::Number,
-                  .range = {0, 1e4, true},
-                  .unit = "mm",
-                  .documentation = "The radius of what cuts, by which G41 and G42 lead the tool beside the contour.",
-                  .slot = [](Configuration& c, std::size_t i) -> ValueSlot { return &(*c.machine.tools)[i].radius; }});
+  keys.push_back(
+      {.path = "machine.tools[].radius",
+       .kind = KeyKind::Number,
+       .range = {0, 1e4, true},
+       .unit = units::kMillimeters,
+       .documentation = {"The radius of what cuts, by which G41 and G42 lead the tool beside the contour.",
+                         "Il raggio della parte che taglia: di tanto G41 e G42 tengono l'utensile a lato del profilo."},
+       .slot = [](Configuration& c, std::size_t i) -> ValueSlot { return &(*c.machine.tools)[i].radius; }});
 }
 
 static std::optional<Objection> function_twice(const Configuration& configuration, std::size_t index) {
@@ -292,20 +352,21 @@ static void add_functions(std::vector<Key>& keys) {
   keys.push_back({.path = "machine.functions",
                   .kind = KeyKind::Named,
                   .text = TextKind::Function,
-                  .documentation = "The M functions of the shop, each by its M: \"M100\" (W129).",
+                  .documentation = {"The M functions of the shop, each by its M: \"M100\" (W129).",
+                                    "Le funzioni M dell'officina, ciascuna con la sua M: \"M100\" (W129)."},
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.functions; },
                   .objection = function_twice});
   keys.push_back(
       {.path = "machine.functions.*.name",
        .kind = KeyKind::Text,
-       .documentation = "What the function does.",
+       .documentation = {"What the function does.", "Che cosa fa la funzione."},
        .slot = [](Configuration& c, std::size_t i) -> ValueSlot { return &(*c.machine.functions)[i].name; }});
   keys.push_back(
       {.path = "machine.functions.*.time",
        .kind = KeyKind::Number,
        .range = {0, 1e5},
-       .unit = "s",
-       .documentation = "How long the machine waits for it.",
+       .unit = units::kSeconds,
+       .documentation = {"How long the machine waits for it.", "Per quanto tempo la macchina la attende."},
        .slot = [](Configuration& c, std::size_t i) -> ValueSlot { return &(*c.machine.functions)[i].seconds; }});
 }
 
@@ -316,26 +377,29 @@ static void add_selection_keys(std::vector<Key>& keys, const std::string& path, 
       {.path = path + ".select",
        .kind = KeyKind::Texts,
        .text = TextKind::Code,
-       .documentation = "Shows these codes alone: codes, names, beginnings of codes, ALL.",
+       .documentation = {"Shows these codes alone: codes, names, beginnings of codes, ALL.",
+                         "Mostra solo questi codici: codici, nomi, inizi di codici, ALL."},
        .slot = [selection](Configuration& c, std::size_t i) -> ValueSlot { return &selection(c, i).select; }});
   keys.push_back(
       {.path = path + ".ignore",
        .kind = KeyKind::Texts,
        .text = TextKind::Code,
-       .documentation = "Does not show these codes.",
+       .documentation = {"Does not show these codes.", "Non mostra questi codici."},
        .slot = [selection](Configuration& c, std::size_t i) -> ValueSlot { return &selection(c, i).ignore; }});
   keys.push_back(
       {.path = path + ".severity",
        .kind = KeyKind::Severities,
        .text = TextKind::Code,
        .choices = kSeverities,
-       .documentation = "How much codes weigh.",
+       .documentation = {"How much codes weigh.", "Il peso dei codici."},
        .slot = [selection](Configuration& c, std::size_t i) -> ValueSlot { return &selection(c, i).severity; }});
 }
 
 static void add_options(std::vector<Key>& keys) {
-  keys.push_back({.path = "lint.options", .documentation = "From where on lint rules speak."});
-  const auto add = [&](std::string_view name, NumberRange range, std::string_view unit, std::string_view documentation,
+  keys.push_back(
+      {.path = "lint.options",
+       .documentation = {"From where on lint rules speak.", "La soglia oltre la quale le regole segnalano."}});
+  const auto add = [&](std::string_view name, NumberRange range, const Text& unit, const Text& documentation,
                        auto member) {
     keys.push_back(
         {.path = "lint.options." + std::string(name),
@@ -345,94 +409,118 @@ static void add_options(std::vector<Key>& keys) {
          .documentation = documentation,
          .slot = [member](Configuration& c, std::size_t) -> ValueSlot { return &(c.lint.thresholds.*member); }});
   };
-  add("longestDwell", {0, 1e6, true}, "s", "The longest G04 that is not reported (W115).",
+  add("longestDwell", {0, 1e6, true}, units::kSeconds,
+      {"The longest G04 that is not reported (W115).", "La G04 più lunga che non viene segnalata (W115)."},
       &dialect::LintThresholds::longest_dwell);
-  add("axisAngle", {0, 1}, "degrees", "How far face axes may be from the right angle without a warning (W114).",
+  add("axisAngle", {0, 1}, units::kDegrees,
+      {"How far face axes may be from the right angle without a warning (W114).",
+       "Di quanto gli assi di faccia possono scostarsi dall'angolo retto senza un avviso (W114)."},
       &dialect::LintThresholds::axis_angle);
-  add("vectorError", {0, 0.1}, "", "How far the length of an axis vector may be from 1 without a warning (W128).",
+  add("vectorError", {0, 0.1}, {},
+      {"How far the length of an axis vector may be from 1 without a warning (W128).",
+       "Di quanto il modulo di un versore può scostarsi da 1 senza un avviso (W128)."},
       &dialect::LintThresholds::vector_error);
 }
 
 static void add_lint(std::vector<Key>& keys) {
-  keys.push_back({.path = "lint", .documentation = "What isolint reports, and which files are programs."});
+  keys.push_back({.path = "lint",
+                  .documentation = {"What isolint reports, and which files are programs.",
+                                    "Che cosa segnala isolint, e quali file sono programmi."}});
   add_selection_keys(keys, "lint", [](Configuration& c, std::size_t) -> CodeSelection& { return c.lint.selection; });
   add_options(keys);
   keys.push_back({.path = "lint.files",
                   .kind = KeyKind::Objects,
-                  .documentation = "What holds for some programs alone; the later outweighs the earlier.",
+                  .documentation = {"What holds for some programs alone; the later outweighs the earlier.",
+                                    "Ciò che vale solo per alcuni programmi; conta di più quello che viene dopo."},
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.lint.files; }});
   keys.push_back({.path = "lint.files[].paths",
                   .kind = KeyKind::Texts,
                   .text = TextKind::Pattern,
-                  .documentation = "Which programs: patterns of paths from the folder of this file.",
+                  .documentation = {"Which programs: patterns of paths from the folder of this file.",
+                                    "Quali programmi: modelli di percorso a partire dalla cartella di questo file."},
                   .is_required = true,
                   .is_never_empty = true,
                   .slot = [](Configuration& c, std::size_t i) -> ValueSlot { return &c.lint.files[i].paths; }});
   add_selection_keys(keys, "lint.files[]",
                      [](Configuration& c, std::size_t i) -> CodeSelection& { return c.lint.files[i].selection; });
-  keys.push_back({.path = "lint.extensions",
-                  .kind = KeyKind::Texts,
-                  .text = TextKind::Extension,
-                  .documentation = "What the names of programs end in; a search of a folder takes these files.",
-                  .is_never_empty = true,
-                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.lint.extensions; }});
-  keys.push_back({.path = "lint.exclude",
-                  .kind = KeyKind::Texts,
-                  .text = TextKind::Pattern,
-                  .documentation = "What a search passes over: patterns of paths from the folder of this file.",
-                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.lint.exclude; }});
+  keys.push_back(
+      {.path = "lint.extensions",
+       .kind = KeyKind::Texts,
+       .text = TextKind::Extension,
+       .documentation = {"What the names of programs end in; a search of a folder takes these files.",
+                         "Come finiscono i nomi dei programmi; una ricerca in una cartella prende questi file."},
+       .is_never_empty = true,
+       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.lint.extensions; }});
+  keys.push_back(
+      {.path = "lint.exclude",
+       .kind = KeyKind::Texts,
+       .text = TextKind::Pattern,
+       .documentation = {"What a search passes over: patterns of paths from the folder of this file.",
+                         "Ciò che una ricerca salta: modelli di percorso a partire dalla cartella di questo file."},
+       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.lint.exclude; }});
 }
 
 static void add_format(std::vector<Key>& keys) {
-  keys.push_back({.path = "format", .documentation = "How isofmt writes programs."});
+  keys.push_back(
+      {.path = "format", .documentation = {"How isofmt writes programs.", "Come isofmt scrive i programmi."}});
   keys.push_back({.path = "format.wordOrder",
                   .kind = KeyKind::Boolean,
-                  .documentation = "N first, arguments in the usual order, then F; as --word-order.",
+                  .documentation = {"N first, arguments in the usual order, then F; as --word-order.",
+                                    "Prima N, gli argomenti nell'ordine abituale, poi F; come --word-order."},
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.word_order; }});
   keys.push_back({.path = "format.decimals",
                   .kind = KeyKind::Integer,
                   .range = {0, Format::kMaxDecimals},
-                  .documentation = "Drops zeros from numbers that need no more decimals than this; as --decimals.",
+                  .documentation = {"Drops zeros from numbers that need no more decimals than this; as --decimals.",
+                                    "Toglie gli zeri ai numeri ai quali bastano questi decimali; come --decimals."},
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.decimals; }});
-  keys.push_back({.path = "format.gDigits",
-                  .kind = KeyKind::Integer,
-                  .range = {1, 2},
-                  .documentation = "1 writes G1, 2 writes G01; as --g-digits.",
-                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.g_digits; }});
+  keys.push_back(
+      {.path = "format.gDigits",
+       .kind = KeyKind::Integer,
+       .range = {1, 2},
+       .documentation = {"1 writes G1, 2 writes G01; as --g-digits.", "1 scrive G1, 2 scrive G01; come --g-digits."},
+       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.g_digits; }});
   keys.push_back({.path = "format.modal",
                   .kind = KeyKind::Choice,
                   .choices = kModal,
-                  .documentation = "Motion Gs on each line, where they change, or as written; as --modal.",
+                  .documentation = {"Motion Gs on each line, where they change, or as written; as --modal.",
+                                    "Le G di movimento su ogni linea, dove cambiano, o come scritte; come --modal."},
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.modal; }});
-  keys.push_back({.path = "format.renumber",
-                  .documentation = "Gives lines new numbers; as --renumber.",
-                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.renumber; }});
+  keys.push_back(
+      {.path = "format.renumber",
+       .documentation = {"Gives lines new numbers; as --renumber.", "Dà nuovi numeri alle linee; come --renumber."},
+       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.renumber; }});
   keys.push_back({.path = "format.renumber.start",
                   .kind = KeyKind::Integer,
                   .range = {0, Renumber::kMaxNumber},
-                  .documentation = "The first number.",
+                  .documentation = {"The first number.", "Il primo numero."},
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.renumber->start; }});
   keys.push_back({.path = "format.renumber.step",
                   .kind = KeyKind::Integer,
                   .range = {1, Renumber::kMaxNumber},
-                  .documentation = "From one number to the next.",
+                  .documentation = {"From one number to the next.", "Da un numero al successivo."},
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.renumber->step; }});
   keys.push_back({.path = "format.renumber.allLines",
                   .kind = KeyKind::Boolean,
-                  .documentation = "Numbers all lines that hold a block; as --renumber-all.",
+                  .documentation = {"Numbers all lines that hold a block; as --renumber-all.",
+                                    "Numera tutte le linee con un blocco; come --renumber-all."},
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.renumber->all_lines; }});
 }
 
 static std::vector<Key> make_keys() {
   std::vector<Key> keys;
-  keys.push_back(
-      {.path = "$schema", .kind = KeyKind::Text, .documentation = "Where editors find the schema of this file."});
+  keys.push_back({.path = "$schema",
+                  .kind = KeyKind::Text,
+                  .documentation = {"Where editors find the schema of this file.",
+                                    "Dove gli editor trovano lo schema di questo file."}});
   keys.push_back({.path = "language",
                   .kind = KeyKind::Choice,
                   .choices = dialect::kLanguageNames,
-                  .documentation = "The language of messages; as --lang.",
+                  .documentation = {"The language of messages; as --lang.", "La lingua dei messaggi; come --lang."},
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.language; }});
-  keys.push_back({.path = "machine", .documentation = "The machine that programs are written for."});
+  keys.push_back({.path = "machine",
+                  .documentation = {"The machine that programs are written for.",
+                                    "La macchina per cui i programmi sono scritti."}});
   add_home(keys);
   add_axes(keys);
   add_limits(keys);

@@ -60,9 +60,9 @@ struct Key {
   KeyKind kind = KeyKind::Object;
   TextKind text = TextKind::Any;
   NumberRange range;
-  std::string_view unit;
+  dialect::Text unit;
   std::span<const std::string_view> choices;
-  std::string_view documentation;
+  dialect::Text documentation;
   bool is_required = false;
   bool is_never_empty = false;  ///< The list must have an element.
   /// For keys of list elements, `index` is the index of the element.

@@ -260,7 +260,9 @@ class ConfigurationReader {
     const double number = value.number;
     const std::string written = fmt::format("{}", number);
     const auto limit = [&](double bound) -> Named {
-      return fmt::format("{}{}{}", bound, key.unit.empty() ? "" : " ", key.unit);
+      Named named(fmt::format("{}{}{}", bound, key.unit.en.empty() ? "" : " ", key.unit.en));
+      named.it = fmt::format("{}{}{}", bound, key.unit.it.empty() ? "" : " ", key.unit.it);
+      return named;
     };
     const NumberRange& range = key.range;
     if (key.kind == KeyKind::Integer && std::floor(number) != number)

@@ -9,10 +9,14 @@
 #include <nlohmann/json.hpp>
 
 #include "interpreter/configuration/keys.h"
+#include "interpreter/configuration/machine_page_texts.h"
+#include "interpreter/dialect/format.h"
 #include "interpreter/dialect/locale.h"
 
 namespace isocnc::configuration {
 
+using dialect::Language;
+using dialect::Text;
 using nlohmann::ordered_json;
 
 /// Whole numbers as 100, not 100.0.
@@ -137,7 +141,7 @@ static void add_range(const Key& key, ordered_json& schema) {
 }
 
 static std::string description_of(const Key& key) {
-  return std::string(key.documentation) + (key.unit.empty() ? "" : fmt::format(" In {}.", key.unit));
+  return std::string(key.documentation.en) + (key.unit.en.empty() ? "" : fmt::format(" In {}.", key.unit.en));
 }
 
 static ordered_json schema_of(const Key* key);
@@ -217,37 +221,54 @@ static std::string default_of(const Key& key) {
   return value && !value->empty() ? fmt::format("`{}`", value->dump()) : "";
 }
 
-static std::string kind_of(const Key& key) {
-  static constexpr std::string_view kNames[] = {
-      "object", "list of objects", "objects by name",     "number", "whole number", "true, false", "text",
-      "",       "list of texts",   "object of severities"};
+static std::string kind_of(const Key& key, Language language) {
+  static constexpr Text kNames[] = {{"object", "oggetto"},
+                                    {"list of objects", "lista di oggetti"},
+                                    {"objects by name", "oggetti con nome"},
+                                    {"number", "numero"},
+                                    {"whole number", "numero intero"},
+                                    {"true, false", "true, false"},
+                                    {"text", "testo"},
+                                    {"", ""},
+                                    {"list of texts", "lista di testi"},
+                                    {"object of severities", "oggetto con i pesi"}};
+  static constexpr Text kFromTo = {", {} to {}", ", da {} a {}"};
+  static constexpr Text kAboveTo = {", above {} to {}", ", oltre {} fino a {}"};
   if (key.kind == KeyKind::Choice) {
     std::vector<std::string> choices;
     for (const std::string_view choice : key.choices) choices.push_back(fmt::format("`\"{}\"`", choice));
     return fmt::format("{}", fmt::join(choices, ", "));
   }
-  std::string kind(kNames[static_cast<std::size_t>(key.kind)]);
-  if (!key.unit.empty()) kind += fmt::format(", {}", key.unit);
+  std::string kind(kNames[static_cast<std::size_t>(key.kind)].in(language));
+  if (!key.unit.en.empty()) kind += fmt::format(", {}", key.unit.in(language));
   const NumberRange& range = key.range;
   if (std::isfinite(range.minimum))
-    kind += fmt::format(", {}{} to {}", range.exclusive_minimum ? "above " : "", range.minimum, range.maximum);
+    kind += dialect::format(range.exclusive_minimum ? kAboveTo : kFromTo, language, range.minimum, range.maximum);
   return kind;
 }
 
-static constexpr std::string_view kTableHead = "| Key | Value | Default | |\n|---|---|---|---|\n";
-
-static std::string row_of(std::string_view names, const Key& key, std::string_view defaults) {
-  return fmt::format("| {} | {} | {} | {} |\n", names, kind_of(key), defaults, key.documentation);
+static std::string table_head(Language language) {
+  static constexpr Text kColumns = {"| Key | Value | Default | |\n", "| Chiave | Valore | Se manca | |\n"};
+  return fmt::format("{}|---|---|---|---|\n", kColumns.in(language));
 }
 
-std::string key_page() {
-  std::string page(kTableHead);
+static std::string row_of(std::string_view names, const Key& key, std::string_view defaults, Language language) {
+  return fmt::format("| {} | {} | {} | {} |\n", names, kind_of(key, language), defaults,
+                     key.documentation.in(language));
+}
+
+std::string key_page(Language language) {
+  static constexpr Text kMachineRow = {
+      "| `machine` | object |  | The machine that programs are written for: [all its keys](machine.md). |\n",
+      "| `machine` | oggetto |  | La macchina per cui i programmi sono scritti: [tutte le sue chiavi](macchina.md). "
+      "|\n"};
+  std::string page = table_head(language);
   for (const Key& key : all_keys()) {
     if (key.path.starts_with("machine.")) continue;
     if (key.path == "machine")
-      page += "| `machine` | object |  | The machine that programs are written for: [all its keys](machine.md). |\n";
+      page += kMachineRow.in(language);
     else if (key.kind != KeyKind::Object || key.slot)  // Other objects have rows for their keys only.
-      page += row_of(fmt::format("`{}`", key.path), key, default_of(key));
+      page += row_of(fmt::format("`{}`", key.path), key, default_of(key), language);
   }
   return page;
 }
@@ -256,9 +277,11 @@ std::string key_page() {
 static std::string_view parent_of(const Key& key) { return std::string_view(key.path).substr(0, key.path.rfind('.')); }
 
 /// The rows of keys. Keys that differ only in their axis share a row, with each default if those differ.
-static std::string rows_of(const std::vector<const Key*>& keys, std::size_t prefix) {
+static std::string rows_of(const std::vector<const Key*>& keys, std::size_t prefix, Language language) {
+  static constexpr Text kRequired = {"required", "obbligatoria"};
   const auto alike = [](const Key& a, const Key& b) {
-    return kind_of(a) == kind_of(b) && a.documentation == b.documentation && a.is_required == b.is_required;
+    return kind_of(a, Language::English) == kind_of(b, Language::English) && a.documentation.en == b.documentation.en &&
+           a.is_required == b.is_required;
   };
   std::string rows;
   for (auto key = keys.begin(); key != keys.end(); ++key) {
@@ -272,92 +295,43 @@ static std::string rows_of(const std::vector<const Key*>& keys, std::size_t pref
       defaults.push_back(default_of(**other));
     }
     if (std::equal(defaults.begin() + 1, defaults.end(), defaults.begin())) defaults.resize(1);
-    rows += row_of(fmt::format("{}", fmt::join(names, ", ")), **key,
-                   (*key)->is_required ? "required" : fmt::format("{}", fmt::join(defaults, ", ")));
+    const std::string column =
+        (*key)->is_required ? std::string(kRequired.in(language)) : fmt::format("{}", fmt::join(defaults, ", "));
+    rows += row_of(fmt::format("{}", fmt::join(names, ", ")), **key, column, language);
   }
   return rows;
 }
 
 /// The key's section: its documentation, and the table of its keys that have no section.
-static std::string section_of(const Key& section) {
+static std::string section_of(const Key& section, Language language) {
   const std::string prefix = prefix_of(&section);
   std::vector<const Key*> keys;
   for (const Key& key : all_keys()) {
     const bool has_section = section.path == "machine" && parent_of(key) != "machine";
     if (key.path.starts_with(prefix) && key.kind >= KeyKind::Number && !has_section) keys.push_back(&key);
   }
-  return fmt::format("\n## {}\n\n{}\n\n{}{}", section.path, section.documentation, kTableHead,
-                     rows_of(keys, prefix.size()));
+  return fmt::format("\n## {}\n\n{}\n\n{}{}", section.path, section.documentation.in(language), table_head(language),
+                     rows_of(keys, prefix.size(), language));
 }
 
-/// Text after the table of machine.kinematics.
-static constexpr std::string_view kMeasuringAHead = R"(
-### Measuring a head
-
-![A head from the side and from above, with B and C at 0: bFromC goes from the C axis to the B axis, spindleFromB from the B axis to the spindle axis, pivot from the B axis down to the spindle nose. With C at 90 the B axis is turned with it.](images/head.svg)
-
-Measure with B and C at 0. `bFromC` goes from the C axis to the B axis, `spindleFromB` from the B axis to the spindle axis, both along the X, Y and Z
-of the machine: a B axis that lies 20 mm further in +X than the C axis is `"bFromC": {"x": 20}`, one further in -X has -20. `pivot` goes down from the B axis
-to the spindle nose, and is never negative.
-
-The C axis is a vertical line and the B axis one along Y. So of `bFromC.y` and `spindleFromB.y` only the sum counts, `bFromC.z` does not count at all, and
-`spindleFromB.z` shortens the pivot: leave these three at 0 where they are not known.
-
-To compare with the control: with `pivot` 100, `bFromC.x` 20, `spindleFromB.y` 7, a tool of 50 mm, its tip at X0 Y0 Z0 and C at 90, the axes X, Y and Z stand at
-27, -13 and 50. `isorun` says so in `finalJoints` of its [summary as JSON](isorun.md#the-summary-as-json), and in the `joints` of its samples.
-)";
-
-std::string machine_page() {
-  std::string page = R"(# The machine
-
-What `isolint`, `isorun`, `isols` and `isodap` may know of your machine: the object `machine` of [`isocnc.json`](configuration.md), which stands beside
-the programs or above them. This page is made from the table that also reads the file (`isolint --machine-page`); the
-[schema](isocnc.schema.json) that editors complete by is made from it, too.
-
-```jsonc
-{
-  "machine": {
-    "axes": {
-      "X": {"min": 0, "max": 3200},
-      "Y": {"min": 0, "max": 1600},
-      "Z": {"min": -250, "max": 0}
-    },
-    "tools": [
-      {"head": 1, "holder": 1, "tool": 1, "name": "cutter 20", "length": 120.5, "radius": 10}
-    ]
-  }
-}
-```
-
-is enough to begin with. All else may be left out: what the machine does not tell is not checked (without `tools` any tool may be mounted, but
-an empty list is a machine without any), and times come from the [default machine](motion.md#the-machine). A larger file stands beside its program in [`examples/machine`](../examples/machine/isocnc.json);
-[`examples/machines`](../examples/machines/head.json) has ready ones with a [head](../examples/machines/head.json), a
-[table](../examples/machines/table.json) and [three axes](../examples/machines/three-axis.json), which `isorun --machine FILE` takes as they are. `isolint --show-config`
-prints all that is in force, and every command names a key that is misspelt.
-
-The travel of `axes` is judged twice: `isolint` holds the tool tip against it (W130), which needs no more than the program; `isorun` holds the joints
-against it, that is the spindle nose, with the tool's length and what the head swings. Speeds, accelerations, kinematics and times serve
-`isorun` and what the editors show of it.
-
-Codes in parentheses are the [findings](rules.md) that a key brings about. Machine coordinates are those of the control without any G92; how B and C
-are counted and where their axes stand is in [motion.md](motion.md#kinematics).
-)";
+std::string machine_page(Language language) {
+  std::string page(kMachineIntroduction.in(language));
   for (const Key& key : all_keys()) {
     if (key.path == "machine" || (key.kind < KeyKind::Number && parent_of(key) == "machine")) {
-      page += section_of(key);
-      if (key.path == "machine.kinematics") page += kMeasuringAHead;
+      page += section_of(key, language);
+      if (key.path == "machine.kinematics") page += kMeasuringAHead.in(language);
     }
   }
   return page;
 }
 
-std::vector<CodeOption> options_of(std::string_view code) {
+std::vector<CodeOption> options_of(std::string_view code, Language language) {
   std::vector<CodeOption> options;
   for (const Key& key : all_keys()) {
-    if (key.documentation.find(code) == std::string_view::npos) continue;
+    if (key.documentation.en.find(code) == std::string_view::npos) continue;
     std::string fallback = default_of(key);
     std::erase(fallback, '`');
-    if (!fallback.empty() && !key.unit.empty()) fallback += fmt::format(" {}", key.unit);
+    if (!fallback.empty() && !key.unit.en.empty()) fallback += fmt::format(" {}", key.unit.in(language));
     options.push_back({.path = key.path, .fallback = std::move(fallback)});
   }
   return options;

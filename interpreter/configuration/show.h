@@ -15,10 +15,10 @@ std::string to_json(const Configuration& configuration);
 std::string json_schema();
 
 /// All keys except those of the machine, as a Markdown table.
-std::string key_page();
+std::string key_page(dialect::Language language);
 
-/// docs/machine.md: all keys of the machine, section by section.
-std::string machine_page();
+/// docs/machine.md, docs/it/macchina.md: all keys of the machine, section by section.
+std::string machine_page(dialect::Language language);
 
 /// A key of isocnc.json that affects a code: `lint.options.longestDwell`, `120 s`.
 struct CodeOption {
@@ -27,6 +27,6 @@ struct CodeOption {
 };
 
 /// The keys whose documentation names the code.
-std::vector<CodeOption> options_of(std::string_view code);
+std::vector<CodeOption> options_of(std::string_view code, dialect::Language language);
 
 }  // namespace isocnc::configuration

@@ -23,6 +23,7 @@
 namespace isocnc::configuration {
 namespace {
 
+using dialect::Language;
 using nlohmann::json;
 
 const std::filesystem::path kRoot = ISOCNC_SOURCE_DIR;
@@ -86,13 +87,20 @@ TEST(Schema, IsShipped) {
 }
 
 TEST(Documentation, ListsAllKeys) {
-  const bool listed = read_file(kRoot / "docs/configuration.md").find("\n" + key_page()) != std::string::npos;
-  EXPECT_TRUE(listed) << "the table of docs/configuration.md is what isolint --config-keys prints";
+  const auto lists = [](const std::string& page, Language language) {
+    return read_file(kRoot / page).find("\n" + key_page(language)) != std::string::npos;
+  };
+  EXPECT_TRUE(lists("docs/configuration.md", Language::English))
+      << "the table of docs/configuration.md is what isolint --config-keys prints";
+  EXPECT_TRUE(lists("docs/it/configurazione.md", Language::Italian))
+      << "the table of docs/it/configurazione.md is what isolint --lang it --config-keys prints";
 }
 
 TEST(Documentation, ListsTheKeysOfTheMachine) {
-  const std::string page = machine_page();
+  const std::string page = machine_page(Language::English);
   EXPECT_TRUE(read_file(kRoot / "docs/machine.md") == page) << "isolint --machine-page > docs/machine.md";
+  EXPECT_TRUE(read_file(kRoot / "docs/it/macchina.md") == machine_page(Language::Italian))
+      << "isolint --lang it --machine-page > docs/it/macchina.md";
   // Without the section that a key stands in: `X.min` of machine.axes.X.min, `head` of machine.tools[].head.
   static const std::regex kMember(R"(machine\.(?:\w+(?:\[\])?\.(?:\*\.)?)?(.+))");
   for (const Key& key : all_keys()) {
@@ -128,13 +136,30 @@ TEST(Documentation, NamesNoKeyThatThereIsNot) {
 TEST(Documentation, OfCodesNamesTheirKeys) {
   const auto paths = [](std::string_view code) {
     std::string all;
-    for (const CodeOption& option : options_of(code)) all += option.path + "=" + option.fallback + " ";
+    for (const CodeOption& option : options_of(code, Language::English))
+      all += option.path + "=" + option.fallback + " ";
     return all;
   };
   EXPECT_EQ(paths("W115"), "lint.options.longestDwell=120 s ");
   EXPECT_EQ(paths("W128"), "lint.options.vectorError=0.001 ");
   EXPECT_EQ(paths("W130"), "machine.axes= ");
   EXPECT_EQ(paths("W001"), "");
+}
+
+/// A code named in one language alone would be linked to its key by half.
+TEST(Documentation, OfKeysIsInBothLanguages) {
+  static const std::regex kCode(R"((ISO\d{3}|W\d{3}|--[a-z-]+))");
+  const auto codes_in = [](std::string_view text) {
+    const std::string copy(text);
+    return std::vector<std::string>(std::sregex_token_iterator(copy.begin(), copy.end(), kCode),
+                                    std::sregex_token_iterator());
+  };
+  for (const Key& key : all_keys()) {
+    EXPECT_FALSE(key.documentation.it.empty()) << key.path;
+    EXPECT_NE(key.documentation.it, key.documentation.en) << key.path;
+    EXPECT_EQ(key.unit.en.empty(), key.unit.it.empty()) << key.path;
+    EXPECT_EQ(codes_in(key.documentation.it), codes_in(key.documentation.en)) << key.path;
+  }
 }
 
 /// Expects every key that the table knows.
@@ -153,7 +178,7 @@ void expect_all_keys(const json& object, const Key* key) {
 TEST(Documentation, HasACompleteExample) {
   const std::string text = complete_example();
   for (const Mistake& mistake : read_configuration(text, "/").mistakes)
-    ADD_FAILURE() << place_of(mistake.at, text).line << ": " << mistake.message(dialect::Language::English);
+    ADD_FAILURE() << place_of(mistake.at, text).line << ": " << mistake.message(Language::English);
   expect_all_keys(parsed(text), nullptr);
 }
 

@@ -70,7 +70,7 @@ class Installed(unittest.TestCase):
             gzip.decompress((documents / "changelog.gz").read_bytes()), (ROOT / "CHANGELOG.md").read_bytes()
         )
         # The files that the first steps name (docs/operator.md), and the pages in both languages.
-        for file in ("examples/machine/isocnc.json", "docs/operator.md", "docs/it/operatore.md", "docs/machine.md"):
+        for file in ("examples/machine/isocnc.json", "docs/operator.md", "docs/it/operatore.md", "docs/it/macchina.md"):
             self.assertTrue((documents / file).is_file(), file)
         broken = subprocess.run(
             [prefix / "bin/isolint", "--lang", "en", documents / BROKEN], capture_output=True, text=True, check=False
