@@ -1,6 +1,9 @@
 /** A folder of programs to play with. */
 import * as vscode from 'vscode';
 
+/** Files of the test drive with comments, and those that replace them in Italian. */
+const italian = { 'start-here.iso': 'l10n/start-here.it.iso', 'isocnc.json': 'l10n/isocnc.it.json' };
+
 /** In the global state: the folder that is just being opened. */
 const opened = 'testDrive';
 
@@ -17,6 +20,14 @@ async function start({ globalState }: vscode.ExtensionContext): Promise<void> {
   await vscode.window.showTextDocument(vscode.Uri.joinPath(folder, 'start-here.iso'));
 }
 
+async function copyTo(target: vscode.Uri, extensionUri: vscode.Uri): Promise<void> {
+  const { joinPath } = vscode.Uri;
+  await vscode.workspace.fs.copy(joinPath(extensionUri, 'test-drive'), target, { overwrite: false });
+  if (!vscode.env.language.startsWith('it')) return;
+  for (const [name, translation] of Object.entries(italian))
+    await vscode.workspace.fs.copy(joinPath(extensionUri, translation), joinPath(target, name), { overwrite: true });
+}
+
 async function open({ extensionUri, globalState }: vscode.ExtensionContext): Promise<void> {
   const chosen = await vscode.window.showOpenDialog({
     canSelectFolders: true,
@@ -27,7 +38,7 @@ async function open({ extensionUri, globalState }: vscode.ExtensionContext): Pro
   if (!chosen) return;
   const target = vscode.Uri.joinPath(chosen[0], 'isocnc-test-drive');
   try {
-    await vscode.workspace.fs.copy(vscode.Uri.joinPath(extensionUri, 'test-drive'), target, { overwrite: false });
+    await copyTo(target, extensionUri);
   } catch (error) {
     // It has been opened before, and is the user's by now.
     if (!(error instanceof vscode.FileSystemError) || error.code !== 'FileExists') throw error;

@@ -27,6 +27,24 @@ test('all that package.json says is in both languages', () => {
   for (const name of ['package.nls.json', 'package.nls.it.json']) assert.deepEqual(sorted(Object.keys(json(name))), used, name);
 });
 
+test('pages of the walkthrough are in Italian, too', () => {
+  const page = (name) => readFileSync(join(extension, name), 'utf8').split('\n');
+  const pages = json('package.json').contributes.walkthroughs.flatMap(({ steps }) => steps.map(({ media }) => media.markdown)).filter(Boolean);
+  assert.ok(pages.length > 0);
+  for (const name of pages) {
+    const english = page(name);
+    const italian = page(name.replace(/\.md$/, '.nls.it.md'));
+    assert.equal(italian.length, english.length, name);
+    english.forEach((line, i) => line.includes('//') || assert.equal(italian[i], line, `${name}:${i + 1}`));
+  }
+});
+
+test('the test drive is the same in both languages but for its comments', () => {
+  const without = (name) => readFileSync(join(extension, name), 'utf8').replace(/^(;|\/\/).*$/gm, '$1');
+  for (const [name, translation] of [['start-here.iso', 'start-here.it.iso'], ['isocnc.json', 'isocnc.it.json']])
+    assert.equal(without(`l10n/${translation}`), without(`test-drive/${name}`));
+});
+
 test('each command that is offered is registered, and the other way around', () => {
   const offered = json('package.json').contributes.commands.map(({ command }) => command);
   const registered = sources.flatMap((text) => [
