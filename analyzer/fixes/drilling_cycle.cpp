@@ -5,6 +5,7 @@
 
 #include "analyzer/fixes/line_edits.h"
 #include "interpreter/syntax/tree_store.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::fixes {
 
@@ -70,7 +71,7 @@ std::optional<DrillingCycle> cycle_of(const FixRequest& request, const State& be
   const double start = before.position.tip[2] / before.mm_per_unit();
   if (!to_height && ((before.unknown & z) != 0 || start < height->value)) return std::nullopt;
   DrillingCycle cycle{.depth = std::string(line.text_of(depth->span())),
-                      .height = "Z" + std::string(trimmed(line.text_of(height->span()).substr(1)))};
+                      .height = "Z" + std::string(text::trimmed(line.text_of(height->span()).substr(1)))};
   cycle.retract = to_height ? cycle.height : "Z" + written(start, 4);
   if (feed) cycle.feed = " " + std::string(line.text_of(feed->span()));
   return cycle;

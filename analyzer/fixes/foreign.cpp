@@ -93,7 +93,7 @@ Draft radius_of_arc(const FixRequest& request) {
   const Word* const end = request.line.words.data() + request.line.words.size();
   if (!c || c->letter != 'C' || end - c < 3 || c[1].letter != 'R' || c[2].letter != syntax::kAssign) return {};
   if (!(c[2].value > 0) || line.substr(c->begin, c[2].end - c->begin).find('(') != std::string_view::npos) return {};
-  std::string radius = "R" + std::string(trimmed(line.substr(c[2].begin + 1, c[2].end - c[2].begin - 1)));
+  std::string radius = "R" + std::string(text::trimmed(line.substr(c[2].begin + 1, c[2].end - c[2].begin - 1)));
   return {{replaced(request, {c->begin, c[2].end}, radius)}, radius};
 }
 

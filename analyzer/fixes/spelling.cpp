@@ -91,23 +91,15 @@ Draft without_sign(const FixRequest& request) {
   return rewritten(request, std::move(text));
 }
 
-/// Whether the = at a column stands between a letter and its number.
-static bool is_between_letter_and_number(std::string_view line, std::uint32_t at) {
+/// X=5, which other controls accept.
+Draft without_equals(const FixRequest& request) {
+  const std::string_view line = request.line.text;
+  const std::uint32_t at = request.finding.span.begin;
   const std::string_view before = text::trimmed(line.substr(0, at));
   const std::string_view after = text::trimmed(line.substr(at + 1));
-  return !before.empty() && text::char_class(before.back()) == text::CharClass::Letter && !after.empty() &&
-         text::is_number_char(after.front());
-}
-
-/// X=5 Y=2, which other controls accept: all of a line, which has one finding for them.
-Draft without_equals(const FixRequest& request) {
-  Draft draft;
-  for (const Word& word : request.line.words) {
-    if (word.letter != syntax::kAssign || word.begin < request.finding.span.begin) continue;
-    if (!is_between_letter_and_number(request.line.text, word.begin)) return {};
-    draft.edits.push_back(replaced(request, {word.begin, word.begin + 1}, {}));
-  }
-  return draft;
+  if (before.empty() || text::char_class(before.back()) != text::CharClass::Letter) return {};
+  if (after.empty() || !text::is_number_char(after.front())) return {};
+  return {{replaced(request, {at, at + 1}, {})}};
 }
 
 static int decimals_of(std::string_view number) {

@@ -66,7 +66,11 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
           {.cause = "no-digits",
            .message = {.en = "{text} is no number: it has no digits",
                        .it = "{text} non è un numero: non ci sono cifre"},
-           .wrong = "M06 T101001\n[!,!] G00 X10\nM02\n"}},
+           .wrong = "M06 T101001\n[!,!] G00 X10\nM02\n"},
+          {.cause = "foreign-minus",
+           .message = {.en = "{text} has a dash that is not the minus sign: type it anew, with the - of the keyboard",
+                       .it = "{text} ha un trattino che non è il segno meno: riscriverlo con il - della tastiera"},
+           .wrong = "M06 T101001\nG00 X[!\u221220!]\nM02\n"}},
      .explanation = {.en = "The control knows no word with D, E, H, L, O, U or W, nor characters such as %, # or *. "
                            "Use the letter that serves the purpose here, or put the text in a comment. Programs "
                            "written for other controls often start with % or with an O number: delete both.",

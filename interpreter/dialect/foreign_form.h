@@ -49,7 +49,7 @@ struct ForeignForm {
   bool is_part = false;
   /// `line` is a whole statement, which the parser reports as one.
   bool is_statement = false;
-  /// It may move the tool, or run lines that do.
+  /// It may move the tool or the zero point, or run lines that do.
   bool may_move = false;
   /// Other controls need it to say what always holds here, or to end what does not exist here: it may be left out.
   bool is_superfluous = false;

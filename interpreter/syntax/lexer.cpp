@@ -134,7 +134,7 @@ const char* LineParser::lex_with_foreign_minus(char letter, const char* start, c
   Word& added = add_word(letter, start, number);
   added.value = 0.0 - added.value;
   added.flags |= Word::kSigned | Word::kReported;
-  report("unknown-word"_diag, {column(minus), column(number.end)});
+  report("unknown-word/foreign-minus"_cause, {column(minus), column(number.end)});
   note_comments_inside(start, number.end);
   return number.end;
 }

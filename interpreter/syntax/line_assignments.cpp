@@ -154,11 +154,13 @@ std::uint16_t LineParser::end_of_value(std::uint16_t index) const {
   return last;
 }
 
-/// Whether another `=` after a letter, or after an S or M of another spindle, has been reported on the line: X=R1 Y=R2
-/// and S1=500 M1=3 are one habit each. `last` is the last word of the value.
+/// Whether another `=` with a value that is no number, or after the S or M of another spindle, has been reported on the
+/// line: X=R1 Y=R2 and S1=500 M1=3 are one habit each. `last` is the last word of the value.
 bool LineParser::repeats_equals(std::uint16_t index, std::uint16_t last) {
-  const bool is_habit =
-      index > 0 && (word(index - 1u).has(Word::kMissing) || contains(dialect::letters("MS"), word(index - 1u).letter));
+  if (index == 0) return false;
+  const Word& before = word(index - 1u);
+  const bool is_text = before.has(Word::kMissing) && word(index).has(Word::kMissing);
+  const bool is_habit = is_text || contains(dialect::letters("MS"), before.letter);
   return is_habit && std::exchange(stray_value_, last) != kNone;
 }
 

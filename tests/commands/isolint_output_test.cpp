@@ -68,12 +68,12 @@ TEST(IsolintText, NamesTheOtherPlaceOnTheLine) {
 }
 
 TEST(IsolintText, NamesTheLineAboveThatAFindingComesFrom) {
-  std::string program = "M06 T101001\nG24 F1\n";
+  std::string program = "M06 T101001\nG29 C90\n";
   for (int i = 0; i < 8; ++i) program += "G00 X10\n";
   const CommandResult result = run_command({"isolint", "-"}, {.input = program + "G92 X0 Y0 Z0\nM02\n"});
   EXPECT_THAT(result.out, HasSubstr("  --> <stdin>:11:1\n"
                                     "   |\n"
-                                    " 2 | G24 F1\n"
+                                    " 2 | G29 C90\n"
                                     "   | --- the face frame was mounted here\n"
                                     "...\n"
                                     "11 | G92 X0 Y0 Z0\n"
@@ -195,7 +195,7 @@ TEST(IsolintJson, IsSortedByFileWhateverTheOrderGiven) {
 }
 
 TEST(IsolintJson, IsSortedByLineAndColumn) {
-  const json findings = findings_in("M06 T101001\nG00 X1 U2 (é) U3\nG00 U2 X1 U1\nG01\nM02\n");
+  const json findings = findings_in("M06 T101001\nG00 X1 H2 (é) D3\nG00 H2 X1 D1\nG01\nM02\n");
   std::vector<std::pair<int, int>> places;
   for (const json& finding : findings) places.emplace_back(finding["line"], finding["column"]);
   EXPECT_GE(places.size(), 5u);

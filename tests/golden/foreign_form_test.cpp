@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "analyzer/check/check_text.h"
-#include "analyzer/explain.h"
+#include "analyzer/examples.h"
 #include "analyzer/foreign_page.h"
 #include "interpreter/syntax/line_finder.h"
 #include "tests/support/report_text.h"
