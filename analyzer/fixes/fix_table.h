@@ -30,7 +30,7 @@ inline constexpr Text kOwnLine = {"put {text} on a line of its own", "mettere {t
 inline constexpr Text kModeFirst = {"move {new} to the start of the line", "spostare {new} all'inizio della linea"};
 inline constexpr Text kRepetition = {"remove {text}, which is there already", "togliere {text}, che c'è già"};
 inline constexpr Text kIgnored = {"remove {text}, which is ignored", "togliere {text}, che viene ignorata"};
-inline constexpr Text kTogether = {"move {new} to the other arguments", "spostare {new} vicino agli altri argomenti"};
+inline constexpr Text kTogether = {"move {new} to the other arguments", "spostare {new} accanto agli altri argomenti"};
 inline constexpr Text kNotNeeded = {"remove {text}, which is not needed here", "togliere {text}, che qui non serve"};
 inline constexpr Text kWrite = {"write {new}", "scrivere {new}"};
 inline constexpr Text kWriteDecimal = {"write {new}, with a decimal point", "scrivere {new}, con il punto decimale"};
@@ -43,16 +43,17 @@ inline constexpr Text kMeantCenter = {
     "scrivere {new}, e così tutti i centri del programma: erano riferiti all'altra origine (G90, G91)"};
 inline constexpr Text kNearestCenter = {"move the center to {new}, equally far from both ends",
                                         "spostare il centro in {new}, alla stessa distanza dai due estremi"};
-inline constexpr Text kOtherCenter = {"add {new}, the start's coordinate", "aggiungere {new}, la quota di partenza"};
+inline constexpr Text kOtherCenter = {"add {new}, the start's coordinate",
+                                      "aggiungere {new}, la quota del punto iniziale"};
 inline constexpr Text kStrayCenter = {"remove {text}: the circle is given without it",
                                       "togliere {text}: il cerchio è definito anche senza"};
 
 inline constexpr Text kValueUnknown = {"Only the author knows the number.",
                                        "Il numero lo sa solo chi scrive il programma."};
 inline constexpr Text kVectorUnknown = {"Only the author knows where the face's axes point.",
-                                        "La direzione degli assi di faccia la sa solo chi scrive il programma."};
+                                        "La direzione degli assi della faccia la sa solo chi scrive il programma."};
 inline constexpr Text kToolUnknown = {"Only the author knows which tool is meant.",
-                                      "L'utensile lo sa solo chi scrive il programma."};
+                                      "Quale utensile serve lo sa solo chi scrive il programma."};
 inline constexpr Text kLabelUnknown = {"Only the author knows where the jump should lead.",
                                        "La destinazione del salto la sa solo chi scrive il programma."};
 inline constexpr Text kAboutCheck = {"It is about the check, not about the program.",
@@ -145,7 +146,7 @@ inline constexpr auto kFixes = [] {
       {"g48-g49-not-alone"_diag,
        Unsafe,
        {"remove {text}: there is no tool length compensation to end",
-        "togliere {text}: qui non c'è compensazione della lunghezza da annullare"},
+        "togliere {text}: qui non c'è correzione della lunghezza utensile da annullare"},
        removed_length_cancel},
       {"g48-g49-not-alone"_diag, Safe, kOwnLine, on_its_own_line},
       {"misplaced-g41-g42"_diag,
@@ -191,7 +192,8 @@ inline constexpr auto kFixes = [] {
       {"tool-without-m06"_diag, Unsafe, {"write M06 before {text}", "scrivere M06 prima di {text}"}, m06_before_tool},
       {"workpiece-frame-under-face"_diag,
        Unsafe,
-       {"move the {new} from below to a line above this one", "spostare prima, su una sua linea, la {new} che segue"},
+       {"move the {new} from below to a line above this one",
+        "spostare prima di questa, su una linea a sé, la {new} che segue"},
        later_g27_above},
       {"workpiece-frame-under-face"_diag, Unsafe, kAbove, g27_above},
       {"invalid-line-number"_diag,
@@ -232,7 +234,7 @@ inline constexpr auto kFixes = [] {
       {"unsupported-g"_diag,
        Unsafe,
        {"write the moves of each hole, also on the lines below",
-        "scrivere i movimenti di ogni foro, anche sulle linee sotto"},
+        "scrivere i movimenti di ogni foro, anche sulle linee seguenti"},
        moves_of_cycle},
       {"unsupported-g"_diag, Safe, kNotNeeded, removed_certainly_superfluous},
       {"unsupported-g"_diag, Unsafe, kNotNeeded, removed_foreign_word},

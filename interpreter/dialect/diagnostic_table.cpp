@@ -37,8 +37,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .explanation = {.en = "A ) is allowed only where it closes a comment that was opened on the same line. The first "
                            ") ends the comment, however many ( stand before it. Delete the extra ) or add the missing "
                            "(.",
-                     .it = "Una ) è ammessa solo per chiudere un commento aperto sulla stessa linea. La prima ) "
-                           "chiude il commento, anche se prima ci sono più (. Cancellare la ) di troppo o aggiungere "
+                     .it = "Una ) è ammessa solo per chiudere un commento aperto sulla stessa linea. La prima ) chiude "
+                           "il commento, per quante ( la precedano. Cancellare la ) di troppo o aggiungere "
                            "la ( mancante."},
      .wrong = "M06 T101001\nG00 Z5 (OP 10)[!)!]\nM02\n",
      .right = "M06 T101001\nG00 Z5 (OP 10)\nM02\n"},
@@ -60,12 +60,13 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                        .it = "{text} va solo nella condizione di un IF, come in IF VGPL = 1 GOTO N30"},
            .wrong = "M06 T101001\nG00 X10 [!VGPL!]\nM02\n"},
           {.cause = "letter-for-digit",
-           .message = {.en = "{text} puts a letter into the number before it: write a digit, 0 for O, 1 for l",
-                       .it = "{text} mette una lettera nel numero che precede: scrivere una cifra, 0 per O, 1 per l"},
+           .message =
+               {.en = "{text} puts a letter into the number before it: write a digit, 0 for O, 1 for l",
+                .it = "con {text} il numero che precede contiene una lettera: scrivere una cifra, 0 per O, 1 per l"},
            .wrong = "M06 T101001\nG00 X1[!O!]\nM02\n"},
           {.cause = "no-digits",
-           .message = {.en = "{text} is no number: it has no digits",
-                       .it = "{text} non è un numero: non ci sono cifre"},
+           .message = {.en = "{text} without digits is no number: write its digits, or delete it",
+                       .it = "{text} senza cifre non è un numero: scrivere le cifre, o togliere il segno"},
            .wrong = "M06 T101001\n[!,!] G00 X10\nM02\n"},
           {.cause = "foreign-minus",
            .message = {.en = "{text} has a dash that is not the minus sign: type it anew, with the - of the keyboard",
@@ -235,8 +236,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                            "series of arguments: write S before the G or after its last coordinate. G00 and G01 take "
                            "X Y Z B C; G02 and G03 take I J K R as well; no motion takes A, P or Q.",
                      .it = "Una quota o una componente vale solo subito dopo il comando che la richiede, oppure da "
-                           "sola sulla linea se è già in presa una G di movimento. Una S, una N o un altro comando "
-                           "in mezzo spezzano la serie degli argomenti: scrivere la S prima della G o dopo l'ultima "
+                           "sola sulla linea se è già in presa una G di movimento. Una S, una N o un altro comando in "
+                           "mezzo spezza la serie degli argomenti: scrivere la S prima della G o dopo l'ultima "
                            "quota. G00 e G01 ammettono X Y Z B C; G02 e G03 anche I J K R; nessun movimento ammette "
                            "A, P o Q."},
      .wrong = "M06 T101001\nG00 X10 S5000 [!Z5!]\nM02\n",
@@ -277,8 +278,9 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.4.3",
      .arguments = {},
      .title = {.en = "Tool change without a tool", .it = "Cambio utensile senza T"},
-     .message = {.en = "no T follows {text}: it does not say which tool to mount",
-                 .it = "alla {text} non segue la T: non è indicato l'utensile da montare"},
+     .message =
+         {.en = "no T follows {text}: write it directly after, with the tool to mount, as in M06 T101001",
+          .it = "alla {text} non segue la T: scriverla subito dopo, con l'utensile da montare, come in M06 T101001"},
      .causes = {{.cause = "tool-elsewhere",
                  .message = {.en = "{other} does not follow {text} at once: write both together, as in M06 T101001",
                              .it = "{other} non segue subito la {text}: scriverle insieme, come in M06 T101001"},
@@ -298,7 +300,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .arguments = {"speed"},
      .title = {.en = "Spindle speed not positive", .it = "Velocità del mandrino negativa o nulla"},
      .message = {.en = "spindle speed {speed} rev/min: S must be greater than 0",
-                 .it = "giri del mandrino {speed}: la S deve essere maggiore di 0"},
+                 .it = "velocità del mandrino {speed} giri/min: la S deve essere maggiore di 0"},
      .explanation = {.en = "S gives the spindle speed only, neither the stop nor the direction, so it is always "
                            "positive. To stop the spindle write M05. To turn it counterclockwise write M04 and a "
                            "positive S.",
@@ -314,7 +316,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .arguments = {},
      .title = {.en = "Repeated argument", .it = "Argomento ripetuto"},
      .message = {.en = "{text} comes after {other}: a command takes each letter once",
-                 .it = "{text} viene dopo {other}: un comando vuole ogni lettera una sola volta"},
+                 .it = "{text} viene dopo {other}: un comando ammette ogni lettera una sola volta"},
      .explanation = {.en = "Each letter may be given once per command: the control does not choose between two "
                            "values. Delete the wrong one or correct its letter.",
                      .it = "Ogni lettera si può dare una sola volta per comando: fra due valori il controllo non "
@@ -363,10 +365,10 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .explanation = {.en = "A face frame needs the directions of all three axes, each with at least one component. "
                            "The components of i are X Y Z with G28, A B C with G24; those left out are 0. On this "
                            "control G28 mounts a face frame: it is no return to the reference point.",
-                     .it = "Un sistema di riferimento di faccia vuole la direzione di tutti e tre gli assi, ciascuna "
+                     .it = "Una faccia vuole la direzione di tutti e tre gli assi, ciascuna "
                            "con almeno una componente. Le componenti di i sono X Y Z con la G28, A B C con la G24; "
-                           "quelle omesse valgono 0. Su questo controllo la G28 mette in presa un sistema di faccia, "
-                           "non è un ritorno allo zero macchina."},
+                           "quelle omesse valgono 0. Su questo controllo la G28 mette in presa una faccia, non è un "
+                           "ritorno allo zero macchina."},
      .wrong = "[!G28!] I-1 R1\nM02\n",
      .right = "G28 Y1 I-1 R1\nM02\n"},
     {.code = "ISO020",
@@ -380,9 +382,9 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .explanation = {.en = "A face frame needs the directions of all three axes, each with at least one component. "
                            "The components of j are I J K; those left out are 0. On this control G28 mounts a face "
                            "frame: it is no return to the reference point.",
-                     .it = "Un sistema di riferimento di faccia vuole la direzione di tutti e tre gli assi, ciascuna "
+                     .it = "Una faccia vuole la direzione di tutti e tre gli assi, ciascuna "
                            "con almeno una componente. Le componenti di j sono I J K; quelle omesse valgono 0. Su "
-                           "questo controllo la G28 mette in presa un sistema di faccia, non è un ritorno allo zero "
+                           "questo controllo la G28 mette in presa una faccia, non è un ritorno allo zero "
                            "macchina."},
      .wrong = "[!G28!] Y1 R1\nM02\n",
      .right = "G28 Y1 I-1 R1\nM02\n"},
@@ -397,9 +399,9 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .explanation = {.en = "A face frame needs the directions of all three axes, each with at least one component. "
                            "The components of k are P Q R; those left out are 0. On this control G28 mounts a face "
                            "frame: it is no return to the reference point.",
-                     .it = "Un sistema di riferimento di faccia vuole la direzione di tutti e tre gli assi, ciascuna "
+                     .it = "Una faccia vuole la direzione di tutti e tre gli assi, ciascuna "
                            "con almeno una componente. Le componenti di k sono P Q R; quelle omesse valgono 0. Su "
-                           "questo controllo la G28 mette in presa un sistema di faccia, non è un ritorno allo zero "
+                           "questo controllo la G28 mette in presa una faccia, non è un ritorno allo zero "
                            "macchina."},
      .wrong = "[!G28!] Y1 I-1\nM02\n",
      .right = "G28 Y1 I-1 R1\nM02\n"},
@@ -418,7 +420,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                      .it = "Un asse della faccia deve avere una direzione: almeno una componente deve essere diversa "
                            "da 0. Correggere le componenti. La loro grandezza non conta, conta solo la direzione che "
                            "danno. G28 X0 Y0, con cui altri controlli tornano al punto di riferimento, qui non muove "
-                           "nulla: scrivere un G00 verso la posizione voluta."},
+                           "nulla: scrivere una G00 verso la posizione voluta."},
      .wrong = "G28 [!X0 Y0 Z0!] I-1 R1\nM02\n",
      .right = "G28 X0 Y1 Z0 I-1 R1\nM02\n"},
     {.code = "ISO023",
@@ -427,8 +429,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.2",
      .arguments = {},
      .title = {.en = "Coplanar axis vectors", .it = "Terna di versori complanari"},
-     .message = {.en = "the three axis vectors of {text} lie in one plane",
-                 .it = "i tre versori della {text} sono complanari"},
+     .message = {.en = "the three axis vectors of {text} lie in one plane: one must lead out of it",
+                 .it = "i tre versori della {text} sono complanari: uno deve uscire dal piano degli altri due"},
      .explanation = {.en = "Three axes in one plane make no frame in space. They need not be at right angles, but "
                            "none may lie in the plane of the other two. Often two vectors are the same or a component "
                            "has the wrong letter, such as P for R: check them one by one.",
@@ -443,12 +445,12 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .severity = Severity::Error,
      .section = "I.3.2",
      .arguments = {},
-     .title = {.en = "Face frame already in force", .it = "Sistema di riferimento di faccia già in presa"},
+     .title = {.en = "Face frame already in force", .it = "Faccia già in presa"},
      .message = {.en = "a face frame is in force already: dismount it with G27 before {text}",
                  .it = "c'è già una faccia in presa: smontarla con la G27 prima della {text}"},
      .explanation = {.en = "The control does not pass straight from one face frame to another. Write G27 on a line of "
                            "its own before this one. The rule is the same for G24, G28 and G29.",
-                     .it = "Il controllo non passa direttamente da un sistema di riferimento di faccia a un altro. "
+                     .it = "Il controllo non passa direttamente da una faccia a un'altra. "
                            "Scrivere prima una G27 su una linea a sé. La regola è la stessa per G24, G28 e G29."},
      .wrong = "G29 X100 C90\n[!G29!] Y100 C-90\nM02\n",
      .right = "G29 X100 C90\nG27\nG29 Y100 C-90\nM02\n"},
@@ -501,10 +503,9 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .explanation = {.en = "The end of an arc needs at least one of the two coordinates of its plane. Add it, or "
                            "select the right plane with G17, G18 or G19. The third coordinate may be added to make a "
                            "helix. For a full turn repeat a coordinate of the start.",
-                     .it = "Il punto finale di un arco vuole almeno una delle due coordinate del suo piano. "
-                           "Aggiungerla, oppure selezionare il piano giusto con G17, G18 o G19. La terza coordinata "
-                           "si può aggiungere per un'elica. Per un giro completo ripetere una coordinata del punto "
-                           "iniziale."},
+                     .it = "Il punto finale di un arco vuole almeno una delle due quote del suo piano. "
+                           "Aggiungerla, oppure selezionare il piano giusto con G17, G18 o G19. La terza quota si può "
+                           "aggiungere per un'elica. Per un giro completo ripetere una quota del punto iniziale."},
      .wrong = "M06 T101001\nG00 Z5\nG02 [!Z-3!] R10 F1000\nM02\n",
      .right = "M06 T101001\nG00 Z5\nG02 X10 Y10 Z-3 R10 F1000\nM02\n"},
     {.code = "ISO028",
@@ -536,7 +537,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .arguments = {"radius", "distance"},
      .title = {.en = "Radius and center do not agree", .it = "Raggio e centro incongruenti"},
      .message = {.en = "the radius is {radius} mm, but the center is {distance} mm from the start",
-                 .it = "il raggio è {radius} mm, ma il centro dista {distance} mm dal punto iniziale"},
+                 .it = "il raggio è di {radius} mm, ma il centro dista {distance} mm dal punto iniziale"},
      .explanation = {.en = "Radius and center given together must describe the same circle. Correct the wrong one, or "
                            "delete it: either is enough. With G90 I, J and K are the position of the center, with G91 "
                            "its distance from the start.",
@@ -553,19 +554,19 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .title = {.en = "Arc radius too small", .it = "Raggio del cerchio insufficiente"},
      .message =
          {.en = "with R {radius} mm the arc does not reach its end: R must be at least {needed} mm, half the distance",
-          .it = "con R {radius} mm l'arco non arriva al punto finale: R deve essere almeno {needed} mm, metà della "
+          .it = "con R {radius} mm l'arco non arriva al punto finale: R deve essere di almeno {needed} mm, metà della "
                 "distanza"},
      .causes = {{.cause = "not-positive",
                  .message = {.en = "{text}: R must be greater than 0; for more than 180° give the center",
                              .it = "{text}: R deve essere maggiore di 0; oltre i 180° dare il centro"},
                  .wrong = "M06 T101001\nG02 X10 Y10 [!R-10!] F1000\nM02\n"}},
-     .explanation = {.en = "No circle of this radius reaches from the start of the arc to its end. Enlarge R, or "
-                           "check the two points: R cannot be less than half the distance between them. R is always "
-                           "positive: for an arc of more than 180° give the center, not a negative R.",
-                     .it = "Con questo raggio nessun cerchio arriva dal punto iniziale dell'arco a quello finale. "
-                           "Aumentare R o controllare i due punti: R non può essere minore di metà della loro "
-                           "distanza. R è sempre positivo: per un arco oltre i 180° dare il centro, non un R "
-                           "negativo."},
+     .explanation =
+         {.en = "No circle of this radius reaches from the start of the arc to its end. Enlarge R, or "
+                "check the two points: R cannot be less than half the distance between them. R is always "
+                "positive: for an arc of more than 180° give the center, not a negative R.",
+          .it = "Con questo raggio nessun cerchio arriva dal punto iniziale dell'arco a quello finale. "
+                "Aumentare R o controllare i due punti: R non può essere minore di metà della loro "
+                "distanza. La R è sempre positiva: per un arco oltre i 180° dare il centro, non una R negativa."},
      .wrong = "M06 T101001\nG02 X30 [!R10!] F1000\nM02\n",
      .right = "M06 T101001\nG02 X30 R20 F1000\nM02\n"},
     {.code = "ISO031",
@@ -583,7 +584,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
            .message = {.en = "in G90 the center {text} is a position, not a distance from the start: it is {start} mm "
                              "from the start and {end} mm from the end of the arc, which must be equal",
                        .it = "in G90 il centro {text} è una posizione, non una distanza dal punto iniziale: dista "
-                             "{start} mm dal punto iniziale e {end} mm da quello finale, che devono essere uguali"},
+                             "{start} mm dal punto iniziale e {end} mm da quello finale, e le due distanze devono "
+                             "essere uguali"},
            .wrong = "M06 T101001\nG00 X100\nG02 X120 Y0 [!I10 J0!] F1000\nM02\n"},
           {.cause = "on-start",
            .message = {.en = "with {text} the center is the start of the arc, which leaves no radius",
@@ -781,7 +783,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                  .it = "{text} deve stare da sola sulla linea, senza {other}"},
      .explanation = {.en = "The program end needs a line of its own, with a line number N at most. Move the other "
                            "words to the line before: what comes after M02 is ignored.",
-                     .it = "La fine programma vuole una linea a sé, al più con il numero di riga N. Spostare le "
+                     .it = "La fine del programma vuole una linea a sé, al più con il numero di riga N. Spostare le "
                            "altre parole sulla linea precedente: ciò che segue la M02 viene ignorato."},
      .wrong = "M06 T101001\nG00 Z50 [!M02!]\n",
      .right = "M06 T101001\nG00 Z50\nM02\n"},
@@ -955,14 +957,14 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .section = "I.3.2",
      .arguments = {},
      .title = {.en = "Workpiece frame changed under a face frame",
-               .it = "Cambio di sistema di pezzo con faccia in presa"},
+               .it = "Cambio del riferimento di pezzo con faccia in presa"},
      .message = {.en = "a face frame is in force: dismount it with G27 before {text}",
                  .it = "c'è una faccia in presa: smontarla con la G27 prima della {text}"},
      .explanation = {.en = "A face frame is measured from the workpiece frame, which therefore cannot change beneath "
                            "it. Write G27 on a line of its own before G92. If the face is still needed, mount it "
                            "again afterwards.",
-                     .it = "Il sistema di faccia è riferito a quello di pezzo, che quindi non può cambiare mentre la "
-                           "faccia è in presa. Scrivere prima della G92 una G27 su una linea a sé. Se la faccia "
+                     .it = "La faccia parte dal riferimento di pezzo, che quindi non può cambiare mentre la faccia è "
+                           "in presa. Scrivere prima della G92 una G27 su una linea a sé. Se la faccia "
                            "serve ancora, rimetterla in presa dopo."},
      .wrong = "G28 Y1 I-1 R1\n[!G92!] X200 Y50\nM02\n",
      .right = "G28 Y1 I-1 R1\nG27\nG92 X200 Y50\nM02\n"},
@@ -1093,7 +1095,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .arguments = {},
      .title = {.en = "Register without a value", .it = "Registro senza valore"},
      .message = {.en = "{text} gets no value: write = and a number after it",
-                 .it = "{text} senza valore: scrivere dopo = e un numero"},
+                 .it = "{text} senza valore: aggiungere = e un numero"},
      .causes = {{.cause = "no-number",
                  .message = {.en = "{text} takes a number, and {other} is none",
                              .it = "{text} vuole un numero, e {other} non lo è"},
@@ -1145,7 +1147,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                  .it = "{text} senza avanzamento: finora non è stata data alcuna F"},
      .causes = {{.cause = "on-rapid",
                  .message = {.en = "{text} has no feed rate: F so far stands on rapids only, which ignore it",
-                             .it = "{text} senza avanzamento: finora la F sta solo su rapidi, che la ignorano"},
+                             .it = "{text} senza avanzamento: finora la F è scritta solo su rapidi, che la ignorano"},
                  .wrong = "M06 T101001\nG00 X10 F1000\n[!G01!] X20\nM02\n"}},
      .explanation =
          {.en = "The control cannot start the first feed move without a speed. Write F on this line or on "
@@ -1331,19 +1333,19 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .title = {.en = "Invalid M parameter", .it = "Parametro non valido per la M"},
      .message = {.en = "{text} is no parameter: an M function has P1 to P20",
                  .it = "{text} non è un parametro: una funzione M ha da P1 a P20"},
-     .causes = {{.cause = "no-value",
-                 .message = {.en = "{text} has no value: write = and a number, as in P1=5",
-                             .it = "{text} senza valore: scrivere = e un numero, come in P1=5"},
-                 .wrong = "M100 [!P1!]\nM02\n"},
-                {.cause = "repeated",
-                 .message = {.en = "{text} comes after {other}: an M function takes each parameter once",
-                             .it = "{text} viene dopo {other}: una funzione M vuole ogni parametro una sola volta"},
-                 .wrong = "M100 P1=5 [!P1=6!]\nM02\n"},
-                {.cause = "fixed-function",
-                 .message = {.en = "{other} takes no parameters: {text} goes with a function of the user, such as M100",
-                             .it =
-                                 "{other} non ha parametri: {text} va con una funzione dell'utente, per esempio M100"},
-                 .wrong = "M05 [!P1=1!]\nM02\n"}},
+     .causes =
+         {{.cause = "no-value",
+           .message = {.en = "{text} has no value: write = and a number, as in P1=5",
+                       .it = "{text} senza valore: scrivere = e un numero, come in P1=5"},
+           .wrong = "M100 [!P1!]\nM02\n"},
+          {.cause = "repeated",
+           .message = {.en = "{text} comes after {other}: an M function takes each parameter once",
+                       .it = "{text} viene dopo {other}: una funzione M ammette ogni parametro una sola volta"},
+           .wrong = "M100 P1=5 [!P1=6!]\nM02\n"},
+          {.cause = "fixed-function",
+           .message = {.en = "{other} takes no parameters: {text} goes with a function of the user, such as M100",
+                       .it = "{other} non ammette parametri: {text} va con una funzione dell'utente, per esempio M100"},
+           .wrong = "M05 [!P1=1!]\nM02\n"}},
      .explanation = {.en = "A user M function has 20 places for values, P1 to P20, and each value needs its place. "
                            "Write the parameters as in M100 P1=2.5 P2=-3. M03, M04 and M05 take none.",
                      .it = "Una M definita dall'utente ha 20 posti per i valori, da P1 a P20, e ogni valore vuole il "
@@ -1436,7 +1438,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .severity = Severity::Warning,
      .section = "I.4.2",
      .arguments = {},
-     .title = {.en = "Feed move with the spindle stopped", .it = "Lavorazione a mandrino fermo"},
+     .title = {.en = "Feed move with the spindle stopped", .it = "Movimento in lavoro a mandrino fermo"},
      .message = {.en = "feed move without an M03 or M04 in force: the spindle does not turn",
                  .it = "movimento in lavoro senza una M03 o una M04 in presa: il mandrino è fermo"},
      .explanation =
@@ -1458,7 +1460,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .arguments = {},
      .title = {.en = "Spindle started without a speed", .it = "Mandrino avviato senza velocità"},
      .message = {.en = "{text} starts the spindle, but no S has been given yet",
-                 .it = "{text} avvia il mandrino, ma nessuna S è stata ancora data"},
+                 .it = "{text} avvia il mandrino, ma finora non è stata data alcuna S"},
      .explanation = {.en = "The spindle is started before any S says how fast. Write S on this line or before it. A "
                            "false alarm where the machine keeps a speed of its own.",
                      .it = "Il mandrino viene avviato prima che una S ne dica la velocità. Scrivere la S su questa "
@@ -1519,7 +1521,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .explanation =
          {.en = "The face frame has not been dismounted with G27 before the end of the program. Write G27 on a line of "
                 "its own before M02. No false alarms are known.",
-          .it = "Il sistema di riferimento di faccia non è stato smontato con la G27 prima della fine del programma. "
+          .it = "La faccia non è stata smontata con la G27 prima della fine del programma. "
                 "Scrivere una G27 su una linea a sé prima della M02. Non si conoscono falsi allarmi."},
      .wrong = "M06 T101001\nG29 B90\n[!M02!]\n",
      .right = "M06 T101001\nG29 B90\nG27\nM02\n"},
@@ -1577,7 +1579,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .title = {.en = "Arc that goes nowhere", .it = "Arco senza sviluppo"},
      .message = {.en =
                      "an arc with a radius alone that ends where it starts does not move: a full turn needs its center",
-                 .it = "un arco con il solo raggio che finisce dove comincia non si muove: per un giro completo serve "
+                 .it = "un arco che finisce dove comincia e ha solo il raggio non si muove: per un giro completo serve "
                        "il centro"},
      .explanation =
          {.en = "With R alone the sweep is at most 180 degrees, and from a point to itself there is none. Give the "
@@ -1592,7 +1594,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .severity = Severity::Warning,
      .section = "I.3.4.3.a",
      .arguments = {"found", "wanted"},
-     .title = {.en = "Arc that fits only by the tolerance", .it = "Arco accettato solo per la tolleranza"},
+     .title = {.en = "Arc that fits only by the tolerance", .it = "Arco accettato solo grazie alla tolleranza"},
      .message = {.en = "the center is {found} mm from the start and {wanted} mm from the end: the arc fits only within "
                        "the tolerance",
                  .it = "il centro dista {found} mm dal punto iniziale e {wanted} mm da quello finale: l'arco passa "
@@ -1626,9 +1628,9 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .severity = Severity::Info,
      .section = "I.3.2",
      .arguments = {"angle"},
-     .title = {.en = "Face axes not quite orthogonal", .it = "Assi di faccia non proprio ortogonali"},
+     .title = {.en = "Face axes not quite orthogonal", .it = "Assi della faccia non proprio ortogonali"},
      .message = {.en = "the face axes are {angle}° off the right angle",
-                 .it = "gli assi di faccia si scostano di {angle}° dall'angolo retto"},
+                 .it = "gli assi della faccia si scostano di {angle}° dall'angolo retto"},
      .explanation = {.en = "The control takes the axes as orthogonal, but their components have so few decimals that "
                            "the coordinates along them are slightly oblique. Write them with six decimals or more, or "
                            "use G29 with angles. A false alarm where axes are meant to be oblique by so little.",
@@ -1676,9 +1678,9 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .severity = Severity::Info,
      .section = "I.5",
      .arguments = {},
-     .title = {.en = "Condition that is always decided", .it = "Condizione sempre decisa"},
-     .message = {.en = "with the values set above, this condition always decides the same way",
-                 .it = "con i valori impostati sopra questa condizione decide sempre allo stesso modo"},
+     .title = {.en = "Condition that is always decided", .it = "Condizione con un solo esito"},
+     .message = {.en = "with the values set above, this condition always has the same outcome",
+                 .it = "con i valori impostati sopra, questa condizione ha sempre lo stesso esito"},
      .explanation = {.en = "The register's value is known here on every path, so the jump is always or never taken. "
                            "Fine for a switch set at the top of the program, otherwise check the register and the "
                            "value. A false alarm where the register is such a switch.",
@@ -1700,7 +1702,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                 "a control that keeps its modes, what follows would move by offsets: write G90 before M02. Off by "
                 "default; no false alarms are known beyond that.",
           .it = "Ogni programma parte in G90, quindi su questo controllo non succede nulla. Se però i programmi "
-                "vengono uniti, o girano su un controllo che conserva i modi, il seguito si muoverebbe a incrementi: "
+                "vengono uniti, o girano su un controllo che conserva i modi, ciò che segue si muoverebbe in "
+                "incrementale: "
                 "scrivere G90 prima della M02. Disattivata di norma; non si conoscono altri falsi allarmi."},
      .wrong = "M06 T101001\nG91\nG00 X10\n[!M02!]\n",
      .right = "M06 T101001\nG91\nG00 X10\nG90\nM02\n"},
@@ -1734,7 +1737,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                            "wrong coordinate can hide there, or a G91 that was forgotten. Off by default, since "
                            "repeated points are common and harmless.",
                      .it = "Il movimento finisce dove comincia. Spesso è solo il post-processor che ripete il punto, "
-                           "ma può nascondersi una coordinata sbagliata o una G91 dimenticata. Disattivata di norma, "
+                           "ma può nascondersi una quota sbagliata o una G91 dimenticata. Disattivata di norma, "
                            "perché i punti ripetuti sono frequenti e innocui."},
      .wrong = "M06 T101001\nG00 X10\n[!G00!] X10\nM02\n",
      .right = "M06 T101001\nG00 X10\nG00 X20\nM02\n"},
@@ -1746,7 +1749,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .arguments = {},
      .title = {.en = "Register compared but never set", .it = "Registro confrontato ma mai impostato"},
      .message = {.en = "nothing in this program gives {text} a value",
-                 .it = "niente in questo programma dà un valore a {text}"},
+                 .it = "nessuna linea di questo programma dà un valore a {text}"},
      .explanation = {.en = "The IF compares a register that the program gives no value anywhere. Check its number, or "
                            "set it at the top of the program. Off by default; a false alarm where the register is set "
                            "from outside, by the GPL or by a program that ran before.",
@@ -1886,7 +1889,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                          "number, or add the function to isocnc.json. Only reported where the file has such a list; a "
                          "false alarm where the list is not complete.",
                      .it = "Il file macchina elenca le funzioni M dell'officina, e questa non c'è. Controllare il "
-                           "numero, o aggiungere la funzione a isocnc.json. Segnalata solo se il file ha un tale "
+                           "numero, o aggiungere la funzione a isocnc.json. Segnalata solo se il file contiene un "
                            "elenco; falso allarme se l'elenco non è completo."},
      .wrong = "M06 T101001\n[!M77!]\nM02\n",
      .right = "M06 T101001\nM100\nM02\n"},
@@ -1907,9 +1910,9 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
               "file gives, in machine coordinates. Check the coordinate and the workpiece origin, or the file. A false "
               "alarm where the file gives the travel of the joints of a tilting head, which is not that of the tip.",
           .it = "Durante questo movimento, compresa la freccia di un arco, la punta dell'utensile esce dalla corsa "
-                "indicata nel file macchina, in coordinate macchina. Controllare la coordinata e l'origine pezzo, "
-                "oppure il file. Falso allarme se il file indica la corsa dei carri di una testa orientabile, che non "
-                "è quella della punta."},
+                "indicata nel file macchina, in coordinate macchina. Controllare la quota e lo zero pezzo, "
+                "oppure il file. Falso allarme se il file indica la corsa degli assi di una macchina a testa "
+                "orientabile, che non è quella della punta."},
      .wrong = "M06 T101001\nG00 [!X1200!] Y10\nM02\n",
      .right = "M06 T101001\nG00 X900 Y10\nM02\n"},
     {.code = "W131",
@@ -2037,7 +2040,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .arguments = {"radius"},
      .title = {.en = "Cutter that goes into the contour", .it = "Fresa che intacca il profilo"},
      .message = {.en = "here a cutter of radius {radius} mm goes into the contour that it should leave",
-                 .it = "qui una fresa di raggio {radius} mm intacca il profilo che dovrebbe lasciare"},
+                 .it = "qui una fresa di raggio {radius} mm intacca il profilo che deve restare"},
      .explanation =
          {.en = "Beside the contour there is no room for the cutter: a slot is narrower than it, an inside corner has "
                 "steps shorter than it, or the way on or off the contour leads across it. Mount a smaller cutter, "
@@ -2092,7 +2095,8 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .severity = Severity::Warning,
      .section = "I.4.2",
      .arguments = {},
-     .title = {.en = "Spindle started after the first feed move", .it = "Mandrino avviato dopo la prima lavorazione"},
+     .title = {.en = "Spindle started after the first feed move",
+               .it = "Mandrino avviato dopo il primo movimento in lavoro"},
      .message = {.en = "{text} starts the spindle for the first time, but feed moves stand before it",
                  .it = "{text} avvia il mandrino per la prima volta, ma prima ci sono già movimenti in lavoro"},
      .explanation =
@@ -2185,7 +2189,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                            "were lost when the file was copied.",
                      .it = "Di una linea così lunga si verificano solo le prime parole: gli errori nel resto non "
                            "vengono segnalati. Dividere la linea in più linee. Una linea così lunga spesso vuol dire "
-                           "che i fine linea sono andati persi copiando il file."},
+                           "che i terminatori di linea sono andati persi copiando il file."},
      .wrong = "",
      .right = ""},
 };
