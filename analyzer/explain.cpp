@@ -31,30 +31,35 @@ static std::string severity_text(const DiagnosticDef& def, Language language) {
                      def.is_reported_by_runs ? kRuns.in(language) : "");
 }
 
-/// The text folded at 78 columns, each line after `indent`; a UTF-8 letter counts as one.
-static std::string folded(std::string_view text, std::string_view indent = {}) {
-  std::string result(indent);
-  std::size_t column = indent.size();
+/// The text folded at 78 columns, its first line after `first_indent`, the others after `indent`; a UTF-8 letter counts
+/// as one.
+static std::string folded(std::string_view text, std::string_view first_indent = {}, std::string_view indent = {}) {
+  std::string result(first_indent);
+  std::size_t column = first_indent.size();
+  bool is_start = true;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find(' ', at), text.size());
     const std::string_view word = text.substr(at, end - at);
     const std::size_t width = text::column_of(word, word.size()) - 1;
-    if (column > indent.size() && column + 1 + width > 78) {
+    if (!is_start && column + 1 + width > 78) {
       result += fmt::format("\n{}", indent);
       column = indent.size();
+      is_start = true;
     }
-    if (column > indent.size()) {
+    if (!is_start) {
       result += ' ';
       ++column;
     }
     result += word;
     column += width;
+    is_start = false;
     at = end + 1;
   }
   return result + '\n';
 }
 
 static constexpr std::string_view kIndent = "    ";
+static constexpr std::string_view kMessageIndent = "      ";
 
 /// The program, indented; below the marked line its mark and `message`.
 static std::string shown(std::string_view program, std::string_view message = {}) {
@@ -67,7 +72,7 @@ static std::string shown(std::string_view program, std::string_view message = {}
     if (marked.has_mark && line == marked.line) {
       result += fmt::format("{}{}{}\n", kIndent, std::string(marked.begin, ' '),
                             std::string(std::max<std::size_t>(1, marked.end - marked.begin), '^'));
-      if (!message.empty()) result += folded(fmt::format("= {}", message), kIndent);
+      if (!message.empty()) result += folded(fmt::format("= {}", message), kIndent, kMessageIndent);
     }
     at = end + 1;
   }

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "analyzer/check/check_text.h"
-#include "analyzer/explain.h"
+#include "analyzer/examples.h"
 #include "analyzer/fixing/finding_fixes.h"
 #include "analyzer/selection/suppressions.h"
 
@@ -54,13 +54,14 @@ static std::string code(std::string_view lines) {
   return cell;
 }
 
-/// The link to a code's section, for a page in `docs/` or, in Italian, in `docs/it/`.
+/// The link to a code's section on the page of codes in the same language.
 static std::string link(dialect::DiagnosticId id, Language language) {
+  static constexpr Text kPage = {"rules.md", "codici.md"};
   const dialect::DiagnosticDef& def = dialect::definition(id);
   std::string anchor = fmt::format("{}-{}", def.code, def.name);
   std::transform(anchor.begin(), anchor.end(), anchor.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return fmt::format("[{}]({}rules.md#{})", def.code, language == Language::Italian ? "../" : "", anchor);
+  return fmt::format("[{}]({}#{})", def.code, kPage.in(language), anchor);
 }
 
 static std::string row(const ForeignForm& form, Language language) {
@@ -96,8 +97,7 @@ std::string foreign_page(Language language) {
   static constexpr Text kIntroduction = {
       "# From another control\n\n"
       "What programs for other controls write, and this control reads otherwise or not at all. `isolint` reports each "
-      "of "
-      "these words or lines\n"
+      "of these words or lines\n"
       "once, says what was meant there, and what to write here. ([In italiano](it/altri-controlli.md))\n\n"
       "Each control has two tables. The first one matters most: its words run here, with another meaning, so that no "
       "finding warns of them.\n"
@@ -114,8 +114,8 @@ std::string foreign_page(Language language) {
       "nessuna segnalazione avvisa.\n"
       "\"Correzione\" vuol dire che la scrive `isolint --fix`, \"correzione non sicura\" che serve anche "
       "`--unsafe-fixes`: guardare prima il risultato con\n"
-      "`--diff`. Il linguaggio intero è in [The dialect](../dialect.md), in inglese.\n\n"
-      "Questa pagina è generata dalla tabella di `interpreter/dialect/foreign_form_table.cpp` "
+      "`--diff`. Il linguaggio intero è nel [dialetto](dialetto.md).\n\n"
+      "Questa pagina nasce dalla tabella in `interpreter/dialect/foreign_form_table.cpp` "
       "(`isolint --lang it --foreign-page`).\n"};
   static constexpr Text kRuns = {"Runs here, and means something else:", "Qui gira, e vuol dire un'altra cosa:"};
   static constexpr Text kStops = {"Stops here:", "Qui ferma il programma:"};

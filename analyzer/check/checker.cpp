@@ -198,6 +198,7 @@ void Checker::check_block(const LineTree& line, std::uint64_t line_number, Outco
     execute_around_jump(line, line_number, outcome);
   } else {
     execute_in_all_groups(line, line_number, outcome);
+    if (line.jump && !frontier.live.empty()) pass_jump_to_nowhere(*line.jump);
   }
   sort_by_column(outcome.findings, first);
   if (live.empty() || !live[0].state.ended) return;
@@ -391,6 +392,9 @@ void Checker::report_common_findings(std::uint64_t line_number, Outcome& outcome
         return std::find(theirs.begin(), theirs.end(), decision) == theirs.end();
       });
     }
+    // Where only some paths have it: of an IF that cannot be read it is not known whether it leads here.
+    const auto is_illegible = [](const Decision& decision) { return !decision.is_legible; };
+    if (count < live.size() && std::any_of(path.begin(), path.end(), is_illegible)) continue;
     // For findings on every path that comes here, report only the taken jumps; untaken IFs are implied.
     if (count == live.size()) std::erase_if(path, [](const Decision& decision) { return !decision.taken; });
     if (!path.empty()) {
@@ -405,13 +409,32 @@ void Checker::report_common_findings(std::uint64_t line_number, Outcome& outcome
   }
 }
 
+/// Passes a jump whose label is not known: the lines below are meant for when it is not taken (D63). Paths that would
+/// take it are not followed, unless no other is left.
+void Checker::pass_jump_to_nowhere(const syntax::Jump& jump) {
+  if (jump.variable == 0 || !jump.condition_is_known()) return;
+  const auto stays = [&](const Group& group) { return group.registers.where(jump, false).possible(); };
+  Groups& live = frontier.live;
+  if (std::none_of(live.begin(), live.end(), stays)) return;
+  std::size_t staying = 0;
+  for (Group& group : live) {
+    group.registers = group.registers.where(jump, false);
+    if (!group.registers.possible()) continue;
+    Group& place = live[staying++];
+    if (&place != &group) place = std::move(group);
+  }
+  live.keep_first(staying);
+}
+
 /// Executes an IF: follows the paths that are feasible (D51, D52).
 void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   const syntax::Jump& jump = *line.jump;
   const std::uint32_t ordinal = frontier.next_jump++;
   outcome.live_jumps.push_back(ordinal);
-  if (jumps_.target_of(ordinal) != JumpMap::Target::Below)
+  if (jumps_.target_of(ordinal) != JumpMap::Target::Below) {
     outcome.leads_anywhere_from = std::min(outcome.leads_anywhere_from, line_number);
+    pass_jump_to_nowhere(jump);
+  }
   switch (jumps_.target_of(ordinal)) {
     case JumpMap::Target::Below:
       break;
@@ -428,7 +451,7 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
   bool may_jump = false;
   bool may_stay = false;
   const auto decide = [&](Decisions path, bool taken) {
-    path.insert(path.begin(), {ordinal, taken});
+    path.insert(path.begin(), {ordinal, taken, jump.condition_is_known()});
     if (path.size() > kLongestPath) path.pop_back();
     return path;
   };

@@ -51,6 +51,7 @@ class Checker {
   void execute_in_all_groups(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void assign(Group& group, int reg, double value, Outcome& outcome) const;
   void report_common_findings(std::uint64_t line_number, Outcome& outcome);
+  void pass_jump_to_nowhere(const syntax::Jump& jump);
   void branch(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void admit_reduction(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
 

@@ -123,10 +123,14 @@ static void keep_first_of_each(std::vector<LocatedFinding>& findings) {
   }
 }
 
-/// Whether a finding assumes that all ways to its line are known (W116, W117). After a jump that may lead anywhere, no
-/// such finding is made.
+/// Whether a finding assumes that all ways to its line are known: W116, W117, and what is said of the spindle only
+/// where it is so on every path. After a jump that may lead anywhere, no such finding is made.
 static bool assumes_all_paths(dialect::DiagnosticId id) {
-  return id == "never-runs"_diag || id == "condition-decided"_diag;
+  static constexpr dialect::DiagnosticId kAll[] = {"never-runs"_diag,           "condition-decided"_diag,
+                                                   "spindle-stopped-feed"_diag, "spindle-reversed"_diag,
+                                                   "spindle-started-late"_diag, "tool-change-with-spindle-on"_diag,
+                                                   "end-with-spindle-on"_diag};
+  return std::find(std::begin(kAll), std::end(kAll), id) != std::end(kAll);
 }
 
 static bool by_place(const LocatedFinding& a, const LocatedFinding& b) {
@@ -155,14 +159,16 @@ static void put_in_order(Report& report, const std::vector<Decisions>& paths, co
 }
 
 /// Whether a finding says that a label is missing (E004) that has been misspelled, which has been reported there.
+/// `misspelled` is sorted.
 static bool is_reported_at_label(const Finding& finding, const std::vector<double>& misspelled) {
   return finding.id == "label-not-found"_diag &&
-         std::find(misspelled.begin(), misspelled.end(), finding.values[0]) != misspelled.end();
+         std::binary_search(misspelled.begin(), misspelled.end(), finding.values[0]);
 }
 
 Report conclude(Outcome outcome, const Frontier& end, const JumpMap& jumps,
                 const std::function<std::string_view(std::uint64_t)>& text_of_line) {
   MistakeNumbers mistakes;
+  std::sort(outcome.misspelled_labels.begin(), outcome.misspelled_labels.end());
   std::erase_if(outcome.findings, [&](const LocatedFinding& located) {
     return (assumes_all_paths(located.finding.id) && located.line > outcome.leads_anywhere_from) ||
            is_reported_at_label(located.finding, outcome.misspelled_labels);
@@ -237,7 +243,7 @@ class ExcerptCollector {
 
   std::vector<LocatedFinding>& findings() { return excerpt_.report.findings; }
   std::vector<Decisions> paths;
-  std::vector<double> misspelled_labels;  ///< Of all outcomes; to be filled in before the first is taken.
+  std::vector<double> misspelled_labels;  ///< Of all outcomes, sorted, before the first is taken.
 
  private:
   static bool is_reported_once(dialect::DiagnosticId id) {
@@ -277,6 +283,7 @@ FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const Finding
   for (const PlacedOutcome& placed : outcomes)
     collector.misspelled_labels.insert(collector.misspelled_labels.end(), placed.outcome->misspelled_labels.begin(),
                                        placed.outcome->misspelled_labels.end());
+  std::sort(collector.misspelled_labels.begin(), collector.misspelled_labels.end());
   FindingCounts left = counts;
   bool has_all = true;
   for (const PlacedOutcome& placed : outcomes) {

@@ -14,6 +14,7 @@ namespace isocnc::check {
 struct Decision {
   std::uint32_t jump = 0;
   bool taken = false;
+  bool is_legible = true;  ///< Whether the condition can be read, so that it is known when the jump is taken.
 
   friend bool operator==(const Decision&, const Decision&) = default;
 };

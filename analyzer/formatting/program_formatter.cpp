@@ -45,8 +45,8 @@ LineChange LinesFormatter::next(const LineTree& line) {
   return change;
 }
 
-/// Changes a motion only if all paths to the line agree on it and it takes all the line's words: other lines have
-/// findings, whose place would change.
+/// Changes a motion only if all paths to the line agree on it, it takes all the line's words, and an arc has a circle:
+/// other lines have findings, whose place would change.
 LineChange::MotionEdit LinesFormatter::motion_change(const LineTree& line) const {
   if (!motion_.is_known() || !line.findings.empty()) return LineChange::MotionEdit::Keep;
   const dialect::GCode& in_force = *dialect::g_code(motion_.in_force());
@@ -61,7 +61,8 @@ LineChange::MotionEdit LinesFormatter::motion_change(const LineTree& line) const
   for (std::size_t i = motion->begin; i < motion->end; ++i)
     if (const syntax::Word& word = line.words[i]; word.owner == motion->number && word.letter != 'G')
       given |= dialect::letter_bit(word.letter);
-  const bool is_sound = (given & dialect::kCoordinateLetters) != 0 && (given & ~in_force.arguments) == 0;
+  const bool has_circle = !in_force.is_arc() || (given & dialect::kCircleLetters) != 0;
+  const bool is_sound = (given & dialect::kCoordinateLetters) != 0 && (given & ~in_force.arguments) == 0 && has_circle;
   if (!is_sound) return LineChange::MotionEdit::Keep;
   return writes ? LineChange::MotionEdit::Write : LineChange::MotionEdit::Drop;
 }

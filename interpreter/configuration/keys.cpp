@@ -118,7 +118,7 @@ static void add_axes(std::vector<Key>& keys) {
          .range = kSpeed,
          .unit = axis.is_rotary ? units::kDegreesPerMinute : units::kMillimetersPerMinute,
          .documentation = {"The maximum speed of the axis, in rapids and in feed moves.",
-                           "La velocità massima dell'asse, in rapido e in interpolazione."},
+                           "La velocità massima dell'asse, in rapido e in lavoro."},
          .slot = [axis](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.rapids[axis.index]; }});
     keys.push_back({.path = path + ".acceleration",
                     .kind = KeyKind::Number,
@@ -146,7 +146,7 @@ static void add_limits(std::vector<Key>& keys) {
                   .kind = KeyKind::Number,
                   .range = kSpeed,
                   .unit = units::kMillimetersPerMinute,
-                  .documentation = {"The greatest feed rate (W131).", "Il feed rate massimo (W131)."},
+                  .documentation = {"The greatest feed rate (W131).", "L'avanzamento massimo (W131)."},
                   .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.setup.limits.feed; }});
   keys.push_back(
       {.path = "machine.maxRotarySpeed",

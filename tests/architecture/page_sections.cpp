@@ -136,7 +136,7 @@ class PageReader {
     else if (code_)
       code_->add(text);
     else if (line.starts_with("    ") && is_program_)
-      sections_.back().code.back().lines.push_back(text);
+      add_program_line(line, text);
     else
       add_prose(line);
   }
@@ -151,6 +151,12 @@ class PageReader {
     } else {
       code_.emplace(fence, number_);
     }
+  }
+
+  /// The message below a mark, `= ...` and the lines that continue it, is that of the language.
+  void add_program_line(const std::string& line, const std::string& text) {
+    is_message_ = text.starts_with("= ") || (is_message_ && line.starts_with("      "));
+    if (!is_message_) sections_.back().code.back().lines.push_back(text);
   }
 
   void add_prose(const std::string& line) {
@@ -173,6 +179,7 @@ class PageReader {
   std::vector<Section> sections_;
   std::optional<CodeReader> code_;
   bool is_program_ = false;
+  bool is_message_ = false;
 };
 
 std::vector<Section> sections_of(const std::string& page) {

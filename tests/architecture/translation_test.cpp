@@ -36,6 +36,7 @@ const std::vector<Translation> kPages = {{"docs/README.md", "docs/it/README.md"}
                                          {"docs/configuration.md", "docs/it/configurazione.md"},
                                          {"docs/dialect.md", "docs/it/dialetto.md"},
                                          {"docs/rules.md", "docs/it/codici.md"},
+                                         {"docs/other-controls.md", "docs/it/altri-controlli.md"},
                                          {"docs/vscode.md", "docs/it/vscode.md"},
                                          {"vscode-extension/README.md", "docs/it/estensione.md"}};
 
@@ -182,7 +183,11 @@ class Comparison {
 
 class TranslatedPages : public testing::TestWithParam<Translation> {};
 INSTANTIATE_TEST_SUITE_P(All, TranslatedPages, testing::ValuesIn(kPages),
-                         [](const auto& tested) { return fs::path(tested.param.italian).stem().string(); });
+                         [](const auto& tested) {
+                           std::string name = fs::path(tested.param.italian).stem().string();
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 TEST_P(TranslatedPages, SayTheSame) {
   for (const std::string& difference : Comparison(GetParam()).differences()) ADD_FAILURE() << difference;

@@ -37,7 +37,7 @@ inline constexpr WrongText kWrongTexts[] = {
     {"[]", "1:1: this is a list [ ], and an object { } is needed"},
     {R"({"machine": 3})", "1:13: machine: this is a number, and an object { } is needed"},
     {"{\"language\":\n  null}", "2:3: language: this is null, and text is needed"},
-    {R"({"language": "de"})", "1:14: language: de is none of en, it"},
+    {R"({"language": "de"})", "1:14: language: de is not one of en, it"},
     {R"({"machine": {"home": {"x": "1"}}})", "1:28: machine.home.x: this is text, and a number is needed"},
     {R"({"machine": {"home": {"x": 1e7}}})", "1:28: machine.home.x: 10000000 is too large: at most 1000000 mm"},
     {R"({"machine": {"home": {"b": -1e7}}})", "1:28: machine.home.b: -10000000 is too small: at least -100000 degrees"},
@@ -68,7 +68,7 @@ inline constexpr WrongText kWrongTexts[] = {
      "1:22: lint.select[0]: this is a number, and text is needed\n"
      "1:25: lint.select[1]: there is no code ISO003,W001 (isolint --list-rules)"},
     {R"({"lint": {"severity": {"W001": "fatal"}}})",
-     "1:32: lint.severity.W001: fatal is none of error, warning, info, off"},
+     "1:32: lint.severity.W001: fatal is not one of error, warning, info, off"},
     {R"({"lint": {"severity": {"W001": 2, "W002": "off"}}})",
      "1:32: lint.severity.W001: this is a number, and text is needed"},
     {R"({"lint": {"files": [{"ignore": []}]}})", "1:21: lint.files[0]: the key paths is missing"},
@@ -81,13 +81,13 @@ inline constexpr WrongText kWrongTexts[] = {
     {R"({"lint": {"files": [{"paths": []}], "extensions": []}})",
      "1:31: lint.files[0].paths: the list is empty\n1:51: lint.extensions: the list is empty"},
     {R"({"lint": {"extensions": ["*.iso", "."]}})",
-     "1:26: lint.extensions[0]: *.iso is no extension, such as .iso\n"
-     "1:35: lint.extensions[1]: . is no extension, such as .iso"},
+     "1:26: lint.extensions[0]: *.iso is not an extension, such as .iso\n"
+     "1:35: lint.extensions[1]: . is not an extension, such as .iso"},
     {R"({"format": {"wordOrder": 1}})", "1:26: format.wordOrder: this is a number, and true or false is needed"},
     {R"({"format": {"decimals": 16, "gDigits": 3}})",
      "1:25: format.decimals: 16 is too large: at most 15\n1:40: format.gDigits: 3 is too large: at most 2"},
     {R"({"format": {"modal": "folded"}})",
-     "1:22: format.modal: folded is none of keep, write, fold; did you mean fold?"},
+     "1:22: format.modal: folded is not one of keep, write, fold; did you mean fold?"},
     {R"({"format": {"renumber": {"step": 0}}})", "1:34: format.renumber.step: 0 is too small: at least 1"},
     // Keys.
     {R"({"lintt": {}})", "1:2: lintt: unknown key; did you mean lint?"},

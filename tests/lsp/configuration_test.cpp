@@ -54,8 +54,8 @@ TEST_F(ConfigurationFile, MistakesAreMarkedWhileItIsTyped) {
     std::string_view reported;
   };
   constexpr Case kCases[] = {
-      {R"({"language": "de"})", "0:13-17 language: de is none of en, it"},
-      {"{\r\n  \"language\": \"d\\\"e\" }", "1:14-20 language: d\"e is none of en, it"},
+      {R"({"language": "de"})", "0:13-17 language: de is not one of en, it"},
+      {"{\r\n  \"language\": \"d\\\"e\" }", "1:14-20 language: d\"e is not one of en, it"},
       {"{\"machine\":\n{\"maxFeed\": 0}}", "1:12-13 machine.maxFeed: 0 is too small: at least 1 mm/min"},
       {R"({"machine": {"maxFeed": -12.5, "clearance": 1}})",
        "0:24-29 machine.maxFeed: -12.5 is too small: at least 1 mm/min"},

@@ -46,7 +46,7 @@ TEST(Suppressions, AreSparedWhereTheirCodeIsOff) {
 }
 
 TEST(Suppressions, LeaveTheOrderOfThePlaces) {
-  const check::Report report = checked("M06 T101001 (isolint: ignore W003) U1 (isolint: ignore W003) U2\nM02\n");
+  const check::Report report = checked("M06 T101001 (isolint: ignore W003) H1 (isolint: ignore W003) D2\nM02\n");
   EXPECT_EQ(codes_of(report), "1:W190 1:ISO003 1:W190 1:ISO003");
 }
 

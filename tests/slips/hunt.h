@@ -12,7 +12,7 @@
 namespace isocnc::slips {
 
 /// The maximum share of slips with more than one finding.
-inline constexpr double kMaxShare = 0.1;
+inline constexpr double kMaxShare = 0.02;
 
 /// The codes of what isolint reports in a text by default, in the order of the lines. Where the same mistake is
 /// reported line after line (D66), it counts once.
