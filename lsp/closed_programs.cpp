@@ -56,10 +56,10 @@ std::optional<std::string> ClosedPrograms::read_and_answer(const std::filesystem
 std::optional<std::string> ClosedPrograms::cached_answer(const std::filesystem::path& program, const std::string& uri,
                                                          const WorkspaceQuery& query) {
   std::error_code error;
-  Cause key{.written = std::filesystem::last_write_time(program, error),
-            .size = error ? 0 : std::filesystem::file_size(program, error),
-            .settings = settings_.of(program).owner,
-            .client = query.client};
+  AnswerInputs key{.written = std::filesystem::last_write_time(program, error),
+                   .size = error ? 0 : std::filesystem::file_size(program, error),
+                   .settings = settings_.of(program).owner,
+                   .client = query.client};
   if (error) return std::nullopt;
   Known& known = cache_[{std::string(query.request.name), uri}];
   if (known.key == key) return known.answer;

@@ -47,16 +47,16 @@ class ClosedPrograms {
 
  private:
   /// The inputs on which an answer depends.
-  struct Cause {
+  struct AnswerInputs {
     std::filesystem::file_time_type written;
     std::uintmax_t size = 0;
     std::shared_ptr<const void> settings;
     protocol::ClientPointer client;
 
-    friend bool operator==(const Cause&, const Cause&) = default;
+    friend bool operator==(const AnswerInputs&, const AnswerInputs&) = default;
   };
   struct Known {
-    Cause key;
+    AnswerInputs key;
     std::string answer;
   };
 

@@ -26,10 +26,6 @@ struct DrillingCycle {
   std::string feed;     ///< F100, or empty.
 };
 
-bool is_g(const Word& word, double number) {
-  return word.letter == 'G' && word.is_plain_integer() && word.value == number;
-}
-
 /// Whether the line has only words with these letters, each with a number, and no comment.
 bool has_only(const LineTree& line, std::string_view letters) {
   return line.comments.empty() && std::all_of(line.words.begin(), line.words.end(), [&](const Word& word) {

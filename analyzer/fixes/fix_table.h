@@ -80,7 +80,6 @@ inline constexpr auto kFixes = [] {
        removed_foreign_frame},
       {"unknown-word"_diag, Safe, kNotNeeded, removed_certainly_superfluous},
       {"unknown-word"_diag, Unsafe, kNotNeeded, removed_foreign_word},
-
       {"unknown-word"_diag, Unsafe, kComment, text_as_comment},
       {"word-without-number"_diag, Unsafe, kZero, zero_for_letter_o},
       {"word-without-number"_diag, Safe, kWrite, radius_of_arc},

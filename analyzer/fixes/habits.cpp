@@ -110,8 +110,7 @@ class CenterSurvey {
 }  // namespace
 
 bool is_foreign_unit(const Word& word) {
-  return word.letter == 'G' && word.is_plain_integer() &&
-         (word.value == 20 || word.value == 21 || word.value == 700 || word.value == 710);
+  return is_g(word, 20) || is_g(word, 21) || is_g(word, 700) || is_g(word, 710);
 }
 
 LineTree Habits::line(std::uint64_t number) {

@@ -74,6 +74,10 @@ const Word* word_at(const LineTree& line, Span span) {
   return at != line.words.end() && at->begin == span.begin ? &*at : nullptr;
 }
 
+bool is_g(const Word& word, double number) {
+  return word.letter == 'G' && word.is_plain_integer() && word.value == number;
+}
+
 const Instruction* owner_of(const LineTree& line, const Word& word) {
   const auto owner = std::find_if(line.instructions.begin(), line.instructions.end(),
                                   [&](const Instruction& each) { return each.number == word.owner; });

@@ -35,6 +35,8 @@ const syntax::Instruction* owner_of(const syntax::LineTree& line, const syntax::
 /// Whether the word is the G of a frame and a dimension follows that is not one of its arguments, as in G27 X5: its
 /// purpose is unknown.
 bool lacks_frame_arguments(const syntax::LineTree& line, const syntax::Word& g);
+/// Whether a word is the G of this number.
+bool is_g(const syntax::Word& word, double number);
 /// The first word that is no line number, or null.
 const syntax::Word* first_word(const syntax::LineTree& line);
 

@@ -124,7 +124,7 @@ Draft m06_before_tool(const FixRequest& request) {
 /// Whether a line continues a motion of an earlier line, without a word that gives a circle.
 static bool continues_without_circle(const LineTree& line) {
   const Instruction* const motion = line.motion();
-  const auto gives_circle = [](const Word& word) { return dialect::contains(dialect::letters("IJKR"), word.letter); };
+  const auto gives_circle = [](const Word& word) { return dialect::contains(dialect::kCircleLetters, word.letter); };
   return motion && motion->kind == InstructionKind::Continuation &&
          std::none_of(line.words.begin(), line.words.end(), gives_circle);
 }

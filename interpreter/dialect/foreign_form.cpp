@@ -157,19 +157,19 @@ class StatementIndex {
   }
 
  private:
-  struct Pattern {
+  struct FormPattern {
     std::string_view pattern;
     const ForeignForm* form;
   };
 
-  static const ForeignForm* find_in(const std::vector<Pattern>& patterns, std::string_view line) {
+  static const ForeignForm* find_in(const std::vector<FormPattern>& patterns, std::string_view line) {
     const auto found = std::find_if(patterns.begin(), patterns.end(),
-                                    [&](const Pattern& each) { return fits_whole(each.pattern, line); });
+                                    [&](const FormPattern& each) { return fits_whole(each.pattern, line); });
     return found == patterns.end() ? nullptr : found->form;
   }
 
-  std::array<std::vector<Pattern>, 256> by_first_;
-  std::vector<Pattern> others_;  ///< Those that start with a small letter.
+  std::array<std::vector<FormPattern>, 256> by_first_;
+  std::vector<FormPattern> others_;  ///< Those that start with a small letter.
 };
 
 /// The text that the message shows for a mark: the mark, or the whole that it is a part of.

@@ -87,5 +87,9 @@ inline constexpr LetterSet kLinearLetters = letters("XYZ");
 inline constexpr LetterSet kRotaryLetters = letters("BC");
 inline constexpr LetterSet kCenterLetters = letters("IJK");
 inline constexpr LetterSet kCircleLetters = letters("IJKR");
+/// The words of a motion, its speed included.
+inline constexpr LetterSet kMotionLetters = kCoordinateLetters | kCircleLetters | letters("F");
+/// The components of the j and k axes of a face; those of i are A B C or X Y Z.
+inline constexpr LetterSet kFaceVectorLetters = letters("IJKPQR");
 
 }  // namespace isocnc::dialect

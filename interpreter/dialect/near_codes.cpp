@@ -1,44 +1,79 @@
 #include "interpreter/dialect/near_codes.h"
 
 #include <algorithm>
-#include <string>
+#include <array>
+#include <bitset>
+
+#include "interpreter/dialect/foreign_form.h"
 
 namespace isocnc::dialect {
 
-/// Codes of other controls that are often left in programs.
-static constexpr int kForeign[] = {10, 20, 21, 30, 31, 43, 44, 52, 53, 54, 55, 56, 57,
-                                   63, 64, 66, 67, 68, 69, 80, 95, 96, 97, 98, 99};
-/// Cycles, which take arguments, but neither angles nor centers.
-static constexpr int kCycles[] = {33, 65, 73, 74, 76, 81, 82, 83, 84, 85, 86, 87, 88, 89};
+namespace {
 
-template <std::size_t count>
-static bool is_among(const int (&numbers)[count], int number) {
-  return std::find(std::begin(numbers), std::end(numbers), number) != std::end(numbers);
-}
-
-/// The digits at the start, with an O read as a zero. Blanks mean nothing (D6).
-static std::string digits_of(std::string_view number) {
-  std::string digits;
-  for (const char c : number) {
-    if (c >= '0' && c <= '9') {
-      digits += c;
-    } else if (c == 'O' || c == 'o') {
-      digits += '0';
-    } else if (c != ' ' && c != '\t') {
-      break;
+/// The digits of a G, or more than any G has.
+class Digits {
+ public:
+  constexpr Digits() = default;
+  /// Those at the start of a text, with an O read as a zero. Blanks mean nothing (D6).
+  explicit Digits(std::string_view number) {
+    for (const char c : number) {
+      if (c >= '0' && c <= '9') {
+        add(c);
+      } else if (c == 'O' || c == 'o') {
+        add('0');
+      } else if (c != ' ' && c != '\t') {
+        break;
+      }
     }
   }
+
+  constexpr void add(char digit) {
+    if (count_ < kMaxKept) kept_[count_] = digit;
+    ++count_;
+  }
+  constexpr std::size_t count() const { return count_; }
+  constexpr std::string_view kept() const { return {kept_.data(), std::min(count_, kMaxKept)}; }
+  /// The number that the first digits are.
+  int value_of(std::size_t digits) const {
+    int value = 0;
+    for (std::size_t i = 0; i < digits; ++i) value = 10 * value + (kept_[i] - '0');
+    return value;
+  }
+
+ private:
+  static constexpr std::size_t kMaxKept = 4;  ///< One more than the longest code.
+  std::array<char, kMaxKept> kept_{};
+  std::size_t count_ = 0;
+};
+
+constexpr Digits spelled(int number, int minimum) {
+  Digits digits;
+  for (int unit = 100; unit > 0; unit /= 10)
+    if (number >= unit || unit < minimum) digits.add(static_cast<char>('0' + number / unit % 10));
   return digits;
 }
 
+/// How a code is written, with a leading zero and without.
+struct Spellings {
+  Digits padded;
+  Digits plain;
+};
+
+constexpr auto kSpellings = [] {
+  std::array<Spellings, std::size(kGCodes)> spellings{};
+  for (std::size_t row = 0; row < spellings.size(); ++row)
+    spellings[row] = {spelled(kGCodes[row].number, 100), spelled(kGCodes[row].number, 10)};
+  return spellings;
+}();
+
 /// Whether `longer` is `shorter` with one more character.
-static bool has_one_more(std::string_view longer, std::string_view shorter) {
+bool has_one_more(std::string_view longer, std::string_view shorter) {
   if (longer.size() != shorter.size() + 1) return false;
   const auto [there, here] = std::mismatch(shorter.begin(), shorter.end(), longer.begin());
   return std::equal(there, shorter.end(), here + 1);
 }
 
-static bool is_one_slip(std::string_view written, std::string_view meant) {
+bool is_one_slip(std::string_view written, std::string_view meant) {
   if (written.size() != meant.size()) return has_one_more(written, meant) || has_one_more(meant, written);
   const auto [here, there] = std::mismatch(written.begin(), written.end(), meant.begin());
   if (here == written.end()) return true;
@@ -47,33 +82,101 @@ static bool is_one_slip(std::string_view written, std::string_view meant) {
          std::equal(here + 2, written.end(), there + 2);
 }
 
+/// Codes of other controls that are more often a slip here: G50 for G40, G59 for G49.
+constexpr int kSlips[] = {5,  7,  8,  11, 12, 13, 15, 16, 22, 23, 25, 26, 32,
+                          45, 46, 47, 50, 51, 58, 59, 60, 61, 62, 75, 79};
+
+using GNumbers = std::bitset<1'000>;
+
+/// Adds the numbers of a mark such as G54 or G5dd; other marks have none.
+void add_numbers(std::string_view mark, GNumbers& numbers) {
+  if (mark.size() < 2 || mark.size() > 4 || mark.front() != 'G') return;
+  const std::string_view digits = mark.substr(1);
+  const auto fits = [&](char part, int digit) { return part == 'd' || part == '0' + digit; };
+  const int end = digits.size() == 1 ? 10 : digits.size() == 2 ? 100 : 1'000;
+  for (int number = end == 10 ? 0 : end / 10; number < end; ++number) {
+    int rest = number;
+    const bool fits_all = std::all_of(digits.rbegin(), digits.rend(), [&](char part) {
+      const int digit = rest % 10;
+      rest /= 10;
+      return fits(part, digit);
+    });
+    if (fits_all) numbers.set(static_cast<std::size_t>(number));
+  }
+}
+
+GNumbers find_foreign_numbers() {
+  GNumbers numbers;
+  numbers.set(187);  // Smoothness on a Haas: no row of the table, which has no such control.
+  for (const ForeignForm& form : foreign_forms()) {
+    if (std::find(std::begin(form.diagnostics), std::end(form.diagnostics), "unsupported-g"_diag) ==
+        std::end(form.diagnostics))
+      continue;
+    for (std::string_view marks = form.mark; !marks.empty();) {
+      const std::size_t end = std::min(marks.find('|'), marks.size());
+      add_numbers(marks.substr(0, end), numbers);
+      marks.remove_prefix(std::min(end + 1, marks.size()));
+    }
+  }
+  for (const int slip : kSlips) numbers.reset(static_cast<std::size_t>(slip));
+  return numbers;
+}
+
+/// Whether a code of other controls takes arguments there, but neither angles nor centers: a cycle or a call.
+bool needs_arguments(int number) { return is_drilling_cycle(number) || number == 33 || number == 65; }
+
+/// The keys beside a letter that starts no word here, or whose word has another form.
+struct Neighbors {
+  char hit;
+  LetterSet meant;
+};
+
+constexpr Neighbors kNeighbors[] = {{'D', letters("FSX")}, {'E', letters("R")},   {'G', letters("FYB")},
+                                    {'H', letters("GJ")},  {'L', letters("K")},   {'N', letters("B")},
+                                    {'O', letters("IP")},  {'T', letters("RYF")}, {'U', letters("YIX")},
+                                    {'V', letters("CB")},  {'W', letters("QZ")}};
+
+}  // namespace
+
 const GCode* code_written(std::string_view number) {
-  const std::string digits = digits_of(number);
-  return digits.empty() || digits.size() > 3 ? nullptr : g_code(static_cast<std::size_t>(std::stoi(digits)));
+  const Digits digits(number);
+  const bool may_be_code = digits.count() > 0 && digits.count() <= 3;
+  return may_be_code ? g_code(static_cast<std::size_t>(digits.value_of(digits.count()))) : nullptr;
 }
 
 const GCode* code_in_front(std::string_view number) {
-  const std::string digits = digits_of(number);
-  return digits.size() < 3 ? nullptr : g_code(static_cast<std::size_t>(std::stoi(digits.substr(0, 2))));
+  const Digits digits(number);
+  return digits.count() < 3 ? nullptr : g_code(static_cast<std::size_t>(digits.value_of(2)));
+}
+
+bool is_drilling_cycle(double number) {
+  return number == 73 || number == 74 || number == 76 || (number > 80 && number < 90);
 }
 
 bool is_of_other_controls(std::string_view number, LetterSet arguments) {
-  const std::string digits = digits_of(number);
-  if (digits.empty() || digits.size() > 3 || (arguments & letters("ABCIJK")) != 0) return false;
-  const int value = std::stoi(digits);
-  return is_among(kForeign, value) || (arguments != 0 && is_among(kCycles, value));
+  static const GNumbers kNumbers = find_foreign_numbers();
+  const Digits digits(number);
+  if (digits.count() == 0 || digits.count() > 3 || (arguments & letters("ABCIJK")) != 0) return false;
+  const int value = digits.value_of(digits.count());
+  return kNumbers.test(static_cast<std::size_t>(value)) && (arguments != 0 || !needs_arguments(value));
 }
 
 GCodeSet codes_near(std::string_view number) {
-  const std::string digits = digits_of(number);
-  if (digits.empty()) return 0;
+  const Digits digits(number);
+  if (digits.count() == 0 || digits.count() > digits.kept().size()) return 0;
   GCodeSet near = 0;
-  for (std::size_t row = 0; row < std::size(kGCodes); ++row) {
-    const std::string meant = std::to_string(kGCodes[row].number);
-    const std::string padded = meant.size() == 1 ? "0" + meant : meant;
-    if (is_one_slip(digits, padded) || is_one_slip(digits, meant)) near |= GCodeSet{1} << row;
-  }
+  for (std::size_t row = 0; row < kSpellings.size(); ++row)
+    if (is_one_slip(digits.kept(), kSpellings[row].padded.kept()) ||
+        is_one_slip(digits.kept(), kSpellings[row].plain.kept()))
+      near |= GCodeSet{1} << row;
   return near;
+}
+
+LetterSet letters_beside(char hit) {
+  const char letter = static_cast<char>(hit & ~0x20);
+  for (const Neighbors& each : kNeighbors)
+    if (each.hit == letter) return each.meant;
+  return 0;
 }
 
 }  // namespace isocnc::dialect

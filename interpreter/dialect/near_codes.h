@@ -24,8 +24,14 @@ const GCode* code_written(std::string_view number);
 /// if there is none.
 const GCode* code_in_front(std::string_view number);
 
-/// Whether a number is that of a G of other controls, often left in programs (G54). Their cycles take
-/// arguments.
+/// Whether a number is that of a G of other controls, often left in programs (G54), and no slip for one of this
+/// control. Their cycles take arguments.
 bool is_of_other_controls(std::string_view number, LetterSet arguments);
+
+/// Whether a number is that of a drilling cycle of other controls.
+bool is_drilling_cycle(double number);
+
+/// The letters that may have been meant by another, of a key beside theirs: F by D.
+LetterSet letters_beside(char hit);
 
 }  // namespace isocnc::dialect

@@ -118,7 +118,7 @@ void LineParser::take_parameter_before_function(std::uint16_t equals) {
 }
 
 /// X=20 is X20; in R1=10 either number may be meant (D61).
-void LineParser::spoil_word_before(std::uint16_t index) {
+void LineParser::make_word_before_unknown(std::uint16_t index) {
   Word& before = word(index - 1u);
   if (before.has(Word::kMissing)) {
     before.value = word(index).value;
@@ -182,7 +182,7 @@ std::uint16_t LineParser::add_equals(std::uint16_t index) {
   const bool is_sum = equals.has(Word::kMalformed) && text_of(equals.span()).find(',') == std::string_view::npos;
   if (is_sum) take_back_within(equals.span());  // X=10+5
   if (!is_repeated) report_equals(index);
-  if (index > 0) spoil_word_before(index);
+  if (index > 0) make_word_before_unknown(index);
   return last;
 }
 

@@ -81,7 +81,7 @@ bool LineParser::must_be_alone(const Instruction& checked, dialect::DiagnosticId
 }
 
 /// The line's first correct word that is neither part of the instruction nor the line number, or null.
-const Word* LineParser::company_of(const Instruction& alone) const {
+const Word* LineParser::other_word_on_line(const Instruction& alone) const {
   const dialect::GCode* const code = alone.kind == InstructionKind::G ? alone.g() : nullptr;
   const bool is_end = alone.kind == InstructionKind::Function && word(alone.command).value == dialect::kProgramEnd;
   const bool dwell_without_time = alone.is(GRole::Dwell) && !owns_any(alone, letters("P"));
@@ -106,9 +106,9 @@ void LineParser::check_alone() {
     const Instruction& checked = instruction(i);
     dialect::DiagnosticId diagnostic;
     if (checked.has(Instruction::kReportedElsewhere) || !must_be_alone(checked, diagnostic)) continue;
-    const Word* const company = company_of(checked);
-    if (!company) continue;
-    report(diagnostic, word(checked.command).span(), {}, company->span());
+    const Word* const other = other_word_on_line(checked);
+    if (!other) continue;
+    report(diagnostic, word(checked.command).span(), {}, other->span());
     line_.flags |= LineTree::kAloneViolated;
     return;
   }
@@ -243,7 +243,7 @@ void LineParser::report_broken_series(const Instruction& motion, std::uint16_t b
 /// Whether a word may be an argument whose letter was hit wrong: U5 of another control, or a T without its six digits.
 bool LineParser::is_garbled_argument(std::size_t index) const {
   const Word& it = word(index);
-  return it.letter == 'T' ? !is_tool(it) : it.letter == kError && is_foreign_word(it);
+  return it.letter == 'T' ? !it.is_tool() : it.letter == kError && is_foreign_word(text_of(it.span()));
 }
 
 /// Reports a motion G without coordinates, unless a finding explains their absence.
@@ -268,7 +268,7 @@ void LineParser::check_coordinates(const Instruction& motion) {
 /// Whether a G28 is the zero return of other controls (G28 X0 Y0, D71). Its only finding is that these are not axis
 /// vectors.
 bool LineParser::is_zero_return(const Instruction& frame) const {
-  if (!frame.is(GRole::FaceAtTip) || owns_any(frame, letters("IJKPQR")) || !owns_any(frame, letters("XYZ")))
+  if (!frame.is(GRole::FaceAtTip) || owns_any(frame, dialect::kFaceVectorLetters) || !owns_any(frame, letters("XYZ")))
     return false;
   for (std::uint16_t i = frame.begin; i < frame.end; ++i)
     if (word(i).owner == frame.number && i != frame.command && word(i).value != 0) return false;
@@ -281,7 +281,7 @@ void LineParser::check_vectors(const Instruction& frame) {
   if (neighbor_has_arguments_of(frame)) return;
   // G91 G28 Z0: the home command of other controls. The line has been reported; missing axis vectors need no finding.
   const bool shares_line = (line_.flags & LineTree::kAloneViolated) != 0;
-  if (shares_line && frame.is(GRole::FaceAtTip) && !owns_any(frame, letters("IJKPQR"))) return;
+  if (shares_line && frame.is(GRole::FaceAtTip) && !owns_any(frame, dialect::kFaceVectorLetters)) return;
   if (is_zero_return(frame)) return;
   if (frame.is(GRole::FaceByAxes) && owns_any(frame, letters("R")) && !owns_any(frame, letters("ABCIJKPQXYZ")))
     return report_missing("missing-i-vector"_diag, frame);         // G24 R5, a chamfer of other controls.
@@ -372,7 +372,7 @@ bool LineParser::stands_alone(const Instruction& alone) const {
 
 /// Whether the line has a finding that an instruction is not alone, other than a G48 or G49 (D65): then the other codes
 /// on the line need no finding.
-bool LineParser::has_reported_company() const {
+bool LineParser::is_reported_not_alone() const {
   const auto is_interpolation = [](const Finding& finding) { return finding.id == "g48-g49-not-alone"_diag; };
   return (line_.flags & LineTree::kAloneViolated) != 0 &&
          std::none_of(store_.findings_.begin() + line_.first_finding, store_.findings_.end(), is_interpolation);
@@ -380,7 +380,7 @@ bool LineParser::has_reported_company() const {
 
 /// G41/G42: alone or before a motion. G40: alone or after the last motion (D24).
 void LineParser::check_compensation(const Instruction& checked) {
-  if (stands_alone(checked) || has_reported_company() || compensation_reported_) return;
+  if (stands_alone(checked) || is_reported_not_alone() || compensation_reported_) return;
   const bool is_end = checked.is(GRole::CompensationOff);
   bool before_motion = false;
   bool after_motion = false;

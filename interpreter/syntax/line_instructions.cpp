@@ -3,6 +3,7 @@
 #include <iterator>
 #include <limits>
 
+#include "interpreter/dialect/near_codes.h"
 #include "interpreter/syntax/line_parser.h"
 #include "interpreter/text/characters.h"
 
@@ -59,14 +60,14 @@ void LineParser::take_argument(std::uint16_t index) {
   const bool is_of_unknown =
       after_unknown_ && taker().kind == InstructionKind::Continuation && !contains(dialect::kCoordinateLetters, letter);
   if (is_of_unknown) word(index).flags |= Word::kReported;
-  if (contains(taken_, letter) && !follows_letter(index, letter)) spoil_repeated(taker(), index);
+  if (contains(taken_, letter) && !follows_letter(index, letter)) make_repeated_unknown(taker(), index);
   taken_ |= dialect::letter_bit(letter);
   own(taker(), index);
 }
 
 /// Handles a letter that the instruction has already. It is unclear which of the two was meant: the axis becomes
 /// unknown, so that no second finding follows.
-void LineParser::spoil_repeated(const Instruction& owner, std::uint16_t index) {
+void LineParser::make_repeated_unknown(const Instruction& owner, std::uint16_t index) {
   Word& repeated = word(index);
   Span first;
   bool is_earlier = false;  // The first one is before the instruction's G.
@@ -132,9 +133,7 @@ void LineParser::add_g(std::uint16_t index) {
 
 /// Whether a G98 or G99 belongs to a drilling cycle of the line, where all of it is reported.
 bool LineParser::belongs_to_cycle(std::uint16_t index) const {
-  const auto is_cycle = [](const Word& it) {
-    return it.letter == 'G' && (it.value == 73 || it.value == 74 || it.value == 76 || (it.value > 80 && it.value < 90));
-  };
+  const auto is_cycle = [](const Word& it) { return it.letter == 'G' && dialect::is_drilling_cycle(it.value); };
   if (word(index).value != 98 && word(index).value != 99) return false;
   for (std::uint16_t i = 0; i < word_count(); ++i)
     if (is_cycle(word(i))) return true;
@@ -261,7 +260,7 @@ bool LineParser::has_tool(std::size_t change) const {
 
 /// Whether a T without its six digits is in an argument series: a letter that was hit wrong, as R30 or Y30.
 bool LineParser::is_in_series(std::uint16_t index) const {
-  if (taker_ == kNone || !contiguous_ || is_tool(word(index)) || word(index).owner != Word::kNoOwner) return false;
+  if (taker_ == kNone || !contiguous_ || word(index).is_tool() || word(index).owner != Word::kNoOwner) return false;
   for (std::uint16_t i = 0; i < word_count(); ++i)
     if (word(i).letter == 'M' && word(i).value == dialect::kToolChange && !has_tool(i)) return false;
   return taker().command + 1 == index || word(index - 1u).owner == taker().number;
@@ -302,8 +301,10 @@ bool LineParser::add_line_number(std::uint16_t index) {
   if (!written.is_plain_integer() || is_second) {
     if (!written.has(Word::kReported))
       report(is_second ? "invalid-line-number/second"_cause : "invalid-line-number"_diag, written.span());
-    if (written.is_plain_integer() && label_of(written) != line_.label)
-      second_number_ = second_number_ == kNone ? index : kSeveral;
+    if (written.is_plain_integer() && label_of(written) != line_.label) {
+      ++other_numbers_;
+      second_number_ = index;
+    }
     return false;
   }
   line_.flags |= LineTree::kHasLabel;

@@ -13,7 +13,7 @@ const char* LineParser::parse() {
   line_.length = column(end);
   structure();
   if (needs_check_) check();
-  if (second_number_ >= 0) find_two_blocks();
+  if (other_numbers_ == 1) find_two_blocks();
   if (has_prose_) drop_block_end();
   line_.words = word_count();
   line_.instructions = static_cast<std::uint16_t>(instruction_count());
@@ -94,6 +94,7 @@ std::uint16_t LineParser::add(std::uint16_t index) {
 std::uint16_t LineParser::add_between_series(std::uint16_t index) {
   const char letter = word(index).letter;
   const bool is_letter_alone = word(index).has(Word::kMissing);
+  bool is_taken = false;
   std::uint16_t last = index;
   switch (letter) {
     case 'N':
@@ -110,12 +111,9 @@ std::uint16_t LineParser::add_between_series(std::uint16_t index) {
         check_tool_number(word(index));
         return index;
       }
-      if (word(index).owner != Word::kNoOwner &&
-          !follows_letter_of(index, 'M')) {  // M06 G00 T101001 X1: reported at the M06.
-        add_tool(index);
-        return index;
-      }
+      is_taken = word(index).owner != Word::kNoOwner && !follows_letter_of(index, 'M');
       add_tool(index);
+      if (is_taken) return index;  // M06 G00 T101001 X1: reported at the M06.
       break;
     case 'V':
       if (stands_for_number(index)) return index;
@@ -165,8 +163,8 @@ bool LineParser::follows_letter_of(std::uint16_t index, char letter) const {
 /// that G does not (G5O).
 bool LineParser::is_taken_by_unknown_g(std::uint16_t index) const {
   if (taker_ == kNone || !contiguous_) return false;
-  const bool spoils_number = taker().command + 1 == index && word(taker().command).has(Word::kMalformed);
-  return taker().is_unknown_g() && !spoils_number;
+  const bool is_in_number = taker().command + 1 == index && word(taker().command).has(Word::kMalformed);
+  return taker().is_unknown_g() && !is_in_number;
 }
 
 /// Whether an IF follows the word: VGPL IF = 1. The IF is reported.

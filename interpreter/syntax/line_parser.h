@@ -93,7 +93,6 @@ class LineParser {
   bool starts_with_unknown_g() const;
   bool take_statement();
   void drop_block_end();
-  bool is_foreign_word(const Word& unknown) const;
   bool is_unit(const Word& first, const Word& second) const;
   bool is_prose(std::size_t index) const;
   bool is_number_of_prose(std::uint16_t index) const;
@@ -109,7 +108,7 @@ class LineParser {
   bool is_foreign_parameter(std::uint16_t index) const;
   void start_continuation(std::uint16_t index);
   void take_argument(std::uint16_t index);
-  void spoil_repeated(const Instruction& owner, std::uint16_t index);
+  void make_repeated_unknown(const Instruction& owner, std::uint16_t index);
   bool starts_second_block(std::uint16_t index);
   bool is_motion_g(const Word& g) const;
   void add_g(std::uint16_t index);
@@ -136,7 +135,7 @@ class LineParser {
   bool repeats_equals(std::uint16_t index, std::uint16_t last);
   bool is_between_coordinates(std::uint16_t assign) const;
   bool own_equals(std::uint16_t index, std::uint16_t last);
-  void spoil_word_before(std::uint16_t index);
+  void make_word_before_unknown(std::uint16_t index);
   void report_equals(std::uint16_t index);
   std::uint16_t add_equals(std::uint16_t index);
 
@@ -161,7 +160,7 @@ class LineParser {
   void check();
   void check_alone();
   bool must_be_alone(const Instruction& checked, dialect::DiagnosticId& diagnostic) const;
-  const Word* company_of(const Instruction& alone) const;
+  const Word* other_word_on_line(const Instruction& alone) const;
   bool neighbor_has_arguments_of(const Instruction& alone) const;
   void check_misplaced_modes();
   void check_motion(const Instruction& motion);
@@ -180,13 +179,12 @@ class LineParser {
   Span breaker_of(const Instruction& owner, std::uint16_t broken) const;
   bool is_interpolation_mode(const Word& checked) const;
   bool stands_alone(const Instruction& alone) const;
-  bool has_reported_company() const;
+  bool is_reported_not_alone() const;
   bool owns_any(const Instruction& owner, dialect::LetterSet set, bool unbroken = false) const;
   void check_arguments(const Instruction& checked, dialect::DiagnosticId when_missing);
   void check_unbroken(const Instruction& checked);
   void check_tool_number(const Word& tool);
 
-  static bool is_tool(const Word& word) { return word.is_plain_integer() && word.digits == 6; }
   void report(dialect::Cause cause, Span span, std::initializer_list<double> values = {}, Span related = {});
   void take_back(dialect::DiagnosticId id, Span span);
   void take_back_within(Span span);
@@ -218,8 +216,8 @@ class LineParser {
   const char* last_goto_ = nullptr;
 
   static constexpr int kNone = -1;
-  static constexpr int kSeveral = -2;
-  int second_number_ = kNone;     ///< The word with the second line number, unless there are several more.
+  int other_numbers_ = 0;         ///< The count of line numbers that differ from the first.
+  int second_number_ = kNone;     ///< The last of them.
   int second_block_ = kNone;      ///< The first word that the line has already.
   int taker_ = kNone;             ///< The instruction that takes the next argument.
   bool contiguous_ = false;       ///< The argument series of `taker_` is unbroken so far (D17).

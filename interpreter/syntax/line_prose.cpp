@@ -20,7 +20,7 @@ Span LineParser::statement_span(std::uint16_t first) const {
 }
 
 /// Whether a word is a G that this control does not have.
-static bool is_unknown_g(const Word& word) {
+static bool is_g_of_other_controls(const Word& word) {
   const std::optional<int> number = word.letter == 'G' && word.is_plain_integer() ? word.whole() : std::nullopt;
   return number && dialect::g_code(static_cast<std::size_t>(*number)) == nullptr;
 }
@@ -29,7 +29,7 @@ static bool is_unknown_g(const Word& word) {
 bool LineParser::starts_with_unknown_g() const {
   std::uint16_t first = 0;
   while (first < word_count() && word(first).letter == 'N') ++first;
-  return first < word_count() && is_unknown_g(word(first));
+  return first < word_count() && is_g_of_other_controls(word(first));
 }
 
 /// Reports a statement of another control once, and takes its words together as one that cannot be read.
@@ -63,9 +63,7 @@ void LineParser::drop_block_end() {
     take_back("unknown-word"_diag, last->span());
 }
 
-/// Whether unknown characters are a letter of another control with its number (H2, D3): a word, not plain text.
-bool LineParser::is_foreign_word(const Word& unknown) const {
-  const std::string_view text = text_of(unknown.span());
+bool is_foreign_word(std::string_view text) {
   const std::string_view after = text.substr(1);
   const auto belongs = [](char c) {  // U0 W0: two increments that have one finding.
     return text::is_blank(c) || text::is_number_char(c) || text::upper(c) == 'U' || text::upper(c) == 'W';
@@ -108,7 +106,7 @@ bool LineParser::is_prose(std::size_t index) const {
 /// something that is never valid there, as `X Y Z` does not.
 std::uint16_t LineParser::end_of_prose(std::uint16_t index, bool& is_odd) const {
   const auto is_foreign = [&](const Word& it) {
-    return it.letter == kError && (is_foreign_word(it) || it.has(Word::kReported));
+    return it.letter == kError && (is_foreign_word(text_of(it.span())) || it.has(Word::kReported));
   };
   dialect::LetterSet seen = 0;
   for (; index < word_count() && is_prose(index) && !is_foreign(word(index)); ++index) {
@@ -141,7 +139,7 @@ bool LineParser::ends_with_foreign_word(std::uint16_t first, std::uint16_t end) 
 void LineParser::report_prose(std::uint16_t first, std::uint16_t end) {
   const Span span = hull(word(first).span(), word(end - 1u).span());
   take_back_within(span);
-  if (first > 0 && is_unknown_g(word(first - 1u))) return;  // G641 ADIS=0.1: reported at the G.
+  if (first > 0 && is_g_of_other_controls(word(first - 1u))) return;  // G641 ADIS=0.1: reported at the G.
   const char letter = word(first).letter;
   if (letter == kError || letter == kNumber) return report("unknown-word/prose"_cause, span);
   const bool is_doubled = end - first == 2 && letter == word(end - 1u).letter;  // XX

@@ -63,8 +63,9 @@ struct Word {
   constexpr int parameter_number() const {
     return is_plain_integer() && value >= 1 && value <= dialect::kMaxFunctionParameters ? static_cast<int>(value) : 0;
   }
-  /// The six digits of a T; none if it is not written so.
-  std::optional<int> tool_number() const { return is_plain_integer() && digits == 6 ? whole() : std::nullopt; }
+  /// Whether a T has its six digits, and these; none if it is not written so.
+  constexpr bool is_tool() const { return is_plain_integer() && digits == 6; }
+  std::optional<int> tool_number() const { return is_tool() ? whole() : std::nullopt; }
 };
 
 enum class InstructionKind : std::uint8_t {
@@ -221,6 +222,9 @@ struct LineTree {
   }
   std::string_view text_of(Span span) const { return text.substr(span.begin, span.end - span.begin); }
 };
+
+/// Whether the text of a kError is a letter of other controls with its number (H2, D3): a word, not plain text.
+bool is_foreign_word(std::string_view text);
 
 /// Maximum number of words parsed per line; W192 reports longer lines.
 inline constexpr std::size_t kMaxWords = 16384;
