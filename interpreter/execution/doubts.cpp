@@ -45,6 +45,39 @@ void Executor::doubt(ModalGroup group) {
   if (group == ModalGroup::Face || group == ModalGroup::Workpiece || group == ModalGroup::Units) blur_linear_axes();
 }
 
+/// A G of the group has been written: it is known again what is in force.
+void Executor::end_doubt(ModalGroup group) {
+  if (!state_.is_in_doubt(group)) return;
+  state_.in_doubt &= static_cast<std::uint16_t>(~State::bit(group));
+  if (group == ModalGroup::Face || group == ModalGroup::Workpiece) blur_linear_axes();
+}
+
+void Executor::make_motion_illegible() {
+  state_.set_mode(dialect::ModalGroup::Motion, dialect::kNoMotion);
+  state_.motion_illegible = true;
+}
+
+void Executor::blur_axes_not_named() {
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    const char letter = letter_of(static_cast<Axis>(axis));
+    const auto names_it = [&](const Word& word) { return word.letter == letter; };
+    if (std::none_of(line_.words.begin(), line_.words.end(), names_it))
+      state_.unknown |= axis_bit(static_cast<Axis>(axis));
+  }
+}
+
+/// Handles G70, G71, G90 or G91 after the coordinates, which may have been meant under the old or the new mode (D60).
+void Executor::blur_axes_of_late_mode() {
+  std::uint32_t mode = 0;
+  for (const syntax::Finding& finding : line_.findings)
+    if (finding.id == "units-after-dimensions"_diag || finding.id == "distance-mode-after-dimensions"_diag)
+      mode = finding.span.begin;
+  for (const Word& word : line_.words)
+    for (int axis = 0; axis < kAxisCount; ++axis)
+      if (word.letter == letter_of(static_cast<Axis>(axis)) && word.begin < mode)
+        state_.unknown |= axis_bit(static_cast<Axis>(axis));
+}
+
 /// Leaves open which of some codes has been meant by a number with these arguments.
 void Executor::doubt(dialect::GCodeSet codes, dialect::LetterSet arguments) {
   for (std::size_t row = 0; row < std::size(dialect::kGCodes); ++row)
@@ -63,13 +96,14 @@ static std::string_view number_of(const Word& g, std::string_view line) {
 bool Executor::doubt_unknown_g(const Word& g, const Arguments& arguments) {
   const std::string_view number = number_of(g, line_.text);
   const GCode* const written = dialect::code_written(number);
-  const GCode* const in_front = written ? nullptr : dialect::code_in_front(number);
+  const bool is_foreign = !written && dialect::is_of_other_controls(number, arguments.present());
+  const GCode* const in_front = written || is_foreign ? nullptr : dialect::code_in_front(number);  // Not G290.
   if (const GCode* const meant = written ? written : in_front) {
     doubt(*meant);
     return !meant->is_motion();
   }
   const dialect::GCodeSet near = dialect::codes_near(number);
-  if (!dialect::is_of_other_controls(number, arguments.present())) {
+  if (!is_foreign) {
     doubt(near, arguments.present());
   } else if (state_.face_mounted && arguments.empty()) {  // G57 for G27.
     doubt(near & dialect::bit_of(dialect::g_code(GRole::DismountFace)), 0);
@@ -140,30 +174,74 @@ void Executor::doubt_code_before(const Arguments& arguments) {
   if (g->g()->group != ModalGroup::None) doubt(g->g()->group);
 }
 
+/// The G whose letter a number may have lost; null if there is none.
+static const GCode* lost_g(int number) {
+  return number >= 0 && number <= 999 ? dialect::g_code(static_cast<std::size_t>(number)) : nullptr;
+}
+
+/// Handles a number whose letter is lost (D58). It may have been a motion (01), a tool change (06), a mode (49), else
+/// the coordinate of some axis, a feed, a speed or a register. Everything that depends on it becomes unknown, so that
+/// no second finding follows.
+void Executor::allow_for_lost_letter() {
+  const Word* const number = line_.number_without_letter();
+  if (!number) return;
+  sink_.step(BlockStep::LostLetter, state_);
+  state_.spindle = Spindle::Unknown;
+  state_.speed_given = true;
+  const int value = number->is_plain_integer() ? number->whole().value_or(-1) : -1;
+  const bool is_assigned = line_.words.size() > 1 && line_.words[1].letter == syntax::kAssign;
+  if (is_assigned && dialect::is_register(value)) return sink_.assign(value, std::numeric_limits<double>::quiet_NaN());
+  if (dialect::is_motion_number(value)) return make_motion_illegible();
+  const GCode* const code = lost_g(value);
+  if (value == dialect::kToolChange) {
+    state_.tool_selected = true;
+  } else if (code && code->group == ModalGroup::Interpolation) {
+    allow_for_lost_g(*code);
+  } else {
+    if (number->letter == syntax::kNumber) {  // Not in H27, where the G of a G27 was hit wrong.
+      blur_axes_not_named();
+      state_.feed_reported = true;
+      state_.feed_on_rapid = false;
+    }
+    if (code && code->group != ModalGroup::None) allow_for_lost_g(*code);
+  }
+}
+
+/// Handles a number that may be a modal G without its letter. The G takes effect as far as that is harmless if it was
+/// none, and what is in force is not known until the next G of its group.
+void Executor::allow_for_lost_g(const GCode& code) {
+  doubt(code.group);
+  if (code.is_frame()) {
+    frame_is_lost_ = true;
+    leave_face();
+    state_.unknown = kAllAxes;
+    if (code.group == ModalGroup::Workpiece) state_.workpiece_unknown = kLinearAxes;
+  } else if (code.group == ModalGroup::Units || code.group == ModalGroup::Distance) {
+    state_.unknown = kAllAxes;
+    state_.set_mode(code);
+  } else if (code.group != ModalGroup::CutterCompensation || code.role == GRole::CompensationOff) {
+    state_.set_mode(code);
+  }
+}
+
+/// Handles a statement of another control that may move the tool there, or call lines that do: where it is, the motion
+/// in force, the spindle and the tool are then unknown.
+void Executor::allow_for_call() {
+  sink_.step(BlockStep::LostLetter, state_);
+  make_motion_illegible();
+  blur_axes_not_named();
+  state_.spindle = Spindle::Unknown;
+  state_.speed_given = true;
+  state_.feed_reported = true;
+  state_.tool_selected = true;
+}
+
 /// A second N may be an M that was hit wrong (N10 N06 T101001).
 void Executor::allow_for_wrong_line_number() {
   const auto is_number = [](const syntax::Finding& finding) { return finding.id == "invalid-line-number"_diag; };
   if (std::none_of(line_.findings.begin(), line_.findings.end(), is_number)) return;
   sink_.step(BlockStep::IllegibleFunction, state_);
   state_.spindle = Spindle::Unknown;
-}
-
-/// Whether a number cannot be read because it goes on with that of the next word, whose letter is lost: C8.4 447.38,
-/// X10 -20. A point that was hit twice is none.
-static bool has_lost_letter_inside(const Word& word, std::string_view line) {
-  if (!word.has(Word::kMalformed) || word.letter < 'A') return false;
-  char before = word.letter;
-  bool has_digit = false;
-  bool has_point = false;
-  for (const char c : line.substr(word.begin + 1, word.end - word.begin - 1)) {
-    if (c == ' ' || c == '\t') continue;
-    const bool starts_again = (c == '.' && has_point && before != '.') || ((c == '-' || c == '+') && has_digit);
-    if (starts_again) return true;
-    has_digit |= c >= '0' && c <= '9';
-    has_point |= c == '.';
-    before = c;
-  }
-  return false;
 }
 
 /// Handles a `=` that may have been that of a register (= 1, B1 = 1): any register may have been assigned.
@@ -179,54 +257,115 @@ void Executor::allow_for_lost_register() {
     sink_.assign(reg, std::numeric_limits<double>::quiet_NaN());
 }
 
-/// The letters in whose place another was hit, the key beside it: D1000 may be F1000 (D F), T30 in a motion R30 or Y30.
+/// Allows for what the findings of the line leave open.
+void Executor::allow_for_findings() {
+  allow_for_lost_letter();
+  allow_for_wrong_line_number();
+  allow_for_lost_register();
+  garbled_ = garbled_letters();
+}
+
+/// Whether the digits from a place on, up to the next character that is neither digit nor blank, are a number of at
+/// least 100.
+static bool is_high_from(std::string_view text, std::size_t at) {
+  double value = 0;
+  for (; at < text.size() && ((text[at] >= '0' && text[at] <= '9') || text[at] == ' ' || text[at] == '\t'); ++at)
+    if (text[at] >= '0' && text[at] <= '9') value = 10 * value + (text[at] - '0');
+  return value >= 100;
+}
+
+/// The letters that a number may have lost which goes on with that of the word before it, so that neither can be read:
+/// C8.4 447.38, X10 -20. An F has a high number. Nothing where a point was hit twice.
+static dialect::LetterSet letters_lost_inside(const Word& word, std::string_view line) {
+  if (!word.has(Word::kMalformed) || word.letter < 'A') return 0;
+  const std::string_view number = line.substr(word.begin + 1, word.end - word.begin - 1);
+  char before = word.letter;
+  bool has_digit = false;
+  std::size_t point = std::string_view::npos;
+  std::size_t after_blank = 0;
+  for (std::size_t at = 0; at < number.size(); ++at) {
+    const char c = number[at];
+    if (c == ' ' || c == '\t') {
+      after_blank = at + 1;
+      continue;
+    }
+    const bool has_sign = (c == '-' || c == '+') && has_digit;
+    const bool has_second_point = c == '.' && point != std::string_view::npos && before != '.';
+    if (has_sign || has_second_point) {
+      const std::size_t start = has_second_point && after_blank > point ? after_blank : at + 1;
+      return is_high_from(number, start) ? dialect::kMotionLetters : dialect::kMotionLetters & ~dialect::letters("F");
+    }
+    has_digit |= c >= '0' && c <= '9';
+    if (c == '.') point = at;
+    before = c;
+  }
+  return 0;
+}
+
+/// Whether a word may be another whose letter was hit wrong: it has been reported, and it is neither the T of a tool
+/// change nor a G of other controls.
+bool Executor::may_be_garbled(const Word& word) const {
+  const auto is_reported_as = [&](auto is_wanted) {
+    return std::any_of(line_.findings.begin(), line_.findings.end(), [&](const syntax::Finding& finding) {
+      return finding.span.begin == word.begin && is_wanted(finding.id);
+    });
+  };
+  const auto is_any = [](dialect::DiagnosticId) { return true; };
+  const auto is_of_g = [](dialect::DiagnosticId id) {
+    return id == "unsupported-g"_diag || id == "invalid-g-number"_diag;
+  };
+  const auto changes_tool = [&](const syntax::Instruction& it) {
+    return it.kind == syntax::InstructionKind::ToolChange && it.number == word.owner;
+  };
+  switch (word.letter) {
+    case 'T':
+      return !word.is_tool() && is_reported_as(is_any) &&
+             std::none_of(line_.instructions.begin(), line_.instructions.end(), changes_tool);
+    case 'G':
+      return word.value >= 100 && is_reported_as(is_of_g) &&
+             !dialect::is_of_other_controls(number_of(word, line_.text), 0);
+    case 'N':
+    case 'V':
+      return is_reported_as(is_any);
+    default:
+      return word.letter == syntax::kError && syntax::is_foreign_word(line_.text_of(word.span())) &&
+             is_reported_as(is_any);
+  }
+}
+
+/// The letters that may have been meant by a word: those of the keys beside its own, or that of a number inside it.
+dialect::LetterSet Executor::letters_meant_by(const Word& word) const {
+  const dialect::LetterSet lost = letters_lost_inside(word, line_.text);
+  return may_be_garbled(word) ? lost | dialect::letters_beside(line_.text[word.begin]) : lost;
+}
+
+/// The letters that the line may have, in place of others: D1000 may be F1000 (D F), T30 in a motion R30 or Y30.
 dialect::LetterSet Executor::garbled_letters() const {
-  constexpr dialect::LetterSet kOfMotion = dialect::letters("XYZBCIJKRF");
-  struct Neighbors {
-    char letter;
-    std::string_view meant;
-  };
-  static constexpr Neighbors kNeighbors[] = {{'D', "FSX"}, {'E', "R"},  {'G', "FYB"}, {'H', "GJ"},
-                                             {'L', "K"},   {'N', "B"},  {'O', "IP"},  {'T', "RYF"},
-                                             {'U', "YIX"}, {'V', "CB"}, {'W', "QZ"}};
-  const auto is_garbled = [&](const Word& word) {
-    if (word.letter == 'T') return word.digits != 6 || !word.is_plain_integer();
-    if (word.letter == 'G') return !(word.value < 100);
-    if (word.letter == syntax::kError) return word.digits > 0;
-    return word.letter == 'N' || word.letter == 'V';
-  };
-  const auto is_reported = [&](const Word& word) {
-    const auto is_here = [&](const syntax::Finding& finding) {
-      const bool is_of_g = finding.id == "unsupported-g"_diag || finding.id == "invalid-g-number"_diag;
-      return finding.span.begin == word.begin && (word.letter != 'G' || is_of_g);
-    };
-    return std::any_of(line_.findings.begin(), line_.findings.end(), is_here);
-  };
-  dialect::LetterSet letters = 0;
+  dialect::LetterSet meant = 0;
   dialect::LetterSet present = 0;
   for (const Word& word : line_.words) {
     if (word.letter >= 'A' && word.letter <= 'Z') present |= dialect::letter_bit(word.letter);
-    if (has_lost_letter_inside(word, line_.text)) letters |= kOfMotion;
-    if (!is_garbled(word) || !is_reported(word)) continue;
-    const char letter = static_cast<char>(line_.text[word.begin] & ~0x20);
-    for (const auto& [hit, meant] : kNeighbors)
-      if (hit == letter) letters |= dialect::letters(meant);
+    meant |= letters_meant_by(word);
   }
-  return letters & ~present;
+  return meant & ~present;
 }
 
 /// The axes that a garbled word may have named are unknown, and alone it may have been the F of the motions below.
 void Executor::blur_garbled_axes() {
-  const bool is_alone = !feed_move_ && !rapid_move_;
-  const auto is_high = [](const Word& word) { return !(word.value < 100); };
-  if (is_alone && may_have(dialect::letters("F")) && std::any_of(line_.words.begin(), line_.words.end(), is_high))
+  if (feed_move_ || rapid_move_) {
+    state_.unknown |= axes_of(garbled_);
+    return;
+  }
+  const auto may_be_feed = [&](const Word& word) {
+    return dialect::contains(word.value >= 100 ? letters_meant_by(word) : letters_lost_inside(word, line_.text), 'F');
+  };
+  if (may_have(dialect::letters("F")) && std::any_of(line_.words.begin(), line_.words.end(), may_be_feed))
     state_.feed_reported = true;
-  if (feed_move_ || rapid_move_) state_.unknown |= axes_of(garbled_);
 }
 
-void Executor::pass_unreadable() {
-  allow_for_wrong_line_number();
-  garbled_ = garbled_letters();
+/// Handles a line that holds no word that can be read: D1000, for an F1000.
+void Executor::allow_for_unreadable_line() {
+  allow_for_findings();
   blur_garbled_axes();
 }
 

@@ -14,7 +14,7 @@ using syntax::InstructionKind;
 void execute(const syntax::LineTree& line, State& state, const Setup& setup, Sink& sink) {
   Executor executor(line, state, setup, sink);
   if (!line.is_empty()) return executor.run();
-  if (!line.findings.empty()) executor.pass_unreadable();
+  if (!line.findings.empty()) executor.allow_for_unreadable_line();
 }
 
 /// Whether the line holds one valid instruction of this kind and nothing else.

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+
+#include "interpreter/dialect/lint_thresholds.h"
 
 namespace isocnc::execution {
 
@@ -12,110 +13,8 @@ using syntax::Instruction;
 using syntax::InstructionKind;
 using syntax::Word;
 
-/// The G whose letter a number may have lost; null if there is none.
-static const dialect::GCode* lost_g(int number) {
-  return number >= 0 && number <= 999 ? dialect::g_code(static_cast<std::size_t>(number)) : nullptr;
-}
-
-/// Handles a number whose letter is lost (D58). It may have been a motion (01), a tool change (06), a mode (49), else
-/// the coordinate of some axis, a feed, a speed or a register. Everything that depends on it becomes unknown, so that
-/// no second finding follows.
-void Executor::allow_for_lost_letter() {
-  const Word* const number = line_.number_without_letter();
-  if (!number) return;
-  sink_.step(BlockStep::LostLetter, state_);
-  state_.spindle = Spindle::Unknown;
-  state_.speed_given = true;
-  const int value = number->is_plain_integer() ? number->whole().value_or(-1) : -1;
-  const bool is_assigned = line_.words.size() > 1 && line_.words[1].letter == syntax::kAssign;
-  if (is_assigned && dialect::is_register(value)) return sink_.assign(value, std::numeric_limits<double>::quiet_NaN());
-  if (dialect::is_motion_number(value)) return make_motion_illegible();
-  const dialect::GCode* const code = lost_g(value);
-  if (value == dialect::kToolChange) {
-    state_.tool_selected = true;
-  } else if (code && code->group == dialect::ModalGroup::Interpolation) {
-    allow_for_lost_g(*code);
-  } else {
-    if (number->letter == syntax::kNumber) {  // Not in H27, where the G of a G27 was hit wrong.
-      blur_axes_not_named();
-      state_.feed_reported = true;
-      state_.feed_on_rapid = false;
-    }
-    if (code && code->group != dialect::ModalGroup::None) allow_for_lost_g(*code);
-  }
-}
-
-/// Handles a number that may be a modal G without its letter. The G takes effect as far as that is harmless if it was
-/// none, and what is in force is not known until the next G of its group.
-void Executor::allow_for_lost_g(const dialect::GCode& code) {
-  using dialect::ModalGroup;
-  state_.in_doubt |= State::bit(code.group);
-  state_.written &= static_cast<std::uint16_t>(~State::bit(code.group));
-  if (code.is_frame()) {
-    frame_is_lost_ = true;
-    leave_face();
-    state_.unknown = kAllAxes;
-    if (code.group == ModalGroup::Workpiece) state_.workpiece_unknown = kLinearAxes;
-  } else if (code.group == ModalGroup::Units || code.group == ModalGroup::Distance) {
-    state_.unknown = kAllAxes;
-    state_.set_mode(code);
-  } else if (code.group != ModalGroup::CutterCompensation || code.role == GRole::CompensationOff) {
-    state_.set_mode(code);
-  }
-}
-
-/// A G of the group has been written: it is known again what is in force.
-void Executor::end_doubt(dialect::ModalGroup group) {
-  if (!state_.is_in_doubt(group)) return;
-  state_.in_doubt &= static_cast<std::uint16_t>(~State::bit(group));
-  if (group == dialect::ModalGroup::Face || group == dialect::ModalGroup::Workpiece) blur_linear_axes();
-}
-
-/// Handles a statement of another control that may move the tool there, or call lines that do: where it is, the motion
-/// in force, the spindle and the tool are then unknown.
-void Executor::allow_for_call() {
-  sink_.step(BlockStep::LostLetter, state_);
-  make_motion_illegible();
-  blur_axes_not_named();
-  state_.spindle = Spindle::Unknown;
-  state_.speed_given = true;
-  state_.feed_reported = true;
-  state_.tool_selected = true;
-}
-
-void Executor::make_motion_illegible() {
-  state_.set_mode(dialect::ModalGroup::Motion, dialect::kNoMotion);
-  state_.motion_illegible = true;
-}
-
-void Executor::blur_axes_not_named() {
-  for (int axis = 0; axis < kAxisCount; ++axis) {
-    const char letter = letter_of(static_cast<Axis>(axis));
-    const auto names_it = [&](const Word& word) { return word.letter == letter; };
-    if (std::none_of(line_.words.begin(), line_.words.end(), names_it))
-      state_.unknown |= axis_bit(static_cast<Axis>(axis));
-  }
-}
-
-/// Handles G70, G71, G90 or G91 after the coordinates, which may have been meant under the old or the new mode (D60).
-void Executor::blur_axes_of_late_mode() {
-  std::uint32_t mode = 0;
-  for (const syntax::Finding& finding : line_.findings)
-    if (finding.id == "units-after-dimensions"_diag || finding.id == "distance-mode-after-dimensions"_diag)
-      mode = finding.span.begin;
-  for (const Word& word : line_.words)
-    for (int axis = 0; axis < kAxisCount; ++axis)
-      if (word.letter == letter_of(static_cast<Axis>(axis)) && word.begin < mode)
-        state_.unknown |= axis_bit(static_cast<Axis>(axis));
-}
-
 void Executor::run() {
-  if (!line_.findings.empty()) {
-    allow_for_lost_letter();
-    allow_for_wrong_line_number();
-    allow_for_lost_register();
-    garbled_ = garbled_letters();
-  }
+  if (!line_.findings.empty()) allow_for_findings();
   if (line_.has(syntax::LineTree::kMayMove)) allow_for_call();
   // S takes effect before the line's motion, wherever it stands (I.4.2).
   if (line_.spindle >= 0) {
@@ -158,7 +57,7 @@ void Executor::run() {
   const bool is_compensated = state_.mode(dialect::ModalGroup::CutterCompensation) != 40;
   if (is_compensated && (feed_move_ || rapid_move_) && moves_in_plane())
     sink_.step(BlockStep::CompensatedMotion, state_);
-  for (const syntax::Finding& finding : line_.findings) lack_.take(finding.id);
+  for (const syntax::Finding& finding : line_.findings) lack_.take({finding.id, finding.cause});
   if (!lack_.empty()) lack_.remove_words_of(line_);
   state_.lack = lack_;
 }
@@ -277,12 +176,20 @@ static bool names_motion(const Arguments& arguments) {
   return has_circle || (linear & (linear - 1)) != 0;
 }
 
+/// Whether the only word after a G04 is the time as other controls have it: X1.5, and not X754.
+static bool names_time(const Arguments& arguments) {
+  constexpr double kLongestTime = dialect::LintThresholds{}.longest_dwell;
+  const double seconds = arguments.value_or('X', -1);
+  return arguments.present() == dialect::letter_bit('X') && seconds >= 0 && seconds <= kLongestTime;
+}
+
 void Executor::dwell(const Instruction& instruction) {
   const Arguments arguments(line_, instruction);
   if (!arguments.has('P') && (arguments.present() & dialect::kCoordinateLetters) != 0) {
-    // G04 X10 Y5 for G00, and not X1.5 in the place of P1.5.
-    if (names_motion(arguments) || line_.feed >= 0 || !motion_is_legible()) make_motion_illegible();
-    move_illegibly(arguments);
+    if (line_.feed >= 0 || !names_time(arguments)) {  // G04 X10 Y5 for G00.
+      if (names_motion(arguments) || line_.feed >= 0 || !motion_is_legible()) make_motion_illegible();
+      move_illegibly(arguments);
+    }
   } else if (arguments.empty()) {
     doubt_lone_g(instruction);
   }
@@ -351,7 +258,7 @@ void Executor::stray_tool(const Instruction& instruction) {
       (number && number->value == dialect::kToolChange) || follows_wrong_m06(instruction);  // 06 T101001 (D58)
   const bool follows_change =
       is_lost_change || (dialect::contains(state_.lack.letters, 'T') && instruction.has(Instruction::kFirst));
-  const bool is_legible = word.is_plain_integer() && word.digits == 6;  // An illegible T has been reported already.
+  const bool is_legible = word.is_tool();  // An illegible T has been reported already.
   if (!follows_change && is_legible) report("tool-without-m06"_diag, word.span());
   state_.tool_prepared = !follows_change && instruction.has(Instruction::kFirst);
   select_tool(word);

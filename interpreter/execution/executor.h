@@ -21,6 +21,7 @@ namespace isocnc::execution {
 ///            frame G                 -> mount_face() ...     frames.cpp    workpiece and face frames
 ///            other G                 -> execute_g()          executor.cpp  modes, G04, G09, signals
 ///            M, T, V                 -> function() ...       executor.cpp
+///   Whatever a finding leaves open -> doubt(), allow_for_... doubts.cpp   unknown axes, motions and modes
 ///
 /// Each step updates `state_`, then reports its effect and its findings to `sink_`.
 class Executor {
@@ -30,12 +31,13 @@ class Executor {
 
   void run();
   /// Handles a line that holds no word that can be read: D1000, for an F1000.
-  void pass_unreadable();
+  void allow_for_unreadable_line();
 
  private:
   bool moves_in_plane() const;
   void execute_g(const syntax::Instruction& instruction);
   void execute_unknown_g(const syntax::Instruction& instruction);
+  static bool may_be_motion(const Arguments& arguments);
   bool is_reported(const syntax::Word& word) const;
   void set_mode(const dialect::GCode& code, const syntax::Word& word);
   bool repetition_is_reported(const dialect::GCode& code) const;
@@ -57,7 +59,9 @@ class Executor {
   void move_of_foreign_word(const Arguments& arguments);
   dialect::LetterSet end_in_rotary_word(const Arguments& arguments, const dialect::GCode& code) const;
   bool follows_wrong_motion(const Arguments& arguments) const;
+  bool motion_is_legible() const { return state_.motion() != nullptr; }
   bool motion_is_in_force(const Arguments& arguments);
+  void move_illegibly(const Arguments& arguments);
   void report_strays(const Arguments& arguments, const dialect::GCode& code);
   void check_first_motion(syntax::Span place);
   void check_feed(syntax::Span place);
@@ -75,12 +79,13 @@ class Executor {
                      const Plane& plane);
   void report_circle(const Arguments& arguments, const geometry::ArcGiven& given, const geometry::Circle& circle,
                      const Plane& plane);
+  bool has_illegible_equals() const;
   void report_missing_circle(const Plane& plane, syntax::Span place);
   bool arc_is_described(const Arguments& arguments, const Plane& plane, syntax::Span place);
 
   // frames.cpp
   void workpiece_frame(const syntax::Instruction& instruction);
-  bool names_face(const syntax::Instruction& dismount) const;
+  dialect::LetterSet letters_after(const syntax::Instruction& dismount) const;
   void dismount_face(const syntax::Instruction& instruction);
   void mount_face(const syntax::Instruction& instruction, const dialect::GCode& code);
   void go_home(const Arguments& arguments, const dialect::GCode& code);
@@ -90,39 +95,39 @@ class Executor {
   bool read_axes(const Arguments& arguments, const dialect::GCode& code, geometry::Mat3& axes);
   bool read_point(const Arguments& arguments, geometry::Vec3& point) const;
   AxisSet read_origin(const Arguments& arguments, geometry::Vec3& origin) const;
-  bool motion_is_legible() const { return state_.motion() != nullptr; }
-  static bool may_be_motion(const Arguments& arguments);
-  bool takes_number(const syntax::Word& g) const;
-  void allow_for_lost_letter();
-  void allow_for_lost_g(const dialect::GCode& code);
-  void end_doubt(dialect::ModalGroup group);
+
   // doubts.cpp
   void doubt(const dialect::GCode& code);
   void doubt(dialect::ModalGroup group);
   void doubt(dialect::GCodeSet codes, dialect::LetterSet arguments);
+  void end_doubt(dialect::ModalGroup group);
+  void make_motion_illegible();
+  void blur_linear_axes() { state_.unknown |= kLinearAxes; }
+  void blur_axes_not_named();
+  void blur_axes_of_late_mode();
   bool doubt_unknown_g(const syntax::Word& g, const Arguments& arguments);
-  void allow_for_wrong_line_number();
-  void allow_for_lost_register();
-  dialect::LetterSet garbled_letters() const;
-  void blur_garbled_axes();
-  bool may_have(dialect::LetterSet letters) const { return (garbled_ & letters) != 0; }
-  const syntax::Instruction* g_before(const Arguments& arguments) const;
-  bool follows_reported_g(const Arguments& arguments) const;
+  bool takes_number(const syntax::Word& g) const;
   bool fits_near_code(const syntax::Instruction& g, const Arguments& arguments) const;
   void doubt_near_g(const syntax::Instruction& g, const Arguments& arguments);
   void doubt_lone_g(const syntax::Instruction& g);
+  const syntax::Instruction* g_before(const Arguments& arguments) const;
+  bool follows_reported_g(const Arguments& arguments) const;
   void doubt_code_before(const Arguments& arguments);
+  void allow_for_lost_letter();
+  void allow_for_lost_g(const dialect::GCode& code);
   void allow_for_call();
-  void make_motion_illegible();
-  void blur_axes_not_named();
-  void blur_axes_of_late_mode();
-  bool has_illegible_equals() const;
-  void move_illegibly(const Arguments& arguments);
-  void blur_linear_axes() { state_.unknown |= kLinearAxes; }
+  void allow_for_wrong_line_number();
+  void allow_for_lost_register();
+  void allow_for_findings();
+  bool may_be_garbled(const syntax::Word& word) const;
+  dialect::LetterSet letters_meant_by(const syntax::Word& word) const;
+  dialect::LetterSet garbled_letters() const;
+  bool may_have(dialect::LetterSet letters) const { return (garbled_ & letters) != 0; }
+  void blur_garbled_axes();
 
   void report(dialect::Cause cause, syntax::Span span, std::initializer_list<double> values = {},
               syntax::Span related = {}) {
-    lack_.take(cause.id);
+    lack_.take(cause);
     last_reported_ = span;
     sink_.report(syntax::finding_of(cause, span, values, related));
   }

@@ -69,15 +69,20 @@ void Executor::workpiece_frame(const Instruction& instruction) {
   sink_.frame_changed(state_);
 }
 
-/// Whether words of a face follow a G27, which takes none: a G24, G28 or G29 was meant.
-bool Executor::names_face(const Instruction& dismount) const {
-  const std::size_t next = dismount.command + 1u;
-  return next < line_.words.size() && dialect::contains(dialect::kDimensionLetters, line_.words[next].letter);
+/// The letters of the dimensions that follow a G27, which takes none.
+dialect::LetterSet Executor::letters_after(const Instruction& dismount) const {
+  dialect::LetterSet letters = 0;
+  for (std::size_t next = dismount.command + 1u;
+       next < line_.words.size() && dialect::contains(dialect::kDimensionLetters, line_.words[next].letter); ++next)
+    letters |= dialect::letter_bit(line_.words[next].letter);
+  return letters;
 }
 
 void Executor::dismount_face(const Instruction& instruction) {
-  if (names_face(instruction)) return doubt(ModalGroup::Face);
-  const bool is_known = !state_.is_in_doubt(ModalGroup::Face);
+  constexpr dialect::LetterSet kOfFace = dialect::kDimensionLetters & ~dialect::kLinearLetters;
+  const dialect::LetterSet following = letters_after(instruction);
+  if ((following & kOfFace) != 0) return doubt(ModalGroup::Face);  // A G24, G28 or G29 was meant.
+  const bool is_known = !state_.is_in_doubt(ModalGroup::Face) && following == 0;
   if (!state_.face_mounted && is_known && !state_.dismount_tolerated && !repetition_is_reported(*instruction.g()))
     report("g27-without-face"_diag, line_.command(instruction).span());
   state_.dismount_tolerated = false;
@@ -147,7 +152,7 @@ void Executor::mount_face(const Instruction& instruction, const dialect::GCode& 
   if (arguments.empty()) doubt_lone_g(instruction);
   const bool is_chamfer = code.role == GRole::FaceByAxes && arguments.present() == dialect::letters("R");
   if (is_chamfer) return;  // Of other controls; reported.
-  if (is_at_tip && (arguments.present() & dialect::letters("IJKPQR")) == 0) return go_home(arguments, code);
+  if (is_at_tip && (arguments.present() & dialect::kFaceVectorLetters) == 0) return go_home(arguments, code);
   const bool is_mounted = state_.face_mounted && !state_.is_in_doubt(ModalGroup::Face);
   if (is_mounted && !repetition_is_reported(code)) report("face-already-mounted"_diag, place);
   leave_face();

@@ -12,52 +12,48 @@ using syntax::Word;
 
 namespace {
 
-constexpr dialect::LetterSet kArc = dialect::kCoordinateLetters | dialect::kCircleLetters | dialect::letters("F");
-constexpr dialect::LetterSet kFace = dialect::letters("XYZABCIJKPQR");
-
-struct Row {
+/// A finding about missing words.
+struct Lacking {
   dialect::DiagnosticId finding;
   dialect::LetterSet letters;
 };
 
 /// The findings about missing words of motions, with the letters of these words and of those that may follow them.
-constexpr Row kMotions[] = {{"missing-coordinate"_diag, kArc},
-                            {"arc-end-outside-plane"_diag, kArc},
-                            {"circle-not-given"_diag, kArc},
-                            {"center-undetermined-g17-i"_diag, kArc},
-                            {"center-undetermined-g17-j"_diag, kArc},
-                            {"center-undetermined-g18-i"_diag, kArc},
-                            {"center-undetermined-g18-k"_diag, kArc},
-                            {"center-undetermined-g19-j"_diag, kArc},
-                            {"center-undetermined-g19-k"_diag, kArc},
-                            {"feed-missing"_diag, dialect::kCircleLetters | dialect::letters("F")},
-                            {"inverse-time-feed-missing"_diag, dialect::letters("F")}};
+constexpr Lacking kMotions[] = {{"missing-coordinate"_diag, dialect::kMotionLetters},
+                                {"arc-end-outside-plane"_diag, dialect::kMotionLetters},
+                                {"circle-not-given"_diag, dialect::kMotionLetters},
+                                {"center-undetermined-g17-i"_diag, dialect::kMotionLetters},
+                                {"center-undetermined-g17-j"_diag, dialect::kMotionLetters},
+                                {"center-undetermined-g18-i"_diag, dialect::kMotionLetters},
+                                {"center-undetermined-g18-k"_diag, dialect::kMotionLetters},
+                                {"center-undetermined-g19-j"_diag, dialect::kMotionLetters},
+                                {"center-undetermined-g19-k"_diag, dialect::kMotionLetters},
+                                {"feed-missing"_diag, dialect::kCircleLetters | dialect::letters("F")},
+                                {"inverse-time-feed-missing"_diag, dialect::letters("F")}};
 
 /// The same for other instructions.
-constexpr Row kOthers[] = {
-    {"tool-change-without-tool"_diag, dialect::letters("T")},
-    {"dwell-time-missing"_diag, dialect::letters("P")},
-    {"missing-arguments"_diag, kFace},
-    {"missing-i-vector"_diag, kFace},
-    {"missing-j-vector"_diag, kFace},
-    {"missing-k-vector"_diag, kFace},
+constexpr Lacking kOthers[] = {
+    {"tool-change-without-tool"_diag, dialect::letters("T")}, {"dwell-time-missing"_diag, dialect::letters("P")},
+    {"missing-arguments"_diag, dialect::kDimensionLetters},   {"missing-i-vector"_diag, dialect::kDimensionLetters},
+    {"missing-j-vector"_diag, dialect::kDimensionLetters},    {"missing-k-vector"_diag, dialect::kDimensionLetters},
     {"missing-origin"_diag, dialect::kLinearLetters},
 };
 
 template <std::size_t count>
-dialect::LetterSet letters_of(const Row (&rows)[count], dialect::DiagnosticId finding) {
-  const auto row = std::find_if(std::begin(rows), std::end(rows), [&](const Row& it) { return it.finding == finding; });
+dialect::LetterSet letters_of(const Lacking (&rows)[count], dialect::DiagnosticId finding) {
+  const auto row =
+      std::find_if(std::begin(rows), std::end(rows), [&](const Lacking& it) { return it.finding == finding; });
   return row == std::end(rows) ? 0 : row->letters;
 }
 
 }  // namespace
 
-void Lack::take(dialect::DiagnosticId finding) {
-  const dialect::LetterSet of_motion = letters_of(kMotions, finding);
-  letters |= of_motion | letters_of(kOthers, finding);
+void Lack::take(dialect::Cause finding) {
+  const dialect::LetterSet of_motion = letters_of(kMotions, finding.id);
+  letters |= of_motion | letters_of(kOthers, finding.id);
   is_of_motion |= of_motion != 0;
-  value |= finding == "register-not-assigned"_diag || finding == "m-param-invalid"_diag;
-  jump |= finding == "if-malformed"_diag;
+  value |= finding.id == "register-not-assigned"_diag || finding == "m-param-invalid/no-value"_cause;
+  jump |= finding.id == "if-malformed"_diag;
 }
 
 void Lack::remove_words_of(const syntax::LineTree& line) {

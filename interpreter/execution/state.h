@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "interpreter/dialect/codes.h"
-#include "interpreter/execution/lack.h"
+#include "interpreter/execution/line_parts.h"
 #include "interpreter/execution/setup.h"
 #include "interpreter/geometry/frame.h"
 
