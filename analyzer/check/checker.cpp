@@ -170,6 +170,7 @@ void Checker::check_any(const LineTree& line, std::uint64_t line_number, Outcome
     outcome.has_text = true;
     outcome.last_text_line = line_number;
   }
+  const std::size_t first_label = outcome.labels.size();
   if (line.has_label()) arrive(line, line_number, outcome);
   Groups& live = frontier.live;
   if (live.empty()) {
@@ -180,7 +181,9 @@ void Checker::check_any(const LineTree& line, std::uint64_t line_number, Outcome
   outcome.positions.by_several |= live.size() > 1 || !frontier.waiting().empty();
   if (const auto parts = execution::SplitLine::split(line, lack_of_any(live))) {
     execute_carried(parts->carried(), line_number, outcome);
-    return check_block(parts->rest(), line_number, outcome);
+    if (!parts->rest().has(LineTree::kTwoBlocks)) return check_block(parts->rest(), line_number, outcome);
+    outcome.labels.resize(first_label);  // The blocks have it.
+    return check_two_blocks(parts->rest(), line_number, outcome);
   }
   check_block(line, line_number, outcome);
 }
@@ -324,13 +327,18 @@ class Checker::LineExecution final : public execution::Sink {
   std::optional<execution::ProgrammedMove> move_;  // The line's motion, if motions are watched.
 };
 
-/// Executes words that belong to the block before (SplitLine). What they make wrong has been reported there. The words
-/// of a frame or a dwell move no axis, but whatever they name is unknown.
+/// Executes words that belong to the block before (SplitLine). What they make wrong has been reported there, but for a
+/// missing tool and a missing F, which are mistakes of their own (D45) and reported once only. The words of a frame or
+/// a dwell move no axis, but whatever they name is unknown.
 void Checker::execute_carried(const LineTree& words, std::uint64_t line_number, Outcome& outcome) {
   Groups& live = frontier.live;
   const bool is_of_motion = lack_of_any(live).is_of_motion;
-  LineExecution(*this, words, line_number, outcome).run();
   group_findings_.clear();
+  LineExecution(*this, words, line_number, outcome).run();
+  std::erase_if(group_findings_, [](const GroupFinding& each) {
+    return each.finding.id != "initial-tool-missing"_diag && each.finding.id != "feed-missing"_diag;
+  });
+  if (!group_findings_.empty()) report_common_findings(line_number, outcome);
   outcome.positions.read |= static_cast<execution::AxisSet>(execution::kAllAxes & ~outcome.positions.set);
   if (is_of_motion) return;
   for (const syntax::Word& word : words.words)

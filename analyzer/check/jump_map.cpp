@@ -69,7 +69,10 @@ std::optional<double> misspelled_label(const syntax::LineTree& line) {
   if (first.letter != syntax::kNumber) {
     const char letter = text::upper(digits.front());
     const bool is_wrong_n = letter == 'N' && !first.is_plain_integer();
-    if (!is_wrong_n && std::string_view("BHJM").find(letter) == std::string_view::npos) return std::nullopt;
+    const bool is_reported = std::any_of(line.findings.begin(), line.findings.end(),
+                                         [&](const syntax::Finding& each) { return each.span.begin == first.begin; });
+    const bool may_be_n = is_reported && std::string_view("BHJM").find(letter) != std::string_view::npos;
+    if (!is_wrong_n && !may_be_n) return std::nullopt;
     digits.remove_prefix(1);
   }
   double number = 0;
