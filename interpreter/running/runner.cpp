@@ -140,13 +140,37 @@ bool Runner::execute_around_jump(const syntax::LineTree& tree, execution::Sink& 
   return is_taken;
 }
 
+/// Executes the block of a line, or both where a line break is lost (D68), the second unless the first jumps or ends
+/// the run. Returns their jumps; only the last may be taken.
+std::vector<Runner::DecidedJump> Runner::execute_blocks(const syntax::LineTree& tree, execution::Sink& sink) {
+  std::vector<DecidedJump> jumps;
+  const auto execute_block = [&](const syntax::LineTree& block, std::uint32_t offset) {
+    const bool is_taken = execute_around_jump(block, sink);
+    if (block.jump == nullptr || !block.jump->has_target) return;
+    jumps.push_back({*block.jump, is_taken});
+    jumps.back().jump.shift(offset);
+  };
+  if (!tree.has(syntax::LineTree::kTwoBlocks)) {
+    execute_block(tree, 0);
+    return jumps;
+  }
+  std::uint32_t offset = 0;
+  for (const std::string_view text : tree.blocks()) {
+    if (result_.state.ended || (!jumps.empty() && jumps.back().is_taken)) break;
+    const syntax::ParsedLine block(text);
+    execute_block(block.tree(), offset);
+    offset = static_cast<std::uint32_t>(text.size());
+  }
+  return jumps;
+}
+
 void Runner::execute_line(const syntax::LineTree& tree) {
   BlockSink sink(place_.line, workbench_.events, result_);
   for (const syntax::Finding& finding : tree.findings) sink.report(finding);
   const Registers registers_before = result_.registers;
   const execution::State before = result_.state;
-  bool is_taken = false;
-  if (!sink.error || !options_->stop_at_errors) is_taken = execute_around_jump(tree, sink);
+  std::vector<DecidedJump> jumps;
+  if (!sink.error || !options_->stop_at_errors) jumps = execute_blocks(tree, sink);
   if (sink.error && options_->stop_at_errors) {
     workbench_.events.clear();
     result_.state = before;
@@ -160,7 +184,7 @@ void Runner::execute_line(const syntax::LineTree& tree) {
   const char* const below = text::skip_line_end(workbench_.line_end, text.data() + text.size());
   const LinePlace from = std::exchange(place_, {place_.line + 1, static_cast<std::size_t>(below - text.data())});
   workbench_.holds_line = false;
-  if (tree.jump != nullptr && tree.jump->has_target) branch(*tree.jump, is_taken, from);
+  for (const DecidedJump& each : jumps) branch(each.jump, each.is_taken, from);
 }
 
 /// Jumps to a line below with the label, or ends the run with an error (E004, E005).

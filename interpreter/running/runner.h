@@ -116,7 +116,14 @@ class Runner {
   const syntax::LineTree& read_line();
   bool empty_line_comes();
   void step_line();
+  /// A jump of a line, and whether it is taken.
+  struct DecidedJump {
+    syntax::Jump jump;
+    bool is_taken = false;
+  };
+
   void execute_line(const syntax::LineTree& tree);
+  std::vector<DecidedJump> execute_blocks(const syntax::LineTree& tree, execution::Sink& sink);
   bool execute_around_jump(const syntax::LineTree& tree, execution::Sink& sink);
   void branch(const syntax::Jump& jump, bool is_taken, const LinePlace& from);
   bool holds(const syntax::Jump& jump) const;

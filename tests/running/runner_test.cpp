@@ -91,6 +91,30 @@ TEST(Runner, StandsBeforeTheBlockInError) {
   EXPECT_EQ(runner.result().registers, before.result().registers);
 }
 
+/// With its line break lost, the second block has its own F, S and jump, and is skipped by a jump of the first.
+TEST(Runner, ExecutesBothBlocksOfALine) {
+  const Program program(
+      "M06 T101001\n"
+      "N10 G01 X5 F100 S500 N20 X9 F200 S800\n"
+      "N30 IF VGPL = 1 GOTO N90 N40 IF VGPL = 0 GOTO N60\n"
+      "V1 = 1\n"
+      "N60 V2 = 1\n"
+      "N70 IF VGPL = 0 GOTO N90 N80 V3 = 1\n"
+      "V4 = 1\n"
+      "N90 M02\n");
+  const RunOptions options{.stop_at_errors = false};
+  Runner runner(program, options);
+  while (!runner.has_ended()) runner.step();
+  const RunResult& result = runner.result();
+  EXPECT_EQ(result.ending, Ending::ProgramEnd);
+  EXPECT_EQ(result.state.last_feed.number, 200);
+  EXPECT_EQ(result.state.spindle_speed, 800);
+  EXPECT_EQ(result.registers[1], 0);
+  EXPECT_EQ(result.registers[2], 1);
+  EXPECT_EQ(result.registers[3], 0);
+  EXPECT_EQ(result.registers[4], 0);
+}
+
 TEST(Runner, DecidesJumpsByWhatHasBeenSet) {
   const Program program("IF VGPL=2 GOTO N5\nV1=1\nIF V1=7 GOTO N5\nM02\nN5\nM02\n");
   const RunOptions options;
