@@ -97,9 +97,20 @@ bool drills_along_z(const State& state) {
          state.mode(dialect::ModalGroup::Plane) == 17;
 }
 
+/// Whether a line ends the cycle: G80, a motion G or the end of the program.
+bool ends_cycle(const LineTree& line) {
+  const auto is_end = [](const Word& word) {
+    return is_g(word, 80) || (word.letter == 'G' && word.is_plain_integer() && dialect::is_motion_number(word.value));
+  };
+  return std::any_of(line.words.begin(), line.words.end(), is_end) ||
+         std::any_of(line.instructions.begin(), line.instructions.end(),
+                     [&](const syntax::Instruction& each) { return line.ends_program(each); });
+}
+
 }  // namespace
 
-/// G81 and the coordinates of further holes below it, up to the next G or other word: writes the moves of each hole.
+/// G81 and the coordinates of further holes below it, up to the end of the cycle: writes the moves of each hole. There
+/// is no fix where another line is between them, since the cycle stays in force.
 Draft moves_of_cycle(const FixRequest& request) {
   const Word* const marked = word_at(request.line, request.finding.span);
   if (!marked || !is_g(*marked, 81)) return {};
@@ -113,7 +124,7 @@ Draft moves_of_cycle(const FixRequest& request) {
     const syntax::ParsedLine parsed(request.program.text(number));
     const LineTree line = parsed.tree();
     if (line.is_empty() && !line.has_label()) continue;
-    if (line.words.empty() || word_of(line, 'G') || word_of(line, 'M') || word_of(line, 'T')) return draft;
+    if (ends_cycle(line)) return draft;
     if (!has_only(line, "NXY") || (line.has_label() && request.program.is_jumped_to(line.label))) return {};
     if (!line.is_empty()) draft.edits.push_back(hole(*cycle, number, line, false));
   }
