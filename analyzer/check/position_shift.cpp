@@ -98,7 +98,10 @@ void note_line(const syntax::LineTree& line, const execution::State& before, con
   }
   if (!moves && !changes_frame) return;
   use.far |= is_far(after.position);
-  const bool is_clear = !is_judged && !changes_frame && before.unknown == after.unknown && after.motion() != nullptr;
+  using dialect::ModalGroup;
+  const bool is_length_known = !after.is_in_doubt(ModalGroup::Units) && !after.is_in_doubt(ModalGroup::Distance);
+  const bool is_clear = !is_judged && !changes_frame && before.unknown == after.unknown && after.motion() != nullptr &&
+                        is_length_known;  // Otherwise the axes that move are set to 0.
   if (is_clear && after.incremental()) return;
   dialect::LetterSet letters = 0;
   for (const syntax::Word& word : line.words)

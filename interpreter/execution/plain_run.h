@@ -20,7 +20,7 @@ class PlainRun {
         scale_(state.mm_per_unit()),
         straight_(state.five_axis() ? dialect::kCoordinateLetters : dialect::kLinearLetters),
         incremental_(state.incremental()),
-        may_run_(state.tool_selected && state.unknown == 0 && state.in_doubt == 0 && state.lack.empty()),
+        may_run_(state.tool_selected && state.unknown == 0 && (state.in_doubt & kJudged) == 0 && state.lack.empty()),
         feed_holds_(state.feed_given && !state.inverse_time()),
         motion_(state.motion() ? state.motion()->role : kNoMotion) {}
   PlainRun(const PlainRun&) = delete;
@@ -61,6 +61,11 @@ class PlainRun {
 
  private:
   static constexpr dialect::GRole kNoMotion = dialect::GRole::Mode;
+  /// The groups on which a plain line depends. An arc on a face is none.
+  static constexpr std::uint16_t kJudged =
+      State::bit(dialect::ModalGroup::Motion) | State::bit(dialect::ModalGroup::Plane) |
+      State::bit(dialect::ModalGroup::Interpolation) | State::bit(dialect::ModalGroup::Units) |
+      State::bit(dialect::ModalGroup::Distance) | State::bit(dialect::ModalGroup::FeedMode);
 
   [[gnu::always_inline]] void move_axes(const syntax::PlainLine& line) {
     for (const syntax::Word& word : line.words) {

@@ -173,13 +173,17 @@ void LineParser::report_letter_alone(const char* start, const char* after) {
   report("word-without-number/letter-for-digit"_cause, letter, {}, {column(after), column(after) + 1});
 }
 
+/// The maximum length of a formula, so that a line with many open brackets is not searched to its end for each.
+static constexpr std::ptrdiff_t kLongestFormula = 1'000;
+
 /// The end of a formula of other controls: #1, #<name>, [#1+5], Q1. Null where there is none.
 const char* LineParser::end_of_formula(const char* p) const {
   while (p != end_ && *p == '#') ++p;
   if (p != end_ && (*p == '[' || *p == '<')) {
     const char close = *p == '[' ? ']' : '>';
     int depth = 0;
-    for (; p != end_ && !text::is_line_end(*p) && *p != ';'; ++p) {
+    const char* const limit = end_ - p > kLongestFormula ? p + kLongestFormula : end_;
+    for (; p != limit && !text::is_line_end(*p) && *p != ';'; ++p) {
       depth += *p == '[' || *p == '<' ? 1 : 0;
       depth -= *p == ']' || *p == '>' ? 1 : 0;
       if (*p == close && depth == 0) return p + 1;
@@ -422,7 +426,8 @@ bool LineParser::continues_increments(const char* start, const char* end) {
     const bool is_letter = text::upper(*letter) == 'U' || text::upper(*letter) == 'W';
     return is_letter && after != letter + 1 && text::is_number_char(*(after - 1));
   };
-  if (word_count() == 0 || word(word_count() - 1u).letter != kError || store_.findings_.empty()) return false;
+  if (word_count() == 0 || word(word_count() - 1u).letter != kError || store_.findings_.size() == line_.first_finding)
+    return false;
   Word& before = word(word_count() - 1u);
   Finding& finding = store_.findings_.back();
   if (!is_increment(begin_ + before.begin, begin_ + before.end) || !is_increment(start, end)) return false;

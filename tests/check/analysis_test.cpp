@@ -169,6 +169,19 @@ TEST(Analysis, AShiftIsNotPassedOverByWhatDependsOnThePosition) {
   EXPECT_LE(analysis.lines_checked(), 1'000u);
 }
 
+/// Where the units are in doubt, a move sets its axes to 0, wherever they were.
+TEST(Analysis, AShiftEndsWhereTheUnitsAreInDoubt) {
+  std::string text = incremental_zigzag(2'000);
+  text.insert(text.find("G90 X5"), "70\n" + support::joined(std::vector<std::string>(1'000, "X1 Y1")));
+  Document document(text);
+  Analysis analysis(document, kSetup);
+  document.replace({100, 0}, {100, 0}, "X0.5\n");
+  analysis.update();
+  const Analysis fresh(document, kSetup);
+  for (std::size_t line = 0; line < document.line_count(); line += 97)
+    ASSERT_EQ(analysis.frontier_before(line), fresh.frontier_before(line)) << line;
+}
+
 TEST(Analysis, GoesOnWhereItWasStopped) {
   Document document(zigzag(60'000));
   Analysis analysis(document, kSetup, Analysis::Unchecked{});

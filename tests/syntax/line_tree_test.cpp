@@ -349,5 +349,16 @@ TEST(TreeStore, PacksLinesThatKeepTheirTrees) {
   EXPECT_EQ(parsed, alone);
 }
 
+/// U0 W0 are increments with one finding, which U0 alone has on the line above at the same place.
+TEST(TreeStore, ALineLeavesTheFindingsOfOthers) {
+  const std::string_view above = "     U0";
+  const std::string_view below = "GOTO U0 W0";
+  TreeStore store;
+  store.append_line(above.data(), above.data() + above.size());
+  store.append_line(below.data(), below.data() + below.size());
+  EXPECT_EQ(support::text_of(store.tree(0, above.data())), support::text_of(ParsedLine(above).tree()));
+  EXPECT_EQ(support::text_of(store.tree(1, below.data())), support::text_of(ParsedLine(below).tree()));
+}
+
 }  // namespace
 }  // namespace isocnc::syntax
