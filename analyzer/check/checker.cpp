@@ -72,11 +72,11 @@ static bool is_reported_above(const Finding& finding, const Groups& before) {
          std::all_of(before.begin(), before.end(), [](const Group& group) { return group.state.tool_prepared; });
 }
 
-/// What the block before lacks on some path.
-static execution::Lack lack_of_any(const Groups& live) {
+/// What the block before lacks on some path; null if it lacks nothing.
+static const execution::Lack* lack_of_any(const Groups& live) {
   const auto lacks = [](const Group& group) { return !group.state.lack.empty(); };
   const auto group = std::find_if(live.begin(), live.end(), lacks);
-  return group == live.end() ? execution::Lack{} : group->state.lack;
+  return group == live.end() ? nullptr : &group->state.lack;
 }
 
 /// Records a line executed by a plain run. Under G91 only the words of an arc matter, under G90 its start as well.
@@ -164,6 +164,22 @@ void Checker::check_two_blocks(const LineTree& line, std::uint64_t line_number, 
   sort_by_column(outcome.findings, first);
 }
 
+/// Checks a line that starts with words which the block above lacks. Returns false for any other line.
+bool Checker::check_carried(const LineTree& line, const execution::Lack& lack, std::uint64_t line_number,
+                            std::size_t first_label, Outcome& outcome) {
+  const bool is_of_motion = lack.is_of_motion;
+  const auto parts = execution::SplitLine::split(line, lack);
+  if (!parts) return false;
+  execute_carried(parts->carried(), is_of_motion, line_number, outcome);
+  if (parts->rest().has(LineTree::kTwoBlocks)) {
+    outcome.labels.resize(first_label);  // The blocks have it.
+    check_two_blocks(parts->rest(), line_number, outcome);
+  } else {
+    check_block(parts->rest(), line_number, outcome);
+  }
+  return true;
+}
+
 void Checker::check_any(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
   if (line.has(LineTree::kTwoBlocks)) return check_two_blocks(line, line_number, outcome);
   if (!line.words.empty() || !line.comments.empty() || !line.findings.empty()) {
@@ -179,12 +195,8 @@ void Checker::check_any(const LineTree& line, std::uint64_t line_number, Outcome
   }
   frontier.dead_reported = false;
   outcome.positions.by_several |= live.size() > 1 || !frontier.waiting().empty();
-  if (const auto parts = execution::SplitLine::split(line, lack_of_any(live))) {
-    execute_carried(parts->carried(), line_number, outcome);
-    if (!parts->rest().has(LineTree::kTwoBlocks)) return check_block(parts->rest(), line_number, outcome);
-    outcome.labels.resize(first_label);  // The blocks have it.
-    return check_two_blocks(parts->rest(), line_number, outcome);
-  }
+  const execution::Lack* const lack = lack_of_any(live);
+  if (lack && check_carried(line, *lack, line_number, first_label, outcome)) return;
   check_block(line, line_number, outcome);
 }
 
@@ -330,9 +342,8 @@ class Checker::LineExecution final : public execution::Sink {
 /// Executes words that belong to the block before (SplitLine). What they make wrong has been reported there, but for a
 /// missing tool and a missing F, which are mistakes of their own (D45) and reported once only. The words of a frame or
 /// a dwell move no axis, but whatever they name is unknown.
-void Checker::execute_carried(const LineTree& words, std::uint64_t line_number, Outcome& outcome) {
+void Checker::execute_carried(const LineTree& words, bool is_of_motion, std::uint64_t line_number, Outcome& outcome) {
   Groups& live = frontier.live;
-  const bool is_of_motion = lack_of_any(live).is_of_motion;
   group_findings_.clear();
   LineExecution(*this, words, line_number, outcome).run();
   std::erase_if(group_findings_, [](const GroupFinding& each) {

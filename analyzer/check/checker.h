@@ -45,7 +45,9 @@ class Checker {
   void report_dead_code(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void arrive(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void check_two_blocks(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
-  void execute_carried(const syntax::LineTree& words, std::uint64_t line_number, Outcome& outcome);
+  bool check_carried(const syntax::LineTree& line, const execution::Lack& lack, std::uint64_t line_number,
+                     std::size_t first_label, Outcome& outcome);
+  void execute_carried(const syntax::LineTree& words, bool is_of_motion, std::uint64_t line_number, Outcome& outcome);
   void check_block(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void execute_around_jump(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
   void execute_in_all_groups(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);

@@ -107,10 +107,18 @@ bool ends_cycle(const LineTree& line) {
                      [&](const syntax::Instruction& each) { return line.ends_program(each); });
 }
 
+/// Whether a line has only functions and a spindle speed, between two holes: M08.
+bool has_only_functions(const LineTree& line) {
+  const auto changes_tool = [](const syntax::Instruction& each) {
+    return each.kind == syntax::InstructionKind::ToolChange;
+  };
+  return has_only(line, "NMS") && std::none_of(line.instructions.begin(), line.instructions.end(), changes_tool);
+}
+
 }  // namespace
 
 /// G81 and the coordinates of further holes below it, up to the end of the cycle: writes the moves of each hole. There
-/// is no fix where another line is between them, since the cycle stays in force.
+/// is no fix where another line than one of functions is between them, since the cycle stays in force.
 Draft moves_of_cycle(const FixRequest& request) {
   const Word* const marked = word_at(request.line, request.finding.span);
   if (!marked || !is_g(*marked, 81)) return {};
@@ -125,7 +133,9 @@ Draft moves_of_cycle(const FixRequest& request) {
     const LineTree line = parsed.tree();
     if (line.is_empty() && !line.has_label()) continue;
     if (ends_cycle(line)) return draft;
-    if (!has_only(line, "NXY") || (line.has_label() && request.program.is_jumped_to(line.label))) return {};
+    if (line.has_label() && request.program.is_jumped_to(line.label)) return {};
+    if (has_only_functions(line) && !line.is_empty()) continue;
+    if (!has_only(line, "NXY")) return {};
     if (!line.is_empty()) draft.edits.push_back(hole(*cycle, number, line, false));
   }
   return {};

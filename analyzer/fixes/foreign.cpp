@@ -3,6 +3,7 @@
 
 #include "analyzer/fixes/habits.h"
 #include "analyzer/fixes/line_edits.h"
+#include "interpreter/syntax/tree_store.h"
 #include "interpreter/text/characters.h"
 
 namespace isocnc::fixes {
@@ -40,10 +41,24 @@ static Draft removed_with_data(const FixRequest& request) {
   return draft;
 }
 
-/// D1, G64 P0.01, G69: what they ask for always holds here, or there is nothing to end.
+/// Whether a number of a program (O1204) is below other lines: one of a subprogram, which must not run into the program
+/// above it.
+static bool is_number_of_subprogram(const FixRequest& request) {
+  constexpr std::uint64_t kLongestHead = 100;
+  if (text::upper(request.marked().front()) != 'O' && request.marked().front() != ':') return false;
+  if (request.number > kLongestHead) return true;
+  for (std::uint64_t number = 0; number < request.number; ++number) {
+    const syntax::ParsedLine parsed(request.program.text(number));
+    if (!parsed.tree().is_empty()) return true;
+  }
+  return false;
+}
+
+/// D1, G64 P0.01, G69: what they ask for always holds here, or there is nothing to end. The G70 of %4711 G70 counts.
 Draft removed_foreign_word(const FixRequest& request) {
   const ForeignForm* const form = form_of(request);
-  if (!form || !form->is_superfluous) return {};
+  if (!form || !form->is_superfluous || is_number_of_subprogram(request)) return {};
+  if (form->is_statement && request.marked().find("G70") != std::string_view::npos) return {};
   Draft draft = removed_with_data(request);
   const auto holds_comment = [&](const Edit& edit) {  // X(a)1; the data of CYCLE832(...) are no comment.
     const Span span{static_cast<std::uint32_t>(edit.begin.column), static_cast<std::uint32_t>(edit.end.column)};

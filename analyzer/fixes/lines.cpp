@@ -30,7 +30,8 @@ static Draft line_above(const FixRequest& request, std::string_view block) {
 Draft g27_above(const FixRequest& request) { return line_above(request, "G27"); }
 Draft g40_above(const FixRequest& request) { return line_above(request, "G40"); }
 Draft g49_above(const FixRequest& request) { return line_above(request, "G49"); }
-Draft m05_above(const FixRequest& request) { return line_above(request, "M05"); }
+/// Not where a motion stands on the line: the spindle would stop before it.
+Draft m05_above(const FixRequest& request) { return request.line.motion() ? Draft{} : line_above(request, "M05"); }
 Draft g90_above(const FixRequest& request) { return line_above(request, "G90"); }
 Draft g71_above(const FixRequest& request) { return line_above(request, "G71"); }
 

@@ -170,7 +170,12 @@ static const Instruction* last_motion(const LineTree& line) {
 /// G40 G01 Y20: moves the G40 after the last coordinate.
 Draft move_after_motion(const FixRequest& request) {
   const Instruction* const motion = last_motion(request.line);
-  if (!motion) return {};
+  const auto begins_compensation = [](const Instruction& it) {
+    return it.is(dialect::GRole::CompensationLeft) || it.is(dialect::GRole::CompensationRight);
+  };
+  const auto& all = request.line.instructions;
+  // G40 G41 G01 X10: behind the motion the G40 would end what the G41 begins.
+  if (!motion || std::any_of(all.begin(), all.end(), begins_compensation)) return {};
   return moved(request, request.finding.span, request.line.words[motion->end - 1u].end, false);
 }
 

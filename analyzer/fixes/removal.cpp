@@ -94,14 +94,10 @@ Draft removed_earlier_mode(const FixRequest& request) {
   return {{removed(request, earlier)}, std::string(request.line.text_of(earlier))};
 }
 
-/// `%` and O1234, which enclose programs of other controls.
+/// `%`, which encloses programs of other controls.
 Draft removed_foreign_frame(const FixRequest& request) {
-  const std::string_view text = request.marked();
-  const bool is_percent = text.find_first_not_of('%') == std::string_view::npos;
-  const bool is_number = text.size() > 1 && text::upper(text.front()) == 'O' &&
-                         text.find_first_not_of("0123456789", 1) == std::string_view::npos;
-  if ((!is_percent && !is_number) || request.line.words.size() > 1) return {};
-  return removed_mark(request);
+  const bool is_percent = request.marked().find_first_not_of('%') == std::string_view::npos;
+  return is_percent && request.line.words.size() == 1 ? removed_mark(request) : Draft{};
 }
 
 /// G80 ends canned cycles, which this control does not have.

@@ -158,7 +158,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                      .it = "Il controllo conosce solo G con un numero intero di tre cifre al massimo. I codici con "
                            "il punto, come G54.1 o G90.1, sono di altri controlli: usare la G che qui fa lo stesso "
                            "lavoro. Gli zeri iniziali non contano: G01 è G1."},
-     .wrong = "M06 T101001\n[!G90.1!]\nG00 X10\nM02\n",
+     .wrong = "M06 T101001\n[!G1000!]\nG00 X10\nM02\n",
      .right = "M06 T101001\nG90\nG00 X10\nM02\n"},
     {.code = "ISO008",
      .name = "invalid-m-number",
@@ -168,6 +168,10 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .title = {.en = "Invalid M number", .it = "Numero non valido per la M"},
      .message = {.en = "{text}: M takes a whole number from 1 to 999, without sign or decimal point",
                  .it = "{text}: alla M segue un numero intero da 1 a 999, senza segno né punto decimale"},
+     .causes = {{.cause = "tool",
+                 .message = {.en = "{text}: the T is missing before the tool: write M06 T101001",
+                             .it = "{text}: davanti all'utensile manca la T: scrivere M06 T101001"},
+                 .wrong = "[!M06 101002!]\nM02\n"}},
      .explanation = {.en = "M functions are numbered from 1 to 999, and no other exists. M02 to M06 have a fixed "
                            "meaning; the others are defined for each machine. There is no M0 on this control.",
                      .it = "Le funzioni M sono numerate da 1 a 999 e altre non esistono. Da M02 a M06 il significato "
@@ -189,7 +193,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                      .it = "Testa, portautensile e utensile hanno un posto fisso nel numero: delle sei cifre non se "
                            "ne può omettere nessuna. Completare con gli zeri: testa 1, portautensile 1 e utensile 1 "
                            "si scrivono T101001. Fra i gruppi di cifre si possono lasciare spazi: T 1 01 001."},
-     .wrong = "M06 [!T1001!]\nM02\n",
+     .wrong = "M06 [!T10101!]\nM02\n",
      .right = "M06 T101001\nM02\n"},
     {.code = "ISO010",
      .name = "units-after-dimensions",

@@ -71,6 +71,7 @@ constexpr ForeignForm kForms[] = {
      .here = {"the file's name is the program's", "il nome del programma è quello del file"}},
     {.diagnostics = {"unknown-word"_diag},
      .mark = "Oi|:i",
+     .line = "Oi|:i",
      .is_superfluous = true,
      .controls = kF,
      .place = Start,
@@ -419,8 +420,7 @@ constexpr ForeignForm kForms[] = {
 
     // Tools and compensation.
     {.diagnostics = {"invalid-tool-number"_diag},
-     .mark = "Ti",
-
+     .mark = "Td|Tdd|Tddd|Tdddd",
      .controls = kF | kS | kH | kL | kM,
      .place = Change,
      .written = "[!T1!] M06",
@@ -1114,7 +1114,7 @@ constexpr ForeignForm kForms[] = {
      .there = {"describes the blank or the program", "descrive il grezzo o il programma"},
      .here = {"the program says nothing of the blank", "il programma non parla del grezzo"}},
     {.diagnostics = {"unknown-word"_diag, "word-without-number"_diag},
-     .line = "BEGIN PGM x|L Izx|L Iz|END PGM x|BLK FORMnx|BLK FORM x|TOOL CALLx|TOOL DEFx|CYCL DEFix|CYCL CALLx|CALL "
+     .line = "BEGIN PGMx|L Izx|L Iz|END PGMx|BLK FORMnx|BLK FORM x|TOOL CALLx|TOOL DEFx|CYCL DEFix|CYCL CALLx|CALL "
              "LBLx|CALL PGMx|"
              "LBLi|LBL x|FNi:x|CC z|CC|C zDRx|CR zx|CT zx|LzRx|L zRx|L z|L zFx|L zMx|APPR LTx|APPR LNx|APPR CTx|"
              "APPR LCTx|DEP LTx|DEP LNx|DEP CTx|DEP LCTx|PLANE SPATIALx|PLANE RESETx",

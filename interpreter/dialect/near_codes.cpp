@@ -83,8 +83,7 @@ bool is_one_slip(std::string_view written, std::string_view meant) {
 }
 
 /// Codes of other controls that are more often a slip here: G50 for G40, G59 for G49.
-constexpr int kSlips[] = {5,  7,  8,  11, 12, 13, 15, 16, 22, 23, 25, 26, 32,
-                          45, 46, 47, 50, 51, 58, 59, 60, 61, 62, 75, 79};
+constexpr int kSlips[] = {5, 7, 8, 11, 12, 13, 15, 16, 22, 23, 25, 26, 32, 45, 46, 47, 50, 51, 58, 59, 60, 62, 75, 79};
 
 using GNumbers = std::bitset<1'000>;
 

@@ -20,21 +20,17 @@ static bool takes(const GCode& code, dialect::LetterSet arguments) {
 
 /// Leaves open whether a code has been meant. Its group is doubtful if the code would change anything.
 void Executor::doubt(const GCode& code) {
-  switch (code.group) {
-    case ModalGroup::None:
-    case ModalGroup::Motion:  // See may_be_motion().
-      return;
-    case ModalGroup::Workpiece:
-      state_.workpiece_unknown = kLinearAxes;
-      break;
-    case ModalGroup::Face:
-      if (!code.mounts_face() && !state_.face_mounted) return;
-      break;
-    default:
-      if (state_.mode(code.group) == code.number) return;
-      break;
-  }
+  if (code.group == ModalGroup::None || code.group == ModalGroup::Motion) return;  // See may_be_motion().
+  if (!would_change(code)) return;
+  if (code.group == ModalGroup::Workpiece) state_.workpiece_unknown = kLinearAxes;
   doubt(code.group);
+}
+
+/// Whether a modal code would change what is in force.
+bool Executor::would_change(const GCode& code) const {
+  if (code.group == ModalGroup::Workpiece) return true;
+  if (code.group == ModalGroup::Face) return code.mounts_face() || state_.face_mounted;
+  return state_.mode(code.group) != code.number;
 }
 
 /// Leaves open which code of a group is in force. Whatever depends on it is unknown.
@@ -94,6 +90,8 @@ static std::string_view number_of(const Word& g, std::string_view line) {
 /// Handles a G that the dialect does not have, or that cannot be read: a code near it may have been meant (G277, G4O),
 /// or one whose digits go on with those of the next word (G29 90). Returns whether it is surely no motion.
 bool Executor::doubt_unknown_g(const Word& g, const Arguments& arguments) {
+  const bool is_together = line_.text_of(g.span()).find_first_of(" \t") == std::string_view::npos;  // Not G28 0.5.
+  if (is_together && !g.has(Word::kMalformed) && g.known() && !g.whole()) return false;  // G91.1: of other controls.
   const std::string_view number = number_of(g, line_.text);
   const GCode* const written = dialect::code_written(number);
   const bool is_foreign = !written && dialect::is_of_other_controls(number, arguments.present());
@@ -137,6 +135,7 @@ void Executor::doubt_near_g(const syntax::Instruction& g, const Arguments& argum
 /// Handles a G without the arguments that it needs: a code near it that needs none may have been meant (G2 for G27).
 /// Units and dimensions are such codes only where the line has other words.
 void Executor::doubt_lone_g(const syntax::Instruction& g) {
+  if (repetition_is_reported(*g.g())) return;  // G29 G29 X0
   const bool is_alone = !line_.has(syntax::LineTree::kAloneViolated);
   const dialect::GCodeSet near = dialect::codes_near(number_of(line_.command(g), line_.text));
   for (std::size_t row = 0; row < std::size(dialect::kGCodes); ++row) {
@@ -210,6 +209,7 @@ void Executor::allow_for_lost_letter() {
 /// Handles a number that may be a modal G without its letter. The G takes effect as far as that is harmless if it was
 /// none, and what is in force is not known until the next G of its group.
 void Executor::allow_for_lost_g(const GCode& code) {
+  if (!would_change(code)) return;
   doubt(code.group);
   if (code.is_frame()) {
     frame_is_lost_ = true;

@@ -80,6 +80,7 @@ class Executor {
   void report_circle(const Arguments& arguments, const geometry::ArcGiven& given, const geometry::Circle& circle,
                      const Plane& plane);
   bool has_illegible_equals() const;
+  bool has_stray_equals() const;
   void report_missing_circle(const Plane& plane, syntax::Span place);
   bool arc_is_described(const Arguments& arguments, const Plane& plane, syntax::Span place);
 
@@ -98,6 +99,7 @@ class Executor {
 
   // doubts.cpp
   void doubt(const dialect::GCode& code);
+  bool would_change(const dialect::GCode& code) const;
   void doubt(dialect::ModalGroup group);
   void doubt(dialect::GCodeSet codes, dialect::LetterSet arguments);
   void end_doubt(dialect::ModalGroup group);

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -7,6 +6,7 @@
 #include "interpreter/execution/executor.h"
 #include "interpreter/geometry/arc.h"
 #include "interpreter/geometry/increment.h"
+#include "interpreter/text/characters.h"
 
 namespace isocnc::execution {
 
@@ -116,7 +116,10 @@ void Executor::move_illegibly(const Arguments& arguments) {
 bool Executor::follows_foreign_word(const Arguments& arguments) const {
   const auto first = static_cast<std::size_t>(&arguments.first() - line_.words.data());
   if (first == 0 || line_.words[first - 1].letter != syntax::kError) return false;
-  return std::isalpha(static_cast<unsigned char>(line_.text[line_.words[first - 1].begin])) != 0;
+  const syntax::Word& before = line_.words[first - 1];
+  const char letter = text::upper(line_.text[before.begin]);
+  const bool is_offset_number = (letter == 'D' || letter == 'H') && before.whole() && before.value < 100;
+  return letter >= 'A' && letter <= 'Z' && !is_offset_number;  // G41 D1 X10: the offset of a tool.
 }
 
 /// What these coordinates mean is not known; nor is the motion, if there has been none.
@@ -287,10 +290,13 @@ void Executor::move_to(const Arguments& arguments) {
 
 /// Whether the line has an illegible word such as R1=10, which may be the missing word (D61). X=20 is legible, as X20.
 bool Executor::has_illegible_equals() const {
-  const auto is_stray = [](const syntax::Finding& finding) { return finding.id == "assignment-without-register"_diag; };
   const auto is_illegible = [](const syntax::Word& word) { return word.has(syntax::Word::kReported) && !word.known(); };
-  return std::any_of(line_.findings.begin(), line_.findings.end(), is_stray) &&
-         std::any_of(line_.words.begin(), line_.words.end(), is_illegible);
+  return has_stray_equals() && std::any_of(line_.words.begin(), line_.words.end(), is_illegible);
+}
+
+bool Executor::has_stray_equals() const {
+  const auto is_stray = [](const syntax::Finding& finding) { return finding.id == "assignment-without-register"_diag; };
+  return std::any_of(line_.findings.begin(), line_.findings.end(), is_stray);
 }
 
 /// Reports an arc without center and radius; `place` is its G, or a coordinate under a G of an earlier line. It may
@@ -299,6 +305,7 @@ void Executor::report_missing_circle(const Plane& plane, Span place) {
   doubt(ModalGroup::Motion);
   if (may_have(dialect::kCircleLetters) || line_.has(syntax::LineTree::kUnclosed) || has_illegible_equals()) return;
   const bool is_continuation = line_.word_at(place.begin)->letter != 'G';
+  if (is_continuation && has_stray_equals()) return;  // X=20: its author writes for another control.
   const double first = std::min(plane.u, plane.v);
   const double second = std::max(plane.u, plane.v);
   report(is_continuation ? "circle-not-given/continuation"_cause : "circle-not-given"_diag, place,

@@ -206,7 +206,8 @@ void LineParser::add_m(std::uint16_t index) {
   const double meant = meant_number(written.value, 1);
   const bool is_function = !std::isnan(meant);
   if ((!written.is_plain_integer() || !is_function) && !written.has(Word::kMissing | Word::kReported))
-    report("invalid-m-number"_diag, written.span());
+    report(swallows_tool(text_of(written.span())) ? "invalid-m-number/tool"_cause : "invalid-m-number"_diag,
+           written.span());
   if (is_function) written.value = meant;
   // An M without a legible number before a T is probably a tool change.
   std::size_t next = index + 1u;

@@ -145,7 +145,7 @@ void LineParser::find_two_blocks() {
   };
   if (!is_block({0, second.begin}) || !is_block({second.begin, line_.length})) return;
   take_back_within({0, line_.length});
-  report("invalid-line-number"_diag, second);
+  report("invalid-line-number/second"_cause, second);
   line_.flags = LineTree::kHasLabel | LineTree::kTwoBlocks;
 }
 

@@ -172,7 +172,7 @@ TEST(Analysis, AShiftIsNotPassedOverByWhatDependsOnThePosition) {
 /// Where the units are in doubt, a move sets its axes to 0, wherever they were.
 TEST(Analysis, AShiftEndsWhereTheUnitsAreInDoubt) {
   std::string text = incremental_zigzag(2'000);
-  text.insert(text.find("G90 X5"), "70\n" + support::joined(std::vector<std::string>(1'000, "X1 Y1")));
+  text.insert(text.find("G90 X5"), "70\nX1\n" + support::joined(std::vector<std::string>(1'000, "Y1")));
   Document document(text);
   Analysis analysis(document, kSetup);
   document.replace({100, 0}, {100, 0}, "X0.5\n");
