@@ -25,8 +25,9 @@ int main(int count, char** arguments) {
   const rules::CheckSetup setup{.machine = machine.setup, .thresholds = configuration.lint.thresholds};
 
   syntax::LineFinder lines(text);
-  for (const check::LocatedFinding& located : check::check_text(text, setup).findings) {
-    const formats::ShownFinding shown = formats::show(located, lines, {.language = language});
+  const check::Report report = check::check_text(text, setup);
+  for (const check::LocatedFinding& located : report.findings) {
+    const formats::ShownFinding shown = formats::show(located, report, lines, {.language = language});
     fmt::print("line {}: {} [{}]\n", shown.line, shown.message, shown.def.code);
   }
 

@@ -59,12 +59,14 @@ struct Spellings {
   Digits plain;
 };
 
-constexpr auto kSpellings = [] {
-  std::array<Spellings, std::size(kGCodes)> spellings{};
-  for (std::size_t row = 0; row < spellings.size(); ++row)
-    spellings[row] = {spelled(kGCodes[row].number, 100), spelled(kGCodes[row].number, 10)};
-  return spellings;
-}();
+constexpr std::array<Spellings, std::size(kGCodes)> spell_codes() {
+  std::array<Spellings, std::size(kGCodes)> all{};
+  std::size_t row = 0;
+  for (const GCode& code : kGCodes) all[row++] = {spelled(code.number, 100), spelled(code.number, 10)};
+  return all;
+}
+
+constexpr auto kSpellings = spell_codes();
 
 /// Whether `longer` is `shorter` with one more character.
 bool has_one_more(std::string_view longer, std::string_view shorter) {

@@ -182,12 +182,11 @@ class Comparison {
 };
 
 class TranslatedPages : public testing::TestWithParam<Translation> {};
-INSTANTIATE_TEST_SUITE_P(All, TranslatedPages, testing::ValuesIn(kPages),
-                         [](const auto& tested) {
-                           std::string name = fs::path(tested.param.italian).stem().string();
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(All, TranslatedPages, testing::ValuesIn(kPages), [](const auto& tested) {
+  std::string name = fs::path(tested.param.italian).stem().string();
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
 
 TEST_P(TranslatedPages, SayTheSame) {
   for (const std::string& difference : Comparison(GetParam()).differences()) ADD_FAILURE() << difference;
