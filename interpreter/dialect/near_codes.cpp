@@ -77,11 +77,11 @@ bool has_one_more(std::string_view longer, std::string_view shorter) {
 
 bool is_one_slip(std::string_view written, std::string_view meant) {
   if (written.size() != meant.size()) return has_one_more(written, meant) || has_one_more(meant, written);
-  const auto [here, there] = std::mismatch(written.begin(), written.end(), meant.begin());
-  if (here == written.end()) return true;
-  if (std::equal(here + 1, written.end(), there + 1)) return true;
-  return here + 1 != written.end() && here[0] == there[1] && here[1] == there[0] &&
-         std::equal(here + 2, written.end(), there + 2);
+  const auto at =
+      static_cast<std::size_t>(std::mismatch(written.begin(), written.end(), meant.begin()).first - written.begin());
+  if (at == written.size() || written.substr(at + 1) == meant.substr(at + 1)) return true;
+  const bool is_swapped = at + 1 < written.size() && written[at] == meant[at + 1] && written[at + 1] == meant[at];
+  return is_swapped && written.substr(at + 2) == meant.substr(at + 2);
 }
 
 /// Codes of other controls that are more often a slip here: G50 for G40, G59 for G49.
