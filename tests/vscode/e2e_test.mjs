@@ -136,7 +136,7 @@ test('what would stop the control is underlined and listed among the problems', 
   await editor.command('Problems: Focus on Problems View');
   const listed = await eventually(problems, 'the problems are not listed', (rows) => rows.some((row) => row.includes('ISO031')));
   for (const code of ['ISO031', 'ISO054', 'ISO006', 'W001']) assert.ok(listed.some((row) => row.includes(code)), `${code} in ${listed}`);
-  assert.match(listed.find((row) => row.includes('ISO031')), /the center is 11\.1803 mm from the start and 15 mm from the end/);
+  assert.match(listed.find((row) => row.includes('ISO031')), /it is 11\.1803 mm from the start and 15 mm from the end/);
 });
 
 test('the colors of the dialect are there', async () => {

@@ -21,11 +21,12 @@ async function start({ globalState }: vscode.ExtensionContext): Promise<void> {
 }
 
 async function copyTo(target: vscode.Uri, extensionUri: vscode.Uri): Promise<void> {
-  const { joinPath } = vscode.Uri;
-  await vscode.workspace.fs.copy(joinPath(extensionUri, 'test-drive'), target, { overwrite: false });
+  await vscode.workspace.fs.copy(vscode.Uri.joinPath(extensionUri, 'test-drive'), target, { overwrite: false });
   if (!vscode.env.language.startsWith('it')) return;
-  for (const [name, translation] of Object.entries(italian))
-    await vscode.workspace.fs.copy(joinPath(extensionUri, translation), joinPath(target, name), { overwrite: true });
+  for (const [name, translation] of Object.entries(italian)) {
+    const source = vscode.Uri.joinPath(extensionUri, translation);
+    await vscode.workspace.fs.copy(source, vscode.Uri.joinPath(target, name), { overwrite: true });
+  }
 }
 
 async function open({ extensionUri, globalState }: vscode.ExtensionContext): Promise<void> {
