@@ -263,7 +263,7 @@ TEST(Diagnostics, FadeTheLinesThatRepeatAMistake) {
             Json::parse(R"({"start": {"line": 4, "character": 0}, "end": {"line": 4, "character": 3}})"));
   EXPECT_EQ(found[1]["range"],
             Json::parse(R"({"start": {"line": 3, "character": 3}, "end": {"line": 3, "character": 5}})"));
-  for (int i = 1; i < 3; ++i) {
+  for (std::size_t i = 1; i < 3; ++i) {
     EXPECT_EQ(found[i]["severity"], 4);
     EXPECT_EQ(found[i]["tags"], Json::array({1}));
     EXPECT_EQ(found[i]["message"], "as on line 2: " + message);
