@@ -187,7 +187,7 @@ void Checker::check_any(const LineTree& line, std::uint64_t line_number, Outcome
     outcome.last_text_line = line_number;
   }
   const std::size_t first_label = outcome.labels.size();
-  if (line.has_label()) arrive(line, line_number, outcome);
+  if (line.has_label() && jumps_.names(line.label)) arrive(line, line_number, outcome);
   Groups& live = frontier.live;
   if (live.empty()) {
     if (line.jump && line.jump->has_target) ++frontier.next_jump;
@@ -233,9 +233,8 @@ void Checker::report_dead_code(const LineTree& line, std::uint64_t line_number, 
   outcome.findings.push_back({line_number, {.id = "never-runs"_diag, .span = span}});
 }
 
-/// Handles a label: paths that jumped here continue. A label on no feasible path is recorded as well.
+/// Handles a label that a jump names: paths that jumped here continue. A label on no feasible path is recorded as well.
 void Checker::arrive(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
-  if (!jumps_.names(line.label)) return;
   if (frontier.arrive(line) && frontier.bound_live()) admit_reduction(line, line_number, outcome);
   for (const syntax::Word& word : line.words) {
     if (word.letter != 'N' || word.owner != syntax::Word::kNoOwner) continue;

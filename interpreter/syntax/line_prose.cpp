@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <string>
 
 #include "interpreter/syntax/line_parser.h"
@@ -21,8 +20,8 @@ Span LineParser::statement_span(std::uint16_t first) const {
 
 /// Whether a word is a G that this control does not have.
 static bool is_g_of_other_controls(const Word& word) {
-  const std::optional<int> number = word.letter == 'G' && word.is_plain_integer() ? word.whole() : std::nullopt;
-  return number && dialect::g_code(static_cast<std::size_t>(*number)) == nullptr;
+  if (word.letter != 'G' || !word.is_plain_integer() || !word.known()) return false;
+  return word.value > 999 || dialect::g_code(static_cast<std::size_t>(word.value)) == nullptr;
 }
 
 /// Whether the line starts with a G that only other controls have.
