@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -20,7 +22,7 @@ constexpr std::size_t kLongestLine = 1'000;
 
 /// The text in capitals, without comments, leading zeros, and blanks except those between letters.
 std::string canonical(std::string_view text) {
-  std::string plain;
+  std::string result;
   for (std::size_t at = 0; at < text.size() && text[at] != ';'; ++at) {
     const std::size_t close = text[at] == '(' ? text.find(')', at) : std::string_view::npos;
     if (close != std::string_view::npos) {
@@ -28,15 +30,19 @@ std::string canonical(std::string_view text) {
       continue;
     }
     if (is_blank(text[at])) continue;
+    const char c = upper(text[at]);
+    if (result.empty()) {
+      result = c;
+      continue;
+    }
     const bool follows_blank = at > 0 && is_blank(text[at - 1]);
-    if (follows_blank && is_upper(upper(text[at])) && !plain.empty() && is_upper(plain.back())) plain += ' ';
-    plain += upper(text[at]);
-  }
-  std::string result;
-  for (std::size_t at = 0; at < plain.size(); ++at) {
-    const bool starts_number = result.empty() || (!is_digit(result.back()) && result.back() != '.');
-    const bool is_leading_zero = plain[at] == '0' && at + 1 < plain.size() && is_digit(plain[at + 1]);
-    if (!starts_number || !is_leading_zero) result += plain[at];
+    if (follows_blank && is_upper(c) && is_upper(result.back())) result += ' ';
+    const char before = result.size() > 1 ? result[result.size() - 2] : ' ';
+    const bool follows_leading_zero = result.back() == '0' && !is_digit(before) && before != '.';
+    if (follows_leading_zero && is_digit(c))
+      result.back() = c;
+    else
+      result += c;
   }
   return result;
 }
@@ -107,7 +113,10 @@ bool fits_whole(std::string_view pattern, std::string_view text) {
     const char part = pattern[i];
     if (part == 'x') {
       const std::string_view rest = pattern.substr(i + 1);
-      for (std::size_t next = rest.empty() ? text.size() : at; next <= text.size(); ++next)
+      if (rest.empty()) return true;
+      const bool starts_with_text = rest.front() < 'a' || rest.front() > 'z';
+      const auto next_start = [&](std::size_t from) { return starts_with_text ? text.find(rest.front(), from) : from; };
+      for (std::size_t next = next_start(at); next <= text.size(); next = next_start(next + 1))
         if (fits_whole(rest, text.substr(next))) return true;
       return false;
     }
@@ -120,57 +129,80 @@ bool fits_whole(std::string_view pattern, std::string_view text) {
   return at == text.size();
 }
 
-/// Calls `visit` with each alternative, until it returns true. Returns whether it has.
-template <class Visit>
-bool any_alternative(std::string_view patterns, const Visit& visit) {
-  for (std::size_t at = 0; at <= patterns.size();) {
-    const std::size_t end = std::min(patterns.find('|', at), patterns.size());
-    if (visit(patterns.substr(at, end - at))) return true;
-    at = end + 1;
+using Characters = std::bitset<256>;
+
+/// The characters that a pattern's text may start with.
+Characters first_characters(std::string_view pattern) {
+  Characters firsts;
+  const char part = pattern.front();
+  if (part < 'a' || part > 'z') return firsts.set(static_cast<unsigned char>(part));
+  if (part == 'x') return firsts.set();
+  for (std::size_t i = 0; i < firsts.size(); ++i) {
+    const char text[] = {static_cast<char>(i), '1'};  // A letter of a word, with its number.
+    firsts[i] = end_of_part(part, {text, std::size(text)}, 0) > 0;
   }
-  return false;
+  return firsts;
 }
 
-bool fits(std::string_view patterns, std::string_view text) {
-  return patterns.empty() ||
-         any_alternative(patterns, [&](std::string_view pattern) { return fits_whole(pattern, text); });
-}
-
-/// The patterns of statements by their first character, since programs may have a wrong line after another.
-class StatementIndex {
+/// Alternatives of a pattern, and what their texts may start with: few marks and lines need more than that.
+class Patterns {
  public:
-  StatementIndex() {
-    for (const ForeignForm& form : foreign_forms())
-      if (form.is_statement)
-        any_alternative(form.line, [&](std::string_view pattern) {
-          const bool is_letter = pattern.front() < 'a' || pattern.front() > 'z';
-          (is_letter ? by_first_[static_cast<unsigned char>(pattern.front())] : others_).push_back({pattern, &form});
-          return false;
-        });
+  explicit Patterns(std::string_view patterns) {
+    for (std::size_t at = 0; at < patterns.size();) {
+      const std::size_t end = std::min(patterns.find('|', at), patterns.size());
+      alternatives_.push_back(patterns.substr(at, end - at));
+      firsts_ |= first_characters(alternatives_.back());
+      at = end + 1;
+    }
   }
 
-  const ForeignForm* find(std::string_view line) const {
-    if (line.empty()) return nullptr;
-    const ForeignForm* const first = find_in(by_first_[static_cast<unsigned char>(line.front())], line);
-    const ForeignForm* const other = find_in(others_, line);
-    return first && other ? std::min(first, other) : first ? first : other;
+  bool empty() const { return alternatives_.empty(); }
+
+  /// Whether one of them fits the text, or there is none.
+  bool fit(std::string_view text) const {
+    if (empty()) return true;
+    if (text.empty() || !firsts_[static_cast<unsigned char>(text.front())]) return false;
+    return std::any_of(alternatives_.begin(), alternatives_.end(),
+                       [&](std::string_view pattern) { return fits_whole(pattern, text); });
   }
 
  private:
-  struct FormPattern {
-    std::string_view pattern;
+  std::vector<std::string_view> alternatives_;
+  Characters firsts_;
+};
+
+/// The forms by what they are looked for with, since programs may have a wrong line after another. Each list is in the
+/// order of the table.
+class FormIndex {
+ public:
+  struct IndexedForm {
     const ForeignForm* form;
+    Patterns mark;
+    Patterns line;
   };
 
-  static const ForeignForm* find_in(const std::vector<FormPattern>& patterns, std::string_view line) {
-    const auto found = std::find_if(patterns.begin(), patterns.end(),
-                                    [&](const FormPattern& each) { return fits_whole(each.pattern, line); });
-    return found == patterns.end() ? nullptr : found->form;
+  FormIndex() {
+    for (const ForeignForm& form : foreign_forms()) {
+      const IndexedForm entry = {&form, Patterns(form.mark), Patterns(form.line)};
+      if (form.is_statement) statements_.push_back(entry);
+      if (form.keeps_message) continue;
+      for (const DiagnosticId id : form.diagnostics)
+        if (id != kNoDiagnostic) by_diagnostic_[static_cast<std::size_t>(id)].push_back(entry);
+    }
   }
 
-  std::array<std::vector<FormPattern>, 256> by_first_;
-  std::vector<FormPattern> others_;  ///< Those that start with a small letter.
+  const std::vector<IndexedForm>& of(DiagnosticId id) const { return by_diagnostic_[static_cast<std::size_t>(id)]; }
+  const std::vector<IndexedForm>& statements() const { return statements_; }
+
+ private:
+  std::array<std::vector<IndexedForm>, kDiagnosticCount> by_diagnostic_;
+  std::vector<IndexedForm> statements_;
 };
+
+const FormIndex& form_index() {
+  static const FormIndex kIndex;
+  return kIndex;
+}
 
 /// The text that the message shows for a mark: the mark, or the whole that it is a part of.
 std::string_view shown_part(const ForeignForm& form, std::string_view line, std::size_t begin, std::size_t end) {
@@ -198,23 +230,25 @@ std::string_view shown_part(const ForeignForm& form, std::string_view line, std:
 
 const ForeignForm* foreign_form(DiagnosticId id, std::string_view line, std::size_t begin, std::size_t end) {
   if (line.size() > kLongestLine || begin >= end || end > line.size()) return nullptr;
-  const auto concerns = [&](const ForeignForm& form) {
-    return !form.keeps_message &&
-           std::find(std::begin(form.diagnostics), std::end(form.diagnostics), id) != std::end(form.diagnostics);
-  };
-  const std::span<const ForeignForm> forms = foreign_forms();
-  const auto first = std::find_if(forms.begin(), forms.end(), concerns);
-  if (first == forms.end()) return nullptr;
+  const std::vector<FormIndex::IndexedForm>& entries = form_index().of(id);
+  if (entries.empty()) return nullptr;
   const std::string mark = canonical(line.substr(begin, end - begin));
-  const std::string whole = canonical_line(line);
-  for (const ForeignForm& form : forms.subspan(static_cast<std::size_t>(first - forms.begin())))
-    if (concerns(form) && fits(form.mark, mark) && fits(form.line, whole)) return &form;
+  std::optional<std::string> whole;
+  for (const FormIndex::IndexedForm& entry : entries) {
+    if (!entry.mark.fit(mark)) continue;
+    if (!whole && !entry.line.empty()) whole = canonical_line(line);
+    if (entry.line.empty() || entry.line.fit(*whole)) return entry.form;
+  }
   return nullptr;
 }
 
 const ForeignForm* foreign_statement(std::string_view line) {
-  static const StatementIndex kStatements;
-  return line.size() > kLongestLine ? nullptr : kStatements.find(canonical_line(line));
+  if (line.size() > kLongestLine) return nullptr;
+  const std::vector<FormIndex::IndexedForm>& statements = form_index().statements();
+  const std::string whole = canonical_line(line);
+  const auto found = std::find_if(statements.begin(), statements.end(),
+                                  [&](const FormIndex::IndexedForm& entry) { return entry.line.fit(whole); });
+  return found == statements.end() ? nullptr : found->form;
 }
 
 std::string controls_of(const ForeignForm& form, Language language) {

@@ -13,7 +13,8 @@ namespace {
 /// The digits of a G, or more than any G has.
 class Digits {
  public:
-  constexpr Digits() = default;
+  static constexpr std::size_t kMaxKept = 4;  ///< One more than the longest code.
+
   /// Those at the start of a text, with an O read as a zero. Blanks mean nothing (D6).
   explicit Digits(std::string_view number) {
     for (const char c : number) {
@@ -27,12 +28,11 @@ class Digits {
     }
   }
 
-  constexpr void add(char digit) {
+  void add(char digit) {
     if (count_ < kMaxKept) kept_[count_] = digit;
     ++count_;
   }
-  constexpr std::size_t count() const { return count_; }
-  constexpr std::string_view kept() const { return {kept_.data(), std::min(count_, kMaxKept)}; }
+  std::size_t count() const { return count_; }
   /// The number that the first digits are.
   int value_of(std::size_t digits) const {
     int value = 0;
@@ -41,47 +41,15 @@ class Digits {
   }
 
  private:
-  static constexpr std::size_t kMaxKept = 4;  ///< One more than the longest code.
   std::array<char, kMaxKept> kept_{};
   std::size_t count_ = 0;
 };
 
-constexpr Digits spelled(int number, int minimum) {
-  Digits digits;
-  for (int unit = 100; unit > 0; unit /= 10)
-    if (number >= unit || unit < minimum) digits.add(static_cast<char>('0' + number / unit % 10));
-  return digits;
-}
-
-/// How a code is written, with a leading zero and without.
-struct Spellings {
-  Digits padded;
-  Digits plain;
-};
-
-constexpr std::array<Spellings, std::size(kGCodes)> spell_codes() {
-  std::array<Spellings, std::size(kGCodes)> all{};
-  std::size_t row = 0;
-  for (const GCode& code : kGCodes) all[row++] = {spelled(code.number, 100), spelled(code.number, 10)};
-  return all;
-}
-
-constexpr auto kSpellings = spell_codes();
-
-/// Whether `longer` is `shorter` with one more character.
-bool has_one_more(std::string_view longer, std::string_view shorter) {
-  if (longer.size() != shorter.size() + 1) return false;
-  const auto [there, here] = std::mismatch(shorter.begin(), shorter.end(), longer.begin());
-  return std::equal(there, shorter.end(), here + 1);
-}
-
-bool is_one_slip(std::string_view written, std::string_view meant) {
-  if (written.size() != meant.size()) return has_one_more(written, meant) || has_one_more(meant, written);
-  const auto at =
-      static_cast<std::size_t>(std::mismatch(written.begin(), written.end(), meant.begin()).first - written.begin());
-  if (at == written.size() || written.substr(at + 1) == meant.substr(at + 1)) return true;
-  const bool is_swapped = at + 1 < written.size() && written[at] == meant[at + 1] && written[at + 1] == meant[at];
-  return is_swapped && written.substr(at + 2) == meant.substr(at + 2);
+/// The code whose number is written with these digits, with a leading zero or without; empty if there is none.
+GCodeSet code_spelled(int number, std::size_t digits) {
+  const bool is_spelling = digits == 1 || digits == 2 || (digits == 3 && number >= 100);
+  const GCode* const code = is_spelling ? g_code(static_cast<std::size_t>(number)) : nullptr;
+  return code ? bit_of(*code) : 0;
 }
 
 /// Codes of other controls that are more often a slip here: G50 for G40, G59 for G49.
@@ -164,12 +132,23 @@ bool is_of_other_controls(std::string_view number, LetterSet arguments) {
 
 GCodeSet codes_near(std::string_view number) {
   const Digits digits(number);
-  if (digits.count() == 0 || digits.count() > digits.kept().size()) return 0;
-  GCodeSet near = 0;
-  for (std::size_t row = 0; row < kSpellings.size(); ++row)
-    if (is_one_slip(digits.kept(), kSpellings[row].padded.kept()) ||
-        is_one_slip(digits.kept(), kSpellings[row].plain.kept()))
-      near |= GCodeSet{1} << row;
+  const std::size_t count = digits.count();
+  if (count == 0 || count > Digits::kMaxKept) return 0;
+  const int value = digits.value_of(count);
+  GCodeSet near = code_spelled(value, count);
+  int unit = 1;
+  for (std::size_t place = 0; place <= count; ++place, unit *= 10) {
+    const int above = value / unit;
+    const int below = value % unit;
+    for (int lost = 0; lost < 10; ++lost) near |= code_spelled((10 * above + lost) * unit + below, count + 1);
+    if (place == count) break;
+    const int digit = above % 10;
+    const int rest = above / 10;
+    near |= code_spelled(rest * unit + below, count - 1);
+    for (int meant = 0; meant < 10; ++meant) near |= code_spelled((10 * rest + meant) * unit + below, count);
+    const int swapped = 10 * (10 * (rest / 10) + digit) + rest % 10;
+    if (place + 1 < count) near |= code_spelled(swapped * unit + below, count);
+  }
   return near;
 }
 
