@@ -8,8 +8,8 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
-#include <exception>
 #include <limits>
+#include <new>
 #include <optional>
 
 #include "interpreter/system/system_texts.h"
@@ -103,10 +103,13 @@ static std::optional<Text> obstacle_in_head(std::string_view text) {
   return std::nullopt;
 }
 
-static bool grow_buffer(std::string& bytes, std::size_t size) {
+/// Makes room for `capacity` bytes.
+static bool grow(SourceFile::ReadBytes& bytes, std::size_t capacity) {
   try {
-    bytes.resize(size);
-  } catch (const std::exception&) {  // Out of memory, or longer than the maximum string.
+    auto larger = std::make_unique_for_overwrite<char[]>(capacity);
+    std::copy_n(bytes.data.get(), bytes.size, larger.get());
+    bytes.data = std::move(larger);
+  } catch (const std::bad_alloc&) {
     return false;
   }
   return true;
@@ -114,21 +117,22 @@ static bool grow_buffer(std::string& bytes, std::size_t size) {
 
 /// Appends bytes of the stream until there are `limit` bytes or it ends, with memory for `expected` bytes; returns 0 or
 /// the errno.
-static int read_up_to(std::size_t limit, std::size_t expected, int descriptor, std::string& bytes) {
+static int read_up_to(std::size_t limit, std::size_t expected, int descriptor, SourceFile::ReadBytes& bytes) {
   static constexpr std::size_t kFirstBytes = 64 * 1024;
-  std::size_t size = bytes.size();
-  int error = 0;
-  while (size < limit) {
-    const std::size_t capacity = std::min(limit, size < expected ? expected + 1 : std::max(kFirstBytes, 2 * size));
-    if (size == bytes.size() && !grow_buffer(bytes, capacity)) return ENOMEM;
-    const ssize_t count = ::read(descriptor, bytes.data() + size, bytes.size() - size);
+  std::size_t capacity = bytes.size;
+  while (bytes.size < limit) {
+    if (bytes.size == capacity) {
+      const std::size_t wanted = bytes.size < expected ? expected + 1 : std::max(kFirstBytes, 2 * bytes.size);
+      capacity = std::min(limit, wanted);
+      if (!grow(bytes, capacity)) return ENOMEM;
+    }
+    const ssize_t count = ::read(descriptor, bytes.data.get() + bytes.size, capacity - bytes.size);
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) error = errno;
-    if (count <= 0) break;
-    size += static_cast<std::size_t>(count);
+    if (count < 0) return errno;
+    if (count == 0) break;
+    bytes.size += static_cast<std::size_t>(count);
   }
-  bytes.resize(size);
-  return error;
+  return 0;
 }
 
 namespace {
@@ -211,7 +215,9 @@ std::variant<SourceFile, SourceFile::Problem> SourceFile::with_short_lines(Sourc
   return file;
 }
 
-std::string_view SourceFile::bytes() const { return mapped_ ? mapped_->bytes() : std::string_view(read_); }
+std::string_view SourceFile::bytes() const {
+  return mapped_ ? mapped_->bytes() : std::string_view(read_.data.get(), read_.size);
+}
 
 std::string_view SourceFile::text() const {
   const std::string_view all = bytes();

@@ -34,6 +34,12 @@ class SourceFile {
   std::string_view text() const;
   bool has_byte_order_mark() const { return text().size() != bytes().size(); }
 
+  /// Bytes of a stream, in memory that is not filled before they are read.
+  struct ReadBytes {
+    std::unique_ptr<char[]> data;
+    std::size_t size = 0;
+  };
+
  private:
   SourceFile() = default;
   static std::variant<SourceFile, Problem> open(const std::filesystem::path& path, std::size_t max_read_bytes,
@@ -46,7 +52,7 @@ class SourceFile {
   std::string_view bytes() const;
 
   std::unique_ptr<const MappedFile> mapped_;
-  std::string read_;  // The bytes if the file is not mapped.
+  ReadBytes read_;  // The bytes if the file is not mapped.
 };
 
 /// A UTF-8 byte-order mark, for writing it back.
