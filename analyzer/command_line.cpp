@@ -1,7 +1,5 @@
 #include "analyzer/command_line.h"
 
-#include <unistd.h>
-
 #include <cstdlib>
 
 #include "analyzer/formats/renderers.h"
@@ -9,13 +7,16 @@
 #include "interpreter/command_line/source_options.h"
 #include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/dialect/locale.h"
+#include "interpreter/system/descriptor.h"
+#include "interpreter/system/terminal.h"
+#include "interpreter/system/user_language.h"
 
 namespace isocnc::analyzer {
 
 using dialect::Language;
 
 Language LintCommandOptions::reader_language() const {
-  return dialect::language_named(language).value_or(dialect::language_of_environment());
+  return dialect::language_named(language).value_or(system::user_language());
 }
 
 void LintCommandOptions::follow(const configuration::Configuration& configuration) {
@@ -24,9 +25,9 @@ void LintCommandOptions::follow(const configuration::Configuration& configuratio
 
 bool LintCommandOptions::wants_color() const {
   if (color != "auto") return color == "always";
-  const int descriptor = prints_program() ? STDERR_FILENO : STDOUT_FILENO;
+  const int descriptor = prints_program() ? system::kStandardError : system::kStandardOutput;
   // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody sets a variable.
-  return output.empty() && isatty(descriptor) != 0 && std::getenv("NO_COLOR") == nullptr;
+  return output.empty() && system::is_terminal(descriptor) && std::getenv("NO_COLOR") == nullptr;
 }
 
 bool LintCommandOptions::prints_program() const { return fix && !diff && paths.size() == 1 && paths.front() == "-"; }

@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <charconv>
 #include <iostream>
 #include <optional>
@@ -17,10 +15,13 @@
 #include "interpreter/configuration/configurations.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/locale.h"
+#include "interpreter/system/descriptor.h"
 #include "interpreter/system/output_file.h"
 #include "interpreter/system/replace_file.h"
 #include "interpreter/system/source_file.h"
 #include "interpreter/system/system_texts.h"
+#include "interpreter/system/terminal.h"
+#include "interpreter/system/user_language.h"
 #include "interpreter/text/unicode.h"
 
 namespace isocnc::analyzer {
@@ -52,9 +53,7 @@ struct FormatCommandOptions {
   configuration::ConfigurationSource source;
   std::string stdin_name = "<stdin>";
 
-  Language reader_language() const {
-    return dialect::language_named(language).value_or(dialect::language_of_environment());
-  }
+  Language reader_language() const { return dialect::language_named(language).value_or(system::user_language()); }
   OutputMode mode() const {
     if (check) return OutputMode::Check;
     if (diff) return OutputMode::Diff;
@@ -166,7 +165,7 @@ class FormatRun {
 
  private:
   /// Whether the output would overwrite the progress bar.
-  bool shares_terminal() const { return mode_ != OutputMode::InPlace && ::isatty(STDOUT_FILENO) != 0; }
+  bool shares_terminal() const { return mode_ != OutputMode::InPlace && system::is_terminal(system::kStandardOutput); }
 
   void fail(std::string_view name, std::string_view why) {
     progress_.clear();
@@ -176,11 +175,11 @@ class FormatRun {
 
   void format_file(const std::filesystem::path& file, const formatting::ProgramStyle& style) {
     const bool from_stdin = file == "-";
-    const std::string name = from_stdin ? options_.stdin_name : file.string();
+    const std::string name = from_stdin ? options_.stdin_name : file.generic_string();
     std::optional<system::FileReplacement> replacement;
     if (mode_ == OutputMode::InPlace) replacement.emplace(file);  // Before the file is read.
     const auto opened =
-        from_stdin ? SourceFile::read_stream(STDIN_FILENO, language_) : SourceFile::open(file, language_);
+        from_stdin ? SourceFile::read_stream(system::kStandardInput, language_) : SourceFile::open(file, language_);
     if (const auto* problem = std::get_if<SourceFile::Problem>(&opened)) return fail(name, problem->message);
     const auto& source = std::get<SourceFile>(opened);
     ++read_;
@@ -259,7 +258,7 @@ class FormatRun {
   const Language language_;
   command_line::Progress progress_;
   std::size_t shown_bytes_ = 0;  // Bytes of the file that the progress bar has counted.
-  system::OutputFile output_{STDOUT_FILENO};
+  system::OutputFile output_{system::kStandardOutput};
   std::size_t read_ = 0;
   std::size_t changed_ = 0;
   bool failed_ = false;

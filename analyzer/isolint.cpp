@@ -7,8 +7,6 @@
 #include <thread>
 #include <variant>
 
-#include <unistd.h>
-
 #include <fmt/format.h>
 
 #include "analyzer/check/check_text.h"
@@ -30,6 +28,7 @@
 #include "interpreter/command_line/progress.h"
 #include "interpreter/configuration/show.h"
 #include "interpreter/dialect/format.h"
+#include "interpreter/system/descriptor.h"
 #include "interpreter/system/output_file.h"
 #include "interpreter/system/same_file.h"
 #include "interpreter/system/source_file.h"
@@ -59,13 +58,13 @@ class LintOutput final : public formats::Output {
   explicit LintOutput(const LintCommandOptions& options)
       : path_(options.output),
         language_(options.reader_language()),
-        descriptor_(options.prints_program() ? STDERR_FILENO : STDOUT_FILENO),
+        descriptor_(options.prints_program() ? system::kStandardError : system::kStandardOutput),
         file_(path_.empty() ? system::OutputFile(descriptor_) : system::OutputFile(std::filesystem::path(path_))) {}
 
   /// Writes the rest; returns false, after an error message, if output has been lost.
   bool finish() {
     flush();
-    const std::string standard = descriptor_ == STDOUT_FILENO ? "<stdout>" : "<stderr>";
+    const std::string standard = descriptor_ == system::kStandardOutput ? "<stdout>" : "<stderr>";
     const std::optional<std::string> problem = system::commit(file_, path_.empty() ? standard : path_, language_);
     if (problem) complain(*problem);
     return !problem;
@@ -164,10 +163,10 @@ class LintRun {
     const bool from_stdin = path == "-";
     std::optional<fixing::FileFixing> fixing;
     if (options_.fix && !options_.diff && !from_stdin) fixing.emplace(path);  // Before the file is read.
-    CheckedFile checked{
-        from_stdin ? options_.stdin_name : path.string(),
-        from_stdin ? SourceFile::read_stream(STDIN_FILENO, style_.language) : SourceFile::open(path, style_.language),
-        settings};
+    CheckedFile checked{from_stdin ? options_.stdin_name : path.generic_string(),
+                        from_stdin ? SourceFile::read_stream(system::kStandardInput, style_.language)
+                                   : SourceFile::open(path, style_.language),
+                        settings};
     const auto* const source = std::get_if<SourceFile>(&checked.opened);
     if (!source) return checked;
     if (options_.fix || options_.diff) {
@@ -295,7 +294,7 @@ class LintRun {
   std::size_t turn_ = 0;  // Guarded by mutex_, like the members below.
   LintOutput output_;
   selection::Tally tally_;
-  system::OutputFile program_{STDOUT_FILENO};  // The output of --fix -.
+  system::OutputFile program_{system::kStandardOutput};  // The output of --fix -.
   std::size_t files_checked_ = 0;
   std::size_t fixed_ = 0;
   bool has_difference_ = false;
@@ -340,7 +339,7 @@ std::optional<Programs> find_programs(const LintCommandOptions& options, configu
   // Tools that read JSON compare arrays, so the order must not depend on how the files were named.
   if (options.format == "json")
     std::sort(found.files.begin(), found.files.end(),
-              [](const auto& a, const auto& b) { return a.native() < b.native(); });
+              [](const auto& a, const auto& b) { return a.generic_string() < b.generic_string(); });
   Programs programs{.files = std::move(found.files), .settings = {}};
   for (const std::filesystem::path& file : programs.files)
     programs.settings.emplace_back(settings.of(input::place_of_program(file, options.stdin_name)));
@@ -448,7 +447,7 @@ ExitStatus show_config(LintCommandOptions options) {
     return ExitStatus::Failure;
   }
   complain(shown.file.empty() ? std::string(kDefaults.in(language))
-                              : dialect::format(kFrom, language, shown.file.string()));
+                              : dialect::format(kFrom, language, shown.file.generic_string()));
   std::error_code unknown;
   const bool is_folder = std::filesystem::is_directory(place, unknown);
   return say(configuration::to_json(is_folder ? shown : without_other_files(shown, place)), options);

@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -23,9 +21,12 @@
 #include "interpreter/running/error_message.h"
 #include "interpreter/running/runner.h"
 #include "interpreter/syntax/number.h"
+#include "interpreter/system/descriptor.h"
 #include "interpreter/system/output_file.h"
 #include "interpreter/system/same_file.h"
 #include "interpreter/system/source_file.h"
+#include "interpreter/system/terminal.h"
+#include "interpreter/system/user_language.h"
 #include "interpreter/text/unicode.h"
 
 namespace isocnc::interpreter {
@@ -55,9 +56,7 @@ struct RunCommandOptions {
   configuration::ConfigurationSource source;
   std::optional<std::string> machine;
 
-  Language reader_language() const {
-    return dialect::language_named(language).value_or(dialect::language_of_environment());
-  }
+  Language reader_language() const { return dialect::language_named(language).value_or(system::user_language()); }
   bool reads_stdin() const { return file == "-"; }
   /// The path of the program file for the system.
   std::string program_file() const { return reads_stdin() ? "/dev/stdin" : file; }
@@ -171,7 +170,7 @@ std::optional<restart::RestartOptions> read_restart_options(const RunCommandOpti
   restart::RestartOptions restart;
   restart.run = run;
   restart.language = options.reader_language();
-  restart.name = options.reads_stdin() ? "<stdin>" : std::filesystem::path(options.file).filename().string();
+  restart.name = options.reads_stdin() ? "<stdin>" : std::filesystem::path(options.file).filename().generic_string();
   const auto line = read_count(*options.restart_at, std::numeric_limits<std::uint64_t>::max());
   if (!line) return refuse(kWrongRestart, *options.restart_at, options);
   restart.line = *line - 1;
@@ -229,7 +228,7 @@ std::vector<NamedFile> files_written(const RunCommandOptions& options) {
 bool files_are_apart(const RunCommandOptions& options, const std::filesystem::path& configuration) {
   const Language language = options.reader_language();
   const NamedFile read[] = {{options.program_file(), kProgram.in(language)},
-                            {configuration.string(), kConfiguration.in(language)},
+                            {configuration.generic_string(), kConfiguration.in(language)},
                             {options.machine.value_or(""), kMachineFile.in(language)}};
   const std::vector<NamedFile> written = files_written(options);
   const auto refuse_file = [&](const NamedFile& file, const Text& why, auto... what) {
@@ -250,7 +249,8 @@ bool files_are_apart(const RunCommandOptions& options, const std::filesystem::pa
 running::RunResult run_with_progress(std::string_view program, running::RunOptions options, const RunOutputs& outputs,
                                      const std::function<void(const running::Event&)>& on_event) {
   constexpr std::size_t kPace = 4096;  // Bytes: asking the clock on every line would cost more than the line.
-  const bool shares_terminal = (outputs.trace == "-" || outputs.samples == "-") && isatty(STDOUT_FILENO) != 0;
+  const bool shares_terminal =
+      (outputs.trace == "-" || outputs.samples == "-") && system::is_terminal(system::kStandardOutput);
   command_line::Progress progress(shares_terminal ? nullptr : command_line::terminal_writer(), program.size());
   std::size_t progress_bytes = 0;
   options.before_block = [&](const running::Block& block) {
@@ -282,7 +282,7 @@ bool write_restart(std::string_view program, const RunCommandOptions& options) {
   if (is_file) {
     output.emplace(std::filesystem::path(options.output));
   } else {
-    output.emplace(STDOUT_FILENO);
+    output.emplace(system::kStandardOutput);
   }
   output->write(program);
   const std::optional<std::string> problem =
@@ -336,7 +336,7 @@ std::optional<FoundMachine> find_machine(RunCommandOptions& options) {
 
 plot::PlotSubject plot_subject(std::string_view program, const configuration::MachineConfiguration& machine,
                                const RunCommandOptions& options) {
-  return {.name = std::filesystem::path(options.shown_file()).filename().string(),
+  return {.name = std::filesystem::path(options.shown_file()).filename().generic_string(),
           .program = program,
           .home = machine.setup.home,
           .tools = plot::plot_tools(machine),
@@ -361,7 +361,7 @@ ExitStatus run_file(RunCommandOptions options) {
     restart_options->machine = machine.timed;
   }
   if (!files_are_apart(options, found->configuration)) return ExitStatus::Failure;
-  const auto opened = options.reads_stdin() ? system::SourceFile::read_stream(STDIN_FILENO, language)
+  const auto opened = options.reads_stdin() ? system::SourceFile::read_stream(system::kStandardInput, language)
                                             : system::SourceFile::open(options.file, language);
   if (const auto* problem = std::get_if<system::SourceFile::Problem>(&opened)) {
     complain(fmt::format("{}: {}", options.shown_file(), problem->message));

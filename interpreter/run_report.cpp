@@ -1,13 +1,12 @@
 #include "interpreter/run_report.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "interpreter/system/descriptor.h"
 #include "interpreter/system/system_texts.h"
 
 namespace isocnc::interpreter {
@@ -15,7 +14,7 @@ namespace isocnc::interpreter {
 RunReport::RunReport(const RunOutputs& outputs, const simulation::TimedMachine& machine)
     : outputs_(outputs),
       machine_(machine),
-      standard_output_(STDOUT_FILENO),
+      standard_output_(system::kStandardOutput),
       trace_(open(outputs.trace, trace_file_)),
       samples_(open(outputs.samples, samples_file_)),
       summary_(machine),

@@ -28,7 +28,7 @@ std::vector<std::filesystem::path> ClosedPrograms::programs_in(const Folders& fo
   };
   std::vector<std::string> paths;
   paths.reserve(folders.size());
-  for (const std::filesystem::path& folder : folders) paths.push_back(folder.string());
+  for (const std::filesystem::path& folder : folders) paths.push_back(folder.generic_string());
   // A folder that cannot be read is not reported: the user sees it in the editor's view of the folders.
   return input::select_files(paths, rules, dialect::Language::English).files;
 }

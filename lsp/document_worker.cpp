@@ -75,7 +75,7 @@ void DocumentWorker::finish_edit(const std::function<void()>& edit, const Client
 
 static std::string titled(const std::string& uri, const Client& client, const dialect::Text& title) {
   const auto path = protocol::path_of(uri);
-  return dialect::format(title, client.language({}), path ? path->filename().string() : uri);
+  return dialect::format(title, client.language({}), path ? path->filename().generic_string() : uri);
 }
 
 bool DocumentWorker::shows_progress_to(const Client& client) const {

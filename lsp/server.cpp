@@ -1,7 +1,5 @@
 #include "lsp/server.h"
 
-#include <cerrno>
-#include <csignal>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -9,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "interpreter/configuration/configurations.h"
+#include "interpreter/system/process.h"
 #include "lsp/protocol/uri.h"
 #include "lsp/workspace_aggregate.h"
 
@@ -180,7 +179,7 @@ void Server::end() {
 }
 
 void Server::idle() {
-  if (parent_ > 0 && ::kill(parent_, 0) != 0 && errno == ESRCH) end();
+  if (parent_ > 0 && !system::is_running(parent_)) end();
 }
 
 void Server::cancel(const rpc::CallPointer& call) { pending_requests_.cancel(call->params().at("id")); }

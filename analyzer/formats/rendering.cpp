@@ -69,7 +69,9 @@ std::string plain_path(std::string_view name) {
 
 std::string uri_of(std::string_view name) {
   const std::string path = plain_path(name);
-  std::string uri = path.starts_with('/') ? "file://" : "";
+  // On Windows: //server/share/part.iso, c:/part.iso.
+  const std::string_view start = path.starts_with("//") ? "file:" : path.starts_with('/') ? "file://" : "file:///";
+  std::string uri(std::filesystem::path(path).is_absolute() ? start : "");
   for (const char c : path) {
     const auto byte = static_cast<unsigned char>(c);
     const bool plain =

@@ -45,7 +45,7 @@ static bool has_extension(std::string_view name, std::string_view extension) {
 }
 
 static std::string problem(const fs::path& path, const std::error_code& error, dialect::Language language) {
-  return path.native() + ": " + system::cannot_read(error.value(), language);
+  return path.generic_string() + ": " + system::cannot_read(error, language);
 }
 
 namespace {
@@ -76,8 +76,9 @@ class Search {
 
   /// The programs, sorted by path.
   std::vector<NamedPath> take_programs() {
-    std::sort(programs_.begin(), programs_.end(),
-              [](const NamedPath& a, const NamedPath& b) { return a.shown.native() < b.shown.native(); });
+    std::sort(programs_.begin(), programs_.end(), [](const NamedPath& a, const NamedPath& b) {
+      return a.shown.generic_string() < b.shown.generic_string();
+    });
     return std::move(programs_);
   }
   /// The problems, sorted by path.
@@ -97,13 +98,13 @@ class Search {
   }
 
   void enter(const NamedPath& directory, const GitIgnore& ignored) {
-    if (directory.real.filename().native().starts_with(".git") || ignored.ignores(directory.real, true)) return;
+    if (directory.real.filename().generic_string().starts_with(".git") || ignored.ignores(directory.real, true)) return;
     search(directory, ignored.entering(directory.real));
   }
 
   /// Whether the entry is a regular file with one of the extensions. A pipe is not: reading it would block.
   static bool is_program(const fs::directory_entry& entry, std::span<const std::string> extensions) {
-    const std::string name = entry.path().filename();
+    const std::string name = entry.path().filename().generic_string();
     if (std::none_of(extensions.begin(), extensions.end(),
                      [&](const std::string& extension) { return has_extension(name, extension); })) {
       return false;
@@ -147,7 +148,7 @@ class Selector {
   }
 
   void add(NamedPath file) {
-    if (taken_.insert(file.real.native()).second) selection_.files.push_back(std::move(file.shown));
+    if (taken_.insert(file.real.generic_string()).second) selection_.files.push_back(std::move(file.shown));
   }
 
   const RulesOfFolder& rules_;

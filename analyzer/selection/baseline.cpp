@@ -220,7 +220,7 @@ class BaselineReader final : public nlohmann::json_sax<nlohmann::json> {
 std::variant<Baseline, std::string> Baseline::read(const fs::path& file, Language language) {
   const auto opened = system::SourceFile::open(file, language);
   if (const auto* problem = std::get_if<system::SourceFile::Problem>(&opened))
-    return fmt::format("{}: {}", file.string(), problem->message);
+    return fmt::format("{}: {}", file.generic_string(), problem->message);
   const std::string_view text = std::get<system::SourceFile>(opened).text();
   const char* const end = text.data() + text.size();
   const char* furthest = text.data();
@@ -230,7 +230,7 @@ std::variant<Baseline, std::string> Baseline::read(const fs::path& file, Languag
     return baseline;
   // After a number the parser has read one byte more, which may be the line end.
   const auto line = 1 + std::count(text.data(), std::max(text.data(), furthest - 1), '\n');
-  return fmt::format("{}:{}: {}", file.string(), line, reader.mistake());
+  return fmt::format("{}:{}: {}", file.generic_string(), line, reader.mistake());
 }
 
 }  // namespace isocnc::selection

@@ -3,10 +3,8 @@
 #include <cerrno>
 #include <utility>
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include "interpreter/syntax/tree_store.h"
+#include "interpreter/system/descriptor.h"
 #include "interpreter/system/source_file.h"
 #include "interpreter/system/system_texts.h"
 #include "interpreter/text/characters.h"
@@ -28,11 +26,9 @@ ProgramText::ProgramText(std::string text) : text_(std::move(text)) {
 /// Reads the file into memory: if it were mapped, the text would be lost when the file is cut short.
 std::variant<ProgramText, ProgramText::ReadError> ProgramText::read(const std::filesystem::path& file,
                                                                     dialect::Language language) {
-  // Not blocking, so that a pipe without a writer is read as an empty file.
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor < 0) return ReadError{system::cannot_read(errno, language)};
-  const auto opened = system::SourceFile::read_stream(descriptor, language);
-  ::close(descriptor);
+  const system::Descriptor descriptor = system::open_to_read_at_once(file);
+  if (!descriptor.is_open()) return ReadError{system::cannot_read(errno, language)};
+  const auto opened = system::SourceFile::read_stream(descriptor.number(), language);
   if (const auto* const problem = std::get_if<system::SourceFile::Problem>(&opened)) return ReadError{problem->message};
   return ProgramText(std::string(std::get<system::SourceFile>(opened).text()));
 }

@@ -23,7 +23,7 @@ static std::string mistakes_of(const Configurations& read, Language language) {
 static debuggee::ProgramText read_program(const std::filesystem::path& file, Language language) {
   auto text = debuggee::ProgramText::read(file, language);
   if (const auto* const problem = std::get_if<debuggee::ProgramText::ReadError>(&text))
-    throw dap::RequestError(fmt::format("{}: {}", file.string(), problem->message));
+    throw dap::RequestError(fmt::format("{}: {}", file.generic_string(), problem->message));
   return std::get<debuggee::ProgramText>(std::move(text));
 }
 

@@ -35,7 +35,7 @@ static void read_files(const Json& arguments, LaunchOptions& options) {
   const std::filesystem::path folder = dap::member<std::string>(arguments, "cwd").value_or("");
   options.program = std::filesystem::absolute(folder / program).lexically_normal();
   const auto machine = dap::member<std::string>(arguments, "machine");
-  if (machine && !machine->empty()) options.machine = (folder / *machine).string();
+  if (machine && !machine->empty()) options.machine = (folder / *machine).generic_string();
 }
 
 static double read_speed(const Json& arguments) {

@@ -7,8 +7,8 @@
 
 #include "debugger/session/event_text.h"
 #include "debugger/session/launch.h"
-#include "interpreter/dialect/locale.h"
 #include "interpreter/running/error_message.h"
+#include "interpreter/system/user_language.h"
 
 namespace isocnc::session {
 
@@ -44,7 +44,7 @@ void Session::launch(LaunchOptions options) {
 
 void Session::begin(LaunchOptions options) {
   const debuggee::FileWatch file_watch(options.program);  // A change while the file is read counts.
-  const Language clients = client().locale.value_or(dialect::language_of_environment());
+  const Language clients = client().locale.value_or(system::user_language());
   Launch launched = session::launch(options, state_.commanded_language, clients);
   state_.launch_options = std::move(options);
   state_.configuration = std::move(launched.configuration);

@@ -1,7 +1,7 @@
 #include "debugger/session/session_state.h"
 
-#include "interpreter/dialect/locale.h"
 #include "interpreter/system/same_file.h"
+#include "interpreter/system/user_language.h"
 
 namespace isocnc::session {
 
@@ -14,17 +14,18 @@ expressions::Moment SessionState::moment() const {
 
 bool SessionState::is_program(const std::filesystem::path& file) const {
   const std::filesystem::path& program = launch_options.program;
-  return file == program || system::is_same_file(file.string(), program.string());
+  return file == program || system::is_same_file(file.generic_string(), program.generic_string());
 }
 
 Json SessionState::source() const {
-  return {{"name", launch_options.program.filename().string()}, {"path", launch_options.program.string()}};
+  return {{"name", launch_options.program.filename().generic_string()},
+          {"path", launch_options.program.generic_string()}};
 }
 
 dialect::Language SessionState::language() const {
   if (commanded_language) return *commanded_language;
   if (configuration.language) return *configuration.language;
-  return client.locale.value_or(dialect::language_of_environment());
+  return client.locale.value_or(system::user_language());
 }
 
 }  // namespace isocnc::session

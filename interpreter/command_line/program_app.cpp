@@ -17,6 +17,7 @@
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/locale.h"
 #include "interpreter/dialect/near_names.h"
+#include "interpreter/system/user_language.h"
 
 namespace isocnc::command_line {
 
@@ -72,7 +73,7 @@ static Language language_of_command(int argc, const char* const* argv) {
                                                                      : "";
     if (const auto language = dialect::language_named(value)) return *language;
   }
-  return requests_manual_page(argc, argv) ? Language::English : dialect::language_of_environment();
+  return requests_manual_page(argc, argv) ? Language::English : system::user_language();
 }
 
 ProgramApp::ProgramApp(int argc, const char* const* argv, const Text& description, ManualTexts texts)
@@ -84,6 +85,7 @@ ProgramApp::ProgramApp(int argc, const char* const* argv, const Text& descriptio
   app_->set_help_flag("-h,--help", text(kHelp));
   app_->set_version_flag("--version", fmt::format("{} {}", texts_.program, texts_.version), text(kVersion));
   app_->get_formatter()->column_width(27);
+  app_->allow_windows_style_options(false);  // /programs/part.iso is a file on Windows, too.
   if (language_ == Language::Italian) speak_italian();
 }
 

@@ -1,14 +1,14 @@
 #include "interpreter/command_line/program_main.h"
 
-#include <csignal>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <new>
 
-#include <unistd.h>
-
+#include "interpreter/system/descriptor.h"
 #include "interpreter/system/mapped_file.h"
 #include "interpreter/system/output_file.h"
+#include "interpreter/system/process.h"
 #include "interpreter/system/temporary_file.h"
 #include "interpreter/text/unicode.h"
 
@@ -35,18 +35,18 @@ static void report_failure() {
 [[noreturn]] static void end_in_trouble() {
   report_failure();
   system::remove_temporary_files();
-  ::_exit(static_cast<int>(ExitStatus::Failure));
+  std::_Exit(static_cast<int>(ExitStatus::Failure));
 }
 
 int program_main(std::string_view program, ExitStatus (*run)(int argc, char** argv), int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
+  system::prepare_process();
   system::report_lost_bytes(program);
   system::leave_no_temporary_files();
   running_program = program;
   std::set_terminate(end_in_trouble);
   try {
-    return static_cast<int>(run(argc, argv));
+    system::ProgramArguments arguments(argc, argv);
+    return static_cast<int>(run(arguments.count(), arguments.values()));
   } catch (const std::exception&) {
     report_failure();
     return static_cast<int>(ExitStatus::Failure);
@@ -63,7 +63,7 @@ void complain_of_command(std::string_view program, std::string_view what) {
 }
 
 ExitStatus say(std::string_view program, std::string_view text, dialect::Language language) {
-  system::OutputFile output(STDOUT_FILENO);
+  system::OutputFile output(system::kStandardOutput);
   output.write(text);
   const auto problem = system::commit(output, "<stdout>", language);
   if (!problem) return ExitStatus::Success;

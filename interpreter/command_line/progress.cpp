@@ -1,11 +1,11 @@
 #include "interpreter/command_line/progress.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdlib>
 
 #include <fmt/format.h>
+
+#include "interpreter/system/descriptor.h"
+#include "interpreter/system/terminal.h"
 
 namespace isocnc::command_line {
 
@@ -42,11 +42,9 @@ void Progress::clear() {
 }
 
 std::function<void(std::string_view)> terminal_writer() {
-  const char* const terminal = std::getenv("TERM");  // NOLINT(concurrency-mt-unsafe): nobody sets it.
-  if (isatty(STDERR_FILENO) == 0 || !terminal || std::string_view(terminal) == "dumb") return {};
+  if (!system::can_redraw(system::kStandardError)) return {};
   return [](std::string_view text) {
-    // A failure to draw the bar is ignored.
-    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+    system::write_some(system::kStandardError, text);  // A failure to draw the bar is ignored.
   };
 }
 

@@ -37,13 +37,13 @@ Configurations::Configurations(ConfigurationSource source, Language language)
     : source_(std::move(source)), language_(language) {}
 
 const Configuration& Configurations::in_folder(const fs::path& folder) {
-  const auto [known, is_new] = asked_.try_emplace(folder.native(), &none_);
+  const auto [known, is_new] = asked_.try_emplace(folder.generic_string(), &none_);
   if (!is_new || source_.none) return *known->second;
   const bool is_loaded = source_.file && !files_.empty();
   const Configuration& found = is_loaded      ? files_.front()->configuration
                                : source_.file ? load(*source_.file, *source_.file)
                                               : nearest(real_path(folder));
-  return *(asked_[folder.native()] = &found);
+  return *(asked_[folder.generic_string()] = &found);
 }
 
 const Configuration& Configurations::of(const fs::path& path) {
@@ -52,7 +52,7 @@ const Configuration& Configurations::of(const fs::path& path) {
 }
 
 const Configuration& Configurations::nearest(const fs::path& folder) {
-  if (const auto known = folders_.find(folder.native()); known != folders_.end()) return *known->second;
+  if (const auto known = folders_.find(folder.generic_string()); known != folders_.end()) return *known->second;
   const fs::path file = folder / kFileName;
   std::error_code error;
   const bool is_here = fs::exists(fs::symlink_status(file, error));  // Includes broken links, which are reported.
@@ -62,7 +62,7 @@ const Configuration& Configurations::nearest(const fs::path& folder) {
   } else if (folder.has_relative_path()) {
     found = &nearest(folder.parent_path());
   }
-  return *(folders_[folder.native()] = found);
+  return *(folders_[folder.generic_string()] = found);
 }
 
 const Configuration& Configurations::load(const fs::path& file, const fs::path& shown) {
@@ -100,7 +100,7 @@ std::vector<std::string> Configurations::mistakes(Language language) const {
   std::vector<std::string> lines;
   const std::string_view error = dialect::severity_name(dialect::Severity::Error, language);
   for (const std::unique_ptr<File>& file : files_) {
-    const std::string name = file->configuration.file.string();
+    const std::string name = file->configuration.file.generic_string();
     if (!file->problem.empty()) lines.push_back(text::printable(fmt::format("{}: {}: {}", name, error, file->problem)));
     for (const auto& [place, mistake] : file->mistakes)
       lines.push_back(text::printable(

@@ -33,8 +33,8 @@ bool PathPatterns::name(const fs::path& path, bool is_directory) const {
   const bool is_below = !below.empty() && *below.begin() != "..";
   return std::any_of(patterns_.begin(), patterns_.end(), [&](const Pattern& pattern) {
     if (pattern.only_directories && !is_directory) return false;
-    if (!pattern.whole_path) return pattern.glob.matches(path.filename().native());
-    return is_below && pattern.glob.matches(below.native());
+    if (!pattern.whole_path) return pattern.glob.matches(path.filename().generic_string());
+    return is_below && pattern.glob.matches(below.generic_string());
   });
 }
 

@@ -1,7 +1,6 @@
 #include "interpreter/dialect/locale.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <iterator>
 
 #include "interpreter/dialect/any_case.h"
@@ -19,14 +18,6 @@ std::string_view name_of(Language language) { return kLanguageNames[static_cast<
 Language language_of_locale(std::string_view locale) {
   const std::string_view name = locale.substr(0, locale.find_first_of("_-.@"));
   return equal_words(name, name_of(Language::Italian)) ? Language::Italian : Language::English;
-}
-
-Language language_of_environment() {
-  for (const char* variable : {"LC_ALL", "LC_MESSAGES", "LANG"}) {
-    const char* const value = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe): nobody sets it.
-    if (value && *value != '\0') return language_of_locale(value);
-  }
-  return Language::English;
 }
 
 }  // namespace isocnc::dialect

@@ -5,7 +5,7 @@
 
 #include "interpreter/dialect/diagnostic.h"
 
-/// The user's choice of language.
+/// Languages by their names.
 namespace isocnc::dialect {
 
 /// The names of the languages in commands, files and messages, in the order of Language.
@@ -15,8 +15,5 @@ std::string_view name_of(Language language);
 
 /// The language of a locale such as `it_IT.UTF-8`, `it-IT` or `it`; English unless it is Italian.
 Language language_of_locale(std::string_view locale);
-
-/// The user's language: the first of LC_ALL, LC_MESSAGES and LANG that is set decides; English unless it is Italian.
-Language language_of_environment();
 
 }  // namespace isocnc::dialect

@@ -1,11 +1,7 @@
 #include "interpreter/system/output_file.h"
 
-#include <fcntl.h>
-#include <sys/random.h>
-#include <unistd.h>
-
 #include <cerrno>
-#include <cstdint>
+#include <random>
 
 #include <fmt/format.h>
 
@@ -16,62 +12,45 @@ namespace isocnc::system {
 
 namespace fs = std::filesystem;
 
-/// Permissions: what chmod can set.
-static constexpr mode_t kModeBits = 07777;
-
-static int open_to_write(const std::string& path, int flags, mode_t mode) {
-  int descriptor = -1;
-  do {
-    descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | flags, mode);
-  } while (descriptor < 0 && errno == EINTR);
-  return descriptor;
-}
-
-OutputFile::OutputFile(const fs::path& path) : owns_descriptor_(true) {
-  struct stat status {};
-  const bool is_there = ::stat(path.c_str(), &status) == 0;
-  if (!is_there && errno != ENOENT) {
+OutputFile::OutputFile(const fs::path& path) {
+  const std::optional<FileStatus> status = status_of(path);
+  if (!status && errno != ENOENT) {
     error_ = errno;
-  } else if (is_there && (!S_ISREG(status.st_mode) || names_descriptor(path))) {
+  } else if (status && (status->kind != FileStatus::Kind::Regular || names_descriptor(path))) {
     open_in_place(path);
   } else {
-    if (is_there) status_ = status;
+    status_ = status;
     target_ = place_of(path);
     open_beside();
   }
+  descriptor_ = file_.number();
 }
 
-OutputFile::~OutputFile() {
-  if (owns_descriptor_ && descriptor_ >= 0) ::close(descriptor_);
-}
-
-/// Opens the file for appending, so that text of other writers stays.
 void OutputFile::open_in_place(const fs::path& path) {
-  descriptor_ = open_to_write(path, O_APPEND, 0666);
-  if (descriptor_ < 0) error_ = errno;
+  file_ = open_to_append(path);
+  if (!file_.is_open()) error_ = errno;
 }
 
 /// Opens a file with an unpredictable name that has no extension of programs, in case it is left behind.
 void OutputFile::open_beside() {
   constexpr int kAttempts = 100;
-  if (status_ && ::access(target_.c_str(), W_OK) != 0) {  // A rename does not check write access.
+  if (status_ && !may_write(target_)) {  // A rename does not check write access.
     error_ = errno;
     return;
   }
-  const std::string start = target_.parent_path() / ("." + target_.filename().string().substr(0, 200) + ".isocnc-");
-  for (int i = 0; i < kAttempts && descriptor_ < 0; ++i) {
-    std::uint32_t number = 0;
-    if (::getentropy(&number, sizeof number) != 0) break;
-    std::string name = fmt::format("{}{:08x}", start, number);
+  const std::string start = "." + target_.filename().generic_string().substr(0, 200) + ".isocnc-";
+  std::random_device random;
+  for (int i = 0; i < kAttempts && !file_.is_open(); ++i) {
+    fs::path name = target_.parent_path() / fmt::format("{}{:08x}", start, random());
     // Other users must not read a replacement of a file that they may not read.
-    descriptor_ = open_to_write(name, O_EXCL, status_ ? 0600 : 0666);
-    if (descriptor_ >= 0) {
+    file_ = create_file(name, status_ ? Access::Private : Access::Usual);
+    if (file_.is_open()) {
       temporary_.emplace(std::move(name));
     } else if (errno != EEXIST) {
       break;
     }
   }
-  if (descriptor_ < 0) error_ = errno;
+  if (!file_.is_open()) error_ = errno;
 }
 
 void OutputFile::write(std::string_view text) {
@@ -83,10 +62,10 @@ void OutputFile::write(std::string_view text) {
 int OutputFile::flush() {
   std::string_view rest = gathered_;
   while (!rest.empty() && error_ == 0) {
-    const ssize_t count = ::write(descriptor_, rest.data(), rest.size());
+    const std::ptrdiff_t count = write_some(descriptor_, rest);
     if (count >= 0) {
       rest.remove_prefix(static_cast<std::size_t>(count));
-    } else if (errno != EINTR) {
+    } else {
       error_ = errno;
     }
   }
@@ -94,35 +73,15 @@ int OutputFile::flush() {
   return error_;
 }
 
-/// Sets the mode last, since a change of owner clears bits of it.
-bool OutputFile::take_over_attributes() const {
-  struct stat now {};
-  if (::fstat(descriptor_, &now) != 0) return false;
-  const bool owner_differs = now.st_uid != status_->st_uid || now.st_gid != status_->st_gid;
-  // A user who may not change the owner may still keep the group.
-  if (owner_differs && ::fchown(descriptor_, status_->st_uid, status_->st_gid) != 0 &&
-      ::fchown(descriptor_, static_cast<uid_t>(-1), status_->st_gid) != 0 && errno != EPERM)
-    return false;
-  return ::fchmod(descriptor_, status_->st_mode & kModeBits) == 0;
-}
-
-/// Syncs the folder, so that the file's entry is on the disk. Errors are ignored: the file itself is complete.
-static void sync_folder(const fs::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);
-  ::close(descriptor);
-}
-
 int OutputFile::sync() {
-  if (flush() == 0 && temporary_ && ((status_ && !take_over_attributes()) || ::fsync(descriptor_) != 0)) error_ = errno;
+  if (flush() != 0 || !temporary_) return error_;
+  const bool is_good = !status_ || take_over_attributes(descriptor_, target_, *status_);
+  if (!is_good || !write_to_disk(descriptor_)) error_ = errno;
   return error_;
 }
 
 int OutputFile::commit() {
-  if (sync() != 0 || !temporary_) return error_;
-  error_ = temporary_->rename(target_);
-  if (error_ == 0) sync_folder(target_.parent_path());
+  if (sync() == 0 && temporary_) error_ = temporary_->rename(target_);
   return error_;
 }
 

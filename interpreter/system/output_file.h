@@ -1,13 +1,13 @@
 #pragma once
 
-#include <sys/stat.h>
-
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "interpreter/dialect/diagnostic.h"
+#include "interpreter/system/descriptor.h"
+#include "interpreter/system/file_status.h"
 #include "interpreter/system/temporary_file.h"
 
 namespace isocnc::system {
@@ -21,12 +21,10 @@ class OutputFile {
   /// Writes to a temporary file that commit() renames over the target, keeping its mode and, if permitted, its owner.
   /// Readers see the old or the new file, never a mixture, even after a power cut. Follows symlinks; the target need
   /// not exist. Devices, pipes and files open already (/dev/stdout) are written in place. Check error() after
-  /// construction.
+  /// construction. Without commit() the text is discarded, and the target stays unchanged.
   explicit OutputFile(const std::filesystem::path& path);
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
-  /// Discards text that has not been committed; the target stays unchanged.
-  ~OutputFile();
 
   void write(std::string_view text);
   /// Writes the buffered text and returns error(). Text that is not flushed is lost.
@@ -41,17 +39,16 @@ class OutputFile {
  private:
   void open_in_place(const std::filesystem::path& path);
   void open_beside();
-  bool take_over_attributes() const;
 
   static constexpr std::size_t kLarge = 64 * 1024;
 
   int descriptor_ = -1;
-  bool owns_descriptor_ = false;
   int error_ = 0;
   std::string gathered_;
   std::filesystem::path target_;            // Path without symlinks.
-  std::optional<struct stat> status_;       // Status of the existing target.
+  std::optional<FileStatus> status_;        // Status of the existing target.
   std::optional<TemporaryFile> temporary_;  // File that commit() renames over the target.
+  Descriptor file_;                         // Of a file with a name. Closed before the temporary file is removed.
 };
 
 /// Commits an output. If any text has been lost, returns the message: `trace.jsonl: cannot write: ...`.

@@ -1,7 +1,5 @@
 #include "interpreter/system/replace_file.h"
 
-#include <unistd.h>
-
 #include <cerrno>
 
 #include "interpreter/system/system_texts.h"
@@ -21,15 +19,20 @@ FileReplacement::FileReplacement(const std::filesystem::path& path) {
   std::error_code error;
   target_ = std::filesystem::canonical(path, error);
   if (error) {
-    error_ = error.value();
-  } else if (::stat(target_.c_str(), &status_) != 0) {
+    error_ = error.default_error_condition().value();
+    return;
+  }
+  const std::optional<FileStatus> status = status_of(target_);
+  if (!status) {
     error_ = errno;
-  } else if (!S_ISREG(status_.st_mode)) {
+  } else if (status->kind != FileStatus::Kind::Regular) {
     refusal_ = &kNotRegular;
-  } else if (status_.st_nlink > 1) {
+  } else if (status->names > 1) {
     refusal_ = &kHasOtherNames;
-  } else if (::access(target_.c_str(), W_OK) != 0) {
+  } else if (!may_write(target_)) {
     error_ = errno;  // A rename does not check write access.
+  } else {
+    status_ = *status;
   }
 }
 
@@ -40,10 +43,8 @@ void FileReplacement::write(std::string_view text) {
 }
 
 bool FileReplacement::is_unchanged() const {
-  struct stat now {};
-  return ::stat(target_.c_str(), &now) == 0 && now.st_dev == status_.st_dev && now.st_ino == status_.st_ino &&
-         now.st_size == status_.st_size && now.st_mtim.tv_sec == status_.st_mtim.tv_sec &&
-         now.st_mtim.tv_nsec == status_.st_mtim.tv_nsec;
+  const std::optional<FileStatus> now = status_of(target_);
+  return now && now->is_unchanged_since(status_);
 }
 
 std::string FileReplacement::why_not(Language language) const {

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <sys/stat.h>
-
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "interpreter/dialect/diagnostic.h"
+#include "interpreter/system/file_status.h"
 #include "interpreter/system/output_file.h"
 
 namespace isocnc::system {
@@ -34,7 +33,7 @@ class FileReplacement {
   bool is_unchanged() const;
 
   std::filesystem::path target_;  // Path without symlinks.
-  struct stat status_ {};
+  FileStatus status_;
   int error_ = 0;
   const dialect::Text* refusal_ = nullptr;
   std::optional<OutputFile> output_;  // Open after the first write().

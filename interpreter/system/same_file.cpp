@@ -19,7 +19,7 @@ bool names_descriptor(fs::path path) {
   std::error_code error;
   for (int i = 0; i < kMaxSymlinks && fs::is_symlink(path, error); ++i) {
     const fs::path folder = fs::canonical(fs::absolute(path, error).parent_path(), error);
-    if (folder.native().starts_with("/proc/")) return true;
+    if (folder.generic_string().starts_with("/proc/")) return true;
     path = folder / fs::read_symlink(path, error);
   }
   return false;

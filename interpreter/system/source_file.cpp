@@ -1,9 +1,5 @@
 #include "interpreter/system/source_file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -12,6 +8,8 @@
 #include <new>
 #include <optional>
 
+#include "interpreter/system/descriptor.h"
+#include "interpreter/system/file_status.h"
 #include "interpreter/system/system_texts.h"
 
 namespace isocnc::system {
@@ -29,7 +27,7 @@ static constexpr Text kHasEndlessLine{"has a line of 4 GiB or more", "ha una rig
 static constexpr std::size_t kHeadBytes = 8 * 1024;
 static constexpr std::size_t kEncodingBytes = 4 * 1024;
 /// Maximum size of a file that is read. Larger ones are mapped, which saves memory; they are rarely saved while in use.
-static constexpr std::size_t kMaxReadBytes = 8 * 1024 * 1024;
+static constexpr std::size_t kMaxReadBytes = std::size_t{8} * 1024 * 1024;
 static constexpr std::size_t kLongestLine = std::numeric_limits<std::uint32_t>::max();
 
 static bool ends_line(char c) { return c == '\n' || c == '\r'; }
@@ -126,38 +124,13 @@ static int read_up_to(std::size_t limit, std::size_t expected, int descriptor, S
       capacity = std::min(limit, wanted);
       if (!grow(bytes, capacity)) return ENOMEM;
     }
-    const ssize_t count = ::read(descriptor, bytes.data.get() + bytes.size, capacity - bytes.size);
-    if (count < 0 && errno == EINTR) continue;
+    const std::ptrdiff_t count = read_some(descriptor, bytes.data.get() + bytes.size, capacity - bytes.size);
     if (count < 0) return errno;
     if (count == 0) break;
     bytes.size += static_cast<std::size_t>(count);
   }
   return 0;
 }
-
-namespace {
-
-/// An open file, closed by the destructor.
-class Descriptor {
- public:
-  explicit Descriptor(const std::filesystem::path& path) {
-    do {
-      number_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    } while (number_ < 0 && errno == EINTR);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-
-  int number() const { return number_; }
-
- private:
-  int number_ = -1;
-};
-
-}  // namespace
 
 std::variant<SourceFile, SourceFile::Problem> SourceFile::open(const std::filesystem::path& path, Language language) {
   return open(path, kMaxReadBytes, language);
@@ -170,13 +143,13 @@ std::variant<SourceFile, SourceFile::Problem> SourceFile::open_unmapped(const st
 
 std::variant<SourceFile, SourceFile::Problem> SourceFile::open(const std::filesystem::path& path,
                                                                std::size_t max_read_bytes, Language language) {
-  const Descriptor file(path);
-  struct stat status;
-  if (file.number() < 0 || ::fstat(file.number(), &status) != 0) return Problem{cannot_read(errno, language)};
-  if (S_ISDIR(status.st_mode)) return Problem{std::string(kIsDirectory.in(language))};
-  const auto size = static_cast<std::size_t>(status.st_size);
-  if (!S_ISREG(status.st_mode) || size <= max_read_bytes) return read(file.number(), size, language);
-  return map(path, file.number(), size, language);
+  const Descriptor file = open_to_read(path);
+  const std::optional<FileStatus> status = file.is_open() ? status_of(file.number()) : std::nullopt;
+  if (!status) return Problem{cannot_read(errno, language)};
+  if (status->kind == FileStatus::Kind::Folder) return Problem{std::string(kIsDirectory.in(language))};
+  const auto size = static_cast<std::size_t>(status->size);
+  const bool is_mapped = status->kind == FileStatus::Kind::Regular && size > max_read_bytes;
+  return is_mapped ? map(path, file.number(), size, language) : read(file.number(), size, language);
 }
 
 std::variant<SourceFile, SourceFile::Problem> SourceFile::map(const std::filesystem::path& path, int descriptor,

@@ -32,7 +32,10 @@ static constexpr SystemText kSystemTexts[] = {
     {EIO, {"Input/output error", "errore di input/output"}},
     {ENXIO, {"No such device or address", "dispositivo o indirizzo non esistente"}},
     {ENOSPC, {"No space left on device", "spazio su disco esaurito"}},
+#ifdef EDQUOT  // Windows has none.
     {EDQUOT, {"Disk quota exceeded", "quota di spazio su disco superata"}},
+#endif
+    {EBUSY, {"In use by another program", "in uso da un altro programma"}},
     {EFBIG, {"File too large", "file troppo grande"}},
     {EROFS, {"Read-only file system", "file system in sola lettura"}},
     {EPIPE, {"Broken pipe", "nessuno legge più dalla pipe"}},
@@ -48,6 +51,10 @@ static std::string with_reason(const Text& what, int error, Language language) {
 }
 
 std::string cannot_read(int error, Language language) { return with_reason(kCannotRead, error, language); }
+
+std::string cannot_read(const std::error_code& error, Language language) {
+  return cannot_read(error.default_error_condition().value(), language);
+}
 
 std::string cannot_write(int error, Language language) { return with_reason(kCannotWrite, error, language); }
 

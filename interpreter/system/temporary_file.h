@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 namespace isocnc::system {
 
@@ -9,17 +8,17 @@ namespace isocnc::system {
 class TemporaryFile {
  public:
   /// Takes the path of a file that exists or is about to be created.
-  explicit TemporaryFile(std::string path);
+  explicit TemporaryFile(std::filesystem::path path);
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   ~TemporaryFile();
 
   /// Renames the file over another one. Returns 0 or the errno.
   int rename(const std::filesystem::path& path);
-  const std::string& path() const { return path_; }
+  const std::filesystem::path& path() const { return path_; }
 
  private:
-  std::string path_;
+  std::filesystem::path path_;
   bool is_renamed_ = false;
 };
 

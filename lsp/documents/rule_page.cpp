@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "analyzer/formats/rendering.h"
+#include "interpreter/system/process.h"
 #include "lsp/protocol/uri.h"
 
 namespace isocnc::documents {
@@ -12,8 +13,8 @@ namespace fs = std::filesystem;
 /// The file of a relative page as a URI; empty if the file is not found.
 static std::string find_page(const fs::path& page) {
   std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (error) return {};
+  const fs::path program = system::program_file();
+  if (program.empty()) return {};
   // The places of an installation (beside bin/) and of a build (above build/PRESET/bin).
   const fs::path places[] = {program.parent_path() / "../share/doc/isocnc" / page.filename(),
                              program.parent_path() / "../../.." / page};

@@ -2,15 +2,15 @@
 
 #include <set>
 
-#include "interpreter/dialect/locale.h"
+#include "interpreter/system/user_language.h"
 
 namespace isocnc::documents {
 
 /// The configuration files read since the last forget().
 struct SettingsStore::Generation {
   std::mutex mutex;  // Guards the members below.
-  configuration::Configurations found{{}, dialect::language_of_environment()};
-  configuration::Configurations none{{.file = {}, .none = true}, dialect::language_of_environment()};
+  configuration::Configurations found{{}, system::user_language()};
+  configuration::Configurations none{{.file = {}, .none = true}, system::user_language()};
   selection::SettingsFinder settings{found, {}};
   selection::SettingsFinder settings_of_none{none, {}};
   std::set<std::filesystem::path> claimed;

@@ -36,7 +36,7 @@ void from_json(const Json& json, RestartParams& params) {
 std::string name_of(const Snapshot& snapshot) {
   const std::string& uri = snapshot.uri();
   const auto path = protocol::path_of(uri);
-  return path ? path->filename().string() : uri.substr(uri.find_last_of("/:") + 1);
+  return path ? path->filename().generic_string() : uri.substr(uri.find_last_of("/:") + 1);
 }
 
 /// `part-from-120.iso` beside `part.iso`, with the line counted from 1.

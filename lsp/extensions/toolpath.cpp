@@ -96,16 +96,16 @@ features::BackgroundRequest begin(const Snapshot& snapshot, const ToolpathParams
   if (!last) last = std::make_shared<LastSent>();
   const auto path = protocol::path_of(snapshot.uri());
   const configuration::MachineConfiguration& machine = snapshot.configuration().machine;
-  const auto task =
-      std::make_shared<ToolpathTask>(ToolpathTask{.program = queries::TimedProgram(snapshot, params.vgpl),
-                                                  .subject = {.name = path ? path->filename().string() : snapshot.uri(),
-                                                              .program = {},
-                                                              .home = machine.setup.home,
-                                                              .tools = plot::plot_tools(machine),
-                                                              .page = {},
-                                                              .language = snapshot.language()},
-                                                  .previous = params.previous,
-                                                  .last = last});
+  const auto task = std::make_shared<ToolpathTask>(
+      ToolpathTask{.program = queries::TimedProgram(snapshot, params.vgpl),
+                   .subject = {.name = path ? path->filename().generic_string() : snapshot.uri(),
+                               .program = {},
+                               .home = machine.setup.home,
+                               .tools = plot::plot_tools(machine),
+                               .page = {},
+                               .language = snapshot.language()},
+                   .previous = params.previous,
+                   .last = last});
   return [task](const std::function<bool()>& stop) { return task->compute(stop); };
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "interpreter/dialect/locale.h"
+#include "interpreter/system/user_language.h"
 
 namespace isocnc::protocol {
 
@@ -63,7 +64,7 @@ Language Client::language(std::optional<Language> configured) const {
   if (settings.language) return *settings.language;
   if (commanded) return *commanded;
   if (configured) return *configured;
-  return locale.value_or(dialect::language_of_environment());
+  return locale.value_or(system::user_language());
 }
 
 /// The first of the client's encodings that we support; UTF-16 if it lists none.

@@ -2,6 +2,8 @@
 
 #include <charconv>
 
+#include <fmt/format.h>
+
 #include "analyzer/formats/rendering.h"
 #include "interpreter/configuration/configurations.h"
 #include "interpreter/dialect/any_case.h"
@@ -30,10 +32,14 @@ std::optional<std::filesystem::path> path_of(std::string_view uri) {
   rest = rest.substr(0, rest.find_first_of("?#"));
   // A host may precede the path; for this machine it is usually omitted.
   const std::size_t slash = rest.find('/');
-  if (slash == std::string_view::npos || (slash > 0 && rest.substr(0, slash) != "localhost")) return std::nullopt;
+  if (slash == std::string_view::npos) return std::nullopt;
+  const std::string_view host = rest.substr(0, slash) == "localhost" ? "" : rest.substr(0, slash);
   const std::string path = unescaped(rest.substr(slash));
   if (path.find('\0') != std::string::npos) return std::nullopt;
-  return std::filesystem::path(path).lexically_normal();
+  // Where names have roots, on Windows: file:///c:/part.iso and file://server/share/part.iso.
+  const std::filesystem::path rooted = host.empty() ? path.substr(1) : fmt::format("//{}{}", host, path);
+  if (rooted.has_root_name()) return rooted.lexically_normal();
+  return host.empty() ? std::optional(std::filesystem::path(path).lexically_normal()) : std::nullopt;
 }
 
 bool names_configuration(std::string_view uri) {
@@ -41,6 +47,6 @@ bool names_configuration(std::string_view uri) {
   return path && path->filename() == configuration::kFileName;
 }
 
-std::string uri_of(const std::filesystem::path& path) { return formats::uri_of(path.string()); }
+std::string uri_of(const std::filesystem::path& path) { return formats::uri_of(path.generic_string()); }
 
 }  // namespace isocnc::protocol

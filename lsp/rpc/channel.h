@@ -4,19 +4,15 @@
 #include <cstddef>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
 
+#include "interpreter/system/connection.h"
 #include "lsp/rpc/frame.h"
 
 namespace isocnc::rpc {
-
-/// The file descriptors to read from and to write to; for a socket they are the same.
-struct Descriptors {
-  int in = 0;
-  int out = 1;
-};
 
 /// Receives and sends frames, each direction on a thread of its own, so that the caller never waits for the other side.
 /// Reads nothing more while the other side leaves too much of what was sent unread.
@@ -27,7 +23,7 @@ class Channel {
     std::function<void()> end;                ///< Called when nothing more can be received, or sent.
   };
 
-  Channel(Descriptors descriptors, Events events);
+  Channel(std::unique_ptr<system::Connection> connection, Events events);
   Channel(const Channel&) = delete;
   Channel& operator=(const Channel&) = delete;
   /// Ends both threads, after writing all sent messages; gives up when the other side reads nothing for a second.
@@ -40,14 +36,11 @@ class Channel {
   void end();
   void read_all();
   void write_all();
-  bool write_some(std::string_view& bytes) const;
-  bool wait_for(int descriptor, short events, bool until_deadline) const;
   bool may_read();
 
-  const Descriptors descriptors_;
+  const std::unique_ptr<system::Connection> connection_;
   const Events events_;
-  int stop_pipe_[2] = {-1, -1};  // A pipe that becomes readable when the channel has to end.
-  std::mutex mutex_;             // Guards the members below.
+  std::mutex mutex_;  // Guards the members below.
   std::condition_variable changed_;
   std::deque<std::string> unsent_;
   std::size_t unsent_bytes_ = 0;

@@ -6,40 +6,24 @@
 #include <utility>
 #include <variant>
 
-#include <malloc.h>
-#include <unistd.h>
-
 #include <fmt/format.h>
 
+#include "interpreter/system/connection.h"
+#include "interpreter/system/process.h"
 #include "lsp/rpc/channel.h"
-#include "lsp/rpc/listen.h"
 
 namespace isocnc::rpc {
 
 /// The time without a message after which the peer may check whether the client still exists.
 static constexpr std::chrono::seconds kIdleInterval{3};
 
-/// All threads share one heap, which grows in large steps: with a heap per thread the system would be asked for every
-/// page again, a tenth of the time that opening a long program takes. Messages, which may have some hundred kilobytes
-/// after each edit, lie in this heap for the same reason; the text of a long program does not.
-static void prepare_heap() {
-#ifdef __GLIBC__
-  // NOLINTBEGIN(concurrency-mt-unsafe): there is one thread yet.
-  mallopt(M_ARENA_MAX, 1);
-  mallopt(M_TOP_PAD, 8 << 20);
-  mallopt(M_TRIM_THRESHOLD, 16 << 20);
-  mallopt(M_MMAP_THRESHOLD, 4 << 20);
-  // NOLINTEND(concurrency-mt-unsafe)
-#endif
-}
-
-[[noreturn]] static void run_peer(Descriptors descriptors, const MakePeer& make_peer) {
-  prepare_heap();
+[[noreturn]] static void run_peer(std::unique_ptr<system::Connection> connection, const MakePeer& make_peer) {
+  system::share_one_heap();
   Loop loop;
   Channel* open_channel = nullptr;
   const std::unique_ptr<Peer> peer = make_peer(loop, [&](std::string body) { open_channel->send(std::move(body)); });
   {
-    Channel channel(descriptors,
+    Channel channel(std::move(connection),
                     {.frame =
                          [&](MessageFrame frame) {
                            loop.post([&, frame = std::move(frame)]() mutable { peer->receive(std::move(frame)); });
@@ -54,12 +38,12 @@ static void prepare_heap() {
 
 void serve(const std::optional<std::uint16_t>& port, const MakePeer& make_peer,
            const std::function<void(const std::string&)>& report) {
-  if (!port) run_peer({STDIN_FILENO, STDOUT_FILENO}, make_peer);
+  if (!port) run_peer(system::standard_connection(), make_peer);
   const auto address = [](std::uint16_t number) { return fmt::format("127.0.0.1:{}", number); };
-  const auto accepted = accept_on_loopback(*port, [&](std::uint16_t number) { report(address(number)); });
+  auto accepted = system::accept_on_loopback(*port, [&](std::uint16_t number) { report(address(number)); });
   if (const auto* const error = std::get_if<std::error_code>(&accepted))
     return report(fmt::format("{}: {}", address(*port), error->message()));
-  run_peer({std::get<int>(accepted), std::get<int>(accepted)}, make_peer);
+  run_peer(std::move(std::get<std::unique_ptr<system::Connection>>(accepted)), make_peer);
 }
 
 }  // namespace isocnc::rpc

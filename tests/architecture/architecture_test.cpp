@@ -45,7 +45,12 @@ std::vector<Module> modules() {
 
 bool lies_in(const std::string& path, const std::string& folder) { return path.starts_with(folder + "/"); }
 
-std::string folder_of(const std::string& file) { return fs::path(file).parent_path(); }
+/// The module of a file. The sources of one operating system belong to the folder that theirs lies in.
+std::string folder_of(const std::string& file) {
+  const fs::path folder = fs::path(file).parent_path();
+  const bool is_of_one_system = folder.filename() == "posix" || folder.filename() == "windows";
+  return is_of_one_system ? folder.parent_path() : folder;
+}
 
 /// For each module, all that it sees: itself, what its row names, and what those see.
 std::map<std::string, std::set<std::string>> all_seen() {
@@ -160,7 +165,7 @@ TEST(Architecture, PrivateHeadersAreIncludedByTheirFolderAlone) {
 TEST(Architecture, NoFolderIsCrowded) {
   const std::set<std::string> folders_of_parts = {"analyzer/rules", "debugger/requests"};
   std::map<std::string, std::size_t> files;
-  for (const std::string& file : sources()) ++files[folder_of(file)];
+  for (const std::string& file : sources()) ++files[fs::path(file).parent_path()];
   for (const auto& [folder, count] : files)
     EXPECT_TRUE(count <= 25 || folders_of_parts.contains(folder)) << folder << " has " << count << " files";
 }
@@ -172,6 +177,25 @@ TEST(Architecture, NoSourceAsksForTheTimeOfDay) {
       R"(system_clock|CLOCK_REALTIME|gettimeofday|localtime|gmtime|\btime\((NULL|nullptr|0|&)|std::time\b|file_clock|high_resolution_clock)");
   ASSERT_TRUE(std::regex_search(std::string("const auto t = ::time(nullptr);"), kTimeOfDay));
   for (const std::string& file : sources()) EXPECT_FALSE(std::regex_search(read(file), kTimeOfDay)) << file;
+}
+
+/// So that a port to another system has one place.
+TEST(Architecture, OneModuleKnowsOperatingSystems) {
+  static const std::regex kHeader(
+      R"((sys|net|netinet|arpa)/.*|unistd\.h|fcntl\.h|poll\.h|malloc\.h|termios\.h|csignal|signal\.h|)"
+      R"(windows\.h|winsock2\.h|ws2tcpip\.h|io\.h)");
+  static const std::regex kCondition(R"(#\s*(el)?ifn?(def)?\b.*\b(_WIN32|__unix__|__linux__|__EMSCRIPTEN__))");
+  int count = 0;
+  for (const std::string& file : sources()) {
+    const bool is_of_system = folder_of(file) == "interpreter/system";
+    for (const Include& include : includes_of(file)) {
+      if (!std::regex_match(include.header, kHeader)) continue;
+      ++count;
+      EXPECT_TRUE(is_of_system && !file.ends_with(".h")) << file << " includes " << include.header;
+    }
+    EXPECT_FALSE(std::regex_search(read(file), kCondition)) << file << " asks which system it is compiled for";
+  }
+  EXPECT_GT(count, 10);
 }
 
 TEST(Architecture, OneFileKnowsTheLibraryOfCommandLines) {

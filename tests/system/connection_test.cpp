@@ -1,4 +1,4 @@
-#include "lsp/rpc/listen.h"
+#include "interpreter/system/connection.h"
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
@@ -8,14 +8,15 @@
 
 #include <cstdint>
 #include <future>
+#include <memory>
 #include <string>
 #include <system_error>
 #include <variant>
 
-namespace isocnc::rpc {
+namespace isocnc::system {
 namespace {
 
-using Accepted = std::variant<int, std::error_code>;
+using Accepted = std::variant<std::unique_ptr<Connection>, std::error_code>;
 
 /// Waits for a client on a free port, in parallel to the test.
 class Listener {
@@ -50,16 +51,44 @@ TEST(AcceptOnLoopback, GivesTheConnectionOfTheFirstClient) {
   Listener listener;
   EXPECT_NE(listener.port(), 0);
   const int client = connected_to(listener.port());
-  const Accepted result = listener.accepted();
-  ASSERT_TRUE(std::holds_alternative<int>(result));
-  const int server = std::get<int>(result);
+  Accepted result = listener.accepted();
+  ASSERT_TRUE(std::holds_alternative<std::unique_ptr<Connection>>(result));
+  std::unique_ptr<Connection>& server = std::get<std::unique_ptr<Connection>>(result);
 
   ASSERT_EQ(::write(client, "question", 8), 8);
   char bytes[8] = {};
-  ASSERT_EQ(::read(server, bytes, sizeof bytes), 8);
+  ASSERT_EQ(server->read(bytes, sizeof bytes), 8u);
   EXPECT_EQ(std::string(bytes, 8), "question");
-  ::close(server);
+  EXPECT_TRUE(server->write("answer"));
+  ASSERT_EQ(::read(client, bytes, sizeof bytes), 6);
+  EXPECT_EQ(std::string(bytes, 6), "answer");
+  server.reset();
   EXPECT_EQ(::read(client, bytes, sizeof bytes), 0);
+  ::close(client);
+}
+
+TEST(Connection, ReadsNothingMoreAfterItsEnd) {
+  Listener listener;
+  const int client = connected_to(listener.port());
+  Accepted result = listener.accepted();
+  ASSERT_TRUE(std::holds_alternative<std::unique_ptr<Connection>>(result));
+  Connection& server = *std::get<std::unique_ptr<Connection>>(result);
+  char bytes[8] = {};
+  auto read = std::async(std::launch::async, [&] { return server.read(bytes, sizeof bytes); });
+  server.stop();
+  EXPECT_EQ(read.get(), 0u);
+  ::close(client);
+}
+
+TEST(Connection, GivesUpAClientThatReadsNothingAfterItsEnd) {
+  Listener listener;
+  const int client = connected_to(listener.port());
+  Accepted result = listener.accepted();
+  ASSERT_TRUE(std::holds_alternative<std::unique_ptr<Connection>>(result));
+  Connection& server = *std::get<std::unique_ptr<Connection>>(result);
+  auto written = std::async(std::launch::async, [&] { return server.write(std::string(std::size_t{64} << 20, 'x')); });
+  server.stop();
+  EXPECT_FALSE(written.get());
   ::close(client);
 }
 
@@ -71,8 +100,8 @@ TEST(AcceptOnLoopback, SaysWhenThePortBelongsToAnother) {
   EXPECT_EQ(std::get<std::error_code>(refused), std::errc::address_in_use);
 
   ::close(connected_to(listener.port()));
-  ::close(std::get<int>(listener.accepted()));
+  EXPECT_TRUE(std::holds_alternative<std::unique_ptr<Connection>>(listener.accepted()));
 }
 
 }  // namespace
-}  // namespace isocnc::rpc
+}  // namespace isocnc::system

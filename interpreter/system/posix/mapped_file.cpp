@@ -33,7 +33,7 @@ MappedFile::MappedFile(const std::filesystem::path& path, int descriptor, std::s
     return;
   }
   begin_ = static_cast<const char*>(bytes);
-  complaint_ = text::printable(path.string()) + ": " + std::string(kWasCutShort.in(language)) + "\n";
+  complaint_ = text::printable(path.generic_string()) + ": " + std::string(kWasCutShort.in(language)) + "\n";
   mapped_files.add(this);
 }
 

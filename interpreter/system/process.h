@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace isocnc::system {
+
+/// Makes the process fit for a program of ours: writing to a closed pipe or past a limit is an error that the program
+/// sees, standard streams are bytes, and the console shows UTF-8.
+void prepare_process();
+
+/// The arguments of main() in UTF-8.
+class ProgramArguments {
+ public:
+  ProgramArguments(int argc, char** argv);
+
+  int count() const { return static_cast<int>(pointers_.size()) - 1; }
+  char** values() { return pointers_.data(); }
+
+ private:
+  std::vector<std::string> texts_;
+  std::vector<char*> pointers_;  ///< With a null at the end, as main() has it.
+};
+
+/// Calls `clean_up` before Ctrl-C, a closed console or another request of the system ends the process. It may only do
+/// what a signal handler may.
+void before_forced_end(void (*clean_up)());
+
+/// All threads share one heap, which grows in large steps: with a heap per thread the system would be asked for every
+/// page again, a tenth of the time that opening a long program takes. Messages, which may have some hundred kilobytes
+/// after each edit, lie in this heap for the same reason; the text of a long program does not. Call it before there
+/// are threads.
+void share_one_heap();
+
+/// Whether a process with this number exists.
+bool is_running(std::int64_t process);
+
+/// The file of the program that runs; empty if the system does not tell.
+std::filesystem::path program_file();
+
+/// The locale that the user has chosen for the system, `it-IT`; empty where only the environment tells.
+std::string user_locale();
+
+}  // namespace isocnc::system
