@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <sstream>
 #include <string_view>
 #include <system_error>
@@ -157,6 +158,13 @@ static int wait_for(pid_t child) {
   return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
+/// The programs of this build, or of the folder that the environment names: those for another system, with what runs
+/// them here.
+static std::string program_file(const std::string& name) {
+  const char* const elsewhere = std::getenv("ISOCNC_BIN_DIR");
+  return std::string(elsewhere != nullptr ? elsewhere : ISOCNC_BIN_DIR) + "/" + name;
+}
+
 CommandResult run_command(std::vector<std::string> arguments, const CommandSetup& setup) {
   std::signal(SIGPIPE, SIG_IGN);
   Pipe in;
@@ -170,7 +178,7 @@ CommandResult run_command(std::vector<std::string> arguments, const CommandSetup
   if (setup.standard_output != StandardOutput::Captured) out.read_end.close();
   plan.connect(out.write_end, STDOUT_FILENO);
   if (!setup.folder.empty()) plan.enter(setup.folder);
-  const std::string program = ISOCNC_BIN_DIR "/" + arguments.front();
+  const std::string program = program_file(arguments.front());
   std::vector<std::string> environment = environment_with(setup.environment);
   const pid_t child = plan.spawn(program, arguments, environment);
   in.read_end.close();

@@ -13,7 +13,8 @@ import {
 export const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '../../..');
 const programs = process.env.ISOCNC_BIN_DIR ?? path.join(root, 'build/release/bin');
 
-export const uriOf = (file) => pathToFileURL(file).href;
+// Under Wine, the programs for Windows know our files on a drive: `/z%3A`.
+export const uriOf = (file) => pathToFileURL(file).href.replace('file://', `file://${process.env.ISOCNC_DRIVE ?? ''}`);
 
 /** What isolint says of a file: its JSON. */
 export function isolint(file, ...options) {

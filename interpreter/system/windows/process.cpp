@@ -1,0 +1,79 @@
+#include "interpreter/system/process.h"
+
+#include <windows.h>
+
+#include <fcntl.h>
+#include <io.h>
+#include <shellapi.h>
+
+#include <string_view>
+
+#include "interpreter/system/descriptor.h"
+
+namespace isocnc::system {
+
+namespace fs = std::filesystem;
+
+void prepare_process() {
+  for (const int stream : {kStandardInput, kStandardOutput, kStandardError}) ::_setmode(stream, _O_BINARY);
+  ::SetConsoleOutputCP(CP_UTF8);
+  ::SetErrorMode(SEM_FAILCRITICALERRORS);  // No window where a drive has no disk.
+}
+
+/// Half characters become U+FFFD.
+static std::string utf8(std::wstring_view text) {
+  const auto size = static_cast<int>(text.size());
+  const int bytes = ::WideCharToMultiByte(CP_UTF8, 0, text.data(), size, nullptr, 0, nullptr, nullptr);
+  std::string result(static_cast<std::size_t>(bytes), '\0');
+  ::WideCharToMultiByte(CP_UTF8, 0, text.data(), size, result.data(), bytes, nullptr, nullptr);
+  return result;
+}
+
+/// The arguments of main() are in the code page of the system, which lacks most letters.
+ProgramArguments::ProgramArguments(int, char**) {
+  int count = 0;
+  wchar_t** const wide = ::CommandLineToArgvW(::GetCommandLineW(), &count);
+  for (int i = 0; i < count; ++i) texts_.push_back(utf8(wide[i]));
+  ::LocalFree(wide);
+  for (std::string& text : texts_) pointers_.push_back(text.data());
+  pointers_.push_back(nullptr);
+}
+
+static void (*clean_up_before_end)() = nullptr;
+
+/// Runs on a thread of its own.
+static BOOL WINAPI on_console_event(DWORD) {
+  clean_up_before_end();
+  return FALSE;  // The next handler ends the process.
+}
+
+void before_forced_end(void (*clean_up)()) {
+  clean_up_before_end = clean_up;
+  ::SetConsoleCtrlHandler(on_console_event, TRUE);
+}
+
+void share_one_heap() {}
+
+bool is_running(std::int64_t process) {
+  HANDLE const opened = ::OpenProcess(SYNCHRONIZE, FALSE, static_cast<DWORD>(process));
+  if (opened == nullptr) return ::GetLastError() != ERROR_INVALID_PARAMETER;
+  const bool has_ended = ::WaitForSingleObject(opened, 0) == WAIT_OBJECT_0;
+  ::CloseHandle(opened);
+  return !has_ended;
+}
+
+fs::path program_file() {
+  static constexpr DWORD kLongest = 32 * 1024;
+  std::wstring name(kLongest, L'\0');
+  name.resize(::GetModuleFileNameW(nullptr, name.data(), kLongest));
+  return name;
+}
+
+std::string user_locale() {
+  wchar_t name[LOCALE_NAME_MAX_LENGTH] = {};
+  if (::LCIDToLocaleName(MAKELCID(::GetUserDefaultUILanguage(), SORT_DEFAULT), name, LOCALE_NAME_MAX_LENGTH, 0) == 0)
+    return {};
+  return utf8(name);
+}
+
+}  // namespace isocnc::system

@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+"""That the programs for another system say the same as those for this one: the same bytes on every golden program and example.
+
+usage: same_bytes_test.py NATIVE OTHER
+
+Both are folders of programs. Those in OTHER may be scripts that run the real ones under Wine or QEMU.
+"""
+
+import os
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+# What may be said on standard error is the same, too; but for the time of a run, which none of these prints.
+COMMANDS = [
+    ["isolint", "--no-config", "--select", "ALL", "--format", "json", "{files}"],
+    ["isolint", "--no-config", "--select", "ALL", "--lang", "it", "{files}"],
+    ["isolint", "--no-config", "--select", "ALL", "--format", "sarif", "{files}"],
+    ["isolint", "--no-config", "--unsafe-fixes", "--diff", "{files}"],
+    ["isolint", "--no-config", "--statistics", "{folders}"],
+    ["isofmt", "--no-config", "--diff", "{files}"],
+]
+RUN = ["isorun", "--no-config", "--trace", "-", "{file}"]
+
+
+def run(programs: pathlib.Path, command: list[str]) -> tuple[int, bytes, bytes]:
+    environment = {key: value for key, value in os.environ.items() if not key.startswith("LC_") and key not in ("LANG", "NO_COLOR")}
+    done = subprocess.run([str(programs / command[0]), *command[1:]], cwd=ROOT, env=environment, capture_output=True, timeout=600, check=False)
+    return done.returncode, done.stdout, done.stderr
+
+
+def differences(native: pathlib.Path, other: pathlib.Path, command: list[str]) -> str | None:
+    """A text that tells the first difference, or None."""
+    here, there = run(native, command), run(other, command)
+    if here == there:
+        return None
+    shown = " ".join(command)[:100]
+    for name, one, two in zip(("exit status", "standard output", "standard error"), here, there):
+        if one == two:
+            continue
+        if isinstance(one, int):
+            return f"{shown}: {name}: {one} here, {two} there"
+        lines = zip(one.splitlines(), two.splitlines())
+        at, pair = next(((i, each) for i, each in enumerate(lines, 1) if each[0] != each[1]), (0, (b"", b"")))
+        return f"{shown}: {name}: {len(one)} bytes here, {len(two)} there; line {at}:\n  {pair[0][:300]!r}\n  {pair[1][:300]!r}"
+    return None
+
+
+def main() -> int:
+    native, other = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+    folders = ["examples", "tests/programs"]
+    files = sorted(str(path.relative_to(ROOT)) for folder in folders for path in (ROOT / folder).rglob("*.iso"))
+    problems = []
+    count = 0
+    for command in COMMANDS:
+        arguments = []
+        for each in command:
+            arguments += files if each == "{files}" else folders if each == "{folders}" else [each]
+        count += 1
+        problems.append(differences(native, other, arguments))
+    # A start of each program for each file would take minutes.
+    for file in files[:: max(1, len(files) // 20)]:
+        count += 1
+        problems.append(differences(native, other, [file if each == "{file}" else each for each in RUN]))
+    problems = [problem for problem in problems if problem]
+    print("\n".join(problems))
+    print(f"{len(files)} programs: {count - len(problems)} passed, {len(problems)} failed")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,232 @@
+#!/usr/bin/env python3
+"""What is different on Windows: names of files, who else uses them, line ends, languages, ports. Runs the programs under Wine.
+
+usage: windows_test.py PROGRAMS -- HOLD_FILE...
+
+PROGRAMS is a folder of scripts that run them; HOLD_FILE is the command of tests/platforms/hold_file.cpp.
+"""
+
+import json
+import os
+import pathlib
+import socket
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAMS = pathlib.Path(sys.argv[1]).resolve()
+HOLD_FILE = sys.argv[3:]
+
+WRONG = "M06 T101001\nS12000 M03\nG01 X10 F1200\nG02 X20\nM05\nM02\n"
+UNTIDY = "m06 t101001\r\ng00 x0 y0\r\nm02\r\n"
+TIDY = "M06 T101001\r\nG00 X0 Y0\r\nM02\r\n"
+
+
+def run(*command, environment=None, **options):
+    # Wine reads the arguments as the locale says.
+    locale = {"LC_ALL": "C.UTF-8"}
+    kept = {key: value for key, value in os.environ.items() if not key.startswith("LC_") and key not in ("LANG", "NO_COLOR")}
+    return subprocess.run([str(PROGRAMS / command[0]), *map(str, command[1:])], env=kept | (environment or locale), capture_output=True,
+                          timeout=120, check=False, **options)
+
+
+def framed(message):
+    body = json.dumps(message).encode()
+    return b"Content-Length: %d\r\n\r\n" % len(body) + body
+
+
+def replies(stream):
+    """The messages that come, one after the other."""
+    while True:
+        length = 0
+        while (line := stream.readline()) not in (b"\r\n", b""):
+            if line.lower().startswith(b"content-length:"):
+                length = int(line.split(b":")[1])
+        if not length:
+            return
+        yield json.loads(stream.read(length))
+
+
+def windows_path(path):
+    """Wine shows the root of this machine as its drive Z."""
+    return "Z:" + str(path).replace("/", "\\")
+
+
+class Windows(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name).resolve()
+
+    def write(self, name, text=WRONG):
+        file = self.folder / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_bytes(text.encode() if isinstance(text, str) else text)
+        return file
+
+    def codes(self, *arguments, **options):
+        result = run("isolint", "--no-config", "--format", "json", *arguments, **options)
+        self.assertEqual(result.stderr, b"")
+        return [(each["file"], each["code"]) for each in json.loads(result.stdout)]
+
+    # --- Names of files
+
+    def test_names_may_have_any_letters(self):
+        for name in ("part with blanks.iso", "più è così ß €.iso", "część.iso", "零件.iso"):
+            file = self.write(name)
+            self.assertEqual(self.codes(name, cwd=self.folder), [(name, "ISO028")])
+            self.assertEqual(self.codes(file), [(str(file), "ISO028")])
+            result = run("isofmt", "-i", self.write("untidy " + name, UNTIDY))
+            self.assertEqual((result.returncode, (self.folder / ("untidy " + name)).read_bytes().decode()), (0, TIDY), result.stderr)
+
+    def test_drives_and_backslashes_are_shown_with_slashes(self):
+        file = self.write("parts/a.iso")
+        shown = "Z:" + str(file)
+        self.assertEqual(self.codes(windows_path(file)), [(shown, "ISO028")])
+        self.assertEqual(self.codes(windows_path(file.parent)), [(shown, "ISO028")])
+        self.assertEqual(self.codes(r"parts\a.iso", cwd=self.folder), [("parts/a.iso", "ISO028")])
+
+    def test_an_absolute_path_is_no_option(self):
+        report = self.folder / "report.json"
+        result = run("isolint", "--no-config", "--output", report, "--format", "json", self.write("a.iso"))
+        self.assertEqual((result.returncode, result.stderr), (1, b""))
+        self.assertEqual(len(json.loads(report.read_text())), 1)
+
+    def test_paths_may_be_longer_than_260_characters(self):
+        deep = self.folder
+        while len(str(deep)) < 400:
+            deep = deep / ("folder" * 5)
+        file = self.write(deep.relative_to(self.folder) / "a.iso", UNTIDY)
+        self.assertEqual(run("isofmt", "-i", file).returncode, 0)
+        self.assertEqual(file.read_bytes().decode(), TIDY)
+        self.assertEqual(list(file.parent.iterdir()), [file])
+
+    def test_patterns_in_configurations_are_written_with_slashes(self):
+        self.write("isocnc.json", json.dumps({"lint": {"exclude": ["old/**"]}}))
+        self.write("old/deep/a.iso")
+        self.write("new/b.iso")
+        result = run("isolint", "--format", "concise", ".", cwd=self.folder)
+        self.assertIn(b"new/b.iso:4:", result.stdout)
+        self.assertNotIn(b"old", result.stdout)
+
+    # --- Files that others use
+
+    def test_a_file_that_another_program_holds_is_reported(self):
+        file = self.write("a.iso", UNTIDY)
+        with subprocess.Popen([*HOLD_FILE, windows_path(file)], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as holder:
+            self.assertEqual(holder.stdout.readline().strip(), b"held")
+            lint = run("isolint", "--no-config", file)
+            self.assertEqual(lint.returncode, 2)
+            self.assertEqual(lint.stderr.decode().splitlines()[0], f"isolint: {file}: cannot read: In use by another program")
+            tidy = run("isofmt", "-i", file, environment={"LC_ALL": "it_IT.UTF-8"})
+            self.assertEqual(tidy.returncode, 2)
+            self.assertIn("non si può leggere: in uso da un altro programma", tidy.stderr.decode())
+            holder.communicate(b"")
+        self.assertEqual(file.read_bytes().decode(), UNTIDY)
+        self.assertEqual(run("isofmt", "-i", file).returncode, 0)
+
+    def test_a_replaced_file_is_the_old_or_the_new_one(self):
+        file = self.write("a.iso", UNTIDY)
+        with open(file, "rb") as reader:
+            self.assertEqual(run("isofmt", "-i", file).returncode, 0)
+            self.assertEqual(reader.read().decode(), UNTIDY)
+        self.assertEqual(file.read_bytes().decode(), TIDY)
+        self.assertEqual([each.name for each in self.folder.iterdir()], ["a.iso"])
+
+    def test_a_file_with_two_names_is_not_replaced(self):
+        file = self.write("a.iso", UNTIDY)
+        os.link(file, self.folder / "b.iso")
+        result = run("isofmt", "-i", file)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("has other names (hard links)", result.stderr.decode())
+        self.assertEqual(file.read_bytes().decode(), UNTIDY)
+
+    def test_a_read_only_file_is_not_replaced(self):
+        file = self.write("a.iso", UNTIDY)
+        file.chmod(0o444)
+        if os.geteuid() == 0:
+            self.skipTest("the superuser may write everything")
+        self.assertEqual(run("isofmt", "-i", file).returncode, 2)
+        self.assertEqual(file.read_bytes().decode(), UNTIDY)
+
+    # --- Text
+
+    def test_line_ends_stay_as_they_are(self):
+        both = "M06 T101001\r\ng00 x0\n\rM02\r"
+        formatted = run("isofmt", "-", input=both.encode())
+        self.assertEqual(formatted.stdout.decode(), "M06 T101001\r\nG00 X0\n\rM02\r")
+        self.assertNotIn(b"\r", run("isolint", "--no-config", self.write("a.iso", WRONG.replace("\n", "\r\n"))).stdout)
+
+    def test_a_large_file_is_read(self):
+        lines = "".join(f"G01 X{i}.5 Y{i % 977} F1200\r\n" for i in range(400_000))
+        file = self.write("large.iso", "M06 T101001\r\nS12000 M03\r\n" + lines + "G02 X20\r\nM05\r\nM02\r\n")
+        self.assertGreater(file.stat().st_size, 9 << 20)
+        self.assertEqual(self.codes(file), [(str(file), "ISO028")])
+
+    def test_the_language_is_that_of_the_environment(self):
+        file = self.write("a.iso")
+        self.assertIn("errore", run("isolint", "--no-config", file, environment={"LANG": "it_IT.UTF-8"}).stdout.decode())
+        self.assertIn("error", run("isolint", "--no-config", file).stdout.decode())
+
+    # --- Servers
+
+    def test_isols_serves_at_a_port(self):
+        with subprocess.Popen([PROGRAMS / "isols", "--tcp", "0"], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE) as server:
+            address = server.stderr.readline().decode().strip().rsplit(" ", 1)[-1]
+            host, port = address.split(":")
+            with socket.create_connection((host, int(port)), timeout=60) as client:
+                stream = client.makefile("rb")
+                client.sendall(framed({"jsonrpc": "2.0", "id": 1, "method": "initialize", "params": {"capabilities": {}}}))
+                self.assertEqual(next(replies(stream))["result"]["serverInfo"]["name"], "isols")
+                client.sendall(framed({"jsonrpc": "2.0", "id": 2, "method": "shutdown"}) + framed({"jsonrpc": "2.0", "method": "exit"}))
+                self.assertEqual(next(replies(stream))["id"], 2)
+            self.assertEqual(server.wait(60), 0)
+
+    def server(self, **initialize):
+        """A server at its standard streams, and its messages."""
+        server = subprocess.Popen([PROGRAMS / "isols"], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        self.addCleanup(server.stdout.close)
+        self.addCleanup(server.stdin.close)
+        self.addCleanup(server.wait)
+        self.addCleanup(server.kill)
+        params = {"capabilities": {}} | initialize
+        server.stdin.write(framed({"jsonrpc": "2.0", "id": 1, "method": "initialize", "params": params}))
+        server.stdin.flush()
+        messages = replies(server.stdout)
+        self.assertEqual(next(messages)["id"], 1)
+        return server, messages
+
+    def test_isols_knows_a_file_by_its_uri(self):
+        self.write("isocnc.json", json.dumps({"lint": {"ignore": ["ISO028"]}}))
+        file = self.write("più.iso")
+        server, messages = self.server()
+        uri = "file:///z%3A" + str(file).replace("ù", "%C3%B9")
+        document = {"uri": uri, "languageId": "isocnc", "version": 1, "text": WRONG}
+        server.stdin.write(framed({"jsonrpc": "2.0", "method": "initialized", "params": {}}))
+        server.stdin.write(framed({"jsonrpc": "2.0", "method": "textDocument/didOpen", "params": {"textDocument": document}}))
+        server.stdin.flush()
+        published = (each["params"] for each in messages if each.get("method") == "textDocument/publishDiagnostics")
+        shown = next(each for each in published if each["uri"] == uri)
+        self.assertEqual(shown["diagnostics"], [])
+
+    def test_isols_ends_while_its_input_stays_open(self):
+        server, messages = self.server()
+        server.stdin.write(framed({"jsonrpc": "2.0", "id": 2, "method": "shutdown"}) + framed({"jsonrpc": "2.0", "method": "exit"}))
+        server.stdin.flush()
+        self.assertEqual(next(messages)["id"], 2)
+        self.assertEqual(server.wait(60), 0)
+
+    def test_isols_ends_with_its_input(self):
+        server, _ = self.server()
+        server.stdin.close()
+        self.assertEqual(server.wait(60), 1)
+
+    def test_isols_ends_with_the_editor_that_started_it(self):
+        # A number that no process has: those of Windows are multiples of four.
+        server, _ = self.server(processId=999_999)
+        self.assertEqual(server.wait(60), 1)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=1)
