@@ -23,7 +23,7 @@ class ArcCollector final : public execution::Sink {
   void centered_arc(const execution::CenteredArc& read) override {
     ++count;
     start_is_known = read.start_is_known;
-    centers = read.centers;
+    centers = read.centers();
     arc = {.plane = &read.plane,
            .given = read.given,
            .start = read.start,

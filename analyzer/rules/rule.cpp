@@ -77,10 +77,11 @@ void judge_arc(const execution::CenteredArc& arc, const geometry::CenterReadings
                const execution::Setup& setup, execution::Sink& sink) {
   const geometry::Circle& circle = arc.circle;
   if (suspects_centers && !arc.incremental && readings.is_legal_in_both_readings(setup.arc_tolerance)) {
-    sink.report(
-        {.id = "center-legal-both-ways"_diag, .span = arc.centers, .values = {readings.radius, readings.other_radius}});
+    sink.report({.id = "center-legal-both-ways"_diag,
+                 .span = arc.centers(),
+                 .values = {readings.radius, readings.other_radius}});
   } else if (std::abs(circle.found - circle.wanted) > setup.arc_tolerance / 2) {
-    sink.report({.id = "arc-barely-fits"_diag, .span = arc.centers, .values = {circle.found, circle.wanted}});
+    sink.report({.id = "arc-barely-fits"_diag, .span = arc.centers(), .values = {circle.found, circle.wanted}});
   }
 }
 

@@ -424,8 +424,10 @@ void Executor::report_centered_arc(const Arguments& arguments, const Plane& plan
                       .incremental = state_.incremental(),
                       .mm_per_unit = state_.mm_per_unit(),
                       .circle = circle,
-                      .centers = arguments.span_of(dialect::kCenterLetters)});
+                      .arguments = arguments});
 }
+
+Span CenteredArc::centers() const { return arguments.span_of(dialect::kCenterLetters); }
 
 /// Checks an arc, and computes it unless `move` is null.
 void Executor::arc(const Arguments& arguments, const GCode& code, Span place, ProgrammedMove* move) {

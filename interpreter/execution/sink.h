@@ -27,6 +27,7 @@ struct ProgrammedMove {
   bool inverse_time = false;
 };
 
+class Arguments;
 struct Plane;
 
 /// An arc whose circle is given by its center, as the control reads it.
@@ -38,7 +39,9 @@ struct CenteredArc {
   bool incremental = false;     ///< G91 is in force.
   double mm_per_unit = 1;       ///< Length of a program unit, mm.
   const geometry::Circle& circle;
-  syntax::Span centers;  ///< Span of I, J and K.
+  const Arguments& arguments;
+
+  syntax::Span centers() const;  ///< Of I, J and K. Looked for when it is asked for: few arcs show it.
 };
 
 /// A parameter of a user M (I.4.4).
