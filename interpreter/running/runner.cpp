@@ -24,7 +24,8 @@ class BlockSink final : public execution::Sink {
       : Sink(true), is_tool_unused(result.is_tool_unused), line_(line), events_(events), registers_(result.registers) {}
 
   std::optional<syntax::Finding> error;
-  bool is_tool_unused;  ///< After the block.
+  bool is_tool_unused;                        ///< After the block.
+  std::optional<Registers> registers_before;  ///< Before the block, if it has set one.
 
   void report(const syntax::Finding& finding) override {
     if (!error && is_error(finding)) error = finding;
@@ -47,6 +48,7 @@ class BlockSink final : public execution::Sink {
     add(FrameEvent{state.workpiece_origin, state.face_mounted, state.face});
   }
   void assign(int reg, double value) override {
+    if (!registers_before) registers_before = registers_;
     if (!std::isnan(value)) registers_[static_cast<std::size_t>(reg)] = value;
   }
   void exact_stop() override { add(ExactStopEvent{}); }
@@ -56,7 +58,9 @@ class BlockSink final : public execution::Sink {
  private:
   template <class What>
   void add(What what) {
-    events_.push_back({line_, std::move(what)});
+    Event& event = events_.emplace_back();  // Filled in place: a motion is large.
+    event.line = line_;
+    event.what = std::move(what);
   }
 
   std::uint64_t line_;
@@ -144,6 +148,10 @@ bool Runner::execute_around_jump(const syntax::LineTree& tree, execution::Sink& 
 /// the run. Returns their jumps; only the last may be taken.
 std::vector<Runner::DecidedJump> Runner::execute_blocks(const syntax::LineTree& tree, execution::Sink& sink) {
   std::vector<DecidedJump> jumps;
+  if (tree.jump == nullptr && !tree.has(syntax::LineTree::kTwoBlocks)) {  // Most lines.
+    execution::execute(tree, result_.state, options_->setup, sink);
+    return jumps;
+  }
   const auto execute_block = [&](const syntax::LineTree& block, std::uint32_t offset) {
     const bool is_taken = execute_around_jump(block, sink);
     if (block.jump == nullptr || !block.jump->has_target) return;
@@ -167,14 +175,13 @@ std::vector<Runner::DecidedJump> Runner::execute_blocks(const syntax::LineTree& 
 void Runner::execute_line(const syntax::LineTree& tree) {
   BlockSink sink(place_.line, workbench_.events, result_);
   for (const syntax::Finding& finding : tree.findings) sink.report(finding);
-  const Registers registers_before = result_.registers;
   const execution::State before = result_.state;
-  std::vector<DecidedJump> jumps;
-  if (!sink.error || !options_->stop_at_errors) jumps = execute_blocks(tree, sink);
+  const bool is_refused = sink.error && options_->stop_at_errors;
+  const auto jumps = is_refused ? std::vector<DecidedJump>() : execute_blocks(tree, sink);
   if (sink.error && options_->stop_at_errors) {
     workbench_.events.clear();
     result_.state = before;
-    result_.registers = registers_before;
+    if (sink.registers_before) result_.registers = *sink.registers_before;
     return fail(*sink.error);
   }
   result_.is_tool_unused = sink.is_tool_unused;
