@@ -3,7 +3,8 @@
 
 # isocnc_headers(fmt fmt/format.h ...): the imported target fmt::fmt gets the folder of that header, alone.
 function(isocnc_headers target header)
-  find_path(folder ${header} PATHS /usr/include /usr/local/include /usr/include/eigen3 NO_DEFAULT_PATH NO_CACHE REQUIRED)
+  find_path(folder ${header} PATHS /usr/include /usr/local/include /usr/include/eigen3 NO_DEFAULT_PATH
+            NO_CMAKE_FIND_ROOT_PATH NO_CACHE REQUIRED)
   get_filename_component(part ${header} DIRECTORY)
   while(part MATCHES "/")
     get_filename_component(part ${part} DIRECTORY)
