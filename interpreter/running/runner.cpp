@@ -148,10 +148,6 @@ bool Runner::execute_around_jump(const syntax::LineTree& tree, execution::Sink& 
 /// the run. Returns their jumps; only the last may be taken.
 std::vector<Runner::DecidedJump> Runner::execute_blocks(const syntax::LineTree& tree, execution::Sink& sink) {
   std::vector<DecidedJump> jumps;
-  if (tree.jump == nullptr && !tree.has(syntax::LineTree::kTwoBlocks)) {  // Most lines.
-    execution::execute(tree, result_.state, options_->setup, sink);
-    return jumps;
-  }
   const auto execute_block = [&](const syntax::LineTree& block, std::uint32_t offset) {
     const bool is_taken = execute_around_jump(block, sink);
     if (block.jump == nullptr || !block.jump->has_target) return;
