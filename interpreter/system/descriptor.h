@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string_view>
+#include <utility>
 
 /// Open files, pipes and devices by their numbers: those of POSIX, and on Windows those of its C library, all of them
 /// without translation of line ends. What fails sets errno.
@@ -16,16 +17,17 @@ inline constexpr int kStandardError = 2;
 class Descriptor {
  public:
   explicit Descriptor(int number = -1) : number_(number) {}
-  Descriptor(Descriptor&& other) noexcept : number_(other.release()) {}
-  Descriptor& operator=(Descriptor&& other) noexcept;
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
   ~Descriptor();
 
   bool is_open() const { return number_ >= 0; }
   int number() const { return number_; }
 
  private:
-  int release() noexcept;
-
   int number_;
 };
 

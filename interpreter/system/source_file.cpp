@@ -158,7 +158,7 @@ std::variant<SourceFile, SourceFile::Problem> SourceFile::map(const std::filesys
   file.mapped_ = std::make_unique<MappedFile>(path, descriptor, size, language);
   const int error = file.mapped_->error();
   // Files that the kernel generates on reading (sysfs) have a size but cannot be mapped.
-  if (error == ENODEV) return read_stream(descriptor, language);
+  if (error == ENODEV) return read(descriptor, size, language);
   if (error != 0) return Problem{cannot_read(error, language)};
   if (const std::optional<Text> text = obstacle_in_head(file.text())) return Problem{std::string(text->in(language))};
   std::variant<SourceFile, Problem> result = with_short_lines(std::move(file), language);

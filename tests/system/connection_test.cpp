@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <variant>
 
 namespace isocnc::system {
@@ -47,14 +48,24 @@ int connected_to(std::uint16_t port) {
   return client;
 }
 
-TEST(AcceptOnLoopback, GivesTheConnectionOfTheFirstClient) {
-  Listener listener;
-  EXPECT_NE(listener.port(), 0);
-  const int client = connected_to(listener.port());
-  Accepted result = listener.accepted();
-  ASSERT_TRUE(std::holds_alternative<std::unique_ptr<Connection>>(result));
-  std::unique_ptr<Connection>& server = std::get<std::unique_ptr<Connection>>(result);
+/// Both ends of a connection.
+class Connections : public testing::Test {
+ protected:
+  Connections() {
+    Listener listener;
+    EXPECT_NE(listener.port(), 0);
+    client = connected_to(listener.port());
+    Accepted accepted = listener.accepted();
+    if (auto* const connection = std::get_if<std::unique_ptr<Connection>>(&accepted)) server = std::move(*connection);
+  }
+  ~Connections() override { ::close(client); }
+  void SetUp() override { ASSERT_TRUE(server); }
 
+  int client = -1;
+  std::unique_ptr<Connection> server;
+};
+
+TEST_F(Connections, CarryBytesBothWays) {
   ASSERT_EQ(::write(client, "question", 8), 8);
   char bytes[8] = {};
   ASSERT_EQ(server->read(bytes, sizeof bytes), 8u);
@@ -64,32 +75,19 @@ TEST(AcceptOnLoopback, GivesTheConnectionOfTheFirstClient) {
   EXPECT_EQ(std::string(bytes, 6), "answer");
   server.reset();
   EXPECT_EQ(::read(client, bytes, sizeof bytes), 0);
-  ::close(client);
 }
 
-TEST(Connection, ReadsNothingMoreAfterItsEnd) {
-  Listener listener;
-  const int client = connected_to(listener.port());
-  Accepted result = listener.accepted();
-  ASSERT_TRUE(std::holds_alternative<std::unique_ptr<Connection>>(result));
-  Connection& server = *std::get<std::unique_ptr<Connection>>(result);
+TEST_F(Connections, ReadNothingMoreAfterTheirEnd) {
   char bytes[8] = {};
-  auto read = std::async(std::launch::async, [&] { return server.read(bytes, sizeof bytes); });
-  server.stop();
+  auto read = std::async(std::launch::async, [&] { return server->read(bytes, sizeof bytes); });
+  server->stop();
   EXPECT_EQ(read.get(), 0u);
-  ::close(client);
 }
 
-TEST(Connection, GivesUpAClientThatReadsNothingAfterItsEnd) {
-  Listener listener;
-  const int client = connected_to(listener.port());
-  Accepted result = listener.accepted();
-  ASSERT_TRUE(std::holds_alternative<std::unique_ptr<Connection>>(result));
-  Connection& server = *std::get<std::unique_ptr<Connection>>(result);
-  auto written = std::async(std::launch::async, [&] { return server.write(std::string(std::size_t{64} << 20, 'x')); });
-  server.stop();
+TEST_F(Connections, GiveUpAClientThatReadsNothingAfterTheirEnd) {
+  auto written = std::async(std::launch::async, [&] { return server->write(std::string(std::size_t{64} << 20, 'x')); });
+  server->stop();
   EXPECT_FALSE(written.get());
-  ::close(client);
 }
 
 TEST(AcceptOnLoopback, SaysWhenThePortBelongsToAnother) {

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <utility>
 
 namespace isocnc::system {
 
@@ -14,13 +13,6 @@ static Descriptor open(const std::filesystem::path& path, int flags, mode_t mode
     number = ::open(path.c_str(), flags | O_CLOEXEC, mode);
   } while (number < 0 && errno == EINTR);
   return Descriptor(number);
-}
-
-int Descriptor::release() noexcept { return std::exchange(number_, -1); }
-
-Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
-  std::swap(number_, other.number_);
-  return *this;
 }
 
 Descriptor::~Descriptor() {

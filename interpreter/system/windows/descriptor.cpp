@@ -8,10 +8,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
-#include <utility>
 
 #include "interpreter/system/windows/errors.h"
-#include "interpreter/system/windows/native_path.h"
+#include "interpreter/system/windows/handle.h"
 
 namespace isocnc::system {
 
@@ -19,25 +18,11 @@ namespace isocnc::system {
 static constexpr std::size_t kLargest = std::size_t{1} << 30;
 
 static Descriptor open(const std::filesystem::path& path, DWORD access, DWORD how, int flags) {
-  // Others may write, rename and remove the file meanwhile, such as a CAM system that posts the program again.
-  constexpr DWORD kShared = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
-  // A folder opens only with this flag, so that its status can tell what it is.
-  constexpr DWORD kFlags = FILE_ATTRIBUTE_NORMAL | FILE_FLAG_BACKUP_SEMANTICS;
-  const HANDLE file = ::CreateFileW(native(path).c_str(), access, kShared, nullptr, how, kFlags, nullptr);
-  if (file == INVALID_HANDLE_VALUE) {
-    keep_last_error();
-    return Descriptor();
-  }
+  HANDLE const file = open_shared(path, access, how);
+  if (file == INVALID_HANDLE_VALUE) return Descriptor();
   const int number = ::_open_osfhandle(reinterpret_cast<std::intptr_t>(file), flags | _O_BINARY | _O_NOINHERIT);
   if (number < 0) ::CloseHandle(file);
   return Descriptor(number);
-}
-
-int Descriptor::release() noexcept { return std::exchange(number_, -1); }
-
-Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
-  std::swap(number_, other.number_);
-  return *this;
 }
 
 Descriptor::~Descriptor() {
@@ -58,8 +43,6 @@ Descriptor open_to_append(const std::filesystem::path& path) {
 Descriptor create_file(const std::filesystem::path& path, Access) {
   return open(path, GENERIC_WRITE | WRITE_DAC, CREATE_NEW, _O_WRONLY);
 }
-
-static HANDLE handle_of(int descriptor) { return reinterpret_cast<HANDLE>(::_get_osfhandle(descriptor)); }
 
 std::ptrdiff_t read_some(int descriptor, char* bytes, std::size_t size) {
   DWORD count = 0;

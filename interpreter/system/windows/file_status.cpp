@@ -3,12 +3,12 @@
 #include <windows.h>
 
 #include <aclapi.h>
-#include <io.h>
 
 #include <cerrno>
 #include <memory>
 
 #include "interpreter/system/windows/errors.h"
+#include "interpreter/system/windows/handle.h"
 #include "interpreter/system/windows/native_path.h"
 
 namespace isocnc::system {
@@ -55,13 +55,9 @@ std::optional<FileStatus> status_of(HANDLE file) {
 
 }  // namespace
 
-/// Opens a file, which others may use, for what must not wait for them; null on failure, with the reason in errno.
+/// Null on failure, with the reason in errno.
 static std::unique_ptr<void, HandleCloser> open(const fs::path& path, DWORD access) {
-  constexpr DWORD kShared = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
-  // A folder opens only with this flag.
-  HANDLE const file =
-      ::CreateFileW(native(path).c_str(), access, kShared, nullptr, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, nullptr);
-  if (file == INVALID_HANDLE_VALUE) keep_last_error();
+  HANDLE const file = open_shared(path, access, OPEN_EXISTING);
   return std::unique_ptr<void, HandleCloser>(file == INVALID_HANDLE_VALUE ? nullptr : file);
 }
 
@@ -70,9 +66,7 @@ std::optional<FileStatus> status_of(const fs::path& path) {
   return file ? status_of(file.get()) : std::nullopt;
 }
 
-std::optional<FileStatus> status_of(int descriptor) {
-  return status_of(reinterpret_cast<HANDLE>(::_get_osfhandle(descriptor)));
-}
+std::optional<FileStatus> status_of(int descriptor) { return status_of(handle_of(descriptor)); }
 
 bool may_write(const fs::path& path) { return open(path, FILE_WRITE_DATA) != nullptr; }
 
@@ -90,8 +84,8 @@ bool take_over_attributes(int descriptor, const fs::path& replaced, const FileSt
   ::GetSecurityDescriptorControl(found, &control, &revision);
   const DWORD inheritance = (control & SE_DACL_PROTECTED) != 0 ? DWORD{PROTECTED_DACL_SECURITY_INFORMATION}
                                                                : DWORD{UNPROTECTED_DACL_SECURITY_INFORMATION};
-  ::SetSecurityInfo(reinterpret_cast<HANDLE>(::_get_osfhandle(descriptor)), SE_FILE_OBJECT,
-                    DACL_SECURITY_INFORMATION | inheritance, nullptr, nullptr, rights, nullptr);
+  ::SetSecurityInfo(handle_of(descriptor), SE_FILE_OBJECT, DACL_SECURITY_INFORMATION | inheritance, nullptr, nullptr,
+                    rights, nullptr);
   return true;
 }
 

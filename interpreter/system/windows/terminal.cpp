@@ -2,13 +2,13 @@
 
 #include <windows.h>
 
-#include <io.h>
+#include "interpreter/system/windows/handle.h"
 
 namespace isocnc::system {
 
 /// A console shows escape sequences only once it is asked to; those before Windows 10 never do.
 bool is_terminal(int descriptor) {
-  auto* const console = reinterpret_cast<HANDLE>(::_get_osfhandle(descriptor));
+  HANDLE const console = handle_of(descriptor);
   DWORD mode = 0;
   return ::GetConsoleMode(console, &mode) != 0 &&
          ::SetConsoleMode(console, mode | ENABLE_PROCESSED_OUTPUT | ENABLE_VIRTUAL_TERMINAL_PROCESSING) != 0;
