@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include <fast_float/fast_float.h>
 #include <fmt/format.h>
 
 #include "debugger/expressions/read_number.h"
@@ -147,8 +148,10 @@ class ExpressionCompiler {
     while (at_ < text_.size() && (text::is_digit(text_[at_]) || text_[at_] == '.')) ++at_;
     double value = 0;
     const char* const end = text_.data() + at_;
-    const auto [rest, error] = std::from_chars(text_.data() + begin, end, value, std::chars_format::fixed);
-    if (error != std::errc{} || rest != end) return fail(begin, message(kNoSense, text_.substr(begin, at_ - begin)));
+    const auto [rest, error] =
+        fast_float::from_chars(text_.data() + begin, end, value, fast_float::chars_format::fixed);
+    if (error != std::errc{} || rest != end || std::isinf(value))
+      return fail(begin, message(kNoSense, text_.substr(begin, at_ - begin)));
     add({.operation = Operation::Number, .number = value});
   }
 

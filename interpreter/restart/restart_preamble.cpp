@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
+#include <fast_float/fast_float.h>
 #include <fmt/format.h>
 
 #include "interpreter/dialect/format.h"
@@ -35,10 +35,13 @@ static constexpr Text kRest{"; the program from line {} on", "; il programma dal
 
 /// A number as programs write it, exact: without exponent, with the fewest digits that give the same value.
 static std::string exact(double value) {
-  std::array<char, 400> digits;
   if (value == 0) value = 0;  // Turns -0 into 0.
-  char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed).ptr;
-  return {digits.data(), end};
+  for (int decimals = 0;; ++decimals) {
+    std::string text = fmt::format("{:.{}f}", value, decimals);
+    double read = 0;
+    fast_float::from_chars(text.data(), text.data() + text.size(), read);
+    if (read == value || std::isnan(value)) return text;
+  }
 }
 
 /// Coordinates are rounded to a billionth: this hides the rounding errors of sums under G91 and is below every

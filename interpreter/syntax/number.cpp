@@ -1,7 +1,9 @@
 #include "interpreter/syntax/number.h"
 
-#include <charconv>
+#include <cmath>
 #include <string>
+
+#include <fast_float/fast_float.h>
 
 namespace isocnc::syntax {
 
@@ -42,12 +44,8 @@ static Number scan_any_number(const char* p, const char* end) {
   if (number.malformed) return number;
   const char* const first = text.data() + (text[0] == '+' ? 1 : 0);
   double value = 0;
-  const auto [after, error] = std::from_chars(first, text.data() + text.size(), value);
-  if (error == std::errc{}) {
-    number.value = value + 0.0;  // -0 is 0.
-  } else if (text.find_first_of("123456789") > text.find('.')) {
-    number.value = 0;  // An underflow: too small for a double, but known.
-  }
+  fast_float::from_chars(first, text.data() + text.size(), value);
+  if (!std::isinf(value)) number.value = value + 0.0;  // -0 is 0, and so is what is too small for a double.
   return number;
 }
 
