@@ -74,8 +74,8 @@ std::optional<double> read_decimal(std::string_view text) {
 }
 
 /// Parses a number from 1 to `maximum`, of digits only; otherwise none.
-std::optional<std::uint64_t> read_count(std::string_view text, std::uint64_t maximum) {
-  std::uint64_t count = 0;
+std::optional<std::size_t> read_count(std::string_view text, std::size_t maximum) {
+  std::size_t count = 0;
   const char* const end = text.data() + text.size();
   const auto [after, error] = std::from_chars(text.data(), end, count);
   if (error != std::errc{} || after != end || count < 1 || count > maximum) return std::nullopt;
@@ -138,7 +138,7 @@ std::optional<running::RunOptions> read_run_options(const RunCommandOptions& opt
   if (!vgpl) return refuse(kWrongVgpl, options.vgpl, options);
   run.vgpl = *vgpl;
   if (!options.until.empty()) {
-    const auto until = read_count(options.until, std::numeric_limits<std::uint64_t>::max());
+    const auto until = read_count(options.until, std::numeric_limits<std::size_t>::max());
     if (!until) return refuse(kWrongUntil, options.until, options);
     run.until = *until - 1;
   }
@@ -171,7 +171,7 @@ std::optional<restart::RestartOptions> read_restart_options(const RunCommandOpti
   restart.run = run;
   restart.language = options.reader_language();
   restart.name = options.reads_stdin() ? "<stdin>" : std::filesystem::path(options.file).filename().generic_string();
-  const auto line = read_count(*options.restart_at, std::numeric_limits<std::uint64_t>::max());
+  const auto line = read_count(*options.restart_at, std::numeric_limits<std::size_t>::max());
   if (!line) return refuse(kWrongRestart, *options.restart_at, options);
   restart.line = *line - 1;
   if (options.clearance) {
@@ -185,7 +185,7 @@ std::optional<restart::RestartOptions> read_restart_options(const RunCommandOpti
 }
 
 /// Prints a finding in the format of compilers.
-void print_finding(const RunCommandOptions& options, std::uint64_t line, dialect::DiagnosticId id,
+void print_finding(const RunCommandOptions& options, std::size_t line, dialect::DiagnosticId id,
                    std::string_view message) {
   const dialect::DiagnosticDef& def = dialect::definition(id);
   std::cerr << text::printable(fmt::format("{}:{}: {}: {} [{}]", options.shown_file(), line + 1,

@@ -76,7 +76,7 @@ void Analysis::each_jump_event(Take take) const {
 /// The labels that the jumps in all chunks name, ascending.
 std::vector<std::uint64_t> Analysis::labels_named() const {
   std::set<std::uint64_t> labels;
-  each_jump_event([&](std::uint64_t, const FlowEvent& event) {
+  each_jump_event([&](std::size_t, const FlowEvent& event) {
     if (event.kind == FlowEvent::Kind::Jump) labels.insert(event.jump.target);
   });
   return {labels.begin(), labels.end()};
@@ -108,7 +108,7 @@ void Analysis::follow_labels(const std::vector<std::uint64_t>& named) {
 JumpMap Analysis::find_jumps() {
   follow_labels(labels_named());
   JumpCollector collector;
-  each_jump_event([&](std::uint64_t line, const FlowEvent& event) { collector.add(line, event); });
+  each_jump_event([&](std::size_t line, const FlowEvent& event) { collector.add(line, event); });
   return std::move(collector).finish();
 }
 
@@ -290,7 +290,7 @@ FirstFindings Analysis::excerpt(const FirstFindingsOptions& options) const {
       outcomes.push_back({&rows_[i].checked->outcome, document_.first_line_of_chunk(i)});
   return conclude(
       outcomes, counts_, end_, jumps_,
-      [&](std::uint64_t line) { return document_.text_of_line(static_cast<std::size_t>(line)); }, options);
+      [&](std::size_t line) { return document_.text_of_line(static_cast<std::size_t>(line)); }, options);
 }
 
 std::vector<LocatedFinding> Analysis::findings_on(std::size_t line) const {

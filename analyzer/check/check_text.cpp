@@ -42,7 +42,7 @@ class Batch {
   }
 
   /// Executes the lines, the first as line `line`; returns the number of the line after them.
-  std::uint64_t check(Checker& checker, std::uint64_t line, Outcome& outcome) const {
+  std::size_t check(Checker& checker, std::size_t line, Outcome& outcome) const {
     const char* p = text;
     for (std::size_t i = 0; i < trees.size();) {
       const std::size_t plain = checker.check_plain_lines(trees, i, line, outcome);
@@ -144,7 +144,7 @@ class Pass {
   bool is_executing_ = false;
   bool finished_ = false;
   Checker checker_;
-  std::uint64_t line_ = 0;
+  std::size_t line_ = 0;
   Outcome outcome_;
 };
 
@@ -168,7 +168,7 @@ Report check_text(std::string_view text, const rules::CheckSetup& setup, int job
       suspects_centers = true;
     } else {
       return conclude(std::move(outcome), pass.checker().frontier, jumps,
-                      [&](std::uint64_t line) { return syntax::LineFinder(text).line(line); });
+                      [&](std::size_t line) { return syntax::LineFinder(text).line(line); });
     }
   }
 }

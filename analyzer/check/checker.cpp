@@ -91,13 +91,13 @@ static const execution::Lack* lack_of_any(const Groups& live) {
 }
 
 /// Records the folds that a run of plain lines ends.
-static void note_plain_feed(const execution::PlainRun& run, const execution::State& state, std::uint64_t line,
+static void note_plain_feed(const execution::PlainRun& run, const execution::State& state, std::size_t line,
                             Outcome& outcome) {
   if (run.has_taken_feed() && state.inverse_time()) outcome.end_folds(folds_ended_by(BlockStep::InverseTimeFeed), line);
 }
 
 template <class PlainLineAt>
-std::size_t Checker::check_plain(std::size_t count, std::uint64_t line_number, Outcome& outcome,
+std::size_t Checker::check_plain(std::size_t count, std::size_t line_number, Outcome& outcome,
                                  PlainLineAt plain_line_at) {
   if (frontier.live.size() != 1 || checks_moves_) return 0;
   Group& group = frontier.live[0];
@@ -123,7 +123,7 @@ std::size_t Checker::check_plain(std::size_t count, std::uint64_t line_number, O
   return done;
 }
 
-std::size_t Checker::check_plain_lines(const syntax::TreeStore& trees, std::size_t first, std::uint64_t line_number,
+std::size_t Checker::check_plain_lines(const syntax::TreeStore& trees, std::size_t first, std::size_t line_number,
                                        Outcome& outcome) {
   return check_plain(trees.size() - first, line_number, outcome,
                      [&](std::size_t index) { return trees.plain(first + index); });
@@ -136,13 +136,13 @@ void Checker::check_all(const syntax::ChunkTrees& trees, Outcome& outcome) {
   }
 }
 
-void Checker::check(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+void Checker::check(const LineTree& line, std::size_t line_number, Outcome& outcome) {
   if (check_plain(1, line_number, outcome, [&](std::size_t) { return line.plain(); }) == 0)
     check_any(line, line_number, outcome);
 }
 
 /// Checks two blocks whose line break is lost, one after the other (D68).
-void Checker::check_two_blocks(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+void Checker::check_two_blocks(const LineTree& line, std::size_t line_number, Outcome& outcome) {
   const std::size_t first = outcome.findings.size();
   bool is_read = false;
   std::uint32_t offset = 0;
@@ -165,7 +165,7 @@ void Checker::check_two_blocks(const LineTree& line, std::uint64_t line_number, 
 }
 
 /// Checks a line that starts with words which the block above lacks. Returns false for any other line.
-bool Checker::check_carried(const LineTree& line, const execution::Lack& lack, std::uint64_t line_number,
+bool Checker::check_carried(const LineTree& line, const execution::Lack& lack, std::size_t line_number,
                             std::size_t first_label, Outcome& outcome) {
   const bool is_of_motion = lack.is_of_motion;
   const auto parts = execution::SplitLine::split(line, lack);
@@ -180,7 +180,7 @@ bool Checker::check_carried(const LineTree& line, const execution::Lack& lack, s
   return true;
 }
 
-void Checker::check_any(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+void Checker::check_any(const LineTree& line, std::size_t line_number, Outcome& outcome) {
   if (line.has(LineTree::kTwoBlocks)) return check_two_blocks(line, line_number, outcome);
   if (!line.words.empty() || !line.comments.empty() || !line.findings.empty()) {
     outcome.has_text = true;
@@ -201,7 +201,7 @@ void Checker::check_any(const LineTree& line, std::uint64_t line_number, Outcome
 }
 
 /// Checks a line, or what is left of it.
-void Checker::check_block(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+void Checker::check_block(const LineTree& line, std::size_t line_number, Outcome& outcome) {
   Groups& live = frontier.live;
   const std::size_t first = outcome.findings.size();
   for (const Finding& finding : line.findings)
@@ -223,7 +223,7 @@ void Checker::check_block(const LineTree& line, std::uint64_t line_number, Outco
 }
 
 /// Unreachable lines are not executed; W116 is reported at the first of them, and nothing else (D51).
-void Checker::report_dead_code(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+void Checker::report_dead_code(const LineTree& line, std::size_t line_number, Outcome& outcome) {
   if (frontier.dead_reported || line.is_empty()) return;
   frontier.dead_reported = true;
   if (frontier.reduced) return;  // A path that is not followed may lead here.
@@ -234,7 +234,7 @@ void Checker::report_dead_code(const LineTree& line, std::uint64_t line_number, 
 }
 
 /// Handles a label that a jump names: paths that jumped here continue. A label on no feasible path is recorded as well.
-void Checker::arrive(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+void Checker::arrive(const LineTree& line, std::size_t line_number, Outcome& outcome) {
   if (frontier.arrive(line) && frontier.bound_live()) admit_reduction(line, line_number, outcome);
   for (const syntax::Word& word : line.words) {
     if (word.letter != 'N' || word.owner != syntax::Word::kNoOwner) continue;
@@ -255,7 +255,7 @@ void Checker::assign(Group& group, int reg, double value, Outcome& outcome) cons
 }
 
 /// Words after an IF on its line (E002) are executed only if the IF does not jump (D56).
-void Checker::execute_around_jump(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+void Checker::execute_around_jump(const LineTree& line, std::size_t line_number, Outcome& outcome) {
   if (line.findings.empty()) {  // The IF is alone on the line.
     execute_in_all_groups(line, line_number, outcome);
     return branch(line, line_number, outcome);
@@ -269,7 +269,7 @@ void Checker::execute_around_jump(const LineTree& line, std::uint64_t line_numbe
 /// Executes one line in each live group, and collects its findings and effects.
 class Checker::LineExecution final : public execution::Sink {
  public:
-  LineExecution(Checker& checker, const LineTree& line, std::uint64_t line_number, Outcome& outcome)
+  LineExecution(Checker& checker, const LineTree& line, std::size_t line_number, Outcome& outcome)
       : Sink(checker.checks_moves_), checker_(checker), line_(line), line_number_(line_number), outcome_(outcome) {}
 
   void run() {
@@ -332,7 +332,7 @@ class Checker::LineExecution final : public execution::Sink {
 
   Checker& checker_;
   const LineTree& line_;
-  const std::uint64_t line_number_;
+  const std::size_t line_number_;
   Outcome& outcome_;
   std::size_t group_ = 0;                          // The group that executes the line.
   std::optional<execution::ProgrammedMove> move_;  // The line's motion, if motions are watched.
@@ -341,7 +341,7 @@ class Checker::LineExecution final : public execution::Sink {
 /// Executes words that belong to the block before (SplitLine). What they make wrong has been reported there, but for a
 /// missing tool and a missing F, which are mistakes of their own (D45) and reported once only. The words of a frame or
 /// a dwell move no axis, but whatever they name is unknown.
-void Checker::execute_carried(const LineTree& words, bool is_of_motion, std::uint64_t line_number, Outcome& outcome) {
+void Checker::execute_carried(const LineTree& words, bool is_of_motion, std::size_t line_number, Outcome& outcome) {
   Groups& live = frontier.live;
   group_findings_.clear();
   LineExecution(*this, words, line_number, outcome).run();
@@ -356,7 +356,7 @@ void Checker::execute_carried(const LineTree& words, bool is_of_motion, std::uin
       for (Group& group : live) group.state.unknown |= execution::axes_of(dialect::letter_bit(word.letter));
 }
 
-void Checker::execute_in_all_groups(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+void Checker::execute_in_all_groups(const LineTree& line, std::size_t line_number, Outcome& outcome) {
   Groups& live = frontier.live;
   if (const auto assignment = execution::lone_assignment(line)) {
     for (Group& group : live) {
@@ -389,7 +389,7 @@ void Checker::judge_arc(const execution::CenteredArc& arc, Outcome& outcome, exe
 }
 
 /// Reports each finding once. A finding that only some groups have carries the decisions that lead to them.
-void Checker::report_common_findings(std::uint64_t line_number, Outcome& outcome) {
+void Checker::report_common_findings(std::size_t line_number, Outcome& outcome) {
   const Groups& live = frontier.live;
   for (std::size_t i = 0; i < group_findings_.size(); ++i) {
     const Finding& finding = group_findings_[i].finding;
@@ -445,7 +445,7 @@ void Checker::pass_jump_to_nowhere(const syntax::Jump& jump) {
 }
 
 /// Executes an IF: follows the paths that are feasible (D51, D52).
-void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+void Checker::branch(const LineTree& line, std::size_t line_number, Outcome& outcome) {
   const syntax::Jump& jump = *line.jump;
   const std::uint32_t ordinal = frontier.next_jump++;
   outcome.live_jumps.push_back(ordinal);
@@ -509,7 +509,7 @@ void Checker::branch(const LineTree& line, std::uint64_t line_number, Outcome& o
 }
 
 /// Reports once (W191) that some paths are not followed from here on.
-void Checker::admit_reduction(const LineTree& line, std::uint64_t line_number, Outcome& outcome) {
+void Checker::admit_reduction(const LineTree& line, std::size_t line_number, Outcome& outcome) {
   if (frontier.reduced) return;
   frontier.reduced = true;
   syntax::Span span;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -25,15 +24,15 @@ class Checker {
   static Frontier start(const execution::Setup& setup);
 
   /// Checks one line.
-  void check(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
+  void check(const syntax::LineTree& line, std::size_t line_number, Outcome& outcome);
   /// Checks the lines of a chunk, numbered from 0 at its first line.
   void check_all(const syntax::ChunkTrees& trees, Outcome& outcome);
   /// Fast check() for a run of plain lines without findings and without labels that a jump names. Stops before the
   /// first other line; returns the number of lines checked, counted from `first`.
-  std::size_t check_plain_lines(const syntax::TreeStore& trees, std::size_t first, std::uint64_t line_number,
+  std::size_t check_plain_lines(const syntax::TreeStore& trees, std::size_t first, std::size_t line_number,
                                 Outcome& outcome);
   /// check() for the line at which check_plain_lines() stopped.
-  void check_any(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
+  void check_any(const syntax::LineTree& line, std::size_t line_number, Outcome& outcome);
 
   Frontier frontier;
 
@@ -41,21 +40,21 @@ class Checker {
   class LineExecution;
 
   template <class PlainLineAt>
-  std::size_t check_plain(std::size_t count, std::uint64_t line_number, Outcome& outcome, PlainLineAt plain_line_at);
-  void report_dead_code(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
-  void arrive(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
-  void check_two_blocks(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
-  bool check_carried(const syntax::LineTree& line, const execution::Lack& lack, std::uint64_t line_number,
+  std::size_t check_plain(std::size_t count, std::size_t line_number, Outcome& outcome, PlainLineAt plain_line_at);
+  void report_dead_code(const syntax::LineTree& line, std::size_t line_number, Outcome& outcome);
+  void arrive(const syntax::LineTree& line, std::size_t line_number, Outcome& outcome);
+  void check_two_blocks(const syntax::LineTree& line, std::size_t line_number, Outcome& outcome);
+  bool check_carried(const syntax::LineTree& line, const execution::Lack& lack, std::size_t line_number,
                      std::size_t first_label, Outcome& outcome);
-  void execute_carried(const syntax::LineTree& words, bool is_of_motion, std::uint64_t line_number, Outcome& outcome);
-  void check_block(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
-  void execute_around_jump(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
-  void execute_in_all_groups(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
+  void execute_carried(const syntax::LineTree& words, bool is_of_motion, std::size_t line_number, Outcome& outcome);
+  void check_block(const syntax::LineTree& line, std::size_t line_number, Outcome& outcome);
+  void execute_around_jump(const syntax::LineTree& line, std::size_t line_number, Outcome& outcome);
+  void execute_in_all_groups(const syntax::LineTree& line, std::size_t line_number, Outcome& outcome);
   void assign(Group& group, int reg, double value, Outcome& outcome) const;
-  void report_common_findings(std::uint64_t line_number, Outcome& outcome);
+  void report_common_findings(std::size_t line_number, Outcome& outcome);
   void pass_jump_to_nowhere(const syntax::Jump& jump);
-  void branch(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
-  void admit_reduction(const syntax::LineTree& line, std::uint64_t line_number, Outcome& outcome);
+  void branch(const syntax::LineTree& line, std::size_t line_number, Outcome& outcome);
+  void admit_reduction(const syntax::LineTree& line, std::size_t line_number, Outcome& outcome);
 
   struct GroupFinding {
     syntax::Finding finding;

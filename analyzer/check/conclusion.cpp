@@ -16,7 +16,7 @@ using syntax::Finding;
 using syntax::LineTree;
 
 bool all_jumps_resolve(const Outcome& outcome, const JumpMap& jumps) {
-  std::unordered_map<std::uint64_t, std::uint64_t> last_lines;
+  std::unordered_map<std::uint64_t, std::size_t> last_lines;
   for (const Outcome::Label& label : outcome.labels) last_lines[label.label] = label.line;
   return std::all_of(outcome.live_jumps.begin(), outcome.live_jumps.end(), [&](std::uint32_t ordinal) {
     const JumpMap::Site& site = jumps.sites()[ordinal];
@@ -85,7 +85,7 @@ static bool may_hide_end(std::string_view text) {
 
 /// A path that reaches the end of the file without an M02: reported on the last line with any text (D47).
 static void add_missing_end(const std::vector<PlacedOutcome>& outcomes, const Frontier& end,
-                            const std::function<std::string_view(std::uint64_t)>& text_of_line,
+                            const std::function<std::string_view(std::size_t)>& text_of_line,
                             std::vector<Decisions>& paths, std::vector<LocatedFinding>& findings) {
   if (end.live.empty()) return;
   LocatedFinding located{0, {.id = "m02-missing"_diag}};
@@ -139,7 +139,7 @@ static bool by_place(const LocatedFinding& a, const LocatedFinding& b) {
 
 /// Adds the findings that need the whole program.
 static void add_findings_of_whole(const std::vector<PlacedOutcome>& outcomes, const Frontier& end, const JumpMap& jumps,
-                                  const std::function<std::string_view(std::uint64_t)>& text_of_line,
+                                  const std::function<std::string_view(std::size_t)>& text_of_line,
                                   std::vector<Decisions>& paths, std::vector<LocatedFinding>& findings) {
   add_duplicate_labels(outcomes, jumps, findings);
   if (!end.reduced) add_unassigned_registers(outcomes, jumps, findings);
@@ -166,7 +166,7 @@ static bool is_reported_at_label(const Finding& finding, const std::vector<doubl
 }
 
 Report conclude(Outcome outcome, const Frontier& end, const JumpMap& jumps,
-                const std::function<std::string_view(std::uint64_t)>& text_of_line) {
+                const std::function<std::string_view(std::size_t)>& text_of_line) {
   MistakeNumbers mistakes;
   std::sort(outcome.misspelled_labels.begin(), outcome.misspelled_labels.end());
   std::erase_if(outcome.findings, [&](const LocatedFinding& located) {
@@ -194,7 +194,7 @@ class ExcerptCollector {
 
   bool has_enough() const { return taken_ >= options_.max; }
   /// The line after the last finding taken.
-  std::uint64_t end() const { return end_; }
+  std::size_t end() const { return end_; }
 
   /// Whether findings of a code must be looked at one by one, and not only be counted.
   static bool needs_look(dialect::DiagnosticId id) {
@@ -269,14 +269,14 @@ class ExcerptCollector {
   Folder folder_;
   bool leads_anywhere_ = false;
   std::size_t taken_ = 0;
-  std::uint64_t end_ = 0;
+  std::size_t end_ = 0;
   std::array<bool, std::size(kReportedOnce)> reported_{};
 };
 
 }  // namespace
 
 FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const FindingCounts& counts, const Frontier& end,
-                       const JumpMap& jumps, const std::function<std::string_view(std::uint64_t)>& text_of_line,
+                       const JumpMap& jumps, const std::function<std::string_view(std::size_t)>& text_of_line,
                        const FirstFindingsOptions& options) {
   FirstFindings excerpt;
   ExcerptCollector collector(options, excerpt);
@@ -297,7 +297,7 @@ FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const Finding
   }
   std::vector<LocatedFinding> of_whole;
   add_findings_of_whole(outcomes, end, jumps, text_of_line, collector.paths, of_whole);
-  const std::uint64_t next_line = collector.end();
+  const std::size_t next_line = collector.end();
   for (const LocatedFinding& located : of_whole) {
     if (has_all || located.line < next_line) {
       collector.take(located);

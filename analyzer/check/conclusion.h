@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string_view>
@@ -14,7 +13,7 @@ namespace isocnc::check {
 /// The outcome of some lines, and the number of the first of them.
 struct PlacedOutcome {
   const Outcome* outcome = nullptr;
-  std::uint64_t first_line = 0;
+  std::size_t first_line = 0;
 };
 
 /// The first findings of a program, and the number of those left out.
@@ -35,11 +34,11 @@ struct FirstFindingsOptions {
 /// ISO045), and keeps the first of the findings that are reported once per program (D44). `text_of_line` gives a line's
 /// text.
 Report conclude(Outcome outcome, const Frontier& end, const JumpMap& jumps,
-                const std::function<std::string_view(std::uint64_t)>& text_of_line);
+                const std::function<std::string_view(std::size_t)>& text_of_line);
 /// The same for several outcomes in program order, with the summed `counts`. Outcomes with `has_text` alone may be
 /// omitted, except the last of them.
 FirstFindings conclude(const std::vector<PlacedOutcome>& outcomes, const FindingCounts& counts, const Frontier& end,
-                       const JumpMap& jumps, const std::function<std::string_view(std::uint64_t)>& text_of_line,
+                       const JumpMap& jumps, const std::function<std::string_view(std::size_t)>& text_of_line,
                        const FirstFindingsOptions& options = {});
 
 /// Whether each jump on a feasible path leads to one of the labels seen.

@@ -17,14 +17,14 @@ void MistakeNumbers::start(const Outcome& outcome) {
   next_end_ = 0;
 }
 
-void MistakeNumbers::end_folds_up_to(std::uint64_t line) {
+void MistakeNumbers::end_folds_up_to(std::size_t line) {
   const std::vector<Outcome::FoldEnd>& ends = outcome_->fold_ends;
   for (; next_end_ < ends.size() && ends[next_end_].line <= line; ++next_end_)
     for (std::size_t fold = 0; fold < open_.size(); ++fold)
       if ((ends[next_end_].folds & fold_bit(static_cast<FoldKind>(fold))) != 0) open_[fold].clear();
 }
 
-void MistakeNumbers::finish() { end_folds_up_to(std::numeric_limits<std::uint64_t>::max()); }
+void MistakeNumbers::finish() { end_folds_up_to(std::numeric_limits<std::size_t>::max()); }
 
 void MistakeNumbers::number(LocatedFinding& located) {
   static const Decisions kEveryPath;
@@ -79,7 +79,7 @@ Report folded(Report report) {
   return report;
 }
 
-const Repetition* repetition_from(std::uint64_t line, const LocatedFinding& located, const Report& report) {
+const Repetition* repetition_from(std::size_t line, const LocatedFinding& located, const Report& report) {
   const std::span<const Repetition> all = report.repetitions_of(located);
   const auto is_above = [&](const Repetition& each) { return each.line < line; };
   const auto place = std::partition_point(all.begin(), all.end(), is_above);

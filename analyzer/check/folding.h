@@ -35,11 +35,11 @@ class MistakeNumbers {
   struct Open {
     Decisions path;
     std::int32_t number = 0;
-    std::uint64_t line = 0;  ///< Of its last finding, counted in `outcome_`.
+    std::size_t line = 0;  ///< Of its last finding, counted in `outcome_`.
     const Outcome* outcome = nullptr;
   };
 
-  void end_folds_up_to(std::uint64_t line);
+  void end_folds_up_to(std::size_t line);
 
   const Outcome* outcome_ = nullptr;
   std::size_t next_end_ = 0;
@@ -69,7 +69,7 @@ class Folder {
 /// The report with one finding for each mistake and severity. Leave out what is not shown before.
 Report folded(Report report);
 /// The first repetition of a finding on this line or below; null if there is none.
-const Repetition* repetition_from(std::uint64_t line, const LocatedFinding& located, const Report& report);
+const Repetition* repetition_from(std::size_t line, const LocatedFinding& located, const Report& report);
 /// The number of findings in folded(report).
 std::size_t folded_size(const Report& report);
 

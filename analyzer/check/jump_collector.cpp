@@ -4,7 +4,7 @@
 
 namespace isocnc::check {
 
-void JumpCollector::add(std::uint64_t line, const FlowEvent& event) {
+void JumpCollector::add(std::size_t line, const FlowEvent& event) {
   if (event.kind == FlowEvent::Kind::Jump) sites_.push_back({line, event.jump});
   events_.emplace_back(event);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <vector>
 
 #include "analyzer/check/jump_map.h"
@@ -11,7 +11,7 @@ namespace isocnc::check {
 class JumpCollector {
  public:
   /// Adds the next event; `line` counts from the start of the program. Labels that no jump names may be left out.
-  void add(std::uint64_t line, const FlowEvent& event);
+  void add(std::size_t line, const FlowEvent& event);
 
   /// The map of all events added. It knows the labels.
   JumpMap finish() &&;

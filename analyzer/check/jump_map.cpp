@@ -16,10 +16,10 @@
 namespace isocnc::check {
 
 /// The number of line feeds, counted in blocks whose count fits a byte, so that the compiler counts 16 bytes at once.
-static std::uint64_t count_line_feeds(std::string_view text) {
+static std::size_t count_line_feeds(std::string_view text) {
   constexpr std::size_t kRow = 16;
   constexpr std::size_t kMaxRows = 255;
-  std::uint64_t count = 0;
+  std::size_t count = 0;
   while (text.size() >= kRow) {
     const std::size_t rows = std::min(kMaxRows, text.size() / kRow);
     std::array<std::uint8_t, kRow> counts{};
@@ -28,7 +28,7 @@ static std::uint64_t count_line_feeds(std::string_view text) {
     for (const std::uint8_t each : counts) count += each;
     text.remove_prefix(kRow * rows);
   }
-  return count + static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\n'));
+  return count + static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
 /// Counts the lines of a text up to given places, which must ascend.
@@ -36,7 +36,7 @@ class LineCounter {
  public:
   explicit LineCounter(std::string_view text) : text_(text) {}
 
-  std::uint64_t line_of(std::size_t offset) {
+  std::size_t line_of(std::size_t offset) {
     if (offset_ == 0) has_carriage_returns_ = text_.find('\r') != std::string_view::npos;
     const std::string_view passed = text_.substr(offset_, offset - offset_);
     line_ += count_line_feeds(passed);
@@ -51,7 +51,7 @@ class LineCounter {
   std::string_view text_;
   bool has_carriage_returns_ = false;
   std::size_t offset_ = 0;
-  std::uint64_t line_ = 0;
+  std::size_t line_ = 0;
 };
 
 /// Whether the O at `offset` may end the word GOTO.
@@ -285,14 +285,14 @@ void JumpMap::find_targets(const std::vector<ReducedEvent>& events) {
   knows_labels_ = true;
 }
 
-std::size_t JumpMap::first_from(std::uint64_t line) const {
+std::size_t JumpMap::first_from(std::size_t line) const {
   const auto is_above = [&](const Site& site) { return site.line < line; };
   return static_cast<std::size_t>(std::partition_point(sites_.begin(), sites_.end(), is_above) - sites_.begin());
 }
 
 JumpMap JumpMap::moved(std::size_t first, const std::vector<Site>& sites, std::int64_t lines) && {
   const auto others = std::copy(sites.begin(), sites.end(), sites_.begin() + static_cast<std::ptrdiff_t>(first));
-  for (auto site = others; site != sites_.end(); ++site) site->line += static_cast<std::uint64_t>(lines);
+  for (auto site = others; site != sites_.end(); ++site) site->line += static_cast<std::size_t>(lines);
   return std::move(*this);
 }
 

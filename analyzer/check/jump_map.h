@@ -80,7 +80,7 @@ void each_event_in(std::string_view text, const std::function<void(const FlowEve
 class JumpMap {
  public:
   struct Site {
-    std::uint64_t line = 0;
+    std::size_t line = 0;
     syntax::Jump jump;
   };
   /// Where a jump's label is, relative to the jump's line.
@@ -101,7 +101,7 @@ class JumpMap {
   /// The labels that jumps name, ascending.
   std::vector<std::uint64_t> labels() const;
   /// The first jump on or below a line; the number of all jumps if there is none.
-  std::size_t first_from(std::uint64_t line) const;
+  std::size_t first_from(std::size_t line) const;
 
   /// The registers that IFs compare.
   RegisterSet compared() const { return compared_; }

@@ -11,7 +11,7 @@ void Outcome::report(const LocatedFinding& located) {
   findings.push_back(located);
 }
 
-void Outcome::end_folds(FoldSet folds, std::uint64_t line) {
+void Outcome::end_folds(FoldSet folds, std::size_t line) {
   const auto ending = static_cast<FoldSet>(folds & ~ended_folds);
   if (ending == 0) return;
   fold_ends.push_back({line, ending});

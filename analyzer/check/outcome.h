@@ -34,30 +34,30 @@ constexpr FoldSet fold_bit(dialect::FoldKind fold) { return static_cast<FoldSet>
 struct Outcome {
   struct Label {
     std::uint64_t label = 0;
-    std::uint64_t line = 0;
+    std::size_t line = 0;
     syntax::Span span;
     bool live = false;  ///< Whether a feasible path leads to the label.
   };
 
   /// A line that ends folds: findings from it on are no repetitions of those above it (D66).
   struct FoldEnd {
-    std::uint64_t line = 0;
+    std::size_t line = 0;
     FoldSet folds = 0;
   };
 
-  static constexpr std::uint64_t kNowhere = std::numeric_limits<std::uint64_t>::max();
+  static constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
 
   std::vector<LocatedFinding> findings;  ///< The findings, in the order of the lines.
   std::vector<Decisions> paths;
   std::vector<Label> labels;              ///< Definitions of labels that some GOTO names.
   std::vector<std::uint32_t> live_jumps;  ///< Jumps on a feasible path, counted from the top of the file.
-  std::uint64_t last_text_line = 0;       ///< The last line that holds any text (D47); valid if `has_text`.
+  std::size_t last_text_line = 0;         ///< The last line that holds any text (D47); valid if `has_text`.
   bool has_text = false;
   RegisterSet assigned = 0;  ///< Registers assigned a value; recorded only if some IF compares one.
   PositionUse positions;
   CenterUse centers;
   /// The first line with a jump that may lead anywhere below, as its label cannot be read or found (D63).
-  std::uint64_t leads_anywhere_from = kNowhere;
+  std::size_t leads_anywhere_from = kNowhere;
   /// The numbers of lines whose line number has been reported as another word (N3O, 30, B30): jumps to them are not
   /// reported as well.
   std::vector<double> misspelled_labels;
@@ -70,7 +70,7 @@ struct Outcome {
   void count();
   /// Appends a finding that may belong to a fold.
   void report(const LocatedFinding& located);
-  void end_folds(FoldSet folds, std::uint64_t line);
+  void end_folds(FoldSet folds, std::size_t line);
 };
 
 /// The number of findings of each kind in several outcomes; each needs a call of count() before.

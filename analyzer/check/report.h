@@ -26,7 +26,7 @@ using Decisions = std::vector<Decision>;
 struct LocatedFinding {
   static constexpr std::int32_t kEveryPath = -1;
 
-  std::uint64_t line = 0;  ///< The line, from 0.
+  std::size_t line = 0;  ///< The line, from 0.
   syntax::Finding finding;
   std::int32_t path = kEveryPath;             ///< An index into Report::paths.
   std::int32_t mistake = -1;                  ///< Findings with the same number have the same cause (D66); -1: alone.
@@ -40,7 +40,7 @@ struct LocatedFinding {
 
 /// One step of a path as users read it.
 struct PathStep {
-  std::uint64_t line = 0;  ///< The line of the IF, from 0.
+  std::size_t line = 0;  ///< The line of the IF, from 0.
   bool taken = false;
 
   friend bool operator==(const PathStep&, const PathStep&) = default;
@@ -48,7 +48,7 @@ struct PathStep {
 
 /// A line below a finding that shows the same mistake again (D66).
 struct Repetition {
-  std::uint64_t line = 0;  ///< The line, from 0.
+  std::size_t line = 0;  ///< The line, from 0.
   dialect::DiagnosticId id = dialect::kNoDiagnostic;
   syntax::Span span;
 

@@ -85,7 +85,7 @@ PlanePoint rounded_center(const ArcOfProgram& arc, PlanePoint center, int decima
   return arc.from_start({std::round(exact.u * unit) / unit, std::round(exact.v * unit) / unit});
 }
 
-WrittenCenter center_written(const ArcOfProgram& arc, std::uint64_t line, PlanePoint center, int decimals) {
+WrittenCenter center_written(const ArcOfProgram& arc, std::size_t line, PlanePoint center, int decimals) {
   const PlanePoint in_program = arc.in_program(center);
   const std::string u = arc.plane->u_center + written(in_program.u, decimals);
   const std::string v = arc.plane->v_center + written(in_program.v, decimals);

@@ -53,7 +53,7 @@ struct WrittenCenter {
 };
 
 /// Writes both coordinates of a center, given relative to the start, with this many decimals.
-WrittenCenter center_written(const ArcOfProgram& arc, std::uint64_t line, geometry::PlanePoint center, int decimals);
+WrittenCenter center_written(const ArcOfProgram& arc, std::size_t line, geometry::PlanePoint center, int decimals);
 
 /// The number of decimals of the written center, at least three.
 int decimals_of_center(const syntax::LineTree& line, const ArcOfProgram& arc);

@@ -16,7 +16,7 @@ using syntax::Word;
 namespace {
 
 /// The maximum number of lines below the cycle that repeat it, and of lines above that say how far it retracts.
-constexpr std::uint64_t kCycleReach = 1'000;
+constexpr std::size_t kCycleReach = 1'000;
 
 /// A drilling cycle of other controls, G81 X10 Y10 Z-5 R2 F100, as text of the program.
 struct DrillingCycle {
@@ -41,8 +41,8 @@ const Word* word_of(const LineTree& line, char letter) {
 
 /// Whether the last G98 or G99, on this line or above, is a G99: the tool then retracts to the R only.
 bool retracts_to_height(const FixRequest& request) {
-  const std::uint64_t end = request.number - std::min(request.number, kCycleReach);
-  for (std::uint64_t number = request.number + 1; number-- > end;) {
+  const std::size_t end = request.number - std::min(request.number, kCycleReach);
+  for (std::size_t number = request.number + 1; number-- > end;) {
     const syntax::ParsedLine parsed(request.program.text(number));
     const LineTree line = parsed.tree();
     const auto is_return = [](const Word& word) { return is_g(word, 98) || is_g(word, 99); };
@@ -74,7 +74,7 @@ std::optional<DrillingCycle> cycle_of(const FixRequest& request, const State& be
 }
 
 /// The moves of one hole, in place of its line.
-Edit hole(const DrillingCycle& cycle, std::uint64_t number, const LineTree& line, bool is_first) {
+Edit hole(const DrillingCycle& cycle, std::size_t number, const LineTree& line, bool is_first) {
   std::string label;
   std::string place;
   for (const Word& word : line.words) {
@@ -127,8 +127,8 @@ Draft moves_of_cycle(const FixRequest& request) {
   const std::optional<DrillingCycle> cycle = cycle_of(request, *before);
   if (!cycle) return {};
   Draft draft{{hole(*cycle, request.number, request.line, true)}};
-  const std::uint64_t end = std::min(request.program.line_count(), request.number + 1 + kCycleReach);
-  for (std::uint64_t number = request.number + 1; number < end; ++number) {
+  const std::size_t end = std::min(request.program.line_count(), request.number + 1 + kCycleReach);
+  for (std::size_t number = request.number + 1; number < end; ++number) {
     const syntax::ParsedLine parsed(request.program.text(number));
     const LineTree line = parsed.tree();
     if (line.is_empty() && !line.has_label()) continue;

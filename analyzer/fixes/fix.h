@@ -73,15 +73,15 @@ class FixProgram {
   virtual const execution::Setup& setup() const = 0;
   virtual const dialect::LintThresholds& thresholds() const = 0;
 
-  virtual std::uint64_t line_count() const = 0;
+  virtual std::size_t line_count() const = 0;
   /// The text of a line without its terminator.
-  virtual std::string_view text(std::uint64_t line) = 0;
+  virtual std::string_view text(std::size_t line) = 0;
   /// Valid until the next call.
-  virtual syntax::LineTree line(std::uint64_t line) = 0;
+  virtual syntax::LineTree line(std::size_t line) = 0;
   /// The state before a line, if it is the same on all paths; lines up to line_count(), the end of the program.
-  virtual std::optional<execution::State> state_before(std::uint64_t line) = 0;
+  virtual std::optional<execution::State> state_before(std::size_t line) = 0;
   /// Whether a path leads to the line.
-  virtual bool is_read(std::uint64_t line) = 0;
+  virtual bool is_read(std::size_t line) = 0;
   /// Whether a GOTO names this label.
   virtual bool is_jumped_to(std::uint64_t label) = 0;
   /// A line number that the program does not have; each call gives a new one.
@@ -99,7 +99,7 @@ class FixProgram {
 
 /// A finding and its line.
 struct FindingPlace {
-  std::uint64_t line = 0;  ///< The line, from 0.
+  std::size_t line = 0;  ///< The line, from 0.
   const syntax::Finding& finding;
   bool on_every_path = true;
 };

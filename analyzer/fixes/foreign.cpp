@@ -44,10 +44,10 @@ static Draft removed_with_data(const FixRequest& request) {
 /// Whether a number of a program (O1204) is below other lines: one of a subprogram, which must not run into the program
 /// above it.
 static bool is_number_of_subprogram(const FixRequest& request) {
-  constexpr std::uint64_t kLongestHead = 100;
+  constexpr std::size_t kLongestHead = 100;
   if (text::upper(request.marked().front()) != 'O' && request.marked().front() != ':') return false;
   if (request.number > kLongestHead) return true;
-  for (std::uint64_t number = 0; number < request.number; ++number) {
+  for (std::size_t number = 0; number < request.number; ++number) {
     const syntax::ParsedLine parsed(request.program.text(number));
     if (!parsed.tree().is_empty()) return true;
   }

@@ -48,7 +48,7 @@ bool hides_a_g(const LineTree& line) {
 }
 
 /// The center of an arc as read from the other origin. A sum of numbers with few decimals has few itself.
-LineRewrite with_other_center(const LineTree& line, std::uint64_t number, const ArcOfProgram& arc) {
+LineRewrite with_other_center(const LineTree& line, std::size_t number, const ArcOfProgram& arc) {
   const PlanePoint center = arc.readings.other_center;
   int decimals = decimals_of_center(line, arc);
   const auto error = [&] { return (rounded_center(arc, center, decimals) - center).norm(); };
@@ -113,7 +113,7 @@ bool is_foreign_unit(const Word& word) {
   return is_g(word, 20) || is_g(word, 21) || is_g(word, 700) || is_g(word, 710);
 }
 
-LineTree Habits::line(std::uint64_t number) {
+LineTree Habits::line(std::size_t number) {
   const std::string_view text = program_.text(number);
   line_.clear();
   line_.append_line(text.data(), text.data() + text.size());
@@ -124,7 +124,7 @@ void Habits::find_centers() {
   const double tolerance = program_.setup().arc_tolerance;
   CenterSurvey absolute(tolerance);
   CenterSurvey incremental(tolerance);
-  for (std::uint64_t number = 0; number < program_.line_count(); ++number) {
+  for (std::size_t number = 0; number < program_.line_count(); ++number) {
     const bool is_affected = has_centers(line(number));
     if (!is_affected && !hides_a_g(line(number))) continue;
     if (!program_.is_read(number)) continue;
@@ -153,7 +153,7 @@ void Habits::find_centers() {
 /// the units.
 Habits::FoundRewrites Habits::find_foreign_units() {
   FoundRewrites found;
-  for (std::uint64_t number = 0; number < program_.line_count(); ++number) {
+  for (std::size_t number = 0; number < program_.line_count(); ++number) {
     if (program_.text(number).find_first_of("Gg") == std::string_view::npos) continue;
     const LineTree tree = line(number);
     LineRewrite rewrite{.line = number};
@@ -175,7 +175,7 @@ Habits::FoundRewrites Habits::find_foreign_units() {
 /// short for that.
 Habits::FoundRewrites Habits::find_milliseconds() {
   FoundRewrites found;
-  for (std::uint64_t number = 0; number < program_.line_count(); ++number) {
+  for (std::size_t number = 0; number < program_.line_count(); ++number) {
     if (program_.text(number).find_first_of("Gg") == std::string_view::npos) continue;
     const LineTree tree = line(number);
     for (const Instruction& dwell : tree.instructions) {
@@ -225,7 +225,7 @@ bool Habits::leaves_open(Habit habit) { return found(habit).is_open; }
 bool Habits::separates_thousands() {
   if (separates_thousands_) return *separates_thousands_;
   separates_thousands_ = false;
-  for (std::uint64_t number = 0; number < program_.line_count() && !*separates_thousands_; ++number) {
+  for (std::size_t number = 0; number < program_.line_count() && !*separates_thousands_; ++number) {
     if (program_.text(number).find(',') == std::string_view::npos) continue;
     const LineTree tree = line(number);
     for (const syntax::Finding& finding : tree.findings) {
@@ -241,7 +241,7 @@ bool Habits::separates_thousands() {
 Draft habit_draft(const FixRequest& request, Habit habit) {
   const HabitRewrites& all = request.program.habits().rewrites(habit);
   const auto own = std::lower_bound(all.begin(), all.end(), request.number,
-                                    [](const LineRewrite& each, std::uint64_t line) { return each.line < line; });
+                                    [](const LineRewrite& each, std::size_t line) { return each.line < line; });
   if (own == all.end() || own->line != request.number) return {};
   return {.edits = own->edits, .what = own->what, .habit = habit};
 }

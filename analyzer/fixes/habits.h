@@ -1,7 +1,7 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,7 +16,7 @@ bool is_foreign_unit(const syntax::Word& word);
 
 /// The rewriting of one line.
 struct LineRewrite {
-  std::uint64_t line = 0;
+  std::size_t line = 0;
   std::vector<Edit> edits;  ///< The edits, all on this line.
   std::string what;         ///< The new text, for the fix's title.
 };
@@ -49,7 +49,7 @@ class Habits {
   };
 
   /// Valid until the next call. Separate from Program::line(), whose tree the caller may still use.
-  syntax::LineTree line(std::uint64_t number);
+  syntax::LineTree line(std::size_t number);
   const FoundRewrites& found(Habit habit);
   void find_centers();
   FoundRewrites find_foreign_units();

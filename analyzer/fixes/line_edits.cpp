@@ -44,9 +44,9 @@ std::string edited(std::string_view line, std::vector<Edit> edits) {
 
 /// Removes a line of `length` bytes with its end. For a last line without an end, removes the end of the line above and
 /// the blank lines between, so that the program still has no line end there.
-static Edit removed_line(FixProgram& program, std::uint64_t line, std::size_t length) {
+static Edit removed_line(FixProgram& program, std::size_t line, std::size_t length) {
   if (line + 1 < program.line_count()) return {{line, 0}, {line + 1, 0}, {}};
-  std::uint64_t above = line;
+  std::size_t above = line;
   while (above > 0 && program.text(above - 1).empty()) --above;
   if (above > 0) return {{above - 1, program.text(above - 1).size()}, {line, length}, {}};
   return {{0, 0}, {line, length}, {}};

@@ -13,7 +13,7 @@ using syntax::LineTree;
 using syntax::Word;
 
 /// The maximum number of lines searched for the block above or below.
-static constexpr std::uint64_t kReach = 20;
+static constexpr std::size_t kReach = 20;
 
 /// A jump to the line would skip a line inserted above it.
 static bool is_jumped_to(const LineTree& line, FixProgram& program) {
@@ -36,14 +36,14 @@ Draft g90_above(const FixRequest& request) { return line_above(request, "G90"); 
 Draft g71_above(const FixRequest& request) { return line_above(request, "G71"); }
 
 /// The maximum number of lines searched for the late G27.
-static constexpr std::uint64_t kFarthestDismount = 5'000;
+static constexpr std::size_t kFarthestDismount = 5'000;
 
 /// G92 under a face frame with its G27 further down: moves the G27 up.
 Draft later_g27_above(const FixRequest& request) {
   Draft draft = g27_above(request);
   if (draft.edits.empty()) return {};
-  const std::uint64_t end = std::min(request.program.line_count(), request.number + 1 + kFarthestDismount);
-  for (std::uint64_t number = request.number + 1; number < end; ++number) {
+  const std::size_t end = std::min(request.program.line_count(), request.number + 1 + kFarthestDismount);
+  for (std::size_t number = request.number + 1; number < end; ++number) {
     const syntax::ParsedLine parsed(request.program.text(number));
     const LineTree line = parsed.tree();
     if (is_jumped_to(line, request.program)) return {};
@@ -95,11 +95,11 @@ Draft m02_for_m30(const FixRequest& request) {
 }
 
 /// The nearest line above (step -1) or below (1) that holds a block.
-static std::optional<std::uint64_t> block_beside(const FixRequest& request, int step) {
-  std::uint64_t number = request.number;
-  for (std::uint64_t i = 0; i < kReach; ++i) {
+static std::optional<std::size_t> block_beside(const FixRequest& request, int step) {
+  std::size_t number = request.number;
+  for (std::size_t i = 0; i < kReach; ++i) {
     if (step < 0 ? number == 0 : number + 1 >= request.program.line_count()) return std::nullopt;
-    number += static_cast<std::uint64_t>(step);
+    number += static_cast<std::size_t>(step);
     const syntax::ParsedLine parsed(request.program.text(number));
     if (!parsed.tree().is_empty()) return number;
   }
@@ -116,7 +116,7 @@ static bool waits_for_tool(const LineTree& line) {
 Draft m06_before_tool(const FixRequest& request) {
   if (waits_for_tool(request.line)) return {};
   for (const int step : {-1, 1}) {
-    const std::optional<std::uint64_t> beside = block_beside(request, step);
+    const std::optional<std::size_t> beside = block_beside(request, step);
     if (beside && waits_for_tool(syntax::ParsedLine(request.program.text(*beside)).tree())) return {};
   }
   return {{inserted(request, request.finding.span.begin, "M06 ")}};
@@ -134,7 +134,7 @@ static bool continues_without_circle(const LineTree& line) {
 Draft g01_before_coordinates(const FixRequest& request) {
   using namespace dialect::literals;
   if (!request.finding.has("circle-not-given/continuation"_cause)) return {};
-  const std::optional<std::uint64_t> above = block_beside(request, -1);
+  const std::optional<std::size_t> above = block_beside(request, -1);
   if (above && continues_without_circle(syntax::ParsedLine(request.program.text(*above)).tree())) return {};
   return {{inserted(request, request.finding.span.begin, "G01 ")}};
 }
@@ -146,7 +146,7 @@ static bool has_tool_alone(const LineTree& line) {
 
 /// M06 on one line, T101001 alone on the next: joins them.
 Draft tool_of_other_line(const FixRequest& request) {
-  const std::optional<std::uint64_t> number = block_beside(request, 1);
+  const std::optional<std::size_t> number = block_beside(request, 1);
   if (!number) return {};
   const syntax::ParsedLine parsed(request.program.text(*number));
   const LineTree below = parsed.tree();
@@ -169,7 +169,7 @@ static bool lets_tool_pass(const LineTree& line, FixProgram& program) {
 /// T101001 alone, as other controls prepare a tool, with its M06 below: moves the T there.
 Draft tool_to_later_change(const FixRequest& request) {
   if (!has_tool_alone(request.line)) return {};
-  for (std::uint64_t number = request.number + 1;
+  for (std::size_t number = request.number + 1;
        number < request.program.line_count() && number <= request.number + kReach; ++number) {
     const syntax::ParsedLine parsed(request.program.text(number));
     const LineTree below = parsed.tree();
@@ -188,7 +188,7 @@ Draft tool_to_later_change(const FixRequest& request) {
 /// G01 alone, with its coordinates on the next line: moves the G there.
 Draft command_to_next_line(const FixRequest& request) {
   const std::string command(request.marked());
-  const std::optional<std::uint64_t> number = block_beside(request, 1);
+  const std::optional<std::size_t> number = block_beside(request, 1);
   if (!number || command.find('(') != std::string::npos) return {};
   const syntax::ParsedLine parsed(request.program.text(*number));
   const LineTree next = parsed.tree();

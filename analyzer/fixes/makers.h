@@ -10,7 +10,7 @@ namespace isocnc::fixes {
 
 /// The input of a maker.
 struct FixRequest {
-  std::uint64_t number = 0;  ///< The line number, from 0.
+  std::size_t number = 0;  ///< The line number, from 0.
   const syntax::Finding& finding;
   bool on_every_path = true;
   syntax::LineTree line;

@@ -14,10 +14,10 @@ using fixes::Edit;
 using fixes::Fix;
 using syntax::Position;
 
-static std::uint64_t first_reduced_line(const check::Report& report) {
+static std::size_t first_reduced_line(const check::Report& report) {
   for (const check::LocatedFinding& located : report.findings)
     if (located.finding.id == "too-many-paths"_diag) return located.line;
-  return std::numeric_limits<std::uint64_t>::max();
+  return std::numeric_limits<std::size_t>::max();
 }
 
 std::optional<Fix> fix_of_all_lines(const check::LocatedFinding& located, const check::Report& report,

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,9 +17,9 @@ namespace isocnc::fixing {
 /// An edit as the output formats show it: lines and columns from 1, columns in code points, the end exclusive; the text
 /// has the program's own line ends.
 struct ShownEdit {
-  std::uint64_t line = 0;
+  std::size_t line = 0;
   std::size_t column = 0;
-  std::uint64_t end_line = 0;
+  std::size_t end_line = 0;
   std::size_t end_column = 0;
   std::string text;
 };
@@ -57,9 +57,9 @@ class FindingFixes {
   const rules::CheckSetup& setup_;
   std::optional<FixTrial> trial_;                         // Made when first needed.
   std::array<bool, fixes::kHabitCount> given_in_full_{};  // Habits already given by offered_in_full().
-  std::uint64_t reduced_from_;                            // The first line from which not every path is known.
+  std::size_t reduced_from_;                              // The first line from which not every path is known.
   // The last counted column; the next one on the same line is counted from there.
-  std::uint64_t counted_line_ = 0;
+  std::size_t counted_line_ = 0;
   std::size_t counted_bytes_ = 0;
   std::size_t counted_columns_ = 0;
 };

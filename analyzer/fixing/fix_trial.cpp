@@ -16,15 +16,15 @@ using fixes::Edit;
 using fixes::Fix;
 
 /// The maximum number of lines from the finding to the last edit, and of lines examined below.
-static constexpr std::uint64_t kMaxEdited = 6'000;
-static constexpr std::uint64_t kMaxFollowed = 10'000;
+static constexpr std::size_t kMaxEdited = 6'000;
+static constexpr std::size_t kMaxFollowed = 10'000;
 /// The work budget for all trial fixes of a program, in executed lines times states; kWorkPerLine is added per line.
-static constexpr std::uint64_t kMinWork = 400'000;
-static constexpr std::uint64_t kWorkPerLine = 20;
+static constexpr std::size_t kMinWork = 400'000;
+static constexpr std::size_t kWorkPerLine = 20;
 /// Lines examined once the budget is used up: most possible damage shows near the edits.
-static constexpr std::uint64_t kNearest = 8;
+static constexpr std::size_t kNearest = 8;
 /// With at most this many lines left, a trial continues to the end of the program even if its checks agree again.
-static constexpr std::uint64_t kMaxBlank = 8;
+static constexpr std::size_t kMaxBlank = 8;
 
 namespace {
 
@@ -58,23 +58,23 @@ class TrialCheck {
 
   /// All findings, with those that need the whole program, for a check that has reached its end.
   check::Report conclusion() {
-    return check::conclude(std::move(outcome_), checker_.frontier, jumps_, [&](std::uint64_t) { return last_text_; });
+    return check::conclude(std::move(outcome_), checker_.frontier, jumps_, [&](std::size_t) { return last_text_; });
   }
 
  private:
   const check::JumpMap& jumps_;
   check::Checker checker_;
   check::Outcome outcome_;
-  std::uint64_t line_ = 0;
+  std::size_t line_ = 0;
   std::size_t counted_ = 0;
   std::string_view last_text_;
 };
 
 /// Some consecutive lines of a program, with the edits applied.
-std::string edited_lines(fixes::FixProgram& program, std::uint64_t first, std::uint64_t last, std::vector<Edit> edits) {
+std::string edited_lines(fixes::FixProgram& program, std::size_t first, std::size_t last, std::vector<Edit> edits) {
   std::string text;
   std::vector<std::size_t> starts;
-  for (std::uint64_t line = first; line <= last; ++line) {
+  for (std::size_t line = first; line <= last; ++line) {
     starts.push_back(text.size());
     text += program.text(line);
     if (line < last) text += '\n';
@@ -153,7 +153,7 @@ bool FixTrial::is_affected_by_jumps(const syntax::LineTree& line) const {
 }
 
 std::optional<check::Report> FixTrial::found_with(std::vector<Edit> edits) {
-  const std::uint64_t lines = program_.line_count();
+  const std::size_t lines = program_.line_count();
   if (work_budget_ < lines) return std::nullopt;
   work_budget_ -= lines;
   return check::check_text(edited_lines(program_, 0, lines - 1, std::move(edits)), setup_);
@@ -245,8 +245,8 @@ bool FixTrial::improves(fixes::Habit habit) {
 }
 
 bool FixTrial::improves(const Fix& fix, const check::LocatedFinding& located, const check::Frontier& before) {
-  const std::uint64_t first = located.line;
-  std::uint64_t last = first;
+  const std::size_t first = located.line;
+  std::size_t last = first;
   for (const Edit& edit : fix.edits) {
     if (edit.begin.line < first) return improves_whole_program(fix, located);
     last = std::max(last, edit.end.line);
@@ -258,7 +258,7 @@ bool FixTrial::improves(const Fix& fix, const check::LocatedFinding& located, co
   for (std::size_t i = 0; i < edited.size(); ++i)
     if (is_affected_by_jumps(edited[i])) return improves_whole_program(fix, located);
   TrialComparison compared{.without = {setup_, jumps_, before}, .with = {setup_, jumps_, before}};
-  for (std::uint64_t line = first; line <= last; ++line) {
+  for (std::size_t line = first; line <= last; ++line) {
     const syntax::LineTree tree = lines_[line];
     if (is_affected_by_jumps(tree)) return improves_whole_program(fix, located);
     compared.without.check(tree);
@@ -272,13 +272,13 @@ bool FixTrial::improves(const Fix& fix, const check::LocatedFinding& located, co
 }
 
 void FixTrial::spend(const check::Frontier& frontier) {
-  work_budget_ -= std::min<std::uint64_t>(work_budget_, 1 + frontier.live.size());
+  work_budget_ -= std::min<std::size_t>(work_budget_, 1 + frontier.live.size());
 }
 
-bool FixTrial::follow(TrialComparison& compared, std::uint64_t next, const check::LocatedFinding& located) {
-  const std::uint64_t end = program_.line_count();
-  const std::uint64_t nearest = next + kNearest;
-  const std::uint64_t farthest = std::min(end, next + kMaxFollowed);
+bool FixTrial::follow(TrialComparison& compared, std::size_t next, const check::LocatedFinding& located) {
+  const std::size_t end = program_.line_count();
+  const std::size_t nearest = next + kNearest;
+  const std::size_t farthest = std::min(end, next + kMaxFollowed);
   const auto is_near_end = [&] { return end - next <= kMaxBlank; };
   Trail trail;
   std::optional<Trail::TrailRest> rest;

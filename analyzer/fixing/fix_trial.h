@@ -1,7 +1,7 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <cstddef>
 #include <optional>
 
 #include "analyzer/check/checker.h"
@@ -41,7 +41,7 @@ class FixTrial {
   std::optional<check::Report> found_with(std::vector<fixes::Edit> edits);
   const check::Report* findings_of_whole();
   /// Continues both checks from this line, which is below the edits.
-  bool follow(TrialComparison& compared, std::uint64_t next, const check::LocatedFinding& located);
+  bool follow(TrialComparison& compared, std::size_t next, const check::LocatedFinding& located);
   void spend(const check::Frontier& frontier);
 
   fixes::FixProgram& program_;
@@ -49,7 +49,7 @@ class FixTrial {
   const check::JumpMap& jumps_;
   RecentTrees lines_;
   Trails trails_;
-  std::uint64_t work_budget_;
+  std::size_t work_budget_;
   std::optional<check::Report> findings_of_whole_;  // The report on the whole program, made when first needed.
   std::array<std::optional<bool>, fixes::kHabitCount> improving_habits_;
 };

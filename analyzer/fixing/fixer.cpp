@@ -39,7 +39,7 @@ struct FixCandidate {
 };
 
 /// The identity of a finding (line, code, column), used to recognize it after lines have moved.
-using FindingKey = std::tuple<std::uint64_t, dialect::DiagnosticId, std::uint32_t>;
+using FindingKey = std::tuple<std::size_t, dialect::DiagnosticId, std::uint32_t>;
 FindingKey key_of(const check::LocatedFinding& located) {
   return {located.line, located.finding.id, located.finding.span.begin};
 }
@@ -50,7 +50,7 @@ struct Version {
   check::Report found;   // All findings.
   check::Report to_fix;  // The selected findings after the filter.
   std::size_t filtered_out = 0;
-  std::vector<std::uint64_t> origins;
+  std::vector<std::size_t> origins;
 };
 
 /// Parts of a text that are already edited.
@@ -83,14 +83,14 @@ class Taken {
 
 /// The lines of a text before and after edits.
 struct LineMap {
-  std::vector<std::uint64_t> new_lines;  // The new line of each old line.
-  std::vector<std::uint64_t> origins;    // The original line of each new line.
+  std::vector<std::size_t> new_lines;  // The new line of each old line.
+  std::vector<std::size_t> origins;    // The original line of each new line.
 };
 
 /// Tracks the lines of a text through sorted edits; `origins` are the original lines of its lines.
 class LineFollower {
  public:
-  explicit LineFollower(const std::vector<std::uint64_t>& origins) : origins_(origins), origin_(origins.front()) {
+  explicit LineFollower(const std::vector<std::size_t>& origins) : origins_(origins), origin_(origins.front()) {
     map_.new_lines.resize(origins.size());
   }
 
@@ -105,12 +105,12 @@ class LineFollower {
   }
 
  private:
-  void enter(std::uint64_t line) {
+  void enter(std::size_t line) {
     line_ = line;
     map_.new_lines[line] = map_.origins.size();
   }
 
-  void leave_lines_up_to(std::uint64_t line) {
+  void leave_lines_up_to(std::size_t line) {
     while (line_ < line) {
       map_.origins.push_back(origin_);
       enter(line_ + 1);
@@ -132,10 +132,10 @@ class LineFollower {
     }
   }
 
-  const std::vector<std::uint64_t>& origins_;
+  const std::vector<std::size_t>& origins_;
   LineMap map_;
-  std::uint64_t line_ = 0;  // The current old line.
-  std::uint64_t origin_;    // The origin of the new line being built.
+  std::size_t line_ = 0;  // The current old line.
+  std::size_t origin_;    // The origin of the new line being built.
 };
 
 /// The result of applying candidates together.
@@ -150,9 +150,9 @@ class Fixer {
   Fixer(std::string_view text, const FixOptions& options)
       : options_(options), work_budget_(kMinWork + kWorkPerByte * text.size()) {
     present_ = checked(std::string(text));
-    std::vector<std::uint64_t>& origins = present_.origins;
+    std::vector<std::size_t>& origins = present_.origins;
     origins.resize(TextProgram(present_.text, options.setup).line_count());
-    std::iota(origins.begin(), origins.end(), std::uint64_t{0});
+    std::iota(origins.begin(), origins.end(), std::size_t{0});
   }
 
   FixedText run() {
@@ -263,17 +263,17 @@ class Fixer {
 
   /// Removes the candidates that are nearest above the new findings.
   std::vector<FixCandidate> without_suspects(const std::vector<FixCandidate>& all, const FixBatch& trial) const {
-    const auto place = [](std::uint64_t line, dialect::DiagnosticId id) {
-      return line << 8 | static_cast<std::uint64_t>(id);
+    const auto place = [](std::size_t line, dialect::DiagnosticId id) {
+      return std::uint64_t{line} << 8 | static_cast<std::uint64_t>(id);
     };
     std::unordered_map<std::uint64_t, std::int64_t> expected;
     for (const check::LocatedFinding& located : present_.found.findings)
       ++expected[place(trial.lines.new_lines[located.line], located.finding.id)];
-    std::vector<std::uint64_t> first_lines;
+    std::vector<std::size_t> first_lines;
     for (const FixCandidate& candidate : all) {
       const check::LocatedFinding& located = candidate.located;
       --expected[place(trial.lines.new_lines[located.line], located.finding.id)];
-      const std::uint64_t above = first_lines.empty() ? 0 : first_lines.back();
+      const std::size_t above = first_lines.empty() ? 0 : first_lines.back();
       first_lines.push_back(std::max(above, first_new_line(candidate, trial.lines)));
     }
     std::vector<bool> suspected(all.size());
@@ -289,13 +289,13 @@ class Fixer {
   }
 
   /// The first line that the candidate changes or inserts.
-  static std::uint64_t first_new_line(const FixCandidate& candidate, const LineMap& lines) {
-    std::uint64_t first = lines.new_lines[candidate.located.line];
+  static std::size_t first_new_line(const FixCandidate& candidate, const LineMap& lines) {
+    std::size_t first = lines.new_lines[candidate.located.line];
     for (const Edit& edit : candidate.edits) {
       const bool is_above = edit.begin.column == 0;
       const auto inserted = is_above ? std::count(edit.text.begin(), edit.text.end(), '\n') : 0;
-      const std::uint64_t line = lines.new_lines[edit.begin.line];
-      first = std::min(first, line - std::min(line, static_cast<std::uint64_t>(inserted)));
+      const std::size_t line = lines.new_lines[edit.begin.line];
+      first = std::min(first, line - std::min(line, static_cast<std::size_t>(inserted)));
     }
     return first;
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,13 +24,13 @@ struct FixOptions {
 
 /// The result of fixing a text.
 struct FixedText {
-  static constexpr std::uint64_t kNew = UINT64_MAX;
+  static constexpr std::size_t kNew = SIZE_MAX;
 
   std::string text;
-  check::Report report;                ///< The remaining findings, folded (D66).
-  std::size_t fixed = 0;               ///< The number of findings fixed, counted likewise.
-  std::size_t filtered_out = 0;        ///< The number of remaining findings that the filter dropped.
-  std::vector<std::uint64_t> origins;  ///< For each line, its line in the original text, or kNew.
+  check::Report report;              ///< The remaining findings, folded (D66).
+  std::size_t fixed = 0;             ///< The number of findings fixed, counted likewise.
+  std::size_t filtered_out = 0;      ///< The number of remaining findings that the filter dropped.
+  std::vector<std::size_t> origins;  ///< For each line, its line in the original text, or kNew.
 };
 
 /// Applies the fixes of the findings, round by round, until nothing changes. Of two fixes that overlap, the first in

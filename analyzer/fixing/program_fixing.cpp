@@ -40,8 +40,8 @@ bool write_diff(const std::string& name, const SourceFile& source, const FixedTe
   UnifiedDiff diff(name, source.has_byte_order_mark(), std::move(write));
   TextLineReader before(source.text());
   TextLineReader after(fixed.text);
-  std::uint64_t next = 0;  // The next line of the old text.
-  for (const std::uint64_t origin : fixed.origins) {
+  std::size_t next = 0;  // The next line of the old text.
+  for (const std::size_t origin : fixed.origins) {
     const std::string_view line = after.next();
     for (; origin != FixedText::kNew && next < origin; ++next) diff.remove(before.next());
     const std::string_view old_line = origin == FixedText::kNew ? std::string_view() : before.next();

@@ -2,7 +2,7 @@
 
 namespace isocnc::fixing {
 
-syntax::LineTree RecentTrees::operator[](std::uint64_t line) {
+syntax::LineTree RecentTrees::operator[](std::size_t line) {
   KeptTree& parsed = parsed_[line % kMaxTrees];
   const std::string_view text = program_.text(line);
   if (parsed.line != line) {

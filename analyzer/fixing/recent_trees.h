@@ -1,7 +1,7 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <cstddef>
 #include <optional>
 
 #include "analyzer/fixes/fix.h"
@@ -15,13 +15,13 @@ class RecentTrees {
   explicit RecentTrees(fixes::FixProgram& program) : program_(program) {}
 
   /// Valid until the next call.
-  syntax::LineTree operator[](std::uint64_t line);
+  syntax::LineTree operator[](std::size_t line);
 
  private:
   static constexpr std::size_t kMaxTrees = 256;
 
   struct KeptTree {
-    std::optional<std::uint64_t> line;
+    std::optional<std::size_t> line;
     syntax::TreeStore store;
   };
 

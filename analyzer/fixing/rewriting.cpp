@@ -81,7 +81,7 @@ std::string number_text(double value, double rounding) {
 /// The rewritten words of one line.
 class LineRewriter {
  public:
-  LineRewriter(std::uint64_t number, const LineTree& line) : number_(number), line_(line) {}
+  LineRewriter(std::size_t number, const LineTree& line) : number_(number), line_(line) {}
 
   /// Replaces a word. Blanks inside it are lost; a comment inside it must not be, so has_comment() reports that.
   void replace(Span span, std::string text) {
@@ -112,7 +112,7 @@ class LineRewriter {
   std::string text() const { return fixes::edited(line_.text, edits_); }
 
  private:
-  const std::uint64_t number_;
+  const std::size_t number_;
   const LineTree& line_;
   std::vector<Edit> edits_;
   bool has_comment_ = false;
@@ -169,7 +169,7 @@ void give_circle(LineRewriter& rewrite, Rewrite how, const LineTree& line, const
 }
 
 std::vector<Edit> rewrite_arc(Rewrite how, fixes::FixProgram& program, const execution::Setup& setup,
-                              std::uint64_t number) {
+                              std::size_t number) {
   const LineTree line = program.line(number);
   const Instruction* const motion = line.motion();
   if (!motion || words_of(line, *motion, old_letters(how)).empty()) return {};
@@ -192,9 +192,9 @@ std::vector<Edit> rewrite_arc(Rewrite how, fixes::FixProgram& program, const exe
 }
 
 std::vector<Edit> rewrite_arcs(Rewrite how, fixes::FixProgram& program, const execution::Setup& setup,
-                               std::uint64_t first, std::uint64_t last) {
+                               std::size_t first, std::size_t last) {
   std::vector<Edit> all;
-  for (std::uint64_t line = first; line <= last; ++line) {
+  for (std::size_t line = first; line <= last; ++line) {
     const std::vector<Edit> edits = rewrite_arc(how, program, setup, line);
     all.insert(all.end(), edits.begin(), edits.end());
   }
@@ -226,8 +226,8 @@ constexpr ModeChange mode_of(Rewrite how) {
 /// increments start from the position that the new lines reached, so that roundings do not add up.
 class Dimensions {
  public:
-  Dimensions(Rewrite how, fixes::FixProgram& program, const execution::Setup& setup, std::uint64_t first,
-             std::uint64_t last)
+  Dimensions(Rewrite how, fixes::FixProgram& program, const execution::Setup& setup, std::size_t first,
+             std::size_t last)
       : mode_(mode_of(how)), program_(program), setup_(setup), first_(first), last_(last) {}
 
   std::optional<std::vector<Edit>> rewrite() {
@@ -235,7 +235,7 @@ class Dimensions {
     if (!before || before->unknown != 0 || before->ended) return std::nullopt;
     old_ = new_ = *before;
     if (!enter()) return std::nullopt;
-    for (std::uint64_t line = first_; line <= last_ && !old_.ended; ++line)
+    for (std::size_t line = first_; line <= last_ && !old_.ended; ++line)
       if (!rewrite_line(line)) return std::nullopt;
     if (!leave() || !has_changed_numbers_) return std::nullopt;
     return std::move(edits_);
@@ -275,7 +275,7 @@ class Dimensions {
   }
 
   bool exact_stop_follows() {
-    for (std::uint64_t line = last_ + 1; line < program_.line_count(); ++line) {
+    for (std::size_t line = last_ + 1; line < program_.line_count(); ++line) {
       const LineTree tree = program_.line(line);
       if (tree.is_empty()) continue;
       if (tree.instructions.empty()) return false;
@@ -287,7 +287,7 @@ class Dimensions {
 
   /// Whether a line below turns B or C alone: its F is in degrees, whatever the units (I.3.7).
   bool turns_below() {
-    for (std::uint64_t line = last_ + 1; line < program_.line_count(); ++line) {
+    for (std::size_t line = last_ + 1; line < program_.line_count(); ++line) {
       const LineTree tree = program_.line(line);
       const Instruction* const motion = tree.motion();
       if (motion && words_of(tree, *motion, dialect::kLinearLetters).empty()) return true;
@@ -295,9 +295,9 @@ class Dimensions {
     return false;
   }
 
-  std::string indentation(std::uint64_t line) { return std::string(fixes::indentation(program_.text(line))); }
+  std::string indentation(std::size_t line) { return std::string(fixes::indentation(program_.text(line))); }
 
-  bool rewrite_line(std::uint64_t number) {
+  bool rewrite_line(std::size_t number) {
     const LineTree line = program_.line(number);
     if (line.jump != nullptr || (line.has_label() && program_.is_jumped_to(line.label))) return false;
     const State before = old_;
@@ -324,7 +324,7 @@ class Dimensions {
   }
 
   /// Takes the edits of a line; removes the line if it has become blank.
-  void take(std::uint64_t number, const LineTree& line, const LineRewriter& rewrite, const std::string& text) {
+  void take(std::size_t number, const LineTree& line, const LineRewriter& rewrite, const std::string& text) {
     if (!line.words.empty() && fixes::is_blank(text) && number + 1 < program_.line_count()) {
       edits_.push_back({{number, 0}, {number + 1, 0}, {}});
       return;
@@ -401,8 +401,8 @@ class Dimensions {
   const ModeChange mode_;
   fixes::FixProgram& program_;
   const execution::Setup& setup_;
-  const std::uint64_t first_;
-  const std::uint64_t last_;
+  const std::size_t first_;
+  const std::size_t last_;
   State old_;
   State new_;
   std::vector<Edit> edits_;
@@ -412,7 +412,7 @@ class Dimensions {
 }  // namespace
 
 std::optional<std::vector<Edit>> rewrite(Rewrite how, fixes::FixProgram& program, const execution::Setup& setup,
-                                         std::uint64_t first, std::uint64_t last) {
+                                         std::size_t first, std::size_t last) {
   last = std::min(last, program.line_count() - 1);
   if (first > last) return std::nullopt;
   if (how != Rewrite::ArcByRadius && how != Rewrite::ArcByCenter)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -30,6 +31,6 @@ inline constexpr double kSameArc = 1e-4;
 /// differs between paths, or if a line has an error. Modes (the last four rewrites) are set before the lines and reset
 /// after them; for these, no jump may lead out of the lines or into them.
 std::optional<std::vector<fixes::Edit>> rewrite(Rewrite how, fixes::FixProgram& program, const execution::Setup& setup,
-                                                std::uint64_t first, std::uint64_t last);
+                                                std::size_t first, std::size_t last);
 
 }  // namespace isocnc::fixing

@@ -14,7 +14,7 @@ struct TextProgram::Walk {
   check::Checker checker;
   check::Outcome outcome;  // The findings, which are not used.
   syntax::TreeStore store;
-  std::uint64_t line = 0;  // The next line.
+  std::size_t line = 0;  // The next line.
 
   /// Checks the next line. `end` is that of the whole text: short of it the short cut for plain lines gives up.
   void step(std::string_view text, const char* end) {
@@ -43,9 +43,9 @@ const std::vector<std::size_t>& TextProgram::starts() const {
   return starts_;
 }
 
-std::uint64_t TextProgram::line_count() const { return starts().size(); }
+std::size_t TextProgram::line_count() const { return starts().size(); }
 
-std::string_view TextProgram::text(std::uint64_t line) {
+std::string_view TextProgram::text(std::size_t line) {
   if (on_line_) on_line_();
   const std::vector<std::size_t>& all = starts();
   const bool is_last = line + 1 == all.size();
@@ -54,7 +54,7 @@ std::string_view TextProgram::text(std::uint64_t line) {
   return text_.substr(all[line], end - all[line]);
 }
 
-LineTree TextProgram::line(std::uint64_t line) {
+LineTree TextProgram::line(std::size_t line) {
   const std::string_view content = text(line);
   if (parsed_ != line) {
     tree_.clear();
@@ -69,21 +69,21 @@ const check::JumpMap& TextProgram::jumps() {
   return *jumps_;
 }
 
-bool TextProgram::is_read(std::uint64_t line) {
+bool TextProgram::is_read(std::size_t line) {
   const check::Frontier& frontier = frontier_before(line);
   return !frontier.live.empty() || !frontier.live_at(syntax::ParsedLine(text(line)).tree()).empty();
 }
 
 bool TextProgram::is_jumped_to(std::uint64_t label) { return jumps().names(label); }
 
-const check::Frontier& TextProgram::frontier_before(std::uint64_t line) {
+const check::Frontier& TextProgram::frontier_before(std::size_t line) {
   // NOLINTNEXTLINE(modernize-make-unique): made where it stays, since a Checker in it is large.
   if (!walk_ || walk_->line > line) walk_.reset(new Walk{.checker = check::Checker(setup_, jumps())});
   while (walk_->line < std::min(line, line_count())) walk_->step(text(walk_->line), text_.data() + text_.size());
   return walk_->checker.frontier;
 }
 
-std::optional<execution::State> TextProgram::state_before(std::uint64_t line) {
+std::optional<execution::State> TextProgram::state_before(std::size_t line) {
   const check::Frontier& frontier = frontier_before(line);
   const bool has_label = line < line_count() && !frontier.waiting().empty();
   const syntax::ParsedLine next(has_label ? text(line) : std::string_view());
@@ -107,7 +107,7 @@ std::size_t TextProgram::offset(const syntax::Position& position) const {
   return starts()[position.line] + position.column;
 }
 
-std::string_view TextProgram::line_end(std::uint64_t line) const {
+std::string_view TextProgram::line_end(std::size_t line) const {
   const std::vector<std::size_t>& all = starts();
   if (all.size() == 1) return "\n";
   const std::size_t end = all[std::min<std::size_t>(line + 1, all.size() - 1)];

@@ -23,21 +23,21 @@ class TextProgram final : public fixes::FixProgram {
 
   const execution::Setup& setup() const override { return setup_.machine; }
   const dialect::LintThresholds& thresholds() const override { return setup_.thresholds; }
-  std::uint64_t line_count() const override;
-  std::string_view text(std::uint64_t line) override;
-  syntax::LineTree line(std::uint64_t line) override;
-  std::optional<execution::State> state_before(std::uint64_t line) override;
-  bool is_read(std::uint64_t line) override;
+  std::size_t line_count() const override;
+  std::string_view text(std::size_t line) override;
+  syntax::LineTree line(std::size_t line) override;
+  std::optional<execution::State> state_before(std::size_t line) override;
+  bool is_read(std::size_t line) override;
   bool is_jumped_to(std::uint64_t label) override;
 
   /// The frontier before a line, up to line_count().
-  const check::Frontier& frontier_before(std::uint64_t line);
+  const check::Frontier& frontier_before(std::size_t line);
   const check::JumpMap& jumps();
 
   /// The byte offset of a position in the text.
   std::size_t offset(const syntax::Position& position) const;
   /// The line's terminator; for the last line that of the line above, or LF if there is none.
-  std::string_view line_end(std::uint64_t line) const;
+  std::string_view line_end(std::size_t line) const;
 
  private:
   struct Walk;
@@ -50,7 +50,7 @@ class TextProgram final : public fixes::FixProgram {
   std::function<void()> on_line_;
   mutable std::vector<std::size_t> starts_;  // The starts of the lines; computed on demand.
   syntax::TreeStore tree_;                   // The tree of line `parsed_`.
-  std::optional<std::uint64_t> parsed_;
+  std::optional<std::size_t> parsed_;
   std::optional<check::JumpMap> jumps_;
   std::unique_ptr<Walk> walk_;  // The check, up to the last line asked for.
 };

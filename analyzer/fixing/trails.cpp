@@ -7,10 +7,10 @@ namespace isocnc::fixing {
 
 /// The distance in lines between marks, at the same lines in all trails; and the lines next to the change without
 /// marks.
-static constexpr std::uint64_t kBetweenMarks = 8;
-static constexpr std::uint64_t kNear = 16;
+static constexpr std::size_t kBetweenMarks = 8;
+static constexpr std::size_t kNear = 16;
 /// The minimum of lines that a trail must have followed after the line where another one meets it.
-static constexpr std::uint64_t kMinLines = 5'000;
+static constexpr std::size_t kMinLines = 5'000;
 /// Larger frontiers are not kept, to save memory.
 static constexpr std::size_t kMaxGroups = 4;
 static constexpr std::size_t kMaxLabels = 8;
@@ -21,7 +21,7 @@ static bool is_small(const check::Frontier& frontier) {
                      [](const auto& waiting) { return waiting.second.size() <= kMaxGroups; });
 }
 
-void Trail::pass(std::uint64_t next_line, const check::Frontier& frontier, const FindingDelta& so_far) {
+void Trail::pass(std::size_t next_line, const check::Frontier& frontier, const FindingDelta& so_far) {
   if (++passed_ < kNear || next_line % kBetweenMarks != 0 || !is_small(frontier)) return;
   marks_.push_back({next_line, frontier, so_far});
 }
@@ -31,11 +31,10 @@ void Trail::end(const FindingDelta& so_far, const TrailRest& rest) {
   all_.delta += so_far;
 }
 
-std::optional<Trail::TrailRest> Trail::rest_from(std::uint64_t line, const check::Frontier& frontier) const {
+std::optional<Trail::TrailRest> Trail::rest_from(std::size_t line, const check::Frontier& frontier) const {
   if (line % kBetweenMarks != 0 || (all_.has_more && all_.next_line < line + kMinLines)) return std::nullopt;
-  const auto mark =
-      std::lower_bound(marks_.begin(), marks_.end(), line,
-                       [](const TrailMark& each, std::uint64_t wanted) { return each.next_line < wanted; });
+  const auto mark = std::lower_bound(marks_.begin(), marks_.end(), line,
+                                     [](const TrailMark& each, std::size_t wanted) { return each.next_line < wanted; });
   if (mark == marks_.end() || mark->next_line != line || mark->frontier != frontier) return std::nullopt;
   TrailRest rest = all_;
   rest.delta -= mark->so_far;
@@ -47,7 +46,7 @@ void Trails::keep(Trail trail) {
   trails_.push_back(std::move(trail));
 }
 
-std::optional<Trail::TrailRest> Trails::rest_from(std::uint64_t line, const check::Frontier& frontier) const {
+std::optional<Trail::TrailRest> Trails::rest_from(std::size_t line, const check::Frontier& frontier) const {
   for (const Trail& trail : trails_)
     if (std::optional<Trail::TrailRest> rest = trail.rest_from(line, frontier)) return rest;
   return std::nullopt;

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <deque>
 #include <optional>
 #include <vector>
@@ -40,13 +39,13 @@ class Trail {
  public:
   /// The part of a trail from some line on.
   struct TrailRest {
-    FindingDelta delta;           ///< The difference in findings in that part.
-    std::uint64_t next_line = 0;  ///< The first line after that part.
-    bool has_more = false;        ///< Whether there may be further effects from that line on.
+    FindingDelta delta;         ///< The difference in findings in that part.
+    std::size_t next_line = 0;  ///< The first line after that part.
+    bool has_more = false;      ///< Whether there may be further effects from that line on.
   };
 
   /// Records the check after a line below the change; lines must ascend.
-  void pass(std::uint64_t next_line, const check::Frontier& frontier, const FindingDelta& so_far);
+  void pass(std::size_t next_line, const check::Frontier& frontier, const FindingDelta& so_far);
   /// Ends the trail; `rest` follows the recorded lines.
   void end(const FindingDelta& so_far, const TrailRest& rest);
 
@@ -54,18 +53,18 @@ class Trail {
   bool is_long() const { return passed_ >= kLong; }
   /// The rest from this line on, if the trail had the same frontier there. Nothing if it had not, or if too few lines
   /// followed.
-  std::optional<TrailRest> rest_from(std::uint64_t line, const check::Frontier& frontier) const;
+  std::optional<TrailRest> rest_from(std::size_t line, const check::Frontier& frontier) const;
 
  private:
   struct TrailMark {
-    std::uint64_t next_line = 0;
+    std::size_t next_line = 0;
     check::Frontier frontier;
     FindingDelta so_far;
   };
 
-  static constexpr std::uint64_t kLong = 200;
+  static constexpr std::size_t kLong = 200;
 
-  std::uint64_t passed_ = 0;
+  std::size_t passed_ = 0;
   std::vector<TrailMark> marks_;
   TrailRest all_;
 };
@@ -74,7 +73,7 @@ class Trail {
 class Trails {
  public:
   void keep(Trail trail);
-  std::optional<Trail::TrailRest> rest_from(std::uint64_t line, const check::Frontier& frontier) const;
+  std::optional<Trail::TrailRest> rest_from(std::size_t line, const check::Frontier& frontier) const;
 
  private:
   static constexpr std::size_t kMaxTrails = 4;

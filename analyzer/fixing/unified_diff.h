@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -44,9 +44,9 @@ class UnifiedDiff {
   bool has_changes_ = false;
   /// The position in one of the texts.
   struct Side {
-    std::uint64_t line = 0;  // The next line, from 0.
-    std::uint64_t hunk_first = 0;
-    std::uint64_t hunk_lines = 0;
+    std::size_t line = 0;  // The next line, from 0.
+    std::size_t hunk_first = 0;
+    std::size_t hunk_lines = 0;
 
     std::string range() const;
   };

@@ -80,7 +80,7 @@ std::optional<RelatedPlace> RelatedPlaces::of(const check::LocatedFinding& locat
   const std::size_t reach = std::min(kReach, bytes_left_);
   std::size_t walked = 0;
   std::optional<RelatedPlace> place;
-  for (std::uint64_t number = located.line; number > 0 && walked < reach; --number) {
+  for (std::size_t number = located.line; number > 0 && walked < reach; --number) {
     line = line_above(text_, static_cast<std::size_t>(line.data() - text_.data()));
     walked += line.size() + 1;
     store.clear();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 
@@ -12,8 +12,8 @@ namespace isocnc::formats {
 /// The earlier line that explains a finding: where the frame was mounted, the mode was set, or the label was first
 /// defined.
 struct RelatedPlace {
-  std::uint64_t line = 0;  ///< The line, from 0.
-  std::string_view text;   ///< The text of the line.
+  std::size_t line = 0;   ///< The line, from 0.
+  std::string_view text;  ///< The text of the line.
   syntax::Span span;
   dialect::Text note;  ///< The event on that line.
 };

@@ -123,7 +123,7 @@ class TextRenderer final : public Renderer {
   }
 
   /// Prints the earlier line that explains the finding.
-  void above(const RelatedPlace& place, std::uint64_t line, std::string_view margin, std::string& out) const {
+  void above(const RelatedPlace& place, std::size_t line, std::string_view margin, std::string& out) const {
     const auto to = std::back_inserter(out);
     const Excerpt excerpt = excerpt_around(place.text, place.span.begin);
     const std::size_t begin = column_of(excerpt.text, place.span.begin - excerpt.begin);

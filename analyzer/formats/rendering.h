@@ -28,7 +28,7 @@ struct ShownFinding {
   const dialect::DiagnosticDef& def;
   dialect::Severity severity;
   std::string_view line_text;
-  std::uint64_t line = 0;
+  std::size_t line = 0;
   std::size_t column = 0;
   std::size_t end_column = 0;
   std::string message;  ///< The message; may hold any byte that the program holds.
@@ -51,7 +51,7 @@ class StepTexts {
 
  private:
   dialect::Language language_;
-  std::map<std::pair<std::uint64_t, bool>, std::string> texts_;
+  std::map<std::pair<std::size_t, bool>, std::string> texts_;
 };
 
 /// A program and the findings to show.

@@ -40,7 +40,7 @@ static std::string label_text(std::string_view written) {
 }
 
 Renumbering::Renumbering(const EachLine& each_line, const NumberStyle& style) : style_(style), next_(style.start) {
-  std::uint64_t number = 0;
+  std::size_t number = 0;
   each_line([&](const LineTree& line) { read_jump(number++, line); });
   number = 0;
   if (!obstacle_) each_line([&](const LineTree& line) { number_label(number++, line); });
@@ -53,11 +53,11 @@ Renumbering::Renumbering(const EachLine& each_line, const NumberStyle& style) : 
   next_ = style.start;
 }
 
-void Renumbering::refuse(RenumberingObstacle::Kind kind, std::uint64_t line, std::string label) {
+void Renumbering::refuse(RenumberingObstacle::Kind kind, std::size_t line, std::string label) {
   if (!obstacle_) obstacle_ = {kind, line, std::move(label)};
 }
 
-void Renumbering::read_jump(std::uint64_t number, const LineTree& line) {
+void Renumbering::read_jump(std::size_t number, const LineTree& line) {
   const auto names_a_line = [](const syntax::Word& word) { return word.letter == 'N' || word.letter == syntax::kGoto; };
   if (!line.findings.empty() && std::any_of(line.words.begin(), line.words.end(), names_a_line))
     return refuse(RenumberingObstacle::Kind::Error, number);
@@ -65,7 +65,7 @@ void Renumbering::read_jump(std::uint64_t number, const LineTree& line) {
   labels_.try_emplace(line.jump->target, NumberedLabel{label_text(line.text_of(line.jump->target_span)), number});
 }
 
-void Renumbering::number_label(std::uint64_t number, const LineTree& line) {
+void Renumbering::number_label(std::size_t number, const LineTree& line) {
   if (!is_numbered(line)) return;
   if (next_ > syntax::kMaxLineNumber) return refuse(RenumberingObstacle::Kind::TooManyDigits, number);
   const std::uint64_t is_now = next_;

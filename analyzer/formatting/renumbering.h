@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -33,8 +34,8 @@ class Renumbering {
     enum class Kind : std::uint8_t { Error, LabelMissing, LabelTwice, TooManyDigits };
 
     Kind kind = Kind::Error;
-    std::uint64_t line = 0;  ///< The line, counted from 0.
-    std::string label;       ///< The label as the GOTO writes it.
+    std::size_t line = 0;  ///< The line, counted from 0.
+    std::string label;     ///< The label as the GOTO writes it.
 
     std::string message(dialect::Language language) const;
   };
@@ -49,15 +50,15 @@ class Renumbering {
  private:
   struct NumberedLabel {
     std::string text;
-    std::uint64_t jump_line = 0;
+    std::size_t jump_line = 0;
     std::uint64_t number = 0;  // The new number.
     bool is_defined = false;
   };
 
-  void read_jump(std::uint64_t number, const syntax::LineTree& line);
-  void number_label(std::uint64_t number, const syntax::LineTree& line);
+  void read_jump(std::size_t number, const syntax::LineTree& line);
+  void number_label(std::size_t number, const syntax::LineTree& line);
   bool is_numbered(const syntax::LineTree& line) const;
-  void refuse(RenumberingObstacle::Kind kind, std::uint64_t line, std::string label = {});
+  void refuse(RenumberingObstacle::Kind kind, std::size_t line, std::string label = {});
 
   NumberStyle style_;
   std::uint64_t next_;

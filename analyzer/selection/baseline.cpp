@@ -34,7 +34,7 @@ std::string Baseline::name_of(std::string_view program) const {
 
 void Baseline::add(std::string_view program, std::string_view text, const check::Report& report) {
   if (report.findings.empty()) return;
-  std::vector<std::pair<std::uint64_t, DiagnosticId>> places;
+  std::vector<std::pair<std::size_t, DiagnosticId>> places;
   for (const check::LocatedFinding& located : report.findings) {
     places.emplace_back(located.line, located.finding.id);
     for (const check::Repetition& again : report.repetitions_of(located)) places.emplace_back(again.line, again.id);
@@ -212,7 +212,7 @@ class BaselineReader final : public nlohmann::json_sax<nlohmann::json> {
   bool has_findings_ = false;
   std::optional<std::string> file_;
   std::optional<DiagnosticId> code_;
-  std::optional<std::uint64_t> line_;
+  std::optional<std::size_t> line_;
   std::optional<std::uint64_t> count_;
   std::string mistake_;
 };

@@ -28,7 +28,7 @@ static std::size_t find_call(std::string_view text, std::size_t at) {
 Suppressions::Suppressions(std::string_view text) {
   const char* const end = text.data() + text.size();
   const char* line = text.data();
-  std::uint64_t number = 0;
+  std::size_t number = 0;
   for (std::size_t call = find_call(text, 0); call != std::string_view::npos;) {
     const char* line_end = text::find_line_end(line, end);
     while (line_end < text.data() + call) {
@@ -43,7 +43,7 @@ Suppressions::Suppressions(std::string_view text) {
 
 bool Suppressions::may_have_directives(std::string_view text) { return find_call(text, 0) != std::string_view::npos; }
 
-void Suppressions::read_line(std::uint64_t number, std::string_view line) {
+void Suppressions::read_line(std::size_t number, std::string_view line) {
   if (find_call(line, 0) == std::string_view::npos) return;
   const syntax::ParsedLine parsed(line);
   const syntax::LineTree tree = parsed.tree();
@@ -69,7 +69,7 @@ static syntax::Span next_word(std::string_view line, std::uint32_t begin, std::u
   return {begin, after};
 }
 
-void Suppressions::read_directive(std::uint64_t number, std::string_view line, std::uint32_t begin, std::uint32_t end) {
+void Suppressions::read_directive(std::size_t number, std::string_view line, std::uint32_t begin, std::uint32_t end) {
   const auto text_of = [&](syntax::Span span) { return line.substr(span.begin, span.end - span.begin); };
   static constexpr std::pair<std::string_view, Kind> kKinds[] = {{"ignore", Kind::Ignore},
                                                                  {"disable", Kind::Disable},
@@ -130,8 +130,8 @@ void Suppressions::drop_suppressed(std::vector<check::LocatedFinding>& findings)
   for (Directive& directive : directives_)
     if (directive.kind == Kind::IgnoreFile) apply_disable(directive, of_file);
   auto next = directives_.begin();
-  std::uint64_t line_of_ignores = 0;
-  const auto read_up_to = [&](std::uint64_t line) {
+  std::size_t line_of_ignores = 0;
+  const auto read_up_to = [&](std::size_t line) {
     for (; next != directives_.end() && next->line <= line; ++next) {
       if (next->kind == Kind::Disable) apply_disable(*next, of_stretch);
       if (next->kind == Kind::Enable) apply_enable(*next, of_stretch);
@@ -164,7 +164,7 @@ void Suppressions::keep_directives_for_disabled_codes(const Selection& selection
 /// been judged.
 std::vector<check::LocatedFinding> Suppressions::useless(bool about_w190) const {
   std::vector<check::LocatedFinding> findings;
-  const auto report = [&](std::uint64_t line, syntax::Span span) {
+  const auto report = [&](std::size_t line, syntax::Span span) {
     findings.push_back({.line = line, .finding = {.id = kUseless, .span = span}});
   };
   for (const Directive& directive : directives_) {

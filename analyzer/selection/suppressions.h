@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -27,7 +28,7 @@ class Suppressions {
   /// Fast test: whether the text may contain a directive for isolint.
   static bool may_have_directives(std::string_view text);
   /// Reads a line; lines must come in ascending order. The constructor reads those of a whole text.
-  void read_line(std::uint64_t number, std::string_view line);
+  void read_line(std::size_t number, std::string_view line);
   bool empty() const { return directives_.empty(); }
   /// The report without suppressed findings, and with directives that have no effect (W190). W190 does not report
   /// directives for codes that are off, because those may not have been checked.
@@ -43,7 +44,7 @@ class Suppressions {
   };
   struct Directive {
     Kind kind = Kind::Unknown;
-    std::uint64_t line = 0;
+    std::size_t line = 0;
     syntax::Span span;
     std::vector<Code> codes;  ///< The codes named; empty: all.
     bool useful = false;
@@ -51,7 +52,7 @@ class Suppressions {
   /// The directive that suppresses each code; null for none.
   using SuppressedBy = std::array<bool*, dialect::kDiagnosticCount>;
 
-  void read_directive(std::uint64_t number, std::string_view line, std::uint32_t begin, std::uint32_t end);
+  void read_directive(std::size_t number, std::string_view line, std::uint32_t begin, std::uint32_t end);
   static void apply_disable(Directive& directive, SuppressedBy& suppressors);
   static void apply_enable(Directive& directive, SuppressedBy& suppressors);
   void drop_suppressed(std::vector<check::LocatedFinding>& findings);

@@ -27,7 +27,7 @@ class LabelNeverUsed final : public StyleRule {
  private:
   struct WrittenLabel {
     std::uint64_t label;
-    std::uint64_t line;
+    std::size_t line;
     syntax::Span span;
   };
   std::vector<WrittenLabel> labels_;

@@ -56,7 +56,7 @@ std::vector<StyleFinding> StyleReader::finish() {
 std::vector<StyleFinding> read_program(std::string_view text, const IsWanted& is_wanted) {
   StyleReader reader(is_wanted);
   if (reader.is_idle()) return {};
-  std::uint64_t number = 0;
+  std::size_t number = 0;
   syntax::each_tree(text, [&](const syntax::LineTree& tree, std::string_view terminator) {
     reader.read({number++, tree, terminator});
   });

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string_view>
@@ -14,13 +14,13 @@ using namespace dialect::literals;
 
 /// A line as written, executed or not.
 struct StyleLine {
-  std::uint64_t number = 0;  ///< The line number, from 0.
+  std::size_t number = 0;  ///< The line number, from 0.
   const syntax::LineTree& tree;
   std::string_view terminator;  ///< CR, LF or CRLF; empty at the end of the program.
 };
 
 struct StyleFinding {
-  std::uint64_t line = 0;
+  std::size_t line = 0;
   syntax::Finding finding;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -28,7 +29,7 @@ struct Breakpoint {
 };
 
 struct LineBreakpoint : Breakpoint {
-  std::uint64_t line = 0;
+  std::size_t line = 0;
 };
 struct FunctionBreakpoint : Breakpoint {
   WantedCode code;

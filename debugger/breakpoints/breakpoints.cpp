@@ -37,7 +37,7 @@ bool Breakpoints::has_thresholds() const {
   return std::any_of(data_.begin(), data_.end(), [](const auto& each) { return each.watched.threshold.has_value(); });
 }
 
-void Breakpoints::set_lines(std::vector<LineBreakpoint> breakpoints, std::uint64_t line_count) {
+void Breakpoints::set_lines(std::vector<LineBreakpoint> breakpoints, std::size_t line_count) {
   for (LineBreakpoint& breakpoint : breakpoints) {
     const auto [begin, end] = lines_.equal_range(breakpoint.line);
     const auto old =
@@ -47,7 +47,7 @@ void Breakpoints::set_lines(std::vector<LineBreakpoint> breakpoints, std::uint64
   lines_.clear();
   bits_.assign(line_count / 64 + 1, 0);
   for (LineBreakpoint& breakpoint : breakpoints) {
-    const std::uint64_t line = breakpoint.line;
+    const std::size_t line = breakpoint.line;
     if (line >= line_count) continue;
     bits_[line / 64] |= std::uint64_t{1} << (line % 64);
     lines_.emplace(line, std::move(breakpoint));

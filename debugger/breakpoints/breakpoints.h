@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -16,11 +17,11 @@ enum class RunDirection : std::uint8_t { Forward, Backward };
 /// All breakpoints of a session. A block without any costs the look at one bit.
 class Breakpoints {
  public:
-  void set_lines(std::vector<LineBreakpoint> breakpoints, std::uint64_t line_count);
+  void set_lines(std::vector<LineBreakpoint> breakpoints, std::size_t line_count);
   void set_functions(std::vector<FunctionBreakpoint> breakpoints);
   void set_data(std::vector<DataBreakpoint> breakpoints);
 
-  bool has_line(std::uint64_t line) const {
+  bool has_line(std::size_t line) const {
     return line / 64 < bits_.size() && ((bits_[line / 64] >> (line % 64)) & 1) != 0;
   }
   bool has_functions() const { return !functions_.empty(); }
@@ -62,7 +63,7 @@ class Breakpoints {
   static void reach(Breakpoint& breakpoint, const expressions::Moment& moment, std::uint64_t block,
                     RunDirection direction, BreakpointOutcome& outcome);
 
-  std::multimap<std::uint64_t, LineBreakpoint> lines_;
+  std::multimap<std::size_t, LineBreakpoint> lines_;
   std::vector<std::uint64_t> bits_;  ///< A bit for each line, set where it has breakpoints.
   std::vector<FunctionBreakpoint> functions_;
   std::vector<DataBreakpoint> data_;

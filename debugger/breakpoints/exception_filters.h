@@ -1,7 +1,7 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -31,7 +31,7 @@ struct Warning {
 class ExceptionFilters {
  public:
   /// Warnings by line, from 0; empty until the checker has read the program.
-  std::multimap<std::uint64_t, Warning> warnings;
+  std::multimap<std::size_t, Warning> warnings;
 
   bool is_on(ExceptionFilter filter) const { return on_[static_cast<std::size_t>(filter)]; }
   void turn_on(ExceptionFilter filter) { on_[static_cast<std::size_t>(filter)] = true; }

@@ -72,7 +72,7 @@ void Debuggee::go_to_block(std::uint64_t blocks) {
 }
 
 /// Searches the last part that begins at or before the line: what was executed after its end has been undone.
-std::optional<std::uint64_t> Debuggee::find_line(std::uint64_t line) const {
+std::optional<std::uint64_t> Debuggee::find_line(std::size_t line) const {
   for (auto part = parts_.rbegin(); part != parts_.rend(); ++part)
     if (line >= part->first_line) return part->history.find_line(line);
   return std::nullopt;

@@ -55,10 +55,10 @@ class Debuggee {
   /// Undoes step_instruction().
   void step_instruction_back();
   void go_to_block(std::uint64_t blocks);
-  void skip_to_line(std::uint64_t line) { history().skip_to_line(line); }
+  void skip_to_line(std::size_t line) { history().skip_to_line(line); }
   void return_to(const simulation::Simulation& before) { history().return_to(before); }
   /// As in History.
-  std::optional<std::uint64_t> find_line(std::uint64_t line) const;
+  std::optional<std::uint64_t> find_line(std::size_t line) const;
   /// The last of the blocks [from, blocks) for which `is_it` holds.
   std::optional<std::uint64_t> find_back(std::uint64_t from, std::uint64_t blocks,
                                          const std::function<bool(const running::Block&)>& is_it) const;
@@ -91,7 +91,7 @@ class Debuggee {
     std::unique_ptr<const simulation::TimedMachine> machine;
     simulation::History history;
     std::uint64_t first_block = 0;
-    std::uint64_t first_line = 0;
+    std::size_t first_line = 0;
   };
 
   simulation::History& history() { return parts_.back().history; }

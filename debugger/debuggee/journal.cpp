@@ -24,7 +24,7 @@ static auto end_before(const std::deque<Entry>& entries, std::uint64_t block) {
                           [](const Entry& entry, std::uint64_t number) { return entry.block < number; });
 }
 
-void Journal::take(std::uint64_t block, std::uint64_t line, const Modes& before, const Modes& after,
+void Journal::take(std::uint64_t block, std::size_t line, const Modes& before, const Modes& after,
                    std::span<const running::Event> events) {
   if (block < known_) return;
   known_ = block + 1;

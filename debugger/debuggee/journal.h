@@ -27,13 +27,13 @@ class Journal {
   /// Where a member of a modal group has come into force, or has been written for the first time.
   struct ModeSetting {
     std::uint64_t block = 0;
-    std::uint64_t line = 0;
+    std::size_t line = 0;
     std::uint8_t number = 0;  ///< Number of the G.
   };
   struct TakenJump {
     std::uint64_t block = 0;  ///< Blocks executed before the IF.
-    std::uint64_t from = 0;   ///< Lines, from 0.
-    std::uint64_t to = 0;
+    std::size_t from = 0;     ///< Lines, from 0.
+    std::size_t to = 0;
   };
   struct Function {
     std::uint64_t block = 0;
@@ -41,7 +41,7 @@ class Journal {
   };
 
   /// Notes what a block has done. `block`: how many have been executed before it.
-  void take(std::uint64_t block, std::uint64_t line, const Modes& before, const Modes& after,
+  void take(std::uint64_t block, std::size_t line, const Modes& before, const Modes& after,
             std::span<const running::Event> events);
   /// The run has been changed at this block: what is noted from there on is void.
   void forget_from(std::uint64_t block);

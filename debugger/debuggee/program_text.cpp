@@ -33,21 +33,21 @@ std::variant<ProgramText, ProgramText::ReadError> ProgramText::read(const std::f
   return ProgramText(std::string(std::get<system::SourceFile>(opened).text()));
 }
 
-std::size_t ProgramText::offset_of(std::uint64_t line) const {
+std::size_t ProgramText::offset_of(std::size_t line) const {
   const char* const begin = text_.data();
   const char* const end = begin + text_.size();
   if (line >= line_count_) return text_.size();
   const char* p = begin + offsets_[line / kStride];
-  for (std::uint64_t i = 0; i < line % kStride; ++i) p = next_line(p, end);
+  for (std::size_t i = 0; i < line % kStride; ++i) p = next_line(p, end);
   return static_cast<std::size_t>(p - begin);
 }
 
-std::string_view ProgramText::line(std::uint64_t number) const {
+std::string_view ProgramText::line(std::size_t number) const {
   const char* const begin = text_.data() + offset_of(number);
   return {begin, static_cast<std::size_t>(text::find_line_end(begin, text_.data() + text_.size()) - begin)};
 }
 
-std::optional<std::uint64_t> ProgramText::executable_line(std::uint64_t from) const {
+std::optional<std::size_t> ProgramText::executable_line(std::size_t from) const {
   const char* p = text_.data() + offset_of(from);
   const char* const end = text_.data() + text_.size();
   syntax::TreeStore store;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -26,22 +25,22 @@ class ProgramText {
   static std::variant<ProgramText, ReadError> read(const std::filesystem::path& file, dialect::Language language);
 
   std::string_view text() const { return text_; }
-  std::uint64_t line_count() const { return line_count_; }
+  std::size_t line_count() const { return line_count_; }
   /// The text of a line without its terminator; empty after the last line.
-  std::string_view line(std::uint64_t number) const;
+  std::string_view line(std::size_t number) const;
 
   /// The first line from there on with a block that does something (D13); none after the last one.
-  std::optional<std::uint64_t> executable_line(std::uint64_t from) const;
+  std::optional<std::size_t> executable_line(std::size_t from) const;
 
  private:
   /// The offset of every 64th line is known; the lines between are counted.
-  static constexpr std::uint64_t kStride = 64;
+  static constexpr std::size_t kStride = 64;
 
-  std::size_t offset_of(std::uint64_t line) const;
+  std::size_t offset_of(std::size_t line) const;
 
   std::string text_;
   std::vector<std::size_t> offsets_;  ///< Starts of every kStride-th line.
-  std::uint64_t line_count_ = 0;
+  std::size_t line_count_ = 0;
 };
 
 }  // namespace isocnc::debuggee

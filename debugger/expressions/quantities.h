@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <span>
@@ -17,7 +17,7 @@ struct Moment {
   const execution::State& state;
   const running::Registers& registers;
   double vgpl = 0;
-  std::uint64_t line = 0;         ///< From 0.
+  std::size_t line = 0;           ///< From 0.
   double override_percent = 100;  ///< Override of the feed.
   double playback = 0;            ///< 0: as fast as possible; 1: in real time.
   /// The machine at this moment. Without it, as in a search backward, the machine counts as standing where the program

@@ -33,8 +33,8 @@ void to_json(Json& json, const LocationsBody& body) {
 /// Lines that do something.
 static LocationsBody answer_breakpoint_locations(Session& session, const LocationArguments& arguments) {
   const debuggee::ProgramText& program = session.debuggee().text();
-  const std::uint64_t first = to_line(session, arguments.line);
-  const std::uint64_t last = arguments.end_line ? to_line(session, *arguments.end_line) : first;
+  const std::size_t first = to_line(session, arguments.line);
+  const std::size_t last = arguments.end_line ? to_line(session, *arguments.end_line) : first;
   LocationsBody body;
   if (!session.is_program(arguments.source.path)) return body;
   for (auto line = program.executable_line(first); line && *line <= last && body.lines.size() < kMaxLocations;

@@ -18,7 +18,7 @@ void from_json(const Json& json, GotoArguments& arguments) {
 
 /// Forward or backward to a line, with the state that a run to it has.
 static void answer_go_to(Session& session, const GotoArguments& arguments) {
-  const auto line = static_cast<std::uint64_t>(arguments.target);
+  const auto line = static_cast<std::size_t>(arguments.target);
   if (arguments.target < 0 || line >= session.debuggee().text().line_count())
     throw RequestError(std::string(session.in_language(kNoTarget)));
   session.go_to_line(line);

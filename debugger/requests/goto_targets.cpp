@@ -11,7 +11,7 @@ struct GotoTargetsArguments {
 };
 
 struct GotoTarget {
-  std::uint64_t id = 0;  ///< The line, from 0.
+  std::size_t id = 0;  ///< The line, from 0.
   std::string label;
   std::int64_t line = 0;  ///< As the client counts.
 };

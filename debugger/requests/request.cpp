@@ -25,7 +25,7 @@ expressions::ValueFormat format_of(const Session& session, const dap::FormatArgu
   return format;
 }
 
-std::uint64_t to_line(const Session& session, std::int64_t line) {
+std::size_t to_line(const Session& session, std::int64_t line) {
   const auto from_zero = session.client().from_client_line(line);
   if (!from_zero) throw RequestError(session.in_language(kNoLine, line));
   return *from_zero;

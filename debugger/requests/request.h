@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -77,7 +78,7 @@ std::span<const DebugRequest* const> all_requests();
 expressions::ValueFormat format_of(const Session& session, const dap::FormatArguments& arguments);
 
 /// A line of the client, from 0. Throws RequestError for one that cannot be.
-std::uint64_t to_line(const Session& session, std::int64_t line);
+std::size_t to_line(const Session& session, std::int64_t line);
 
 /// Throws RequestError where one of the rules cannot be read.
 breakpoints::BreakpointRules compile_rules(const Session& session, const dap::RuleArguments& arguments);

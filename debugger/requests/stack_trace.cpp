@@ -21,7 +21,7 @@ struct StackArguments {
 /// A frame of the stack. Its id is its place in the stack, from 1.
 struct StackFrame {
   std::string name;
-  std::uint64_t line = 0;  ///< From 0.
+  std::size_t line = 0;  ///< From 0.
   bool is_jump = false;
 };
 
@@ -33,7 +33,7 @@ void from_json(const Json& json, StackArguments& arguments) {
 }  // namespace
 
 /// The text of the line, without the blanks around it.
-static std::string name_of(const Session& session, std::uint64_t line) {
+static std::string name_of(const Session& session, std::size_t line) {
   std::string name = text::printable(session.debuggee().text().line(line));
   name.erase(0, name.find_first_not_of(' '));
   name.erase(name.find_last_not_of(' ') + 1);
@@ -47,7 +47,7 @@ static std::string name_of(const Session& session, std::uint64_t line) {
 /// After the last line the last one is shown.
 static Json frame_json(const Session& session, std::size_t id, const StackFrame& frame) {
   const debuggee::ProgramText& program = session.debuggee().text();
-  const std::uint64_t line = std::min(frame.line, std::max<std::uint64_t>(program.line_count(), 1) - 1);
+  const std::size_t line = std::min(frame.line, std::max<std::size_t>(program.line_count(), 1) - 1);
   const std::string_view text = program.line(line);
   const std::size_t begin = std::min(text.find_first_not_of(" \t"), text.size());
   Json json = {{"id", id},

@@ -44,11 +44,11 @@ static double read_speed(const Json& arguments) {
   return speed;
 }
 
-static std::optional<std::uint64_t> read_start_line(const Json& arguments) {
+static std::optional<std::size_t> read_start_line(const Json& arguments) {
   const auto line = dap::member<std::int64_t>(arguments, "startAtLine");
   if (!line) return std::nullopt;
   if (*line < 1) refuse("startAtLine", std::to_string(*line));
-  return static_cast<std::uint64_t>(*line) - 1;
+  return static_cast<std::size_t>(*line) - 1;
 }
 
 static int read_decimals(const Json& arguments) {

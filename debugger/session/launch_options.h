@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -24,8 +24,8 @@ struct LaunchOptions {
   double speed = 0;  ///< 0: as fast as possible; 1: in real time.
   double vgpl = 0;
   std::vector<std::pair<int, double>> registers;
-  std::optional<std::uint64_t> start_line;  ///< Line from 0, to which the run goes without stopping.
-  expressions::ValueFormat format;          ///< Format of all values that are shown.
+  std::optional<std::size_t> start_line;  ///< Line from 0, to which the run goes without stopping.
+  expressions::ValueFormat format;        ///< Format of all values that are shown.
 };
 
 /// Unknown members are ignored, as clients add members of their own. Throws ArgumentError.

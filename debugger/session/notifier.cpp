@@ -81,7 +81,7 @@ void Notifier::report_position(bool is_running) {
 
 // --- Output
 
-void Notifier::report_output(std::string_view category, const std::string& text, std::optional<std::uint64_t> line) {
+void Notifier::report_output(std::string_view category, const std::string& text, std::optional<std::size_t> line) {
   Json body = {{"category", category}, {"output", text + "\n"}};
   if (line && state_.is_launched()) {
     body["source"] = state_.source();
@@ -115,7 +115,7 @@ void Notifier::report_omissions() {
   if (omitted_ > 0) report_output("console", state_.in_language(kOmitted, std::exchange(omitted_, 0)));
 }
 
-void Notifier::report_messages(const breakpoints::Breakpoints::BreakpointOutcome& outcome, std::uint64_t line) {
+void Notifier::report_messages(const breakpoints::Breakpoints::BreakpointOutcome& outcome, std::size_t line) {
   for (const std::string& message : outcome.messages) report_output("console", message, line);
 }
 

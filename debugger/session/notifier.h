@@ -35,13 +35,13 @@ class Notifier {
   void report_running_position();
 
   /// A line of output, with its place in the program where one is given.
-  void report_output(std::string_view category, const std::string& text, std::optional<std::uint64_t> line = {});
+  void report_output(std::string_view category, const std::string& text, std::optional<std::size_t> line = {});
   /// What the machine does besides motions. At most 200 lines a second; the others are counted.
   void report_events(std::span<const running::Event> events);
   /// How many of these lines have been left out since the last call.
   void report_omissions();
   /// Messages of log points. None is left out.
-  void report_messages(const breakpoints::Breakpoints::BreakpointOutcome& outcome, std::uint64_t line);
+  void report_messages(const breakpoints::Breakpoints::BreakpointOutcome& outcome, std::size_t line);
 
   /// The breakpoint, a `Breakpoint` of the protocol, lies elsewhere than before.
   void report_moved_breakpoint(const Json& breakpoint);

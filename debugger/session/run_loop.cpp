@@ -154,7 +154,7 @@ std::uint64_t RunLoop::advance(const std::function<void(debuggee::Debuggee& debu
     move(*state_.debuggee);
     return block - 1;
   }
-  const std::uint64_t line = before.line();
+  const std::size_t line = before.line();
   stop_check_.start_block();
   const debuggee::Journal::Modes modes(before.run().state);
   move(*state_.debuggee);
@@ -216,7 +216,7 @@ void RunLoop::step_out() {
 
 // --- To a line
 
-void RunLoop::go_to_line(std::uint64_t line) {
+void RunLoop::go_to_line(std::size_t line) {
   const simulation::Simulation& present = state_.debuggee->present();
   const bool is_within = present.is_in_block() || present.has_ended();
   const bool is_past = line < present.line() || (line == present.line() && is_within);
@@ -224,7 +224,7 @@ void RunLoop::go_to_line(std::uint64_t line) {
   post([this, line] { go_backward_to_line(line); });
 }
 
-void RunLoop::go_backward_to_line(std::uint64_t line) {
+void RunLoop::go_backward_to_line(std::size_t line) {
   if (const auto block = state_.debuggee->find_line(line)) {
     state_.exception.reset();
     move_back([&](debuggee::Debuggee& debuggee) { debuggee.go_to_block(*block); });
@@ -234,7 +234,7 @@ void RunLoop::go_backward_to_line(std::uint64_t line) {
   settle("goto");
 }
 
-void RunLoop::go_forward_to_line(std::uint64_t line, std::string_view reason) {
+void RunLoop::go_forward_to_line(std::size_t line, std::string_view reason) {
   state_.exception.reset();
   arrival_reason_ = reason;
   target_line_ = line;
@@ -247,7 +247,7 @@ void RunLoop::run_to_line(Clock::time_point deadline) {
   do {
     if (!pass_block()) return arrive_at_line();
   } while (Clock::now() < deadline);
-  const double lines = static_cast<double>(std::max<std::uint64_t>(target_line_, 1));
+  const double lines = static_cast<double>(std::max<std::size_t>(target_line_, 1));
   const auto title = state_.in_language(kGoingTo, state_.client.to_client_line(target_line_));
   notifier_.report_progress(title, static_cast<double>(state_.debuggee->present().line()) / lines);
   notifier_.report_running_position();
@@ -259,7 +259,7 @@ bool RunLoop::pass_block() {
   const simulation::Simulation& present = state_.debuggee->present();
   const bool is_in_block = present.is_in_block();
   const std::uint64_t block = present.blocks();
-  const std::uint64_t line = present.line();
+  const std::size_t line = present.line();
   if (present.has_ended() || (!is_in_block && line >= target_line_)) return false;
   const debuggee::Journal::Modes modes(present.run().state);
   state_.debuggee->step_block();
@@ -278,7 +278,7 @@ void RunLoop::arrive_at_line() {
   settle(arrival_reason_);
 }
 
-void RunLoop::report_missed_line(std::uint64_t line, std::optional<std::uint64_t> place) {
+void RunLoop::report_missed_line(std::size_t line, std::optional<std::uint64_t> place) {
   notifier_.report_output("important", state_.in_language(kNotLedThere, state_.client.to_client_line(line)), place);
 }
 

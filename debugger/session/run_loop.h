@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -42,7 +43,7 @@ class RunLoop {
   /// To the end of the tool's section or of the frame, whichever comes first.
   void step_out();
   /// Forward or backward to a line, with the state that a run to it has. Nothing stops the run before.
-  void go_to_line(std::uint64_t line);
+  void go_to_line(std::size_t line);
 
   /// Stops a run where it is.
   void pause();
@@ -79,11 +80,11 @@ class RunLoop {
   std::optional<Stop> end_block(std::uint64_t block);
   void end_at_error();
   void step_now(dap::Step step);
-  void go_forward_to_line(std::uint64_t line, std::string_view reason);
-  void go_backward_to_line(std::uint64_t line);
+  void go_forward_to_line(std::size_t line, std::string_view reason);
+  void go_backward_to_line(std::size_t line);
   bool pass_block();
   void arrive_at_line();
-  void report_missed_line(std::uint64_t line, std::optional<std::uint64_t> place = {});
+  void report_missed_line(std::size_t line, std::optional<std::uint64_t> place = {});
   void go_back_to(const BackwardSearch::Hit& hit);
   void go_back_to_start();
   void move_back(const std::function<void(debuggee::Debuggee& debuggee)>& move);
@@ -107,7 +108,7 @@ class RunLoop {
   bool has_started_ = false;
 
   std::optional<BackwardSearch> search_;
-  std::uint64_t target_line_ = 0;
+  std::size_t target_line_ = 0;
   std::string_view arrival_reason_ = "goto";
   std::optional<simulation::Simulation> origin_;  ///< Where the run to target_line_ began.
 };

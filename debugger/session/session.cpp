@@ -129,7 +129,7 @@ void Session::step_out() {
   run_loop_.step_out();
 }
 
-void Session::go_to_line(std::uint64_t line) {
+void Session::go_to_line(std::size_t line) {
   stopped_debuggee();
   run_loop_.go_to_line(line);
 }

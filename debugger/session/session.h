@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -71,7 +72,7 @@ class Session : public expressions::Controls {
   /// To the end of the tool's section or of the frame, whichever comes first.
   void step_out();
   /// Forward or backward to a line, with the state that a run to it has. Nothing stops the run before.
-  void go_to_line(std::uint64_t line);
+  void go_to_line(std::size_t line);
 
   // --- Changing.
   void set_quantity(const expressions::Quantity& quantity, double value);

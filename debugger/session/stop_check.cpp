@@ -41,7 +41,7 @@ bool StopCheck::ends_step_out() const {
 
 std::optional<Stop> StopCheck::judge_breakpoints() {
   breakpoints::Breakpoints& breakpoints = state_.breakpoints;
-  const std::uint64_t line = state_.debuggee->present().line();
+  const std::size_t line = state_.debuggee->present().line();
   const std::uint64_t number = state_.debuggee->present().blocks();
   if (!breakpoints.has_line(line) && !breakpoints.has_functions()) return std::nullopt;
   breakpoints::Breakpoints::BreakpointOutcome at_line;
@@ -124,7 +124,7 @@ Stop StopCheck::at_error() {
                   .explanation = analyzer::explain(run.error.id, language)});
 }
 
-void StopCheck::report_messages(const breakpoints::Breakpoints::BreakpointOutcome& outcome, std::uint64_t line) {
+void StopCheck::report_messages(const breakpoints::Breakpoints::BreakpointOutcome& outcome, std::size_t line) {
   notifier_.report_messages(outcome, line);
   message_count_ += outcome.messages.size();
 }

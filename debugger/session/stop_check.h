@@ -55,7 +55,7 @@ class StopCheck {
   Stop stop_at(breakpoints::Exception exception);
   std::optional<breakpoints::Exception> find_exception() const;
   std::optional<breakpoints::Exception> find_coming_overtravel() const;
-  void report_messages(const breakpoints::Breakpoints::BreakpointOutcome& outcome, std::uint64_t line);
+  void report_messages(const breakpoints::Breakpoints::BreakpointOutcome& outcome, std::size_t line);
 
   SessionState& state_;
   Notifier& notifier_;

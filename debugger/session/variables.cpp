@@ -232,7 +232,7 @@ class Listing {
     for (int axis = 0; axis < 3; ++axis) add(std::string(1, "XYZ"[axis]), show(vector[axis]), "mm");
   }
 
-  std::string line_text(std::uint64_t line) const {
+  std::string line_text(std::size_t line) const {
     return session_.in_language(kLine, session_.client().to_client_line(line));
   }
 
@@ -251,10 +251,10 @@ class Listing {
 
   /// Searches the past for a setting that the journal has forgotten. Only a program that sets modes very often makes it
   /// forget any, so the line is near.
-  std::optional<std::uint64_t> find_setting_line(ModalGroup group, std::uint8_t number) const {
+  std::optional<std::size_t> find_setting_line(ModalGroup group, std::uint8_t number) const {
     constexpr std::uint64_t kFar = 65536;
     const std::uint64_t blocks = present().blocks();
-    std::uint64_t line = 0;
+    std::size_t line = 0;
     const auto found =
         session_.debuggee().find_back(blocks - std::min(blocks, kFar), blocks, [&](const running::Block& block) {
           if (block.state.mode(group) == number) return false;

@@ -69,8 +69,8 @@ class PlainRun {
 
   [[gnu::always_inline]] void move_axes(const syntax::PlainLine& line) {
     for (const syntax::Word& word : line.words) {
-      const auto axis = static_cast<unsigned>(word.letter - 'X');
-      if (axis <= 2) [[likely]] {
+      const std::ptrdiff_t axis = word.letter - 'X';
+      if (axis >= 0 && axis <= 2) [[likely]] {
         move(state_.position.tip[axis], word.value * scale_);
       } else if (word.letter == 'B' || word.letter == 'C') {
         move(word.letter == 'B' ? state_.position.b : state_.position.c, word.value);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -47,7 +48,7 @@ class PathRecording {
   /// Times are stored as differences to the previous point, in units of 10 ns, so that a shift at the start changes
   /// only one number.
   double last_time_ = 0;
-  std::uint64_t last_line_ = 0;
+  std::size_t last_line_ = 0;
   std::uint64_t last_tool_ = 0;
   std::int64_t last_feed_ = 0;
   std::uint64_t points_since_turn_ = 0;

@@ -184,7 +184,7 @@ Pose Toolpath::mount(execution::ToolCode tool) {
   return kinematics::pose(kinematics::forward(kinematics, joints, tool_length_));
 }
 
-void Toolpath::add_frame(const running::FrameEvent& event, std::uint64_t line) {
+void Toolpath::add_frame(const running::FrameEvent& event, std::size_t line) {
   geometry::Frame frame;
   frame.origin = event.workpiece_origin;
   if (event.face_mounted) frame = {event.workpiece_origin + event.face.origin, event.face.axes};

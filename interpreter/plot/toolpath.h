@@ -29,7 +29,7 @@ enum class StepKind : std::uint8_t { Rapid, Feed, Arc, Wait };
 
 /// The machine's activity for one block: a motion, or time at rest.
 struct ToolpathStep {
-  std::uint64_t line = 0;  ///< From 0.
+  std::size_t line = 0;  ///< From 0.
   StepKind kind = StepKind::Rapid;
   std::size_t tool = 0;  ///< Index in tools().
   double feed = 0;       ///< Same units as feed_of().
@@ -40,7 +40,7 @@ struct ToolpathStep {
 /// A frame that was in force, in machine coordinates, and the line that first mounted it, from 0.
 struct ToolpathFrame {
   geometry::Frame frame;
-  std::uint64_t line = 0;
+  std::size_t line = 0;
 };
 
 /// Collects the path of the tool tip from the reports of Timing, as the machine takes it: with rounded corners, split
@@ -69,7 +69,7 @@ class Toolpath {
   bool may_skip_to(const ToolpathPoint& point) const;
   void keep_last();
   geometry::Pose mount(execution::ToolCode tool);
-  void add_frame(const running::FrameEvent& event, std::uint64_t line);
+  void add_frame(const running::FrameEvent& event, std::size_t line);
   void add_step(const simulation::TimedEvent& timed, StepKind kind, double feed);
 
   const simulation::TimedMachine& machine_;

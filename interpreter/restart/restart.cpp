@@ -61,14 +61,14 @@ namespace {
 /// The start of a line, and the number of lines before it.
 struct LineStart {
   std::size_t offset = 0;
-  std::uint64_t line = 0;
+  std::size_t line = 0;
   bool is_there = false;
 };
 
-LineStart find_line(std::string_view text, std::uint64_t line) {
+LineStart find_line(std::string_view text, std::size_t line) {
   const char* p = text.data();
   const char* const end = text.data() + text.size();
-  std::uint64_t count = 0;
+  std::size_t count = 0;
   for (; count < line && p != end; ++count) p = text::skip_line_end(text::find_line_end(p, end), end);
   return {static_cast<std::size_t>(p - text.data()), count, p != end};
 }
@@ -81,9 +81,7 @@ std::string_view line_end_of(std::string_view text) {
   return {p, static_cast<std::size_t>(text::skip_line_end(p, end) - p)};
 }
 
-std::uint64_t count_lines(std::string_view text) {
-  return find_line(text, std::numeric_limits<std::uint64_t>::max()).line;
-}
+std::size_t count_lines(std::string_view text) { return find_line(text, std::numeric_limits<std::size_t>::max()).line; }
 
 bool is_near(const geometry::Vec3& a, const geometry::Vec3& b) {
   return (a - b).cwiseAbs().maxCoeff() <= geometry::kEqualCoordinate;
@@ -126,7 +124,7 @@ struct RestartTrial {
 };
 
 /// Runs the restart program as the control would, from home.
-RestartTrial try_program(std::string_view program, std::uint64_t preamble_lines, const RestartSurvey& survey,
+RestartTrial try_program(std::string_view program, std::size_t preamble_lines, const RestartSurvey& survey,
                          const RestartOptions& options) {
   const RestartPoint& point = survey.point();
   // If the tip is off the program, the restart starts from another programmed position; runs_alike() checks the rest.
@@ -163,12 +161,12 @@ RestartTrial try_program(std::string_view program, std::uint64_t preamble_lines,
 class RemainingRun {
  public:
   struct RemainingMotion {
-    std::uint64_t line = 0;  // Counted from the start line.
+    std::size_t line = 0;  // Counted from the start line.
     execution::MoveKind kind = execution::MoveKind::Rapid;
     kinematics::Move move;
   };
 
-  RemainingRun(std::string_view text, const RestartOptions& options, std::uint64_t line)
+  RemainingRun(std::string_view text, const RestartOptions& options, std::size_t line)
       : line_(line), program_(text), runner_(program_, options.run), course_(options.machine, options.run.setup.home) {
     while (!runner_.has_ended() && runner_.place().line < line) step();
   }
@@ -197,7 +195,7 @@ class RemainingRun {
       motions_.push_back({event.line - line_, std::get<running::MoveEvent>(event.what).kind, move});
   }
 
-  const std::uint64_t line_;
+  const std::size_t line_;
   const running::Program program_;
   running::Runner runner_;
   simulation::MachineCourse course_;
@@ -225,7 +223,7 @@ bool is_same(const RemainingRun::RemainingMotion& a, const RemainingRun::Remaini
 }
 
 /// Whether the machine makes the same motions in a restart program as in the original.
-bool runs_alike(std::string_view text, std::string_view program, std::uint64_t preamble_lines,
+bool runs_alike(std::string_view text, std::string_view program, std::size_t preamble_lines,
                 const RestartOptions& options) {
   RemainingRun original(text, options, options.line);
   RemainingRun restarted(program, options, preamble_lines);
@@ -249,7 +247,7 @@ RestartAttempt attempt(std::string_view text, const RestartOptions& options, con
   if (made.obstacle != RestartObstacle::None) return made;
   const RestartPoint& point = survey.point();
   made.program = restart_preamble(point, options, line_end_of(text));
-  const std::uint64_t preamble_lines = count_lines(made.program);
+  const std::size_t preamble_lines = count_lines(made.program);
   made.program += text.substr(find_line(text, options.line).offset);
   const RestartTrial trial = try_program(made.program, preamble_lines, survey, options);
   if (point.is_off_program && !(trial.is_proved && runs_alike(text, made.program, preamble_lines, options))) {
@@ -270,7 +268,7 @@ class Proposals {
   Proposals(std::string_view text, const RestartOptions& options, const RestartSurvey& survey)
       : text_(text), options_(options), survey_(survey) {}
 
-  bool fits(std::uint64_t line) {
+  bool fits(std::size_t line) {
     if (!survey_.is_safe(line)) return false;
     if (!survey_.is_off_program(line)) return true;
     constexpr int kMaxTrials = 4;
@@ -292,10 +290,10 @@ class Proposals {
 void propose_lines(std::string_view text, const RestartOptions& options, const RestartSurvey& survey,
                    RestartRefusal& refusal) {
   Proposals above(text, options, survey);
-  for (std::uint64_t line = std::min(refusal.line, survey.end()); line-- > 0 && !refusal.before;)
+  for (std::size_t line = std::min(refusal.line, survey.end()); line-- > 0 && !refusal.before;)
     if (above.fits(line)) refusal.before = line;
   Proposals below(text, options, survey);
-  for (std::uint64_t line = refusal.line + 1; line < survey.end() && !refusal.after; ++line)
+  for (std::size_t line = refusal.line + 1; line < survey.end() && !refusal.after; ++line)
     if (below.fits(line)) refusal.after = line;
 }
 

@@ -13,13 +13,13 @@ namespace isocnc::restart {
 /// The reason why there is no restart program, and the nearest lines with one. Lines from 0.
 struct RestartRefusal {
   RestartObstacle obstacle = RestartObstacle::None;
-  std::uint64_t line = 0;               ///< The requested line.
-  std::uint64_t cause = 0;              ///< The IF or M02 that skips the line; for NoSuchLine the number of lines.
-  bool has_choices = false;             ///< Another VGPL or register might lead to other lines.
-  int g = 0;                            ///< The G in force that prevents the restart: 2, 3, 41 or 42.
-  std::optional<std::uint64_t> before;  ///< The nearest safe line above.
-  std::optional<std::uint64_t> after;   ///< The nearest safe line below.
-  kinematics::Overtravel overtravel;    ///< For BeyondTravel: the axis, its position and its limit.
+  std::size_t line = 0;               ///< The requested line.
+  std::size_t cause = 0;              ///< The IF or M02 that skips the line; for NoSuchLine the number of lines.
+  bool has_choices = false;           ///< Another VGPL or register might lead to other lines.
+  int g = 0;                          ///< The G in force that prevents the restart: 2, 3, 41 or 42.
+  std::optional<std::size_t> before;  ///< The nearest safe line above.
+  std::optional<std::size_t> after;   ///< The nearest safe line below.
+  kinematics::Overtravel overtravel;  ///< For BeyondTravel: the axis, its position and its limit.
   running::RunResult run;  ///< For ProgramError: the result with the error; refers to the text of the program.
 };
 

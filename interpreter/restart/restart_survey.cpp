@@ -63,7 +63,7 @@ void TipLog::add(const running::FrameEvent& frame, const geometry::Vec3& tip) {
 }
 
 RestartSurvey::RestartSurvey(std::string_view text, const running::RunOptions& options,
-                             const simulation::TimedMachine& machine, std::uint64_t line)
+                             const simulation::TimedMachine& machine, std::size_t line)
     : line_(line),
       known_radii_(machine.tool_radii),
       machine_(machine),
@@ -188,11 +188,11 @@ std::uint16_t RestartSurvey::traits_of(const running::Block& block) const {
   return static_cast<std::uint16_t>(traits);
 }
 
-bool RestartSurvey::has(std::uint64_t line, std::uint16_t trait) const {
+bool RestartSurvey::has(std::size_t line, std::uint16_t trait) const {
   return line < traits_.size() && (traits_[line] & trait) != 0;
 }
 
-RestartObstacle RestartSurvey::obstacle(std::uint64_t line) const {
+RestartObstacle RestartSurvey::obstacle(std::size_t line) const {
   if (run_.ending == running::Ending::Error) return RestartObstacle::ProgramError;
   if (!has(line, kReached))
     return line < traits_.size() ? RestartObstacle::JumpedOver : RestartObstacle::AfterProgramEnd;
@@ -206,11 +206,11 @@ RestartObstacle RestartSurvey::obstacle(std::uint64_t line) const {
   return RestartObstacle::None;
 }
 
-bool RestartSurvey::is_safe(std::uint64_t line) const {
+bool RestartSurvey::is_safe(std::size_t line) const {
   return line < traits_.size() && !has(line, kIdle) && obstacle(line) == RestartObstacle::None;
 }
 
-std::uint64_t RestartSurvey::line_of_cause(std::uint64_t line) const {
+std::size_t RestartSurvey::line_of_cause(std::size_t line) const {
   for (const auto& [from, to] : jumps_)
     if (from < line && line < to) return from;
   return run_.line;
@@ -221,13 +221,13 @@ bool RestartSurvey::has_choices() const {
 }
 
 /// Whether the next block is a G09. Blank lines and comments between a feed move and its G09 do not count.
-bool RestartSurvey::exact_stop_follows(std::uint64_t line) const {
+bool RestartSurvey::exact_stop_follows(std::size_t line) const {
   while (has(line, kReached) && has(line, kIdle)) ++line;
   return has(line, kStopsExactly);
 }
 
 /// Whether a later line may need the motion G in force. After an IF both paths are possible, so the answer is yes.
-bool RestartSurvey::continues_motion(std::uint64_t line) const {
+bool RestartSurvey::continues_motion(std::size_t line) const {
   for (; line < traits_.size(); ++line) {
     if (has(line, kContinues | kJumps)) return true;
     if (has(line, kNamesMotion)) return false;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -89,22 +90,22 @@ class RestartSurvey {
  public:
   /// `line` (from 0) is the line of point().
   RestartSurvey(std::string_view text, const running::RunOptions& options, const simulation::TimedMachine& machine,
-                std::uint64_t line);
+                std::size_t line);
   RestartSurvey(const RestartSurvey&) = delete;
   RestartSurvey& operator=(const RestartSurvey&) = delete;
 
   const running::RunResult& run() const { return run_; }
-  RestartObstacle obstacle(std::uint64_t line) const;
+  RestartObstacle obstacle(std::size_t line) const;
   /// The line of the IF or M02 by which a line is not run.
-  std::uint64_t line_of_cause(std::uint64_t line) const;
+  std::size_t line_of_cause(std::size_t line) const;
   /// Whether the line can be proposed: it has no obstacle and a block with an effect.
-  bool is_safe(std::uint64_t line) const;
+  bool is_safe(std::size_t line) const;
   /// Whether the machine is off the program before the line. Only a trial shows whether the rest runs alike from there.
-  bool is_off_program(std::uint64_t line) const { return has(line, kOffProgram); }
+  bool is_off_program(std::size_t line) const { return has(line, kOffProgram); }
   /// Whether the run has an IF that could jump differently.
   bool has_choices() const;
   /// One past the last line the run has reached.
-  std::uint64_t end() const { return traits_.size(); }
+  std::size_t end() const { return traits_.size(); }
   /// The state before `line`. Complete if obstacle() is None or concerns the approach only.
   const RestartPoint& point() const { return point_; }
 
@@ -131,11 +132,11 @@ class RestartSurvey {
   void find_tip();
   void note(const running::Block& block);
   std::uint16_t traits_of(const running::Block& block) const;
-  bool has(std::uint64_t line, std::uint16_t trait) const;
-  bool exact_stop_follows(std::uint64_t line) const;
-  bool continues_motion(std::uint64_t line) const;
+  bool has(std::size_t line, std::uint16_t trait) const;
+  bool exact_stop_follows(std::size_t line) const;
+  bool continues_motion(std::size_t line) const;
 
-  const std::uint64_t line_;
+  const std::size_t line_;
   const std::map<execution::ToolCode, double> known_radii_;
   simulation::TimedMachine machine_;
   simulation::MachineCourse course_;
@@ -145,11 +146,11 @@ class RestartSurvey {
   RestartPoint now_;  // Facts before the line that the run has reached.
   RestartPoint point_;
   std::vector<std::uint16_t> traits_;
-  std::vector<std::pair<std::uint64_t, std::uint64_t>> jumps_;  // Taken jumps, from an IF to a label.
-  bool is_tip_found_ = false;                                   // The tip in now_ is up to date.
-  geometry::Vec3 tip_ = geometry::Vec3::Zero();                 // The tip in the frame in force.
-  bool has_unknown_radius_ = false;                             // The radius of the mounted tool is unknown.
-  bool is_beside_by_unknown_ = false;                           // Such a tool is offset from a contour.
+  std::vector<std::pair<std::size_t, std::size_t>> jumps_;  // Taken jumps, from an IF to a label.
+  bool is_tip_found_ = false;                               // The tip in now_ is up to date.
+  geometry::Vec3 tip_ = geometry::Vec3::Zero();             // The tip in the frame in force.
+  bool has_unknown_radius_ = false;                         // The radius of the mounted tool is unknown.
+  bool is_beside_by_unknown_ = false;                       // Such a tool is offset from a contour.
   bool changed_low_ = false;  // The frame has changed low before the line that the run has reached.
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -48,7 +48,7 @@ struct JumpEvent {
   static constexpr bool kStopsReading = true;
 
   bool taken = false;
-  std::uint64_t target_line = 0;  ///< Line at which the program continues, from 0.
+  std::size_t target_line = 0;  ///< Line at which the program continues, from 0.
 };
 /// A G whose effect has no data, such as G990, at which the run waits until the control has reread its technological
 /// parameters (I.3.11). The G's row holds the kind, and whether it stops reading.
@@ -65,7 +65,7 @@ struct EndEvent {
 
 /// One effect of a program, with its line (from 0).
 struct Event {
-  std::uint64_t line = 0;
+  std::size_t line = 0;
   std::variant<MoveEvent, DwellEvent, SpindleSpeedEvent, FunctionEvent, ToolEvent, FrameEvent, JumpEvent, SignalEvent,
                ExactStopEvent, EndEvent>
       what;

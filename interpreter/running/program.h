@@ -11,7 +11,7 @@ namespace isocnc::running {
 
 /// The start of a line of a program.
 struct LinePlace {
-  std::uint64_t line = 0;  ///< From 0.
+  std::size_t line = 0;    ///< From 0.
   std::size_t offset = 0;  ///< Offset of the line's first byte.
 
   friend bool operator==(const LinePlace&, const LinePlace&) = default;
@@ -33,7 +33,7 @@ class Program {
   bool has_label_above(const LinePlace& jump, std::uint64_t label) const;
 
  private:
-  std::optional<LinePlace> find_label(std::uint64_t label, LinePlace from, std::uint64_t end_line) const;
+  std::optional<LinePlace> find_label(std::uint64_t label, LinePlace from, std::size_t end_line) const;
 
   std::string_view text_;
   mutable std::mutex mutex_;

@@ -20,7 +20,7 @@ namespace {
 /// Collects the effects of one block, so that a block with an error has none.
 class BlockSink final : public execution::Sink {
  public:
-  BlockSink(std::uint64_t line, std::vector<Event>& events, RunResult& result)
+  BlockSink(std::size_t line, std::vector<Event>& events, RunResult& result)
       : Sink(true), is_tool_unused(result.is_tool_unused), line_(line), events_(events), registers_(result.registers) {}
 
   std::optional<syntax::Finding> error;
@@ -63,7 +63,7 @@ class BlockSink final : public execution::Sink {
     event.what = std::move(what);
   }
 
-  std::uint64_t line_;
+  std::size_t line_;
   std::vector<Event>& events_;
   Registers& registers_;
 };
@@ -228,7 +228,7 @@ bool Runner::holds(const syntax::Jump& jump) const {
   return false;
 }
 
-void Runner::end(Ending ending, std::uint64_t line) {
+void Runner::end(Ending ending, std::size_t line) {
   result_.ending = ending;
   result_.line = line;
   has_ended_ = true;

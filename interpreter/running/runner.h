@@ -20,7 +20,7 @@ using Registers = std::array<double, dialect::kRegisterCount + 1>;
 
 /// A line that a run is about to execute. Lines that a jump skips do not count.
 struct Block {
-  std::uint64_t line = 0;  ///< From 0.
+  std::size_t line = 0;  ///< From 0.
   const syntax::LineTree& tree;
   const execution::State& state;  ///< State before the block.
   const Registers& registers;     ///< Values before the block.
@@ -35,7 +35,7 @@ struct RunOptions {
   double vgpl = 0;        ///< The GPL variable that IF compares (I.5).
   Registers registers{};  ///< Values at the start.
   /// Line (from 0) before which the run stops; if a jump skips it, the run stops at the jump's target.
-  std::optional<std::uint64_t> until;
+  std::optional<std::size_t> until;
   /// Whether an error ends the run, as on the control; otherwise it continues as a checker does.
   bool stop_at_errors = true;
   std::function<void(const Block&)> before_block;  ///< Optional callback to follow the state of run().
@@ -46,14 +46,14 @@ enum class Ending : std::uint8_t { ProgramEnd, Error, Until };
 
 struct RunResult {
   Ending ending = Ending::ProgramEnd;
-  std::uint64_t line = 0;  ///< Line of the end, from 0.
+  std::size_t line = 0;  ///< Line of the end, from 0.
   std::string_view line_text;
   syntax::Finding error;   ///< Set if `ending` is Error.
   execution::State state;  ///< State at the end.
   Registers registers{};
-  std::uint64_t blocks = 0;                       ///< Number of blocks executed.
-  bool is_tool_unused = false;                    ///< A tool is mounted, and no feed move or user M has followed.
-  std::optional<std::uint64_t> jumped_over_from;  ///< For Until: line (from 0) of the IF that skips the requested line.
+  std::uint64_t blocks = 0;                     ///< Number of blocks executed.
+  bool is_tool_unused = false;                  ///< A tool is mounted, and no feed move or user M has followed.
+  std::optional<std::size_t> jumped_over_from;  ///< For Until: line (from 0) of the IF that skips the requested line.
 };
 
 /// A run that advances line by line and can be stopped between any two. A value: a copy runs independently, exactly as
@@ -127,7 +127,7 @@ class Runner {
   bool execute_around_jump(const syntax::LineTree& tree, execution::Sink& sink);
   void branch(const syntax::Jump& jump, bool is_taken, const LinePlace& from);
   bool holds(const syntax::Jump& jump) const;
-  void end(Ending ending, std::uint64_t line);
+  void end(Ending ending, std::size_t line);
   void fail(const syntax::Finding& error);
 
   const Program* program_;

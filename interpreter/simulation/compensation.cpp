@@ -200,7 +200,7 @@ void Compensation::go_beside(const running::Event& event, const Listeners& liste
 
 /// Reports a motion from the actual tip position. While the tip is offset, each motion gets the normal, so that a copy
 /// of the machine can continue from it.
-void Compensation::go(std::uint64_t line, const running::MoveEvent& move, const Listeners& listeners) {
+void Compensation::go(std::size_t line, const running::MoveEvent& move, const Listeners& listeners) {
   running::MoveEvent gone = move;
   if (is_beside_) gone.normal = plane_.normal;
   gone.from.tip = tip_.tip;
@@ -214,16 +214,16 @@ void Compensation::go(std::uint64_t line, const running::MoveEvent& move, const 
 }
 
 std::size_t Compensation::memory() const {
-  return waiting_.size() * sizeof(HeldEvent) + lines_.size() * sizeof(std::uint64_t) + contour_.memory();
+  return waiting_.size() * sizeof(HeldEvent) + lines_.size() * sizeof(std::size_t) + contour_.memory();
 }
 
-std::uint64_t Compensation::line_of(std::uint64_t element) const {
+std::size_t Compensation::line_of(std::uint64_t element) const {
   const auto since = static_cast<std::size_t>(elements_ - element);
   return lines_[lines_.size() - 1 - std::min(since, lines_.size() - 1)];
 }
 
 /// Returns the number of a new element, from 1.
-std::uint64_t Compensation::count(std::uint64_t line) {
+std::uint64_t Compensation::count(std::size_t line) {
   lines_.push_back(line);
   if (lines_.size() > kLinesKept) lines_.pop_front();
   return ++elements_;

@@ -13,7 +13,7 @@ namespace isocnc::simulation {
 
 /// A finding during a run that does not stop it.
 struct RunWarning {
-  std::uint64_t line = 0;  ///< From 0.
+  std::size_t line = 0;  ///< From 0.
   dialect::DiagnosticId id = dialect::kNoDiagnostic;
   std::array<double, dialect::kMaxArguments> values{};
 
@@ -88,9 +88,9 @@ class Compensation {
   void pass_on_before(std::uint64_t element, const Listeners& listeners);
   void go_along(const geometry::OffsetPiece& piece, const Listeners& listeners);
   void go_beside(const running::Event& event, const Listeners& listeners);
-  void go(std::uint64_t line, const running::MoveEvent& move, const Listeners& listeners);
-  std::uint64_t line_of(std::uint64_t element) const;
-  std::uint64_t count(std::uint64_t line);
+  void go(std::size_t line, const running::MoveEvent& move, const Listeners& listeners);
+  std::size_t line_of(std::uint64_t element) const;
+  std::uint64_t count(std::size_t line);
 
   const TimedMachine* machine_;
   double radius_ = 0;  // Radius of the mounted tool, mm.
@@ -101,7 +101,7 @@ class Compensation {
   bool is_beside_ = false;  // The tip is off the programmed position.
   geometry::Pose tip_;      // Position of the tip while it is off the program.
   std::deque<HeldEvent> waiting_;
-  std::deque<std::uint64_t> lines_;  // Lines of the last elements.
+  std::deque<std::size_t> lines_;  // Lines of the last elements.
   std::uint64_t elements_ = 0;
 };
 

@@ -6,7 +6,7 @@ namespace isocnc::simulation {
 
 static constexpr std::size_t kMaxFrames = 100;
 
-void FrameLog::take(const running::FrameEvent& event, std::uint64_t line) {
+void FrameLog::take(const running::FrameEvent& event, std::size_t line) {
   const bool dismounts = face_ && !event.face_mounted && event.workpiece_origin == workpiece_.frame.origin;
   face_.reset();
   if (event.face_mounted) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -14,7 +14,7 @@ namespace isocnc::simulation {
 
 /// The range of the tip's positions while a frame was in force, in its coordinates; mm.
 struct FrameExtents {
-  std::uint64_t line = 0;  ///< From 0: the G92 of a workpiece frame, or the G24, G28 or G29 of a face frame.
+  std::size_t line = 0;  ///< From 0: the G92 of a workpiece frame, or the G24, G28 or G29 of a face frame.
   bool is_face = false;
   geometry::Frame frame;  ///< In the machine frame.
   std::array<geometry::Range, 3> extents;
@@ -24,7 +24,7 @@ struct FrameExtents {
 /// frame. The machine frame, in force before any G92, is not recorded.
 class FrameLog {
  public:
-  void take(const running::FrameEvent& event, std::uint64_t line);
+  void take(const running::FrameEvent& event, std::size_t line);
   /// `extents`: in the machine frame.
   void take(const kinematics::Machine& machine, const kinematics::Move& move,
             const std::array<geometry::Range, 3>& extents);
@@ -36,7 +36,7 @@ class FrameLog {
 
  private:
   struct InForce {
-    std::optional<std::uint64_t> line;  ///< None: the machine frame.
+    std::optional<std::size_t> line;  ///< None: the machine frame.
     geometry::Frame frame;
     std::optional<std::size_t> place;  ///< Index in frames_; past its end for a frame left out.
   };

@@ -60,16 +60,16 @@ void History::start_from(Predicate&& predicate) {
 }
 
 /// Whether the next block is on the line or before it. Jumps lead forward only (I.5), so lines are reached in order.
-static bool comes_to(const running::Runner& runner, std::uint64_t line) {
+static bool comes_to(const running::Runner& runner, std::size_t line) {
   return !runner.has_ended() && runner.place().line <= line;
 }
 
-void History::skip_to_line(std::uint64_t line) {
+void History::skip_to_line(std::size_t line) {
   if (!comes_to(present_.runner(), line)) return;
   start_from([line](const Simulation& simulation) { return comes_to(simulation.runner(), line); });
 }
 
-std::optional<std::uint64_t> History::find_line(std::uint64_t line) const {
+std::optional<std::uint64_t> History::find_line(std::size_t line) const {
   const auto after = std::partition_point(checkpoints_.begin() + 1, checkpoints_.end(), [line](const Checkpoint& each) {
     return comes_to(each.simulation->runner(), line);
   });

@@ -46,12 +46,12 @@ class History {
 
   /// Goes forward to the last checkpoint that is not past the line. Without a checkpoint nearer than the present
   /// nothing changes.
-  void skip_to_line(std::uint64_t line);
+  void skip_to_line(std::size_t line);
   /// Restores an earlier present. No register or VGPL may have been set since.
   void return_to(const Simulation& before) { present_ = before; }
 
   /// Number of blocks executed before that of a line after the present; none if the run does not reach the line.
-  std::optional<std::uint64_t> find_line(std::uint64_t line) const;
+  std::optional<std::uint64_t> find_line(std::size_t line) const;
 
   /// Finds the last of the blocks [from, blocks) before which `is_it` holds. Returns the number of blocks executed
   /// before it.

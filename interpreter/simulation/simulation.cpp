@@ -232,7 +232,7 @@ Timing::Listeners Simulation::listeners() {
           }};
 }
 
-std::uint64_t Simulation::line() const {
+std::size_t Simulation::line() const {
   if (in_block_) return line_;
   return present_.has_ended() ? run().line : present_.place().line;
 }

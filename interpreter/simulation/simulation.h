@@ -74,7 +74,7 @@ class Simulation {
   bool is_in_block() const { return in_block_; }
   /// Line of the block in progress or, between two blocks, of the next one; from 0. At the end the last line of the
   /// run.
-  std::uint64_t line() const;
+  std::size_t line() const;
   /// State and registers after the block in progress, and the reason of the end if the program has ended.
   const running::RunResult& run() const { return present_.result(); }
   /// The run without the machine, between the block in progress and the next one.
@@ -150,7 +150,7 @@ class Simulation {
   Timing::SpindleMotion spindle_;
   double time_ = 0;
   bool in_block_ = false;
-  std::uint64_t line_ = 0;       ///< Line of the block in progress.
+  std::size_t line_ = 0;         ///< Line of the block in progress.
   std::uint64_t stretches_ = 0;  ///< Number of stretches planned.
 };
 

@@ -57,7 +57,7 @@ void Summary::spend(Work work, double seconds) {
   share().times[static_cast<std::size_t>(work)] += seconds;
 }
 
-void Summary::add_move(const running::MoveEvent& move, const kinematics::Move& real, std::uint64_t line) {
+void Summary::add_move(const running::MoveEvent& move, const kinematics::Move& real, std::size_t line) {
   const auto [length, linear] = kinematics::tip_travel(machine_.motion, real);
   Travelled& travelled = moves_[static_cast<std::size_t>(move.kind)];
   ++travelled.count;
@@ -74,7 +74,7 @@ void Summary::add_move(const running::MoveEvent& move, const kinematics::Move& r
   look_at_speeds(real, length, line);
 }
 
-void Summary::look_at_travel(const kinematics::Move& real, std::uint64_t line) {
+void Summary::look_at_travel(const kinematics::Move& real, std::size_t line) {
   if (!checks_travel_) return;
   for (const kinematics::Overtravel& found : kinematics::overtravels(machine_.motion, real)) {
     const std::size_t side = found.position > found.limit ? 1 : 0;
@@ -86,7 +86,7 @@ void Summary::look_at_travel(const kinematics::Move& real, std::uint64_t line) {
 }
 
 /// Checks the programmed speeds of a feed move, even those the machine does not reach.
-void Summary::look_at_speeds(const kinematics::Move& real, double length, std::uint64_t line) {
+void Summary::look_at_speeds(const kinematics::Move& real, double length, std::size_t line) {
   if (real.feed.kind == kinematics::FeedKind::Rapid) return;
   const double b = std::abs(real.to.b - real.from.b);
   const double c = std::abs(real.to.c - real.from.c);
@@ -110,7 +110,7 @@ double Summary::limit_of(Limit limit) const {
   return machine_.spindle_speed;
 }
 
-void Summary::ask_for(Limit limit, double value, std::uint64_t line) {
+void Summary::ask_for(Limit limit, double value, std::size_t line) {
   constexpr double kRounding = 1 + 1e-9;
   if (!(value > limit_of(limit) * kRounding)) return;
   std::optional<Excess>& excess = excesses_[static_cast<std::size_t>(limit)];

@@ -31,8 +31,8 @@ struct ToolShare {
 
 /// A joint that would leave its travel.
 struct TravelBreach {
-  std::uint64_t line = 0;  ///< Line of the first breach, from 0.
-  double farthest = 0;     ///< mm or degrees.
+  std::size_t line = 0;  ///< Line of the first breach, from 0.
+  double farthest = 0;   ///< mm or degrees.
   double limit = 0;
 };
 
@@ -45,8 +45,8 @@ enum class Limit : std::uint8_t {
 inline constexpr std::size_t kLimitCount = 3;
 
 struct Excess {
-  std::uint64_t line = 0;  ///< First line that exceeds the limit, from 0.
-  double maximum = 0;      ///< Maximum value in the program.
+  std::size_t line = 0;  ///< First line that exceeds the limit, from 0.
+  double maximum = 0;    ///< Maximum value in the program.
 };
 
 /// Totals of a run.
@@ -74,10 +74,10 @@ class Summary {
   ToolShare& share();
   void mount(std::optional<execution::ToolCode> tool);
   void spend(Work work, double seconds);
-  void add_move(const running::MoveEvent& move, const kinematics::Move& real, std::uint64_t line);
-  void look_at_travel(const kinematics::Move& real, std::uint64_t line);
-  void look_at_speeds(const kinematics::Move& real, double length, std::uint64_t line);
-  void ask_for(Limit limit, double value, std::uint64_t line);
+  void add_move(const running::MoveEvent& move, const kinematics::Move& real, std::size_t line);
+  void look_at_travel(const kinematics::Move& real, std::size_t line);
+  void look_at_speeds(const kinematics::Move& real, double length, std::size_t line);
+  void ask_for(Limit limit, double value, std::size_t line);
   double limit_of(Limit limit) const;
   /// Programmed tip position at the end.
   geometry::Pose final_pose() const;

@@ -375,7 +375,7 @@ bool LineParser::stands_alone(const Instruction& alone) const {
 bool LineParser::is_reported_not_alone() const {
   const auto is_interpolation = [](const Finding& finding) { return finding.id == "g48-g49-not-alone"_diag; };
   return (line_.flags & LineTree::kAloneViolated) != 0 &&
-         std::none_of(store_.findings_.begin() + line_.first_finding, store_.findings_.end(), is_interpolation);
+         std::none_of(own_findings(), store_.findings_.end(), is_interpolation);
 }
 
 /// G41/G42: alone or before a motion. G40: alone or after the last motion (D24).

@@ -8,7 +8,7 @@
 
 namespace isocnc::syntax {
 
-std::string_view LineFinder::line(std::uint64_t index) {
+std::string_view LineFinder::line(std::size_t index) {
   if (found_ && index == at_) return line_;
   const char* p = rest_.data();
   const char* const end = rest_.data() + rest_.size();

@@ -54,7 +54,7 @@ std::uint16_t LineParser::end_jump(std::uint16_t last) {
   if (!is_no_word(word(next))) return last;
   const Span rest = hull(word(next).span(), word(word_count() - 1u).span());
   auto& findings = store_.findings_;
-  findings.erase(std::remove_if(findings.begin() + line_.first_finding, findings.end(),
+  findings.erase(std::remove_if(own_findings(), findings.end(),
                                 [&](const Finding& finding) { return finding.span.begin >= rest.begin; }),
                  findings.end());
   report("if-malformed/after-label"_cause, rest);

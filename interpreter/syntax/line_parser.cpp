@@ -20,7 +20,7 @@ const char* LineParser::parse() {
   line_.comments = static_cast<std::uint32_t>(store_.comments_.size() - line_.first_comment);
   line_.findings = static_cast<std::uint32_t>(store_.findings_.size() - line_.first_finding);
   if (line_.findings > 1)
-    std::stable_sort(store_.findings_.end() - line_.findings, store_.findings_.end(),
+    std::stable_sort(own_findings(), store_.findings_.end(),
                      [](const Finding& a, const Finding& b) { return a.span.begin < b.span.begin; });
   store_.lines_.push_back(line_);
   return end;
@@ -36,8 +36,7 @@ void LineParser::report(dialect::Cause cause, Span span, std::initializer_list<d
 /// Removes a finding, where one mistake has been reported twice.
 void LineParser::take_back(dialect::DiagnosticId id, Span span) {
   auto& findings = store_.findings_;
-  const auto first = findings.begin() + line_.first_finding;
-  findings.erase(std::remove_if(first, findings.end(),
+  findings.erase(std::remove_if(own_findings(), findings.end(),
                                 [&](const Finding& finding) { return finding.id == id && finding.span == span; }),
                  findings.end());
 }
@@ -45,7 +44,7 @@ void LineParser::take_back(dialect::DiagnosticId id, Span span) {
 void LineParser::take_back_within(Span span) {
   auto& findings = store_.findings_;
   const auto is_within = [&](const Finding& it) { return it.span.begin >= span.begin && it.span.end <= span.end; };
-  findings.erase(std::remove_if(findings.begin() + line_.first_finding, findings.end(), is_within), findings.end());
+  findings.erase(std::remove_if(own_findings(), findings.end(), is_within), findings.end());
 }
 
 /// Reports a missing word, unless a comment is not closed: the word may be in it, and the comment has been reported.

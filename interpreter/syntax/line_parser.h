@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
@@ -188,6 +189,8 @@ class LineParser {
   void report(dialect::Cause cause, Span span, std::initializer_list<double> values = {}, Span related = {});
   void take_back(dialect::DiagnosticId id, Span span);
   void take_back_within(Span span);
+  /// The first finding of the line.
+  auto own_findings() const { return store_.findings_.begin() + static_cast<std::ptrdiff_t>(line_.first_finding); }
   void report_missing(dialect::Cause cause, const Instruction& lacking, Span related = {});
   std::uint32_t column(const char* p) const { return static_cast<std::uint32_t>(p - begin_); }
   std::string_view text_of(Span span) const { return {begin_ + span.begin, span.end - span.begin}; }

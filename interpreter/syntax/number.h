@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -20,7 +21,7 @@ struct Number {
 
   /// Whether blanks or comments stand among its characters, from `begin` on.
   bool has_more_inside(const char* begin) const {
-    return end - begin != digits + (is_signed ? 1 : 0) + (has_point ? 1 : 0);
+    return static_cast<std::size_t>(end - begin) != std::size_t{digits} + (is_signed ? 1 : 0) + (has_point ? 1 : 0);
   }
 };
 

@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <cstdint>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <variant>
@@ -22,7 +22,7 @@ static constexpr std::string_view kKind = "refactor.rewrite.isocnc.restart";
 namespace {
 
 struct RestartParams {
-  std::uint64_t line = 0;  // The line to restart from, counted from 0 as in the whole protocol.
+  std::size_t line = 0;  // The line to restart from, counted from 0 as in the whole protocol.
   std::optional<double> vgpl;
 };
 
@@ -40,7 +40,7 @@ std::string name_of(const Snapshot& snapshot) {
 }
 
 /// `part-from-120.iso` beside `part.iso`, with the line counted from 1.
-std::string uri_of_restart(const std::string& uri, std::uint64_t line) {
+std::string uri_of_restart(const std::string& uri, std::size_t line) {
   const std::size_t name = uri.find_last_of("/:") + 1;
   const std::size_t point = uri.find_last_of('.');
   const bool has_extension = point != std::string::npos && point > name;

@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <cstdint>
+#include <cstddef>
 #include <string>
 
 #include "interpreter/dialect/format.h"
@@ -66,7 +66,7 @@ BackgroundRequest resolve_lens(const Snapshot& snapshot, const LensResolveParams
   const auto times = queries::SectionTimes::of(snapshot);
   const auto known = times->known(snapshot);
   const auto program = known ? nullptr : std::make_shared<queries::TimedProgram>(snapshot, 0);
-  return [times, known, program, lens = params.lens, line = data.at("line").get<std::uint64_t>(),
+  return [times, known, program, lens = params.lens, line = data.at("line").get<std::size_t>(),
           language = snapshot.language()](const std::function<bool()>& stop) mutable {
     static constexpr Text kNotRun = {"not run", "non eseguita"};
     const auto sections = known ? known : times->time(*program, stop);

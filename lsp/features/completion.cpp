@@ -347,7 +347,8 @@ class Completer {
     std::array<std::size_t, dialect::kRegisterCount + 1> lines{};
     for (const documents::Landmark& each :
          snapshot_.index().landmarks(documents::kinds(documents::LandmarkKind::Assignment)))
-      if (each.line < place_.line || lines[each.number] == 0) lines[each.number] = each.line + 1u;
+      if (std::size_t& line = lines[static_cast<std::size_t>(each.number)]; each.line < place_.line || line == 0)
+        line = each.line + 1u;
     for (std::size_t number = 1; number < lines.size(); ++number) {
       const std::string label = fmt::format("V{}", number);
       const std::string written = fmt::format("{}{}", label, after);

@@ -16,8 +16,8 @@ struct Fold {
   std::size_t last_line = 0;  ///< Inclusive.
   const char* kind = nullptr;
 
-  friend auto operator<=>(const Fold& a, const Fold& b) {
-    return std::pair(a.first_line, a.last_line) <=> std::pair(b.first_line, b.last_line);
+  friend bool operator<(const Fold& a, const Fold& b) {
+    return std::pair(a.first_line, a.last_line) < std::pair(b.first_line, b.last_line);
   }
 };
 

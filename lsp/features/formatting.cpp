@@ -69,7 +69,7 @@ std::string in_capitals(const syntax::LineTree& line) {
   std::string text(line.text);
   std::transform(text.begin(), text.end(), text.begin(), text::upper);
   for (const syntax::Span comment : line.comments)
-    std::copy(line.text.begin() + comment.begin, line.text.begin() + comment.end, text.begin() + comment.begin);
+    text.replace(comment.begin, comment.end - comment.begin, line.text_of(comment));
   return text;
 }
 

@@ -23,7 +23,7 @@ struct Adder {
 
   const simulation::TimedMachine& machine;
   Sections sections;
-  std::uint64_t line = 0;
+  std::size_t line = 0;
 };
 
 }  // namespace

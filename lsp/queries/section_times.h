@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -20,7 +21,7 @@ struct TimedSection {
 
 /// The completed tool sections by the line of their M06. Line 0, unless it has an M06, stands for the part before the
 /// first.
-using Sections = std::map<std::uint64_t, TimedSection>;
+using Sections = std::map<std::size_t, TimedSection>;
 
 /// Text such as `1:02:03`, rounded to seconds.
 std::string clock_text(double seconds);

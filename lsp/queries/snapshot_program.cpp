@@ -49,12 +49,12 @@ fixes::Habits& SnapshotProgram::habits() {
   return memory->of(snapshot_);
 }
 
-syntax::LineTree SnapshotProgram::line(std::uint64_t line) {
+syntax::LineTree SnapshotProgram::line(std::size_t line) {
   if (++lines_seen_ % kLinesWithoutPause == 0) snapshot_.throw_if_unwanted();
   return *line_.emplace(snapshot_.document().line(line));
 }
 
-bool SnapshotProgram::is_read(std::uint64_t line) {
+bool SnapshotProgram::is_read(std::size_t line) {
   const syntax::DocumentLine next = snapshot_.document().line(line);
   return !snapshot_.frontier_before(line).live_at(*next).empty();
 }

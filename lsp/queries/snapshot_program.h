@@ -15,13 +15,13 @@ class SnapshotProgram final : public fixes::FixProgram {
 
   const execution::Setup& setup() const override { return snapshot_.setup(); }
   const dialect::LintThresholds& thresholds() const override { return snapshot_.check_setup().thresholds; }
-  std::uint64_t line_count() const override { return snapshot_.document().line_count(); }
-  std::string_view text(std::uint64_t line) override { return snapshot_.document().text_of_line(line); }
-  syntax::LineTree line(std::uint64_t line) override;
-  std::optional<execution::State> state_before(std::uint64_t line) override { return snapshot_.state_before(line); }
+  std::size_t line_count() const override { return snapshot_.document().line_count(); }
+  std::string_view text(std::size_t line) override { return snapshot_.document().text_of_line(line); }
+  syntax::LineTree line(std::size_t line) override;
+  std::optional<execution::State> state_before(std::size_t line) override { return snapshot_.state_before(line); }
   /// The habits, found by one check of the whole text and kept until the document changes.
   fixes::Habits& habits() override;
-  bool is_read(std::uint64_t line) override;
+  bool is_read(std::size_t line) override;
   bool is_jumped_to(std::uint64_t label) override;
 
  private:

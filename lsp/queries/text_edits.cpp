@@ -54,7 +54,7 @@ class Merge {
  public:
   explicit Merge(const documents::Snapshot& snapshot) : snapshot_(snapshot), count_(snapshot.document().line_count()) {}
 
-  void add(std::string_view line, std::string_view terminator, std::uint64_t origin) {
+  void add(std::string_view line, std::string_view terminator, std::size_t origin) {
     const bool is_old = origin >= next_ && origin < count_ && snapshot_.document().terminator(origin) == terminator;
     if (!is_old) {
       fresh_.append(line).append(terminator);
@@ -90,11 +90,11 @@ class Merge {
 }  // namespace
 
 std::vector<protocol::TextEdit> edits_to(const documents::Snapshot& snapshot, std::string_view text,
-                                         const std::vector<std::uint64_t>& origins) {
+                                         const std::vector<std::size_t>& origins) {
   Merge merge(snapshot);
   const char* const end = text.data() + text.size();
   const char* line = text.data();
-  for (const std::uint64_t origin : origins) {
+  for (const std::size_t origin : origins) {
     const char* const line_end = text::find_line_end(line, end);
     const char* const next = text::skip_line_end(line_end, end);
     merge.add({line, static_cast<std::size_t>(line_end - line)}, {line_end, static_cast<std::size_t>(next - line_end)},

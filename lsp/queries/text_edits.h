@@ -24,7 +24,7 @@ std::vector<protocol::TextEdit> to_client(const documents::Snapshot& snapshot, c
 /// The edits that turn the document into `text`. `origins` gives, for each line of `text`, the line of the document
 /// that it comes from, in ascending order, or any other number for a new line. Unchanged lines are not touched.
 std::vector<protocol::TextEdit> edits_to(const documents::Snapshot& snapshot, std::string_view text,
-                                         const std::vector<std::uint64_t>& origins);
+                                         const std::vector<std::size_t>& origins);
 
 /// The edits as JSON text, written without building a tree: a program may change on every line.
 protocol::RawJson written(const std::vector<protocol::TextEdit>& edits);
