@@ -22,7 +22,7 @@ using rpc::Json;
 static constexpr std::size_t kMaxThreads = 32;
 
 Server::Server(rpc::Loop& loop, rpc::Send send, std::optional<dialect::Language> language)
-    : loop_(loop), outbox_(std::move(send)), language_(language), pool_(kMaxThreads) {
+    : loop_(loop), outbox_(std::move(send)), language_(language), pool_(loop, kMaxThreads) {
   for (const features::Feature* const feature : all_features()) {
     for (const features::Method& method : feature->methods) methods_[method.name] = method;
     for (const features::WorkspaceRequest& workspace_request : feature->workspace_requests)

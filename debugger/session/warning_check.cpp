@@ -15,12 +15,12 @@
 namespace isocnc::session {
 
 using dialect::Language;
-using Warnings = std::multimap<std::uint64_t, breakpoints::Warning>;
+using Warnings = std::multimap<std::size_t, breakpoints::Warning>;
 
 /// The lines with labels that jumps name, ascending.
-static std::vector<std::uint64_t> find_jump_targets(std::string_view text) {
+static std::vector<std::size_t> find_jump_targets(std::string_view text) {
   const check::JumpMap jumps(text);
-  std::vector<std::uint64_t> lines;
+  std::vector<std::size_t> lines;
   if (jumps.empty()) return lines;
   check::each_event_in(text, [&](const check::FlowEvent& event) {
     if (event.kind == check::FlowEvent::Kind::Label && jumps.names(event.label)) lines.push_back(event.line);
@@ -30,9 +30,9 @@ static std::vector<std::uint64_t> find_jump_targets(std::string_view text) {
 
 /// The lines on which a run may meet a warning first: its own, and of those that repeat it (D66) the first after each
 /// label, since a jump to it may have passed over the others.
-static std::set<std::uint64_t> first_lines(const check::LocatedFinding& found, const check::Report& report,
-                                           const std::vector<std::uint64_t>& jump_targets) {
-  std::set<std::uint64_t> lines = {found.line};
+static std::set<std::size_t> first_lines(const check::LocatedFinding& found, const check::Report& report,
+                                         const std::vector<std::size_t>& jump_targets) {
+  std::set<std::size_t> lines = {found.line};
   if (found.repetitions < 0) return lines;
   for (auto target = std::upper_bound(jump_targets.begin(), jump_targets.end(), found.line);
        target != jump_targets.end(); ++target)
@@ -50,13 +50,13 @@ static Warnings find_warnings(const debuggee::Debuggee& debuggee, const std::fil
   const std::string_view text = debuggee.text().text();
   const rules::CheckSetup setup{debuggee.setup(), settings.setup.thresholds, settings.setup.every_motion};
   const check::Report report = selection::shown_report(check::check_text(text, setup), text, settings.selection);
-  const std::vector<std::uint64_t> jump_targets = find_jump_targets(text);
+  const std::vector<std::size_t> jump_targets = find_jump_targets(text);
   Warnings warnings;
   for (const check::LocatedFinding& found : report.findings) {
     if (found.severity() != dialect::Severity::Warning) continue;
     const std::string_view line = debuggee.text().line(found.line);
     const breakpoints::Warning warning{found.finding.id, formats::message_of(found, report, line, language)};
-    for (const std::uint64_t at : first_lines(found, report, jump_targets)) warnings.emplace(at, warning);
+    for (const std::size_t at : first_lines(found, report, jump_targets)) warnings.emplace(at, warning);
   }
   return warnings;
 }

@@ -12,7 +12,7 @@ namespace isocnc::session {
 class WarningCheck {
  public:
   /// Keeps references to both.
-  WarningCheck(rpc::Loop& loop, SessionState& state) : loop_(loop), state_(state) {}
+  WarningCheck(rpc::Loop& loop, SessionState& state) : loop_(loop), state_(state), pool_(loop, 1) {}
 
   /// Starts where warnings are asked for and the program has not been checked. They go to the exception filters.
   void start_if_needed();
@@ -22,13 +22,13 @@ class WarningCheck {
 
  private:
   void finish(const std::shared_ptr<debuggee::Debuggee>& checked,
-              std::multimap<std::uint64_t, breakpoints::Warning> warnings);
+              std::multimap<std::size_t, breakpoints::Warning> warnings);
 
   rpc::Loop& loop_;
   SessionState& state_;
   bool is_running_ = false;
   bool is_started_ = false;
-  rpc::Pool pool_{1};  ///< Last, so that its thread ends before the rest is destroyed.
+  rpc::Pool pool_;  ///< Last, so that its thread ends before the rest is destroyed.
 };
 
 }  // namespace isocnc::session

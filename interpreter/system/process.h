@@ -34,6 +34,9 @@ void before_forced_end(void (*clean_up)());
 /// are threads.
 void share_one_heap();
 
+/// Whether a program can have more than one thread.
+bool has_threads();
+
 /// Whether a process with this number exists.
 bool is_running(std::int64_t process);
 

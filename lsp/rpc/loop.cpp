@@ -44,4 +44,21 @@ void Loop::run(std::chrono::milliseconds idle_after, const Task& idle) {
   }
 }
 
+std::optional<std::chrono::steady_clock::time_point> Loop::run_due(std::chrono::steady_clock::time_point end) {
+  using Clock = std::chrono::steady_clock;
+  while (!stopped_) {
+    Task task;
+    {
+      const std::lock_guard lock(mutex_);
+      take_due(Clock::now());
+      if (tasks_.empty()) return later_.empty() ? std::nullopt : std::optional(later_.begin()->first);
+      task = std::move(tasks_.front());
+      tasks_.pop_front();
+    }
+    task();
+    if (const Clock::time_point now = Clock::now(); now >= end) return now;
+  }
+  return std::nullopt;
+}
+
 }  // namespace isocnc::rpc

@@ -5,6 +5,7 @@
 #include <deque>
 #include <map>
 #include <mutex>
+#include <optional>
 
 #include "lsp/rpc/task.h"
 
@@ -19,7 +20,12 @@ class Loop {
   void post_at(std::chrono::steady_clock::time_point time, Task task);
   /// Runs tasks until one of them calls stop(). When no task has arrived for `idle_after`, calls `idle`.
   void run(std::chrono::milliseconds idle_after, const Task& idle);
+  /// Runs the tasks that are due, until `end`; then those that are left wait for the next call. Returns when the next
+  /// task is due, nothing if none waits.
+  std::optional<std::chrono::steady_clock::time_point> run_due(std::chrono::steady_clock::time_point end);
   void stop() { stopped_ = true; }
+  /// Used on the loop's thread only.
+  bool is_stopped() const { return stopped_; }
 
  private:
   void take_due(std::chrono::steady_clock::time_point now);

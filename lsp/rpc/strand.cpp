@@ -2,7 +2,11 @@
 
 #include <utility>
 
+#include "interpreter/system/process.h"
+
 namespace isocnc::rpc {
+
+Pool::Pool(Loop& loop, std::size_t max_threads) : loop_(loop), max_threads_(system::has_threads() ? max_threads : 0) {}
 
 Pool::~Pool() {
   std::deque<Task> dropped;
@@ -17,6 +21,7 @@ Pool::~Pool() {
 }
 
 void Pool::post(Task task) {
+  if (max_threads_ == 0) return loop_.post(std::move(task));
   const std::lock_guard lock(mutex_);
   if (is_ending_) return;  // A thread started now would not be joined.
   tasks_.push_back(std::move(task));

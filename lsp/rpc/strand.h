@@ -8,14 +8,16 @@
 #include <thread>
 #include <vector>
 
+#include "lsp/rpc/loop.h"
 #include "lsp/rpc/task.h"
 
 namespace isocnc::rpc {
 
-/// A thread pool. Threads are created when there is work for them, up to a maximum, and then wait for more.
+/// A thread pool. Threads are created when there is work for them, up to a maximum, and then wait for more. Where the
+/// system has no threads, or the maximum is 0, the tasks run on the loop, one after another.
 class Pool {
  public:
-  explicit Pool(std::size_t max_threads) : max_threads_(max_threads) {}
+  Pool(Loop& loop, std::size_t max_threads);
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
   /// Waits for the tasks that have started; the others are dropped.
@@ -27,6 +29,7 @@ class Pool {
  private:
   void work();
 
+  Loop& loop_;
   const std::size_t max_threads_;
   std::mutex mutex_;  // Guards the members below.
   std::condition_variable task_added_;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "lsp/rpc/frame.h"
+#include "lsp/rpc/hosted_peer.h"
 #include "lsp/rpc/message.h"
 #include "lsp/rpc/on_loop.h"
 #include "lsp/rpc/strand.h"
@@ -139,7 +140,8 @@ TEST(ParsedMessage, WhatNestsTooDeeplyIsNoneHoweverLong) {
 }
 
 TEST(Strand, DoesItsTasksInTheirOrderBesideOthers) {
-  Pool pool(4);
+  Loop loop;
+  Pool pool(loop, 4);
   constexpr int kStrands = 8;
   constexpr int kTasks = 500;
   std::vector<std::vector<int>> done(kStrands);
@@ -171,14 +173,84 @@ TEST(Strand, IsDestroyedWithAPoolThatHasNotRunIt) {
     explicit Owner(Pool& pool) : strand(pool) {}
     Strand strand;
   };
-  std::optional<Pool> pool(std::in_place, 0);  // A pool without threads, which runs no task.
+  std::optional<Loop> loop(std::in_place);
+  std::optional<Pool> pool(std::in_place, *loop, 0);  // Its tasks are the loop's, which does not run.
   auto owner = std::make_shared<Owner>(*pool);
   const std::weak_ptr<Owner> watched = owner;
   for (int i = 0; i < 2; ++i) owner->strand.post([owner] {});
   owner.reset();
   EXPECT_FALSE(watched.expired());
   pool.reset();
+  loop.reset();
   EXPECT_TRUE(watched.expired());
+}
+
+TEST(Pool, WithoutThreadsRunsItsTasksOnTheLoop) {
+  Loop loop;
+  Pool pool(loop, 0);
+  StrandBound<std::vector<int>> numbers(pool);
+  std::vector<int> result;
+  for (int i = 0; i < 3; ++i) numbers.post([i](std::vector<int>& bound) { bound.push_back(i); });
+  loop.post([&] { numbers.post([&](const std::vector<int>& bound) { result = bound; }); });
+  EXPECT_TRUE(result.empty());
+  EXPECT_EQ(loop.run_due(std::chrono::steady_clock::time_point::max()), std::nullopt);
+  EXPECT_EQ(result, (std::vector{0, 1, 2}));
+}
+
+TEST(Loop, RunsWhatIsDueUntilItsTimeIsOver) {
+  using Clock = std::chrono::steady_clock;
+  Loop loop;
+  int done = 0;
+  for (int i = 0; i < 3; ++i) loop.post([&] { ++done; });
+  const Clock::time_point later = Clock::now() + std::chrono::hours(1);
+  loop.post_at(later, [&] { ++done; });
+  EXPECT_LT(loop.run_due(Clock::time_point::min()), later);  // One task each time.
+  EXPECT_EQ(done, 1);
+  EXPECT_EQ(loop.run_due(Clock::time_point::max()), later);
+  EXPECT_EQ(done, 3);
+  loop.post([&] { loop.stop(); });
+  loop.post([&] { ++done; });
+  EXPECT_EQ(loop.run_due(Clock::time_point::max()), std::nullopt);
+  EXPECT_EQ(done, 3);
+}
+
+/// Sends back what it receives, and ends at `exit`.
+class Echo final : public Peer {
+ public:
+  Echo(Loop& loop, Send send) : loop_(loop), send_(std::move(send)) {}
+
+  void receive(MessageFrame frame) override {
+    if (frame.body == "exit") return loop_.stop();
+    if (frame.body == "later") loop_.post_at(std::chrono::steady_clock::now() + std::chrono::hours(1), [] {});
+    send_(std::move(frame.body));
+  }
+  void end() override {}
+  int exit_status() const override { return 7; }
+
+ private:
+  Loop& loop_;
+  const Send send_;
+};
+
+TEST(HostedPeer, WorksWhenItsHostLetsIt) {
+  std::vector<std::string> sent;
+  HostedPeer peer([](Loop& loop, Send send) { return std::make_unique<Echo>(loop, std::move(send)); },
+                  [&](std::string body) { sent.push_back(std::move(body)); });
+  constexpr std::chrono::milliseconds kLong = std::chrono::minutes(1);
+  EXPECT_EQ(peer.work(kLong), std::nullopt);
+  peer.receive("one");
+  peer.receive("two");
+  EXPECT_THAT(sent, testing::IsEmpty());
+  EXPECT_EQ(peer.work(std::chrono::milliseconds(0)), std::chrono::milliseconds(0));  // One task, and more to do.
+  EXPECT_THAT(sent, testing::ElementsAre("one"));
+  peer.receive("later");
+  EXPECT_GT(peer.work(kLong), std::chrono::minutes(59));
+  EXPECT_THAT(sent, testing::ElementsAre("one", "two", "later"));
+  EXPECT_FALSE(peer.is_done());
+  peer.receive("exit");
+  EXPECT_EQ(peer.work(kLong), std::nullopt);
+  EXPECT_TRUE(peer.is_done());
+  EXPECT_EQ(peer.exit_status(), 7);
 }
 
 TEST(OnLoop, RunsOnTheThreadOfTheLoop) {
@@ -198,7 +270,8 @@ TEST(OnLoop, RunsOnTheThreadOfTheLoop) {
 }
 
 TEST(StrandBound, KeepsItsValueForTheTasksThatWait) {
-  Pool pool(1);
+  Loop loop;
+  Pool pool(loop, 1);
   std::promise<void> start;
   std::promise<int> result;
   {
@@ -216,7 +289,8 @@ TEST(StrandBound, KeepsItsValueForTheTasksThatWait) {
 TEST(Pool, EndsWhileTasksWait) {
   std::atomic<int> done = 0;
   {
-    Pool pool(1);
+    Loop loop;
+    Pool pool(loop, 1);
     for (int i = 0; i < 100; ++i) pool.post([&] { ++done; });
   }
   EXPECT_LE(done, 100);
@@ -225,7 +299,8 @@ TEST(Pool, EndsWhileTasksWait) {
 /// A task that is posted while the pool is ending does not start.
 TEST(Pool, EndsWhileTasksPostOthers) {
   for (int round = 0; round < 200; ++round) {
-    Pool pool(32);
+    Loop loop;
+    Pool pool(loop, 32);
     for (int i = 0; i < 8; ++i)
       pool.post([&] {
         for (int j = 0; j < 16; ++j) pool.post([] {});
@@ -235,7 +310,8 @@ TEST(Pool, EndsWhileTasksPostOthers) {
 
 TEST(Strand, MayBePostedToWhileItsPoolEnds) {
   for (int round = 0; round < 200; ++round) {
-    std::optional<Pool> pool(std::in_place, 4);
+    Loop loop;
+    std::optional<Pool> pool(std::in_place, loop, 4);
     const auto strand = std::make_shared<Strand>(*pool);
     const std::weak_ptr<Strand> watched = strand;
     for (int i = 0; i < 4; ++i)

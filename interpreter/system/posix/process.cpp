@@ -45,6 +45,8 @@ void share_one_heap() {
 #endif
 }
 
+bool has_threads() { return true; }
+
 bool is_running(std::int64_t process) { return ::kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH; }
 
 std::filesystem::path program_file() {

@@ -54,6 +54,8 @@ void before_forced_end(void (*clean_up)()) {
 
 void share_one_heap() {}
 
+bool has_threads() { return true; }
+
 bool is_running(std::int64_t process) {
   HANDLE const opened = ::OpenProcess(SYNCHRONIZE, FALSE, static_cast<DWORD>(process));
   if (opened == nullptr) return ::GetLastError() != ERROR_INVALID_PARAMETER;
