@@ -51,17 +51,11 @@ if(EXISTS ${OUT} AND EXISTS ${OUT}.made-of)
   endif()
 endif()
 
-file(LOCK ${VIEW} DIRECTORY)  # All builds share what npm installs.
-set(installed ${VIEW}/node_modules/.package-lock.json)
-if(NOT EXISTS ${installed} OR ${VIEW}/package-lock.json IS_NEWER_THAN ${installed})
-  execute_process(
-    COMMAND ${NPM} ci --omit=dev --ignore-scripts --no-audit --no-fund --loglevel=error --fetch-retries=1
-            --fetch-retry-mintimeout=1000
-    WORKING_DIRECTORY ${VIEW} RESULT_VARIABLE status OUTPUT_QUIET)
-  if(NOT status EQUAL 0)
-    do_without("npm could not install what toolpath-view/package-lock.json names")
-    return()
-  endif()
+include(${CMAKE_CURRENT_LIST_DIR}/npm_install.cmake)
+npm_install(${VIEW} ${NPM} status --omit=dev)
+if(NOT status EQUAL 0)
+  do_without("npm could not install what toolpath-view/package-lock.json names")
+  return()
 endif()
 execute_process(COMMAND ${NODE} build.mjs ${OUT}.new WORKING_DIRECTORY ${VIEW} RESULT_VARIABLE status)
 if(NOT status EQUAL 0)

@@ -2198,7 +2198,9 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
      .right = ""},
 };
 
-static_assert(std::ranges::equal(kDiagnostics, kDiagnosticNames, {}, &DiagnosticDef::name),
+static_assert(std::equal(std::begin(kDiagnostics), std::end(kDiagnostics), std::begin(kDiagnosticNames),
+                         std::end(kDiagnosticNames),
+                         [](const DiagnosticDef& row, std::string_view name) { return row.name == name; }),
               "CMakeLists.txt reads one name from each row: a line with `.name = \"...\"`");
 
 /// Whether kCauseNames holds the names of all causes, in the order of the table.

@@ -48,7 +48,8 @@ bool lies_in(const std::string& path, const std::string& folder) { return path.s
 /// The module of a file. The sources of one operating system belong to the folder that theirs lies in.
 std::string folder_of(const std::string& file) {
   const fs::path folder = fs::path(file).parent_path();
-  const bool is_of_one_system = folder.filename() == "posix" || folder.filename() == "windows";
+  const std::string name = folder.filename();
+  const bool is_of_one_system = name == "posix" || name == "windows" || name == "web";
   return is_of_one_system ? folder.parent_path() : folder;
 }
 
@@ -183,7 +184,7 @@ TEST(Architecture, NoSourceAsksForTheTimeOfDay) {
 TEST(Architecture, OneModuleKnowsOperatingSystems) {
   static const std::regex kHeader(
       R"((sys|net|netinet|arpa)/.*|unistd\.h|fcntl\.h|poll\.h|malloc\.h|termios\.h|csignal|signal\.h|)"
-      R"(windows\.h|winsock2\.h|ws2tcpip\.h|io\.h)");
+      R"(windows\.h|winsock2\.h|ws2tcpip\.h|io\.h|emscripten\.h)");
   static const std::regex kCondition(R"(#\s*(el)?ifn?(def)?\b.*\b(_WIN32|__unix__|__linux__|__EMSCRIPTEN__))");
   int count = 0;
   for (const std::string& file : sources()) {

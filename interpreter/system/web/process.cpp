@@ -1,0 +1,27 @@
+#include "interpreter/system/process.h"
+
+#include <cstdlib>
+
+namespace isocnc::system {
+
+void prepare_process() {}
+
+ProgramArguments::ProgramArguments(int argc, char** argv) : pointers_(argv, argv + argc) {
+  pointers_.push_back(nullptr);
+}
+
+/// No signal arrives here.
+void before_forced_end(void (*)()) {}
+
+void share_one_heap() {}
+
+bool has_threads() { return false; }
+
+/// The process that started a server is the page or the editor that holds it.
+bool is_running(std::int64_t) { return true; }
+
+std::filesystem::path program_file() { return {}; }
+
+std::string user_locale() { return {}; }
+
+}  // namespace isocnc::system

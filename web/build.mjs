@@ -1,0 +1,46 @@
+// Makes the npm package of the module: node build.mjs [FOLDER OF THE BUILD]
+// In its folder npm/ it gathers the loaders and the module of bin/, what is bundled of src/, and the declarations of its types.
+import { execFileSync } from 'node:child_process';
+import { chmodSync, cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { join, resolve } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { build } from 'esbuild';
+
+const root = fileURLToPath(new URL('..', import.meta.url));
+const here = join(root, 'web');
+const made = resolve(process.argv[2] ?? join(root, 'build/web'));
+const target = join(made, 'npm');
+
+rmSync(target, { recursive: true, force: true });
+for (const folder of ['bin', 'dist']) mkdirSync(join(target, folder), { recursive: true });
+for (const name of ['isocnc.mjs', 'isocnc-node.cjs', 'isocnc.wasm']) cpSync(join(made, 'bin', name), join(target, 'dist', name));
+chmodSync(join(target, 'dist/isocnc.wasm'), 0o644);
+
+/** Both loaders are the same module's: what imports glue.ts gets the one for pages. */
+const glue = (inside) => ({
+  name: 'glue',
+  setup(bundle) {
+    bundle.onResolve({ filter: /^\.\/glue$/ }, () => (inside ? { path: join(made, 'bin/isocnc.mjs') } : { path: './isocnc.mjs', external: true }));
+  },
+});
+const common = { bundle: true, charset: 'utf8', target: 'es2022', logLevel: 'warning', absWorkingDir: here };
+await Promise.all([
+  build({ ...common, entryPoints: ['src/index.ts'], outfile: join(target, 'dist/index.js'), format: 'esm', external: ['node:*'], plugins: [glue(false)] }),
+  build({ ...common, entryPoints: ['src/command.ts'], outfile: join(target, 'dist/command.js'), format: 'esm', platform: 'node' }),
+  build({ ...common, entryPoints: ['src/stdio.ts'], outfile: join(made, 'emulated/stdio.mjs'), format: 'esm', platform: 'node' }),
+  build({ ...common, entryPoints: ['src/worker.ts'], outfile: join(target, 'dist/worker.js'), format: 'iife', minify: true, plugins: [glue(true)], define: { 'import.meta.url': '""' }, external: ['module'] }),
+]);
+execFileSync(join(here, 'node_modules/.bin/tsc'), ['--noEmit', 'false', '--emitDeclarationOnly', '--outDir', join(target, 'types')], { cwd: here, stdio: 'inherit' });
+cpSync(join(target, 'types/index.d.ts'), join(target, 'dist/index.d.ts'));
+rmSync(join(target, 'types'), { recursive: true });
+
+for (const program of ['isolint', 'isofmt', 'isorun']) {
+  const file = join(target, 'bin', `${program}.js`);
+  writeFileSync(file, `#!/usr/bin/env node\nimport { main } from '../dist/command.js';\nawait main('${program}');\n`);
+  chmodSync(file, 0o755);
+}
+const json = JSON.parse(readFileSync(join(here, 'package.json'), 'utf8'));
+for (const key of ['scripts', 'devDependencies']) delete json[key];
+writeFileSync(join(target, 'package.json'), `${JSON.stringify(json, null, 2)}\n`);
+cpSync(join(root, 'LICENSE'), join(target, 'LICENSE'));
+cpSync(join(here, 'README.md'), join(target, 'README.md'));

@@ -1,0 +1,130 @@
+/** The checker, the formatter and the simulated machine for ISOCNC programs, on texts in memory. Works in pages and in Node.js. */
+import makeModule from './glue';
+import { run as runProgram, type Module, type Program } from './module';
+
+export interface Options {
+  /** The language of messages; else English. */
+  language?: 'en' | 'it';
+  /** What an isocnc.json beside the program says: its text, or its value. */
+  configuration?: string | object;
+  /** What the program is called in messages; else program.iso. */
+  filename?: string;
+  /** Further options of the command, as in a shell: `['--select', 'ALL']`. */
+  args?: readonly string[];
+}
+
+export interface RunOptions extends Options {
+  /** Whether the result has each event of the run. */
+  trace?: boolean;
+}
+
+/** A place, from 1; columns count characters, and the end is the first one after it. */
+export interface Range {
+  line: number;
+  column: number;
+  endLine: number;
+  endColumn: number;
+}
+
+/** One of those that `isolint --format json` prints. */
+export interface Finding extends Range {
+  file: string;
+  severity: 'error' | 'warning' | 'info';
+  code: string;
+  name: string;
+  message: string;
+  url: string;
+  fix: { title: string; safe: boolean; edits: (Range & { text: string })[] } | null;
+  /** The jumps by which the finding is reached, where it is not on all paths. */
+  path: { line: number; text: string }[] | null;
+  /** How many lines repeat the finding, and the last of them. */
+  repeats?: number;
+  lastLine?: number;
+}
+
+/** What `isorun --json` prints, and with `trace` the events that `isorun --trace` writes. */
+export interface Run {
+  [key: string]: unknown;
+  trace?: Record<string, unknown>[];
+}
+
+/** What a command says instead of a result: a mistake in the options or the configuration, or a text that is no program. */
+export class CommandError extends Error {
+  override readonly name = 'CommandError';
+}
+
+/** The content of isocnc.wasm. */
+async function readWasm(): Promise<ArrayBuffer | Uint8Array> {
+  const place = new URL('./isocnc.wasm', import.meta.url);
+  if (place.protocol !== 'file:') {
+    const response = await fetch(place);
+    if (!response.ok) throw new Error(`isocnc.wasm: ${response.status} ${response.statusText}`);
+    return response.arrayBuffer();
+  }
+  const { readFile } = await import('node:fs/promises');
+  return readFile(place);
+}
+
+let loaded: Promise<Module> | undefined;
+
+/** Loads the module, once. The other functions do so by themselves. */
+export async function load(wasmBinary?: ArrayBuffer | Uint8Array): Promise<void> {
+  loaded ??= makeModule({ wasmBinary: wasmBinary ?? (await readWasm()) });
+  await loaded;
+}
+
+const home = '/isocnc';
+const [input, output, complaints, trace] = ['/isocnc.in', '/isocnc.out', '/isocnc.err', '/isocnc.trace'];
+
+/** Makes a standard stream a file. */
+function redirect(module: Module, descriptor: number, path: string, flags: string): void {
+  module.FS.close(module.FS.streams[descriptor]!);
+  module.FS.open(path, flags); // Takes the lowest number that is free.
+}
+
+/** What the command writes to `wanted`, by default its standard output. Calls at the same time run one after another. */
+async function command(program: Program, text: string, options: Options, args: readonly string[], wanted = [output]): Promise<string[]> {
+  await load();
+  const module = await loaded!;
+  const { FS } = module;
+  FS.mkdirTree(home);
+  FS.chdir(home);
+  FS.writeFile(input, text);
+  FS.writeFile(output, '');
+  FS.writeFile(complaints, '');
+  const { configuration } = options;
+  const own: string[] = ['--lang', options.language ?? 'en'];
+  if (configuration === undefined) own.push('--no-config');
+  else FS.writeFile(`${home}/isocnc.json`, typeof configuration === 'string' ? configuration : JSON.stringify(configuration));
+  redirect(module, 0, input, 'r');
+  redirect(module, 1, output, 'w');
+  redirect(module, 2, complaints, 'w');
+  const status = runProgram(module, program, [...args, ...own, ...(options.args ?? []), '-']);
+  if (status === 2) throw new CommandError(FS.readFile(complaints, { encoding: 'utf8' }).trim());
+  return wanted.map((path) => FS.readFile(path!, { encoding: 'utf8' }));
+}
+
+/** The findings of a program, as `isolint --format json` gives them. */
+export async function check(text: string, options: Options = {}): Promise<Finding[]> {
+  const name = options.filename ?? 'program.iso';
+  const [json] = await command('isolint', text, options, ['--format', 'json', '--stdin-filename', name]);
+  return JSON.parse(json!) as Finding[];
+}
+
+/** The program as `isofmt` writes it. */
+export async function format(text: string, options: Options = {}): Promise<string> {
+  const name = options.filename ?? 'program.iso';
+  const [formatted] = await command('isofmt', text, options, ['--stdout', '--stdin-filename', name]);
+  return formatted!;
+}
+
+/** Runs a program on the simulated machine: the summary of `isorun --json`. A program that the control would stop has a result that says so. */
+export async function run(text: string, options: RunOptions = {}): Promise<Run> {
+  if (!options.trace) {
+    const [json] = await command('isorun', text, options, ['--json']);
+    return JSON.parse(json!) as Run;
+  }
+  const [json, events] = await command('isorun', text, options, ['--json', '--trace', trace!], [output, trace]);
+  const lines = events!.split('\n').filter((line) => line !== '');
+  return { ...(JSON.parse(json!) as Run), trace: lines.map((line) => JSON.parse(line) as Record<string, unknown>) };
+}

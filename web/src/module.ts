@@ -1,0 +1,69 @@
+/** The WebAssembly module as Emscripten's loader gives it: what web/module.cpp exports, and the files it sees. */
+
+export type Program = 'isolint' | 'isofmt' | 'isorun';
+export type Server = 'isols' | 'isodap';
+
+/** The files that the module sees: in a page they are in memory. */
+export interface Files {
+  cwd(): string;
+  chdir(path: string): void;
+  mkdirTree(path: string): void;
+  writeFile(path: string, content: string | Uint8Array): void;
+  readFile(path: string): Uint8Array;
+  readFile(path: string, options: { encoding: 'utf8' }): string;
+  unlink(path: string): void;
+  rename(from: string, to: string): void;
+  analyzePath(path: string): { exists: boolean };
+  open(path: string, flags: string): { fd: number };
+  close(stream: { fd: number }): void;
+  streams: { fd: number }[];
+}
+
+export interface Module {
+  readonly FS: Files;
+  readonly ENV: Record<string, string | undefined>;
+  readonly HEAPU32: Uint32Array;
+  allocateUTF8(text: string): number;
+  _free(address: number): void;
+  _malloc(size: number): number;
+  _isocnc_run(count: number, texts: number): number;
+  _isocnc_begin(server: number, language: number): number;
+  _isocnc_receive(conversation: number, body: number): void;
+  _isocnc_work(conversation: number, milliseconds: number): number;
+  _isocnc_end(conversation: number): number;
+  /** Gets the messages of servers, as JSON. */
+  onmessage?: (conversation: number, body: string) => void;
+}
+
+export interface ModuleOptions {
+  wasmBinary: ArrayBuffer | Uint8Array;
+  /** Whether a standard stream is a terminal; otherwise none is. */
+  isTerminal?: (descriptor: number) => boolean;
+  preRun?: ((module: Module) => void)[];
+}
+
+export type MakeModule = (options: ModuleOptions) => Promise<Module>;
+
+/** Calls `use` with texts in the module's memory. */
+export function withTexts<Result>(module: Module, texts: readonly string[], use: (...addresses: number[]) => Result): Result {
+  const addresses = texts.map((text) => module.allocateUTF8(text));
+  try {
+    return use(...addresses);
+  } finally {
+    for (const address of addresses) module._free(address);
+  }
+}
+
+/** Runs a command, and returns its exit status. */
+export function run(module: Module, program: Program, args: readonly string[]): number {
+  const texts = [program, ...args];
+  return withTexts(module, texts, (...addresses) => {
+    const list = module._malloc(4 * (texts.length + 1));
+    module.HEAPU32.set([...addresses, 0], list / 4);
+    try {
+      return module._isocnc_run(texts.length, list);
+    } finally {
+      module._free(list);
+    }
+  });
+}

@@ -1,0 +1,60 @@
+/**
+ * A web worker that holds one server: `isols` or `isodap`. The first message starts it; then each message with `files`
+ * changes the files that the server sees, and every other one goes to the server, whose messages come back as objects.
+ */
+import { Conversation } from './conversation';
+import makeModule from './glue';
+import type { Module, Server } from './module';
+
+export interface Start {
+  server: Server;
+  /** The content of isocnc.wasm, or where it is. */
+  wasm: ArrayBuffer | string;
+  /** en, it, or empty for what the client asks for. */
+  language?: string;
+}
+
+export interface Changes {
+  /** The new content of files by absolute paths; null where a file has been removed. */
+  files: Record<string, Uint8Array | string | null>;
+}
+
+const scope = globalThis as unknown as {
+  onmessage: ((event: { data: unknown }) => void) | null;
+  postMessage(message: unknown): void;
+  close(): void;
+};
+
+function change(module: Module, { files }: Changes): void {
+  for (const [path, content] of Object.entries(files)) {
+    if (content !== null) {
+      module.FS.mkdirTree(path.slice(0, path.lastIndexOf('/')) || '/');
+      module.FS.writeFile(path, content);
+    } else if (module.FS.analyzePath(path).exists) {
+      module.FS.unlink(path);
+    }
+  }
+}
+
+async function start({ server, wasm, language }: Start): Promise<(data: unknown) => void> {
+  const wasmBinary = typeof wasm === 'string' ? await (await fetch(wasm)).arrayBuffer() : wasm;
+  const module = await makeModule({ wasmBinary });
+  const conversation = new Conversation(
+    module,
+    server,
+    language ?? '',
+    (body) => scope.postMessage(JSON.parse(body)),
+    () => scope.close(),
+  );
+  return (data) => {
+    if (typeof data === 'object' && data !== null && 'files' in data) change(module, data as Changes);
+    else conversation.send(JSON.stringify(data));
+  };
+}
+
+// What arrives before the module is there waits.
+let started: Promise<(data: unknown) => void> | null = null;
+scope.onmessage = ({ data }) => {
+  if (started) void started.then((take) => take(data));
+  else started = start(data as Start);
+};
