@@ -4,8 +4,8 @@
 
 namespace isocnc::system {
 
-/// A file that is mapped cannot be cut or replaced, so that a CAM system could not post the program again: here files
-/// are always read.
+/// Where files are always read. Under Windows a file that is mapped cannot be cut or replaced, so that a CAM system
+/// could not post the program again; for WebAssembly there is no memory but the module's.
 MappedFile::MappedFile(const std::filesystem::path&, int, std::size_t size, dialect::Language)
     : size_(size), error_(ENODEV) {}
 
