@@ -147,13 +147,8 @@ Characters first_characters(std::string_view pattern) {
 /// Alternatives of a pattern, and what their texts may start with: few marks and lines need more than that.
 class Patterns {
  public:
-  explicit Patterns(std::string_view patterns) {
-    for (std::size_t at = 0; at < patterns.size();) {
-      const std::size_t end = std::min(patterns.find('|', at), patterns.size());
-      alternatives_.push_back(patterns.substr(at, end - at));
-      firsts_ |= first_characters(alternatives_.back());
-      at = end + 1;
-    }
+  explicit Patterns(std::string_view patterns) : alternatives_(alternatives(patterns)) {
+    for (const std::string_view pattern : alternatives_) firsts_ |= first_characters(pattern);
   }
 
   bool empty() const { return alternatives_.empty(); }
@@ -227,6 +222,16 @@ std::string_view shown_part(const ForeignForm& form, std::string_view line, std:
 }
 
 }  // namespace
+
+std::vector<std::string_view> alternatives(std::string_view patterns) {
+  std::vector<std::string_view> result;
+  for (std::size_t at = 0; at < patterns.size();) {
+    const std::size_t end = std::min(patterns.find('|', at), patterns.size());
+    result.push_back(patterns.substr(at, end - at));
+    at = end + 1;
+  }
+  return result;
+}
 
 const ForeignForm* foreign_form(DiagnosticId id, std::string_view line, std::size_t begin, std::size_t end) {
   if (line.size() > kLongestLine || begin >= end || end > line.size()) return nullptr;

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "interpreter/dialect/diagnostic_id.h"
 
@@ -65,6 +66,9 @@ struct ForeignForm {
 
 /// All forms; of those that fit a finding, the first counts. In foreign_form_table.cpp.
 std::span<const ForeignForm> foreign_forms();
+
+/// The alternatives of `mark` or `line`.
+std::vector<std::string_view> alternatives(std::string_view patterns);
 
 /// The form of other controls that a finding shows, or null. The finding marks the bytes from `begin` to `end` of the
 /// line.

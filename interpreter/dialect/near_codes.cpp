@@ -81,11 +81,7 @@ GNumbers find_foreign_numbers() {
     if (std::find(std::begin(form.diagnostics), std::end(form.diagnostics), "unsupported-g"_diag) ==
         std::end(form.diagnostics))
       continue;
-    for (std::string_view marks = form.mark; !marks.empty();) {
-      const std::size_t end = std::min(marks.find('|'), marks.size());
-      add_numbers(marks.substr(0, end), numbers);
-      marks.remove_prefix(std::min(end + 1, marks.size()));
-    }
+    for (const std::string_view mark : alternatives(form.mark)) add_numbers(mark, numbers);
   }
   for (const int slip : kSlips) numbers.reset(static_cast<std::size_t>(slip));
   return numbers;
