@@ -20,14 +20,14 @@ export class Conversation {
     onMessage: (body: string) => void,
     private readonly onEnd: (exitStatus: number) => void = () => undefined,
   ) {
-    this.number = withTexts(module, [server, language], (name, code) => module._isocnc_begin(name!, code!));
+    this.number = withTexts(module, [server, language], (name, code) => module._isocnc_begin(name, code));
     const others = module.onmessage;
     module.onmessage = (conversation, body) => (conversation === this.number ? onMessage(body) : others?.(conversation, body));
   }
 
   send(body: string): void {
     if (this.isOver) return;
-    withTexts(this.module, [body], (text) => this.module._isocnc_receive(this.number, text!));
+    withTexts(this.module, [body], (text) => this.module._isocnc_receive(this.number, text));
     this.workIn(0);
   }
 

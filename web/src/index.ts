@@ -1,6 +1,7 @@
 /** The checker, the formatter and the simulated machine for ISOCNC programs, on texts in memory. Works in pages and in Node.js. */
 import makeModule from './glue';
-import { run as runProgram, type Module, type Program } from './module';
+import type { Module, Program } from './module';
+import { runOnText } from './streams';
 
 export interface Options {
   /** The language of messages; else English. */
@@ -74,57 +75,43 @@ export async function load(wasmBinary?: ArrayBuffer | Uint8Array): Promise<void>
 }
 
 const home = '/isocnc';
-const [input, output, complaints, trace] = ['/isocnc.in', '/isocnc.out', '/isocnc.err', '/isocnc.trace'];
+const trace = '/isocnc.trace';
 
-/** Makes a standard stream a file. */
-function redirect(module: Module, descriptor: number, path: string, flags: string): void {
-  module.FS.close(module.FS.streams[descriptor]!);
-  module.FS.open(path, flags); // Takes the lowest number that is free.
-}
-
-/** What the command writes to `wanted`, by default its standard output. Calls at the same time run one after another. */
-async function command(program: Program, text: string, options: Options, args: readonly string[], wanted = [output]): Promise<string[]> {
+/** What the command writes to its standard output, or to a `file`. Calls at the same time run one after another. */
+async function command(program: Program, text: string, options: Options, args: readonly string[], file?: string): Promise<string[]> {
   await load();
   const module = await loaded!;
-  const { FS } = module;
-  FS.mkdirTree(home);
-  FS.chdir(home);
-  FS.writeFile(input, text);
-  FS.writeFile(output, '');
-  FS.writeFile(complaints, '');
+  module.FS.mkdirTree(home);
+  module.FS.chdir(home);
   const { configuration } = options;
   const own: string[] = ['--lang', options.language ?? 'en'];
   if (configuration === undefined) own.push('--no-config');
-  else FS.writeFile(`${home}/isocnc.json`, typeof configuration === 'string' ? configuration : JSON.stringify(configuration));
-  redirect(module, 0, input, 'r');
-  redirect(module, 1, output, 'w');
-  redirect(module, 2, complaints, 'w');
-  const status = runProgram(module, program, [...args, ...own, ...(options.args ?? []), '-']);
-  if (status === 2) throw new CommandError(FS.readFile(complaints, { encoding: 'utf8' }).trim());
-  return wanted.map((path) => FS.readFile(path!, { encoding: 'utf8' }));
+  else module.FS.writeFile(`${home}/isocnc.json`, typeof configuration === 'string' ? configuration : JSON.stringify(configuration));
+  const { status, output, complaints } = runOnText(module, program, [...args, ...own, ...(options.args ?? []), '-'], text);
+  if (status === 2) throw new CommandError(complaints.trim());
+  return file === undefined ? [output] : [output, module.FS.readFile(file, { encoding: 'utf8' })];
 }
 
 /** The findings of a program, as `isolint --format json` gives them. */
 export async function check(text: string, options: Options = {}): Promise<Finding[]> {
   const name = options.filename ?? 'program.iso';
   const [json] = await command('isolint', text, options, ['--format', 'json', '--stdin-filename', name]);
-  return JSON.parse(json!) as Finding[];
+  return JSON.parse(json) as Finding[];
 }
 
 /** The program as `isofmt` writes it. */
 export async function format(text: string, options: Options = {}): Promise<string> {
   const name = options.filename ?? 'program.iso';
   const [formatted] = await command('isofmt', text, options, ['--stdout', '--stdin-filename', name]);
-  return formatted!;
+  return formatted;
 }
 
 /** Runs a program on the simulated machine: the summary of `isorun --json`. A program that the control would stop has a result that says so. */
 export async function run(text: string, options: RunOptions = {}): Promise<Run> {
-  if (!options.trace) {
-    const [json] = await command('isorun', text, options, ['--json']);
-    return JSON.parse(json!) as Run;
-  }
-  const [json, events] = await command('isorun', text, options, ['--json', '--trace', trace!], [output, trace]);
-  const lines = events!.split('\n').filter((line) => line !== '');
-  return { ...(JSON.parse(json!) as Run), trace: lines.map((line) => JSON.parse(line) as Record<string, unknown>) };
+  const args = options.trace ? ['--json', '--trace', trace] : ['--json'];
+  const [json, events] = await command('isorun', text, options, args, options.trace ? trace : undefined);
+  const summary = JSON.parse(json) as Run;
+  if (events === undefined) return summary;
+  const lines = events.split('\n').filter((line) => line !== '');
+  return { ...summary, trace: lines.map((line) => JSON.parse(line) as Record<string, unknown>) };
 }

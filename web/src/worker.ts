@@ -1,10 +1,12 @@
 /**
  * A web worker that holds one server: `isols` or `isodap`. The first message starts it; then each message with `files`
- * changes the files that the server sees, and every other one goes to the server, whose messages come back as objects.
+ * changes the files that the server sees, each with `run` runs a command, and every other one goes to the server, whose
+ * messages come back as objects.
  */
 import { Conversation } from './conversation';
 import makeModule from './glue';
-import type { Module, Server } from './module';
+import type { Module, Program, Server } from './module';
+import { runOnText, type Outcome } from './streams';
 
 export interface Start {
   server: Server;
@@ -17,6 +19,15 @@ export interface Start {
 export interface Changes {
   /** The new content of files by absolute paths; null where a file has been removed. */
   files: Record<string, Uint8Array | string | null>;
+}
+
+/** A command to run in the same module; the answer is an Outcome with the same number as `run`. */
+export interface Command {
+  run: number;
+  program: Program;
+  args: readonly string[];
+  /** Its standard input. */
+  text?: string;
 }
 
 const scope = globalThis as unknown as {
@@ -36,6 +47,12 @@ function change(module: Module, { files }: Changes): void {
   }
 }
 
+function answer(module: Module, { run, program, args, text }: Command): Outcome & Pick<Command, 'run'> {
+  return { run, ...runOnText(module, program, args, text) };
+}
+
+const isMessageWith = (member: string, data: unknown) => typeof data === 'object' && data !== null && member in data;
+
 async function start({ server, wasm, language }: Start): Promise<(data: unknown) => void> {
   const wasmBinary = typeof wasm === 'string' ? await (await fetch(wasm)).arrayBuffer() : wasm;
   const module = await makeModule({ wasmBinary });
@@ -47,7 +64,8 @@ async function start({ server, wasm, language }: Start): Promise<(data: unknown)
     () => scope.close(),
   );
   return (data) => {
-    if (typeof data === 'object' && data !== null && 'files' in data) change(module, data as Changes);
+    if (isMessageWith('files', data)) change(module, data as Changes);
+    else if (isMessageWith('run', data)) scope.postMessage(answer(module, data as Command));
     else conversation.send(JSON.stringify(data));
   };
 }

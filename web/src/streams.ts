@@ -1,0 +1,31 @@
+/** Commands on texts: their standard streams are files in the module's memory. */
+import { run, type Module, type Program } from './module';
+
+const [input, output, complaints] = ['/isocnc.in', '/isocnc.out', '/isocnc.err'];
+
+/** What a command has written. */
+export interface Outcome {
+  status: number;
+  output: string;
+  complaints: string;
+}
+
+/** Makes a standard stream a file. */
+function redirect(module: Module, descriptor: number, path: string, flags: string): void {
+  module.FS.close(module.FS.streams[descriptor]);
+  module.FS.open(path, flags); // Takes the lowest number that is free.
+}
+
+/** Runs a command with `text` at its standard input. */
+export function runOnText(module: Module, program: Program, args: readonly string[], text = ''): Outcome {
+  const { FS } = module;
+  FS.writeFile(input, text);
+  FS.writeFile(output, '');
+  FS.writeFile(complaints, '');
+  redirect(module, 0, input, 'r');
+  redirect(module, 1, output, 'w');
+  redirect(module, 2, complaints, 'w');
+  const status = run(module, program, args);
+  const [written, complained] = [output, complaints].map((path) => FS.readFile(path, { encoding: 'utf8' }));
+  return { status, output: written, complaints: complained };
+}
