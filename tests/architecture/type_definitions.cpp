@@ -31,7 +31,7 @@ std::size_t end_of_prose(const std::string& text, std::size_t begin) {
 }
 
 /// The text without comments, directives and what stands between quotes, where a brace or a semicolon means nothing.
-std::string code_of(const std::string& text) {
+std::string code_in(const std::string& text) {
   std::string code;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = end_of_prose(text, at);
@@ -143,7 +143,7 @@ class TypeReader {
 
 std::vector<TypeDefinition> types_defined_in(const std::string& file) {
   TypeReader reader;
-  for (const std::string& token : tokens_of(code_of(read(file)))) reader.read(token);
+  for (const std::string& token : tokens_of(code_in(read(file)))) reader.read(token);
   return reader.types();
 }
 

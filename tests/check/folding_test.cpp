@@ -18,9 +18,9 @@ using dialect::Severity;
 using support::Random;
 using syntax::Document;
 
-const rules::CheckSetup kSetup;
+const rules::CheckSetup kFoldingSetup;
 
-std::string_view code_of(dialect::DiagnosticId id) { return dialect::definition(id).code; }
+std::string_view text_of_code(dialect::DiagnosticId id) { return dialect::definition(id).code; }
 
 /// A line of a program without jumps in which the mistakes that fold are frequent.
 std::string line(Random& random) {
@@ -66,7 +66,8 @@ std::vector<std::string> folded_by_hand(const Report& report, const std::string&
   for (std::uint64_t number = 0; number < document.line_count(); ++number) {
     const auto first = next;
     std::vector<std::string_view> codes;
-    for (; next != report.findings.end() && next->line == number; ++next) codes.push_back(code_of(next->finding.id));
+    for (; next != report.findings.end() && next->line == number; ++next)
+      codes.push_back(text_of_code(next->finding.id));
     for (const char ended : folds_ended_by_text(document.text_of_line(number), codes)) {
       if (ended == '5') open.erase('5');
       if (ended != 'F') continue;
@@ -74,7 +75,7 @@ std::vector<std::string> folded_by_hand(const Report& report, const std::string&
       open.erase('3');
     }
     for (auto each = first; each != next; ++each) {
-      const char fold = fold_of(code_of(each->finding.id));
+      const char fold = fold_of(text_of_code(each->finding.id));
       if (fold != 0 && open.contains(fold)) {
         Mistake& mistake = all[open[fold].place].second;
         ++mistake.repeats;
@@ -82,7 +83,7 @@ std::vector<std::string> folded_by_hand(const Report& report, const std::string&
         continue;
       }
       if (fold != 0) open[fold] = {all.size()};
-      all.push_back({fmt::format("line {}: {}", number, code_of(each->finding.id)), {}});
+      all.push_back({fmt::format("line {}: {}", number, text_of_code(each->finding.id)), {}});
     }
   }
   std::vector<std::string> texts;
@@ -96,7 +97,7 @@ std::vector<std::string> texts_of_folded(const Report& report) {
   std::vector<std::string> texts;
   for (const LocatedFinding& located : report.findings) {
     const auto repetitions = report.repetitions_of(located);
-    texts.push_back(fmt::format("line {}: {}", located.line, code_of(located.finding.id)));
+    texts.push_back(fmt::format("line {}: {}", located.line, text_of_code(located.finding.id)));
     if (!repetitions.empty())
       texts.back() += fmt::format(" and {} more, to {}", repetitions.size(), repetitions.back().line);
   }
@@ -108,7 +109,7 @@ TEST(Folding, FollowsTheRuleLineByLine) {
   for (const std::uint64_t seed : support::seeds(2'000)) {
     Random random(seed);
     const std::string text = program(random, random.between(1, 60));
-    const Report report = check_text(text, kSetup);
+    const Report report = check_text(text, kFoldingSetup);
     const Report shown = folded(report);
     ASSERT_EQ(texts_of_folded(shown), folded_by_hand(report, text)) << "seed " << seed << "\n" << text;
     EXPECT_EQ(folded_size(report), shown.findings.size());
@@ -124,8 +125,9 @@ TEST(Folding, RowsOfPlainLinesFoldAsSingleLinesDo) {
     Random random(seed);
     const std::string text = program(random, 40);
     std::string on_two_paths = "IF VGPL = 1 GOTO N1\nG92 X7\nN1\n" + text;
-    std::vector<std::string> expected = texts_of_folded(folded(check_text("\n\n\n" + text, kSetup)));
-    ASSERT_EQ(texts_of_folded(folded(check_text(on_two_paths, kSetup))), expected) << "seed " << seed << "\n" << text;
+    std::vector<std::string> expected = texts_of_folded(folded(check_text("\n\n\n" + text, kFoldingSetup)));
+    ASSERT_EQ(texts_of_folded(folded(check_text(on_two_paths, kFoldingSetup))), expected) << "seed " << seed << "\n"
+                                                                                          << text;
   }
 }
 
@@ -133,13 +135,13 @@ TEST(Folding, AnEditSplitsAndJoinsFolds) {
   for (const std::uint64_t seed : support::seeds(60)) {
     Random random(seed);
     Document document(program(random, random.one_in(2) ? 40 : 1'200));
-    Analysis analysis(document, kSetup);
+    Analysis analysis(document, kFoldingSetup);
     for (int i = 0; i < 20; ++i) {
       const std::size_t at = random.below(document.line_count());
       document.replace({at, 0}, {at + random.below(3), 0}, random.one_in(3) ? "" : line(random) + "\n");
       analysis.update();
       ASSERT_EQ(support::texts_of(folded(analysis.report())),
-                support::texts_of(folded(check_text(document.text(), kSetup))))
+                support::texts_of(folded(check_text(document.text(), kFoldingSetup))))
           << "seed " << seed << ", edit " << i;
     }
   }
@@ -150,7 +152,7 @@ TEST(Folding, AnExcerptIsTheStartOfTheFoldedReport) {
   for (const std::uint64_t seed : support::seeds(60)) {
     Random random(seed);
     const Document document(program(random, 1'500));
-    const Analysis analysis(document, kSetup);
+    const Analysis analysis(document, kFoldingSetup);
     const std::vector<std::string> all = texts_of_folded(folded(analysis.report()));
     for (const std::size_t maximum : {1u, 40u, 300u, 10'000u}) {
       const FirstFindings first = analysis.excerpt({.max = maximum, .folds = true});
@@ -168,7 +170,7 @@ TEST(Folding, AnEditFarAboveChecksNoMoreLinesThanBefore) {
   std::string text = "M06 T101001\nG01 X0 Y0 F1000\n";
   for (int i = 0; i < 20'000; ++i) text += fmt::format("X{} Y{}\n", i % 50, i % 7);
   Document document(text + "X1 B5\nX2 B6\nM02\n");
-  Analysis analysis(document, kSetup);
+  Analysis analysis(document, kFoldingSetup);
   document.replace({50, 0}, {51, 0}, "X1 Y1 B7\n");
   document.replace({52, 0}, {53, 0}, "X1 Y1 B0\n");
   analysis.update();
@@ -178,9 +180,9 @@ TEST(Folding, AnEditFarAboveChecksNoMoreLinesThanBefore) {
 
 /// A finding does not hide one of higher severity.
 TEST(Folding, KeepsSeveritiesApart) {
-  Report report = check_text("M06 T101001\nG01 X1 B1 F900\nX2 B2\nC9\nC10\nM02\n", kSetup);
+  Report report = check_text("M06 T101001\nG01 X1 B1 F900\nX2 B2\nC9\nC10\nM02\n", kFoldingSetup);
   for (LocatedFinding& located : report.findings)
-    if (code_of(located.finding.id) == "ISO032") located.selected = Severity::Info;
+    if (text_of_code(located.finding.id) == "ISO032") located.selected = Severity::Info;
   EXPECT_THAT(texts_of_folded(folded(report)),
               testing::ElementsAre("line 1: ISO032 and 1 more, to 2", "line 3: ISO047 and 1 more, to 4"));
 }

@@ -11,7 +11,7 @@ namespace {
 using testing::HasSubstr;
 using Json = nlohmann::json;
 
-const std::string kInitialize =
+const std::string kInitializeDebugger =
     frame(R"({"seq":1,"type":"request","command":"initialize","arguments":{"adapterID":"isocnc"}})");
 const std::string kConfigurationDone = frame(R"({"seq":3,"type":"request","command":"configurationDone"})");
 const std::string kDisconnect = frame(R"({"seq":9,"type":"request","command":"disconnect"})");
@@ -21,20 +21,20 @@ std::string launch(const std::string& program) {
   return frame(Json{{"seq", 2}, {"type", "request"}, {"command", "launch"}, {"arguments", arguments}}.dump());
 }
 
-int status_after(const std::string& input) { return run_command({"isodap"}, {.input = input}).status; }
+int isodap_status_after(const std::string& input) { return run_command({"isodap"}, {.input = input}).status; }
 
 TEST(Isodap, EndsAsTheProtocolAsks) {
-  EXPECT_EQ(status_after(kInitialize + kDisconnect), 0);
-  EXPECT_EQ(status_after(kInitialize), 1);
-  EXPECT_EQ(status_after(""), 1);
-  EXPECT_EQ(status_after(kInitialize + "Content-Length: 100\r\n\r\n{"), 1);
+  EXPECT_EQ(isodap_status_after(kInitializeDebugger + kDisconnect), 0);
+  EXPECT_EQ(isodap_status_after(kInitializeDebugger), 1);
+  EXPECT_EQ(isodap_status_after(""), 1);
+  EXPECT_EQ(isodap_status_after(kInitializeDebugger + "Content-Length: 100\r\n\r\n{"), 1);
 }
 
 TEST(Isodap, WritesAllThatItHasToSayBeforeItEnds) {
   const support::TemporaryFolder folder;
   const std::string program = folder.write("part.iso", "M06 T101001\nM02\n");
   const CommandResult result =
-      run_command({"isodap"}, {.input = kInitialize + launch(program) + kConfigurationDone + kDisconnect});
+      run_command({"isodap"}, {.input = kInitializeDebugger + launch(program) + kConfigurationDone + kDisconnect});
   EXPECT_EQ(result.status, 0);
   int responses = 0;
   for (const Json& message : messages_of(result.out)) {
@@ -46,8 +46,8 @@ TEST(Isodap, WritesAllThatItHasToSayBeforeItEnds) {
 }
 
 TEST(Isodap, SaysWhyAProgramCannotBeDebugged) {
-  const CommandResult result =
-      run_command({"isodap", "--lang", "it"}, {.input = kInitialize + launch("/nowhere/part.iso") + kDisconnect});
+  const CommandResult result = run_command({"isodap", "--lang", "it"},
+                                           {.input = kInitializeDebugger + launch("/nowhere/part.iso") + kDisconnect});
   EXPECT_EQ(result.status, 0);
   std::string said;
   for (const Json& message : messages_of(result.out))
@@ -56,8 +56,8 @@ TEST(Isodap, SaysWhyAProgramCannotBeDebugged) {
 }
 
 TEST(Isodap, DoesNotOutliveItsReader) {
-  const CommandResult result =
-      run_command({"isodap"}, {.input = kInitialize + kDisconnect, .standard_output = StandardOutput::ClosedPipe});
+  const CommandResult result = run_command(
+      {"isodap"}, {.input = kInitializeDebugger + kDisconnect, .standard_output = StandardOutput::ClosedPipe});
   EXPECT_FALSE(result.timed_out);
   EXPECT_LT(result.status, 128);
 }

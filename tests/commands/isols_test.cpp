@@ -10,25 +10,26 @@ namespace {
 using testing::HasSubstr;
 using Json = nlohmann::json;
 
-const std::string kInitialize =
+const std::string kInitializeServer =
     frame(R"({"jsonrpc":"2.0","id":1,"method":"initialize","params":{"processId":null,"capabilities":{}}})");
 const std::string kShutdown = frame(R"({"jsonrpc":"2.0","id":2,"method":"shutdown"})");
 const std::string kExit = frame(R"({"jsonrpc":"2.0","method":"exit"})");
 
-int status_after(const std::string& input, const std::vector<std::string>& arguments = {"isols"}) {
+int isols_status_after(const std::string& input, const std::vector<std::string>& arguments = {"isols"}) {
   return run_command(arguments, {.input = input}).status;
 }
 
 TEST(Isols, EndsAsTheProtocolAsks) {
-  EXPECT_EQ(status_after(kInitialize + kShutdown + kExit), 0);
-  EXPECT_EQ(status_after(kInitialize + kShutdown + kExit, {"isols", "--stdio"}), 0);
-  EXPECT_EQ(status_after(kInitialize + kExit), 1);
-  EXPECT_EQ(status_after(kExit), 1);
-  EXPECT_EQ(status_after(kInitialize + kShutdown), 0);  // The editor has disconnected without another message.
-  EXPECT_EQ(status_after(kInitialize), 1);
-  EXPECT_EQ(status_after(""), 1);
-  EXPECT_EQ(status_after(kInitialize + "Content-Length: 100\r\n\r\n{"), 1);
-  EXPECT_EQ(status_after("GET / HTTP/1.1\r\n\r\n"), 1);
+  EXPECT_EQ(isols_status_after(kInitializeServer + kShutdown + kExit), 0);
+  EXPECT_EQ(isols_status_after(kInitializeServer + kShutdown + kExit, {"isols", "--stdio"}), 0);
+  EXPECT_EQ(isols_status_after(kInitializeServer + kExit), 1);
+  EXPECT_EQ(isols_status_after(kExit), 1);
+  EXPECT_EQ(isols_status_after(kInitializeServer + kShutdown),
+            0);  // The editor has disconnected without another message.
+  EXPECT_EQ(isols_status_after(kInitializeServer), 1);
+  EXPECT_EQ(isols_status_after(""), 1);
+  EXPECT_EQ(isols_status_after(kInitializeServer + "Content-Length: 100\r\n\r\n{"), 1);
+  EXPECT_EQ(isols_status_after("GET / HTTP/1.1\r\n\r\n"), 1);
 }
 
 TEST(Isols, WritesAllThatItHasToSayBeforeItEnds) {
@@ -38,7 +39,7 @@ TEST(Isols, WritesAllThatItHasToSayBeforeItEnds) {
   const std::string pull = frame(
       R"({"jsonrpc":"2.0","id":3,"method":"textDocument/diagnostic","params":{"textDocument":{"uri":"untitled:a"}}})");
   const CommandResult result =
-      run_command({"isols"}, {.input = kInitialize + "no header\n\n" + open + pull + kShutdown});
+      run_command({"isols"}, {.input = kInitializeServer + "no header\n\n" + open + pull + kShutdown});
   const std::vector<Json> messages = messages_of(result.out);
   ASSERT_GE(messages.size(), 3u);
   EXPECT_EQ(messages[0]["result"]["serverInfo"]["name"], "isols");
@@ -46,8 +47,8 @@ TEST(Isols, WritesAllThatItHasToSayBeforeItEnds) {
 }
 
 TEST(Isols, DoesNotOutliveItsReader) {
-  const CommandResult result =
-      run_command({"isols"}, {.input = kInitialize + kShutdown + kExit, .standard_output = StandardOutput::ClosedPipe});
+  const CommandResult result = run_command(
+      {"isols"}, {.input = kInitializeServer + kShutdown + kExit, .standard_output = StandardOutput::ClosedPipe});
   EXPECT_FALSE(result.timed_out);
   EXPECT_LT(result.status, 128);
 }

@@ -129,7 +129,7 @@ TEST(IsorunError, LetsNoControlCharacterThrough) {
   EXPECT_EQ(result.err.find('\x1b'), std::string::npos);
 }
 
-constexpr std::string_view kForkedProgram =
+constexpr std::string_view kForkedRun =
     "M06 T101001\n"
     "G00 X0\n"
     "IF VGPL >= 1 GOTO N10\n"
@@ -148,16 +148,16 @@ std::vector<double> x_positions(const std::vector<json>& events) {
 }
 
 TEST(IsorunPath, FollowsVgplAndTheRegisters) {
-  EXPECT_THAT(x_positions(trace_of(kForkedProgram)), ElementsAre(0, 1, 2, 3, 4));
-  EXPECT_THAT(x_positions(trace_of(kForkedProgram, {"--vgpl", "1"})), ElementsAre(0, 2, 3, 4));
-  EXPECT_THAT(x_positions(trace_of(kForkedProgram, {"--vgpl", "-2.5"})), ElementsAre(0, 1, 2, 3, 4));
-  EXPECT_THAT(x_positions(trace_of(kForkedProgram, {"--set", "V3=1.5"})), ElementsAre(0, 1, 2, 4));
-  EXPECT_THAT(x_positions(trace_of(kForkedProgram, {"--set", "V3=1.5", "--set", "V4=2", "--vgpl", "1"})),
+  EXPECT_THAT(x_positions(trace_of(kForkedRun)), ElementsAre(0, 1, 2, 3, 4));
+  EXPECT_THAT(x_positions(trace_of(kForkedRun, {"--vgpl", "1"})), ElementsAre(0, 2, 3, 4));
+  EXPECT_THAT(x_positions(trace_of(kForkedRun, {"--vgpl", "-2.5"})), ElementsAre(0, 1, 2, 3, 4));
+  EXPECT_THAT(x_positions(trace_of(kForkedRun, {"--set", "V3=1.5"})), ElementsAre(0, 1, 2, 4));
+  EXPECT_THAT(x_positions(trace_of(kForkedRun, {"--set", "V3=1.5", "--set", "V4=2", "--vgpl", "1"})),
               ElementsAre(0, 2, 4));
 }
 
 TEST(IsorunPath, ReportsJumpsTakenAndNot) {
-  const std::vector<json> events = trace_of(kForkedProgram, {"--vgpl", "1"});
+  const std::vector<json> events = trace_of(kForkedRun, {"--vgpl", "1"});
   std::vector<json> jumps;
   for (const json& event : events)
     if (event.at("kind") == "jump") jumps.push_back(timeless(event));
@@ -174,19 +174,18 @@ TEST(IsorunUntil, StopsBeforeTheLine) {
 }
 
 TEST(IsorunUntil, AfterAJumpOverTheLineStopsAtItsTarget) {
-  const CommandSetup forked{.input = std::string(kForkedProgram)};
+  const CommandSetup forked{.input = std::string(kForkedRun)};
   const CommandResult result = run_command({"isorun", "--vgpl", "1", "--until", "4", "-"}, forked);
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out, StartsWith("result: stopped where asked, line 5 (the IF of line 3 jumps over the line asked "
                                      "for)\n"));
   EXPECT_THAT(run_command({"isorun", "--lang", "it", "--vgpl", "1", "--until", "4", "-"}, forked).out,
               StartsWith("esito: fermato dove richiesto, riga 5 (l'IF della riga 3 scavalca la riga richiesta)\n"));
-  EXPECT_THAT(kinds_in(trace_of(kForkedProgram, {"--vgpl", "1", "--until", "4"})),
-              ElementsAre("tool", "rapid", "jump"));
-  EXPECT_EQ(summary_of(std::string(kForkedProgram), {"--vgpl", "1", "--until", "4"}).at("jumpedOverFrom"), 3);
-  EXPECT_EQ(summary_of(std::string(kForkedProgram), {"--vgpl", "1", "--until", "5"}).at("jumpedOverFrom"), nullptr)
+  EXPECT_THAT(kinds_in(trace_of(kForkedRun, {"--vgpl", "1", "--until", "4"})), ElementsAre("tool", "rapid", "jump"));
+  EXPECT_EQ(summary_of(std::string(kForkedRun), {"--vgpl", "1", "--until", "4"}).at("jumpedOverFrom"), 3);
+  EXPECT_EQ(summary_of(std::string(kForkedRun), {"--vgpl", "1", "--until", "5"}).at("jumpedOverFrom"), nullptr)
       << "where it leads is not passed over";
-  EXPECT_EQ(summary_of(std::string(kForkedProgram), {"--until", "4"}).at("line"), 4);
+  EXPECT_EQ(summary_of(std::string(kForkedRun), {"--until", "4"}).at("line"), 4);
 }
 
 /// A jump to nowhere is no way around the line.
@@ -232,9 +231,9 @@ TEST(IsorunUsage, NamesItsVersionAndOptions) {
 
 TEST(IsorunUsage, TakesNumbersAsProgramsWriteThem) {
   for (const std::string number : {"1.5", "+1.5", "01.50", "1.500000000000000000000000"})
-    EXPECT_THAT(x_positions(trace_of(kForkedProgram, {"--set", "V3=" + number})), ElementsAre(0, 1, 2, 4)) << number;
+    EXPECT_THAT(x_positions(trace_of(kForkedRun, {"--set", "V3=" + number})), ElementsAre(0, 1, 2, 4)) << number;
   for (const std::string number : {"-2.5", "-.5", "0", "-0", ".5"})
-    EXPECT_THAT(x_positions(trace_of(kForkedProgram, {"--vgpl", number})), ElementsAre(0, 1, 2, 3, 4)) << number;
+    EXPECT_THAT(x_positions(trace_of(kForkedRun, {"--vgpl", number})), ElementsAre(0, 1, 2, 3, 4)) << number;
 }
 
 TEST(IsorunUsage, TakesOneSettingAtATime) {

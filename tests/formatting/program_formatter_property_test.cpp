@@ -66,7 +66,7 @@ std::string random_text(Random& random) {
 }
 
 /// Nothing where the program cannot be renumbered.
-std::optional<std::string> format(const std::string& text, const ProgramStyle& style) {
+std::optional<std::string> formatted_text(const std::string& text, const ProgramStyle& style) {
   ProgramFormatter formatter(text, style);
   if (formatter.obstacle()) return std::nullopt;
   std::string formatted;
@@ -113,7 +113,7 @@ TEST(ProgramFormatterProperty, WhatAProgramDoesStaysAsItIs) {
     const std::string text = random_text(random);
     const double vgpl = random.between(0, 4);
     for (const auto& [name, style] : styles()) {
-      const std::optional<std::string> formatted = format(text, style);
+      const std::optional<std::string> formatted = formatted_text(text, style);
       if (!formatted) continue;
       renumbered += style.numbers ? 1 : 0;
       for (const bool stop_at_errors : {true, false})
@@ -131,7 +131,7 @@ TEST(ProgramFormatterProperty, FindingsStayAsTheyAre) {
     Random random(seed);
     const std::string text = random_text(random);
     for (const auto& [name, style] : styles()) {
-      const std::optional<std::string> formatted = format(text, style);
+      const std::optional<std::string> formatted = formatted_text(text, style);
       if (!formatted) continue;
       // A number or a motion G at the start of a line says that a block begins there. Without it, the words may be
       // those that the line above lacks.
@@ -152,9 +152,9 @@ TEST(ProgramFormatterProperty, ASecondTimeChangesNothing) {
     Random random(seed);
     const std::string text = random_text(random);
     for (const auto& [name, style] : styles()) {
-      const std::optional<std::string> once = format(text, style);
+      const std::optional<std::string> once = formatted_text(text, style);
       if (!once) continue;
-      ASSERT_EQ(format(*once, style), once) << "seed " << seed << ", " << name << "\n" << text;
+      ASSERT_EQ(formatted_text(*once, style), once) << "seed " << seed << ", " << name << "\n" << text;
       ASSERT_EQ(ends_of(*once), ends_of(text)) << "seed " << seed << ", " << name;
     }
   }
@@ -172,8 +172,9 @@ TEST(ProgramFormatterProperty, MotionsWrittenOutCanBeFoldedAgain) {
   for (const std::uint64_t seed : support::seeds(1'000)) {
     Random random(seed);
     const std::string text = random_text(random);
-    ASSERT_EQ(squeezed(*format(*format(text, write), fold)), squeezed(*format(text, fold))) << "seed " << seed << "\n"
-                                                                                            << text;
+    ASSERT_EQ(squeezed(*formatted_text(*formatted_text(text, write), fold)), squeezed(*formatted_text(text, fold)))
+        << "seed " << seed << "\n"
+        << text;
   }
 }
 

@@ -89,19 +89,19 @@ TEST(Kinematics, TheTableKeepsItsAxes) {
 }
 
 /// Turns counterclockwise about an axis, seen from its positive end.
-Vec3 turned(const Vec3& vector, const Vec3& axis, double degrees) {
+Vec3 rotated(const Vec3& vector, const Vec3& axis, double degrees) {
   return Eigen::AngleAxisd(degrees * std::numbers::pi / 180, axis) * vector;
 }
 
 /// A head as docs/machine.md describes it, link by link from the joints down to the tip.
 Vec3 tip_of_head(const Kinematics& head, const Coordinates& joints, double tool_length) {
   const auto as_turned = [&](const Vec3& beyond_b) {
-    return turned(turned(beyond_b, Vec3::UnitY(), joints[kB]), Vec3::UnitZ(), joints[kC]);
+    return rotated(rotated(beyond_b, Vec3::UnitY(), joints[kB]), Vec3::UnitZ(), joints[kC]);
   };
   const Vec3 nose_from_b = head.spindle_from_b + Vec3(0, 0, -head.pivot);
   // X, Y and Z say where the nose would be with B = C = 0; B and C do not move the C axis.
   const Vec3 c_axis = joints.head<3>() - nose_from_b - head.b_from_c;
-  const Vec3 b_axis = c_axis + turned(head.b_from_c, Vec3::UnitZ(), joints[kC]);
+  const Vec3 b_axis = c_axis + rotated(head.b_from_c, Vec3::UnitZ(), joints[kC]);
   const Vec3 nose = b_axis + as_turned(nose_from_b);
   return nose + as_turned(Vec3(0, 0, -tool_length));
 }
@@ -110,8 +110,8 @@ Vec3 tip_of_head(const Kinematics& head, const Coordinates& joints, double tool_
 /// The table turns the other way than a head, C first: B carries the C axis.
 Vec3 tip_at_table(const Kinematics& table, const Coordinates& joints, double tool_length) {
   const Vec3 in_machine = joints.head<3>() - Vec3(0, 0, tool_length);
-  const Vec3 untilted = table.b_point + turned(in_machine - table.b_point, Vec3::UnitY(), joints[kB]);
-  return table.c_point + turned(untilted - table.c_point, Vec3::UnitZ(), joints[kC]);
+  const Vec3 untilted = table.b_point + rotated(in_machine - table.b_point, Vec3::UnitY(), joints[kB]);
+  return table.c_point + rotated(untilted - table.c_point, Vec3::UnitZ(), joints[kC]);
 }
 
 class RandomKinematics {

@@ -14,8 +14,6 @@
 namespace isocnc::lsp {
 namespace {
 
-constexpr const char* kUri = "file:///nowhere/part.iso";
-
 const Json kResolves = {
     {"textDocument", {{"codeAction", {{"resolveSupport", {{"properties", Json::array({"edit"})}}}}}}},
     {"workspace", {{"workspaceEdit", {{"documentChanges", true}, {"resourceOperations", Json::array({"create"})}}}}}};
@@ -45,13 +43,13 @@ class CodeActions : public testing::Test {
   Session session_;
 };
 
-struct Case {
+struct OfferedFixes {
   const char* title;
   const char* before;
   const char* after;  // The program after the action; null if it is not offered.
 };
 
-constexpr Case kFixes[] = {
+constexpr OfferedFixes kFixes[] = {
     {"remove G71", "M06 T101001\nG71\n[!!]G71 G00 X1\nM02\n", "M06 T101001\nG71\nG00 X1\nM02\n"},
     {"silence ISO066 on this line", "M06 T101001\nG01[!!] X10\nM02\n",
      "M06 T101001\nG01 X10 ;isolint: ignore ISO066\nM02\n"},
@@ -82,7 +80,7 @@ constexpr Case kFixes[] = {
 };
 
 TEST_F(CodeActions, FindingsAreFixedOrSilenced) {
-  for (const Case& each : kFixes) {
+  for (const OfferedFixes& each : kFixes) {
     const auto fixed = after(each.before, each.title, "quickfix");
     EXPECT_EQ(fixed, each.after ? std::optional<std::string>(each.after) : std::nullopt) << each.before;
     if (!fixed) continue;
@@ -122,7 +120,7 @@ TEST_F(CodeActions, AllThatIsSafeIsFixedAtOnce) {
   EXPECT_EQ(session_.wait_for("workspace/applyEdit")["params"]["edit"]["changes"][kUri], edits);
 }
 
-constexpr Case kRewrites[] = {
+constexpr OfferedFixes kRewrites[] = {
     {"give the arc's radius", "M06 T101001\nG00 X0 Y0\nG02[!!] X10 Y10 I10 J0 F500\nM02\n",
      "M06 T101001\nG00 X0 Y0\nG02 X10 Y10 R10 F500\nM02\n"},
     {"give the arc's radius", "M06 T101001\nG00 X0 Y0\nG02[!!] X10 Y10 I0 J10 F500\nM02\n",
@@ -167,7 +165,7 @@ constexpr Case kRewrites[] = {
 };
 
 TEST_F(CodeActions, RewritesReadSo) {
-  for (const Case& each : kRewrites)
+  for (const OfferedFixes& each : kRewrites)
     EXPECT_EQ(after(each.before, each.title, "refactor.rewrite"),
               each.after ? std::optional<std::string>(each.after) : std::nullopt)
         << each.title << '\n'

@@ -7,7 +7,6 @@
 namespace isocnc::lsp {
 namespace {
 
-constexpr const char* kUri = "file:///nowhere/part.iso";
 const Json kParams = {{"textDocument", {{"uri", kUri}}}};
 
 TEST(CodeLens, ShowsTheTimeAndPathOfEachToolSection) {

@@ -13,7 +13,6 @@
 namespace isocnc::lsp {
 namespace {
 
-constexpr const char* kUri = "file:///nowhere/part.iso";
 const Json kSnippets = {{"textDocument", {{"completion", {{"completionItem", {{"snippetSupport", true}}}}}}}};
 
 Json list(Session& session, const SelectedProgram& program, const Json& context = Json::object()) {
@@ -29,13 +28,13 @@ std::set<std::string> labels(const Json& list) {
   return labels;
 }
 
-struct Case {
+struct Completed {
   const char* program;
   std::vector<const char*> offered;
   std::vector<const char*> not_offered;
 };
 
-const std::vector<Case> kCases = {
+const std::vector<Completed> kCompleted = {
     // Only codes that are legal in the line.
     {"[!!]", {"G00", "G01", "G02", "G90", "G91", "G92", "M02", "M06", "V1", "IF", "F", "S"}, {"X", "T101001"}},
     {"[!!]", {"G24", "G28", "G29"}, {"M07"}},
@@ -74,7 +73,7 @@ const std::vector<Case> kCases = {
 TEST(Completion, OffersWhatIsLegalAndMissing) {
   Session session;
   session.start(kSnippets);
-  for (const Case& each : kCases) {
+  for (const Completed& each : kCompleted) {
     const std::set<std::string> found = labels(list(session, SelectedProgram(each.program)));
     for (const char* const label : each.offered) EXPECT_TRUE(found.contains(label)) << label << " in " << each.program;
     for (const char* const label : each.not_offered)

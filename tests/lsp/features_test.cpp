@@ -13,17 +13,17 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr const char* kUri = "untitled:part";
+constexpr const char* kUntitled = "untitled:part";
 
 Json at(int line, int column) {
-  return {{"textDocument", {{"uri", kUri}}}, {"position", {{"line", line}, {"character", column}}}};
+  return {{"textDocument", {{"uri", kUntitled}}}, {"position", {{"line", line}, {"character", column}}}};
 }
 
 /// The text of a hover in English; empty if there is none.
 std::string hover(const std::string& text, int line, int column) {
   Session session;
   session.start(Json::object(), {{"locale", "en"}});
-  session.open(kUri, text);
+  session.open(kUntitled, text);
   const Json result = session.request("textDocument/hover", at(line, column));
   return result.is_null() ? "" : result["contents"]["value"].get<std::string>();
 }
@@ -109,7 +109,7 @@ TEST(Hover, IsPlainForEditorsThatShowPlainTextAlone) {
   const auto contents = [](const Json& formats) {
     Session session;
     session.start({{"textDocument", {{"hover", {{"contentFormat", formats}}}}}}, {{"locale", "en"}});
-    session.open(kUri, "IF VGPL = 1 GOTO N5\nN5 M02\n");
+    session.open(kUntitled, "IF VGPL = 1 GOTO N5\nN5 M02\n");
     return session.request("textDocument/hover", at(0, 17))["contents"];
   };
   const std::string ending = " target of a jump\n\njump to it: line 1";
@@ -141,7 +141,7 @@ TEST(Hover, ShowsTheWordsOfOthersAsTheyStand) {
 TEST(Hover, SpeaksTheLanguageOfTheSettings) {
   Session session;
   session.start(Json::object(), {{"locale", "it-IT"}});
-  session.open(kUri, kProgram);
+  session.open(kUntitled, kProgram);
   EXPECT_THAT(session.request("textDocument/hover", at(0, 0))["contents"]["value"].get<std::string>(),
               HasSubstr("cambio utensile"));
   session.notify("workspace/didChangeConfiguration", {{"settings", {{"isocnc", {{"language", "en"}}}}}});
@@ -152,8 +152,8 @@ TEST(Hover, SpeaksTheLanguageOfTheSettings) {
 TEST(State, IsThatBeforeAndAfterALine) {
   Session session;
   session.start();
-  session.open(kUri, kProgram);
-  const Json result = session.request("isocnc/state", {{"textDocument", {{"uri", kUri}}}, {"line", 3}});
+  session.open(kUntitled, kProgram);
+  const Json result = session.request("isocnc/state", {{"textDocument", {{"uri", kUntitled}}}, {"line", 3}});
   EXPECT_EQ(result["before"]["inForce"]["units"], 70);
   EXPECT_EQ(result["before"]["feed"], nullptr);
   EXPECT_EQ(result["after"]["inForce"]["motion"], 1);
@@ -161,16 +161,16 @@ TEST(State, IsThatBeforeAndAfterALine) {
   EXPECT_EQ(result["after"]["machinePosition"]["x"], 130);
   EXPECT_EQ(result["after"]["feed"], 1000);
   EXPECT_EQ(result["after"]["tool"], "101001");
-  const Json after_end = session.request("isocnc/state", {{"textDocument", {{"uri", kUri}}}, {"line", 99}});
+  const Json after_end = session.request("isocnc/state", {{"textDocument", {{"uri", kUntitled}}}, {"line", 99}});
   EXPECT_EQ(after_end["before"], nullptr);
 }
 
 TEST(State, OnTheMachineIsNotKnownInAFrameInError) {
   Session session;
   session.start();
-  session.open(kUri, "M06 T101001\nG29 X5 C180\nG00 X1 Y2 Z3\nG27\nG29 X5 C181\nG00 X1 Y2 Z3\nG27\nM02\n");
+  session.open(kUntitled, "M06 T101001\nG29 X5 C180\nG00 X1 Y2 Z3\nG27\nG29 X5 C181\nG00 X1 Y2 Z3\nG27\nM02\n");
   const auto after = [&](int line) {
-    return session.request("isocnc/state", {{"textDocument", {{"uri", kUri}}}, {"line", line}})["after"];
+    return session.request("isocnc/state", {{"textDocument", {{"uri", kUntitled}}}, {"line", line}})["after"];
   };
   EXPECT_EQ(after(2)["machinePosition"]["x"], 4);
   EXPECT_EQ(after(5)["position"]["x"], 1) << "in the frame";
@@ -182,8 +182,9 @@ TEST(State, AtALabelIsThatOfAllThatJumpsThere) {
   const auto x_at_label = [](const std::string& above) {
     Session session;
     session.start();
-    session.open(kUri, "M06 T101001\nG00 X10\nIF VGPL = 1 GOTO N5\n" + above + "\nN5 G00 Y1\nM02\n");
-    const Json before = session.request("isocnc/state", {{"textDocument", {{"uri", kUri}}}, {"line", 4}})["before"];
+    session.open(kUntitled, "M06 T101001\nG00 X10\nIF VGPL = 1 GOTO N5\n" + above + "\nN5 G00 Y1\nM02\n");
+    const Json before =
+        session.request("isocnc/state", {{"textDocument", {{"uri", kUntitled}}}, {"line", 4}})["before"];
     return before.is_null() ? before : before["position"]["x"];
   };
   EXPECT_EQ(x_at_label("X20"), nullptr);
@@ -194,8 +195,8 @@ TEST(State, AtALabelIsThatOfAllThatJumpsThere) {
 TEST(SyntaxTree, ShowsHowLinesAreRead) {
   Session session;
   session.start();
-  session.open(kUri, "G01 X10 F5 (note)\nX1.2.3\n");
-  const std::string tree = session.request("isocnc/syntaxTree", {{"textDocument", {{"uri", kUri}}}});
+  session.open(kUntitled, "G01 X10 F5 (note)\nX1.2.3\n");
+  const std::string tree = session.request("isocnc/syntaxTree", {{"textDocument", {{"uri", kUntitled}}}});
   EXPECT_THAT(tree,
               HasSubstr("Line 1\n  G\n    Word 0-3 G01\n    Word 4-7 X10\n  Word 8-10 F5\n  Comment 11-17 (note)\n"));
   EXPECT_THAT(tree, HasSubstr("Finding ISO006 "));
@@ -204,10 +205,10 @@ TEST(SyntaxTree, ShowsHowLinesAreRead) {
 TEST(SyntaxTree, NamesEachKindOfInstruction) {
   Session session;
   session.start();
-  session.open(kUri, "M06 T101001\nG00 X1\nX2\nM100 P1=2\nT101001\nV1=2\nIF V1=2 GOTO N9\nN9 M02\n");
+  session.open(kUntitled, "M06 T101001\nG00 X1\nX2\nM100 P1=2\nT101001\nV1=2\nIF V1=2 GOTO N9\nN9 M02\n");
   const auto line = [&](int number) {
     const Json range = {{"start", {{"line", number}, {"character", 0}}}, {"end", {{"line", number}, {"character", 1}}}};
-    return session.request("isocnc/syntaxTree", {{"textDocument", {{"uri", kUri}}}, {"range", range}})
+    return session.request("isocnc/syntaxTree", {{"textDocument", {{"uri", kUntitled}}}, {"range", range}})
         .get<std::string>();
   };
   const char* const kKinds[] = {"ToolChange", "G", "Continuation", "Function", "StrayTool", "Assignment", "Jump"};
@@ -217,13 +218,15 @@ TEST(SyntaxTree, NamesEachKindOfInstruction) {
 TEST(InlineValues, AreRegistersAndVgplUpToWhereTheProgramStands) {
   Session session;
   session.start();
-  session.open(kUri, "V1=2\nM06 T101001\n(V9) IF V1 = 2 GOTO N9\nIF VGPL > 3 GOTO N9\nV2=1 V2=2 V3=4\nV4=1\nN9 M02\n");
+  session.open(kUntitled,
+               "V1=2\nM06 T101001\n(V9) IF V1 = 2 GOTO N9\nIF VGPL > 3 GOTO N9\nV2=1 V2=2 V3=4\nV4=1\nN9 M02\n");
   const auto range = [](int first, int last) {
     return Json{{"start", {{"line", first}, {"character", 0}}}, {"end", {{"line", last}, {"character", 0}}}};
   };
   const Json context = {{"frameId", 1}, {"stoppedLocation", range(4, 4)}};
-  const Json values = session.request(
-      "textDocument/inlineValue", {{"textDocument", {{"uri", kUri}}}, {"range", range(1, 6)}, {"context", context}});
+  const Json values =
+      session.request("textDocument/inlineValue",
+                      {{"textDocument", {{"uri", kUntitled}}}, {"range", range(1, 6)}, {"context", context}});
   std::string shown;
   for (const Json& each : values)
     shown += fmt::format("{}:{}-{} {}\n", each["range"]["start"]["line"].get<int>(),
@@ -236,13 +239,13 @@ TEST(InlineValues, AreRegistersAndVgplUpToWhereTheProgramStands) {
 TEST(Diagnostics, ReportThePathToWhatIsWrong) {
   Session session;
   session.start({{"textDocument", {{"publishDiagnostics", {{"relatedInformation", true}}}}}}, {{"locale", "en"}});
-  session.open(kUri, "M06 T101001\nG00 X0\nIF VGPL > 1 GOTO N5\nG01 X2 F500\nN5 G01 X1\nM02\n");
-  const Json found = session.diagnostics(kUri, 1);
+  session.open(kUntitled, "M06 T101001\nG00 X0\nIF VGPL > 1 GOTO N5\nG01 X2 F500\nN5 G01 X1\nM02\n");
+  const Json found = session.diagnostics(kUntitled, 1);
   ASSERT_EQ(found.size(), 1u) << found;
   EXPECT_EQ(found[0]["code"], "ISO066");
   const Json& steps = found[0]["relatedInformation"];
   ASSERT_EQ(steps.size(), 1u) << found;
-  EXPECT_EQ(steps[0]["location"]["uri"], kUri);
+  EXPECT_EQ(steps[0]["location"]["uri"], kUntitled);
   EXPECT_EQ(steps[0]["location"]["range"], Json::parse(R"({"start": {"line": 2, "character": 0},
                                                            "end": {"line": 2, "character": 19}})"));
 }
@@ -251,8 +254,8 @@ TEST(Diagnostics, ReportThePathToWhatIsWrong) {
 TEST(Diagnostics, FadeTheLinesThatRepeatAMistake) {
   Session session;
   session.start({{"textDocument", {{"publishDiagnostics", {{"relatedInformation", true}}}}}}, {{"locale", "en"}});
-  session.open(kUri, "M06 T101001\nG01 X0 B5 F500\nX1\nX2 B6\nC90\nM02\n");
-  const Json found = session.diagnostics(kUri, 1);
+  session.open(kUntitled, "M06 T101001\nG01 X0 B5 F500\nX1\nX2 B6\nC90\nM02\n");
+  const Json found = session.diagnostics(kUntitled, 1);
   ASSERT_EQ(found.size(), 3u) << found;
   EXPECT_EQ(found[0]["code"], "ISO032");
   EXPECT_EQ(found[0]["severity"], 1);
@@ -280,8 +283,8 @@ TEST(Diagnostics, FoldThousandsOfLines) {
   session.start(Json::object(), {{"locale", "it"}});
   std::string text = "M06 T101001\nG01 X0 F500\n";
   for (int i = 1; i <= 6'000; ++i) text += fmt::format("X{} B{}\n", i, i);
-  session.open(kUri, text + "G01 X1 X2\nM02\n");
-  const Json found = session.diagnostics(kUri, 1);
+  session.open(kUntitled, text + "G01 X1 X2\nM02\n");
+  const Json found = session.diagnostics(kUntitled, 1);
   ASSERT_EQ(found.size(), 1'002u);
   EXPECT_THAT(found[0]["message"].get<std::string>(), testing::EndsWith(" (e altre 5999 linee, fino alla 6002)"));
   EXPECT_EQ(found[1]["code"], "ISO016");
@@ -292,10 +295,10 @@ TEST(Diagnostics, FoldThousandsOfLines) {
 TEST(ByteOrderMark, CountsAsACharacterOfTheFirstLine) {
   Session session;
   session.start(Json::object(), {{"locale", "en"}});
-  session.open(kUri,
+  session.open(kUntitled,
                "\xEF\xBB\xBF"
                "G80 X1\nM02\n");
-  const Json found = session.diagnostics(kUri, 1);
+  const Json found = session.diagnostics(kUntitled, 1);
   ASSERT_FALSE(found.empty());
   EXPECT_EQ(found[0]["range"]["start"]["character"], 1);
   EXPECT_THAT(session.request("textDocument/hover", at(0, 1))["contents"]["value"].get<std::string>(),
@@ -308,31 +311,31 @@ TEST(Diagnostics, AHundredThousandFindingsAreCutShortAndCounted) {
   session.start(Json::object(), {{"locale", "en"}});
   std::string text = "M06 T101001\n";
   for (int i = 0; i < 20'000; ++i) text += "X1 X2\n";
-  session.open(kUri, text);
-  const Json found = session.diagnostics(kUri, 1);
+  session.open(kUntitled, text);
+  const Json found = session.diagnostics(kUntitled, 1);
   ASSERT_EQ(found.size(), 1'001u);
   EXPECT_THAT(found.back()["message"].get<std::string>(), HasSubstr("findings that are not shown: "));
-  session.edit(kUri, 2, {change(1, 0, 20'001, 0, "")});
-  EXPECT_LE(session.diagnostics(kUri, 2).size(), 2u);
+  session.edit(kUntitled, 2, {change(1, 0, 20'001, 0, "")});
+  EXPECT_LE(session.diagnostics(kUntitled, 2).size(), 2u);
 }
 
 TEST(Diagnostics, FollowCommentsThatSilenceThem) {
   Session session;
   session.start();
-  session.open(kUri, "M06 T101001\nG01 X10\nM02\n");
-  EXPECT_EQ(session.diagnostics(kUri, 1).size(), 1u);
-  session.edit(kUri, 2, {change(1, 7, 1, 7, " (isolint: ignore ISO066)")});
-  EXPECT_EQ(session.diagnostics(kUri, 2), Json::array());
+  session.open(kUntitled, "M06 T101001\nG01 X10\nM02\n");
+  EXPECT_EQ(session.diagnostics(kUntitled, 1).size(), 1u);
+  session.edit(kUntitled, 2, {change(1, 7, 1, 7, " (isolint: ignore ISO066)")});
+  EXPECT_EQ(session.diagnostics(kUntitled, 2), Json::array());
 }
 
 /// A position after the last line becomes its end, which may be in the first line.
 TEST(Diagnostics, AcceptAByteOrderMarkAfterTheLastLine) {
   Session session;
   session.start();
-  session.open(kUri, "");
-  session.diagnostics(kUri, 1);
-  session.edit(kUri, 2, {change(29, 5, 31, 0, "\xEF\xBB\xBFM06 T101001\nM02\n")});
-  EXPECT_EQ(session.diagnostics(kUri, 2), Json::array());
+  session.open(kUntitled, "");
+  session.diagnostics(kUntitled, 1);
+  session.edit(kUntitled, 2, {change(29, 5, 31, 0, "\xEF\xBB\xBFM06 T101001\nM02\n")});
+  EXPECT_EQ(session.diagnostics(kUntitled, 2), Json::array());
 }
 
 }  // namespace

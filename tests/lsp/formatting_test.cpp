@@ -7,7 +7,6 @@
 namespace isocnc::lsp {
 namespace {
 
-constexpr const char* kUri = "file:///nowhere/part.iso";
 const Json kOptions = {{"tabSize", 2}, {"insertSpaces", true}};
 
 class Formatting : public testing::Test {

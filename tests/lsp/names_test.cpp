@@ -15,8 +15,6 @@ namespace {
 
 using protocol::Encoding;
 
-constexpr const char* kUri = "file:///nowhere/part.iso";
-
 /// The answer to a request at the cursor.
 Json ask(const MarkedProgram& program, const std::string& method, Encoding encoding, const Json& more = Json::object(),
          const Json& capabilities = Json::object()) {

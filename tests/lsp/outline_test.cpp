@@ -19,12 +19,9 @@ namespace {
 
 using protocol::Encoding;
 
-constexpr const char* kUri = "file:///nowhere/part.iso";
 constexpr const char* kOtherUri = "file:///nowhere/other.iso";
 
 const Json kHierarchical = {{"textDocument", {{"documentSymbol", {{"hierarchicalDocumentSymbolSupport", true}}}}}};
-
-Json document_params(const char* uri = kUri) { return {{"textDocument", {{"uri", uri}}}}; }
 
 std::string lines_of(const Json& range) {
   return fmt::format("{}-{}", range["start"]["line"].get<int>() + 1, range["end"]["line"].get<int>() + 1);

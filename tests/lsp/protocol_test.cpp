@@ -10,8 +10,6 @@
 namespace isocnc::lsp {
 namespace {
 
-constexpr const char* kUri = "file:///nowhere/part.iso";
-
 int error_code(const Json& response) { return response.at("error").at("code"); }
 
 TEST(Lifecycle, ShutdownAndExitAreCleanEverythingElseIsNot) {

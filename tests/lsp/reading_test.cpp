@@ -23,10 +23,6 @@ namespace {
 
 using protocol::Encoding;
 
-constexpr const char* kUri = "file:///nowhere/part.iso";
-
-Json document_params(const char* uri = kUri) { return {{"textDocument", {{"uri", uri}}}}; }
-
 Json lines(int first, int end) {
   return {{"start", {{"line", first}, {"character", 0}}}, {"end", {{"line", end}, {"character", 0}}}};
 }
@@ -78,7 +74,7 @@ class Reading {
   Json legend_;
 };
 
-const std::pair<const char*, const char*> kDrawn[] = {
+const std::pair<const char*, const char*> kDrawnRanges[] = {
     {"N10 G01 X-1.5 F 200 (😀) Y2",
      "decorator!:N10 function:G01 parameter:X number:-1.5 property:F number:200 "
      "comment:(😀) parameter:Y number:2"},
@@ -94,7 +90,7 @@ const std::pair<const char*, const char*> kDrawn[] = {
 };
 
 TEST(SemanticTokens, DescribeEachWord) {
-  for (const auto& [program, drawing] : kDrawn)
+  for (const auto& [program, drawing] : kDrawnRanges)
     for (const Encoding encoding : kEncodings) {
       Reading reading(program, encoding);
       const Json full = reading.session.request("textDocument/semanticTokens/full", document_params());

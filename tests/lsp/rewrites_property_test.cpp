@@ -23,8 +23,6 @@ using running::Event;
 using support::Random;
 using support::RandomProgram;
 
-constexpr const char* kUri = "file:///nowhere/part.iso";
-
 /// Writes programs that run to their end, with passes in all modes and sometimes a line that may be wrong.
 class RandomPart {
  public:

@@ -11,6 +11,11 @@ namespace isocnc::lsp {
 
 using rpc::Json;
 
+/// The program of most tests.
+inline constexpr const char* kUri = "file:///nowhere/part.iso";
+
+inline Json document_params(const char* uri = kUri) { return {{"textDocument", {{"uri", uri}}}}; }
+
 /// A test client of a Server.
 class Session : public support::MessageClient {
  public:

@@ -7,15 +7,13 @@
 namespace isocnc::lsp {
 namespace {
 
-constexpr const char* kUri = "file:///nowhere/part.iso";
-
-struct Case {
+struct Signed {
   const char* program;
   const char* signature;  // The label of the signature; null for none.
   const char* active;     // The active parameter; empty for none.
 };
 
-constexpr Case kCases[] = {
+constexpr Signed kSigned[] = {
     {"G01[!!]\n", "G01 X Y Z B C", "X"},
     {"G01 [!!]\n", "G01 X Y Z B C", "X"},
     {"G01 X10 [!!]\n", "G01 X Y Z B C", "Y"},
@@ -46,7 +44,7 @@ constexpr Case kCases[] = {
 TEST(SignatureHelp, ShowsTheArgumentsAndTheOneAtTheCursor) {
   Session session;
   session.start();
-  for (const Case& each : kCases) {
+  for (const Signed& each : kSigned) {
     const SelectedProgram program(each.program);
     session.open(kUri, program.text);
     const Json help = session.request(

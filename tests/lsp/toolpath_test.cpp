@@ -9,7 +9,6 @@
 namespace isocnc::lsp {
 namespace {
 
-constexpr const char* kUri = "file:///nowhere/part.iso";
 constexpr const char* kStreams[] = {"steps", "points", "turns"};
 
 std::string decoded(const std::string& base64) {

@@ -37,7 +37,7 @@ struct Motion {
 };
 
 /// What a run does, from its start.
-struct Course {
+struct MachineRun {
   std::vector<Motion> motions;      ///< That go anywhere.
   std::vector<std::string> others;  ///< Of all other events, `line: event`, where only their order matters.
   running::Ending ending = running::Ending::Error;
@@ -57,8 +57,8 @@ std::string in_words(const running::Event& event, std::uint64_t first) {
   return to_json(shifted);
 }
 
-Course course_of(std::string_view text, const RestartOptions& options, std::uint64_t first) {
-  Course course;
+MachineRun course_of(std::string_view text, const RestartOptions& options, std::uint64_t first) {
+  MachineRun course;
   const running::RunResult result = simulation::run_timed(
       text, options.run, options.machine, {.event = [&](const simulation::TimedEvent& timed) {
         if (!timed.move) {
@@ -72,9 +72,9 @@ Course course_of(std::string_view text, const RestartOptions& options, std::uint
   return course;
 }
 
-bool is_near(const Vec3& a, const Vec3& b) { return (a - b).norm() < kNear; }
-bool is_near(const geometry::Pose& a, const geometry::Pose& b) {
-  return is_near(a.tip, b.tip) && std::abs(a.b - b.b) < kNear && std::abs(a.c - b.c) < kNear;
+bool is_close(const Vec3& a, const Vec3& b) { return (a - b).norm() < kNear; }
+bool is_close(const geometry::Pose& a, const geometry::Pose& b) {
+  return is_close(a.tip, b.tip) && std::abs(a.b - b.b) < kNear && std::abs(a.c - b.c) < kNear;
 }
 
 /// Where the nose and the rotary axes are, by the kinematics alone.
@@ -95,11 +95,11 @@ bool end_alike(const kinematics::Machine& machine, const kinematics::Move& a, co
 
 bool is_same(const kinematics::Machine& machine, const Motion& a, const Motion& b) {
   if (a.kind != b.kind || a.move.is_arc != b.move.is_arc || a.move.exact_stop != b.move.exact_stop) return false;
-  if (!is_near(a.move.from, b.move.from) || !is_near(a.move.to, b.move.to)) return false;
+  if (!is_close(a.move.from, b.move.from) || !is_close(a.move.to, b.move.to)) return false;
   if (!has_near_joints(machine, a.move, b.move)) return false;
   if (a.move.feed.kind != b.move.feed.kind || std::abs(a.move.feed.value - b.move.feed.value) > kNear) return false;
   return !a.move.is_arc ||
-         (is_near(a.move.center, b.move.center) && std::abs(a.move.sweep_deg - b.move.sweep_deg) < kNear);
+         (is_close(a.move.center, b.move.center) && std::abs(a.move.sweep_deg - b.move.sweep_deg) < kNear);
 }
 
 std::string in_words(const Motion& motion) {
@@ -110,12 +110,12 @@ std::string in_words(const Motion& motion) {
 }
 
 /// From the first motion on a line or below.
-std::span<const Motion> from_line(const Course& course, std::uint64_t line) {
+std::span<const Motion> from_line(const MachineRun& course, std::uint64_t line) {
   const auto first = std::find_if(course.motions.begin(), course.motions.end(),
                                   [&](const Motion& motion) { return motion.line >= line; });
   return {first, course.motions.end()};
 }
-std::span<const Motion> before_line(const Course& course, std::uint64_t line) {
+std::span<const Motion> before_line(const MachineRun& course, std::uint64_t line) {
   return std::span(course.motions).first(course.motions.size() - from_line(course, line).size());
 }
 
@@ -158,8 +158,8 @@ void expect_same_machine(const std::string& program, const std::string& restarte
                          bool is_upright, Tally& tally) {
   const std::string context = fmt::format("before line {} of\n{}\nby\n{}", options.line + 1, program, restarted);
   const std::uint64_t preamble = line_count(restarted) - line_count(rest_of(program, options.line));
-  const Course wanted = course_of(program, options, options.line);
-  const Course found = course_of(restarted, options, preamble);
+  const MachineRun wanted = course_of(program, options, options.line);
+  const MachineRun found = course_of(restarted, options, preamble);
   ASSERT_EQ(found.ending, running::Ending::ProgramEnd) << context;
   EXPECT_EQ(found.others, wanted.others) << context;
   const auto rest = from_line(wanted, options.line);
@@ -181,7 +181,7 @@ void expect_same_machine(const std::string& program, const std::string& restarte
     EXPECT_TRUE(end_alike(options.machine.motion, approach.back().move, before.back().move)) << context;
   }
   if (is_upright) expect_safe_approach(approach, before, context);
-  if (!is_near(before.back().move.to.tip, state.to_machine(state.position.tip))) ++tally.made_off_program;
+  if (!is_close(before.back().move.to.tip, state.to_machine(state.position.tip))) ++tally.made_off_program;
 }
 
 /// Tries each line of a program.

@@ -133,15 +133,15 @@ std::string runnable(std::vector<std::string> lines, const running::RunOptions& 
 }
 
 /// What happens on a line and below, and the state before each line there.
-struct Course {
+struct TracedRun {
   std::vector<running::Event> events;
   std::vector<execution::State> states;
   std::vector<std::uint64_t> lines;  ///< Counted from the first.
   running::RunResult result;
 };
 
-Course course_of(std::string_view text, running::RunOptions options, std::uint64_t from) {
-  Course course;
+TracedRun course_of(std::string_view text, running::RunOptions options, std::uint64_t from) {
+  TracedRun course;
   options.before_block = [&](const running::Block& block) {
     if (block.line < from) return;
     course.states.push_back(block.state);
@@ -198,8 +198,8 @@ void expect_same_course(const std::string& program, const std::string& restarted
   const std::string rest = rest_of(program, options.line);
   ASSERT_TRUE(restarted.ends_with(rest)) << restarted;
   const std::uint64_t preamble = line_count(restarted) - line_count(rest);
-  const Course wanted = course_of(program, options.run, options.line);
-  const Course found = course_of(restarted, options.run, preamble);
+  const TracedRun wanted = course_of(program, options.run, options.line);
+  const TracedRun found = course_of(restarted, options.run, preamble);
   ASSERT_EQ(found.result.ending, running::Ending::ProgramEnd) << restarted;
   EXPECT_EQ(found.result.registers, wanted.result.registers) << restarted;
   ASSERT_EQ(found.lines, wanted.lines) << restarted;

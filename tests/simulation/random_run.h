@@ -11,6 +11,9 @@
 
 namespace isocnc::simulation {
 
+/// A tolerance for what differs by rounding alone; mm, seconds or degrees.
+inline constexpr double kTiny = 1e-9;
+
 /// A machine on which every action takes time, so that a run can be stopped within each.
 inline TimedMachine machine_of_tests(bool limits_jerk = false) {
   TimedMachine machine{.motion = kinematics::head_router()};

@@ -17,8 +17,6 @@ namespace {
 using support::Random;
 using support::seeds;
 
-constexpr double kTiny = 1e-9;
-
 /// A new run from the start to the present moment of `other`.
 Simulation fresh_at(const Case& of, const Simulation& other) {
   Simulation fresh = of.start();

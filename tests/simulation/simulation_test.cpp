@@ -15,8 +15,6 @@
 namespace isocnc::simulation {
 namespace {
 
-constexpr double kTiny = 1e-9;
-
 constexpr std::string_view kTwoLines =
     "M06 T101001\n"
     "G1 X100 F6000\n"

@@ -12,14 +12,13 @@
 #include <fmt/format.h>
 
 #include "interpreter/running/runner.h"
+#include "random_run.h"
 
 namespace isocnc::simulation {
 namespace {
 
 using testing::DoubleNear;
 using testing::ElementsAre;
-
-constexpr double kTiny = 1e-9;
 
 /// A machine with a maximum of 100 mm/s and 1000 mm/s^2.
 TimedMachine slow_machine() {

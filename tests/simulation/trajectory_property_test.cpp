@@ -103,7 +103,7 @@ class RandomTrip {
   std::string text_;
 };
 
-struct Trip {
+struct TimedTrip {
   std::uint64_t seed = 0;
   std::string program;
   std::vector<TimedEvent> motions;  ///< The motions, indexed by the tags of the stretches.
@@ -113,8 +113,8 @@ struct Trip {
   geometry::Pose tip;
 };
 
-Trip trip_of(std::string_view program, const TimedMachine& machine) {
-  Trip trip;
+TimedTrip trip_of(std::string_view program, const TimedMachine& machine) {
+  TimedTrip trip;
   Timing timing(machine,
                 {.event =
                      [&](const TimedEvent& timed) {
@@ -150,7 +150,7 @@ class Trips : public testing::TestWithParam<kinematics::MachineKind> {
   template <typename Check>
   static void for_trips(Check&& check) {
     const TimedMachine machine = Trips::machine();
-    for (const Trip& trip : trips(machine)) {
+    for (const TimedTrip& trip : trips(machine)) {
       SCOPED_TRACE(fmt::format("seed {}\n{}", trip.seed, trip.program));
       check(machine, trip);
       if (HasFailure()) return;
@@ -158,9 +158,9 @@ class Trips : public testing::TestWithParam<kinematics::MachineKind> {
   }
 
   /// The trips, planned once for all properties.
-  static const std::vector<Trip>& trips(const TimedMachine& machine) {
-    static std::map<kinematics::MachineKind, std::vector<Trip>> kept;
-    std::vector<Trip>& all = kept[GetParam()];
+  static const std::vector<TimedTrip>& trips(const TimedMachine& machine) {
+    static std::map<kinematics::MachineKind, std::vector<TimedTrip>> kept;
+    std::vector<TimedTrip>& all = kept[GetParam()];
     if (all.empty()) {
       for (const std::uint64_t seed : seeds(6)) {
         Random random(seed);
@@ -194,7 +194,7 @@ class Trips : public testing::TestWithParam<kinematics::MachineKind> {
 
 TEST_P(Trips, KeepWithinSpeedsAndAccelerations) {
   double fullest = 0;
-  for_trips([&](const TimedMachine& machine, const Trip& trip) {
+  for_trips([&](const TimedMachine& machine, const TimedTrip& trip) {
     for (const Stretch& stretch : trip.stretches)
       for_samples(machine, stretch, [&](const Sample& sample, double) {
         for (int axis = 0; axis < kinematics::kAxisCount; ++axis) {
@@ -209,7 +209,7 @@ TEST_P(Trips, KeepWithinSpeedsAndAccelerations) {
 }
 
 TEST_P(Trips, KeepToTheFeedAndToWhatFeedMovesMay) {
-  for_trips([](const TimedMachine& machine, const Trip& trip) {
+  for_trips([](const TimedMachine& machine, const TimedTrip& trip) {
     for (const Stretch& stretch : trip.stretches) {
       const kinematics::Move& move = *trip.motions[stretch.tag].move;
       if (move.feed.kind == kinematics::FeedKind::Rapid) continue;
@@ -232,7 +232,7 @@ TEST_P(Trips, KeepToTheFeedAndToWhatFeedMovesMay) {
 /// The integral of the speed over time is the length of the path, less what rounded corners and the chords of arcs cut
 /// off.
 TEST_P(Trips, CoverTheirWholePath) {
-  for_trips([](const TimedMachine& machine, const Trip& trip) {
+  for_trips([](const TimedMachine& machine, const TimedTrip& trip) {
     const auto swings = [](const kinematics::Move& move) {
       return !move.controls_tool_point && (move.from.b != move.to.b || move.from.c != move.to.c);
     };
@@ -274,7 +274,7 @@ double swung_length(const TimedMachine& machine, const kinematics::Move& move) {
 
 /// docs/isorun.md: `lengthMm` is the length of the tip's path, and the summary has the sum.
 TEST_P(Trips, TraceTheLengthsOfTheSummary) {
-  for_trips([](const TimedMachine& machine, const Trip& trip) {
+  for_trips([](const TimedMachine& machine, const TimedTrip& trip) {
     Summary summary(machine);
     std::map<std::string, double> sums;
     for (const TimedEvent& timed : trip.motions) {
@@ -296,7 +296,7 @@ TEST_P(Trips, TraceTheLengthsOfTheSummary) {
 }
 
 TEST_P(Trips, TakeTheTimesThatAreReported) {
-  for_trips([](const TimedMachine& machine, const Trip& trip) {
+  for_trips([](const TimedMachine& machine, const TimedTrip& trip) {
     ASSERT_NEAR(trip.reported_seconds, trip.seconds, 1e-9 * trip.seconds);
     std::vector<double> times(trip.motions.size());
     for (const Stretch& stretch : trip.stretches) times[stretch.tag] += stretch.duration;
@@ -311,7 +311,7 @@ TEST_P(Trips, TakeTheTimesThatAreReported) {
 
 /// Positions and speeds have no jumps; only a tool change moves the tip, while the joints stand still.
 TEST_P(Trips, NeverJump) {
-  for_trips([](const TimedMachine& machine, const Trip& trip) {
+  for_trips([](const TimedMachine& machine, const TimedTrip& trip) {
     for (std::size_t i = 1; i < trip.stretches.size(); ++i) {
       const Stretch& before = trip.stretches[i - 1];
       const Sample end = before.at(machine.motion.kinematics, before.start + before.duration);

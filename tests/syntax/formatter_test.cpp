@@ -9,12 +9,12 @@
 namespace isocnc::syntax {
 namespace {
 
-struct Case {
+struct FormatCase {
   std::string_view before;
   std::string_view after;
 };
 
-void expect_all(const LineStyle& style, const std::vector<Case>& cases) {
+void expect_all(const LineStyle& style, const std::vector<FormatCase>& cases) {
   for (const auto& [before, after] : cases) {
     EXPECT_EQ(formatted(before, style), after) << "of " << before;
     EXPECT_EQ(formatted(after, style), after) << "a second time";

@@ -15,7 +15,7 @@
 namespace isocnc::syntax {
 namespace {
 
-struct Case {
+struct TreeCase {
   const char* line;
   const char* expected;
 };
@@ -30,42 +30,44 @@ std::string words_of(const LineTree& tree) {
   return text;
 }
 
-class Words : public testing::TestWithParam<Case> {};
+class Words : public testing::TestWithParam<TreeCase> {};
 
 TEST_P(Words, StandWhereTheyAreWritten) {
   const ParsedLine line(GetParam().line);
   EXPECT_EQ(words_of(line.tree()), GetParam().expected) << GetParam().line;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Plain, Words,
-    testing::Values(Case{"", ""}, Case{" \t ", ""}, Case{"G0", "G0 at 0-2"}, Case{"G1X10", "G1 at 0-2, X10 at 2-5"},
-                    Case{" g1 x-2.5 ", "g1 at 1-3, x-2.5 at 4-9"}, Case{"M06T130207", "M06 at 0-3, T130207 at 3-10"},
-                    Case{"V1=2.5 X1", "V1 at 0-2, =2.5 at 2-6, X1 at 7-9"}, Case{"X1 N7", "X1 at 0-2, N7 at 3-5"}));
+INSTANTIATE_TEST_SUITE_P(Plain, Words,
+                         testing::Values(TreeCase{"", ""}, TreeCase{" \t ", ""}, TreeCase{"G0", "G0 at 0-2"},
+                                         TreeCase{"G1X10", "G1 at 0-2, X10 at 2-5"},
+                                         TreeCase{" g1 x-2.5 ", "g1 at 1-3, x-2.5 at 4-9"},
+                                         TreeCase{"M06T130207", "M06 at 0-3, T130207 at 3-10"},
+                                         TreeCase{"V1=2.5 X1", "V1 at 0-2, =2.5 at 2-6, X1 at 7-9"},
+                                         TreeCase{"X1 N7", "X1 at 0-2, N7 at 3-5"}));
 
-INSTANTIATE_TEST_SUITE_P(BlanksAndComments, Words,
-                         testing::Values(Case{"G 0 Z - 5 . 65", "G 0 at 0-3, Z - 5 . 65 at 4-14"},
-                                         Case{"X\t1\t", "X\t1 at 0-3"}, Case{"X1(a)0 Y2", "X1(a)0 at 0-6, Y2 at 7-9"},
-                                         Case{"X(a)1", "X(a)1 at 0-5"}, Case{"X1(a) Y2", "X1 at 0-2, Y2 at 6-8"},
-                                         Case{"X1;Y2", "X1 at 0-2"}, Case{"(X1;(Y2) Z3", "Z3 at 9-11"},
-                                         Case{"T 1 30 207", "T 1 30 207 at 0-10"},
-                                         Case{"V 1 = 2", "V 1 at 0-3, = 2 at 4-7"}));
+INSTANTIATE_TEST_SUITE_P(
+    BlanksAndComments, Words,
+    testing::Values(TreeCase{"G 0 Z - 5 . 65", "G 0 at 0-3, Z - 5 . 65 at 4-14"}, TreeCase{"X\t1\t", "X\t1 at 0-3"},
+                    TreeCase{"X1(a)0 Y2", "X1(a)0 at 0-6, Y2 at 7-9"}, TreeCase{"X(a)1", "X(a)1 at 0-5"},
+                    TreeCase{"X1(a) Y2", "X1 at 0-2, Y2 at 6-8"}, TreeCase{"X1;Y2", "X1 at 0-2"},
+                    TreeCase{"(X1;(Y2) Z3", "Z3 at 9-11"}, TreeCase{"T 1 30 207", "T 1 30 207 at 0-10"},
+                    TreeCase{"V 1 = 2", "V 1 at 0-3, = 2 at 4-7"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Jumps, Words,
-    testing::Values(Case{"IF V1<=2 GOTO N30", "IF at 0-2, V1 at 3-5, <= at 5-7, 2 at 7-8, GOTO at 9-13, N30 at 14-17"},
-                    Case{"ifvgpl=1goton3", "if at 0-2, vgpl at 2-6, = at 6-7, 1 at 7-8, goto at 8-12, n3 at 12-14"},
-                    Case{"I F V G P L < > 1 G O T O N 3",
-                         "I F at 0-3, V G P L at 4-11, < > at 12-15, 1 at 16-17, G O T O at 18-25, N 3 at 26-29"},
-                    Case{"IF V1=-.5 GOTO N1",
-                         "IF at 0-2, V1 at 3-5, = at 5-6, -.5 at 6-9, GOTO at 10-14, N1 at 15-17"}));
+    testing::Values(
+        TreeCase{"IF V1<=2 GOTO N30", "IF at 0-2, V1 at 3-5, <= at 5-7, 2 at 7-8, GOTO at 9-13, N30 at 14-17"},
+        TreeCase{"ifvgpl=1goton3", "if at 0-2, vgpl at 2-6, = at 6-7, 1 at 7-8, goto at 8-12, n3 at 12-14"},
+        TreeCase{"I F V G P L < > 1 G O T O N 3",
+                 "I F at 0-3, V G P L at 4-11, < > at 12-15, 1 at 16-17, G O T O at 18-25, N 3 at 26-29"},
+        TreeCase{"IF V1=-.5 GOTO N1", "IF at 0-2, V1 at 3-5, = at 5-6, -.5 at 6-9, GOTO at 10-14, N1 at 15-17"}));
 
 INSTANTIATE_TEST_SUITE_P(Errors, Words,
-                         testing::Values(Case{"%", "% at 0-1"}, Case{"#5 X1", "#5 at 0-2, X1 at 3-5"},
-                                         Case{"X Y1", "X at 0-1, Y1 at 2-4"}, Case{"5 X1", "5 at 0-1, X1 at 2-4"},
-                                         Case{"X1.2.3", "X1.2.3 at 0-6"},
-                                         Case{"\xC3\xA8 X1", "\xC3\xA8 at 0-2, X1 at 3-5"},
-                                         Case{"L5 * X1", "L5 at 0-2, * at 3-4, X1 at 5-7"}));
+                         testing::Values(TreeCase{"%", "% at 0-1"}, TreeCase{"#5 X1", "#5 at 0-2, X1 at 3-5"},
+                                         TreeCase{"X Y1", "X at 0-1, Y1 at 2-4"},
+                                         TreeCase{"5 X1", "5 at 0-1, X1 at 2-4"}, TreeCase{"X1.2.3", "X1.2.3 at 0-6"},
+                                         TreeCase{"\xC3\xA8 X1", "\xC3\xA8 at 0-2, X1 at 3-5"},
+                                         TreeCase{"L5 * X1", "L5 at 0-2, * at 3-4, X1 at 5-7"}));
 
 TEST(LineTree, WordsCarryWhatIsWrittenOfTheirNumber) {
   const ParsedLine line("G01 X-2.50 Y Z1.2.3");
@@ -131,7 +133,7 @@ TEST(LineTree, FindsTheWordUnderAColumn) {
   EXPECT_EQ(tree.word_at(7), nullptr);
 }
 
-class Comments : public testing::TestWithParam<Case> {};
+class Comments : public testing::TestWithParam<TreeCase> {};
 
 TEST_P(Comments, AreListed) {
   const ParsedLine line(GetParam().line);
@@ -141,11 +143,13 @@ TEST_P(Comments, AreListed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Lines, Comments,
-                         testing::Values(Case{"X1", ""}, Case{"(a)X1(b)", "[(a)][(b)]"}, Case{"X1;a(b)", "[;a(b)]"},
-                                         Case{"(a(b)c", "[(a(b)]"}, Case{"(a;b)", "[(a;b)]"}, Case{"X1(a)0", "[(a)]"},
-                                         Case{"X(a)1(b)", "[(a)][(b)]"}, Case{"V1(a)=(b)2", "[(a)][(b)]"},
-                                         Case{"I(a)F V1=2 G(b)OTO N1", "[(a)][(b)]"}, Case{"X1 (a", "[(a]"},
-                                         Case{"()", "[()]"}, Case{";", "[;]"}, Case{"X1(a)(b)0", "[(a)][(b)]"}));
+                         testing::Values(TreeCase{"X1", ""}, TreeCase{"(a)X1(b)", "[(a)][(b)]"},
+                                         TreeCase{"X1;a(b)", "[;a(b)]"}, TreeCase{"(a(b)c", "[(a(b)]"},
+                                         TreeCase{"(a;b)", "[(a;b)]"}, TreeCase{"X1(a)0", "[(a)]"},
+                                         TreeCase{"X(a)1(b)", "[(a)][(b)]"}, TreeCase{"V1(a)=(b)2", "[(a)][(b)]"},
+                                         TreeCase{"I(a)F V1=2 G(b)OTO N1", "[(a)][(b)]"}, TreeCase{"X1 (a", "[(a]"},
+                                         TreeCase{"()", "[()]"}, TreeCase{";", "[;]"},
+                                         TreeCase{"X1(a)(b)0", "[(a)][(b)]"}));
 
 /// `G01(X1 Z5)`: each instruction with its arguments; F, S and N belong to none.
 std::string instructions_of(const LineTree& tree) {
@@ -165,23 +169,23 @@ std::string instructions_of(const LineTree& tree) {
   return text;
 }
 
-class Instructions : public testing::TestWithParam<Case> {};
+class Instructions : public testing::TestWithParam<TreeCase> {};
 
 TEST_P(Instructions, HaveTheirArguments) {
   const ParsedLine line(GetParam().line);
   EXPECT_EQ(instructions_of(line.tree()), GetParam().expected) << GetParam().line;
 }
 
-INSTANTIATE_TEST_SUITE_P(Lines, Instructions,
-                         testing::Values(Case{"", ""}, Case{"N10", ""}, Case{"F100 S200", ""},
-                                         Case{"G1 X1 Z5", "G1(X1 Z5)"}, Case{"X1 Y2", "(X1 Y2)"},
-                                         Case{"G90 G1 X1", "G90() G1(X1)"}, Case{"G1 X1 F300 Z5", "G1(X1 Z5)"},
-                                         Case{"G1 X1 S500 Z5", "G1(X1 Z5)"}, Case{"G1 X1 N5 Z5", "G1(X1 Z5)"},
-                                         Case{"G2 X1 Y1 I0 J5 G9", "G2(X1 Y1 I0 J5) G9()"}, Case{"G4 P1.5", "G4(P1.5)"},
-                                         Case{"G24 X1 I1 P1 A1", "G24(X1 I1 P1 A1)"},
-                                         Case{"M06 T101001 M3", "M06(T101001) M3()"}, Case{"T101001", "T101001()"},
-                                         Case{"V1=2 V2=3 X1", "V1(=2) V2(=3) (X1)"},
-                                         Case{"M100 P1=2.5 P2=-3", "M100(P1 =2.5 P2 =-3)"}));
+INSTANTIATE_TEST_SUITE_P(
+    Lines, Instructions,
+    testing::Values(TreeCase{"", ""}, TreeCase{"N10", ""}, TreeCase{"F100 S200", ""}, TreeCase{"G1 X1 Z5", "G1(X1 Z5)"},
+                    TreeCase{"X1 Y2", "(X1 Y2)"}, TreeCase{"G90 G1 X1", "G90() G1(X1)"},
+                    TreeCase{"G1 X1 F300 Z5", "G1(X1 Z5)"}, TreeCase{"G1 X1 S500 Z5", "G1(X1 Z5)"},
+                    TreeCase{"G1 X1 N5 Z5", "G1(X1 Z5)"}, TreeCase{"G2 X1 Y1 I0 J5 G9", "G2(X1 Y1 I0 J5) G9()"},
+                    TreeCase{"G4 P1.5", "G4(P1.5)"}, TreeCase{"G24 X1 I1 P1 A1", "G24(X1 I1 P1 A1)"},
+                    TreeCase{"M06 T101001 M3", "M06(T101001) M3()"}, TreeCase{"T101001", "T101001()"},
+                    TreeCase{"V1=2 V2=3 X1", "V1(=2) V2(=3) (X1)"},
+                    TreeCase{"M100 P1=2.5 P2=-3", "M100(P1 =2.5 P2 =-3)"}));
 
 TEST(LineTree, UserFunctionsTakeTwentyParameters) {
   std::string text = "M100";
@@ -307,23 +311,26 @@ std::string findings_of(const LineTree& tree) {
   return text;
 }
 
-class Findings : public testing::TestWithParam<Case> {};
+class Findings : public testing::TestWithParam<TreeCase> {};
 
 TEST_P(Findings, StandInTheOrderOfTheColumns) {
   const ParsedLine line(GetParam().line);
   EXPECT_EQ(findings_of(line.tree()), GetParam().expected) << GetParam().line;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Lines, Findings,
-    testing::Values(Case{"G1 X1 Y2 F100", ""}, Case{"G1 X1.2.3", "ISO006 at 4-9"}, Case{"G1000", "ISO007 at 0-5"},
-                    Case{"G1.5", "ISO007 at 0-4"}, Case{"M0", "ISO008 at 0-2"}, Case{"M06 T13", "ISO009 at 4-7"},
-                    Case{"M06 T030207", "ISO012 at 4-11"}, Case{"G1 X", "ISO004 at 3-4"},
-                    Case{"%#*12 X1", "ISO003 at 0-5"}, Case{"5", "ISO005 at 0-1"}, Case{"G1 X1 X2", "ISO016 at 6-8"},
-                    Case{"F1 F2", "ISO065 at 3-5"}, Case{"S1 S2", "ISO046 at 3-5"}, Case{"N1 N2", "ISO056 at 3-5"},
-                    Case{"N-1", "ISO056 at 0-3"}, Case{"G77", "E001 at 0-3"}, Case{"X1 (a", "ISO001 at 3-5"},
-                    Case{"X1 )", "ISO002 at 3-4"}, Case{"V31=1", "ISO059 at 0-3"}, Case{"V1.5=1", "ISO057 at 0-4"},
-                    Case{"V1", "ISO063 at 0-2"}, Case{"G1 X1.2.3 Y1,5", "ISO006 at 4-9, ISO006 at 11-14"}));
+INSTANTIATE_TEST_SUITE_P(Lines, Findings,
+                         testing::Values(TreeCase{"G1 X1 Y2 F100", ""}, TreeCase{"G1 X1.2.3", "ISO006 at 4-9"},
+                                         TreeCase{"G1000", "ISO007 at 0-5"}, TreeCase{"G1.5", "ISO007 at 0-4"},
+                                         TreeCase{"M0", "ISO008 at 0-2"}, TreeCase{"M06 T13", "ISO009 at 4-7"},
+                                         TreeCase{"M06 T030207", "ISO012 at 4-11"}, TreeCase{"G1 X", "ISO004 at 3-4"},
+                                         TreeCase{"%#*12 X1", "ISO003 at 0-5"}, TreeCase{"5", "ISO005 at 0-1"},
+                                         TreeCase{"G1 X1 X2", "ISO016 at 6-8"}, TreeCase{"F1 F2", "ISO065 at 3-5"},
+                                         TreeCase{"S1 S2", "ISO046 at 3-5"}, TreeCase{"N1 N2", "ISO056 at 3-5"},
+                                         TreeCase{"N-1", "ISO056 at 0-3"}, TreeCase{"G77", "E001 at 0-3"},
+                                         TreeCase{"X1 (a", "ISO001 at 3-5"}, TreeCase{"X1 )", "ISO002 at 3-4"},
+                                         TreeCase{"V31=1", "ISO059 at 0-3"}, TreeCase{"V1.5=1", "ISO057 at 0-4"},
+                                         TreeCase{"V1", "ISO063 at 0-2"},
+                                         TreeCase{"G1 X1.2.3 Y1,5", "ISO006 at 4-9, ISO006 at 11-14"}));
 
 TEST(LineTree, ALineOfTooManyWordsIsCutAndSaysSo) {
   std::string text = "G1";

@@ -38,7 +38,7 @@ std::string random_line(Random& random) {
   return text;
 }
 
-std::string random_text(Random& random, int lines) {
+std::string random_program_text(Random& random, int lines) {
   std::string text;
   for (; lines > 0; --lines) text += random_line(random) + std::string(random.any_of({"\n", "\n", "\n", "\r\n", "\r"}));
   return text;
@@ -50,7 +50,7 @@ TEST(PlainLineProperty, TreesAreThoseOfTheGeneralParser) {
   std::size_t others = 0;
   for (const std::uint64_t seed : support::seeds(800)) {
     Random random(seed);
-    const std::string text = random_text(random, random.between(1, 150));
+    const std::string text = random_program_text(random, random.between(1, 150));
     const char* const end = text.data() + text.size();
     const char* const stop = text.data() + random.below(text.size() + 1);
     TreeStore rows;
@@ -75,7 +75,7 @@ TEST(PlainLineProperty, TreesAreThoseOfTheGeneralParser) {
 TEST(PlainLineProperty, OneLineIsReadLikeMany) {
   for (const std::uint64_t seed : support::seeds(300)) {
     Random random(seed);
-    const std::string text = random_text(random, 30);
+    const std::string text = random_program_text(random, 30);
     const char* const end = text.data() + text.size();
     TreeStore rows;
     rows.append_lines(text.data(), end, end);
