@@ -81,11 +81,10 @@ static void add_options(command_line::ProgramApp& program, LintCommandOptions& o
           .excludes(baseline);
 
   program.begin_group({"What is mended", "Che cosa correggere"});
-  program
-      .add_flag("--fix", options.fix,
-                {"Rewrite programs with their safe fixes", "Riscrive i programmi con le correzioni sicure"})
-      .without_exclusions()
-      .excludes(write_baseline);
+  const command_line::ProgramOption fix =
+      program.add_flag("--fix", options.fix,
+                       {"Rewrite programs with their safe fixes", "Riscrive i programmi con le correzioni sicure"});
+  fix.without_exclusions().excludes(write_baseline);
   program.add_flag("--unsafe-fixes", options.unsafe_fixes,
                    {"Count fixes as well that are likely, not certain", "Anche le correzioni probabili ma non certe"});
   const command_line::ProgramOption diff = program.add_flag(
@@ -97,18 +96,17 @@ static void add_options(command_line::ProgramApp& program, LintCommandOptions& o
   const std::string formats = listed(formats::format_names());
   diff.excludes(
       program.add_choice("--format", options.format, formats::format_names(), {"NAME", "NOME"}, {formats, formats}));
-  program
-      .add_option("--output", options.output, command_line::kFileValue,
-                  {"Write to this file, not to standard output", "Scrive in questo file, non sullo standard output"})
-      .check([](const std::string& given, dialect::Language language) {
-        static constexpr dialect::Text kNoName = {"no name", "manca il nome"};
-        return std::string(given.empty() ? kNoName.in(language) : "");
-      });
-  program
-      .add_flag("--statistics", options.statistics,
-                {"Show how many findings each code has", "Mostra quante segnalazioni ha ogni codice"})
-      .without_exclusions()
-      .excludes(diff);
+  const command_line::ProgramOption output = program.add_option(
+      "--output", options.output, command_line::kFileValue,
+      {"Write to this file, not to standard output", "Scrive in questo file, non sullo standard output"});
+  output.check([](const std::string& given, dialect::Language language) {
+    static constexpr dialect::Text kNoName = {"no name", "manca il nome"};
+    return std::string(given.empty() ? kNoName.in(language) : "");
+  });
+  const command_line::ProgramOption statistics =
+      program.add_flag("--statistics", options.statistics,
+                       {"Show how many findings each code has", "Mostra quante segnalazioni ha ogni codice"});
+  statistics.without_exclusions().excludes(diff);
   program.add_language(options.language,
                        {"en or it; else as the locale says", "en o it; altrimenti secondo il locale"});
   program.add_choice("--color", options.color, {"auto", "always", "never"}, {"WHEN", "QUANDO"},
@@ -117,6 +115,11 @@ static void add_options(command_line::ProgramApp& program, LintCommandOptions& o
                      {"What to call standard input", "Come chiamare lo standard input"});
 
   program.begin_group({"How it is run", "Esecuzione"});
+  const command_line::ProgramOption watch =
+      program.add_flag("--watch", options.watch,
+                       {"Check again what is written, until Ctrl-C", "Riverifica ciò che cambia, fino a Ctrl-C"});
+  for (const command_line::ProgramOption& other : {write_baseline, fix, diff, output, statistics})
+    watch.without_exclusions().excludes(other);
   program.add_option("--max-warnings", options.max_warnings, {"N", "N"},
                      {"Fail when there are more warnings than N", "Fallisce se gli avvisi sono più di N"});
   program.add_flag("--exit-zero", options.exit_zero,
@@ -132,7 +135,8 @@ static void add_options(command_line::ProgramApp& program, LintCommandOptions& o
       "--show-config", options.show_config,
       {"Print the configuration of PATH, and where it is", "Stampa la configurazione di PATH, e dove si trova"});
   // Options that generate docs/isocnc.schema.json, a table of docs/configuration.md, docs/machine.md, docs/rules.md,
-  // docs/messages.md and docs/other-controls.md; with --lang it, the pages of docs/it/.
+  // docs/messages.md and docs/other-controls.md; with --lang it, the pages of
+  // docs/it/.
   program.add_flag("--config-schema", options.config_schema, {}).hidden();
   program.add_flag("--config-keys", options.config_keys, {}).hidden();
   program.add_flag("--machine-page", options.machine_page, {}).hidden();

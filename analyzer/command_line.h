@@ -28,6 +28,7 @@ struct LintCommandOptions {
   bool unsafe_fixes = false;  ///< Includes unsafe fixes.
   bool diff = false;          ///< Shows what the fixes would change, and changes nothing.
   bool statistics = false;
+  bool watch = false;  ///< Checks again what changes, until the user ends it.
   bool list_rules = false;
   bool rules_page = false;
   bool messages_page = false;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -27,6 +28,14 @@ class ProgramArguments {
 /// Calls `clean_up` before Ctrl-C, a closed console or another request of the system ends the process. It may only do
 /// what a signal handler may.
 void before_forced_end(void (*clean_up)());
+
+/// After this call the first Ctrl-C, or another request to end, leaves the end to the program, which asks for it below;
+/// the second has the effect that the first had before. Returns false where no such request can arrive, so that a
+/// program without other reasons to end would never do so.
+bool take_end_request();
+bool is_end_requested();
+/// Sleeps until the end is requested, for this time at most. Returns whether it is.
+bool sleep_until_end_request(std::chrono::milliseconds longest);
 
 /// All threads share one heap, which grows in large steps: with a heap per thread the system would be asked for every
 /// page again, a tenth of the time that opening a long program takes. Messages, which may have some hundred kilobytes

@@ -101,6 +101,10 @@ static std::optional<Text> obstacle_in_head(std::string_view text) {
   return std::nullopt;
 }
 
+static SourceFile::Problem unreadable(int error, Language language) {
+  return {.message = cannot_read(error, language), .is_in_use = error == EBUSY};
+}
+
 /// Makes room for `capacity` bytes.
 static bool grow(SourceFile::ReadBytes& bytes, std::size_t capacity) {
   try {
@@ -145,7 +149,7 @@ std::variant<SourceFile, SourceFile::Problem> SourceFile::open(const std::filesy
                                                                std::size_t max_read_bytes, Language language) {
   const Descriptor file = open_to_read(path);
   const std::optional<FileStatus> status = file.is_open() ? status_of(file.number()) : std::nullopt;
-  if (!status) return Problem{cannot_read(errno, language)};
+  if (!status) return unreadable(errno, language);
   if (status->kind == FileStatus::Kind::Folder) return Problem{std::string(kIsDirectory.in(language))};
   const auto size = static_cast<std::size_t>(status->size);
   const bool is_mapped = status->kind == FileStatus::Kind::Regular && size > max_read_bytes;
@@ -159,7 +163,7 @@ std::variant<SourceFile, SourceFile::Problem> SourceFile::map(const std::filesys
   const int error = file.mapped_->error();
   // Files that the kernel generates on reading (sysfs) have a size but cannot be mapped.
   if (error == ENODEV) return read(descriptor, size, language);
-  if (error != 0) return Problem{cannot_read(error, language)};
+  if (error != 0) return unreadable(error, language);
   if (const std::optional<Text> text = obstacle_in_head(file.text())) return Problem{std::string(text->in(language))};
   std::variant<SourceFile, Problem> result = with_short_lines(std::move(file), language);
   // After the check, which may read backward through a long line.
@@ -176,10 +180,10 @@ std::variant<SourceFile, SourceFile::Problem> SourceFile::read(int descriptor, s
                                                                Language language) {
   static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
   SourceFile file;
-  if (const int error = read_up_to(kHeadBytes, 0, descriptor, file.read_)) return Problem{cannot_read(error, language)};
+  if (const int error = read_up_to(kHeadBytes, 0, descriptor, file.read_)) return unreadable(error, language);
   if (const std::optional<Text> text = obstacle_in_head(file.text())) return Problem{std::string(text->in(language))};
   if (const int error = read_up_to(kAll, expected, descriptor, file.read_))
-    return Problem{cannot_read(error, language)};
+    return unreadable(error, language);
   return with_short_lines(std::move(file), language);
 }
 

@@ -20,6 +20,7 @@ class SourceFile {
   /// file.
   struct Problem {
     std::string message;
+    bool is_in_use = false;  ///< Whether another program keeps the file to itself, for a while as a rule.
   };
 
   /// If another program cuts a mapped file short while it is in use, its bytes are lost and the program ends

@@ -1,8 +1,11 @@
 #include "interpreter/system/process.h"
 
+#include <fcntl.h>
 #include <malloc.h>
+#include <poll.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <csignal>
 
@@ -27,11 +30,46 @@ static void on_end(int signal) {
   std::raise(signal);
 }
 
+static constexpr std::array kEndSignals = {SIGINT, SIGTERM, SIGHUP};
+
 void before_forced_end(void (*clean_up)()) {
   clean_up_before_end = clean_up;
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+  for (const int signal : kEndSignals)
     // Keeps an ignored signal ignored, as under nohup.
     if (std::signal(signal, on_end) == SIG_IGN) std::signal(signal, SIG_IGN);
+}
+
+// NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables): a handler sees nothing else.
+static volatile std::sig_atomic_t end_is_requested = 0;
+static std::array<int, 2> end_request_pipe = {-1, -1};
+static std::array<void (*)(int), kEndSignals.size()> handlers_before{};
+// NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
+
+/// Wakes a sleeping program by a byte in the pipe, which no one reads.
+static void on_end_request(int) {
+  const int error = errno;
+  end_is_requested = 1;
+  for (std::size_t i = 0; i < kEndSignals.size(); ++i) std::signal(kEndSignals.at(i), handlers_before.at(i));
+  [[maybe_unused]] const ssize_t written = ::write(end_request_pipe[1], "", 1);
+  errno = error;
+}
+
+bool take_end_request() {
+  if (::pipe2(end_request_pipe.data(), O_CLOEXEC | O_NONBLOCK) != 0) return false;
+  for (std::size_t i = 0; i < kEndSignals.size(); ++i) {
+    handlers_before.at(i) = std::signal(kEndSignals.at(i), SIG_IGN);
+    // Keeps an ignored signal ignored, as under nohup.
+    if (handlers_before.at(i) != SIG_IGN) std::signal(kEndSignals.at(i), on_end_request);
+  }
+  return true;
+}
+
+bool is_end_requested() { return end_is_requested != 0; }
+
+bool sleep_until_end_request(std::chrono::milliseconds longest) {
+  pollfd end = {.fd = end_request_pipe[0], .events = POLLIN, .revents = 0};
+  ::poll(&end, 1, static_cast<int>(longest.count()));
+  return is_end_requested();
 }
 
 void share_one_heap() {

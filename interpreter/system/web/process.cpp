@@ -13,6 +13,12 @@ ProgramArguments::ProgramArguments(int argc, char** argv) : pointers_(argv, argv
 /// No signal arrives here.
 void before_forced_end(void (*)()) {}
 
+bool take_end_request() { return false; }
+
+bool is_end_requested() { return false; }
+
+bool sleep_until_end_request(std::chrono::milliseconds) { return false; }
+
 void share_one_heap() {}
 
 bool has_threads() { return false; }

@@ -6,6 +6,7 @@
 #include <io.h>
 #include <shellapi.h>
 
+#include <atomic>
 #include <string_view>
 
 #include "interpreter/system/descriptor.h"
@@ -50,6 +51,29 @@ static BOOL WINAPI on_console_event(DWORD) {
 void before_forced_end(void (*clean_up)()) {
   clean_up_before_end = clean_up;
   ::SetConsoleCtrlHandler(on_console_event, TRUE);
+}
+
+static std::atomic<bool> end_is_requested = false;
+static HANDLE end_request = nullptr;
+
+/// Handlers are asked the last one first; the one before this one ends the process. A console that closes does not
+/// wait.
+static BOOL WINAPI on_end_request(DWORD event) {
+  if ((event != CTRL_C_EVENT && event != CTRL_BREAK_EVENT) || end_is_requested.exchange(true)) return FALSE;
+  ::SetEvent(end_request);
+  return TRUE;
+}
+
+bool take_end_request() {
+  end_request = ::CreateEventW(nullptr, TRUE, FALSE, nullptr);
+  return end_request != nullptr && ::SetConsoleCtrlHandler(on_end_request, TRUE) != 0;
+}
+
+bool is_end_requested() { return end_is_requested; }
+
+bool sleep_until_end_request(std::chrono::milliseconds longest) {
+  ::WaitForSingleObject(end_request, static_cast<DWORD>(longest.count()));
+  return is_end_requested();
 }
 
 void share_one_heap() {}
