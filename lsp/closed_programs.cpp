@@ -55,13 +55,14 @@ std::optional<std::string> ClosedPrograms::read_and_answer(const std::filesystem
 /// Nothing where the file cannot be read, or the answer is not wanted any more.
 std::optional<std::string> ClosedPrograms::cached_answer(const std::filesystem::path& program, const std::string& uri,
                                                          const WorkspaceQuery& query) {
+  Known& known = cache_[{std::string(query.request.name), uri}];
+  if (query.unsettled.contains(uri)) return known.answer.empty() ? std::nullopt : std::optional(known.answer);
   std::error_code error;
   AnswerInputs key{.written = std::filesystem::last_write_time(program, error),
                    .size = error ? 0 : std::filesystem::file_size(program, error),
                    .settings = settings_.of(program).owner,
                    .client = query.client};
   if (error) return std::nullopt;
-  Known& known = cache_[{std::string(query.request.name), uri}];
   if (known.key == key) return known.answer;
   known = {};
   auto answer = read_and_answer(

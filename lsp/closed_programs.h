@@ -29,7 +29,8 @@ class ClosedPrograms {
     /// Gets each answer as soon as it is known; may be empty.
     std::optional<rpc::OnWorker<std::string>> take_one;
     Folders folders;
-    std::set<std::string> open;  ///< URIs of the documents that the editor has open.
+    std::set<std::string> open;       ///< URIs of the documents that the editor has open.
+    std::set<std::string> unsettled;  ///< URIs of programs that are being written: their earlier answers count.
     protocol::ClientPointer client;
     std::shared_ptr<const std::atomic<bool>> cancelled;  ///< The code that sets it has to answer the request itself.
   };

@@ -155,13 +155,13 @@ void Server::initialize(const rpc::CallPointer& call) {
                         {"serverInfo", {{"name", "isols"}, {"version", ISOCNC_VERSION}}}});
 }
 
-void Server::initialized(const rpc::CallPointer&) {
+void Server::initialized(const rpc::CallPointer&) { watch_files(); }
+
+/// Programs are watched for a client that would pull their diagnostics again.
+void Server::watch_files() {
   if (!client_->can("/workspace/didChangeWatchedFiles/dynamicRegistration")) return;
-  const Json watcher = {{"globPattern", fmt::format("**/{}", configuration::kFileName)}};
-  const Json registration = {{"id", "configuration files"},
-                             {"method", "workspace/didChangeWatchedFiles"},
-                             {"registerOptions", {{"watchers", Json::array({watcher})}}}};
-  outbox_.request("client/registerCapability", {{"registrations", Json::array({registration})}});
+  posted_programs_.watch(folders_of_workspace(),
+                         client_->settings.checks_workspace && client_->can("/workspace/diagnostics/refreshSupport"));
 }
 
 void Server::shut_down(const rpc::CallPointer& call) {
@@ -211,6 +211,7 @@ void Server::change_folders(const rpc::CallPointer& call) {
   const Json& event = call->params().at("event");
   for (const Json& folder : event.at("removed")) folders_.erase(folder.at("uri").get<std::string>());
   for (const Json& folder : event.at("added")) folders_.insert(folder.at("uri").get<std::string>());
+  watch_files();
 }
 
 void Server::change_settings(const rpc::CallPointer& call) {
@@ -223,21 +224,29 @@ void Server::change_settings(const rpc::CallPointer& call) {
 }
 
 void Server::look_at_changed_files(const rpc::CallPointer& call) {
-  for (const Json& change : call->params().at("changes"))
-    if (protocol::names_configuration(change.at("uri").get<std::string>())) return reconfigure_all();
+  std::vector<std::string> files;
+  for (const Json& change : call->params().at("changes")) files.push_back(change.at("uri"));
+  if (std::erase_if(files, [](const std::string& uri) { return protocol::names_configuration(uri); }) > 0)
+    reconfigure_all();
+  posted_programs_.note_changes(files);
 }
 
 void Server::reconfigure_all() {
   settings_.forget();
   open_documents_.withdraw_configuration_diagnostics();
   reconfigure_documents();
+  watch_files();
 }
 
 /// Updates the documents and asks the editor to repeat its requests, since earlier answers may be outdated.
 void Server::reconfigure_documents() {
   open_documents_.reconfigure(client_);
+  refresh([](const features::Refresh&) { return true; });
+}
+
+void Server::refresh(const std::function<bool(const features::Refresh&)>& is_needed) {
   for (const features::Feature* const feature : all_features())
-    if (feature->refresh && client_->can(feature->refresh->capability))
+    if (feature->refresh && is_needed(*feature->refresh) && client_->can(feature->refresh->capability))
       outbox_.request(feature->refresh->method, nullptr);
 }
 
@@ -319,6 +328,7 @@ void Server::ask_workspace(const features::WorkspaceRequest& workspace_request, 
                                           .take_one = report_part,
                                           .folders = folders_of_workspace(),
                                           .open = {},
+                                          .unsettled = posted_programs_.unsettled(),
                                           .client = client_,
                                           .cancelled = request->cancel_flag()};
   for (OpenDocument* const document : open) {

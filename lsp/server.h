@@ -14,6 +14,7 @@
 #include "lsp/open_documents.h"
 #include "lsp/outbox.h"
 #include "lsp/pending_requests.h"
+#include "lsp/posted_programs.h"
 #include "lsp/protocol/client.h"
 #include "lsp/rpc/message.h"
 #include "lsp/rpc/on_loop.h"
@@ -70,6 +71,8 @@ class Server final : public rpc::Peer {
 
   void reconfigure_all();
   void reconfigure_documents();
+  void refresh(const std::function<bool(const features::Refresh&)>& is_needed);
+  void watch_files();
   void ask(const features::Method& method, const rpc::CallPointer& call, rpc::Json params, const TakerOf& taker_of);
   void ask_closed(const features::Method& method, const rpc::CallPointer& call, const std::string& uri);
   void ask_workspace(const features::WorkspaceRequest& workspace_request, const rpc::CallPointer& call);
@@ -94,6 +97,9 @@ class Server final : public rpc::Peer {
   std::unordered_map<std::string_view, features::Method> commands_;
   documents::SettingsStore settings_;  // The one member that several threads use.
   PendingRequests pending_requests_{loop_, outbox_};
+  PostedPrograms posted_programs_{loop_, outbox_, settings_, [this] {
+                                    refresh([](const features::Refresh& refresh) { return refresh.covers_closed; });
+                                  }};
   OpenDocuments open_documents_{loop_, pool_, settings_, outbox_};
   rpc::StrandBound<ClosedPrograms> closed_programs_{pool_, settings_};
   rpc::Pool pool_;  // Last, so that its threads end before other members are destroyed.

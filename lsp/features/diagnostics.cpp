@@ -281,7 +281,9 @@ extern const Feature diagnostics = {
     .methods = {on_any<&pull>("textDocument/diagnostic", kNothing)},
     .workspace_requests = {workspace_request<&pull_each>("workspace/diagnostic", conclude_pull)},
     .changed = push,
-    .refresh = Refresh{"workspace/diagnostic/refresh", "/workspace/diagnostics/refreshSupport"},
+    .refresh = Refresh{.method = "workspace/diagnostic/refresh",
+                       .capability = "/workspace/diagnostics/refreshSupport",
+                       .covers_closed = true},
     .closed = clear};
 
 }  // namespace isocnc::features

@@ -98,6 +98,7 @@ using Notify = std::function<void(std::string_view method, std::string params)>;
 struct Refresh {
   std::string_view method;
   const char* capability = nullptr;
+  bool covers_closed = false;  ///< Whether the answers are also about programs that are not open.
 };
 
 /// One ability of the language server. Each has a file in this folder, which defines it under the file's name (`extern

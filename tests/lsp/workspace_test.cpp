@@ -26,10 +26,11 @@ class Workspace : public testing::Test {
 
   void write(const std::string& name, const std::string& text) const { temporary_.write(name, text); }
   std::string uri(const std::string& name) const { return protocol::uri_of(folder_ / name); }
-  Json start(const Json& more = Json::object()) {
+  Json start(const Json& more = Json::object()) { return start_with(kPulls, more); }
+  Json start_with(const Json& capabilities, const Json& more = Json::object()) {
     Json params = {{"workspaceFolders", Json::array({{{"uri", protocol::uri_of(folder_)}, {"name", "parts"}}})}};
     params.update(more);
-    return session_.start(kPulls, params);
+    return session_.start(capabilities, params);
   }
 
   /// The reports by program name: `full 2` or `unchanged`. The next call sends their ids as known.
@@ -212,6 +213,82 @@ TEST_F(Workspace, AsksTheEditorToAskAgainWhenAnswersMayHaveChanged) {
   session_.request("textDocument/diagnostic", document);
   EXPECT_FALSE(
       session_.has([](const Json& message) { return message.value("method", "") == "workspace/codeLens/refresh"; }));
+}
+
+const Json kWatched = {
+    {"textDocument", {{"diagnostic", Json::object()}}},
+    {"workspace",
+     {{"didChangeWatchedFiles", {{"dynamicRegistration", true}}}, {"diagnostics", {{"refreshSupport", true}}}}}};
+
+/// The patterns of the watchers that the editor is asked for.
+Json patterns_in(const Json& registration) {
+  Json patterns = Json::array();
+  for (const Json& watcher : registration["params"]["registrations"][0]["registerOptions"]["watchers"])
+    patterns.push_back(watcher["globPattern"]);
+  return patterns;
+}
+
+TEST_F(Workspace, AsksTheEditorToWatchThePrograms) {
+  start_with(kWatched);
+  EXPECT_EQ(patterns_in(session_.wait_for("client/registerCapability")),
+            (Json{"**/isocnc.json", "**/*.[cC][nN][cC]", "**/*.[iI][sS][oO]", "**/*.[nN][cC]", "**/*.[nN][gG][cC]",
+                  "**/*.[tT][aA][pP]"}));
+  write("isocnc.json", R"({"lint": {"extensions": [".H", ".mpf2"]}})");
+  session_.notify("workspace/didChangeWatchedFiles", {{"changes", {{{"uri", uri("isocnc.json")}, {"type", 1}}}}});
+  EXPECT_EQ(session_.wait_for("client/unregisterCapability")["params"]["unregisterations"][0]["id"], "files");
+  EXPECT_EQ(patterns_in(session_.wait_for("client/registerCapability")),
+            (Json{"**/isocnc.json", "**/*.[hH]", "**/*.[mM][pP][fF]2"}));
+}
+
+TEST_F(Workspace, WatchesNoProgramsThatTheUserDoesNotWantChecked) {
+  start_with(kWatched, {{"initializationOptions", {{"workspaceDiagnostics", false}}}});
+  EXPECT_EQ(patterns_in(session_.wait_for("client/registerCapability")), Json{"**/isocnc.json"});
+}
+
+/// A CAM system writes into an open folder, and the editor has not opened the program.
+TEST_F(Workspace, ReportsAProgramOnceItIsPosted) {
+  start_with(kWatched);
+  pull();
+  const auto note = [&](const std::string& name, int type) {
+    session_.notify("workspace/didChangeWatchedFiles", {{"changes", {{{"uri", uri(name)}, {"type", type}}}}});
+  };
+  write("posted.iso", "M06 T101001\n");
+  note("posted.iso", 1);
+  write("posted.iso", "M06 T101001\nG00 X10mm\nM02\n");
+  note("posted.iso", 2);
+  EXPECT_FALSE(session_.wait_for("workspace/diagnostic/refresh").contains("params"));
+  EXPECT_EQ(pull()["posted.iso"], "full 1");
+  fs::remove(folder_ / "posted.iso");
+  note("posted.iso", 3);
+  session_.wait_for("workspace/diagnostic/refresh");
+  EXPECT_EQ(pull()["posted.iso"], "full 0");
+}
+
+/// Until the file has been still for a moment, the editor keeps what it knows. If the moment has passed before the
+/// pull, as on a busy computer, nothing is seen, and another program is written.
+TEST_F(Workspace, ReportsNothingOfAProgramThatIsBeingWritten) {
+  start_with(kWatched);
+  pull();
+  const auto is_refresh = [](const Json& message) {
+    return message.value("method", "") == "workspace/diagnostic/refresh";
+  };
+  for (bool is_seen = false; !is_seen;) {
+    write("posted.iso", "G00 X");
+    write("sub/bad.iso", "M02\n");
+    session_.notify(
+        "workspace/didChangeWatchedFiles",
+        {{"changes", {{{"uri", uri("posted.iso")}, {"type", 1}}, {{"uri", uri("sub/bad.iso")}, {"type", 2}}}}});
+    const Reported reported = pull();
+    is_seen = !session_.has(is_refresh);
+    const Reported as_before = {{"good.iso", "unchanged"}, {"sub/bad.iso", "unchanged"}};
+    EXPECT_TRUE(!is_seen || reported == as_before);
+    session_.wait_for("workspace/diagnostic/refresh");
+    EXPECT_EQ(pull().size(), 3u);
+    write("sub/bad.iso", "G00 X10mm\nM02\n");
+    fs::remove(folder_ / "posted.iso");
+    pull();
+    ids_.erase(uri("posted.iso"));
+  }
 }
 
 TEST_F(Workspace, FindsSymbolsInAllPrograms) {

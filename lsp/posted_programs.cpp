@@ -1,0 +1,76 @@
+#include "lsp/posted_programs.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "analyzer/input/settling.h"
+#include "interpreter/configuration/configurations.h"
+#include "lsp/protocol/uri.h"
+
+namespace isocnc::lsp {
+
+using rpc::Json;
+
+static constexpr std::chrono::milliseconds kMoment = input::Settling<int>::kMoment;
+
+PostedPrograms::PostedPrograms(rpc::Loop& loop, Outbox& outbox, documents::SettingsStore& settings,
+                               std::function<void()> settled)
+    : loop_(loop), outbox_(outbox), settings_(settings), settled_(std::move(settled)) {}
+
+/// `**/*.[nN][cC]` for `.nc`: patterns have no other way to ignore case.
+static std::string pattern_of(std::string_view extension) {
+  static constexpr int kCaseBit = 'a' - 'A';
+  std::string pattern = "**/*";
+  for (const char c : extension) {
+    const char lower = static_cast<char>(c | kCaseBit);
+    if (lower >= 'a' && lower <= 'z') {
+      pattern += fmt::format("[{}{}]", lower, static_cast<char>(lower - kCaseBit));
+    } else {
+      pattern += c;
+    }
+  }
+  return pattern;
+}
+
+void PostedPrograms::watch(const ClosedPrograms::Folders& folders, bool watches_programs) {
+  static constexpr const char* kMethod = "workspace/didChangeWatchedFiles";
+  static constexpr const char* kId = "files";
+  std::set<std::string> extensions;
+  if (watches_programs)
+    for (const std::filesystem::path& folder : folders) {
+      const documents::DocumentSettings settings = settings_.of(folder / "program");
+      extensions.insert(settings.configuration->lint.extensions.begin(), settings.configuration->lint.extensions.end());
+    }
+  std::vector<std::string> patterns = {fmt::format("**/{}", configuration::kFileName)};
+  for (const std::string& extension : extensions) patterns.push_back(pattern_of(extension));
+  if (patterns == watched_) return;
+  if (!watched_.empty())
+    outbox_.request("client/unregisterCapability",
+                    {{"unregisterations", Json::array({{{"id", kId}, {"method", kMethod}}})}});
+  watched_ = std::move(patterns);
+  Json watchers = Json::array();
+  for (const std::string& pattern : watched_) watchers.push_back({{"globPattern", pattern}});
+  const Json registration = {{"id", kId}, {"method", kMethod}, {"registerOptions", {{"watchers", watchers}}}};
+  outbox_.request("client/registerCapability", {{"registrations", Json::array({registration})}});
+}
+
+void PostedPrograms::note_changes(const std::vector<std::string>& uris) {
+  const Clock::time_point now = Clock::now();
+  for (const std::string& uri : uris)
+    if (const auto path = protocol::path_of(uri)) changed_[protocol::uri_of(*path)] = now;
+  loop_.post_at(now + kMoment, [this, now] { settle(now); });
+}
+
+/// Programs that have changed again meanwhile have a later time.
+void PostedPrograms::settle(Clock::time_point changed) {
+  if (std::erase_if(changed_, [&](const auto& each) { return each.second == changed; }) > 0) settled_();
+}
+
+std::set<std::string> PostedPrograms::unsettled() const {
+  std::set<std::string> uris;
+  for (const auto& [uri, changed] : changed_) uris.insert(uri);
+  return uris;
+}
+
+}  // namespace isocnc::lsp
