@@ -135,7 +135,7 @@ static void add_options(command_line::ProgramApp& program, LintCommandOptions& o
       "--show-config", options.show_config,
       {"Print the configuration of PATH, and where it is", "Stampa la configurazione di PATH, e dove si trova"});
   // Options that generate docs/isocnc.schema.json, a table of docs/configuration.md, docs/machine.md, docs/rules.md,
-  // docs/messages.md and docs/other-controls.md; with --lang it, the pages of
+  // docs/messages.md, docs/other-controls.md and cmake/windows/notepad++/isocnc.xml; with --lang it, the pages of
   // docs/it/.
   program.add_flag("--config-schema", options.config_schema, {}).hidden();
   program.add_flag("--config-keys", options.config_keys, {}).hidden();
@@ -143,6 +143,7 @@ static void add_options(command_line::ProgramApp& program, LintCommandOptions& o
   program.add_flag("--rules-page", options.rules_page, {}).hidden();
   program.add_flag("--messages-page", options.messages_page, {}).hidden();
   program.add_flag("--foreign-page", options.foreign_page, {}).hidden();
+  program.add_flag("--notepad-language", options.notepad_language, {}).hidden();
 
   std::vector<std::string> codes;
   for (const dialect::DiagnosticDef& def : dialect::kDiagnostics) codes.emplace_back(def.code);

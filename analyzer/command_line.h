@@ -33,6 +33,7 @@ struct LintCommandOptions {
   bool rules_page = false;
   bool messages_page = false;
   bool foreign_page = false;
+  bool notepad_language = false;
   bool show_config = false;
   bool config_schema = false;
   bool config_keys = false;

@@ -13,6 +13,7 @@
 #include "analyzer/lint_output.h"
 #include "analyzer/lint_run.h"
 #include "analyzer/messages_page.h"
+#include "analyzer/notepad_language.h"
 #include "analyzer/selection/baseline.h"
 #include "analyzer/selection/program_settings.h"
 #include "analyzer/watch.h"
@@ -222,6 +223,7 @@ ExitStatus run_main(int argc, char** argv) {
   if (options.rules_page) return say(rules_page(options.reader_language()), options);
   if (options.messages_page) return say(messages_page(), options);
   if (options.foreign_page) return say(foreign_page(options.reader_language()), options);
+  if (options.notepad_language) return say(notepad_language(), options);
   if (options.config_schema) return say(configuration::json_schema(), options);
   if (options.config_keys) return say(configuration::key_page(options.reader_language()), options);
   if (options.machine_page) return say(configuration::machine_page(options.reader_language()), options);

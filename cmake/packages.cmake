@@ -25,6 +25,7 @@ function(install_compressed source name destination)
   endif()
 endfunction()
 
+install(DIRECTORY cmake/windows/notepad++ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
 install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
 foreach(program IN LISTS programs)
   install_compressed(${PROJECT_SOURCE_DIR}/docs/man/${program}.1 ${program}.1 ${CMAKE_INSTALL_MANDIR}/man1)

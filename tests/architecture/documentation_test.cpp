@@ -41,6 +41,12 @@ TEST(Documentation, MessagesPageIsTheTable) {
   EXPECT_TRUE(same) << "isolint --messages-page > docs/messages.md";
 }
 
+TEST(Documentation, LanguageOfNotepadIsTheTable) {
+  const bool same =
+      read("cmake/windows/notepad++/isocnc.xml") == output_of("'" ISOCNC_BIN_DIR "/isolint' --notepad-language");
+  EXPECT_TRUE(same) << "isolint --notepad-language > cmake/windows/notepad++/isocnc.xml";
+}
+
 TEST(Documentation, PagesOfOtherControlsAreTheTable) {
   for (const auto& [page, language] :
        {std::pair{"docs/other-controls.md", "en"}, std::pair{"docs/it/altri-controlli.md", "it"}}) {

@@ -148,16 +148,21 @@ TEST_P(IsolintOutput, FailsOnAClosedPipe) {
   EXPECT_THAT(result.err, HasSubstr("isolint: "));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Commands, IsolintOutput,
-    testing::Values(
-        Saying{"Text", {"isolint", "-"}}, Saying{"Concise", {"isolint", "--format", "concise", "-"}},
-        Saying{"Json", {"isolint", "--format", "json", "-"}}, Saying{"Sarif", {"isolint", "--format", "sarif", "-"}},
-        Saying{"Junit", {"isolint", "--format", "junit", "-"}}, Saying{"ListRules", {"isolint", "--list-rules"}},
-        Saying{"Explain", {"isolint", "--explain", "ISO031"}}, Saying{"RulesPage", {"isolint", "--rules-page"}},
-        Saying{"MessagesPage", {"isolint", "--messages-page"}}, Saying{"ForeignPage", {"isolint", "--foreign-page"}},
-        Saying{"Version", {"isolint", "--version"}}, Saying{"Help", {"isolint", "--help"}}),
-    [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(Commands, IsolintOutput,
+                         testing::Values(Saying{"Text", {"isolint", "-"}},
+                                         Saying{"Concise", {"isolint", "--format", "concise", "-"}},
+                                         Saying{"Json", {"isolint", "--format", "json", "-"}},
+                                         Saying{"Sarif", {"isolint", "--format", "sarif", "-"}},
+                                         Saying{"Junit", {"isolint", "--format", "junit", "-"}},
+                                         Saying{"ListRules", {"isolint", "--list-rules"}},
+                                         Saying{"Explain", {"isolint", "--explain", "ISO031"}},
+                                         Saying{"RulesPage", {"isolint", "--rules-page"}},
+                                         Saying{"MessagesPage", {"isolint", "--messages-page"}},
+                                         Saying{"NotepadLanguage", {"isolint", "--notepad-language"}},
+                                         Saying{"ForeignPage", {"isolint", "--foreign-page"}},
+                                         Saying{"Version", {"isolint", "--version"}},
+                                         Saying{"Help", {"isolint", "--help"}}),
+                         [](const auto& tested) { return tested.param.name; });
 
 TEST(IsolintOutputMessage, SaysWhyInTheReadersLanguage) {
   const CommandResult english = run_command(
