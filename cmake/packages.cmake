@@ -25,6 +25,11 @@ function(install_compressed source name destination)
   endif()
 endfunction()
 
+if(WIN32)
+  # The scripts find isolint.exe beside them.
+  install(FILES cmake/windows/add-to-explorer.cmd cmake/windows/remove-from-explorer.cmd DESTINATION ${CMAKE_INSTALL_BINDIR}
+          COMPONENT programs)
+endif()
 install(DIRECTORY cmake/windows/notepad++ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
 install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
 foreach(program IN LISTS programs)
