@@ -96,6 +96,9 @@ editor.add('plate.iso', plate);
 editor.add('registers.iso', registers);
 // Never opened: what is reported of it comes from tasks.
 editor.add('closed.iso', 'G71 G90\nG05 X1\nM02\n');
+editor.add('chosen.iso', 'G71 G90\nG05 X1\nM02\n');
+editor.add('new.iso', 'G71 G90\nM06 T101001\nG00 X10 Y5\nM02\n');
+editor.add('old.iso', 'g71  g90\nm06t101001\nG00 X10 Y4\nM02\n');
 editor.add('program.tap', 'G71 G90\nM06 T101001\nM02\n');
 editor.add('notes.tap', 'feeds to try\nM06 T101001\n');
 await editor.openWorkbench();
@@ -137,6 +140,40 @@ test('what would stop the control is underlined and listed among the problems', 
   const listed = await eventually(problems, 'the problems are not listed', (rows) => rows.some((row) => row.includes('ISO031')));
   for (const code of ['ISO031', 'ISO054', 'ISO006', 'W001']) assert.ok(listed.some((row) => row.includes(code)), `${code} in ${listed}`);
   assert.match(listed.find((row) => row.includes('ISO031')), /it is 11\.1803 mm from the start and 15 mm from the end/);
+});
+
+/** Chooses an entry in the menu of files in the Explorer. */
+async function chooseInExplorer(names, entry) {
+  await editor.command('File: Focus on Files Explorer');
+  const row = (name) => page.locator('.explorer-folders-view .monaco-list-row', { hasText: name }).first();
+  await row(names[0]).click();
+  for (const name of names.slice(1)) await row(name).click({ modifiers: ['Control'] });
+  await row(names.at(-1)).click({ button: 'right' });
+  await page.locator('.monaco-menu .action-item', { hasText: entry }).first().click();
+}
+
+test('a program is checked from the menu of its file', async () => {
+  await chooseInExplorer(['new.iso', 'chosen.iso'], 'Check with isolint');
+  // The terminal comes to the front with the task.
+  await eventually(() => editor.texts('.terminal-wrapper.active .xterm-rows'), 'the task reports nothing', (texts) => /chosen\.iso:2:1/.test(texts.join()));
+  await editor.command('Problems: Focus on Problems View');
+  await eventually(problems, 'what isolint finds is not listed', (rows) => rows.some((row) => row.includes('chosen.iso')) && rows.some((row) => row.includes('G05')));
+  await hidePanel();
+});
+
+test('two programs are compared as they would be formatted', async () => {
+  await chooseInExplorer(['old.iso', 'new.iso'], 'Compare Programs');
+  const side = (name) => editor.texts(`.monaco-diff-editor .editor.${name} .view-line`);
+  const [left, right] = await eventually(
+    async () => [await side('original'), await side('modified')],
+    'the programs are not compared',
+    ([a, b]) => a.some((line) => line.includes('Y4')) && b.some((line) => line.includes('Y5')),
+  );
+  assert.ok(left.some((line) => line.replaceAll('\u00a0', ' ').includes('M06 T101001')), left.join('; '));
+  assert.equal(left.length, right.length);
+  await eventually(() => page.locator('.monaco-diff-editor .editor.modified .line-insert').count(), 'blanks and case show as differences', (count) => count === 1);
+  await editor.press('Control+F4');
+  await editor.open('start-here.iso');
 });
 
 test('the colors of the dialect are there', async () => {

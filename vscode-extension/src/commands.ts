@@ -1,5 +1,6 @@
 /** Commands on the program in the editor. */
 import * as vscode from 'vscode';
+import * as compare from './compare';
 import { toolChangeBeside } from './program_text';
 import type { Server } from './server';
 
@@ -13,6 +14,7 @@ export function activate(context: vscode.ExtensionContext, server: Server): void
   register('restartFromHere', ({ document, selection }) =>
     ask(server, 'isocnc.restart', { uri: document.uri.toString(), line: selection.active.line }),
   );
+  compare.activate(context, server);
   context.subscriptions.push(
     vscode.commands.registerCommand('isocnc.restartServer', () => server.restart()),
     vscode.commands.registerCommand('isocnc.showOutput', () => server.showOutput()),

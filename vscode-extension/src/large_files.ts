@@ -2,7 +2,7 @@
 import { extname } from 'node:path';
 import * as vscode from 'vscode';
 import type { Environment } from './environment';
-import { checkFile } from './tasks';
+import { checkFiles } from './tasks';
 
 /** What VS Code calls a text that it does not synchronize. */
 const maxBytes = 50 * 1024 * 1024;
@@ -34,5 +34,5 @@ async function advise(environment: Environment, uri: vscode.Uri): Promise<void> 
   const check = vscode.l10n.t('Check with isolint');
   const name = vscode.workspace.asRelativePath(uri);
   const text = vscode.l10n.t('{0} is above 50 MB. Visual Studio Code does not hand such files to extensions; isolint checks it as a task.', name);
-  if ((await vscode.window.showWarningMessage(text, check)) === check) await checkFile(environment, uri.fsPath);
+  if ((await vscode.window.showWarningMessage(text, check)) === check) await checkFiles(environment, [uri.fsPath]);
 }

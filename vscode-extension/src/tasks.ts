@@ -1,5 +1,7 @@
 /** Tasks: isolint over the workspace or a program of any size, isorun. */
+import { sep } from 'node:path';
 import * as vscode from 'vscode';
+import { currentProgram } from './current_program';
 import { language, type Environment } from './environment';
 import type { ProgramName } from './programs';
 
@@ -38,7 +40,18 @@ export function activate(context: vscode.ExtensionContext, environment: Environm
         return file ? programTask(wanted, file, name) : undefined;
       },
     }),
+    vscode.commands.registerCommand('isocnc.check', (clicked?: vscode.Uri, chosen?: vscode.Uri[]) => check(environment, clicked, chosen)),
   );
+}
+
+/** Checks what is chosen in the Explorer, files and folders, or else the program in the editor, as it is saved. */
+async function check(environment: Environment, clicked?: vscode.Uri, chosen?: vscode.Uri[]): Promise<void> {
+  const uris = chosen?.length ? chosen : [clicked ?? currentProgram()?.uri].filter((uri) => uri !== undefined);
+  const files = uris.filter(({ scheme }) => scheme === 'file').map(({ fsPath }) => fsPath);
+  if (!files.length) return;
+  const isMeant = (path: string) => files.some((file) => path === file || path.startsWith(file + sep));
+  for (const document of vscode.workspace.textDocuments) if (document.isDirty && isMeant(document.uri.fsPath)) await document.save();
+  await checkFiles(environment, files);
 }
 
 function tasks(environment: Environment): vscode.Task[] {
@@ -53,9 +66,9 @@ function tasks(environment: Environment): vscode.Task[] {
   ];
 }
 
-/** Checks a file that the editor keeps to itself. */
-export async function checkFile(environment: Environment, file: string): Promise<void> {
+/** Checks files and folders by isolint itself; what it finds is listed among the problems. */
+export async function checkFiles(environment: Environment, files: string[]): Promise<void> {
   const isolint = await environment.need('isolint');
   if (isolint)
-    await vscode.tasks.executeTask(programTask({ type: 'isocnc', command: 'isolint', arguments: [file] }, isolint, 'isolint'));
+    await vscode.tasks.executeTask(programTask({ type: 'isocnc', command: 'isolint', arguments: files }, isolint, 'isolint'));
 }
