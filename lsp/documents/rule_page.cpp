@@ -16,7 +16,7 @@ static std::string find_page(const fs::path& page) {
   const fs::path program = system::program_file();
   if (program.empty()) return {};
   // The places of an installation (beside bin/) and of a build (above build/PRESET/bin).
-  const fs::path places[] = {program.parent_path() / "../share/doc/isocnc" / page.filename(),
+  const fs::path places[] = {program.parent_path() / "../share/doc/isocnc" / page,
                              program.parent_path() / "../../.." / page};
   for (const fs::path& place : places)
     if (fs::exists(place, error)) return protocol::uri_of(fs::weakly_canonical(place, error));

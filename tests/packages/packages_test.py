@@ -5,6 +5,7 @@ usage: packages_test.py BUILD_FOLDER. What is not there to test with (dpkg, lint
 """
 
 import gzip
+import json
 import os
 import re
 import shutil
@@ -14,6 +15,7 @@ import tarfile
 import tempfile
 import unittest
 from pathlib import Path
+from urllib.parse import unquote
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAMS = ["isolint", "isofmt", "isorun", "isols", "isodap"]
@@ -47,6 +49,29 @@ def pack(generator: str, pattern: str) -> Path:
     return package
 
 
+def pages_of_findings(isols: Path) -> set[str]:
+    """The files that a language server names for the codes of its findings."""
+    document = {"uri": "file:///part.iso", "languageId": "isocnc", "version": 1, "text": (ROOT / BROKEN).read_text()}
+    messages = [
+        {"id": 1, "method": "initialize", "params": {"processId": None, "rootUri": None, "capabilities": {}}},
+        {"method": "initialized", "params": {}},
+        {"method": "textDocument/didOpen", "params": {"textDocument": document}},
+        {"id": 2, "method": "textDocument/diagnostic", "params": {"textDocument": {"uri": document["uri"]}}},
+    ]
+    with subprocess.Popen([isols], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as server:
+        for message in messages:
+            text = json.dumps({"jsonrpc": "2.0"} | message).encode()
+            server.stdin.write(b"Content-Length: %d\r\n\r\n" % len(text) + text)
+        server.stdin.flush()
+        answer = {}
+        while answer.get("id") != 2:
+            length = int(server.stdout.readline().removeprefix(b"Content-Length: "))
+            server.stdout.readline()
+            answer = json.loads(server.stdout.read(length))
+        server.terminate()
+    return {unquote(each["codeDescription"]["href"].partition("#")[0]) for each in answer["result"]["items"]}
+
+
 def files_below(folder: Path) -> list[str]:
     return sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if not path.is_dir())
 
@@ -72,6 +97,7 @@ class Installed(unittest.TestCase):
         # The files that the first steps name (docs/operator.md), and the pages in both languages.
         for file in ("examples/machine/isocnc.json", "docs/operator.md", "docs/it/operatore.md", "docs/it/macchina.md"):
             self.assertTrue((documents / file).is_file(), file)
+        self.assertEqual(pages_of_findings(prefix / "bin/isols"), {"file://" + str((documents / "docs/rules.md").resolve())})
         broken = subprocess.run(
             [prefix / "bin/isolint", "--lang", "en", documents / BROKEN], capture_output=True, text=True, check=False
         )
@@ -86,7 +112,7 @@ class DebianPackage(Installed):
         cls.package = pack("DEB", "*.deb")
 
     def test_it_is_named_after_the_version(self) -> None:
-        self.assertRegex(self.package.name, rf"^isocnc_{re.escape(VERSION)}-1_\w+\.deb$")
+        self.assertRegex(self.package.name, rf"^isocnc_{re.escape(VERSION)}_\w+\.deb$")
 
     def test_it_installs_runs_and_goes(self) -> None:
         root = scratch / "root"
