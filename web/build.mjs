@@ -5,6 +5,7 @@ import { chmodSync, cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } fro
 import { join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { build } from 'esbuild';
+import { version } from '../cmake/version.mjs';
 
 const root = fileURLToPath(new URL('..', import.meta.url));
 const here = join(root, 'web');
@@ -41,6 +42,6 @@ for (const program of ['isolint', 'isofmt', 'isorun']) {
 }
 const json = JSON.parse(readFileSync(join(here, 'package.json'), 'utf8'));
 for (const key of ['scripts', 'devDependencies']) delete json[key];
-writeFileSync(join(target, 'package.json'), `${JSON.stringify(json, null, 2)}\n`);
+writeFileSync(join(target, 'package.json'), `${JSON.stringify({ name: json.name, version, ...json }, null, 2)}\n`);
 cpSync(join(root, 'LICENSE'), join(target, 'LICENSE'));
 cpSync(join(here, 'README.md'), join(target, 'README.md'));

@@ -65,13 +65,25 @@ std::string text_after(const std::string& before, const std::string& file) {
   return text.substr(at, text.find_first_of("\" ]\n", at) - at);
 }
 
-TEST(Documentation, VersionIsThatOfTheBuild) {
+/// The changelog tells of each version; nothing else repeats the one that CMakeLists.txt states.
+TEST(Documentation, VersionStandsInOnePlace) {
   const std::string version = text_after("project(isocnc VERSION ", "CMakeLists.txt");
   ASSERT_FALSE(version.empty());
-  EXPECT_EQ(text_after("\"version\": \"", "vscode-extension/package.json"), version);
   EXPECT_EQ(text_after("\n## [", "CHANGELOG.md"), version);
-  EXPECT_EQ(text_after("find_package(isocnc ", "examples/library/CMakeLists.txt"),
-            version.substr(0, version.rfind('.')));
+  std::vector<fs::path> files;
+  for (const std::string folder : {".github", "cmake", "docs", "examples", "scripts"})
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder))
+      if (entry.is_regular_file()) files.push_back(entry.path());
+  for (const std::string file :
+       {"README.md", "CONTRIBUTING.md", "Dockerfile", "action.yml", ".gitlab-ci.yml", "vscode-extension/package.json",
+        "vscode-extension/README.md", "web/package.json", "web/README.md"})
+    files.push_back(kRoot / file);
+  for (const fs::path& file : files) EXPECT_EQ(read(file).find(version), std::string::npos) << file;
+  // In the lists of packages others may have the same version; ours is named in the first lines.
+  for (const std::string file : {"vscode-extension/package-lock.json", "web/package-lock.json"}) {
+    const std::string text = read(file);
+    EXPECT_EQ(text.substr(0, text.find("node_modules/")).find(version), std::string::npos) << file;
+  }
 }
 
 TEST(Documentation, ProgramsHaveTheSameExtensionsEverywhere) {
