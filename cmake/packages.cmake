@@ -25,24 +25,32 @@ function(install_compressed source name destination)
   endif()
 endfunction()
 
-if(WIN32)
-  # The scripts find isolint.exe beside them.
-  install(FILES cmake/windows/add-to-explorer.cmd cmake/windows/remove-from-explorer.cmd DESTINATION ${CMAKE_INSTALL_BINDIR}
-          COMPONENT programs)
-endif()
-install(DIRECTORY cmake/windows/notepad++ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
-install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
-foreach(program IN LISTS programs)
-  install_compressed(${PROJECT_SOURCE_DIR}/docs/man/${program}.1 ${program}.1 ${CMAKE_INSTALL_MANDIR}/man1)
-  install_compressed(${PROJECT_SOURCE_DIR}/docs/man/it/${program}.1 ${program}.1 ${CMAKE_INSTALL_MANDIR}/it/man1)
-  install(FILES scripts/completions/isocnc.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
-          RENAME ${program} COMPONENT programs)
-  install(FILES scripts/completions/isocnc.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
-          RENAME ${program}.fish COMPONENT programs)
-endforeach()
-install(FILES scripts/completions/_isocnc DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT programs)
+# The manual pages, with the version in their first lines.
+function(install_manual_page program folder)
+  configure_file(${PROJECT_SOURCE_DIR}/docs/${folder}/${program}.1 ${packaged}/${folder}/${program}.1 @ONLY)
+  string(REGEX REPLACE "^man" "" language ${folder})
+  install_compressed(${packaged}/${folder}/${program}.1 ${program}.1 ${CMAKE_INSTALL_MANDIR}${language}/man1)
+endfunction()
 
-# The license and the two changelogs under the names that Debian requires; other packages contain them as well.
+install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
+
+# What shells and `man` read, and the license and the two changelogs under the names that Debian requires. Windows has none of these.
+function(install_for_posix)
+  foreach(program IN LISTS programs)
+    install_manual_page(${program} man)
+    install_manual_page(${program} man/it)
+    install(FILES scripts/completions/isocnc.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+            RENAME ${program} COMPONENT programs)
+    install(FILES scripts/completions/isocnc.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
+            RENAME ${program}.fish COMPONENT programs)
+  endforeach()
+  install(FILES scripts/completions/_isocnc DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT programs)
+  install(FILES ${packaged}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
+  install_compressed(${packaged}/changelog.Debian changelog.Debian ${CMAKE_INSTALL_DOCDIR})
+  install_compressed(${PROJECT_SOURCE_DIR}/CHANGELOG.md changelog ${CMAKE_INSTALL_DOCDIR})
+  install(FILES cmake/lintian-overrides DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides RENAME isocnc COMPONENT programs)
+endfunction()
+
 file(READ LICENSE license)
 string(REGEX REPLACE "^[^\n]*\n\nCopyright \\(c\\) ([^\n]*)\n\n" "" license_text "${license}")
 set(holders "${CMAKE_MATCH_1}")
@@ -51,11 +59,18 @@ string(REPLACE "\n" "\n " license_text " ${license_text}")
 string(REPLACE "\n \n" "\n .\n" license_text "${license_text}")
 configure_file(cmake/copyright.in ${packaged}/copyright @ONLY)
 configure_file(cmake/changelog.Debian.in ${packaged}/changelog.Debian @ONLY)
-install(FILES ${packaged}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
-install_compressed(${packaged}/changelog.Debian changelog.Debian ${CMAKE_INSTALL_DOCDIR})
-install_compressed(${PROJECT_SOURCE_DIR}/CHANGELOG.md changelog ${CMAKE_INSTALL_DOCDIR})
-install(FILES cmake/lintian-overrides DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides RENAME isocnc COMPONENT programs)
+if(WIN32)
+  install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
+  # The scripts find isolint.exe beside them.
+  install(FILES cmake/windows/add-to-explorer.cmd cmake/windows/remove-from-explorer.cmd DESTINATION ${CMAKE_INSTALL_BINDIR}
+          COMPONENT programs)
+else()
+  install_for_posix()
+endif()
+# What scripts/release writes there: the licenses of what the programs hold of others.
+install(FILES ${packaged}/third-party-notices.txt DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs OPTIONAL)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
+install(DIRECTORY cmake/windows/notepad++ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs
         FILES_MATCHING PATTERN "*.md" PATTERN "*.json" PATTERN "*.svg" PATTERN "*.png" PATTERN man EXCLUDE)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
@@ -85,7 +100,23 @@ write_basic_package_version_file(${packaged}/isocnc-config-version.cmake COMPATI
 install(FILES ${packaged}/isocnc-config.cmake ${packaged}/isocnc-config-version.cmake DESTINATION ${package_dir}
         COMPONENT development ${unless_asked})
 
-set(CPACK_GENERATOR DEB TGZ)
+# The name of the platform, as of Node.js and of the packages for VS Code.
+if(WIN32)
+  set(platform windows-x64)
+  set(CPACK_GENERATOR ZIP)
+elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
+  set(platform linux-arm64)
+  set(debian_architecture arm64)
+  set(CPACK_GENERATOR DEB TGZ)
+elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+  set(platform linux-x64)
+  set(debian_architecture amd64)
+  set(CPACK_GENERATOR DEB TGZ)
+else()
+  set(platform ${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR})
+  set(CPACK_GENERATOR TGZ)
+endif()
+set(CPACK_PACKAGE_FILE_NAME ${PROJECT_NAME}-${PROJECT_VERSION}-${platform})
 set(CPACK_PACKAGE_CONTACT "${ISOCNC_MAINTAINER}")
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS ${CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS})
@@ -97,6 +128,14 @@ be written, isorun runs them on a simulated machine and draws their path,
 isols and isodap are the language server and the debugger of editors.")
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SECTION devel)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+if(debian_architecture)
+  set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE ${debian_architecture})
+  set(CPACK_DEBIAN_FILE_NAME ${PROJECT_NAME}_${PROJECT_VERSION}_${debian_architecture}.deb)
+endif()
+if(CMAKE_CROSSCOMPILING)
+  # dpkg-shlibdeps would name the libraries of the cross compiler. The programs are linked statically but for this one.
+  set(CPACK_DEBIAN_PACKAGE_DEPENDS "libc6 (>= 2.36)")
+else()
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+endif()
 include(CPack)

@@ -11,7 +11,8 @@ set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE NEVER)
 # The version from which consoles show escape sequences and files can be replaced while they are read.
 add_compile_definitions(_WIN32_WINNT=0x0A00 UNICODE _UNICODE NOMINMAX WIN32_LEAN_AND_MEAN)
-add_link_options(-static)
+# The same bytes each time: no time in the header of a program.
+add_link_options(-static -Wl,--no-insert-timestamp)
 # Debian's `wine` script also asks for a 32-bit Wine.
 find_program(ISOCNC_WINE NAMES wine64 wine PATHS /usr/lib/wine)
 find_program(ISOCNC_WINE_SERVER NAMES wineserver PATHS /usr/lib/wine)
