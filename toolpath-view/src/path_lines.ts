@@ -209,7 +209,8 @@ export class PathLines {
     let weight = 0;
     for (let i = this.offset, point = this.first + 1; point <= this.last; ++i, ++point) {
       const step = this.path.pointStep[point];
-      if (step !== painted) {
+      // A program that has done nothing has points, but no step.
+      if (step !== painted && step < this.path.stepCount) {
         painted = step;
         color = colorOf(step);
         const kind = this.path.stepKind[step];

@@ -253,6 +253,7 @@ export class ToolpathView {
   /** The line that a place on the canvas shows, pixels of the page; of those that are as near the foremost. */
   pick(x: number, y: number): Hit | null {
     const { path, center } = this;
+    if (path.stepCount === 0) return null;
     const [width, height] = [this.container.clientWidth, this.container.clientHeight];
     this.camera.updateMatrixWorld();
     const m = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse).elements;

@@ -73,6 +73,14 @@ async function start({ server, wasm, language }: Start): Promise<(data: unknown)
 // What arrives before the module is there waits.
 let started: Promise<(data: unknown) => void> | null = null;
 scope.onmessage = ({ data }) => {
-  if (started) void started.then((take) => take(data));
-  else started = start(data as Start);
+  if (started) void started.then((take) => take(data), () => undefined);
+  else {
+    started = start(data as Start);
+    // A page hears of errors, but not of promises.
+    started.catch((failure: unknown) =>
+      setTimeout(() => {
+        throw failure;
+      }),
+    );
+  }
 };
