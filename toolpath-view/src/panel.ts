@@ -43,6 +43,8 @@ export class Panel {
     private language: Language,
     private theme: Theme,
     hidden: Layer[] = [],
+    /** Where its keys count. */
+    private readonly keys: HTMLElement | Document = document,
   ) {
     this.shown = Object.fromEntries(layers.map(([layer]) => [layer, !hidden.includes(layer)])) as Record<Layer, boolean>;
     this.totals = totalsOf(path);
@@ -59,6 +61,11 @@ export class Panel {
 
   private get texts(): Texts {
     return texts[this.language];
+  }
+
+  /** The path that is shown. */
+  get shownPath(): Toolpath {
+    return this.path;
   }
 
   /** Shows another path, as after an edit, from where one looks and at the line that was shown. */
@@ -147,7 +154,7 @@ export class Panel {
       player.seek(Number(scrubber.value));
     });
     byId('settings').addEventListener('submit', (event) => event.preventDefault());
-    document.addEventListener('keydown', (event) => this.onKey(event));
+    this.keys.addEventListener('keydown', (event) => this.onKey(event as KeyboardEvent));
     for (const name of ['previous', 'next'] as const) byId(name).append(icon(name));
   }
 
