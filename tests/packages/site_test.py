@@ -11,6 +11,7 @@ import urllib.parse
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SITE = ROOT / "build/site/html"
+PLAYGROUND = ROOT / "build/web/playground/index.html"
 
 
 class Page(html.parser.HTMLParser):
@@ -57,6 +58,12 @@ class SiteTest(unittest.TestCase):
                         self.assertIn(urllib.parse.unquote(url.fragment), self.pages[other].ids)
                 followed += 1
         self.assertGreater(followed, 100)
+
+    def test_has_the_playground_where_it_is_built(self):
+        leading = [page for page in self.pages.values() if any("playground/index.html" in target for target in page.targets)]
+        self.assertEqual((SITE / "playground/index.html").exists(), PLAYGROUND.exists())
+        self.assertEqual(len(leading) > 20, PLAYGROUND.exists())
+        self.assertTrue(leading or not PLAYGROUND.exists())
 
     def test_fetches_nothing_from_elsewhere(self):
         for path in self.pages:
