@@ -29,7 +29,7 @@ await Promise.all([
   build({ ...common, entryPoints: ['src/index.ts'], outfile: join(target, 'dist/index.js'), format: 'esm', external: ['node:*'], plugins: [glue(false)] }),
   build({ ...common, entryPoints: ['src/command.ts'], outfile: join(target, 'dist/command.js'), format: 'esm', platform: 'node' }),
   build({ ...common, entryPoints: ['src/stdio.ts'], outfile: join(made, 'emulated/stdio.mjs'), format: 'esm', platform: 'node' }),
-  build({ ...common, entryPoints: ['src/worker.ts'], outfile: join(target, 'dist/worker.js'), format: 'iife', minify: true, plugins: [glue(true)], define: { 'import.meta.url': '"file:///"' }, external: ['module'] }),
+  build({ ...common, entryPoints: ['src/worker.ts'], outfile: join(target, 'dist/worker.js'), format: 'iife', minify: true, plugins: [glue(true)], define: { 'import.meta.url': '"file:///isocnc.mjs"' }, external: ['module'] }),
 ]);
 execFileSync(join(here, 'node_modules/.bin/tsc'), ['--noEmit', 'false', '--emitDeclarationOnly', '--outDir', join(target, 'types')], { cwd: here, stdio: 'inherit' });
 cpSync(join(target, 'types/index.d.ts'), join(target, 'dist/index.d.ts'));

@@ -14,6 +14,9 @@ export interface Files {
   unlink(path: string): void;
   rename(from: string, to: string): void;
   analyzePath(path: string): { exists: boolean };
+  readdir(path: string): string[];
+  stat(path: string): { mode: number };
+  isDir(mode: number): boolean;
   open(path: string, flags: string): { fd: number };
   close(stream: { fd: number }): void;
   streams: { fd: number }[];

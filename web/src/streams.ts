@@ -1,5 +1,5 @@
 /** Commands on texts: their standard streams are files in the module's memory. */
-import { run, type Module, type Program } from './module';
+import { run, type Files, type Module, type Program } from './module';
 
 const [input, output, complaints] = ['/isocnc.in', '/isocnc.out', '/isocnc.err'];
 
@@ -8,6 +8,18 @@ export interface Outcome {
   status: number;
   output: string;
   complaints: string;
+}
+
+/** The content of all files by their paths, but for those of the system and of the streams. */
+export function filesIn(FS: Files, folder = ''): Map<string, Uint8Array> {
+  const files = new Map<string, Uint8Array>();
+  for (const name of FS.readdir(folder || '/')) {
+    const path = `${folder}/${name}`;
+    if (name === '.' || name === '..' || /^\/(?:dev|proc|isocnc\.\w+)$/.test(path)) continue;
+    if (!FS.isDir(FS.stat(path).mode)) files.set(path, FS.readFile(path));
+    else for (const [inside, content] of filesIn(FS, path)) files.set(inside, content);
+  }
+  return files;
 }
 
 /** Makes a standard stream a file. */

@@ -6,7 +6,7 @@
 import { Conversation } from './conversation';
 import makeModule from './glue';
 import type { Module, Program, Server } from './module';
-import { runOnText, type Outcome } from './streams';
+import { filesIn, runOnText, type Outcome } from './streams';
 
 export interface Start {
   server: Server;
@@ -21,13 +21,21 @@ export interface Changes {
   files: Record<string, Uint8Array | string | null>;
 }
 
-/** A command to run in the same module; the answer is an Outcome with the same number as `run`. */
+/** A command to run in the same module; the answer is an Answer with the same number as `run`. */
 export interface Command {
   run: number;
   program: Program;
   args: readonly string[];
   /** Its standard input. */
   text?: string;
+  /** Its working directory; with one, the answer has the files that the command has written. */
+  folder?: string;
+}
+
+export interface Answer extends Outcome {
+  run: number;
+  /** By absolute paths. */
+  files?: Record<string, Uint8Array>;
 }
 
 const scope = globalThis as unknown as {
@@ -47,8 +55,16 @@ function change(module: Module, { files }: Changes): void {
   }
 }
 
-function answer(module: Module, { run, program, args, text }: Command): Outcome & Pick<Command, 'run'> {
-  return { run, ...runOnText(module, program, args, text) };
+const isEqual = (one: Uint8Array, other: Uint8Array | undefined) => one.length === other?.length && one.every((byte, i) => byte === other[i]);
+
+function answer(module: Module, { run, program, args, text, folder }: Command): Answer {
+  if (folder === undefined) return { run, ...runOnText(module, program, args, text) };
+  module.FS.mkdirTree(folder);
+  module.FS.chdir(folder);
+  const before = filesIn(module.FS);
+  const outcome = runOnText(module, program, args, text);
+  const written = [...filesIn(module.FS)].filter(([path, content]) => !isEqual(content, before.get(path)));
+  return { run, ...outcome, files: Object.fromEntries(written) };
 }
 
 const isMessageWith = (member: string, data: unknown) => typeof data === 'object' && data !== null && member in data;
