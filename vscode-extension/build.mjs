@@ -1,4 +1,4 @@
-// Bundles the extension into dist/: its own script, and the page of the toolpath with script and style.
+// Bundles the extension into dist/: its own scripts, for Node.js and for browsers, and the page of the toolpath with script and style.
 import { readFileSync, writeFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { build } from 'esbuild';
@@ -15,6 +15,15 @@ await Promise.all([
     format: 'cjs',
     external: ['vscode'],
     mainFields: ['module', 'main'],
+  }),
+  build({
+    ...common,
+    entryPoints: [here('src/browser.ts')],
+    outfile: here('dist/browser.js'),
+    platform: 'browser',
+    format: 'cjs',
+    external: ['vscode'],
+    mainFields: ['browser', 'module', 'main'],
   }),
   build({
     ...common,

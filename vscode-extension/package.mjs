@@ -1,8 +1,8 @@
-// Makes the extension's package for a platform: node package.mjs [FOLDER] [--target linux-x64|linux-arm64|win32-x64|web|...]
+// Makes the extension's package for a platform: node package.mjs [FOLDER] [--target linux-x64|linux-arm64|win32-x64|web|universal|...]
 // Without --target it is the platform of this machine. It gathers in build/vscode-extension/stage what belongs to it: what is built, the
-// programs (of build/release/bin, or of the folder ISOCNC_BIN_DIR), and what has its home elsewhere in the repository. The package `web` holds no
-// programs, but the module of them: build/web/npm/dist, or the folder ISOCNC_WEB_DIR. ISOCNC_NOTICES names a file with the licenses of what is
-// bundled.
+// programs (of build/release/bin, or of the folder ISOCNC_BIN_DIR), and what has its home elsewhere in the repository. The packages `web`, for
+// browsers, and `universal`, for them and for platforms that have no package of their own, hold no programs, but the module of them:
+// build/web/npm/dist, or the folder ISOCNC_WEB_DIR. ISOCNC_NOTICES names a file with the licenses of what is bundled.
 import { execFileSync } from 'node:child_process';
 import { chmodSync, cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
@@ -68,7 +68,7 @@ for (const name of ['LICENSE', 'CHANGELOG.md']) cpSync(join(root, name), join(st
 cpSync(join(root, 'docs/isocnc.schema.json'), join(stage, 'isocnc.schema.json'));
 for (const name of ['pocket.iso', 'five-axis.iso', 'option.iso']) cpSync(join(root, 'examples', name), join(stage, 'test-drive', name));
 if (process.env.ISOCNC_NOTICES) cpSync(process.env.ISOCNC_NOTICES, join(stage, 'third-party-notices.txt'));
-if (platform === 'web') stageModule();
+if (['web', 'universal'].includes(platform)) stageModule();
 else for (const name of [...needed, ...optional]) stageProgram(name);
 stageReadme();
 const { name, contributes } = stagePackageJson();
@@ -79,7 +79,7 @@ const packagePath = join(folder, `${name}-${platform}-${version}.vsix`);
 await createVSIX({
   cwd: stage,
   packagePath,
-  target: platform,
+  target: platform === 'universal' ? undefined : platform,
   dependencies: false,
   allowMissingRepository: true,
   rewriteRelativeLinks: false,

@@ -113,13 +113,7 @@ afterEach(async (context) => {
   writeFileSync(join(folder, 'failed.log'), editor.log);
 });
 
-/** More room for the editors. */
-async function hidePanel() {
-  const close = page.locator('.part.panel .codicon-panel-close').first();
-  if (!(await close.isVisible())) return;
-  await close.click();
-  await close.waitFor({ state: 'hidden' });
-}
+const hidePanel = () => editor.hidePanel();
 
 /** A file of the workspace's settings. */
 function writeInFolder(name, content) {
@@ -130,8 +124,8 @@ function writeInFolder(name, content) {
 const writeSettings = (settings) => writeInFolder('settings.json', settings);
 
 const notices = () => editor.texts('.notification-toast');
-const squiggles = () => page.locator('.squiggly-error').count();
-const problems = () => editor.texts('.markers-panel .monaco-list-row');
+const squiggles = () => editor.squiggles();
+const problems = () => editor.problems();
 
 test('what would stop the control is underlined and listed among the problems', async () => {
   await editor.open('start-here.iso');
@@ -304,13 +298,7 @@ test('the toolpath shows the moves of the program', async () => {
   );
 });
 
-const litLine = async () => {
-  const frame = await editor.toolpath();
-  return frame.evaluate(() => {
-    const { path, player } = globalThis.isocnc;
-    return path.stepLine[player.step] + 1;
-  });
-};
+const litLine = () => editor.litLine();
 
 test('the move of the line at the cursor lights up', async () => {
   await editor.focus();
@@ -474,35 +462,11 @@ test('the server is started anew', async () => {
   await eventually(squiggles, 'nothing is underlined after a restart', (count) => count >= 2);
 });
 
-/** VS Code unfolds the first scope at every stop, and has but those rows on the page that there is room for: it is folded again. */
-async function variables() {
-  const first = page.locator('.debug-variables .monaco-list-row[data-index="0"]').first();
-  if ((await first.getAttribute('aria-expanded', { timeout: 2000 })) === 'true') await first.locator('.monaco-tl-twistie').click({ timeout: 2000 });
-  return editor.texts('.debug-variables .monaco-list-row');
-}
-async function unfold(scope) {
-  await eventually(variables, `there is no ${scope}`, (rows) => rows.includes(scope));
-  const row = page.locator('.debug-variables .monaco-list-row[aria-level="1"]', { hasText: scope }).first();
-  if ((await row.getAttribute('aria-expanded')) !== 'true') await row.locator('.monaco-tl-twistie').click();
-}
-const stoppedAt = async () =>
-  Number(/(\d+):\d+/.exec((await editor.texts('.debug-call-stack .stack-frame.focused, .debug-call-stack .stack-frame')).join(' '))?.[1] ?? NaN);
-const step = async (key, line) => {
-  await editor.press(key);
-  await eventually(stoppedAt, `${key} does not lead to line ${line}`, (now) => now === line);
-};
-
-/** F5 until the debugger is there: a busy page may lose a key. */
-const startDebugging = () =>
-  eventually(
-    async () => {
-      await editor.focus();
-      await editor.press('F5');
-      await page.locator('.debug-toolbar').waitFor({ timeout: 15_000 });
-      return true;
-    },
-    'F5 starts no debugger',
-  );
+const variables = () => editor.variables();
+const unfold = (scope) => editor.unfold(scope);
+const stoppedAt = () => editor.stoppedAt();
+const step = (key, line) => editor.step(key, line);
+const startDebugging = () => editor.startDebugging();
 
 test('F5 runs the open program; steps go forward and back', withDebugger, async () => {
   await editor.open('registers.iso');

@@ -37,6 +37,21 @@ export async function eventually(ask, what, isRight = Boolean) {
   }
 }
 
+/** What all editors of the tests are set to. */
+export const userSettings = {
+  'workbench.startupEditor': 'none',
+  'telemetry.telemetryLevel': 'off',
+  'workbench.colorTheme': 'Default Dark Modern',
+  'editor.minimap.enabled': false,
+  'workbench.tips.enabled': false,
+  'files.autoSave': 'off',
+  // What moves is drawn again and again, by the processor.
+  'workbench.reduceMotion': 'on',
+  'editor.cursorBlinking': 'solid',
+  'terminal.integrated.gpuAcceleration': 'off',
+  'workbench.secondarySideBar.defaultVisibility': 'hidden',
+};
+
 export class Editor {
   #server;
   #browser;
@@ -50,20 +65,7 @@ export class Editor {
     for (const name of ['data/User', 'extensions', 'parts', 'home']) mkdirSync(at(name), { recursive: true });
     writeFileSync(
       at('data/User/settings.json'),
-      JSON.stringify({
-        'workbench.startupEditor': 'none',
-        'telemetry.telemetryLevel': 'off',
-        'workbench.colorTheme': 'Default Dark Modern',
-        'editor.minimap.enabled': false,
-        'workbench.tips.enabled': false,
-        'files.autoSave': 'off',
-        // What moves is drawn again and again, by the processor.
-        'workbench.reduceMotion': 'on',
-        'editor.cursorBlinking': 'solid',
-        'terminal.integrated.gpuAcceleration': 'off',
-        'workbench.secondarySideBar.defaultVisibility': 'hidden',
-        ...settings,
-      }),
+      JSON.stringify({ ...userSettings, ...settings }),
     );
     writeFileSync(at('config.yaml'), '');
     const entry = join(codeServer, 'node_modules/code-server/out/node/entry.js');
@@ -88,7 +90,7 @@ export class Editor {
     editor.url = `http://127.0.0.1:${port}`;
     try {
       await eventually(async () => (await fetch(`${editor.url}/healthz`)).ok, 'code-server does not answer');
-      await editor.#browse();
+      await editor.browse();
     } catch (error) {
       await editor.stop();
       throw error;
@@ -96,7 +98,8 @@ export class Editor {
     return editor;
   }
 
-  async #browse() {
+  /** Opens a page in the browser. */
+  async browse() {
     this.#browser = await chromium.launch({
       timeout: patience,
       executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
@@ -106,6 +109,10 @@ export class Editor {
     const context = await this.#browser.newContext({ viewport: { width: 1440, height: 900 } });
     context.setDefaultTimeout(patience);
     this.page = await context.newPage();
+  }
+
+  async closeBrowser() {
+    await this.#browser?.close().catch(() => {});
   }
 
   /** Puts a file into the workspace. */
@@ -207,6 +214,68 @@ export class Editor {
     return text?.replace(/[\u00a0\u00b7]/g, ' ') ?? null;
   }
 
+  /** The rows of the problems' list, which has to be open. */
+  problems() {
+    return this.texts('.markers-panel .monaco-list-row');
+  }
+
+  squiggles() {
+    return this.page.locator('.squiggly-error').count();
+  }
+
+  /** More room for the editors. */
+  async hidePanel() {
+    const close = this.page.locator('.part.panel .codicon-panel-close').first();
+    if (!(await close.isVisible())) return;
+    await close.click();
+    await close.waitFor({ state: 'hidden' });
+  }
+
+  /** F5 until the debugger is there: a busy page may lose a key. */
+  startDebugging() {
+    return eventually(
+      async () => {
+        await this.focus();
+        await this.press('F5');
+        await this.page.locator('.debug-toolbar').waitFor({ timeout: 15_000 });
+        return true;
+      },
+      'F5 starts no debugger',
+    );
+  }
+
+  /** VS Code unfolds the first scope at every stop, and has but those rows on the page that there is room for: it is folded again. */
+  async variables() {
+    const first = this.page.locator('.debug-variables .monaco-list-row[data-index="0"]').first();
+    if ((await first.getAttribute('aria-expanded', { timeout: 2000 })) === 'true') await first.locator('.monaco-tl-twistie').click({ timeout: 2000 });
+    return this.texts('.debug-variables .monaco-list-row');
+  }
+
+  async unfold(scope) {
+    await eventually(() => this.variables(), `there is no ${scope}`, (rows) => rows.includes(scope));
+    const row = this.page.locator('.debug-variables .monaco-list-row[aria-level="1"]', { hasText: scope }).first();
+    if ((await row.getAttribute('aria-expanded')) !== 'true') await row.locator('.monaco-tl-twistie').click();
+  }
+
+  /** The line at which the debugger has stopped. */
+  async stoppedAt() {
+    return Number(/(\d+):\d+/.exec((await this.texts('.debug-call-stack .stack-frame.focused, .debug-call-stack .stack-frame')).join(' '))?.[1] ?? NaN);
+  }
+
+  async step(key, line) {
+    await this.press(key);
+    await eventually(() => this.stoppedAt(), `${key} does not lead to line ${line}`, (now) => now === line);
+  }
+
+  /** The line whose move is lit up in the toolpath. */
+  async litLine() {
+    const frame = await this.toolpath();
+    return frame.evaluate(() => {
+      const { path, player } = globalThis.isocnc;
+      return path.stepLine[player.step] + 1;
+    });
+  }
+
   /** The frame of the toolpath's page. */
   async toolpath() {
     return eventually(async () => {
@@ -236,7 +305,7 @@ export class Editor {
   }
 
   async stop() {
-    await this.#browser?.close().catch(() => {});
+    await this.closeBrowser();
     const gone = this.#server.exitCode !== null || this.#server.signalCode !== null ? null : once(this.#server, 'exit');
     this.#kill('SIGTERM');
     await Promise.race([gone, sleep(10_000, null, { ref: false })]);

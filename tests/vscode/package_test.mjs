@@ -16,11 +16,20 @@ const files = JSON.parse(execFileSync('python3', ['-c', listing, vsix], { encodi
 const text = (name) => execFileSync('python3', ['-c', 'import sys, zipfile; sys.stdout.buffer.write(zipfile.ZipFile(sys.argv[1]).read(sys.argv[2]))', vsix, name], { encoding: 'utf8' });
 const manifest = JSON.parse(text('extension/package.json'));
 
+const isWeb = /-web-/.test(vsix);
+const onlyNative = { skip: isWeb && 'it has no native programs' };
+
 test('it is for this platform', () => {
-  assert.match(text('extension.vsixmanifest'), new RegExp(`TargetPlatform="${process.platform}-${process.arch}"`));
+  const platform = isWeb ? 'web' : `${process.platform}-${process.arch}`;
+  assert.match(text('extension.vsixmanifest'), new RegExp(`TargetPlatform="${platform}"`));
 });
 
-test('the programs are in it, and may be started', () => {
+test('the package for browsers has the module and no programs, the others have no module', () => {
+  for (const name of ['worker.js', 'isocnc.wasm']) assert.equal(`extension/dist/web/${name}` in files, isWeb, name);
+  if (isWeb) assert.deepEqual(Object.keys(files).filter((name) => name.startsWith('extension/bin')), []);
+});
+
+test('the programs are in it, and may be started', onlyNative, () => {
   for (const name of ['isols', 'isolint', 'isorun', 'isofmt']) {
     const [size, mode] = files[`extension/bin/${name}`] ?? [];
     assert.ok(size > 100_000, `${name}: ${size} bytes`);
@@ -28,7 +37,7 @@ test('the programs are in it, and may be started', () => {
   }
 });
 
-test('the programs need nothing of the system but the C library', { skip: process.platform !== 'linux' && 'this looks at programs of Linux' }, (context) => {
+test('the programs need nothing of the system but the C library', { skip: onlyNative.skip || (process.platform !== 'linux' && 'this looks at programs of Linux') }, (context) => {
   const folder = mkdtempSync(join(tmpdir(), 'isocnc-package-'));
   context.after(() => rmSync(folder, { recursive: true }));
   execFileSync('python3', ['-c', 'import sys, zipfile; zipfile.ZipFile(sys.argv[1]).extractall(sys.argv[2])', vsix, folder]);
@@ -44,9 +53,10 @@ test('the programs need nothing of the system but the C library', { skip: proces
 });
 
 test('whatever package.json names is in it', () => {
-  const { contributes, main, icon } = manifest;
+  const { contributes, main, browser, icon } = manifest;
   const named = [
     main,
+    browser,
     icon,
     ...contributes.languages.flatMap(({ configuration, icon: icons }) => [configuration, icons?.light, icons?.dark]),
     ...contributes.grammars.map(({ path }) => path),
@@ -70,7 +80,7 @@ test('nothing else is in it', () => {
 test('it is small enough to be sent around', () => {
   const megabytes = statSync(vsix).size / 1e6;
   assert.ok(megabytes < 25, `${megabytes} MB`);
-  for (const [name, maxSize] of [['dist/extension.js', 600_000], ['dist/toolpath.js', 900_000]]) {
+  for (const [name, maxSize] of [['dist/extension.js', 600_000], ['dist/browser.js', 600_000], ['dist/toolpath.js', 900_000]]) {
     const [size] = files[`extension/${name}`];
     assert.ok(size < maxSize, `${name}: ${size} bytes`);
   }

@@ -1,9 +1,12 @@
 /** The program that is meant where none is named: that in the editor; else, in a walkthrough or the like, that looked at before. */
 import * as vscode from 'vscode';
+import type { Environment } from './environment';
 
 let last: vscode.TextDocument | undefined;
+let reaches: (uri: vscode.Uri) => boolean;
 
-export function activate(context: vscode.ExtensionContext): void {
+export function activate(context: vscode.ExtensionContext, environment: Environment): void {
+  reaches = (uri) => environment.reaches(uri);
   const look = (editor: vscode.TextEditor | undefined) => {
     if (editor?.document.languageId === 'isocnc') last = editor.document;
   };
@@ -27,7 +30,7 @@ export function isInFile(program: vscode.TextDocument | undefined): program is v
     void adviseOpen();
     return false;
   }
-  if (program.uri.scheme === 'file') return true;
+  if (reaches(program.uri)) return true;
   void vscode.window.showInformationMessage(vscode.l10n.t('Save the program first: it is run from its file.'));
   return false;
 }

@@ -1,9 +1,9 @@
 /** Debugging by isodap: started by F5, by buttons, from a line; MDI blocks. */
-import { existsSync } from 'node:fs';
 import * as vscode from 'vscode';
 import { currentProgram, isInFile } from './current_program';
 import { absolute, completed } from './debug_configuration';
-import { language, type Environment } from './environment';
+import type { Environment } from './environment';
+import { uriOf } from './files';
 import { expressionAt } from './program_text';
 import { programOf, type Place } from './simulator';
 
@@ -17,7 +17,7 @@ export function activate(context: vscode.ExtensionContext, environment: Environm
         const isodap = environment.find('isodap');
         // The provider has shown a message already.
         if (!isodap) throw new Error(vscode.l10n.t('There is no isodap.'));
-        return new vscode.DebugAdapterExecutable(isodap, ['--lang', language()]);
+        return isodap.debugAdapter();
       },
     }),
     vscode.debug.registerDebugConfigurationProvider(type, provider),
@@ -51,7 +51,7 @@ class ConfigurationProvider implements vscode.DebugConfigurationProvider {
     configuration: vscode.DebugConfiguration,
   ): vscode.DebugConfiguration | null | undefined {
     const document = currentProgram();
-    const program = document?.uri.scheme === 'file' ? document.fileName : null;
+    const program = document && this.environment.reaches(document.uri) ? document.fileName : null;
     const complete = completed(configuration, program, configurationName());
     if (!complete) isInFile(document);
     return complete ?? undefined;
@@ -61,13 +61,23 @@ class ConfigurationProvider implements vscode.DebugConfigurationProvider {
     folder: vscode.WorkspaceFolder | undefined,
     configuration: vscode.DebugConfiguration,
   ): Promise<vscode.DebugConfiguration | null | undefined> {
-    const complete = absolute(configuration, (folder ?? vscode.workspace.workspaceFolders?.[0])?.uri.fsPath);
+    const from = (folder ?? vscode.workspace.workspaceFolders?.[0])?.uri;
+    const complete = absolute(configuration, from && ((file) => vscode.Uri.joinPath(from, file).fsPath));
     const program = complete.program!;
-    if (!existsSync(program)) {
+    if (!(await exists(program))) {
       void vscode.window.showErrorMessage(vscode.l10n.t('There is no program {0}.', program));
       return undefined;
     }
     return (await this.environment.need('isodap')) ? complete : undefined;
+  }
+}
+
+async function exists(program: string): Promise<boolean> {
+  try {
+    await vscode.workspace.fs.stat(uriOf(program));
+    return true;
+  } catch {
+    return false;
   }
 }
 

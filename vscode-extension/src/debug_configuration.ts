@@ -1,5 +1,5 @@
 /** Launch configurations that are filled in where the user has left something out. */
-import { resolve } from 'node:path';
+import { isComplete } from './module/names';
 
 export interface LaunchConfiguration {
   type: string;
@@ -26,9 +26,9 @@ export function completed(configuration: Partial<LaunchConfiguration>, program: 
   };
 }
 
-/** With files named from the workspace's folder, where they are named from anywhere. */
-export function absolute(configuration: LaunchConfiguration, folder: string | undefined): LaunchConfiguration {
-  const from = (file: unknown) => (folder && typeof file === 'string' && file ? resolve(folder, file) : file);
+/** With the names of files in full; `inFolder` gives them from those in the workspace's folder. */
+export function absolute(configuration: LaunchConfiguration, inFolder: ((file: string) => string) | undefined): LaunchConfiguration {
+  const from = (file: unknown) => (inFolder && typeof file === 'string' && file && !isComplete(file) ? inFolder(file) : file);
   const named = (['program', 'machine'] as const).filter((key) => key in configuration);
   return { ...configuration, ...Object.fromEntries(named.map((key) => [key, from(configuration[key])])) };
 }

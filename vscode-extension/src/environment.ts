@@ -1,17 +1,7 @@
 /** The programs as this editor, its settings and this system have them. */
-import { accessSync, constants, statSync } from 'node:fs';
-import { delimiter } from 'node:path';
+import type { BaseLanguageClient, LanguageClientOptions } from 'vscode-languageclient';
 import * as vscode from 'vscode';
-import { findProgram, type ProgramName } from './programs';
-
-function isExecutable(file: string): boolean {
-  try {
-    accessSync(file, constants.X_OK);
-    return statSync(file).isFile();
-  } catch {
-    return false;
-  }
-}
+import type { ProgramName } from './programs';
 
 export const settings = (scope?: vscode.ConfigurationScope) => vscode.workspace.getConfiguration('isocnc', scope);
 
@@ -30,36 +20,62 @@ interface Manifest {
   contributes: { languages: { extensions?: string[] }[] };
 }
 
+export interface Outcome {
+  status: number;
+  output: string;
+  complaints: string;
+}
+
+/** A program that can be run: a native one, or one of the WebAssembly module. */
+export interface Program {
+  /** Where it is, for the log. */
+  readonly place: string;
+  /** Whether its tasks list problems by themselves: problem matchers find only files of the computer. */
+  readonly listsProblems: boolean;
+  /** The name of a file among its arguments. */
+  pathOf(uri: vscode.Uri): string;
+  /** Whether it can read documents of the URI's scheme, once they are saved. */
+  reaches(uri: vscode.Uri): boolean;
+  run(args: readonly string[]): Promise<Outcome>;
+  /** What a task does: options that are ours, then the arguments of its definition. */
+  execution(options: readonly string[], args: readonly string[]): vscode.ProcessExecution | vscode.CustomExecution;
+  /** Of a language server. */
+  connect(options: LanguageClientOptions): BaseLanguageClient;
+  /** Of a debugger. */
+  debugAdapter(): vscode.DebugAdapterDescriptor;
+}
+
+export type FindProgram = (name: ProgramName) => Program | null;
+
+const manifestOf = ({ extension }: vscode.ExtensionContext) => extension.packageJSON as Manifest;
+
+/** What the names of programs for the machine end in. */
+export const endingsOf = (context: vscode.ExtensionContext) => manifestOf(context).contributes.languages.flatMap(({ extensions = [] }) => extensions);
+
 export class Environment {
-  constructor(private readonly context: vscode.ExtensionContext) {}
+  constructor(
+    private readonly context: vscode.ExtensionContext,
+    readonly find: FindProgram,
+  ) {}
 
   get version(): string {
-    return this.manifest.version;
+    return manifestOf(this.context).version;
   }
 
-  /** What the names of programs end in. */
   get endings(): string[] {
-    return this.manifest.contributes.languages.flatMap(({ extensions = [] }) => extensions);
-  }
-
-  find(name: ProgramName): string | null {
-    const places = {
-      configured: settings().get('path', ''),
-      bundled: this.context.asAbsolutePath('bin'),
-      path: (process.env.PATH ?? '').split(delimiter),
-    };
-    return findProgram(name, places, isExecutable);
+    return endingsOf(this.context);
   }
 
   /** The program; if there is none, the user gets a message. */
-  async need(name: ProgramName): Promise<string | null> {
-    const file = this.find(name);
-    if (!file) await adviseMissing(name);
-    return file;
+  async need(name: ProgramName): Promise<Program | null> {
+    const program = this.find(name);
+    if (!program) await adviseMissing(name);
+    return program;
   }
 
-  private get manifest(): Manifest {
-    return this.context.extension.packageJSON as Manifest;
+  /** Whether a document can be run from where it is saved. */
+  reaches(uri: vscode.Uri): boolean {
+    return this.find('isorun')?.reaches(uri) ?? uri.scheme === 'file';
   }
 }
 

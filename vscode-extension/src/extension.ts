@@ -1,39 +1,37 @@
+/** The entry under Node.js, on desktops and remote computers: native programs, or else the WebAssembly module if it came with the extension. */
+import { existsSync } from 'node:fs';
+import { Worker } from 'node:worker_threads';
 import * as vscode from 'vscode';
-import * as commands from './commands';
-import * as currentProgram from './current_program';
-import * as debug from './debug';
-import { Environment } from './environment';
-import * as largeFiles from './large_files';
-import { Server } from './server';
-import * as simulator from './simulator';
-import * as status from './status';
-import * as tasks from './tasks';
-import * as testDrive from './test_drive';
-import { ToolpathSource } from './toolpath/source';
-import * as toolpath from './toolpath/panel';
-import * as virtualDocuments from './virtual_documents';
+import { start, stop } from './activation';
+import { settings } from './environment';
+import { ModulePrograms } from './module/programs';
+import type { StartWorker } from './module/worker';
+import { findNative } from './native_programs';
 
-let server: Server | null = null;
+/** What a script for web workers takes for granted. */
+const scope = `{
+  const { parentPort } = require('node:worker_threads');
+  globalThis.postMessage = (message) => parentPort.postMessage(message);
+  globalThis.close = () => parentPort.close();
+  parentPort.on('message', (data) => globalThis.onmessage({ data }));
+}
+`;
+
+const startWorker: StartWorker = (script, onMessage, onError) => {
+  const worker = new Worker(scope + script, { eval: true });
+  worker.on('message', onMessage);
+  worker.on('error', (error) => onError(String(error)));
+  return { postMessage: (message) => worker.postMessage(message), terminate: () => void worker.terminate() };
+};
 
 export function activate(context: vscode.ExtensionContext): void {
-  const environment = new Environment(context);
-  server = new Server(environment);
-  const source = new ToolpathSource(server);
-  context.subscriptions.push(server, source);
-  currentProgram.activate(context);
-  commands.activate(context, server);
-  debug.activate(context, environment);
-  largeFiles.activate(context, environment);
-  simulator.activate(context, environment);
-  status.activate(context, server, source);
-  tasks.activate(context, environment);
-  testDrive.activate(context);
-  toolpath.activate(context, source);
-  virtualDocuments.activate(context, server);
-  // F5 and all commands wait until this has returned; a server may never answer, and its advice wait for the user.
-  void server.start();
+  const hasModule = existsSync(context.asAbsolutePath('dist/web/isocnc.wasm'));
+  const module = new ModulePrograms(context, startWorker);
+  start(context, (name) => {
+    const native = findNative(name, context);
+    // The folder that the user names is never passed over in silence.
+    return native ?? (hasModule && !settings().get('path', '') ? module.find(name) : null);
+  });
 }
 
-export async function deactivate(): Promise<void> {
-  await server?.stop();
-}
+export const deactivate = stop;

@@ -1,5 +1,4 @@
 /** Programs that are too long for extensions: VS Code shows them, and passes them to no extension. */
-import { extname } from 'node:path';
 import * as vscode from 'vscode';
 import type { Environment } from './environment';
 import { checkFiles } from './tasks';
@@ -13,7 +12,7 @@ export function activate(context: vscode.ExtensionContext, environment: Environm
     const input = vscode.window.tabGroups.activeTabGroup.activeTab?.input;
     if (!(input instanceof vscode.TabInputText)) return;
     const { uri } = input;
-    if (uri.scheme !== 'file' || notified.has(uri.fsPath) || !environment.endings.includes(extname(uri.fsPath).toLowerCase())) return;
+    if (notified.has(uri.fsPath) || !environment.reaches(uri) || !environment.endings.some((ending) => uri.path.toLowerCase().endsWith(ending))) return;
     if ((await sizeOf(uri)) <= maxBytes || notified.has(uri.fsPath)) return;
     notified.add(uri.fsPath);
     await advise(environment, uri);
@@ -34,5 +33,5 @@ async function advise(environment: Environment, uri: vscode.Uri): Promise<void> 
   const check = vscode.l10n.t('Check with isolint');
   const name = vscode.workspace.asRelativePath(uri);
   const text = vscode.l10n.t('{0} is above 50 MB. Visual Studio Code does not hand such files to extensions; isolint checks it as a task.', name);
-  if ((await vscode.window.showWarningMessage(text, check)) === check) await checkFiles(environment, [uri.fsPath]);
+  if ((await vscode.window.showWarningMessage(text, check)) === check) await checkFiles(environment, [uri]);
 }

@@ -1,4 +1,4 @@
-/** The programs that the extension starts: where they are, and which version they report. */
+/** The programs that the extension starts, and where they are. */
 import { join } from 'node:path';
 
 export type ProgramName = 'isols' | 'isolint' | 'isorun' | 'isofmt' | 'isodap';
@@ -22,13 +22,4 @@ export function findProgram(
   const file = platform === 'win32' ? `${name}.exe` : name;
   const folders = configured ? [configured] : [bundled, ...path];
   return folders.filter(Boolean).map((folder) => join(folder, file)).find(exists) ?? null;
-}
-
-/** Whether a version is older than a wanted one. Unreadable ones are: what they can do is unknown. */
-export function isOlder(version: string | undefined, wanted: string): boolean {
-  const numbers = (text: string) => /^(\d+)\.(\d+)\.(\d+)/.exec(text)?.slice(1).map(Number);
-  const [have, want] = [numbers(version ?? ''), numbers(wanted)];
-  if (!have || !want) return true;
-  const differing = have.findIndex((number, i) => number !== want[i]);
-  return differing >= 0 && have[differing] < want[differing];
 }

@@ -1,14 +1,14 @@
 /** The language server: started, watched, ended, started again. */
 import * as vscode from 'vscode';
 import {
-  LanguageClient,
   State,
+  type BaseLanguageClient,
   type ClientCapabilities,
   type FeatureState,
   type StaticFeature,
-} from 'vscode-languageclient/node';
+} from 'vscode-languageclient';
 import { adviseMissing, language, settings, type Environment } from './environment';
-import { isOlder } from './programs';
+import { isOlder } from './versions';
 
 export type ServerState = 'starting' | 'running' | 'stopped' | 'missing' | 'outdated';
 
@@ -38,7 +38,7 @@ export class Server implements vscode.Disposable {
   private readonly output = vscode.window.createOutputChannel('ISOCNC', { log: true });
   private readonly trace = vscode.window.createOutputChannel('ISOCNC: Trace');
   private readonly changed = new vscode.EventEmitter<ServerState>();
-  private client: LanguageClient | null = null;
+  private client: BaseLanguageClient | null = null;
   private current: ServerState = 'stopped';
   /** How often it has been asked to start anew. */
   private restarts = 0;
@@ -63,25 +63,20 @@ export class Server implements vscode.Disposable {
   }
 
   async start(): Promise<void> {
-    const command = this.environment.find('isols');
-    if (!command) {
+    const isols = this.environment.find('isols');
+    if (!isols) {
       this.setState('missing');
       void adviseMissing('isols');
       return;
     }
-    this.output.info(`isols: ${command}`);
-    const client = new LanguageClient(
-      'isocnc',
-      'ISOCNC',
-      { command, args: ['--stdio'] },
-      {
-        documentSelector: [{ language: 'isocnc' }, { pattern: '**/isocnc.json' }],
-        initializationOptions: serverSettings(),
-        outputChannel: this.output,
-        traceOutputChannel: this.trace,
-        markdown: { supportHtml: false },
-      },
-    );
+    this.output.info(`isols: ${isols.place}`);
+    const client = isols.connect({
+      documentSelector: [{ language: 'isocnc' }, { pattern: '**/isocnc.json' }],
+      initializationOptions: serverSettings(),
+      outputChannel: this.output,
+      traceOutputChannel: this.trace,
+      markdown: { supportHtml: false },
+    });
     client.registerFeature(new CommandsFeature());
     client.onDidChangeState(({ newState }) => {
       if (this.client === client && newState !== State.Running) this.setState(newState === State.Starting ? 'starting' : 'stopped');

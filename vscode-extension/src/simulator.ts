@@ -1,9 +1,7 @@
 /** isorun: runs a program in the terminal, and writes its plot. */
-import { execFile } from 'node:child_process';
-import { promisify } from 'node:util';
 import * as vscode from 'vscode';
 import { currentProgram, isInFile } from './current_program';
-import { language, type Environment } from './environment';
+import { language, type Environment, type Program } from './environment';
 import { programTask } from './tasks';
 
 /** What a code lens says about its place. */
@@ -32,7 +30,7 @@ async function run(environment: Environment, place?: Place | vscode.Uri): Promis
   const isorun = program && (await environment.need('isorun'));
   if (!isorun) return;
   await vscode.tasks.executeTask(
-    programTask({ type: 'isocnc', command: 'isorun', arguments: [program.fileName] }, isorun, 'isorun'),
+    programTask({ type: 'isocnc', command: 'isorun', arguments: [isorun.pathOf(program.uri)] }, isorun, 'isorun'),
   );
 }
 
@@ -41,14 +39,14 @@ async function exportPlot(environment: Environment, place?: Place | vscode.Uri):
   const isorun = program && (await environment.need('isorun'));
   if (!isorun) return;
   const target = await vscode.window.showSaveDialog({
-    defaultUri: vscode.Uri.file(program.fileName.replace(/\.[^./\\]*$/, '') + '.html'),
+    defaultUri: program.uri.with({ path: program.uri.path.replace(/\.[^./]*$/, '') + '.html' }),
     filters: { HTML: ['html'], SVG: ['svg'] },
     title: vscode.l10n.t('Export Plot'),
   });
   if (!target) return;
   const written = await vscode.window.withProgress(
     { location: vscode.ProgressLocation.Notification, title: vscode.l10n.t('Drawing {0}...', vscode.workspace.asRelativePath(target)) },
-    () => plot(isorun, program.fileName, target.fsPath),
+    () => plot(isorun, program.uri, target),
   );
   if (written !== null) {
     await vscode.window.showErrorMessage(written);
@@ -60,12 +58,7 @@ async function exportPlot(environment: Environment, place?: Place | vscode.Uri):
 }
 
 /** What went wrong, or null. A program that an error stops has a plot as well. */
-async function plot(isorun: string, program: string, target: string): Promise<string | null> {
-  try {
-    await promisify(execFile)(isorun, ['--lang', language(), '--plot', target, program], { maxBuffer: 1 << 26 });
-    return null;
-  } catch (error) {
-    const { code, stderr } = error as { code: number | string; stderr?: string };
-    return code === 1 ? null : stderr || String(error);
-  }
+async function plot(isorun: Program, program: vscode.Uri, target: vscode.Uri): Promise<string | null> {
+  const { status, complaints } = await isorun.run(['--lang', language(), '--plot', isorun.pathOf(target), isorun.pathOf(program)]);
+  return status <= 1 ? null : complaints;
 }

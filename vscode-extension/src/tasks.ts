@@ -1,8 +1,7 @@
 /** Tasks: isolint over the workspace or a program of any size, isorun. */
-import { sep } from 'node:path';
 import * as vscode from 'vscode';
 import { currentProgram } from './current_program';
-import { language, type Environment } from './environment';
+import { language, type Environment, type Program } from './environment';
 import type { ProgramName } from './programs';
 
 export interface Definition extends vscode.TaskDefinition {
@@ -14,7 +13,7 @@ export interface Definition extends vscode.TaskDefinition {
 const matchers = ['$isolint', '$isolint-it-errors', '$isolint-it-warnings', '$isolint-it-notes'];
 
 /** A task that runs a program, and shows what isolint says among the problems. */
-export function programTask(definition: Definition, file: string, name: string): vscode.Task {
+export function programTask(definition: Definition, program: Program, name: string): vscode.Task {
   const isCheck = definition.command === 'isolint';
   const options = ['--lang', language(), ...(isCheck ? ['--format', 'concise', '--color', 'never'] : [])];
   const task = new vscode.Task(
@@ -22,8 +21,8 @@ export function programTask(definition: Definition, file: string, name: string):
     vscode.workspace.workspaceFolders?.[0] ?? vscode.TaskScope.Global,
     name,
     'isocnc',
-    new vscode.ProcessExecution(file, [...options, ...(definition.arguments ?? [])]),
-    isCheck ? matchers : [],
+    program.execution(options, definition.arguments ?? []),
+    isCheck && !program.listsProblems ? matchers : [],
   );
   task.group = isCheck ? vscode.TaskGroup.Test : undefined;
   task.presentationOptions = { clear: true, showReuseMessage: false, reveal: vscode.TaskRevealKind.Always };
@@ -36,8 +35,8 @@ export function activate(context: vscode.ExtensionContext, environment: Environm
       provideTasks: () => tasks(environment),
       resolveTask: ({ definition, name }) => {
         const wanted = definition as Definition;
-        const file = environment.find(wanted.command);
-        return file ? programTask(wanted, file, name) : undefined;
+        const program = environment.find(wanted.command);
+        return program ? programTask(wanted, program, name) : undefined;
       },
     }),
     vscode.commands.registerCommand('isocnc.check', (clicked?: vscode.Uri, chosen?: vscode.Uri[]) => check(environment, clicked, chosen)),
@@ -47,10 +46,10 @@ export function activate(context: vscode.ExtensionContext, environment: Environm
 /** Checks what is chosen in the Explorer, files and folders, or else the program in the editor, as it is saved. */
 async function check(environment: Environment, clicked?: vscode.Uri, chosen?: vscode.Uri[]): Promise<void> {
   const uris = chosen?.length ? chosen : [clicked ?? currentProgram()?.uri].filter((uri) => uri !== undefined);
-  const files = uris.filter(({ scheme }) => scheme === 'file').map(({ fsPath }) => fsPath);
+  const files = uris.filter((uri) => environment.reaches(uri));
   if (!files.length) return;
-  const isMeant = (path: string) => files.some((file) => path === file || path.startsWith(file + sep));
-  for (const document of vscode.workspace.textDocuments) if (document.isDirty && isMeant(document.uri.fsPath)) await document.save();
+  const isMeant = ({ scheme, path }: vscode.Uri) => files.some((file) => file.scheme === scheme && `${path}/`.startsWith(`${file.path}/`));
+  for (const document of vscode.workspace.textDocuments) if (document.isDirty && isMeant(document.uri)) await document.save();
   await checkFiles(environment, files);
 }
 
@@ -67,8 +66,8 @@ function tasks(environment: Environment): vscode.Task[] {
 }
 
 /** Checks files and folders by isolint itself; what it finds is listed among the problems. */
-export async function checkFiles(environment: Environment, files: string[]): Promise<void> {
+export async function checkFiles(environment: Environment, files: vscode.Uri[]): Promise<void> {
   const isolint = await environment.need('isolint');
   if (isolint)
-    await vscode.tasks.executeTask(programTask({ type: 'isocnc', command: 'isolint', arguments: files }, isolint, 'isolint'));
+    await vscode.tasks.executeTask(programTask({ type: 'isocnc', command: 'isolint', arguments: files.map((file) => isolint.pathOf(file)) }, isolint, 'isolint'));
 }

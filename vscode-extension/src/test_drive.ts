@@ -1,6 +1,9 @@
 /** A folder of programs to play with. */
 import * as vscode from 'vscode';
 
+/** The files of the test drive: where extensions come over a network, its folder cannot be listed. */
+const names = ['start-here.iso', 'isocnc.json', 'pocket.iso', 'five-axis.iso', 'option.iso'];
+
 /** Files of the test drive with comments, and those that replace them in Italian. */
 const italian = { 'start-here.iso': 'l10n/start-here.it.iso', 'isocnc.json': 'l10n/isocnc.it.json' };
 
@@ -20,12 +23,20 @@ async function start({ globalState }: vscode.ExtensionContext): Promise<void> {
   await vscode.window.showTextDocument(vscode.Uri.joinPath(folder, 'start-here.iso'));
 }
 
+async function exists(folder: vscode.Uri): Promise<boolean> {
+  return vscode.workspace.fs.stat(folder).then(
+    () => true,
+    () => false,
+  );
+}
+
 async function copyTo(target: vscode.Uri, extensionUri: vscode.Uri): Promise<void> {
-  await vscode.workspace.fs.copy(vscode.Uri.joinPath(extensionUri, 'test-drive'), target, { overwrite: false });
-  if (!vscode.env.language.startsWith('it')) return;
-  for (const [name, translation] of Object.entries(italian)) {
-    const source = vscode.Uri.joinPath(extensionUri, translation);
-    await vscode.workspace.fs.copy(source, vscode.Uri.joinPath(target, name), { overwrite: true });
+  if (await exists(target)) return; // It has been opened before, and is the user's by now.
+  await vscode.workspace.fs.createDirectory(target);
+  const translated: Record<string, string> = vscode.env.language.startsWith('it') ? italian : {};
+  for (const name of names) {
+    const source = vscode.Uri.joinPath(extensionUri, translated[name] ?? `test-drive/${name}`);
+    await vscode.workspace.fs.writeFile(vscode.Uri.joinPath(target, name), await vscode.workspace.fs.readFile(source));
   }
 }
 
@@ -38,12 +49,7 @@ async function open({ extensionUri, globalState }: vscode.ExtensionContext): Pro
   });
   if (!chosen) return;
   const target = vscode.Uri.joinPath(chosen[0], 'isocnc-test-drive');
-  try {
-    await copyTo(target, extensionUri);
-  } catch (error) {
-    // It has been opened before, and is the user's by now.
-    if (!(error instanceof vscode.FileSystemError) || error.code !== 'FileExists') throw error;
-  }
+  await copyTo(target, extensionUri);
   await globalState.update(opened, target.toString());
   await vscode.commands.executeCommand('vscode.openFolder', target, { forceNewWindow: !!vscode.workspace.workspaceFolders });
 }

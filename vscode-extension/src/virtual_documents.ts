@@ -1,6 +1,6 @@
 /** What the server reports of a program, as documents beside it that follow the cursor: the state, the syntax tree. */
-import { basename } from 'node:path';
 import * as vscode from 'vscode';
+import { nameOf } from './files';
 import type { Server } from './server';
 import { stateText, type StateAnswer } from './state_text';
 
@@ -40,7 +40,7 @@ const words: Record<string, () => string> = {
 
 async function state(server: Server, document: vscode.TextDocument, line: number): Promise<string> {
   const answer = await server.request<StateAnswer>('isocnc/state', { textDocument: { uri: document.uri.toString() }, line });
-  const heading = `${basename(document.fileName)}:${line + 1}  ${document.lineAt(line).text.trim()}`;
+  const heading = `${nameOf(document.uri)}:${line + 1}  ${document.lineAt(line).text.trim()}`;
   return stateText(answer, heading, (text) => words[text]());
 }
 

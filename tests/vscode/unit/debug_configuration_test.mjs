@@ -1,4 +1,5 @@
 import assert from 'node:assert/strict';
+import { posix } from 'node:path';
 import { test } from 'node:test';
 import { module } from '../modules.mjs';
 
@@ -24,11 +25,14 @@ test('the file in the editor is the open program, whatever has the focus', () =>
 });
 
 test('files are named from the folder of the workspace', () => {
+  const inParts = (file) => posix.resolve('/parts', file);
   const given = { type: 'isocnc', request: 'launch', name: 'Mine', program: 'a/b.iso', machine: '../isocnc.json' };
-  assert.deepEqual(absolute(given, '/parts'), { ...given, program: '/parts/a/b.iso', machine: '/isocnc.json' });
-  assert.deepEqual(absolute({ ...given, program: '/b.iso', machine: '' }, '/parts'), { ...given, program: '/b.iso', machine: '' });
+  assert.deepEqual(absolute(given, inParts), { ...given, program: '/parts/a/b.iso', machine: '/isocnc.json' });
+  assert.deepEqual(absolute({ ...given, program: '/b.iso', machine: '' }, inParts), { ...given, program: '/b.iso', machine: '' });
   assert.deepEqual(absolute(given, undefined), given);
-  assert.ok(!('machine' in absolute({ type: 'isocnc', request: 'launch', name: 'Mine', program: 'b.iso' }, '/parts')));
+  for (const program of ['c:\\parts\\b.iso', 'vscode-vfs://github/shop/b.iso'])
+    assert.equal(absolute({ ...given, program }, inParts).program, program);
+  assert.ok(!('machine' in absolute({ type: 'isocnc', request: 'launch', name: 'Mine', program: 'b.iso' }, inParts)));
 });
 
 test('there may be nothing to run', () => assert.equal(completed({}, null, 'Debug'), null));

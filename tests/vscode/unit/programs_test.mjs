@@ -4,7 +4,8 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { extension, module } from '../modules.mjs';
 
-const { findProgram, isOlder } = await module('programs');
+const { findProgram } = await module('programs');
+const { isOlder } = await module('versions');
 const places = { configured: '', bundled: '/ext/bin', path: ['/usr/local/bin', '', '/usr/bin'] };
 const having = (...files) => (file) => files.includes(file);
 

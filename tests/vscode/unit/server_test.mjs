@@ -20,31 +20,31 @@ const { Server } = await module('server', {
       fire() {}
       dispose() {}
     }`,
-  'vscode-languageclient/node': `
-    export const State = { Stopped: 1, Running: 2, Starting: 3 };
-    export class LanguageClient {
-      state = State.Stopped;
-      constructor() {
-        globalThis.clients.push(this);
-      }
-      registerFeature() {}
-      onDidChangeState() {}
-      start() {
-        this.state = State.Starting;
-        return new Promise((done) => (this.answer = () => done((this.state = State.Running))));
-      }
-      async dispose() {
-        if (this.state === State.Starting) throw new Error('it is starting');
-        await new Promise(setImmediate);
-        this.state = State.Stopped;
-      }
-    }`,
+  'vscode-languageclient': 'export const State = { Stopped: 1, Running: 2, Starting: 3 };',
 });
 const [stopped, running, starting] = [1, 2, 3];
 
+class Client {
+  state = stopped;
+  constructor() {
+    globalThis.clients.push(this);
+  }
+  registerFeature() {}
+  onDidChangeState() {}
+  start() {
+    this.state = starting;
+    return new Promise((done) => (this.answer = () => done((this.state = running))));
+  }
+  async dispose() {
+    if (this.state === starting) throw new Error('it is starting');
+    await new Promise(setImmediate);
+    this.state = stopped;
+  }
+}
+
 const made = () => {
   globalThis.clients = [];
-  return new Server({ version: '0.1.0', find: () => '/bin/isols' });
+  return new Server({ version: '0.1.0', find: () => ({ place: '/bin/isols', connect: () => new Client() }) });
 };
 const states = () => globalThis.clients.map(({ state }) => state);
 /** All that are starting answer. */

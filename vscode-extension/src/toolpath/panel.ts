@@ -1,11 +1,9 @@
 /** The toolpath beside the editor: one panel, which shows the program that was last looked at. */
-import { randomBytes } from 'node:crypto';
-import { readFileSync } from 'node:fs';
-import { basename } from 'node:path';
 import * as vscode from 'vscode';
 import type { Vector } from '../../../toolpath-view/src/toolpath';
 import { adviseOpen, currentProgram } from '../current_program';
 import { language, settings } from '../environment';
+import { nameOf } from '../files';
 import type { ToPage, ToPanel } from './messages';
 import { readPosition } from './position';
 import type { KnownToolpath, ToolpathSource } from './source';
@@ -74,6 +72,7 @@ class ToolpathPanel implements vscode.Disposable {
   });
   private document: vscode.TextDocument | null = null;
   private isReady = false;
+  private isDisposed = false;
   /** What the page has. */
   private shown: string | null = null;
   /** A line that the page has led to: its selection need not go back there. */
@@ -99,14 +98,19 @@ class ToolpathPanel implements vscode.Disposable {
       }),
       this.passing,
     ];
-    panel.webview.html = html(panel.webview, extension);
+    void this.load(extension);
+  }
+
+  private async load(extension: vscode.Uri): Promise<void> {
+    const page = await html(this.panel.webview, extension);
+    if (!this.isDisposed) this.panel.webview.html = page;
   }
 
   show(document: vscode.TextDocument): void {
     if (this.document === document) return;
     this.document = document;
     this.shown = null;
-    this.panel.title = vscode.l10n.t('Toolpath: {0}', basename(document.fileName));
+    this.panel.title = vscode.l10n.t('Toolpath: {0}', nameOf(document.uri));
     this.source.watch(this, document);
     this.refresh();
   }
@@ -139,6 +143,7 @@ class ToolpathPanel implements vscode.Disposable {
   }
 
   dispose(): void {
+    this.isDisposed = true;
     this.source.watch(this, null);
     for (const each of this.subscriptions.splice(0)) each.dispose();
     this.panel.dispose();
@@ -217,14 +222,14 @@ class ToolpathPanel implements vscode.Disposable {
 }
 
 /** The page, with a policy that lets nothing run but its own script. */
-function html(webview: vscode.Webview, extension: vscode.Uri): string {
-  const nonce = randomBytes(16).toString('base64');
+async function html(webview: vscode.Webview, extension: vscode.Uri): Promise<string> {
+  const nonce = btoa(String.fromCharCode(...crypto.getRandomValues(new Uint8Array(16))));
   const at = (name: string) => webview.asWebviewUri(vscode.Uri.joinPath(extension, 'dist', name)).toString();
   const parts: Record<string, string> = {
     policy: `default-src 'none'; script-src 'nonce-${nonce}'; style-src ${webview.cspSource}; base-uri 'none'; form-action 'none'`,
     style: `<link rel="stylesheet" href="${at('toolpath.css')}">`,
     script: `<script nonce="${nonce}" src="${at('toolpath.js')}"></script>`,
   };
-  const page = readFileSync(vscode.Uri.joinPath(extension, 'dist', 'toolpath.html').fsPath, 'utf8');
+  const page = new TextDecoder().decode(await vscode.workspace.fs.readFile(vscode.Uri.joinPath(extension, 'dist', 'toolpath.html')));
   return page.replace(/\{\{(\w+)\}\}/g, (_, name: string) => parts[name]);
 }
