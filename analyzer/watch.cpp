@@ -121,9 +121,12 @@ class Watch {
       if (!is_summarized_ && !is_unsettled()) summarize();
       return true;
     }
-    for (const std::filesystem::path& removed : settled.removed)
-      if (forget(removed))
-        notes_.push_back(fmt::format("{}: {}", removed.generic_string(), kRemoved.in(style_.language)));
+    bool is_new = !is_summarized_;  // Whether there is anything to summarize.
+    for (const std::filesystem::path& removed : settled.removed) {
+      if (!forget(removed)) continue;
+      notes_.push_back(fmt::format("{}: {}", removed.generic_string(), kRemoved.in(style_.language)));
+      is_new = true;
+    }
     Programs batch;
     for (std::size_t i = 0; i < programs.files.size(); ++i) {
       if (!settled.to_check.contains(programs.files[i])) continue;
@@ -134,9 +137,11 @@ class Watch {
     const bool is_written = LintRun(options_, style_, formats::make_renderer(options_.format, style_),
                                     baseline_ ? &std::get<selection::Baseline>(*baseline_) : nullptr, std::move(batch))
                                 .run_for_watch([&](std::size_t index, const CheckedFile& checked) {
-                                  return take(files[index], stamps.at(files[index]), checked);
+                                  const bool is_shown = take(files[index], stamps.at(files[index]), checked);
+                                  is_new |= is_shown;
+                                  return is_shown;
                                 });
-    if (is_written && !system::is_end_requested()) summarize();
+    if (is_written && is_new && !system::is_end_requested()) summarize();
     checking_ = Clock::now() - start;
     return is_written;
   }

@@ -126,6 +126,21 @@ class Windows(unittest.TestCase):
         self.assertEqual(file.read_bytes().decode(), UNTIDY)
         self.assertEqual(run("isofmt", "-i", file).returncode, 0)
 
+    def test_a_watch_waits_for_a_file_that_another_program_holds(self):
+        file = self.write("a.iso")
+        with subprocess.Popen([*HOLD_FILE, windows_path(file)], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as holder:
+            self.assertEqual(holder.stdout.readline().strip(), b"held")
+            with subprocess.Popen([PROGRAMS / "isolint", "--watch", "--no-config", "--format", "concise", "--lang", "en", "."], cwd=self.folder,
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as watch:
+                self.addCleanup(watch.kill)
+                self.assertEqual(watch.stdout.readline(), b"0 errors, 0 warnings in 0 files; watching\n")
+                self.assertEqual(watch.stdout.readline(), b"isolint: a.iso: cannot read: In use by another program\n")
+                self.assertEqual(watch.stdout.readline(), b"0 errors, 0 warnings in 0 files; watching\n")
+                holder.communicate(b"")
+                self.assertIn(b"a.iso:4:1: error:", watch.stdout.readline())
+                self.assertEqual(watch.stdout.readline(), b"1 error, 0 warnings in 1 file; watching\n")
+                watch.kill()
+
     def test_a_replaced_file_is_the_old_or_the_new_one(self):
         file = self.write("a.iso", UNTIDY)
         with open(file, "rb") as reader:
