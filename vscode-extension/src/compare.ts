@@ -1,6 +1,6 @@
 /** Compares two programs as isofmt would write them, so that blanks and upper case do not show as differences. */
-import { posix } from 'node:path';
 import * as vscode from 'vscode';
+import { nameOf } from './files';
 import type { Server } from './server';
 import { withEdits, type TextEdit } from './text_edits';
 
@@ -27,7 +27,7 @@ async function compare(chosen: vscode.Uri[]): Promise<void> {
 
 /** The formatted text of a program, under its name; the query holds where the program is. */
 function formatted(program: vscode.Uri): vscode.Uri {
-  return vscode.Uri.from({ scheme, path: `/${posix.basename(program.path)}`, query: program.toString() });
+  return vscode.Uri.from({ scheme, path: `/${nameOf(program)}`, query: program.toString() });
 }
 
 class FormattedPrograms implements vscode.TextDocumentContentProvider, vscode.Disposable {
