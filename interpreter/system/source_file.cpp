@@ -182,8 +182,7 @@ std::variant<SourceFile, SourceFile::Problem> SourceFile::read(int descriptor, s
   SourceFile file;
   if (const int error = read_up_to(kHeadBytes, 0, descriptor, file.read_)) return unreadable(error, language);
   if (const std::optional<Text> text = obstacle_in_head(file.text())) return Problem{std::string(text->in(language))};
-  if (const int error = read_up_to(kAll, expected, descriptor, file.read_))
-    return unreadable(error, language);
+  if (const int error = read_up_to(kAll, expected, descriptor, file.read_)) return unreadable(error, language);
   return with_short_lines(std::move(file), language);
 }
 
