@@ -80,7 +80,7 @@ test('it is packed, installed, and its commands run', () => {
   const command = (name, ...args) => spawnSync(join(folder, 'node_modules/.bin', name), args, { cwd: folder, encoding: 'utf8' });
   const found = command('isolint', '--lang', 'en', 'part.iso');
   assert.equal(found.status, 1);
-  assert.match(found.stdout, /\d+ errors, 0 warnings in 1 file/);
+  assert.match(found.stderr, /\d+ errors, 0 warnings in 1 file/);
   assert.ok(!found.stdout.includes('\u001b')); // A pipe is no terminal.
   assert.equal(command('isolint', 'nowhere.iso').status, 2);
   assert.equal(command('isofmt', '-i', 'part.iso').status, 0);
