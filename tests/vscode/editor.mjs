@@ -172,7 +172,7 @@ export class Editor {
     await this.press('Control+1');
   }
 
-  /** Puts the cursor of the program's editor there. Keys may be lost while the focus leaves a panel. */
+  /** Puts the cursor of the program's editor there, at the end of a shorter line. Keys may be lost while the focus leaves a panel. */
   async goTo(line, column = 1) {
     await eventually(
       async () => {
@@ -182,7 +182,7 @@ export class Editor {
         return this.place();
       },
       `the cursor is not on ${line}`,
-      (place) => place.line === line,
+      (place) => place.line === line && (place.column === 1) === (column === 1),
     );
   }
 

@@ -94,8 +94,8 @@ test('a quick fix mends the line', async () => {
 });
 
 test('what is typed is completed', async () => {
-  await editor.goTo(50, 1);
-  await editor.press('End', 'Enter');
+  await editor.goTo(50, 99);
+  await editor.press('Enter');
   await page.keyboard.type('arc-c');
   await editor.press('Control+Space');
   await page.locator('.suggest-widget.visible .monaco-list-row', { hasText: 'arc-center' }).first().waitFor();
@@ -176,8 +176,7 @@ test('the toolpath shows the moves of the program, and follows the cursor and th
   await keep('web');
   const furthest = () => frame.evaluate(() => globalThis.isocnc.path.work.max[0]);
   const reached = await furthest();
-  await editor.goTo(25);
-  await editor.press('End');
+  await editor.goTo(25, 99);
   await page.keyboard.type('5');
   await eventually(furthest, 'the toolpath stays', (now) => now > reached + 500);
   await editor.press('Control+z');
