@@ -6,19 +6,14 @@ namespace isocnc::debuggee {
 
 static constexpr auto kBetweenLooks = std::chrono::milliseconds(1000);
 
-FileWatch::FileWatch(std::filesystem::path file) : file_(std::move(file)) {
-  std::error_code error;
-  const auto time = std::filesystem::last_write_time(file_, error);
-  if (!error) time_ = time;
-}
+FileWatch::FileWatch(std::filesystem::path file) : file_(std::move(file)), status_(system::status_of(file_)) {}
 
 std::optional<FileWatch::FileChange> FileWatch::find_change() {
   if (has_changed_) return std::nullopt;
-  std::error_code error;
-  const auto time = std::filesystem::last_write_time(file_, error);
-  if (!error && time_ && time == *time_) return std::nullopt;
+  const std::optional<system::FileStatus> now = system::status_of(file_);
+  if (now && status_ && now->is_unchanged_since(*status_)) return std::nullopt;
   has_changed_ = true;
-  return error ? FileChange::Removed : FileChange::Modified;
+  return now ? FileChange::Modified : FileChange::Removed;
 }
 
 std::optional<FileWatch::FileChange> FileWatch::find_change_now_and_then() {

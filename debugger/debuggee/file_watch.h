@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "interpreter/system/file_status.h"
+
 namespace isocnc::debuggee {
 
 /// Notices that a file has changed since the watch was made. Only the first change counts.
@@ -24,7 +26,7 @@ class FileWatch {
   using Clock = std::chrono::steady_clock;
 
   std::filesystem::path file_;
-  std::optional<std::filesystem::file_time_type> time_;  ///< None: there was no such file.
+  std::optional<system::FileStatus> status_;  ///< None: there was no such file.
   bool has_changed_ = false;
   Clock::time_point last_look_;
 };

@@ -1,6 +1,7 @@
 // Microsoft's own client of the debug adapter protocol, speaking with isodap.
 import { spawn } from 'node:child_process';
 import path from 'node:path';
+import { after } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import testsupport from '@vscode/debugadapter-testsupport';
 
@@ -13,6 +14,10 @@ export const example = (name) => path.join(root, 'examples', name);
 /** Requests that have been made, of all clients. */
 export const asked = new Set();
 
+/** What a test that fails leaves behind would keep the run from its end. */
+const processes = [];
+after(() => processes.forEach((process) => process.kill('SIGKILL')));
+
 /** A DebugClient whose requests and waits fail when the adapter ends, or nothing comes. */
 export class Client {
   #events = [];
@@ -21,6 +26,7 @@ export class Client {
   static async start({ initialize = {}, ...launch } = {}) {
     const client = new Client();
     client.process = spawn(path.join(programs, 'isodap'), ['--lang', 'en'], { stdio: ['pipe', 'pipe', 'inherit'] });
+    processes.push(client.process);
     client.exit = new Promise((resolve) => client.process.on('exit', (code, signal) => resolve(code ?? signal)));
     client.debug = new testsupport.DebugClient('isodap', '', 'isocnc');
     client.debug.connect(client.process.stdout, client.process.stdin);

@@ -2,6 +2,7 @@
 import { spawn, spawnSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import path from 'node:path';
+import { after } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import {
   createProtocolConnection,
@@ -25,6 +26,10 @@ export function isolint(file, ...options) {
   return JSON.parse(run.stdout);
 }
 
+/** What a test that fails leaves behind would keep the run from its end. */
+const processes = [];
+after(() => processes.forEach((process) => process.kill('SIGKILL')));
+
 export class Client {
   #published = new Map();
   #waiting = [];
@@ -34,6 +39,7 @@ export class Client {
     client.process = spawn(path.join(programs, 'isols'), ['--stdio', '--lang', 'en'], {
       stdio: ['pipe', 'pipe', 'inherit'],
     });
+    processes.push(client.process);
     client.exit = new Promise((resolve) => client.process.on('exit', (code, signal) => resolve(code ?? signal)));
     client.connection = createProtocolConnection(
       new StreamMessageReader(client.process.stdout),
