@@ -4,7 +4,7 @@
 // browsers, and `universal`, for them and for platforms that have no package of their own, hold no programs, but the module of them:
 // build/web/npm/dist, or the folder ISOCNC_WEB_DIR. ISOCNC_NOTICES names a file with the licenses of what is bundled.
 import { execFileSync } from 'node:child_process';
-import { chmodSync, cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { chmodSync, cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
@@ -19,6 +19,7 @@ const platform = options.target ?? `${process.platform}-${process.arch}`;
 const stage = join(folder, 'stage');
 const programs = resolve(process.env.ISOCNC_BIN_DIR ?? join(root, 'build/release/bin'));
 const module = resolve(process.env.ISOCNC_WEB_DIR ?? join(root, 'build/web/npm/dist'));
+const isOfModule = ['web', 'universal'].includes(platform);
 const ending = platform.startsWith('win32-') ? '.exe' : '';
 /** The commands that strip programs for other platforms than this machine's. */
 const strips = { 'win32-x64': 'x86_64-w64-mingw32-strip', 'linux-arm64': process.arch === 'arm64' ? 'strip' : 'aarch64-linux-gnu-strip' };
@@ -45,6 +46,7 @@ function stagePackageJson() {
   const json = JSON.parse(readFileSync(join(here, 'package.json'), 'utf8'));
   // All is bundled: what is installed needs none of these.
   for (const key of ['private', 'scripts', 'dependencies', 'devDependencies']) delete json[key];
+  if (!isOfModule) delete json.browser;
   json.version = version; // package.json has a placeholder, which VS Code wants where it runs the extension from this folder.
   writeFileSync(join(stage, 'package.json'), JSON.stringify(json, null, 2));
   return json;
@@ -68,8 +70,12 @@ for (const name of ['LICENSE', 'CHANGELOG.md']) cpSync(join(root, name), join(st
 cpSync(join(root, 'docs/isocnc.schema.json'), join(stage, 'isocnc.schema.json'));
 for (const name of ['pocket.iso', 'five-axis.iso', 'option.iso']) cpSync(join(root, 'examples', name), join(stage, 'test-drive', name));
 if (process.env.ISOCNC_NOTICES) cpSync(process.env.ISOCNC_NOTICES, join(stage, 'third-party-notices.txt'));
-if (['web', 'universal'].includes(platform)) stageModule();
-else for (const name of [...needed, ...optional]) stageProgram(name);
+if (isOfModule) {
+  stageModule();
+} else {
+  for (const name of readdirSync(join(stage, 'dist'))) if (name.startsWith('browser.')) rmSync(join(stage, 'dist', name));
+  for (const name of [...needed, ...optional]) stageProgram(name);
+}
 stageReadme();
 const { name, contributes } = stagePackageJson();
 for (const { media } of contributes.walkthroughs[0].steps)

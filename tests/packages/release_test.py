@@ -28,9 +28,11 @@ PROGRAMS_OF = {"linux-x64": f"isocnc-{VERSION}-linux-x64.tar.gz", "linux-arm64":
                "windows-x64": f"isocnc-{VERSION}-windows-x64.zip"}  # fmt: skip
 DEBIAN = {"linux-x64": f"isocnc_{VERSION}_amd64.deb", "linux-arm64": f"isocnc_{VERSION}_arm64.deb"}
 VSIX = {"linux-x64": f"isocnc-linux-x64-{VERSION}.vsix", "linux-arm64": f"isocnc-linux-arm64-{VERSION}.vsix",
-        "windows-x64": f"isocnc-win32-x64-{VERSION}.vsix", "web": f"isocnc-web-{VERSION}.vsix"}  # fmt: skip
+        "windows-x64": f"isocnc-win32-x64-{VERSION}.vsix", "web": f"isocnc-web-{VERSION}.vsix",
+        "universal": f"isocnc-universal-{VERSION}.vsix"}  # fmt: skip
 OFFLINE = {"linux-x64": f"isocnc-offline-{VERSION}-linux-x64.tar.gz", "linux-arm64": f"isocnc-offline-{VERSION}-linux-arm64.tar.gz",
            "windows-x64": f"isocnc-offline-{VERSION}-windows-x64.zip"}  # fmt: skip
+MODULE = ("web", "universal")  # Those that hold the programs as a module.
 NPM = f"isocnc-{VERSION}.tgz"
 SITE = f"isocnc-site-{VERSION}.zip"
 EMULATORS = {"linux-x64": [], "linux-arm64": ["qemu-aarch64", "-L", "/usr/aarch64-linux-gnu"], "windows-x64": ["wine64", "wine"]}
@@ -91,7 +93,7 @@ class Release(unittest.TestCase):
         for platform, name, files in self.those(PROGRAMS_OF) + self.those(DEBIAN) + self.those(VSIX):
             programs = {Path(file).name: platform_of_program(data) for file, data in files.items() if "/bin/" in file}
             ending = ".exe" if platform == "windows-x64" else ""
-            expected = {} if platform == "web" else {program + ending: platform for program in PROGRAMS}
+            expected = {} if platform in MODULE else {program + ending: platform for program in PROGRAMS}
             self.assertEqual(programs, expected, name)
 
     def test_programs_hold_no_path_of_the_machine_that_built_them(self) -> None:
@@ -113,10 +115,11 @@ class Release(unittest.TestCase):
     def test_the_extension_is_for_its_platform(self) -> None:
         for platform, name, files in self.those(VSIX):
             target = "win32-x64" if platform == "windows-x64" else platform
-            self.assertIn(f'TargetPlatform="{target}"', files["extension.vsixmanifest"].decode())
+            targets = re.findall(r'TargetPlatform="(.*?)"', files["extension.vsixmanifest"].decode())
+            self.assertEqual(targets, [] if platform == "universal" else [target], name)
             self.assertEqual(json.loads(files["extension/package.json"])["version"], VERSION, name)
             modules = [file for file, data in files.items() if data.startswith(b"\0asm")]
-            self.assertEqual(modules, ["extension/dist/web/isocnc.wasm"] if platform == "web" else [], name)
+            self.assertEqual(modules, ["extension/dist/web/isocnc.wasm"] if platform in MODULE else [], name)
 
     def test_each_package_holds_the_licenses_of_what_it_holds(self) -> None:
         packages = {package["SPDXID"]: package for package in self.sbom["packages"]}
@@ -133,7 +136,7 @@ class Release(unittest.TestCase):
                 line = f"- {part['name']} {part['versionInfo']}: {part['licenseDeclared']}; "
                 self.assertIn(line, notices, name)
                 self.assertIn(line, whole)
-            for text in ("PERMISSION" if "site" in name else "GCC RUNTIME LIBRARY EXCEPTION" if "web" not in name and name != NPM else "Emscripten",):
+            for text in ("PERMISSION" if "site" in name else "Emscripten" if name in (VSIX["web"], VSIX["universal"], NPM) else "GCC RUNTIME LIBRARY EXCEPTION",):
                 self.assertIn(text.lower(), notices.lower(), name)
 
     def test_the_sbom_is_spdx(self) -> None:

@@ -24,8 +24,9 @@ test('it is for this platform', () => {
   assert.match(text('extension.vsixmanifest'), new RegExp(`TargetPlatform="${platform}"`));
 });
 
-test('the package for browsers has the module and no programs, the others have no module', () => {
-  for (const name of ['worker.js', 'isocnc.wasm']) assert.equal(`extension/dist/web/${name}` in files, isWeb, name);
+test('the package for browsers has the module and no programs, the others have nothing for browsers', () => {
+  for (const name of ['web/worker.js', 'web/isocnc.wasm', 'browser.js']) assert.equal(`extension/dist/${name}` in files, isWeb, name);
+  assert.equal('browser' in manifest, isWeb);
   if (isWeb) assert.deepEqual(Object.keys(files).filter((name) => name.startsWith('extension/bin')), []);
 });
 
@@ -81,7 +82,7 @@ test('it is small enough to be sent around', () => {
   const megabytes = statSync(vsix).size / 1e6;
   assert.ok(megabytes < 25, `${megabytes} MB`);
   for (const [name, maxSize] of [['dist/extension.js', 600_000], ['dist/browser.js', 600_000], ['dist/toolpath.js', 900_000]]) {
-    const [size] = files[`extension/${name}`];
+    const [size] = files[`extension/${name}`] ?? [0];
     assert.ok(size < maxSize, `${name}: ${size} bytes`);
   }
 });
