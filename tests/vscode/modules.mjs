@@ -1,4 +1,4 @@
-// Modules of the extension, made to run here.
+// Modules of the extension and of the toolpath's view, made to run here.
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
@@ -13,13 +13,18 @@ const folder = mkdtempSync(join(tmpdir(), 'isocnc-modules-'));
 process.on('exit', () => rmSync(folder, { recursive: true, force: true }));
 
 /** A file of vscode-extension/src; `replacements` are sources of modules that it imports, by their names. */
-export async function module(name, replacements = {}) {
+export const module = (name, replacements = {}) => loaded(join(extension, 'src', `${name}.ts`), name, replacements);
+
+/** A file of toolpath-view/src. */
+export const viewModule = (name) => loaded(join(root, 'toolpath-view/src', `${name}.ts`), name);
+
+async function loaded(file, name, replacements = {}) {
   const outfile = join(folder, `${name.replaceAll('/', '-')}.mjs`);
   const alias = {};
   for (const [replaced, source] of Object.entries(replacements)) {
     alias[replaced] = join(folder, `${replaced.replaceAll('/', '-')}.replacement.mjs`);
     writeFileSync(alias[replaced], source);
   }
-  requireFromExtension('esbuild').buildSync({ entryPoints: [join(extension, 'src', `${name}.ts`)], bundle: true, format: 'esm', platform: 'node', outfile, alias });
+  requireFromExtension('esbuild').buildSync({ entryPoints: [file], bundle: true, format: 'esm', platform: 'node', outfile, alias });
   return import(pathToFileURL(outfile));
 }

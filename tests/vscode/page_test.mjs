@@ -3,10 +3,10 @@
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { module } from './modules.mjs';
+import { viewModule } from './modules.mjs';
 import { openPage, recordingOf, postMessage, wholePath, without } from './page.mjs';
 
-const { applied } = await module('toolpath/streams');
+const { applied } = await viewModule('streams');
 
 const square = (side) => `M06 T101001
 S12000 M03

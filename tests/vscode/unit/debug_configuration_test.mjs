@@ -1,10 +1,10 @@
 import assert from 'node:assert/strict';
 import { posix } from 'node:path';
 import { test } from 'node:test';
-import { module } from '../modules.mjs';
+import { module, viewModule } from '../modules.mjs';
 
 const { absolute, completed } = await module('debug_configuration');
-const { readPosition } = await module('toolpath/position');
+const { readPosition } = await viewModule('machine_position');
 
 test('F5 without a configuration runs the open program, and stops at its first block', () => {
   assert.deepEqual(completed({}, '/parts/a.iso', 'Debug'), {

@@ -1,8 +1,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { module } from '../modules.mjs';
+import { viewModule } from '../modules.mjs';
 
-const { applied, patched, whole } = await module('toolpath/streams');
+const { applied, patched, whole } = await viewModule('streams');
 const bytes = (...values) => Uint8Array.from(values);
 
 /** How one stream differs from another, as isols reports it. */

@@ -1,6 +1,6 @@
 /** What the toolpath's panel and its page say to each other. */
 import type { Facts, Vector } from '../../../toolpath-view/src/toolpath';
-import type { Patches } from './streams';
+import type { Patches } from '../../../toolpath-view/src/streams';
 
 export type ToPage =
   | {

@@ -5,9 +5,9 @@ import { adviseOpen, currentProgram } from '../current_program';
 import { language, settings } from '../environment';
 import { nameOf } from '../files';
 import type { ToPage, ToPanel } from './messages';
-import { readPosition } from './position';
+import { readPosition } from '../../../toolpath-view/src/machine_position';
 import type { KnownToolpath, ToolpathSource } from './source';
-import { whole } from './streams';
+import { whole } from '../../../toolpath-view/src/streams';
 
 const viewType = 'isocnc.toolpath';
 

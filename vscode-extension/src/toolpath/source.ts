@@ -3,7 +3,7 @@ import * as vscode from 'vscode';
 import { secondsOf, type Recording } from '../../../toolpath-view/src/toolpath';
 import { settings } from '../environment';
 import type { Server } from '../server';
-import { applied, streamNames, type Patches, type SentToolpath } from './streams';
+import { applied, streamNames, type Patches, type SentToolpath } from '../../../toolpath-view/src/streams';
 
 /** How long to wait for another edit. */
 const delay = 120;

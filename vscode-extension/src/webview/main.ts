@@ -3,7 +3,7 @@ import { byId, element } from '../../../toolpath-view/src/elements';
 import { Panel } from '../../../toolpath-view/src/panel';
 import { Toolpath, type Recording, type Vector } from '../../../toolpath-view/src/toolpath';
 import type { ToPage, ToPanel } from '../toolpath/messages';
-import { applied } from '../toolpath/streams';
+import { applied } from '../../../toolpath-view/src/streams';
 import { backgroundOf, themeOf } from './theme';
 
 declare function acquireVsCodeApi(): { postMessage(message: ToPanel): void };

@@ -1,6 +1,6 @@
 /** isodap in a worker: one run of the program on the simulated machine, forwards and backwards. */
 import { ModuleWorker } from './module_worker';
-import { readPosition, type MachinePosition } from '../../../vscode-extension/src/toolpath/position';
+import { readPosition, type MachinePosition } from '../../../toolpath-view/src/machine_position';
 import type { Language } from './texts';
 
 const program = '/program/program.iso';

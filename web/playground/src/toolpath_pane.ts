@@ -2,8 +2,8 @@
 import { byId, element } from '../../../toolpath-view/src/elements';
 import { Panel } from '../../../toolpath-view/src/panel';
 import { Toolpath, type Recording } from '../../../toolpath-view/src/toolpath';
-import { applied, streamNames, type Patches, type SentToolpath } from '../../../vscode-extension/src/toolpath/streams';
-import type { MachinePosition } from '../../../vscode-extension/src/toolpath/position';
+import { applied, streamNames, type Patches, type SentToolpath } from '../../../toolpath-view/src/streams';
+import type { MachinePosition } from '../../../toolpath-view/src/machine_position';
 import { RequestError, textDocument, type LanguageServer } from './language_server';
 import type { Theme } from './preferences';
 import { filled, texts, type Language } from './texts';

@@ -1,5 +1,5 @@
 /** The body of isodap's event `isocnc/position`: where the machine is while a program runs. */
-import type { Vector } from '../../../toolpath-view/src/toolpath';
+import type { Vector } from './toolpath';
 
 export interface MachinePosition {
   /** From 0. */

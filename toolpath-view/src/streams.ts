@@ -1,5 +1,5 @@
 /** The streams of a toolpath as isols sends them: whole, or as they differ from those sent before. */
-import type { Facts, Recording } from '../../../toolpath-view/src/toolpath';
+import type { Facts, Recording } from './toolpath';
 
 export const streamNames = ['steps', 'points', 'turns'] as const;
 export type StreamName = (typeof streamNames)[number];
