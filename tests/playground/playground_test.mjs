@@ -260,6 +260,20 @@ test('a program that is too long for a link stays where it is', async () => {
   assert.match(await page.locator('#notice').innerText(), /too long for a link/);
 });
 
+test('what is typed is there when the page is loaded anew, until another link comes', async () => {
+  const page = await open({ program: square });
+  await page.evaluate(() => globalThis.playground.editor.apply([{ range: { startLineNumber: 7, startColumn: 2, endLineNumber: 7, endColumn: 5 }, text: '333' }]));
+  const typed = square.replace('Y150', 'Y333');
+  await shows(page, typed);
+  await page.reload();
+  await shows(page, typed);
+  assert.equal(await page.locator('#name').innerText(), 'program.iso');
+  await page.goto('about:blank');
+  await page.goto(onDisk + fragment(`${square};other\n`));
+  await shows(page, `${square};other\n`);
+  await page.close();
+});
+
 test('a file that is dropped is opened, unless it is no text', async () => {
   const page = await show(square);
   const drop = (name, bytes) =>

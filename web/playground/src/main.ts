@@ -5,6 +5,7 @@ import { ProgramEditor } from './editor';
 import { broken, right, type Example } from './examples';
 import { acceptDrops, FileFailure, largestFile, save, textOf } from './files';
 import { FindingsPane } from './findings_pane';
+import { keepProgram, keptProgram } from './kept_program';
 import { LanguageServer, RequestError, textDocument } from './language_server';
 import { fragmentOf, LinkError, longestLink, programOf } from './link';
 import { chosenLanguage, chosenTheme, keepLanguage, keepTheme, onSystemTheme, type Theme } from './preferences';
@@ -18,7 +19,7 @@ import { ToolpathPane } from './toolpath_pane';
 class Page {
   private language: Language = chosenLanguage();
   private theme: Theme = chosenTheme();
-  private fileName = broken[0].file;
+  private fileName: string;
   private server: LanguageServer | null = null;
   private findings: Diagnostic[] = [];
   private readonly tabs = new Tabs();
@@ -29,7 +30,10 @@ class Page {
 
   constructor() {
     this.applyTheme();
-    this.editor = new ProgramEditor(byId('editor'), broken[0].text, this.theme, this.said.editor);
+    const kept = keptProgram();
+    const program = kept ?? { name: broken[0].file, text: broken[0].text };
+    this.fileName = program.name;
+    this.editor = new ProgramEditor(byId('editor'), program.text, this.theme, this.said.editor);
     this.findingsPane = new FindingsPane(this.language);
     this.toolpath = new ToolpathPane(this.language, this.theme);
     this.run = new RunPane(this.language, this.editor);
@@ -38,7 +42,8 @@ class Page {
     this.setUpDialog();
     this.write();
     void this.startServer();
-    void this.readLink();
+    if (!kept) void this.readLink();
+    window.addEventListener('pagehide', () => keepProgram({ name: this.fileName, text: this.editor.text }));
     // For tests, which look from outside.
     Object.assign(window, { playground: { editor: this.editor, toolpath: this.toolpath } });
   }
