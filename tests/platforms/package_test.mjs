@@ -55,8 +55,22 @@ test('run() tells what isorun tells', async () => {
   assert.equal((await run(broken)).result, 'error');
 });
 
+test('calls at the same time load the module once', () => {
+  const script = `
+    let made = 0;
+    const { instantiate } = WebAssembly;
+    WebAssembly.instantiate = (...all) => { ++made; return instantiate(...all); };
+    const { check } = await import(${JSON.stringify(pathToFileURL(join(made, 'dist/index.js')).href)});
+    await Promise.all(['M02', 'M03', 'M05'].map((text) => check(text)));
+    console.log(made);
+  `;
+  assert.equal(execFileSync(process.execPath, ['--input-type=module', '--eval', script], { encoding: 'utf8' }), '1\n');
+});
+
 test('mistakes are errors that say what is wrong', async () => {
   await assert.rejects(check('', { configuration: { machin: {} } }), (error) => error instanceof CommandError && /machin: unknown key/.test(error.message));
+  for (const args of [['--list-rules'], ['--statistics'], ['--version']]) await assert.rejects(check('X', { args }), CommandError);
+  for (const text of [undefined, null, new Uint8Array([77, 48, 50])]) await assert.rejects(check(text), TypeError);
   await assert.rejects(format('', { args: ['--bogus'] }), (error) => error instanceof CommandError && /--bogus/.test(error.message));
   await assert.rejects(check('\0'.repeat(100)), CommandError);
   assert.deepEqual((await check('G01 X1\nM02')).length > 0, true); // It goes on.

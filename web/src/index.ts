@@ -68,9 +68,13 @@ async function readWasm(): Promise<ArrayBuffer | Uint8Array> {
 
 let loaded: Promise<Module> | undefined;
 
+async function made(wasmBinary?: ArrayBuffer | Uint8Array): Promise<Module> {
+  return makeModule({ wasmBinary: wasmBinary ?? (await readWasm()) });
+}
+
 /** Loads the module, once. The other functions do so by themselves. */
 export async function load(wasmBinary?: ArrayBuffer | Uint8Array): Promise<void> {
-  loaded ??= makeModule({ wasmBinary: wasmBinary ?? (await readWasm()) });
+  loaded ??= made(wasmBinary);
   await loaded;
 }
 
@@ -79,6 +83,7 @@ const trace = '/isocnc.trace';
 
 /** What the command writes to its standard output, or to a `file`. Calls at the same time run one after another. */
 async function command(program: Program, text: string, options: Options, args: readonly string[], file?: string): Promise<string[]> {
+  if (typeof text !== 'string') throw new TypeError('the program is no text');
   await load();
   const module = await loaded!;
   module.FS.mkdirTree(home);
@@ -92,11 +97,22 @@ async function command(program: Program, text: string, options: Options, args: r
   return file === undefined ? [output] : [output, module.FS.readFile(file, { encoding: 'utf8' })];
 }
 
+/** Options among `args` can ask for something else than a result. */
+function parsed<Result>(json: string, isResult: (value: unknown) => value is Result): Result {
+  try {
+    const value: unknown = JSON.parse(json);
+    if (isResult(value)) return value;
+  } catch {
+    // It is no JSON.
+  }
+  throw new CommandError('the options in args ask for something else than a result');
+}
+
 /** The findings of a program, as `isolint --format json` gives them. */
 export async function check(text: string, options: Options = {}): Promise<Finding[]> {
   const name = options.filename ?? 'program.iso';
   const [json] = await command('isolint', text, options, ['--format', 'json', '--stdin-filename', name]);
-  return JSON.parse(json) as Finding[];
+  return parsed(json, (value): value is Finding[] => Array.isArray(value) && value.every((each: object) => 'message' in each));
 }
 
 /** The program as `isofmt` writes it. */
@@ -110,7 +126,7 @@ export async function format(text: string, options: Options = {}): Promise<strin
 export async function run(text: string, options: RunOptions = {}): Promise<Run> {
   const args = options.trace ? ['--json', '--trace', trace] : ['--json'];
   const [json, events] = await command('isorun', text, options, args, options.trace ? trace : undefined);
-  const summary = JSON.parse(json) as Run;
+  const summary = parsed(json, (value): value is Run => typeof value === 'object' && value !== null && 'result' in value);
   if (events === undefined) return summary;
   const lines = events.split('\n').filter((line) => line !== '');
   return { ...summary, trace: lines.map((line) => JSON.parse(line) as Record<string, unknown>) };
