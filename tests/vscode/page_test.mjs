@@ -94,13 +94,13 @@ test('a click on a move reports its line', shown, async () => {
 });
 
 test('the tool goes where the debugger has it', shown, async () => {
-  await post({ type: 'pose', line: 5, tip: [270, 100, 0], b: 0, c: 0 });
+  await post({ type: 'pose', line: 5, tip: [270, 100, 0], b: 0, c: 0, seconds: 0 });
   const { line, tip } = await now();
   assert.equal(line, 6);
   assert.ok(Math.abs(tip[0] - 270) < 0.01, String(tip));
   const before = await page.locator('#stage').screenshot();
   // Beside the path: the tool is there all the same.
-  await post({ type: 'pose', line: 5, tip: [250, 300, 0], b: 0, c: 0 });
+  await post({ type: 'pose', line: 5, tip: [250, 300, 0], b: 0, c: 0, seconds: 0 });
   await drawn();
   assert.notDeepEqual(await page.locator('#stage').screenshot(), before);
 });

@@ -6,6 +6,7 @@ import { clock, coordinate, feed, lengthText } from './format';
 import { hasTravel } from './furniture';
 import { icon } from './icons';
 import { legend } from './legend';
+import type { MachinePosition } from './machine_position';
 import { Player, speeds } from './player';
 import { texts, type Language, type Texts } from './texts';
 import { Kind, type Steps, type Toolpath, type Vector } from './toolpath';
@@ -111,10 +112,10 @@ export class Panel {
 
   /** Puts the tool where a machine has it that carries out this line, whether the path leads there or not, and lights the
    * line's moves up. */
-  pose(line: number, tip: Vector, b: number, c: number): void {
+  pose({ line, tip, b, c, seconds }: MachinePosition): void {
     this.player.isPlaying = false;
     this.select(null);
-    this.player.seek(this.path.timeNear(line, tip));
+    this.player.seek(this.path.timeNear(line, tip, seconds));
     const steps = this.path.stepsOf(line);
     if (steps.end > steps.start) this.view?.select(steps);
     this.view?.pose(tip, b, c);

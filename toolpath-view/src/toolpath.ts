@@ -90,6 +90,13 @@ class Reader {
 
 const Bits = { kind: 0x03, otherLine: 0x04, otherTool: 0x08, otherFeed: 0x10, pause: 0x20, pointCount: 0x40 };
 
+/** Points stand for the path within this, in mm. */
+const drawnWithin = 0.1;
+
+function distanceOf(one: Vector, other: Vector): number {
+  return Math.hypot(one[0] - other[0], one[1] - other[1], one[2] - other[2]);
+}
+
 /** Steps are what the machine did for one block. Step s runs over the points stepStart[s] to stepStart[s + 1]; a point
  * belongs to the step that leads to it. */
 export class Toolpath {
@@ -183,8 +190,12 @@ export class Toolpath {
     return { start, end: lowerBound(this.stepLine, line + 1, this.stepCount) };
   }
 
-  /** When the tool is nearest to a place while a line is carried out; where nothing is done on it, when it comes there. */
-  timeNear(line: number, tip: Vector): number {
+  /**
+   * When the tool is at a place while a line is carried out: after `seconds` if it is there then, as in a run of this path; else when it is nearest, or where
+   * nothing is done on the line, when it comes there.
+   */
+  timeNear(line: number, tip: Vector, seconds: number): number {
+    if (distanceOf(this.at(seconds).tip, tip) < drawnWithin) return seconds;
     const { start, end } = this.stepsOf(line);
     if (start === end) return start > 0 ? this.endOf(start - 1) : 0;
     let best = { distance: Infinity, time: this.times[this.stepStart[end]] };

@@ -39,7 +39,7 @@ test('there may be nothing to run', () => assert.equal(completed({}, null, 'Debu
 
 test('the position of the machine is read', () => {
   const tip = { x: 1, y: 2, z: 3, b: 90, c: -5 };
-  assert.deepEqual(readPosition({ line: 12, tip, speed: 0 }), { line: 11, tip: [1, 2, 3], b: 90, c: -5 });
-  for (const body of [undefined, null, 5, {}, { line: 1 }, { line: 1, tip: { ...tip, c: undefined } }, { line: '1', tip }, { line: 1, tip: { ...tip, y: NaN } }])
+  assert.deepEqual(readPosition({ line: 12, time: 4.5, tip, speed: 0 }), { line: 11, tip: [1, 2, 3], b: 90, c: -5, seconds: 4.5 });
+  for (const body of [undefined, null, 5, {}, { line: 1, time: 0 }, { line: 1, time: 0, tip: { ...tip, c: undefined } }, { line: '1', time: 0, tip }, { line: 1, tip }, { line: 1, time: 0, tip: { ...tip, y: NaN } }])
     assert.equal(readPosition(body), null, JSON.stringify(body));
 });

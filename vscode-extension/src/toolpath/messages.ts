@@ -1,4 +1,5 @@
 /** What the toolpath's panel and its page say to each other. */
+import type { MachinePosition } from '../../../toolpath-view/src/machine_position';
 import type { Facts, Vector } from '../../../toolpath-view/src/toolpath';
 import type { Patches } from '../../../toolpath-view/src/streams';
 
@@ -16,7 +17,7 @@ export type ToPage =
   | { type: 'problem'; message: string }
   /** Lines that are selected in the editor, from 0; `last` belongs to them. */
   | { type: 'lines'; first: number; last: number }
-  | { type: 'pose'; line: number; tip: Vector; b: number; c: number }
+  | ({ type: 'pose' } & MachinePosition)
   /** Length, width, height. */
   | { type: 'stock'; size: Vector | null };
 

@@ -36,7 +36,7 @@ class Page {
         if (!this.panel?.player.isPlaying) this.panel?.choose(message.first, message.last);
         return;
       case 'pose':
-        return this.panel?.pose(message.line, message.tip, message.b, message.c);
+        return this.panel?.pose(message);
       case 'stock':
         this.stock = message.size;
         return this.placeStock();

@@ -17,7 +17,6 @@ interface Message {
 
 /** Where the machine stands, and what is in force. */
 export interface Standing extends MachinePosition {
-  seconds: number;
   /** In the frame in force, as programmed; mm and degrees. */
   programmed: Record<'x' | 'y' | 'z' | 'b' | 'c', number>;
   /** mm/min, as programmed. */
@@ -116,15 +115,15 @@ export class Debugger {
   private take(body: Message['body']): void {
     const position = readPosition(body);
     if (!position) return;
-    const { time, programmed, spindle, tool } = body as unknown as Standing & { time: number };
-    this.place = { ...position, seconds: time, programmed, feed: this.place?.feed ?? '', spindle, tool };
+    const { programmed, spindle, tool } = body as unknown as Standing;
+    this.place = { ...position, programmed, feed: this.place?.feed ?? '', spindle, tool };
   }
 
   private async report(body: Message['body']): Promise<void> {
     const { reason, description, text } = body as { reason: string; description?: string; text?: string };
     const answer = (await this.request('evaluate', { expression: 'F', context: 'watch' })) as { result: string };
     if (this.place) this.place.feed = answer.result;
-    const error = reason === 'exception' ? (text ?? description ?? '') : null;
+    const error = reason === 'exception' ? [text, description].filter(Boolean).join(' ') : null;
     if (this.place) this.onStop({ standing: this.place, error });
   }
 }

@@ -60,8 +60,8 @@ export class ToolpathPane {
     if (this.panel && !this.panel.player.isPlaying) this.panel.choose(first, last);
   }
 
-  pose({ line, tip, b, c }: MachinePosition): void {
-    this.panel?.pose(line, tip, b, c);
+  pose(position: MachinePosition): void {
+    this.panel?.pose(position);
   }
 
   /** Where the tool is drawn, in the frame of the machine. */
