@@ -334,6 +334,7 @@ test('it speaks both languages, and remembers which', async () => {
   await page.close();
   const again = await visit();
   await shows(again, program, 'en');
+  await drawn(again);
   const unnamed = await again.evaluate(() =>
     [...document.querySelectorAll('button, select, input:not([type=file]), [role=tab]')]
       .filter((each) => !(each.textContent.trim() || each.getAttribute('aria-label') || each.title || each.labels?.length))

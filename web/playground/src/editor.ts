@@ -50,7 +50,8 @@ export class ProgramEditor {
       stickyScroll: { enabled: false },
       inlayHints: { enabled: 'on', fontSize: 11 },
       quickSuggestions: { other: true, comments: false, strings: false },
-      tabFocusMode: false,
+      // Tab leads on to the findings, and keys alone reach everything.
+      tabFocusMode: true,
     });
     this.passing = this.editor.createDecorationsCollection();
     this.standing = this.editor.createDecorationsCollection();

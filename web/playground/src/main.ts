@@ -170,11 +170,17 @@ class Page {
   private async open(file: File): Promise<void> {
     try {
       this.show(file.name, await textOf(file));
+      this.forgetLink();
       this.say('');
     } catch (failure) {
       if (!(failure instanceof FileFailure)) throw failure;
       this.say(filled(this.said[failure.failure], failure.file, largestFile));
     }
+  }
+
+  /** Else a link's program would come back with the next load of the page. */
+  private forgetLink(): void {
+    if (location.hash) history.replaceState(null, '', location.pathname + location.search);
   }
 
   private async readLink(): Promise<void> {
@@ -232,9 +238,8 @@ class Page {
       const example = [...right, ...broken][Number(examples.value)];
       examples.value = '';
       this.show(example.file, example.text);
+      this.forgetLink();
       this.say('');
-      // Else a link's program would come back with the next load of the page.
-      if (location.hash) history.replaceState(null, '', location.pathname + location.search);
     });
     acceptDrops((file) => void this.open(file), (is) => (byId('drop').hidden = !is));
     window.addEventListener('hashchange', () => void this.readLink());

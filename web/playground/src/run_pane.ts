@@ -92,6 +92,7 @@ export class RunPane {
   private finish(last: Standing | null): void {
     this.debugger = null;
     this.show({ name: 'ended', standing: last, error: null });
+    if (last) this.onStand(last);
     this.onStand(null);
   }
 

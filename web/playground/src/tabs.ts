@@ -4,7 +4,7 @@ import { byId } from '../../../toolpath-view/src/elements';
 export const parts = ['source', 'findings', 'toolpath'] as const;
 export type Part = (typeof parts)[number];
 
-const isNarrow = matchMedia('(max-width: 760px)');
+const isNarrow = matchMedia('(max-width: 880px), (max-height: 480px)');
 
 export class Tabs {
   private shown: Part = 'source';
