@@ -136,23 +136,6 @@ test('what would stop the control is underlined and listed among the problems', 
   assert.match(listed.find((row) => row.includes('ISO031')), /it is 11\.1803 mm from the start and 15 mm from the end/);
 });
 
-/** Chooses an entry in the menu of files in the Explorer. A menu that has just opened ignores clicks. */
-async function chooseInExplorer(names, entry) {
-  await editor.command('File: Focus on Files Explorer');
-  const row = (name) => page.locator('.explorer-folders-view .monaco-list-row', { hasText: name }).first();
-  await row(names[0]).click();
-  for (const name of names.slice(1)) await row(name).click({ modifiers: ['Control'] });
-  await row(names.at(-1)).click({ button: 'right' });
-  const menu = page.locator('.monaco-menu').first();
-  await menu.waitFor();
-  const choose = async () => {
-    if (await menu.isHidden()) return true;
-    await menu.locator('.action-item', { hasText: entry }).first().click({ timeout: 1000 });
-    return false;
-  };
-  await eventually(choose, `${entry} cannot be chosen`, (isChosen) => isChosen === true);
-}
-
 /** Starts a task until its problems are listed: VS Code may lose those of a task that ends at once, on a busy machine. */
 async function listedByTask(start, program) {
   const listed = async () => {
@@ -167,12 +150,12 @@ async function listedByTask(start, program) {
 }
 
 test('a program is checked from the menu of its file', async () => {
-  await listedByTask(() => chooseInExplorer(['new.iso', 'chosen.iso'], 'Check with isolint'), 'chosen.iso');
+  await listedByTask(() => editor.chooseInExplorer(['new.iso', 'chosen.iso'], 'Check with isolint'), 'chosen.iso');
   await hidePanel();
 });
 
 test('two programs are compared as they would be formatted', async () => {
-  await chooseInExplorer(['old.iso', 'new.iso'], 'Compare Programs');
+  await editor.chooseInExplorer(['old.iso', 'new.iso'], 'Compare Programs');
   const side = (name) => editor.texts(`.monaco-diff-editor .editor.${name} .view-line`);
   const [left, right] = await eventually(
     async () => [await side('original'), await side('modified')],

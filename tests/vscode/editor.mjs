@@ -163,6 +163,23 @@ export class Editor {
     );
   }
 
+  /** Chooses an entry in the menu of files in the Explorer. A menu that has just opened ignores clicks. */
+  async chooseInExplorer(names, entry) {
+    await this.command('File: Focus on Files Explorer');
+    const row = (name) => this.page.locator('.explorer-folders-view .monaco-list-row', { hasText: name }).first();
+    await row(names[0]).click();
+    for (const name of names.slice(1)) await row(name).click({ modifiers: ['Control'] });
+    await row(names.at(-1)).click({ button: 'right' });
+    const menu = this.page.locator('.monaco-menu').first();
+    await menu.waitFor();
+    const choose = async () => {
+      if (await menu.isHidden()) return true;
+      await menu.locator('.action-item', { hasText: entry }).first().click({ timeout: 1000 });
+      return false;
+    };
+    await eventually(choose, `${entry} cannot be chosen`, (isChosen) => isChosen === true);
+  }
+
   /** The program's editor, not one of the toolpath, the console or the like. */
   get code() {
     return this.page.locator('.editor-instance .monaco-editor').first();

@@ -143,6 +143,13 @@ test('a task lists the problems of programs that are not open', async () => {
   await eventually(problems, 'the task finds nothing', (rows) => rows.some((row) => /^closed\.iso/.test(row)));
 });
 
+test('a program is checked from the menu of its file', async () => {
+  await editor.chooseInExplorer(['broken.iso'], 'Check with isolint');
+  const shown = () => editor.texts('.terminal-wrapper.active .xterm-rows');
+  await eventually(shown, 'the task reports nothing', (rows) => /broken\.iso:65:19.*exit code: 1/s.test(rows.join()));
+  assert.doesNotMatch((await shown()).join(), /failed to launch/);
+});
+
 test('a program runs on the simulator, in a terminal', async () => {
   await editor.open('pocket.iso');
   await editor.focus();

@@ -1,6 +1,6 @@
 /** Tasks: isolint over the workspace or a program of any size, isorun. */
 import * as vscode from 'vscode';
-import { currentProgram } from './current_program';
+import { adviseOpen, currentProgram } from './current_program';
 import { language, type Environment, type Program } from './environment';
 import type { ProgramName } from './programs';
 
@@ -46,8 +46,12 @@ export function activate(context: vscode.ExtensionContext, environment: Environm
 /** Checks what is chosen in the Explorer, files and folders, or else the program in the editor, as it is saved. */
 async function check(environment: Environment, clicked?: vscode.Uri, chosen?: vscode.Uri[]): Promise<void> {
   const uris = chosen?.length ? chosen : [clicked ?? currentProgram()?.uri].filter((uri) => uri !== undefined);
+  if (!uris.length) return adviseOpen();
   const files = uris.filter((uri) => environment.reaches(uri));
-  if (!files.length) return;
+  if (!files.length) {
+    await vscode.window.showInformationMessage(vscode.l10n.t('Save the program first: it is run from its file.'));
+    return;
+  }
   const isMeant = ({ scheme, path }: vscode.Uri) => files.some((file) => file.scheme === scheme && `${path}/`.startsWith(`${file.path}/`));
   for (const document of vscode.workspace.textDocuments) if (document.isDirty && isMeant(document.uri)) await document.save();
   await checkFiles(environment, files);

@@ -71,6 +71,9 @@ function workingDirectory(): string {
   return workspace ? pathOf(workspace) : '/';
 }
 
+/** VS Code takes a terminal that ends sooner for one that has not started, and says so. */
+const shortestTerminal = 600; // ms.
+
 /** A terminal that shows what a command prints. */
 class ModuleTerminal implements vscode.Pseudoterminal {
   private readonly written = new vscode.EventEmitter<string>();
@@ -79,9 +82,12 @@ class ModuleTerminal implements vscode.Pseudoterminal {
   readonly onDidWrite = this.written.event;
   readonly onDidClose = this.closed.event;
 
+  private opened = 0;
+
   constructor(private readonly run: () => Promise<Outcome>) {}
 
   open(): void {
+    this.opened = Date.now();
     void this.run().then(
       ({ status, output, complaints }) => this.end(output + complaints, status),
       (error: unknown) => this.end(`${String(error)}\n`, 2),
@@ -92,6 +98,6 @@ class ModuleTerminal implements vscode.Pseudoterminal {
 
   private end(text: string, status: number): void {
     this.written.fire(text.replaceAll('\n', '\r\n'));
-    this.closed.fire(status);
+    setTimeout(() => this.closed.fire(status), Math.max(0, this.opened + shortestTerminal - Date.now()));
   }
 }
