@@ -16,7 +16,7 @@ ISOLINT, RUN_VERB = map(pathlib.Path, sys.argv[1:3])
 EMULATOR = sys.argv[4:]
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "cmake" / "windows"
 WRONG = "M06 T101001\nS12000 M03\nG01 X10 F1200\nG02 X20\nM05\nM02\n"
-CLASSES = [*(f"SystemFileAssociations\\{extension}" for extension in (".iso", ".nc", ".cnc", ".tap", ".ngc")), "Directory"]
+CLASSES = [*(f"SystemFileAssociations\\{extension}" for extension in (".iso", ".nc", ".cnc", ".tap", ".ngc")), "Directory", "Drive", "Directory\\Background"]
 
 
 def windows_path(path):
@@ -59,12 +59,16 @@ class Explorer(unittest.TestCase):
         return found
 
     def test_entries_check_programs_and_folders(self):
-        self.assertEqual(self.run_script("add-to-explorer.cmd"), (0, "Check with isolint\nWatch with isolint\n"))
+        status, said = self.run_script("add-to-explorer.cmd")
+        self.assertEqual((status, said.splitlines()[:2]), (0, ["Check with isolint", "Watch with isolint"]))
         entries = self.entries()
         for each in CLASSES:
             self.assertEqual(entries[each + r"\shell\isolint"], "Check with isolint")
         self.assertNotIn(".iso", entries)  # Disk images are opened as before.
-        self.assertIn(" --watch ", entries[r"Directory\shell\isolint-watch\command"])
+        for each in CLASSES[-3:]:
+            self.assertIn(" --watch ", entries[each + r"\shell\isolint-watch\command"])
+        self.assertIn('"%1."', entries[r"Drive\shell\isolint\command"])
+        self.assertIn('"%V\\."', entries[r"Directory\Background\shell\isolint\command"])
         for name in ("part.iso", "già fatto (1) & bene.iso", "100%.iso"):
             program = self.parts / name
             program.write_text(WRONG)
@@ -81,11 +85,13 @@ class Explorer(unittest.TestCase):
         self.assertEqual(self.run_script("remove-from-explorer.cmd"), (0, ""))
 
     def test_entries_are_in_the_language_of_the_user(self):
-        self.assertEqual(self.run_script("add-to-explorer.cmd", language="it_IT.UTF-8"), (0, "Verifica con isolint\nTieni d'occhio con isolint\n"))
+        status, said = self.run_script("add-to-explorer.cmd", language="it_IT.UTF-8")
+        self.assertEqual((status, said.splitlines()[:2]), (0, ["Verifica con isolint", "Tieni d'occhio con isolint"]))
 
     def test_a_script_without_its_program_adds_nothing(self):
         (self.programs / "isolint.exe").unlink()
-        self.assertEqual(self.run_script("add-to-explorer.cmd"), (1, "There is no isolint.exe beside add-to-explorer.cmd.\n"))
+        status, said = self.run_script("add-to-explorer.cmd")
+        self.assertEqual((status, said.splitlines()[0]), (1, "There is no isolint.exe beside add-to-explorer.cmd."))
         self.assertEqual([key for key in self.entries() if "isolint" in key], [])
 
 
