@@ -70,6 +70,11 @@ static void add_options(command_line::ProgramApp& program, LintCommandOptions& o
       .add_option("--severity", options.selection.severities, {"CODE=LEVEL", "CODICE=LIVELLO"},
                   {"Report it as error, warning or info; or off", "Gli dà il peso error, warning, info oppure off"})
       .takes_one();
+  const command_line::ProgramOption verify =
+      program.add_flag("--verify", options.verify,
+                       {"Run each program on the machine as well: joints\noutside their travel, gouges of compensation",
+                        "Esegue anche ogni programma sulla macchina: assi\nfuori corsa, intacchi della correzione"});
+  verify.without_exclusions();
   const command_line::ProgramOption baseline =
       program.add_option("--baseline", options.baseline, command_line::kFileValue,
                          {"Not the findings recorded in this file", "Non le segnalazioni registrate in questo file"});
@@ -90,7 +95,7 @@ static void add_options(command_line::ProgramApp& program, LintCommandOptions& o
   const command_line::ProgramOption diff = program.add_flag(
       "--diff", options.diff,
       {"Show what --fix would change, and change nothing", "Mostra che cosa cambierebbe --fix, senza cambiarlo"});
-  diff.without_exclusions().excludes(write_baseline);
+  diff.without_exclusions().excludes(write_baseline).excludes(verify);
 
   program.begin_group({"How it is shown", "Come mostrarlo"});
   const std::string formats = listed(formats::format_names());

@@ -28,7 +28,8 @@ struct LintCommandOptions {
   bool unsafe_fixes = false;  ///< Includes unsafe fixes.
   bool diff = false;          ///< Shows what the fixes would change, and changes nothing.
   bool statistics = false;
-  bool watch = false;  ///< Checks again what changes, until the user ends it.
+  bool verify = false;  ///< Runs each program on the machine as well.
+  bool watch = false;   ///< Checks again what changes, until the user ends it.
   bool list_rules = false;
   bool rules_page = false;
   bool messages_page = false;

@@ -9,8 +9,6 @@
 #include "analyzer/fixes/fix_table.h"
 #include "analyzer/fixing/finding_fixes.h"
 #include "analyzer/selection/shown_report.h"
-#include "interpreter/running/runner.h"
-#include "interpreter/simulation/compensation.h"
 #include "interpreter/syntax/line_finder.h"
 #include "interpreter/syntax/line_tree.h"
 
@@ -93,28 +91,26 @@ static std::string program_of(Cause cause) {
   return read_marked(wrong_program(cause)).text;
 }
 
-/// The warning of a run with a cutter of 10 mm radius.
-static std::optional<Example> example_of_run(DiagnosticId id) {
-  const MarkedProgram program = read_marked(dialect::definition(id).wrong);
+std::vector<simulation::RunFinding> example_run(std::string_view program, DiagnosticId id) {
   simulation::TimedMachine machine;
   machine.tool_radii[{1, 1, 1}] = 10;
-  std::optional<Example> example;
-  const auto take_warning = [&](const simulation::RunWarning& warning) {
-    if (warning.id != id) return;
-    syntax::LineFinder lines(program.text);
-    const syntax::Span mark{static_cast<std::uint32_t>(program.begin), static_cast<std::uint32_t>(program.end)};
-    example = Example{.line = std::string(lines.line(warning.line)),
-                      .finding = {.id = id, .span = mark, .values = warning.values}};
-  };
-  simulation::Compensation compensation(machine);
-  const simulation::Compensation::Listeners listeners{.event = [](const running::Event&) {}, .warning = take_warning};
-  running::run(program.text, {}, [&](const running::Event& event) { compensation.take(event, listeners); });
-  compensation.finish(listeners);
-  return example;
+  if (id == "joint-travel"_diag) {
+    machine.motion.axes[0].minimum = 0;
+    machine.motion.axes[0].maximum = 1000;
+  }
+  return simulation::outcome_of_run(program, {}, machine).findings;
+}
+
+static std::optional<Example> example_of_run(Cause cause) {
+  const std::string program = program_of(cause);
+  syntax::LineFinder lines(program);
+  for (const simulation::RunFinding& found : example_run(program, cause.id))
+    if (found.finding.has(cause)) return Example{.line = std::string(lines.line(found.line)), .finding = found.finding};
+  return std::nullopt;
 }
 
 std::optional<Example> example_of(Cause cause) {
-  if (dialect::definition(cause.id).is_reported_by_runs) return example_of_run(cause.id);
+  if (dialect::definition(cause.id).is_reported_by_runs) return example_of_run(cause);
   const std::string program = program_of(cause);
   const rules::CheckSetup setup = example_setup(cause.id);
   const check::Report report = example_report(program, cause.id);

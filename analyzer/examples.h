@@ -9,6 +9,7 @@
 #include "analyzer/fixes/fix.h"
 #include "analyzer/rules/check_setup.h"
 #include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/simulation/run_findings.h"
 
 namespace isocnc::analyzer {
 
@@ -31,6 +32,10 @@ rules::CheckSetup example_setup(dialect::DiagnosticId id);
 
 /// What isolint reports in a program if this code is selected, too.
 check::Report example_report(std::string_view program, dialect::DiagnosticId id);
+
+/// What a run shows of a program, on the machine for which the program of this code is written: its tool T101001 has a
+/// radius of 10 mm.
+std::vector<simulation::RunFinding> example_run(std::string_view program, dialect::DiagnosticId id);
 
 /// A finding of a cause, in the program of the table or in one that is made for it.
 struct Example {

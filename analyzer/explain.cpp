@@ -23,10 +23,11 @@ static constexpr Text kSection = {"specification", "specifica"};
 static constexpr Text kWrong = {"Wrong:", "Sbagliato:"};
 static constexpr Text kRight = {"Right:", "Giusto:"};
 
-/// Such as `warning`; `info, off by default`; `warning, reported by isorun`.
+/// Such as `warning`; `info, off by default`; `warning, reported by isorun and isolint --verify`.
 static std::string severity_text(const DiagnosticDef& def, Language language) {
   static constexpr Text kOff = {", off by default", ", disattivata di norma"};
-  static constexpr Text kRuns = {", reported by isorun", ", segnalato da isorun"};
+  static constexpr Text kRuns = {", reported by isorun and isolint --verify",
+                                 ", segnalato da isorun e isolint --verify"};
   return fmt::format("{}{}{}", dialect::severity_name(def.severity, language), def.is_off ? kOff.in(language) : "",
                      def.is_reported_by_runs ? kRuns.in(language) : "");
 }

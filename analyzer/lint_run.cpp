@@ -12,7 +12,7 @@
 #include "analyzer/check/side_by_side.h"
 #include "analyzer/fixing/program_fixing.h"
 #include "analyzer/input/files.h"
-#include "analyzer/selection/shown_report.h"
+#include "analyzer/selection/run_report.h"
 #include "interpreter/system/descriptor.h"
 #include "interpreter/system/process.h"
 #include "interpreter/system/system_texts.h"
@@ -105,13 +105,13 @@ CheckedFile LintRun::check(const std::filesystem::path& path, const selection::P
   if (options_.fix || options_.diff) {
     fix(checked);
     if (fixing) checked.why_not_fixed = fixing->finish(*source, *checked.fixed, style_.language);
-    if (!checked.why_not_fixed) {
+    if (checked.why_not_fixed) checked.fixed.reset();
+    if (checked.fixed && !options_.verify) {
       checked.known = checked.fixed->filtered_out;
       return checked;
     }
-    checked.fixed.reset();
   }
-  const std::string_view text = source->text();
+  const std::string_view text = checked.text();
   std::size_t progress_bytes = 0;
   const auto advance_to = [&](std::size_t bytes) { progress_.add(bytes - std::exchange(progress_bytes, bytes)); };
   const auto filter = [&](check::Report report, std::string_view) {
@@ -120,8 +120,13 @@ CheckedFile LintRun::check(const std::filesystem::path& path, const selection::P
     checked.known += all - check::folded_size(report);
     return report;
   };
-  checked.report = selection::shown_report(check::check_text(text, settings.setup, jobs_for(text), advance_to), text,
-                                           settings.selection, filter);
+  check::Report found = check::check_text(text, settings.setup, jobs_for(text), advance_to);
+  if (!options_.verify) {
+    checked.report = selection::shown_report(std::move(found), text, settings.selection, filter);
+    return checked;
+  }
+  const auto run = simulation::outcome_of_run(text, {.setup = settings.machine.setup}, settings.machine.timed);
+  checked.report = selection::shown_report_with_run(std::move(found), run, text, settings.selection, filter);
   return checked;
 }
 

@@ -7,6 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "analyzer/formats/renderers.h"
+#include "analyzer/selection/program_settings.h"
+#include "analyzer/selection/run_report.h"
 #include "interpreter/command_line/program_app.h"
 #include "interpreter/command_line/program_main.h"
 #include "interpreter/command_line/progress.h"
@@ -32,6 +35,7 @@
 namespace isocnc::interpreter {
 namespace {
 
+using namespace dialect::literals;
 using dialect::Language;
 using dialect::Text;
 
@@ -45,6 +49,7 @@ struct RunCommandOptions {
   std::string sample_seconds = "0.01";
   std::string plot;
   bool json = false;
+  bool verify = false;
   std::string language;
   std::vector<std::string> settings;
   std::string vgpl = "0";
@@ -186,21 +191,60 @@ std::optional<restart::RestartOptions> read_restart_options(const RunCommandOpti
 
 /// Prints a finding in the format of compilers.
 void print_finding(const RunCommandOptions& options, std::size_t line, dialect::DiagnosticId id,
-                   std::string_view message) {
-  const dialect::DiagnosticDef& def = dialect::definition(id);
+                   dialect::Severity severity, std::string_view message) {
   std::cerr << text::printable(fmt::format("{}:{}: {}: {} [{}]", options.shown_file(), line + 1,
-                                           dialect::severity_name(def.severity, options.reader_language()), message,
-                                           def.code))
+                                           dialect::severity_name(severity, options.reader_language()), message,
+                                           dialect::definition(id).code))
             << '\n';
 }
 
 void print_error(const RunCommandOptions& options, const running::RunResult& result) {
-  print_finding(options, result.line, result.error.id, running::error_message(result, options.reader_language()));
+  print_finding(options, result.line, result.error.id, dialect::definition(result.error.id).severity,
+                running::error_message(result, options.reader_language()));
 }
 
-void print_warning(const RunCommandOptions& options, const simulation::RunWarning& warning) {
-  print_finding(options, warning.line, warning.id,
-                dialect::message(warning.id, options.reader_language(), {.values = warning.values}));
+/// A program, and what is to be said about it.
+struct CheckedRun {
+  std::string_view program;
+  check::Report report;
+  const rules::CheckSetup& setup;
+};
+
+/// Prints those findings that the summary does not tell, and those that make the run fail.
+void print_findings(const RunCommandOptions& options, const CheckedRun& run) {
+  syntax::LineFinder lines(run.program);
+  for (const check::LocatedFinding& located : run.report.findings) {
+    const bool is_in_summary = !dialect::definition(located.finding.id).is_reported_by_runs;
+    if (located.finding.id == "not-verified"_diag) continue;  // The error that it is about is printed.
+    if (is_in_summary && located.severity() != dialect::Severity::Error) continue;
+    print_finding(options, located.line, located.finding.id, located.severity(),
+                  formats::message_of(located, run.report, lines.line(located.line), options.reader_language()));
+  }
+}
+
+/// A buffer for findings as text.
+class FindingsText final : public formats::Output {
+ public:
+  std::string take() {
+    flush();
+    return std::move(text_);
+  }
+
+ protected:
+  void write(std::string_view text) override { text_ += text; }
+
+ private:
+  std::string text_;
+};
+
+/// The findings in the words of isolint, as text or JSON.
+std::string shown_findings(const RunCommandOptions& options, const CheckedRun& run) {
+  const auto renderer = formats::make_renderer(options.json ? "json" : "text", {.language = options.reader_language()});
+  FindingsText output;
+  renderer->begin(output.buffer());
+  renderer->file({options.shown_file(), run.program, run.report, run.setup}, output);
+  renderer->end(output.buffer());
+  return output.take();
 }
 
 /// A file that the run reads or writes, with its name for users.
@@ -245,35 +289,57 @@ bool files_are_apart(const RunCommandOptions& options, const std::filesystem::pa
   return true;
 }
 
+/// The machine and the isocnc.json that have been read for the program.
+struct RunSettings {
+  configuration::MachineConfiguration machine;
+  std::filesystem::path configuration;  ///< Path of the isocnc.json; empty without one.
+  selection::Selection selection;
+  rules::CheckSetup setup;
+};
+
 /// Runs the program with a progress bar on the terminal.
 running::RunResult run_with_progress(std::string_view program, running::RunOptions options, const RunOutputs& outputs,
-                                     const std::function<void(const running::Event&)>& on_event) {
+                                     RunReport& report) {
   constexpr std::size_t kPace = 4096;  // Bytes: asking the clock on every line would cost more than the line.
   const bool shares_terminal =
       (outputs.trace == "-" || outputs.samples == "-") && system::is_terminal(system::kStandardOutput);
   command_line::Progress progress(shares_terminal ? nullptr : command_line::terminal_writer(), program.size());
   std::size_t progress_bytes = 0;
   options.before_block = [&](const running::Block& block) {
+    report.take(block);
     const auto reached = static_cast<std::size_t>(block.tree.text.data() - program.data());
     if (reached >= progress_bytes + kPace) progress.add(reached - std::exchange(progress_bytes, reached));
   };
-  return run(program, options, on_event);
+  return run(program, options, [&](const running::Event& event) { report.take(event); });
+}
+
+bool has_error(const check::Report& report) {
+  return std::any_of(report.findings.begin(), report.findings.end(), [](const check::LocatedFinding& located) {
+    return located.severity() == dialect::Severity::Error;
+  });
 }
 
 ExitStatus run_program(std::string_view program, const RunCommandOptions& options,
-                       const running::RunOptions& run_options, const RunOutputs& outputs,
-                       const simulation::TimedMachine& machine) {
-  RunReport report(outputs, machine);
-  std::optional<running::RunResult> result;
+                       const running::RunOptions& run_options, const RunOutputs& outputs, const RunSettings& settings) {
+  RunReport report(outputs, settings.machine.timed);
+  bool has_errors = false;
   if (report.is_ready()) {
-    result = run_with_progress(program, run_options, outputs, [&](const running::Event& event) { report.take(event); });
-    report.finish(*result);
-    for (const simulation::RunWarning& warning : report.warnings()) print_warning(options, warning);
-    if (result->ending == running::Ending::Error) print_error(options, *result);
+    const running::RunResult result = run_with_progress(program, run_options, outputs, report);
+    report.end_run();
+    const CheckedRun checked{
+        program, selection::shown_run_report(report.findings().outcome(program, result), program, settings.selection),
+        settings.setup};
+    const bool shows_with_summary = options.verify && report.has_summary();
+    report.finish(result, shows_with_summary ? shown_findings(options, checked) : "");
+    if (options.verify && !shows_with_summary) std::cerr << shown_findings(options, checked);
+    if (!options.verify) print_findings(options, checked);
+    const bool is_stopped = result.ending == running::Ending::Error;
+    if (is_stopped) print_error(options, result);
+    has_errors = is_stopped || has_error(checked.report);
   }
   for (const std::string& problem : report.problems()) complain(problem);
   if (!report.problems().empty()) return ExitStatus::Failure;
-  return result->ending == running::Ending::Error ? ExitStatus::Findings : ExitStatus::Success;
+  return has_errors ? ExitStatus::Findings : ExitStatus::Success;
 }
 
 bool write_restart(std::string_view program, const RunCommandOptions& options) {
@@ -307,20 +373,15 @@ ExitStatus restart(const system::SourceFile& source, const RunCommandOptions& op
   return refusal.obstacle == restart::RestartObstacle::NoSuchLine ? ExitStatus::Failure : ExitStatus::Findings;
 }
 
-/// A machine, and the isocnc.json read for the program.
-struct FoundMachine {
-  configuration::MachineConfiguration machine;
-  std::filesystem::path configuration;  ///< Path of the isocnc.json; empty without one.
-};
-
-/// The machine for the checks; none, after an error message, if a file is invalid. The program's configuration also
-/// sets the language, unless the command line does.
-std::optional<FoundMachine> find_machine(RunCommandOptions& options) {
+/// The settings of the run; none, after an error message, if a file is invalid. The program's configuration also sets
+/// the language, unless the command line does.
+std::optional<RunSettings> find_settings(RunCommandOptions& options) {
   using configuration::Configurations;
   const Language language = options.reader_language();
   Configurations found(options.source, language);
   Configurations given({.file = options.machine, .none = !options.machine}, language);
   const std::filesystem::path program = options.reads_stdin() ? "" : options.file;
+  selection::SettingsFinder finder(found, {});
   const configuration::Configuration& configuration = found.in_folder(program.parent_path());
   const configuration::Configuration& machine =
       options.machine ? given.in_folder(program.parent_path()) : configuration;
@@ -331,7 +392,9 @@ std::optional<FoundMachine> find_machine(RunCommandOptions& options) {
       std::cerr << mistake << '\n';
       is_right = false;
     }
-  return is_right ? std::optional(FoundMachine{machine.machine, configuration.file}) : std::nullopt;
+  if (!is_right) return std::nullopt;
+  const selection::ProgramSettings& settings = finder.of(program);
+  return RunSettings{machine.machine, configuration.file, settings.selection, settings.setup};
 }
 
 plot::PlotSubject plot_subject(std::string_view program, const configuration::MachineConfiguration& machine,
@@ -345,7 +408,7 @@ plot::PlotSubject plot_subject(std::string_view program, const configuration::Ma
 }
 
 ExitStatus run_file(RunCommandOptions options) {
-  const std::optional<FoundMachine> found = find_machine(options);
+  const std::optional<RunSettings> found = find_settings(options);
   if (!found) return ExitStatus::Failure;
   const configuration::MachineConfiguration& machine = found->machine;
   const Language language = options.reader_language();
@@ -370,7 +433,7 @@ ExitStatus run_file(RunCommandOptions options) {
   const auto& source = std::get<system::SourceFile>(opened);
   if (restart_options) return restart(source, options, *restart_options);
   outputs->subject = plot_subject(source.text(), machine, options);
-  return run_program(source.text(), options, *run_options, *outputs, machine.timed);
+  return run_program(source.text(), options, *run_options, *outputs, *found);
 }
 
 ExitStatus run_main(int argc, char** argv) {
@@ -398,10 +461,10 @@ ExitStatus run_main(int argc, char** argv) {
               "Il programma è arrivato alla sua M02, o alla linea di --until; oppure il programma di ripresa è "
               "stato scritto."}},
             {"1",
-             {"An error stopped the program, as it would stop the control; or there is no safe restart before the "
-              "line.",
-              "Un errore ha fermato il programma, come fermerebbe il controllo; oppure prima della linea non c'è "
-              "una ripresa sicura."}},
+             {"An error stopped the program, as it would stop the control; or a finding of the machine is an error, "
+              "such as a joint outside its travel; or there is no safe restart before the line.",
+              "Un errore ha fermato il programma, come fermerebbe il controllo; oppure una segnalazione della macchina "
+              "è un errore, come un asse macchina fuori corsa; oppure prima della linea non c'è una ripresa sicura."}},
             {"2",
              {"A mistake in the command or in an isocnc.json, or something could not be read or written.",
               "Un errore nel comando o in un isocnc.json, oppure qualcosa che non si è potuto leggere o scrivere."}}},
@@ -428,6 +491,11 @@ ExitStatus run_main(int argc, char** argv) {
       {"A picture of the path: FILE.svg or, in 3-D, .html", "Un disegno del percorso: FILE.svg o, in 3D, .html"});
   const command_line::ProgramOption json =
       program.add_flag("--json", options.json, {"The summary as JSON", "Il riassunto in JSON"}).without_exclusions();
+  const command_line::ProgramOption verify = program
+                                                 .add_flag("--verify", options.verify,
+                                                           {"Print what the machine shows as isolint prints it",
+                                                            "Stampa ciò che la macchina mostra come isolint"})
+                                                 .without_exclusions();
   program.add_option("--vgpl", options.vgpl, {"VALUE", "VALORE"},
                      {"Value of VGPL (else 0)", "Valore di VGPL (altrimenti 0)"});
   program
@@ -454,6 +522,7 @@ ExitStatus run_main(int argc, char** argv) {
                                                      .excludes(trace)
                                                      .excludes(samples)
                                                      .excludes(plot)
+                                                     .excludes(verify)
                                                      .excludes(json);
   const command_line::ProgramOption restarting[] = {
       program.add_option(

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "interpreter/system/descriptor.h"
 #include "interpreter/system/system_texts.h"
@@ -21,9 +22,14 @@ RunReport::RunReport(const RunOutputs& outputs, const simulation::TimedMachine& 
       timing_(machine,
               {.event = [this](const simulation::TimedEvent& timed) { take(timed); },
                .stretch = [this](const motion::Stretch& stretch, const simulation::TimedEvent&) { take(stretch); }}),
+      findings_(machine),
       compensation_(machine),
       compensated_{.event = [this](const running::Event& event) { timing_.take(event); },
-                   .warning = [this](const simulation::RunWarning& warning) { warnings_.push_back(warning); }} {
+                   .warning =
+                       [this](const simulation::RunWarning& warning) {
+                         warnings_.push_back(warning);
+                         findings_.take(warning);
+                       }} {
   open(outputs.plot, plot_file_);
   if (const auto format = plot::plot_format(outputs.plot)) plot_.emplace(*format, outputs.subject, machine);
   last_sample_.tip = timing_.tip();
@@ -46,6 +52,7 @@ void RunReport::close(system::OutputFile& output, const std::string& name) {
 
 void RunReport::take(const simulation::TimedEvent& timed) {
   summary_.add(timed);
+  if (timed.move) findings_.take(timed.event.line, *timed.move);
   if (plot_) plot_->add(timed);
   if (trace_ != nullptr) trace_->write(to_json(timed, machine_) + '\n');
   if (samples_ == nullptr || !std::holds_alternative<running::ToolEvent>(timed.event.what)) return;
@@ -95,10 +102,21 @@ void RunReport::write(const motion::Sample& sample) {
       joints[4], sample.speed));
 }
 
-void RunReport::finish(const running::RunResult& result) {
+void RunReport::end_run() {
   compensation_.finish(compensated_);
   timing_.finish();
   sort_warnings();
+}
+
+std::string RunReport::summary(const std::string& shown_findings) const {
+  if (!outputs_.json) return shown_findings + summary_.text(outputs_.language);
+  std::string json = summary_.json(outputs_.program_name, outputs_.language);
+  if (shown_findings.empty()) return json;
+  json.resize(json.rfind('}'));
+  return fmt::format("{},\"findings\":{}}}\n", json, nlohmann::ordered_json::parse(shown_findings).dump());
+}
+
+void RunReport::finish(const running::RunResult& result, const std::string& shown_findings) {
   if (samples_ != nullptr) {
     sample_rest(timing_.time());
     last_sample_.time = timing_.time();
@@ -106,9 +124,7 @@ void RunReport::finish(const running::RunResult& result) {
     write(last_sample_);
   }
   summary_.finish(result, timing_.time(), timing_.joints(), warnings_);
-  if (!has_standard_output_to_itself())
-    standard_output_.write(outputs_.json ? summary_.json(outputs_.program_name, outputs_.language)
-                                         : summary_.text(outputs_.language));
+  if (has_summary()) standard_output_.write(summary(shown_findings));
   if (trace_file_) close(*trace_file_, outputs_.trace);
   if (samples_file_) close(*samples_file_, outputs_.samples);
   if (plot_) {

@@ -7,6 +7,7 @@
 #include "interpreter/dialect/diagnostic.h"
 #include "interpreter/plot/plot.h"
 #include "interpreter/simulation/compensation.h"
+#include "interpreter/simulation/run_findings.h"
 #include "interpreter/simulation/summary.h"
 #include "interpreter/system/output_file.h"
 
@@ -31,20 +32,29 @@ class RunReport {
 
   /// Whether all files could be created; otherwise problems() has the reasons.
   bool is_ready() const { return problems_.empty(); }
-  void take(const running::Event& event) { compensation_.take(event, compensated_); }
-  /// Writes the rest. problems() then lists the failed outputs.
-  void finish(const running::RunResult& result);
+  void take(const running::Block& block) { findings_.take(block); }
+  void take(const running::Event& event) {
+    findings_.take(event);
+    compensation_.take(event, compensated_);
+  }
+  /// Ends the run. findings() is then complete.
+  void end_run();
+  /// What the run has shown.
+  const simulation::RunFindings& findings() const { return findings_; }
+  /// Writes the rest, after end_run(). problems() then lists the failed outputs. `shown_findings` are shown with the
+  /// summary, in its format: text before it, or the JSON array that is its last member; empty for none.
+  void finish(const running::RunResult& result, const std::string& shown_findings);
+  /// Whether the summary is written, and with it the findings.
+  bool has_summary() const { return outputs_.trace != "-" && outputs_.samples != "-"; }
   const std::vector<std::string>& problems() const { return problems_; }
-  /// Warnings sorted by line, each once; complete after finish().
-  const std::vector<simulation::RunWarning>& warnings() const { return warnings_; }
 
  private:
-  bool has_standard_output_to_itself() const { return outputs_.trace == "-" || outputs_.samples == "-"; }
   system::OutputFile* open(const std::string& name, std::optional<system::OutputFile>& file);
   void close(system::OutputFile& output, const std::string& name);
   void take(const simulation::TimedEvent& timed);
   void take(const motion::Stretch& stretch);
   void sort_warnings();
+  std::string summary(const std::string& shown_findings) const;
   void sample_rest(double until);
   void write(const motion::Sample& sample);
 
@@ -62,6 +72,7 @@ class RunReport {
   std::uint64_t next_sample_ = 0;  ///< In units of sample_seconds.
   motion::Sample last_sample_;
   simulation::Timing timing_;
+  simulation::RunFindings findings_;
   std::vector<simulation::RunWarning> warnings_;
   simulation::Compensation compensation_;
   simulation::Compensation::Listeners compensated_;

@@ -32,6 +32,7 @@ struct LocatedFinding {
   std::int32_t mistake = -1;                  ///< Findings with the same number have the same cause (D66); -1: alone.
   std::int32_t repetitions = -1;              ///< An index into Report::repetitions; -1: none.
   std::optional<dialect::Severity> selected;  ///< The severity that a selection has set.
+  bool is_of_run = false;                     ///< Whether only a run on the machine shows it.
 
   dialect::Severity severity() const { return selected.value_or(dialect::definition(finding.id).severity); }
 

@@ -55,6 +55,7 @@ class JsonRenderer final : public Renderer {
       object["repeats"] = repetitions.size();
       object["lastLine"] = repetitions.back().line + 1;
     }
+    if (located.is_of_run) object["source"] = "run";
     return object;
   }
 

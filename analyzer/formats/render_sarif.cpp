@@ -66,6 +66,7 @@ class SarifRenderer final : public Renderer {
           fmt::format("{:016x}:{}", print.line_hash, print.occurrence);
       if (located.path >= 0) object["codeFlows"] = code_flows(located, program.report, steps, shown, artifact);
       if (located.repetitions >= 0) add_repetitions(located, program.report, lines, artifact, object);
+      if (located.is_of_run) object["properties"]["source"] = "run";
       if (const std::optional<fixes::Fix> fix = fixes.offered_in_full(located))
         object["fixes"] = OrderedJson::array({fix_of(*fix, fixes, artifact)});
       output.buffer() += dumped(object);

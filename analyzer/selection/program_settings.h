@@ -16,6 +16,7 @@ namespace isocnc::selection {
 struct ProgramSettings {
   rules::CheckSetup setup;
   Selection selection;
+  const configuration::MachineConfiguration& machine;  ///< The machine of the configuration, for a run.
 };
 
 /// Finds the settings of programs: those of their configurations, overridden by the command line. The results are valid

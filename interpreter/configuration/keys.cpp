@@ -87,8 +87,8 @@ static std::optional<Objection> min_above_max(const execution::Travel& travel) {
 static void add_axes(std::vector<Key>& keys) {
   keys.push_back(
       {.path = "machine.axes",
-       .documentation = {"From where to where the axes go, in machine coordinates (W130), and how fast.",
-                         "Da dove a dove vanno gli assi, in coordinate macchina (W130), e quanto in fretta."}});
+       .documentation = {"From where to where the axes go, in machine coordinates (W130, E160), and how fast.",
+                         "Da dove a dove vanno gli assi, in coordinate macchina (W130, E160), e quanto in fretta."}});
   for (const AxisKeys& axis : kAxes) {
     const std::string path = "machine.axes." + std::string(axis.letter);
     const auto travel = [axis](Configuration& c) -> execution::Travel& {

@@ -34,8 +34,8 @@ an empty list is a machine without any), and times come from the [default machin
 [table](../examples/machines/table.json) and [three axes](../examples/machines/three-axis.json), which `isorun --machine FILE` takes as they are. `isolint --show-config`
 prints all that is in force, and every command names a key that is misspelt.
 
-The travel of `axes` is judged twice: `isolint` holds the tool tip against it (W130), which needs no more than the program; `isorun` holds the joints
-against it, that is the spindle nose, with the tool's length and what the head swings. Speeds, accelerations, kinematics and times serve
+The travel of `axes` is judged twice: `isolint` holds the tool tip against it (W130), which needs no more than the program; `isorun` and
+`isolint --verify` hold the joints against it (E160), that is the spindle nose, with the tool's length and what the head swings. Speeds, accelerations, kinematics and times serve
 `isorun` and what the editors show of it.
 
 Codes in parentheses are the [findings](rules.md) that a key brings about. Machine coordinates are those of the control without any G92; how B and C
@@ -68,8 +68,8 @@ un elenco vuoto è una macchina che non ne ha), e i tempi sono quelli della [mac
 [testa](../../examples/machines/head.json), una [tavola](../../examples/machines/table.json) e [tre assi](../../examples/machines/three-axis.json), che `isorun --machine FILE`
 prende così come sono. `isolint --show-config` mostra tutto ciò che vale, e ogni comando segnala una chiave scritta male.
 
-La corsa in `axes` viene confrontata due volte: `isolint` la confronta con la punta dell'utensile (W130), e per questo gli basta il programma; `isorun` con gli assi
-della macchina, cioè col naso del mandrino, tenendo conto della lunghezza dell'utensile e di quanto oscilla la testa. Velocità, accelerazioni, cinematica e tempi servono
+La corsa in `axes` viene confrontata due volte: `isolint` la confronta con la punta dell'utensile (W130), e per questo gli basta il programma; `isorun` e
+`isolint --verify` con gli assi macchina (E160), cioè col naso del mandrino, tenendo conto della lunghezza dell'utensile e di quanto oscilla la testa. Velocità, accelerazioni, cinematica e tempi servono
 a `isorun` e a ciò che ne mostrano gli editor.
 
 I codici fra parentesi sono le [segnalazioni](codici.md) legate a una chiave. Le coordinate macchina sono quelle del controllo senza alcuna G92; come si contano B e C

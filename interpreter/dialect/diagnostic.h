@@ -52,7 +52,7 @@ struct DiagnosticDef {
   std::string_view name;  ///< `head-not-selected`: stable; used in the code and by readers.
   Severity severity = Severity::Error;
   bool is_off = false;                        ///< Reported only if selected by the user.
-  bool is_reported_by_runs = false;           ///< Reported by isorun, which follows the tool, and not by isolint.
+  bool is_reported_by_runs = false;           ///< Only a run shows it: isorun, and isolint with --verify.
   FoldKind folds = FoldKind::None;            ///< The mistake that may repeat it on the lines below.
   std::string_view section;                   ///< Section of the specification: `I.4.3`.
   std::string_view arguments[kMaxArguments];  ///< Names of the values, in the order in which they are reported.

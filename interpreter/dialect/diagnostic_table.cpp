@@ -1377,6 +1377,30 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                            "rapido (G00) non è ammessa."},
      .wrong = "M06 T101001\n[!G09!] G01 X10 F1000\nM02\n",
      .right = "M06 T101001\nG01 X10 F1000 G09\nM02\n"},
+    {.code = "E160",
+     .name = "joint-travel",
+     .severity = Severity::Error,
+     .is_reported_by_runs = true,
+     .section = "I.3.4",
+     .arguments = {"axis", "reached", "limit"},
+     .title = {.en = "Joint outside its travel", .it = "Asse macchina fuori corsa"},
+     .message = {.en = "the machine's {axis} leaves its travel: it goes to {reached}, and the travel ends at {limit}",
+                 .it = "l'asse {axis} della macchina esce dalla corsa: arriva a {reached}, e la corsa finisce a "
+                       "{limit}"},
+     .explanation =
+         {.en = "On the way of this motion a joint of the machine passes the end of its travel. The joints X, Y and Z "
+                "are those of the spindle nose: the length of the tool, and what B and C of the head swing, lie "
+                "between it and the tip. Motions that go on outside belong to the same finding, which gives the "
+                "farthest place. Check the workpiece origin, the tool and the angles, or the limits in isocnc.json. No "
+                "false alarms are known, as long as these limits and the lengths of the tools are right.",
+          .it = "Durante questo movimento un asse macchina passa la fine della sua corsa. Gli assi macchina X, Y e Z "
+                "sono quelli del naso del mandrino: fra esso e la punta ci sono la lunghezza dell'utensile e ciò che B "
+                "e C della testa fanno oscillare. I movimenti che proseguono fuori corsa fanno parte della stessa "
+                "segnalazione, che dà il punto più lontano. Controllare lo zero pezzo, l'utensile e gli angoli, oppure "
+                "i limiti in isocnc.json. Se questi limiti e le lunghezze degli utensili sono giusti non si conoscono "
+                "falsi allarmi."},
+     .wrong = "M06 T101001\n[!G00 X1200 Y10!]\nM02\n",
+     .right = "M06 T101001\nG00 X900 Y10\nM02\n"},
     {.code = "W001",
      .name = "redundant-modal",
      .severity = Severity::Warning,
@@ -2054,7 +2078,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                 "ha gradini più corti, oppure l'ingresso o l'uscita attraversano il profilo. Montare una fresa più "
                 "piccola, entrare e uscire di lato, oppure con la G39 lasciar fuori ciò che la fresa non raggiunge. "
                 "Falso allarme se l'utensile attraversa sopra il pezzo in lavoro."},
-     .wrong = "M06 T101001\nG01 X30 Y20 F5000\nG41 G01 [!X0 Y0!]\nY50\nG40\nM02\n",
+     .wrong = "M06 T101001\nG01 X30 Y20 F5000\nG41 [!G01 X0 Y0!]\nY50\nG40\nM02\n",
      .right = "M06 T101001\nG01 X-10 Y-30 F5000\nG41 G01 X0 Y0\nY50\nG40\nM02\n"},
     {.code = "W139",
      .name = "inside-arc-too-small",
@@ -2073,7 +2097,7 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                 "dall'altra. Montare una fresa più piccola o programmare un arco più grande; con la G39 l'arco viene "
                 "saltato e nell'angolo resta del materiale. Se il raggio dell'utensile è giusto non si conoscono falsi "
                 "allarmi."},
-     .wrong = "M06 T101001\nG01 X-10 Y-30 F5000\nG41 G01 X0 Y0\nY45\n[!G03!] X-5 Y50 R5\nG01 X-40\nG40\nM02\n",
+     .wrong = "M06 T101001\nG01 X-10 Y-30 F5000\nG41 G01 X0 Y0\nY45\n[!G03 X-5 Y50 R5!]\nG01 X-40\nG40\nM02\n",
      .right = "M06 T101001\nG01 X-10 Y-30 F5000\nG41 G01 X0 Y0\nY30\nG03 X-20 Y50 R20\nG01 X-40\nG40\nM02\n"},
     {.code = "W140",
      .name = "compensation-not-applied",
@@ -2140,6 +2164,26 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
               "gli altri archi."},
      .wrong = "",
      .right = ""},
+    {.code = "W162",
+     .name = "not-verified",
+     .severity = Severity::Info,
+     .is_reported_by_runs = true,
+     .section = "I.1",
+     .arguments = {},
+     .title = {.en = "Not verified on the machine", .it = "Non verificato sulla macchina"},
+     .message = {.en = "the simulated machine stops at this error, as the control would: what it would do from here "
+                       "on is not verified",
+                 .it = "la macchina simulata si ferma a questo errore, come farebbe il controllo: che cosa farebbe da "
+                       "qui in poi non è verificato"},
+     .explanation =
+         {.en = "The machine was asked (--verify), and could not follow the whole program: mistakes that only a run "
+                "shows, such as a joint outside its travel, may go unreported below this place. Correct the error on "
+                "this line and verify again.",
+          .it = "La macchina è stata interrogata (--verify) e non ha potuto seguire tutto il programma: gli errori che "
+                "si vedono solo eseguendolo, come un asse macchina fuori corsa, da qui in poi possono non essere "
+                "segnalati. Correggere l'errore su questa linea e verificare di nuovo."},
+     .wrong = "M06 T101001\nG00 X100\n[!G01!] X50\nM02\n",
+     .right = "M06 T101001\nG00 X100\nG01 X50 F1000\nM02\n"},
     {.code = "W190",
      .name = "useless-suppression",
      .severity = Severity::Warning,

@@ -113,7 +113,8 @@ static std::vector<Overtravel> beyond(const Machine& machine, const MovePath& pa
       if (std::isinf(limit)) continue;
       const double part = find(axis, sign);
       const double position = path.joints(part)[axis];
-      if (sign * (position - limit) > 0) found.push_back({static_cast<MachineAxis>(axis), part, position, limit});
+      if (sign * (position - limit) > kTravelSlack)
+        found.push_back({static_cast<MachineAxis>(axis), part, position, limit});
     }
   }
   return found;

@@ -10,6 +10,9 @@
 
 namespace isocnc::kinematics {
 
+/// Rounding that does not count as leaving a range, mm or degrees.
+inline constexpr double kTravelSlack = 1e-6;
+
 /// A joint that leaves its range, at the place of the move's path where it is farthest outside.
 struct Overtravel {
   MachineAxis axis = kX;

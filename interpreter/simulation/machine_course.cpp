@@ -8,7 +8,10 @@ void MachineCourse::take(const running::Event& event, const Listeners& listeners
 
 Compensation::Listeners MachineCourse::compensated(const Listeners& listeners) {
   return {.event = [this, &listeners](const running::Event& event) { go(event, listeners); },
-          .warning = [](const RunWarning&) {}};
+          .warning =
+              [&listeners](const RunWarning& warning) {
+                if (listeners.warning) listeners.warning(warning);
+              }};
 }
 
 void MachineCourse::go(const running::Event& event, const Listeners& listeners) {

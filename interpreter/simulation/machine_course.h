@@ -16,6 +16,7 @@ class MachineCourse {
         move;  ///< The event is a MoveEvent, the motion of the tool.
     /// Called with the position of the tip, machine frame. Optional.
     std::function<void(const running::FrameEvent&, const geometry::Vec3&)> frame;
+    std::function<void(const RunWarning&)> warning;  ///< Optional.
   };
 
   /// Keeps a reference to the machine. `home` is the position of the spindle nose, machine frame.

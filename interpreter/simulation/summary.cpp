@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "interpreter/geometry/arc.h"
-#include "interpreter/kinematics/numbers.h"
 #include "interpreter/kinematics/travel.h"
 
 namespace isocnc::simulation {
@@ -85,34 +83,14 @@ void Summary::look_at_travel(const kinematics::Move& real, std::size_t line) {
   }
 }
 
-/// Checks the programmed speeds of a feed move, even those the machine does not reach.
 void Summary::look_at_speeds(const kinematics::Move& real, double length, std::size_t line) {
-  if (real.feed.kind == kinematics::FeedKind::Rapid) return;
-  const double b = std::abs(real.to.b - real.from.b);
-  const double c = std::abs(real.to.c - real.from.c);
-  const bool only_turns = length <= geometry::kEqualCoordinate;
-  const double way = only_turns ? std::hypot(b, c) : length;
-  if (way == 0) return;
-  const double seconds = real.feed.kind == kinematics::FeedKind::Duration ? real.feed.value : way / real.feed.value;
-  if (!only_turns) ask_for(Limit::Feed, kinematics::kSecondsPerMinute * way / seconds, line);
-  ask_for(Limit::RotarySpeed, kinematics::kSecondsPerMinute * std::max(b, c) / seconds, line);
-}
-
-double Summary::limit_of(Limit limit) const {
-  switch (limit) {
-    case Limit::Feed:
-      return kinematics::kSecondsPerMinute * machine_.motion.feed_speed;
-    case Limit::RotarySpeed:
-      return kinematics::kSecondsPerMinute * machine_.motion.feed_turn;
-    case Limit::SpindleSpeed:
-      break;
-  }
-  return machine_.spindle_speed;
+  const ProgrammedSpeeds speeds = programmed_speeds(real, length);
+  ask_for(Limit::Feed, speeds.feed, line);
+  ask_for(Limit::RotarySpeed, speeds.rotary, line);
 }
 
 void Summary::ask_for(Limit limit, double value, std::size_t line) {
-  constexpr double kRounding = 1 + 1e-9;
-  if (!(value > limit_of(limit) * kRounding)) return;
+  if (!exceeds(limit, value, machine_)) return;
   std::optional<Excess>& excess = excesses_[static_cast<std::size_t>(limit)];
   if (!excess) excess = Excess{.line = line};
   excess->maximum = std::max(excess->maximum, value);

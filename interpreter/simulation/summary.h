@@ -10,6 +10,7 @@
 #include "interpreter/running/runner.h"
 #include "interpreter/simulation/compensation.h"
 #include "interpreter/simulation/frame_extents.h"
+#include "interpreter/simulation/programmed_speeds.h"
 #include "interpreter/simulation/timing.h"
 
 namespace isocnc::simulation {
@@ -35,14 +36,6 @@ struct TravelBreach {
   double farthest = 0;   ///< mm or degrees.
   double limit = 0;
 };
-
-/// Limits of the machine that a program may exceed.
-enum class Limit : std::uint8_t {
-  Feed,          ///< mm/min. The machine moves at its maximum instead.
-  RotarySpeed,   ///< Speed of B or C in feed moves, degrees/min. The machine moves at its maximum instead.
-  SpindleSpeed,  ///< rev/min.
-};
-inline constexpr std::size_t kLimitCount = 3;
 
 struct Excess {
   std::size_t line = 0;  ///< First line that exceeds the limit, from 0.
@@ -78,7 +71,6 @@ class Summary {
   void look_at_travel(const kinematics::Move& real, std::size_t line);
   void look_at_speeds(const kinematics::Move& real, double length, std::size_t line);
   void ask_for(Limit limit, double value, std::size_t line);
-  double limit_of(Limit limit) const;
   /// Programmed tip position at the end.
   geometry::Pose final_pose() const;
 

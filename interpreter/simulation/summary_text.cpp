@@ -127,7 +127,7 @@ std::string Summary::text(Language language) const {
       said += say(kBreach, dialect::kAxisLetters[i / 2], breach->farthest, breach->limit, breach->line + 1);
   for (std::size_t i = 0; i < excesses_.size(); ++i)
     if (const auto& excess = excesses_[i])
-      said += say(kExcesses[i], excess->maximum, limit_of(static_cast<Limit>(i)), excess->line + 1);
+      said += say(kExcesses[i], excess->maximum, limit_of(static_cast<Limit>(i), machine_), excess->line + 1);
   const geometry::Pose pose = final_pose();
   said += say(kFinal, pose.tip.x(), pose.tip.y(), pose.tip.z(), pose.b, pose.c);
   const State& state = result_.state;
@@ -232,7 +232,7 @@ std::string Summary::json(std::string_view file, Language language) const {
       json["aboveLimits"].push_back({{"limit", kLimits[i]},
                                      {"line", excess->line + 1},
                                      {"most", excess->maximum},
-                                     {"allowed", limit_of(static_cast<Limit>(i))}});
+                                     {"allowed", limit_of(static_cast<Limit>(i), machine_)}});
   json["warnings"] = OrderedJson::array();
   for (const RunWarning& warning : warnings_) json["warnings"].push_back(json_of(warning, language));
   const geometry::Pose pose = final_pose();

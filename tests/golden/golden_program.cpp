@@ -6,6 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "interpreter/kinematics/numbers.h"
+
 namespace isocnc::golden {
 
 static std::size_t code_points(std::string_view text) {
@@ -64,13 +66,19 @@ static void read_directive(Part& part, const std::string& what, const std::strin
     std::string axis;
     execution::Travel travel;
     words >> axis >> travel.minimum >> travel.maximum;
-    part.setup.limits.travel.at(std::string("XYZBC").find(axis)) = travel;
+    const std::size_t index = std::string("XYZBC").find(axis);
+    part.setup.limits.travel.at(index) = travel;
+    part.machine.motion.axes.at(index).minimum = travel.minimum;
+    part.machine.motion.axes.at(index).maximum = travel.maximum;
   } else if (key == "max-feed") {
     words >> part.setup.limits.feed;
+    part.machine.motion.feed_speed = part.setup.limits.feed / kinematics::kSecondsPerMinute;
   } else if (key == "max-rotary-speed") {
     words >> part.setup.limits.rotary_speed;
+    part.machine.motion.feed_turn = part.setup.limits.rotary_speed / kinematics::kSecondsPerMinute;
   } else if (key == "max-spindle-speed") {
     words >> part.setup.limits.spindle_speed;
+    part.machine.spindle_speed = part.setup.limits.spindle_speed;
   } else if (key == "clearance") {
     words >> part.setup.clearance.emplace();
   } else if (key == "functions") {
@@ -84,6 +92,15 @@ static void read_directive(Part& part, const std::string& what, const std::strin
       if (axis == 'C') part.setup.home.c = value;
       if (axis >= 'X') part.setup.home.tip[axis - 'X'] = value;
     }
+  } else if (key == "tool") {
+    std::string tool;
+    words >> tool;
+    const execution::ToolCode code = execution::tool_code(std::stoi(tool.substr(1)));
+    for (std::string what_of_it; words >> what_of_it;)
+      words >> (what_of_it == "radius" ? part.machine.tool_radii : part.machine.tool_lengths)[code];
+  } else if (key == "head") {
+    part.machine.motion.kinematics.kind = kinematics::MachineKind::Head;
+    words >> part.machine.motion.kinematics.pivot;
   } else if (key == "tools") {
     part.setup.tools.emplace();
     for (std::string tool; words >> tool;) part.setup.tools->push_back(execution::tool_code(std::stoi(tool.substr(1))));
@@ -131,8 +148,10 @@ std::vector<Part> read_golden(const std::filesystem::path& file) {
     }
   }
   for (Part& part : parts) {
-    part.is_about_rules = file.parent_path().filename() == "rules";
-    part.is_folded = file.stem() == "D66";
+    part.is_run = file.parent_path().filename() == "runs";
+    part.is_about_rules = part.is_run || file.parent_path().filename() == "rules";
+    part.is_folded = part.is_run || file.stem() == "D66";
+    part.machine.home = part.setup.home;
   }
   return parts;
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/execution/setup.h"
+#include "interpreter/simulation/timing.h"
 
 namespace isocnc::golden {
 
@@ -43,8 +43,10 @@ struct Part {
   execution::Setup setup;
   double vgpl = 0;
   std::vector<std::string> selected;  ///< Rules that are off by default, as `W124=warning`.
-  bool is_about_rules = false;        ///< In tests/programs/rules: lint findings are marked, too.
-  bool is_folded = false;             ///< In D66.iso: lines that repeat a finding are not marked.
+  simulation::TimedMachine machine;   ///< The machine for the findings of a run.
+  bool is_about_rules = false;        ///< In tests/programs/rules and runs: lint findings are marked, too.
+  bool is_run = false;                ///< In tests/programs/runs: findings of a run are marked, too.
+  bool is_folded = false;             ///< In D66.iso and runs: lines that repeat a finding are not marked.
 };
 
 std::vector<Part> read_golden(const std::filesystem::path& file);

@@ -5,8 +5,6 @@
 #include <set>
 
 #include "analyzer/examples.h"
-#include "interpreter/running/runner.h"
-#include "interpreter/simulation/compensation.h"
 #include "tests/support/report_text.h"
 
 namespace isocnc::dialect {
@@ -25,25 +23,6 @@ Report reported_in(std::string_view program, DiagnosticId id) {
   return report;
 }
 
-/// What isorun would report, with a cutter of 10 mm radius.
-std::string warnings_of_run(std::string_view program) {
-  simulation::TimedMachine machine;
-  machine.tool_radii[{1, 1, 1}] = 10;
-  std::string codes;
-  simulation::Compensation compensation(machine);
-  const simulation::Compensation::Listeners listeners{.event = [](const running::Event&) {},
-                                                      .warning =
-                                                          [&](const simulation::RunWarning& warning) {
-                                                            codes += std::string(definition(warning.id).code) + "@" +
-                                                                     std::to_string(warning.line + 1) + " ";
-                                                          }};
-  const auto result =
-      running::run(program, {}, [&](const running::Event& event) { compensation.take(event, listeners); });
-  compensation.finish(listeners);
-  EXPECT_EQ(result.ending, running::Ending::ProgramEnd) << program;
-  return codes;
-}
-
 std::string codes_of(const Report& report) {
   std::string codes;
   for (const auto& located : report.findings) {
@@ -51,6 +30,14 @@ std::string codes_of(const Report& report) {
              std::to_string(located.finding.span.begin) + "-" + std::to_string(located.finding.span.end) + " ";
   }
   return codes;
+}
+
+/// What a run would report, in the same way.
+std::string codes_of_run(std::string_view program, DiagnosticId id) {
+  Report report;
+  for (const simulation::RunFinding& found : analyzer::example_run(program, id))
+    report.findings.push_back({.line = found.line, .finding = found.finding});
+  return codes_of(report);
 }
 
 /// The diagnostics, each with its causes.
@@ -70,18 +57,17 @@ TEST_P(Table, WrongProgramHasThisOneFindingAtItsMark) {
   if (analyzer::wrong_program(cause).empty()) GTEST_SKIP() << "cannot be shown in a few lines";
   const MarkedProgram wrong = read_marked(analyzer::wrong_program(cause));
   ASSERT_TRUE(wrong.has_mark);
+  const std::string mark = std::string(def.code) + "@" + std::to_string(wrong.line + 1) + ":" +
+                           std::to_string(wrong.begin) + "-" + std::to_string(wrong.end) + " ";
   if (def.is_reported_by_runs) {
-    EXPECT_EQ(warnings_of_run(wrong.text), std::string(def.code) + "@" + std::to_string(wrong.line + 1) + " ")
-        << wrong.text;
+    EXPECT_EQ(codes_of_run(wrong.text, cause.id), mark) << wrong.text;
     return;
   }
   const Report report = reported_in(wrong.text, cause.id);
   ASSERT_EQ(report.findings.size(), 1u) << wrong.text << codes_of(report);
   EXPECT_EQ(definition(report.findings[0].finding.id).code, def.code) << wrong.text;
   EXPECT_EQ(report.findings[0].finding.cause, cause.number) << wrong.text;
-  EXPECT_EQ(codes_of(report), std::string(def.code) + "@" + std::to_string(wrong.line + 1) + ":" +
-                                  std::to_string(wrong.begin) + "-" + std::to_string(wrong.end) + " ")
-      << wrong.text;
+  EXPECT_EQ(codes_of(report), mark) << wrong.text;
 }
 
 TEST_P(Table, RightProgramHasNone) {
@@ -89,7 +75,7 @@ TEST_P(Table, RightProgramHasNone) {
   const std::string_view right = def.right.empty() ? "M02\n" : def.right;
   EXPECT_EQ(codes_of(reported_in(right, GetParam().id)), "") << right;
   if (def.is_reported_by_runs) {
-    EXPECT_EQ(warnings_of_run(right), "") << right;
+    EXPECT_EQ(codes_of_run(right, GetParam().id), "") << right;
   }
 }
 

@@ -41,6 +41,8 @@ export interface Finding extends Range {
   /** How many lines repeat the finding, and the last of them. */
   repeats?: number;
   lastLine?: number;
+  /** With `--verify`: a run alone has shown it. */
+  source?: 'run';
 }
 
 /** What `isorun --json` prints, and with `trace` the events that `isorun --trace` writes. */

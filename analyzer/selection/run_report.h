@@ -1,0 +1,26 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "analyzer/check/report.h"
+#include "analyzer/selection/selection.h"
+#include "analyzer/selection/shown_report.h"
+#include "interpreter/simulation/run_findings.h"
+
+namespace isocnc::selection {
+
+/// One list of what a check of the text and a run have found: what both have found on a line stands there once, as the
+/// text shows it.
+check::Report with_run(check::Report found, std::span<const simulation::RunFinding> run);
+
+/// The findings of a check and of a run that are shown, by the same steps as shown_report() of a check alone. On lines
+/// that the run has executed, the joints have been compared with their travel (E160), so that what a check concludes
+/// from the tip (W130) is left out there.
+check::Report shown_report_with_run(check::Report found, const simulation::RunOutcome& run, std::string_view text,
+                                    const Selection& selection, const FindingFilter& filter = {});
+
+/// The findings of a run alone that are shown: those that are selected and that no comment of the program suppresses.
+check::Report shown_run_report(const simulation::RunOutcome& run, std::string_view text, const Selection& selection);
+
+}  // namespace isocnc::selection

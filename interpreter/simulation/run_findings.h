@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "interpreter/running/runner.h"
+#include "interpreter/simulation/compensation.h"
+#include "interpreter/simulation/timing.h"
+#include "interpreter/syntax/finding.h"
+
+namespace isocnc::simulation {
+
+/// A finding of a run, on its line.
+struct RunFinding {
+  std::size_t line = 0;  ///< From 0.
+  syntax::Finding finding;
+  std::int32_t mistake = -1;  ///< Findings with the same number have the same cause (D66); -1: alone.
+
+  friend bool operator==(const RunFinding&, const RunFinding&) = default;
+};
+
+/// What a run has found, and the lines that it has executed.
+struct RunOutcome {
+  std::vector<RunFinding> findings;  ///< Sorted by line and column, each once on its line.
+  /// The first and last line of each stretch without a jump, in ascending order; from 0.
+  std::vector<std::pair<std::size_t, std::size_t>> executed;
+
+  bool has_executed(std::size_t line) const;
+};
+
+/// What the machine shows of a program: joints outside their travel (E160), gouges of the cutter compensation (W138 to
+/// W140), feeds and speeds above the machine's limits (W131 to W133), and where the run stopped before the end (W162).
+/// All programs that run a program collect its findings here. A value.
+class RunFindings {
+ public:
+  /// Keeps a reference to the machine, which knows the limits.
+  explicit RunFindings(const TimedMachine& machine);
+
+  /// Takes each block before it is executed.
+  void take(const running::Block& block);
+  /// Takes an event as programmed, after its block.
+  void take(const running::Event& event);
+  void take(const RunWarning& warning);
+  /// Takes a motion as the machine makes it, in the order of the run.
+  void take(std::size_t line, const kinematics::Move& made);
+
+  /// The outcome of a run that has ended. `text` is that of the program.
+  RunOutcome outcome(std::string_view text, const running::RunResult& result) const;
+
+ private:
+  /// A joint on one side of its travel.
+  struct TravelEnd {
+    bool is_passed = false;    ///< A mistake has begun, and the last motion was outside, or partly.
+    std::int32_t mistake = 0;  ///< The present or last mistake, an index into farthest_.
+  };
+
+  /// The last F that the run has read.
+  struct FeedWord {
+    std::size_t line = 0;
+    double value = 0;
+    bool is_reported = false;
+  };
+
+  void look_at_travel(std::size_t line, const kinematics::Move& made);
+  void look_at_speeds(std::size_t line, const kinematics::Move& made);
+  std::vector<RunFinding> marked(std::string_view text) const;
+  void report(std::size_t line, dialect::DiagnosticId id, const std::array<double, dialect::kMaxArguments>& values,
+              std::int32_t mistake = -1);
+
+  const TimedMachine* machine_;
+  bool checks_travel_;
+  bool checks_speeds_;
+  FeedWord feed_;
+  std::array<TravelEnd, 2 * kinematics::kAxisCount> ends_;     ///< Two per axis: its minimum and its maximum.
+  std::vector<double> farthest_;                               ///< The farthest position of each mistake.
+  std::vector<RunFinding> findings_;                           ///< Without spans, in the order of the run.
+  std::vector<std::pair<std::size_t, std::size_t>> executed_;  ///< As in the outcome.
+  bool has_jumped_ = true;                                     ///< The next block starts a stretch.
+};
+
+/// Runs a program on the machine, without its times, and returns what that shows. `options.before_block` is replaced.
+RunOutcome outcome_of_run(std::string_view text, running::RunOptions options, const TimedMachine& machine);
+
+}  // namespace isocnc::simulation
