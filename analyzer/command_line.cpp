@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "analyzer/formats/renderers.h"
+#include "analyzer/shards.h"
 #include "interpreter/command_line/program_app.h"
 #include "interpreter/command_line/source_options.h"
 #include "interpreter/dialect/diagnostic_id.h"
@@ -99,8 +100,9 @@ static void add_options(command_line::ProgramApp& program, LintCommandOptions& o
 
   program.begin_group({"How it is shown", "Come mostrarlo"});
   const std::string formats = listed(formats::format_names());
-  diff.excludes(
-      program.add_choice("--format", options.format, formats::format_names(), {"NAME", "NOME"}, {formats, formats}));
+  const command_line::ProgramOption format =
+      program.add_choice("--format", options.format, formats::format_names(), {"NAME", "NOME"}, {formats, formats});
+  diff.excludes(format);
   const command_line::ProgramOption output = program.add_option(
       "--output", options.output, command_line::kFileValue,
       {"Write to this file, not to standard output", "Scrive in questo file, non sullo standard output"});
@@ -125,6 +127,22 @@ static void add_options(command_line::ProgramApp& program, LintCommandOptions& o
                        {"Check again what is written, until Ctrl-C", "Riverifica ciò che cambia, fino a Ctrl-C"});
   for (const command_line::ProgramOption& other : {write_baseline, fix, diff, output, statistics})
     watch.without_exclusions().excludes(other);
+  const command_line::ProgramOption shard =
+      program.add_option("--shard", options.shard, {"I/N", "I/N"},
+                         {"Check one of N parts of the files: 2/8", "Verifica una di N parti dei file: 2/8"});
+  shard.check([](const std::string& given, dialect::Language language) {
+    static constexpr dialect::Text kNoShard = {"write it as 2/8, the second of eight",
+                                               "si scrive 2/8, la seconda di otto"};
+    return std::string(Shard::read(given) ? "" : kNoShard.in(language));
+  });
+  const command_line::ProgramOption merge =
+      program.add_flag("--merge", options.merge,
+                       {"Join reports of parts: PATH names files of\n--format json or sarif",
+                        "Unisce i rapporti delle parti: PATH indica file\ndi --format json o sarif"});
+  for (const command_line::ProgramOption& other : {watch, write_baseline}) shard.excludes(other);
+  for (const command_line::ProgramOption& other :
+       {shard, watch, baseline, write_baseline, fix, diff, format, statistics, verify})
+    merge.without_exclusions().excludes(other);
   program.add_option("--max-warnings", options.max_warnings, {"N", "N"},
                      {"Fail when there are more warnings than N", "Fallisce se gli avvisi sono più di N"});
   program.add_flag("--exit-zero", options.exit_zero,

@@ -22,7 +22,9 @@ struct LintCommandOptions {
   std::string write_baseline;  ///< The file in which to record findings instead of reporting them.
   selection::SelectionOptions selection;
   std::optional<std::size_t> max_warnings;
-  int jobs = 0;  ///< The number of threads; 0: one for each core.
+  std::string shard;   ///< The part of the files to check, as Shard::read() takes it; empty: all.
+  bool merge = false;  ///< Joins reports, which `paths` names.
+  int jobs = 0;        ///< The number of threads; 0: one for each core.
   bool exit_zero = false;
   bool fix = false;           ///< Applies safe fixes in place.
   bool unsafe_fixes = false;  ///< Includes unsafe fixes.

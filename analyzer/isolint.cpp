@@ -16,6 +16,7 @@
 #include "analyzer/notepad_language.h"
 #include "analyzer/selection/baseline.h"
 #include "analyzer/selection/program_settings.h"
+#include "analyzer/shards.h"
 #include "analyzer/watch.h"
 #include "interpreter/command_line/program_main.h"
 #include "interpreter/configuration/show.h"
@@ -88,15 +89,23 @@ std::optional<std::string> obstacle_to_watch(const LintCommandOptions& options) 
   return std::nullopt;
 }
 
+template <typename Name>
+void sort_by_name(std::vector<std::filesystem::path>& files, Name&& name) {
+  std::sort(files.begin(), files.end(), [&](const auto& a, const auto& b) { return name(a) < name(b); });
+}
+
 /// The programs to check; nothing, after an error message, if the check cannot start.
 std::optional<Programs> find_programs(const LintCommandOptions& options, configuration::Configurations& configurations,
                                       selection::SettingsFinder& settings, bool& failed) {
   const Language language = options.reader_language();
   input::FileSelection found = input::select_programs(options.paths, configurations, language);
-  // Tools that read JSON compare arrays, so the order must not depend on how the files were named.
-  if (options.format == "json")
-    std::sort(found.files.begin(), found.files.end(),
-              [](const auto& a, const auto& b) { return a.generic_string() < b.generic_string(); });
+  if (const auto shard = Shard::read(options.shard))
+    std::erase_if(found.files, [&](const std::filesystem::path& file) { return !shard->holds(file); });
+  // Tools that read JSON compare arrays, so the order must not depend on how the files were named. Reports of parts are
+  // joined in the same order.
+  if (options.format == "json") sort_by_name(found.files, [](const auto& file) { return file.generic_string(); });
+  if (options.format == "sarif")
+    sort_by_name(found.files, [](const auto& file) { return formats::plain_path(file.generic_string()); });
   Programs programs{.files = std::move(found.files), .settings = {}};
   for (const std::filesystem::path& file : programs.files)
     programs.settings.emplace_back(settings.of(input::place_of_program(file, options.stdin_name)));
@@ -227,6 +236,7 @@ ExitStatus run_main(int argc, char** argv) {
   if (options.config_schema) return say(configuration::json_schema(), options);
   if (options.config_keys) return say(configuration::key_page(options.reader_language()), options);
   if (options.machine_page) return say(configuration::machine_page(options.reader_language()), options);
+  if (options.merge) return merge_shards(options);
   if (options.show_config) return show_config(options);
   if (options.list_rules) return say(list_rules(options.reader_language()), options);
   if (!options.explain.empty()) return explain_code(options);

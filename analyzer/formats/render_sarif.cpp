@@ -5,6 +5,7 @@
 
 #include "analyzer/fixing/finding_fixes.h"
 #include "analyzer/formats/renderers.h"
+#include "analyzer/formats/sarif_log.h"
 #include "analyzer/selection/fingerprint.h"
 #include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/dialect/locale.h"
@@ -18,10 +19,6 @@ using OrderedJson = nlohmann::ordered_json;
 /// The maximum number of related locations of a finding.
 static constexpr std::size_t kMaxRelated = 100;
 
-static std::string dumped(const OrderedJson& json) {
-  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
-}
-
 static std::string_view level(Severity severity) {
   static constexpr std::string_view kLevels[] = {"error", "warning", "note"};
   return kLevels[static_cast<std::size_t>(severity)];
@@ -34,31 +31,22 @@ class SarifRenderer final : public Renderer {
   explicit SarifRenderer(const ReportStyle& style) : style_(style) {}
 
   void begin(std::string& output) override {
-    output +=
-        "{\n"
-        "\"$schema\":\"https://json.schemastore.org/sarif-2.1.0.json\",\n"
-        "\"version\":\"2.1.0\",\n"
-        "\"runs\":[{\n"
-        "\"tool\":{\"driver\":{\"name\":\"isolint\",\"version\":\"" ISOCNC_VERSION "\",\"rules\":[";
-    for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i) {
-      output += i == 0 ? "\n" : ",\n";
-      output += dumped(rule(DiagnosticId{static_cast<std::uint8_t>(i)}));
-    }
-    output += "\n]}},\n\"language\":\"";
-    output += dialect::name_of(style_.language);
-    output += "\",\n\"columnKind\":\"unicodeCodePoints\",\n\"results\":[";
+    SarifLog::Header header{
+        .version = ISOCNC_VERSION, .language = std::string(dialect::name_of(style_.language)), .rules = {}};
+    for (std::size_t i = 0; i < dialect::kDiagnosticCount; ++i)
+      header.rules.push_back(dumped(rule(DiagnosticId{static_cast<std::uint8_t>(i)})));
+    log_.begin(header, output);
   }
 
   void file(const CheckedProgram& program, Output& output) override {
     const OrderedJson artifact = {{"uri", uri_of(program.name)}, {"index", artifacts_.size()}};
-    artifacts_.push_back({{"location", {{"uri", uri_of(program.name)}}}, {"roles", {"analysisTarget"}}});
+    artifacts_.push_back(
+        dumped({{"location", {{"uri", uri_of(program.name)}}}, {"roles", OrderedJson::array({"analysisTarget"})}}));
     syntax::LineFinder lines(program.text);
     const StepTexts steps(program.text, program.report, style_.language);
     selection::Fingerprints fingerprints;
     fixing::FindingFixes fixes(program.text, program.report, program.setup);
     for (const check::LocatedFinding& located : program.report.findings) {
-      output.buffer() += first_ ? "\n" : ",\n";
-      first_ = false;
       const ShownFinding shown = show(located, program.report, lines, style_);
       OrderedJson object = result(shown, located.finding.id, artifact);
       const selection::Fingerprint print = fingerprints.next(located.finding.id, shown.line_text);
@@ -69,19 +57,12 @@ class SarifRenderer final : public Renderer {
       if (located.is_of_run) object["properties"]["source"] = "run";
       if (const std::optional<fixes::Fix> fix = fixes.offered_in_full(located))
         object["fixes"] = OrderedJson::array({fix_of(*fix, fixes, artifact)});
-      output.buffer() += dumped(object);
+      log_.add_result(dumped(object), output.buffer());
       output.drain();
     }
   }
 
-  void end(std::string& output) override {
-    output += first_ ? "],\n\"artifacts\":[" : "\n],\n\"artifacts\":[";
-    for (std::size_t i = 0; i < artifacts_.size(); ++i) {
-      output += i == 0 ? "\n" : ",\n";
-      output += dumped(artifacts_[i]);
-    }
-    output += artifacts_.empty() ? "]\n}]\n}\n" : "\n]\n}]\n}\n";
-  }
+  void end(std::string& output) override { log_.end(artifacts_, output); }
 
  private:
   OrderedJson rule(DiagnosticId id) const {
@@ -167,8 +148,8 @@ class SarifRenderer final : public Renderer {
   }
 
   ReportStyle style_;
-  bool first_ = true;
-  std::vector<OrderedJson> artifacts_;
+  SarifLog log_;
+  std::vector<std::string> artifacts_;
 };
 
 std::unique_ptr<Renderer> make_sarif_renderer(const ReportStyle& style) {

@@ -8,10 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "programs.h"
 #include "run_command.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/support/text_of_file.h"
 
 namespace isocnc::commands {
 namespace {
