@@ -1,0 +1,48 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "interpreter/solids/mesh.h"
+#include "interpreter/solids/obstacle.h"
+#include "interpreter/solids/revolved_body.h"
+
+namespace isocnc::solids {
+
+/// Subtracted from every lower bound for the rounding of doubles, mm. It suffices for coordinates up to kMaxCoordinate.
+inline constexpr double kRounding = 1e-6;
+inline constexpr double kMaxCoordinate = 1e6;  ///< mm
+
+/// What is known of the signed distance of a body and an obstacle, mm: lower <= distance <= upper. Both agree within
+/// 2 kRounding, except where the caller asked for less by `sufficient`.
+///
+/// The distance is that of the nearest two points where body and obstacle are apart. Where they overlap, it is
+/// negative, and both bounds are -depth(). The depth of a convex piece of the body and a convex obstacle (box,
+/// cylinder, one triangle of a mesh) is the length of a translation that surely separates them, nearly always the
+/// shortest one; the depth of a body is that of its deepest piece, and of a mesh that of its deepest triangle. So a
+/// body must move by about the depth or more to be free. Where a closed mesh encloses the whole body, the depth is the
+/// distance to its surface.
+struct Clearance {
+  double lower = std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  geometry::Vec3 on_body = geometry::Vec3::Zero();      ///< The point of the body that `upper` belongs to.
+  geometry::Vec3 on_obstacle = geometry::Vec3::Zero();  ///< The point of the obstacle.
+
+  double depth() const { return std::max(0.0, -upper); }
+};
+
+inline constexpr double kExact = std::numeric_limits<double>::infinity();
+
+/// Bounds on the distance of a body from an obstacle. The search ends early once the lower bound reaches `sufficient`,
+/// mm; `upper` may then be infinite. Where the body is that far away, this costs a few nanoseconds.
+///
+/// The lower bound holds by a separating plane for every pair of convex parts (separation.h), and by the distances of
+/// spheres and boxes around the rest. A placement that is not finite gives a lower bound of minus infinity.
+Clearance clearance(const RevolvedBody& body, const AxisPlacement& at, const Cuboid& obstacle,
+                    double sufficient = kExact);
+Clearance clearance(const RevolvedBody& body, const AxisPlacement& at, const Cylinder& obstacle,
+                    double sufficient = kExact);
+Clearance clearance(const RevolvedBody& body, const AxisPlacement& at, const Mesh& obstacle,
+                    double sufficient = kExact);
+
+}  // namespace isocnc::solids

@@ -1,0 +1,161 @@
+#include "interpreter/solids/clearance.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "scenes.h"
+
+namespace isocnc::solids {
+namespace {
+
+using scenes::body;
+using scenes::Random;
+using scenes::Vec3;
+
+constexpr double kExactly = 2e-6;
+
+const Cuboid kBlock{{0, 0, 0}, {100, 60, 20}};
+
+AxisPlacement upright(double x, double y, double z) { return {{x, y, z}, {0, 0, 1}}; }
+
+TEST(Clearance, OfACylinderAboveABlockIsItsHeight) {
+  const Clearance found = clearance(body(flat_body(10, 80)), upright(50, 30, 33), kBlock);
+  EXPECT_NEAR(found.lower, 13, kExactly);
+  EXPECT_NEAR(found.upper, 13, kExactly);
+  EXPECT_NEAR(found.on_obstacle.z(), 20, 1e-9);
+}
+
+TEST(Clearance, OfACylinderBesideABlockIsMeasuredFromItsSide) {
+  EXPECT_NEAR(clearance(body(flat_body(10, 80)), upright(115, 30, 5), kBlock).lower, 5, kExactly);
+  // Beside an upright edge, which is 3-4-5 away.
+  EXPECT_NEAR(clearance(body(flat_body(10, 80)), upright(109, 72, 5), kBlock).lower, 15 - 10, kExactly);
+}
+
+TEST(Clearance, OfABallFromACornerIsThatOfItsCenter) {
+  const Vec3 center(100 + 20, 60 + 30, 20 + 60);
+  EXPECT_NEAR(clearance(body(ball_body(5, 50)), upright(120, 90, 75), kBlock).lower,
+              (center - Vec3(100, 60, 20)).norm() - 5, kExactly);
+}
+
+TEST(Clearance, OfCrossedCylindersIsThatOfTheirAxes) {
+  const Cylinder pin{.at = {{-50, 0, 0}, {1, 0, 0}}, .height = 100, .radius = 8};
+  const AxisPlacement across{{0, 30, -40}, {0, 0, 1}};
+  EXPECT_NEAR(clearance(body(flat_body(10, 80)), across, pin).lower, 30 - 8 - 10, kExactly);
+}
+
+TEST(Clearance, OfATiltedCylinderIsThatOfItsRim) {
+  const double angle = 0.5;
+  const AxisPlacement tilted{{50, 30, 50}, {std::sin(angle), 0, std::cos(angle)}};
+  EXPECT_NEAR(clearance(body(flat_body(10, 80)), tilted, kBlock).lower, 30 - 10 * std::sin(angle), kExactly);
+}
+
+TEST(Clearance, OfAStackIsThatOfItsNearestPiece) {
+  const std::vector<StackRow> rows = {{40, 20, 20}, {30, 80, 80}};
+  const RevolvedBody holder = body(stacked_body(rows, 0));
+  EXPECT_NEAR(clearance(holder, upright(-30, 30, 12), kBlock).lower, 20, kExactly);
+  EXPECT_NEAR(clearance(holder, upright(-30, 30, -15), kBlock).upper, 0, 40);
+  EXPECT_NEAR(clearance(holder, upright(-12, 30, 0), kBlock).lower, 2, kExactly);
+}
+
+TEST(Clearance, IsMinusTheDepthOfAnOverlap) {
+  const RevolvedBody tool = body(flat_body(10, 80));
+  EXPECT_NEAR(clearance(tool, upright(50, 30, 17), kBlock).upper, -3, 1e-6);
+  EXPECT_NEAR(clearance(tool, upright(105, 30, 5), kBlock).depth(), 5, 1e-6);
+  EXPECT_NEAR(clearance(body(ball_body(10, 80)), upright(50, 30, 18.5), kBlock).depth(), 1.5, 1e-6);
+  const Cylinder pin{.at = {{0, 0, 0}, {0, 0, 1}}, .height = 30, .radius = 8};
+  EXPECT_NEAR(clearance(tool, upright(16, 0, 10), pin).depth(), 2, 1e-6);
+  EXPECT_NEAR(clearance(tool, upright(50, 30, 17), Mesh(scenes::box_triangles(kBlock))).depth(), 3, 1e-6);
+}
+
+/// The overlap is known to end after a translation along the plane that the scene was made with.
+TEST(Clearance, StatesADepthThatIsNearlyAlwaysTheSmallest) {
+  std::size_t larger = 0;
+  const std::vector<std::uint64_t> seeds = support::seeds(1'000);
+  for (const std::uint64_t seed : seeds) {
+    Random random(seed);
+    const RevolvedBody tool = body(flat_body(random.real(1, 30), random.real(10, 100)));
+    const Cuboid box = scenes::any_cuboid(random);
+    const scenes::Touch touch = scenes::any_touch(random, box);
+    const double enough = random.real(0.001, 5);
+    const AxisPlacement at = scenes::placed_at_gap(tool, scenes::any_direction(random), touch, -enough);
+    const double depth = clearance(tool, at, box).depth();
+    ASSERT_GT(depth, 0) << seed;
+    ASSERT_LE(depth, 2 * enough) << seed;
+    larger += depth > enough + 1e-3 ? 1 : 0;
+  }
+  EXPECT_LE(larger, seeds.size() / 20);
+}
+
+TEST(Clearance, NeedsNoMoreThanIsSufficient) {
+  const Clearance found = clearance(body(flat_body(10, 80)), upright(50, 30, 1000), kBlock, 500);
+  EXPECT_GE(found.lower, 500);
+  EXPECT_LE(found.lower, 980);
+}
+
+TEST(Clearance, OfAPlacementThatIsNotFiniteIsUnknown) {
+  const double bad = std::numeric_limits<double>::quiet_NaN();
+  const RevolvedBody tool = body(flat_body(10, 80));
+  for (const AxisPlacement& at : {AxisPlacement{{bad, 0, 0}, {0, 0, 1}}, AxisPlacement{{0, 0, 0}, {0, bad, 1}}}) {
+    EXPECT_LT(clearance(tool, at, kBlock).lower, -1e300);
+    EXPECT_GT(clearance(tool, at, kBlock).upper, 1e300);
+    EXPECT_LT(clearance(tool, at, Mesh(scenes::box_triangles(kBlock))).lower, -1e300);
+  }
+}
+
+/// A cylinder and a mesh can be moved rigidly with the body; the distance stays.
+TEST(Clearance, DoesNotDependOnTheFrame) {
+  for (const std::uint64_t seed : support::seeds(1'000)) {
+    Random random(seed);
+    const RevolvedBody tool = scenes::any_body(random);
+    const Cylinder pin = scenes::any_cylinder(random);
+    const Eigen::AngleAxisd turn(random.real(-3, 3), scenes::any_direction(random));
+    const Vec3 shift = scenes::any_point(random, 500);
+    const auto moved = [&](const AxisPlacement& at) {
+      return AxisPlacement{turn * at.origin + shift, (turn * at.axis).normalized()};
+    };
+    const AxisPlacement at{scenes::any_point(random, 400), scenes::any_direction(random)};
+    const Clearance here = clearance(tool, at, pin);
+    const Clearance there = clearance(tool, moved(at), Cylinder{moved(pin.at), pin.height, pin.radius});
+    if (here.lower > 0) {
+      ASSERT_NEAR(here.lower, there.lower, 2e-7) << seed;
+    }
+    ASSERT_EQ(here.upper < 0, there.upper < 0) << seed;
+  }
+}
+
+/// A larger body is never further away, nor a larger obstacle.
+TEST(Clearance, DoesNotGrowWithTheBody) {
+  for (const std::uint64_t seed : support::seeds(1'000)) {
+    Random random(seed);
+    const double radius = random.real(1, 30);
+    const double length = random.real(10, 100);
+    const AxisPlacement at{scenes::any_point(random, 400), scenes::any_direction(random)};
+    const Cuboid box = scenes::any_cuboid(random);
+    const double small = clearance(body(flat_body(radius, length)), at, box).lower;
+    if (small <= 0) continue;
+    ASSERT_LE(clearance(body(flat_body(radius + 1, length)), at, box).lower, small + 2e-7);
+    ASSERT_LE(clearance(body(flat_body(radius, length + 1)), at, box).lower, small + 2e-7);
+    const Cuboid larger{box.minimum - Vec3(1, 1, 1), box.maximum};
+    ASSERT_LE(clearance(body(flat_body(radius, length)), at, larger).lower, small + 2e-7);
+  }
+}
+
+/// A mesh of a box is as far away as the box.
+TEST(Clearance, OfAMeshIsThatOfTheSolid) {
+  for (const std::uint64_t seed : support::seeds(500)) {
+    Random random(seed);
+    const RevolvedBody tool = scenes::any_body(random);
+    const Cuboid box = scenes::any_cuboid(random);
+    const AxisPlacement at{scenes::any_point(random, 400), scenes::any_direction(random)};
+    const Clearance solid = clearance(tool, at, box);
+    const Clearance mesh = clearance(tool, at, Mesh(scenes::box_triangles(box)));
+    if (solid.lower > 0) {
+      ASSERT_NEAR(solid.lower, mesh.lower, 1e-6) << seed;
+    }
+    ASSERT_EQ(solid.upper <= 0, mesh.upper <= 0) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace isocnc::solids

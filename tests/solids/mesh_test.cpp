@@ -1,0 +1,113 @@
+#include "interpreter/solids/mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "scenes.h"
+
+namespace isocnc::solids {
+namespace {
+
+using scenes::Random;
+using scenes::Vec3;
+
+const Cuboid kBrick{{-10, -20, -30}, {10, 20, 30}};
+
+TEST(MeshTopology, OfABoxIsClosedAndFacesOutwards) {
+  const MeshTopology topology = topology_of(scenes::box_triangles(kBrick));
+  EXPECT_TRUE(topology.is_closed());
+  EXPECT_TRUE(topology.faces_outwards());
+  EXPECT_NEAR(topology.volume, 20 * 40 * 60, 1e-9);
+}
+
+TEST(MeshTopology, OfABoxTurnedInsideOutIsClosedButFacesInwards) {
+  std::vector<Triangle> triangles = scenes::box_triangles(kBrick);
+  for (Triangle& triangle : triangles) std::swap(triangle.corners[0], triangle.corners[1]);
+  const MeshTopology topology = topology_of(triangles);
+  EXPECT_TRUE(topology.is_closed());
+  EXPECT_FALSE(topology.faces_outwards());
+}
+
+TEST(MeshTopology, CountsOpenEdges) {
+  std::vector<Triangle> triangles = scenes::box_triangles(kBrick);
+  triangles.pop_back();
+  EXPECT_EQ(topology_of(triangles).open_edges, 3U);
+  triangles = scenes::box_triangles(kBrick);
+  std::swap(triangles[0].corners[0], triangles[0].corners[1]);  // One triangle that faces the other way.
+  EXPECT_EQ(topology_of(triangles).open_edges, 6U);
+  EXPECT_FALSE(topology_of(triangles).is_closed());
+}
+
+/// A sliver in an edge, as CAD systems write them, closes what would be open without it.
+TEST(MeshTopology, CountsDegenerateTrianglesAndKeepsTheirEdges) {
+  const Vec3 a(0, 0, 0);
+  const Vec3 b(4, 0, 0);
+  const Vec3 middle(2, 0, 0);
+  const Vec3 c(0, 4, 0);
+  const Vec3 top(0, 0, 4);
+  const std::vector<Triangle> triangles = {{{a, c, middle}}, {{middle, c, b}}, {{a, b, top}},
+                                           {{b, c, top}},    {{c, a, top}},    {{a, middle, b}}};
+  const MeshTopology topology = topology_of(triangles);
+  EXPECT_EQ(topology.degenerate, 1U);
+  EXPECT_TRUE(topology.is_closed());
+}
+
+TEST(Mesh, EnclosesWhatIsInside) {
+  const Mesh mesh(scenes::bumpy_ball(Vec3(5, 6, 7), 20, 16, 0.1));
+  ASSERT_TRUE(mesh.topology().faces_outwards());
+  Random random(1);
+  int inside = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 offset = scenes::any_point(random, 25);
+    if (offset.norm() > 17.5 && offset.norm() < 22.5) continue;  // Where the bumps are.
+    ASSERT_EQ(mesh.encloses(Vec3(5, 6, 7) + offset), offset.norm() < 20) << offset.transpose();
+    inside += offset.norm() < 20 ? 1 : 0;
+  }
+  EXPECT_GT(inside, 200);
+}
+
+/// Rays that run through corners and along edges and faces.
+TEST(Mesh, EnclosesPointsBelowCornersAndEdges) {
+  std::vector<Triangle> triangles = scenes::box_triangles(kBrick);
+  for (const Triangle& triangle : scenes::box_triangles({{10, -20, -30}, {12, 20, 30}})) triangles.push_back(triangle);
+  const Mesh mesh(std::move(triangles));
+  for (const double x : {-9.0, 0.0, 9.0})
+    for (const double y : {-10.0, 0.0, 10.0}) EXPECT_TRUE(mesh.encloses(Vec3(x, y, x * 3 + y / 9))) << x << " " << y;
+  for (const double z : {-40.0, 40.0})
+    for (const double x : {-10.0, 0.0, 10.0, 12.0})
+      for (const double y : {-20.0, 0.0, 20.0}) EXPECT_FALSE(mesh.encloses(Vec3(x, y, z))) << x << " " << y << " " << z;
+  EXPECT_FALSE(mesh.encloses(Vec3(13, 0, 0)));
+}
+
+TEST(Mesh, KeepsAllTrianglesWithinTheBoxesOfItsTree) {
+  const std::vector<Triangle> triangles = scenes::bumpy_ball(Vec3(0, 0, 0), 50, 20, 0.1);
+  const Mesh mesh(triangles);
+  std::size_t found = 0;
+  for (const MeshNode& node : mesh.nodes())
+    for (std::uint32_t i = 0; i < node.count; ++i, ++found)
+      EXPECT_TRUE(node.box.contains(mesh.triangles()[node.first + i].bounds()));
+  EXPECT_EQ(found, triangles.size());
+  EXPECT_LE(mesh.nodes().size(), triangles.size());
+}
+
+/// As many equal triangles as one likes are no deep tree.
+TEST(Mesh, SplitsEqualTriangles) {
+  const Mesh mesh(std::vector<Triangle>(10'000, Triangle{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}}));
+  const RevolvedBody tool = scenes::body(flat_body(1, 10));
+  EXPECT_NEAR(clearance(tool, {{0, 0, 2}, {0, 0, 1}}, mesh).lower, 2, 2e-6);
+}
+
+/// A body within a closed mesh touches no triangle, and overlaps all the same.
+TEST(Mesh, ThatIsClosedIsSolid) {
+  const RevolvedBody tool = scenes::body(flat_body(1, 10));
+  const AxisPlacement inside{{0, 0, 0}, {0, 0, 1}};
+  const Mesh solid(scenes::box_triangles(kBrick));
+  EXPECT_NEAR(clearance(tool, inside, solid).upper, -9, 1e-5);
+  std::vector<Triangle> triangles = scenes::box_triangles(kBrick);
+  triangles.pop_back();
+  EXPECT_GT(clearance(tool, inside, Mesh(triangles)).lower, 0);
+}
+
+}  // namespace
+}  // namespace isocnc::solids
