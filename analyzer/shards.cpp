@@ -32,11 +32,10 @@ std::optional<Shard> Shard::read(std::string_view text) {
 }
 
 bool Shard::holds(const std::filesystem::path& file) const {
-  std::filesystem::path named = file.lexically_normal();
-  if (named.is_absolute()) {
-    const std::filesystem::path below = named.lexically_relative(std::filesystem::current_path());
-    if (!below.empty() && *below.begin() != "..") named = below;
-  }
+  // Absolute first: on Windows, /parts/a.iso is a path on the current drive.
+  const std::filesystem::path absolute = std::filesystem::absolute(file).lexically_normal();
+  const std::filesystem::path relative = absolute.lexically_relative(std::filesystem::current_path());
+  const std::filesystem::path& named = relative.empty() ? absolute : relative;
   return selection::hash_on(selection::kHashStart, named.generic_string()) % count == index;
 }
 
