@@ -120,7 +120,7 @@ TEST_F(IsolintVerify, IsInAllFormats) {
 }
 
 TEST_F(IsolintVerify, SaysTheSameWithAnyNumberOfJobs) {
-  for (int i = 0; i < 20; ++i)
+  for (std::size_t i = 0; i < 20; ++i)
     folder_.write("parts/" + std::to_string(i) + ".iso", std::string(i, '\n') + std::string(kOutsideProgram));
   const std::string one = run({"isolint", "--verify", "--jobs", "1", "."}).out;
   EXPECT_THAT(one, HasSubstr("parts/19.iso:21:1"));
