@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "interpreter/execution/setup.h"
+#include "interpreter/solids/mesh.h"
+#include "interpreter/solids/obstacle.h"
+#include "interpreter/solids/revolved_body.h"
+
+namespace isocnc::verification {
+
+/// The part of the machine that carries a body. X is a gantry that moves along X, Y a carriage on it, and Z a ram on
+/// the carriage. On a head, C carries what C turns and B what B tilts as well; on a table, B is the cradle that B
+/// tilts, and C the round table on it.
+enum class Link : std::uint8_t { Machine, X, Y, Z, C, B };
+
+/// What a body is for.
+enum class BodyRole : std::uint8_t {
+  Fixture,     ///< A cup, a clamp, a stop.
+  Spoilboard,  ///< The board below the workpiece, as far as nothing may go into it.
+  Target,      ///< The finished part.
+  Stock,       ///< The blank. Hard bodies are not compared with it.
+  Machine,     ///< A part of the machine.
+};
+
+/// A mesh may be shared by several bodies.
+using BodyShape = std::variant<solids::Cuboid, solids::Cylinder, std::shared_ptr<const solids::Mesh>>;
+
+/// The place in a file where a body is described.
+struct BodyDescription {
+  std::string file;          ///< As shown to users.
+  std::size_t line = 0;      ///< From 0.
+  std::uint32_t column = 0;  ///< Byte of the line, from 0.
+};
+
+/// A solid body on a part of the machine, in machine coordinates with all joints at 0, mm.
+struct SceneBody {
+  std::string name;  ///< As the user calls it.
+  BodyRole role = BodyRole::Fixture;
+  Link on = Link::Machine;
+  BodyShape shape;
+  BodyDescription described;
+};
+
+/// The bodies of a tool: z = 0 at the tip, growing to the spindle nose at z = `length`, mm.
+struct ToolBodies {
+  double length = 0;                           ///< From the spindle nose to the tip.
+  std::optional<solids::RevolvedBody> cutter;  ///< None: its shape is not known.
+  std::optional<solids::RevolvedBody> shank;   ///< From the end of the cutter to the holder.
+  std::optional<solids::RevolvedBody> holder;  ///< Up to the spindle nose.
+  BodyDescription described;
+};
+
+/// What surrounds a program: the bodies that a motion may bring together. A value, immutable once made; meshes are
+/// shared.
+struct Scene {
+  std::map<execution::ToolCode, ToolBodies> tools;
+  std::optional<solids::RevolvedBody> nose;  ///< z = 0 at the spindle nose, growing away from the tool.
+  std::vector<SceneBody> machine;            ///< Bodies of the machine.
+  /// Bodies of the setup: fixtures, spoilboard, target, stock. They stand on the machine, or, on a table that turns, on
+  /// the table; `on` is not used. Their frame is that of the first G92, or of the machine.
+  std::vector<SceneBody> setup;
+  bool is_in_workpiece_frame = true;  ///< The frame of `setup`: that of the first G92, else the machine's.
+  double clearance = 2;               ///< What is nearer, without a contact, is a near miss (W154); mm.
+  double target_tolerance = 0;        ///< Gouges of the target up to this depth are accepted, mm.
+  std::string name;                   ///< The file that describes the setup, as shown to users.
+};
+
+/// The box around a shape, in its frame, mm.
+solids::BoundingBox bounds(const BodyShape& shape);
+
+}  // namespace isocnc::verification
