@@ -31,7 +31,10 @@ enum class FoldKind : std::uint8_t {
 inline constexpr int kFoldCount = 4;
 
 /// Maximum number of values in one message.
-inline constexpr int kMaxArguments = 3;
+inline constexpr int kMaxArguments = 5;
+
+/// Maximum number of names from outside the program in one message.
+inline constexpr int kMaxGivenNames = 2;
 
 /// Maximum number of causes of one code that have a message of their own, beside the usual one.
 inline constexpr int kMaxCauses = 6;
@@ -45,8 +48,8 @@ struct CauseDef {
 
 /// One kind of finding: a row of the table of diagnostics, with all its texts.
 ///
-/// A message may name `{text}` (the program text under the finding's mark), `{other}` (that under its second mark) and
-/// the values in `arguments`, by name.
+/// A message may name `{text}` (the program text under the finding's mark), `{other}` (that under its second mark), the
+/// values in `arguments` by name, and `{who}` and `{whom}`, the names from outside the program that it brings along.
 struct DiagnosticDef {
   std::string_view code;  ///< `ISO012`, `E004`, `W001`: stable; used in selections and suppressions.
   std::string_view name;  ///< `head-not-selected`: stable; used in the code and by readers.

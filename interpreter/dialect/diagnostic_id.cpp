@@ -106,6 +106,8 @@ std::string message(Cause cause, Language language, const Quoted& quoted) {
     const std::string_view name = pattern.substr(open + 1, close - open - 1);
     if (name == "text") result.append(quote(quoted.text));
     if (name == "other") result.append(quote(quoted.other));
+    if (name == "who" && !quoted.names.empty()) result.append(quote(quoted.names[0].in(language)));
+    if (name == "whom" && quoted.names.size() > 1) result.append(quote(quoted.names[1].in(language)));
     for (std::size_t i = 0; i < quoted.values.size() && i < kMaxArguments; ++i)
       if (def.arguments[i] == name) result.append(shown_value(name, quoted.values[i]));
     at = close + 1;

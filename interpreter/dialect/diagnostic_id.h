@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "interpreter/dialect/diagnostic.h"
+#include "interpreter/dialect/given_name.h"
 
 namespace isocnc::dialect {
 
@@ -93,6 +94,7 @@ struct Quoted {
   std::string_view text = {};   ///< The program text under the finding's mark.
   std::string_view other = {};  ///< That under its second mark.
   std::span<const double> values = {};
+  std::span<const GivenName> names = {};  ///< `{who}` and `{whom}`.
 };
 
 /// The message of a cause in `language`.

@@ -34,6 +34,7 @@ struct Finding {
   Span span;
   Span related;  ///< A second place on the same line that explains the first (the first F of two); may be empty.
   std::array<double, dialect::kMaxArguments> values{};
+  std::array<dialect::GivenName, dialect::kMaxGivenNames> names{};  ///< From outside the program; the first ones count.
 
   bool has(dialect::Cause wanted) const { return id == wanted.id && cause == wanted.number; }
 
@@ -61,7 +62,10 @@ inline std::string message(const Finding& finding, std::string_view line, dialec
     return line.substr(std::min<std::size_t>(span.begin, line.size()), span.end - span.begin);
   };
   return dialect::message({finding.id, finding.cause}, language,
-                          {.text = text_of(finding.span), .other = text_of(finding.related), .values = finding.values});
+                          {.text = text_of(finding.span),
+                           .other = text_of(finding.related),
+                           .values = finding.values,
+                           .names = finding.names});
 }
 
 }  // namespace isocnc::syntax
