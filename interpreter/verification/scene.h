@@ -10,16 +10,14 @@
 #include <vector>
 
 #include "interpreter/execution/setup.h"
+#include "interpreter/kinematics/links.h"
 #include "interpreter/solids/mesh.h"
 #include "interpreter/solids/obstacle.h"
 #include "interpreter/solids/revolved_body.h"
 
 namespace isocnc::verification {
 
-/// The part of the machine that carries a body. X is a gantry that moves along X, Y a carriage on it, and Z a ram on
-/// the carriage. On a head, C carries what C turns and B what B tilts as well; on a table, B is the cradle that B
-/// tilts, and C the round table on it.
-enum class Link : std::uint8_t { Machine, X, Y, Z, C, B };
+using kinematics::Link;
 
 /// What a body is for.
 enum class BodyRole : std::uint8_t {
