@@ -9,8 +9,10 @@
 #include "analyzer/fixes/fix_table.h"
 #include "analyzer/fixing/finding_fixes.h"
 #include "analyzer/selection/shown_report.h"
+#include "interpreter/solids/tool_shapes.h"
 #include "interpreter/syntax/line_finder.h"
 #include "interpreter/syntax/line_tree.h"
+#include "interpreter/verification/verified_run.h"
 
 namespace isocnc::analyzer {
 
@@ -91,6 +93,24 @@ static std::string program_of(Cause cause) {
   return read_marked(wrong_program(cause)).text;
 }
 
+/// A setup with one of each: a clamp, a board, and the finished part.
+static verification::Scene example_scene() {
+  using verification::BodyRole;
+  const auto body = [](std::string name, BodyRole role, const geometry::Vec3& minimum, const geometry::Vec3& maximum) {
+    return verification::SceneBody{
+        .name = std::move(name), .role = role, .shape = solids::Cuboid{.minimum = minimum, .maximum = maximum}};
+  };
+  verification::Scene scene{.target_tolerance = 0.2};
+  verification::ToolBodies& cutter = scene.tools[{1, 1, 1}];
+  cutter.length = 100;
+  cutter.cutter = std::get<solids::RevolvedBody>(solids::flat_body(10, 100));
+  scene.tools[{1, 1, 2}].length = 100;
+  scene.setup = {body("clamp 1", BodyRole::Fixture, {180, 0, 0}, {220, 40, 30}),
+                 body("", BodyRole::Spoilboard, {-1000, -1000, -100}, {1000, 1000, -19}),
+                 body("", BodyRole::Target, {70, 20, -18}, {170, 100, -2})};
+  return scene;
+}
+
 std::vector<simulation::RunFinding> example_run(std::string_view program, DiagnosticId id) {
   simulation::TimedMachine machine;
   machine.tool_radii[{1, 1, 1}] = 10;
@@ -98,7 +118,16 @@ std::vector<simulation::RunFinding> example_run(std::string_view program, Diagno
     machine.motion.axes[0].minimum = 0;
     machine.motion.axes[0].maximum = 1000;
   }
-  return simulation::outcome_of_run(program, {}, machine).findings;
+  static constexpr DiagnosticId kInScene[] = {"hits-fixture"_diag, "hits-machine"_diag, "gouges-part"_diag,
+                                              "near-miss"_diag, "not-verified"_diag};
+  if (std::find(std::begin(kInScene), std::end(kInScene), id) == std::end(kInScene))
+    return verification::verified_run(program, {}, machine, nullptr).outcome.findings;
+  machine.tool_lengths = {{{1, 1, 1}, 100}, {{1, 1, 2}, 100}};
+  machine.home.tip.z() = 300;
+  running::RunOptions options;
+  options.setup.home = machine.home;
+  const verification::Scene scene = example_scene();
+  return verification::verified_run(program, options, machine, &scene).outcome.findings;
 }
 
 static std::optional<Example> example_of_run(Cause cause) {

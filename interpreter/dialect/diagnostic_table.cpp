@@ -1377,6 +1377,73 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                            "rapido (G00) non è ammessa."},
      .wrong = "M06 T101001\n[!G09!] G01 X10 F1000\nM02\n",
      .right = "M06 T101001\nG01 X10 F1000 G09\nM02\n"},
+    {.code = "E152",
+     .name = "hits-fixture",
+     .severity = Severity::Error,
+     .is_reported_by_runs = true,
+     .section = "I.3.4",
+     .arguments = {"depth", "x", "y", "z", "time"},
+     .title = {.en = "Fixture that is hit", .it = "Urto contro un attrezzaggio"},
+     .message = {.en = "{who} hits {whom}: {depth} mm deep at X{x} Y{y} Z{z}, {time} s after the start",
+                 .it = "{who} urta {whom}: entra di {depth} mm in X{x} Y{y} Z{z}, {time} s dopo l'avvio"},
+     .explanation =
+         {.en = "On the way that the machine really goes, the tool, its holder, the spindle nose or the head meets a "
+                "cup, a clamp or a stop of the setup. The finding stands where it first touches and gives the deepest "
+                "place, in the frame in force; motions that go on through the same obstacle belong to it. Lift the "
+                "tool, go around, or move the fixture. If nothing of the kind happens at the machine, the setup in "
+                "isocnc.json describes other fixtures, or at another place, or the tool is longer or shorter there.",
+          .it = "Sul percorso che la macchina compie davvero, l'utensile, il suo portautensile, il naso del mandrino o "
+                "la testa incontra una ventosa, un morsetto o un riscontro dell'attrezzaggio. La segnalazione è dove "
+                "lo tocca per la prima volta e dà il punto più profondo, nel sistema di riferimento in presa; i "
+                "movimenti che proseguono nello stesso ostacolo ne fanno parte. Alzare l'utensile, passare di lato o "
+                "spostare l'attrezzaggio. Se alla macchina non succede nulla di simile, in isocnc.json ci sono altri "
+                "attrezzaggi, o in un altro posto, oppure lì l'utensile è più lungo o più corto."},
+     .wrong = "M06 T101001\nG00 X100 Y20 Z50\nG01 Z20 F1000\n[!X300!]\nZ50\nM02\n",
+     .right = "M06 T101001\nG00 X100 Y20 Z50\nG01 X300 F1000\nZ20\nZ50\nM02\n"},
+    {.code = "E153",
+     .name = "hits-machine",
+     .severity = Severity::Error,
+     .is_reported_by_runs = true,
+     .section = "I.3.4",
+     .arguments = {"depth", "x", "y", "z", "time"},
+     .title = {.en = "Machine that is hit", .it = "Urto contro la macchina"},
+     .message = {.en = "{who} hits {whom}: {depth} mm deep at X{x} Y{y} Z{z}, {time} s after the start",
+                 .it = "{who} urta {whom}: entra di {depth} mm in X{x} Y{y} Z{z}, {time} s dopo l'avvio"},
+     .explanation =
+         {.en = "On the way that the machine really goes, a moving body meets the table, another body of the machine, "
+                "or the spoilboard deeper than the setup allows. The finding stands where it first touches and gives "
+                "the deepest place, in the frame in force; motions that go on in the same body belong to it. Check Z, "
+                "the workpiece origin and the length of the tool. Where cutting into the spoilboard is meant, "
+                "spoilboard.allow of the setup says how deep.",
+          .it = "Sul percorso che la macchina compie davvero, un corpo in movimento incontra la tavola, un'altra parte "
+                "della macchina, o il piano martire più a fondo di quanto l'attrezzaggio permetta. La segnalazione è "
+                "dove lo tocca per la prima volta e dà il punto più profondo, nel sistema di riferimento in presa; i "
+                "movimenti che proseguono nello stesso corpo ne fanno parte. Controllare Z, lo zero pezzo e la "
+                "lunghezza dell'utensile. Dove si vuole tagliare anche il piano martire, spoilboard.allow "
+                "dell'attrezzaggio dice di quanto."},
+     .wrong = "M06 T101001\nG00 X300 Y100 Z5\n[!G01 Z-30!] F1000\nZ5\nM02\n",
+     .right = "M06 T101001\nG00 X300 Y100 Z5\nG01 Z-18.5 F1000\nZ5\nM02\n"},
+    {.code = "E155",
+     .name = "gouges-part",
+     .severity = Severity::Error,
+     .is_reported_by_runs = true,
+     .section = "I.3.4",
+     .arguments = {"depth", "x", "y", "z", "time"},
+     .title = {.en = "Finished part that is cut into", .it = "Pezzo finito intaccato"},
+     .message = {.en = "{who} goes into {whom}: {depth} mm deep at X{x} Y{y} Z{z}, {time} s after the start",
+                 .it = "{who} intacca {whom}: di {depth} mm in X{x} Y{y} Z{z}, {time} s dopo l'avvio"},
+     .explanation =
+         {.en = "The motion takes away what the finished part of the setup (target) still has. For the cutter, depths "
+                "up to the tolerance of the target are accepted and not counted; shank and holder may not touch it. "
+                "Check the offset of the path, the radius of the tool and the workpiece origin, or whether the target "
+                "belongs to this program and stands where its frame says.",
+          .it = "Il movimento toglie ciò che il pezzo finito dell'attrezzaggio (target) deve ancora avere. Per la "
+                "fresa le profondità fino alla tolleranza del pezzo sono accettate e non contano; il gambo e il "
+                "portautensile non possono toccarlo. Controllare la distanza del percorso dal profilo, il raggio "
+                "dell'utensile e lo zero pezzo, oppure se il pezzo finito è di questo programma e sta dove dice il "
+                "suo sistema di riferimento."},
+     .wrong = "M06 T101001\nG00 X60 Y60 Z5\nG01 Z-5 F1000\n[!X80!]\nZ5\nM02\n",
+     .right = "M06 T101001\nG00 X60 Y60 Z5\nG01 Z-5 F1000\nX50\nZ5\nM02\n"},
     {.code = "E160",
      .name = "joint-travel",
      .severity = Severity::Error,
@@ -2164,6 +2231,25 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
               "gli altri archi."},
      .wrong = "",
      .right = ""},
+    {.code = "W154",
+     .name = "near-miss",
+     .severity = Severity::Info,
+     .is_reported_by_runs = true,
+     .section = "I.3.4",
+     .arguments = {"distance", "x", "y", "z", "time"},
+     .title = {.en = "Near miss", .it = "Passaggio troppo vicino"},
+     .message = {.en = "{who} passes {distance} mm from {whom} at X{x} Y{y} Z{z}, {time} s after the start",
+                 .it = "{who} passa a {distance} mm da {whom} in X{x} Y{y} Z{z}, {time} s dopo l'avvio"},
+     .explanation =
+         {.en = "Nothing is hit, but what passes is nearer than the clearance of the setup (2 mm unless it says "
+                "otherwise). A fixture that stands a little off its place, or a tool that is a little longer, would be "
+                "hit. Keep more distance, or set clearance to what the shop is content with.",
+          .it = "Non viene urtato nulla, ma il passaggio è più vicino della distanza di sicurezza dell'attrezzaggio "
+                "(clearance: 2 mm se non è scritta). Un attrezzaggio un po' fuori posto, o un utensile un po' più "
+                "lungo, verrebbe urtato. Tenere più distanza, o mettere in clearance quella di cui l'officina si "
+                "accontenta."},
+     .wrong = "M06 T101001\nG00 X100 Y20 Z50\nG01 Z31 F1000\n[!X300!]\nZ50\nM02\n",
+     .right = "M06 T101001\nG00 X100 Y20 Z50\nG01 Z33 F1000\nX300\nZ50\nM02\n"},
     {.code = "W162",
      .name = "not-verified",
      .severity = Severity::Info,
@@ -2175,13 +2261,27 @@ constexpr DiagnosticDef kDiagnostics[kDiagnosticCount] = {
                        "on is not verified",
                  .it = "la macchina simulata si ferma a questo errore, come farebbe il controllo: che cosa farebbe da "
                        "qui in poi non è verificato"},
+     .causes = {{.cause = "tool-without-shape",
+                 .message = {.en = "what {who} would hit is not verified: its shape is not known",
+                             .it = "che cosa urterebbe {who} non è verificato: la sua forma non è nota"},
+                 .wrong = "[!M06 T101002!]\nG00 X100 Y100 Z50\nM02\n"},
+                {.cause = "tool-without-length",
+                 .message = {.en = "what {who} would hit is not verified: its length is not known",
+                             .it = "che cosa urterebbe {who} non è verificato: la sua lunghezza non è nota"},
+                 .wrong = "[!M06 T101003!]\nG00 X100 Y100 Z50\nM02\n"},
+                {.cause = "undecided",
+                 .message = {.en = "whether this motion hits anything could not be decided",
+                             .it = "non è stato possibile decidere se questo movimento urta qualcosa"},
+                 .wrong = "M06 T101001\n[!G00 X2000000!]\nM02\n"}},
      .explanation =
-         {.en = "The machine was asked (--verify), and could not follow the whole program: mistakes that only a run "
-                "shows, such as a joint outside its travel, may go unreported below this place. Correct the error on "
-                "this line and verify again.",
-          .it = "La macchina è stata interrogata (--verify) e non ha potuto seguire tutto il programma: gli errori che "
-                "si vedono solo eseguendolo, come un asse macchina fuori corsa, da qui in poi possono non essere "
-                "segnalati. Correggere l'errore su questa linea e verificare di nuovo."},
+         {.en = "The machine was asked (--verify), and could not follow or compare everything: mistakes that only a "
+                "run shows, such as a joint outside its travel or a clamp that is hit, may go unreported from this "
+                "place on. Correct the error on this line, or describe the tool in isocnc.json (length, shape and "
+                "radius), and verify again.",
+          .it = "La macchina è stata interrogata (--verify) e non ha potuto seguire o confrontare tutto: gli errori "
+                "che si vedono solo eseguendo il programma, come un asse macchina fuori corsa o un morsetto urtato, "
+                "da qui in poi possono non essere segnalati. Correggere l'errore su questa linea, oppure descrivere "
+                "l'utensile in isocnc.json (length, shape e radius), e verificare di nuovo."},
      .wrong = "M06 T101001\nG00 X100\n[!G01!] X50\nM02\n",
      .right = "M06 T101001\nG00 X100\nG01 X50 F1000\nM02\n"},
     {.code = "W190",

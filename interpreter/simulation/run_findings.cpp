@@ -107,17 +107,22 @@ void RunFindings::look_at_speeds(std::size_t line, const kinematics::Move& made)
            {std::round(speeds.rotary), limit_of(Limit::RotarySpeed, *machine_)});
 }
 
+syntax::Span motion_span(const syntax::LineTree& line) {
+  const syntax::Instruction* const motion = line.motion();
+  if (!motion && line.words.empty()) return {0, static_cast<std::uint32_t>(line.text.size())};
+  if (!motion) return syntax::hull(line.words.front().span(), line.words.back().span());
+  syntax::Span span = line.command(*motion).span();
+  for (std::size_t i = motion->begin; i < motion->end; ++i)
+    if (line.words[i].owner == motion->number) span = syntax::hull(span, line.words[i].span());
+  return span;
+}
+
 /// The part of its line that a finding is about: its S or F, or the words of its motion.
 static syntax::Span span_of(dialect::DiagnosticId id, const syntax::LineTree& line) {
   const auto at = [&](std::int32_t word) { return line.words[static_cast<std::size_t>(word)].span(); };
   if (id == "spindle-speed-above-machine"_diag && line.spindle >= 0) return at(line.spindle);
   if (id == "feed-above-machine"_diag && line.feed >= 0) return at(line.feed);
-  const syntax::Instruction* const motion = line.motion();
-  if (!motion) return {0, static_cast<std::uint32_t>(line.text.size())};
-  syntax::Span span = line.command(*motion).span();
-  for (std::size_t i = motion->begin; i < motion->end; ++i)
-    if (line.words[i].owner == motion->number) span = syntax::hull(span, line.words[i].span());
-  return span;
+  return motion_span(line);
 }
 
 /// The findings with their places, sorted, each once on its line.

@@ -81,6 +81,9 @@ class RunFindings {
   bool has_jumped_ = true;                                     ///< The next block starts a stretch.
 };
 
+/// The words of a line's motion; all words if it has none.
+syntax::Span motion_span(const syntax::LineTree& line);
+
 /// Runs a program on the machine, without its times, and returns what that shows. `options.before_block` is replaced.
 RunOutcome outcome_of_run(std::string_view text, running::RunOptions options, const TimedMachine& machine);
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "interpreter/kinematics/numbers.h"
+#include "interpreter/solids/tool_shapes.h"
 
 namespace isocnc::golden {
 
@@ -54,11 +55,59 @@ static ExpectedEffect read_effect(const std::string& text, std::size_t line) {
   return effect;
 }
 
+static solids::RevolvedBody body_of(solids::BodyOrProblem made) {
+  return std::get<solids::RevolvedBody>(std::move(made));
+}
+
+/// `fixture clamp-1 100 0 0 140 40 30` (two corners), `cutter T101001 radius 10 length 100`, `clearance 2`...
+static void read_scene(Part& part, const std::string& key, std::istringstream& words) {
+  using verification::BodyRole;
+  static const std::map<std::string, BodyRole> kRoles = {{"fixture", BodyRole::Fixture},
+                                                         {"spoilboard", BodyRole::Spoilboard},
+                                                         {"target", BodyRole::Target},
+                                                         {"machine", BodyRole::Machine}};
+  if (!part.scene) part.scene.emplace();
+  std::string name;
+  double value = 0;
+  if (const auto role = kRoles.find(key); role != kRoles.end()) {
+    verification::SceneBody body{.name = {}, .role = role->second, .shape = {}, .described = {}};
+    words >> body.name;
+    solids::Cuboid box;
+    for (geometry::Vec3* corner : {&box.minimum, &box.maximum})
+      for (double& coordinate : *corner) words >> coordinate;
+    if (!words) throw std::runtime_error("two corners are missing: " + body.name);
+    body.shape = box;
+    auto& bodies = body.role == BodyRole::Machine ? part.scene->machine : part.scene->setup;
+    bodies.push_back(std::move(body));
+  } else if (key == "cutter") {
+    std::map<std::string, double> sizes;
+    words >> name;
+    for (std::string size; words >> size >> value;) sizes[size] = value;
+    const execution::ToolCode code = execution::tool_code(std::stoi(name.substr(1)));
+    part.machine.tool_lengths[code] = sizes["length"];
+    verification::ToolBodies& tool = part.scene->tools[code];
+    tool.length = sizes["length"];
+    tool.cutter = body_of(solids::flat_body(sizes["radius"], sizes["length"]));
+  } else if (key == "nose") {
+    words >> value;
+    const solids::StackRow row{.height = 100, .lower_diameter = value, .upper_diameter = value};
+    part.scene->nose = body_of(solids::stacked_body({&row, 1}, 0));
+  } else if (key == "clearance") {
+    words >> part.scene->clearance;
+  } else if (key == "tolerance") {
+    words >> part.scene->target_tolerance;
+  } else {
+    throw std::runtime_error("unknown directive of the scene: " + key);
+  }
+}
+
 static void read_directive(Part& part, const std::string& what, const std::string& rest) {
   std::istringstream words(rest);
   std::string key;
   words >> key;
-  if (what == "run" && key == "vgpl") {
+  if (what == "scene") {
+    read_scene(part, key, words);
+  } else if (what == "run" && key == "vgpl") {
     words >> part.vgpl;
   } else if (what == "rules") {
     for (; !key.empty(); key.clear(), words >> key) part.selected.push_back(key + "=warning");
@@ -113,7 +162,7 @@ std::vector<Part> read_golden(const std::filesystem::path& file) {
   static const std::regex kMarker(
       R"(^; *(\^+) +([A-Z]+[0-9]+)(?:/([a-z-]+))?(?: +and +([0-9]+) +more, +to +([0-9]+))?(?: +via +([0-9, ]+))? *$)");
   static const std::regex kEffect(R"(^; *-> +(.*)$)");
-  static const std::regex kDirective(R"(^; (machine|run|rules): (.*)$)");
+  static const std::regex kDirective(R"(^; (machine|run|rules|scene): (.*)$)");
   std::ifstream input(file, std::ios::binary);
   std::vector<Part> parts(1);
   std::size_t lines = 0;

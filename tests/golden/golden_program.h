@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "interpreter/simulation/timing.h"
+#include "interpreter/verification/scene.h"
 
 namespace isocnc::golden {
 
@@ -42,11 +43,12 @@ struct Part {
   std::vector<ExpectedEffect> effects;
   execution::Setup setup;
   double vgpl = 0;
-  std::vector<std::string> selected;  ///< Rules that are off by default, as `W124=warning`.
-  simulation::TimedMachine machine;   ///< The machine for the findings of a run.
-  bool is_about_rules = false;        ///< In tests/programs/rules and runs: lint findings are marked, too.
-  bool is_run = false;                ///< In tests/programs/runs: findings of a run are marked, too.
-  bool is_folded = false;             ///< In D66.iso and runs: lines that repeat a finding are not marked.
+  std::vector<std::string> selected;         ///< Rules that are off by default, as `W124=warning`.
+  simulation::TimedMachine machine;          ///< The machine for the findings of a run.
+  std::optional<verification::Scene> scene;  ///< What surrounds the program, if any.
+  bool is_about_rules = false;               ///< In tests/programs/rules and runs: lint findings are marked, too.
+  bool is_run = false;                       ///< In tests/programs/runs: findings of a run are marked, too.
+  bool is_folded = false;                    ///< In D66.iso and runs: lines that repeat a finding are not marked.
 };
 
 std::vector<Part> read_golden(const std::filesystem::path& file);

@@ -14,6 +14,7 @@
 #include "golden_program.h"
 #include "interpreter/running/runner.h"
 #include "interpreter/syntax/line_finder.h"
+#include "interpreter/verification/verified_run.h"
 #include "tests/support/report_text.h"
 
 namespace isocnc::golden {
@@ -38,8 +39,10 @@ check::Report reported_in(const Part& part) {
   rules::CheckSetup setup{.machine = part.setup};
   setup.every_motion = !part.selected.empty();
   if (part.is_run) {
-    const auto run = simulation::outcome_of_run(part.program, {.setup = part.setup, .vgpl = part.vgpl}, part.machine);
-    return selection::shown_report_with_run(check::check_text(part.program, setup), run, part.program, selection);
+    const verification::VerifiedRun run = verification::verified_run(
+        part.program, {.setup = part.setup, .vgpl = part.vgpl}, part.machine, part.scene ? &*part.scene : nullptr);
+    return selection::shown_report_with_run(check::check_text(part.program, setup), run.outcome, part.program,
+                                            selection);
   }
   check::Report report = selection::with_style(check::check_text(part.program, setup), part.program, selection);
   report = selection.shown(selection::suppress(std::move(report), part.program, selection));

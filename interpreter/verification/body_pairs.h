@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "interpreter/dialect/given_name.h"
+#include "interpreter/verification/motion_bounds.h"
+#include "interpreter/verification/scene.h"
+
+namespace isocnc::verification {
+
+/// What a moving body is.
+enum class PartKind : std::uint8_t { Cutter, Shank, Holder, Nose, MachineBody };
+
+/// A body that motions move: a part of the tool, the nose, or a body of the machine on the spindle's side.
+struct MovingPart {
+  PartKind kind = PartKind::Cutter;
+  const solids::RevolvedBody* revolved = nullptr;  ///< Of the tool and the nose; about the tool's axis.
+  double offset = 0;                               ///< Height of the revolved body's z = 0 above the tip, mm.
+  const SceneBody* body = nullptr;                 ///< Of the machine.
+  dialect::GivenName name;
+};
+
+/// A body that parts may hit.
+struct Obstacle {
+  const SceneBody* body = nullptr;
+  BodyShape shape;  ///< In its own frame, which is that of its link after `shift`.
+  Link on = Link::Machine;
+  geometry::Vec3 shift = geometry::Vec3::Zero();  ///< From the link's frame to the shape's frame, mm.
+  double slack = 0;  ///< By how much the body is above the shape, mm; counted to the depth of a contact.
+  dialect::GivenName name;
+};
+
+/// A part and an obstacle that motions bring together, with what bounds their speed.
+struct BodyPair {
+  /// A distance that no bound is made of.
+  static constexpr double kNever = 1e30;
+
+  std::size_t part = 0;
+  std::size_t obstacle = 0;
+  const solids::RevolvedBody* revolved = nullptr;  ///< The part's, or what counts of it; null for a machine's body.
+  double limit = 0;            ///< What comes nearer is looked at, mm: at least the contact distance.
+  bool reports_near = false;   ///< Whether coming nearer than `limit` without a contact is told (W154).
+  double reach_tip = kNever;   ///< Largest distance of the part's points from the tip, mm.
+  double reach_axes = kNever;  ///< ... from the rotary axes of the head, mm.
+  bool swings = false;         ///< Whether the distance from the nose to the table's axes counts as well.
+
+  /// An upper bound of the speed of any point of the part relative to the obstacle, mm per unit of the path parameter.
+  double speed(const MotionBounds& bounds) const {
+    const double by_tip = bounds.tip + bounds.turn * reach_tip;
+    const double by_joints = bounds.joints + bounds.turn * (reach_axes + (swings ? bounds.swing : 0));
+    return by_tip < by_joints ? by_tip : by_joints;
+  }
+};
+
+/// The parts, obstacles and pairs of a scene while a tool is mounted.
+struct BodyPairs {
+  std::vector<MovingPart> parts;
+  std::vector<Obstacle> obstacles;
+  std::vector<BodyPair> pairs;
+  std::deque<solids::RevolvedBody> reduced;  ///< Cutters without the depth to which they may go into the target.
+  double tool_length = 0;                    ///< mm
+};
+
+/// What is nearer than this is a contact, mm; twice what is certainly found.
+inline constexpr double kContactDistance = 0.02;
+
+/// A tool that is mounted, or the empty spindle.
+struct MountedTool {
+  const ToolBodies* bodies = nullptr;  ///< Null if nothing is known of it.
+  std::string name;                    ///< `T101001`; empty for none.
+  double length = 0;                   ///< mm
+};
+
+/// `origin` is that of the setup's frame, in the machine frame. The result refers to the scene.
+BodyPairs pairs_of(const Scene& scene, const kinematics::Kinematics& kinematics, const MountedTool& tool,
+                   const geometry::Vec3& origin);
+
+}  // namespace isocnc::verification

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/dialect/given_name.h"
+#include "interpreter/execution/setup.h"
+#include "interpreter/geometry/frame.h"
+#include "interpreter/verification/scene.h"
+
+namespace isocnc::verification {
+
+/// A moving body that hits an obstacle, from the first touch to the last, or passes too near.
+struct Contact {
+  dialect::DiagnosticId id = dialect::kNoDiagnostic;  ///< E152, E153, E155, or W154 for a near miss.
+  std::size_t line = 0;      ///< Of the first touch; of a near miss, of the nearest place; from 0.
+  std::size_t end_line = 0;  ///< Of the last touch.
+  double time = 0;           ///< Of the first touch, or of the nearest place; seconds since the start of the run.
+  double end_time = 0;       ///< Of the last touch, seconds.
+  execution::ToolCode tool;  ///< All 0: none is mounted.
+  dialect::GivenName who;    ///< The moving body.
+  dialect::GivenName whom;   ///< The obstacle.
+  double distance = 0;       ///< Smallest distance, mm; negative: the largest depth.
+  geometry::Vec3 point = geometry::Vec3::Zero();  ///< Of the obstacle, at that place; mm, machine frame, joints at 0.
+  geometry::Frame frame;                          ///< In force at that place; in the machine frame.
+  std::int32_t mistake = -1;                      ///< Equal for contacts of the same tool with the same obstacle.
+  BodyDescription described;                      ///< Where the obstacle is described.
+
+  bool is_near_miss() const;
+};
+
+/// Why something could not be verified.
+enum class Gap : std::uint8_t {
+  ToolWithoutShape,   ///< The mounted tool has no shape: only the nose and the machine have been compared.
+  ToolWithoutLength,  ///< Its length is not known, so that nothing of it is at its place.
+  Undecided,          ///< A motion for which neither a contact nor its absence could be proven.
+};
+
+/// Something that could not be verified, with the line where it begins.
+struct Unverified {
+  Gap gap = Gap::Undecided;
+  std::size_t line = 0;     ///< From 0.
+  dialect::GivenName tool;  ///< None for Undecided.
+};
+
+/// What has been proven, and what not.
+struct Certificate {
+  std::size_t motions = 0;   ///< Motions of the machine that were examined.
+  std::size_t contacts = 0;  ///< Near misses do not count.
+  double epsilon = 0;        ///< Nothing nearer than this is unseen, mm.
+  std::string scene;         ///< The file that describes the setup, as shown to users.
+  std::vector<Unverified> gaps;
+  std::size_t more_contacts = 0;          ///< Contacts beyond those that are kept.
+  std::optional<std::size_t> stopped_at;  ///< The line at which an error stopped the run; from 0.
+};
+
+}  // namespace isocnc::verification

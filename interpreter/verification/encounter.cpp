@@ -1,0 +1,357 @@
+#include "interpreter/verification/encounter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "interpreter/geometry/frame.h"
+#include "interpreter/solids/advance.h"
+#include "interpreter/solids/clearance.h"
+
+// The distance of a pair falls by at most what its points travel. So each pair has a limit of travel up to which it
+// needs no look: most stretches cost one comparison for all pairs.
+
+namespace isocnc::verification {
+
+using Eigen::Isometry3d;
+using geometry::Vec3;
+using solids::AxisPlacement;
+using solids::Clearance;
+
+namespace {
+
+constexpr double kNearTolerance = 0.1;  ///< Of the smallest distance of a near miss, mm.
+
+/// A stretch, and where the machine is on it.
+class StretchPlaces {
+ public:
+  StretchPlaces(const motion::Stretch& stretch, const kinematics::Kinematics& kinematics)
+      : stretch_(stretch),
+        kinematics_(kinematics),
+        begin_(stretch.phases[0].from),
+        end_(stretch.parameter_at(stretch.start + stretch.duration)),
+        bounds_(motion_bounds(kinematics, stretch.path, begin_, end_)) {}
+
+  double begin() const { return begin_; }
+  double end() const { return end_; }
+  double length() const { return end_ - begin_; }
+  const MotionBounds& bounds() const { return bounds_; }
+  double time_at(double s) const {
+    if (s <= begin_) return stretch_.start;
+    return s >= end_ ? stretch_.start + stretch_.duration : stretch_.time_at(s);
+  }
+  /// Whether bodies of the tool only shift along a straight line, relative to the machine and to the workpiece.
+  bool is_straight_shift() const {
+    const kinematics::Path& path = stretch_.path;
+    return bounds_.turn == 0 && path.kind == kinematics::PathKind::Polynomial && path.c[2].head<3>().isZero(0) &&
+           path.c[3].head<3>().isZero(0);
+  }
+
+  /// Whether bodies of the tool shift in an obstacle's frame as the coordinates of the path do.
+  bool shifts_along_path(const Obstacle& obstacle) const {
+    if (bounds_.turn != 0) return false;
+    if (kinematics_.kind != kinematics::MachineKind::Table) return obstacle.on == Link::Machine;
+    return obstacle.on == (stretch_.path.is_of_joints ? Link::Machine : Link::C);
+  }
+  bool is_shift(const Obstacle& obstacle) const { return is_straight_shift() || shifts_along_path(obstacle); }
+  const kinematics::Path& path() const { return stretch_.path; }
+
+  /// Whether proven bounds hold where the stretch leads.
+  bool is_in_reach() {
+    const auto is_near = [&](double s) { return tip_at(s).head<3>().cwiseAbs().maxCoeff() <= solids::kMaxCoordinate; };
+    return is_near(end_) && is_near(begin_);
+  }
+
+  /// Where a body of the tool is at `s`, in the frame of an obstacle.
+  AxisPlacement tool_at(double s, double offset, const Obstacle& obstacle) {
+    const kinematics::Coordinates& tip = tip_at(s);
+    const bool turns = kinematics_.kind != kinematics::MachineKind::ThreeAxis;
+    if (obstacle.on == kinematics::workpiece_link(kinematics_)) {
+      const Vec3 axis =
+          turns ? Vec3(geometry::axes_from_angles(tip[kinematics::kB], tip[kinematics::kC]).col(2)) : Vec3(0, 0, 1);
+      return {tip.head<3>() + offset * axis - obstacle.shift, axis};
+    }
+    const kinematics::Coordinates joints = joints_at(s);
+    const Isometry3d spindle = link_pose(kinematics_, spindle_link(kinematics_), joints);
+    const Isometry3d place = link_pose(kinematics_, obstacle.on, joints).inverse() * spindle;
+    const Vec3 axis = place.linear().col(2);
+    return {place * Vec3(0, 0, offset - stretch_.path.tool_length) - obstacle.shift, axis};
+  }
+
+ private:
+  const kinematics::Coordinates& tip_at(double s) {
+    if (s != tip_s_) {
+      tip_ = stretch_.path.tip_at(kinematics_, s).value;
+      tip_s_ = s;
+    }
+    return tip_;
+  }
+  kinematics::Coordinates joints_at(double s) const { return stretch_.path.joints_at(kinematics_, s).value; }
+
+  const motion::Stretch& stretch_;
+  const kinematics::Kinematics& kinematics_;
+  double begin_;
+  double end_;
+  MotionBounds bounds_;
+  double tip_s_ = std::numeric_limits<double>::quiet_NaN();
+  kinematics::Coordinates tip_ = kinematics::Coordinates::Zero();
+};
+
+Clearance distance_to(const BodyShape& shape, const solids::RevolvedBody& body, const AxisPlacement& at,
+                      double sufficient) {
+  if (const auto* const box = std::get_if<solids::Cuboid>(&shape)) return clearance(body, at, *box, sufficient);
+  if (const auto* const cylinder = std::get_if<solids::Cylinder>(&shape))
+    return clearance(body, at, *cylinder, sufficient);
+  return clearance(body, at, *std::get<std::shared_ptr<const solids::Mesh>>(shape), sufficient);
+}
+
+/// The smallest value of n . p over a convex shape; minus infinity for a mesh.
+double lowest(const BodyShape& shape, const Vec3& n) {
+  if (const auto* const box = std::get_if<solids::Cuboid>(&shape)) return box->lowest(n);
+  if (const auto* const cylinder = std::get_if<solids::Cylinder>(&shape)) return cylinder->solid().lowest(n);
+  return -std::numeric_limits<double>::infinity();
+}
+
+double highest(const solids::RevolvedBody& body, const AxisPlacement& at, const Vec3& n) {
+  double result = -std::numeric_limits<double>::infinity();
+  for (const solids::BodyPiece& piece : body.pieces())
+    result = std::max(result, solids::PlacedFrustum(piece.core, at).highest(n) + piece.rounding);
+  return result;
+}
+
+/// A plane before an obstacle: n . p is at least `low` for all of its points.
+struct Plane {
+  Vec3 n;
+  double low = 0;
+};
+
+/// A pair in the course of the stretches.
+struct PairCourse {
+  const BodyPair* pair = nullptr;
+  std::size_t index = 0;
+  /// The travel of its group up to which it is proven to stay beyond its limit.
+  double free_until = -std::numeric_limits<double>::infinity();
+  std::optional<Plane> plane;  ///< That has been between both last.
+};
+
+/// Pairs whose speeds have the same kind of bound.
+struct PairGroup {
+  BodyPair widest;                                         ///< Its speed bounds that of all.
+  double travel = 0;                                       ///< Sum of that speed along the stretches so far, mm.
+  double next = -std::numeric_limits<double>::infinity();  ///< Smallest `free_until`.
+  std::vector<PairCourse> pairs;
+
+  void forget() {
+    next = -std::numeric_limits<double>::infinity();
+    for (PairCourse& course : pairs) course.free_until = next;
+  }
+  bool takes(const BodyPair& pair) const {
+    return (widest.reach_tip < BodyPair::kNever) == (pair.reach_tip < BodyPair::kNever) &&
+           (widest.reach_axes > 0) == (pair.reach_axes > 0) && widest.swings == pair.swings;
+  }
+};
+
+class Examination {
+ public:
+  Examination(const BodyPairs& bodies, const kinematics::Kinematics& kinematics)
+      : bodies_(bodies), kinematics_(kinematics) {
+    for (std::size_t i = 0; i < bodies.pairs.size(); ++i) {
+      const BodyPair& pair = bodies.pairs[i];
+      const auto known =
+          std::find_if(groups_.begin(), groups_.end(), [&](const PairGroup& group) { return group.takes(pair); });
+      PairGroup& group = known == groups_.end() ? groups_.emplace_back() : *known;
+      if (group.pairs.empty()) group.widest = pair;
+      group.widest.reach_tip = std::max(group.widest.reach_tip, pair.reach_tip);
+      group.widest.reach_axes = std::max(group.widest.reach_axes, pair.reach_axes);
+      group.pairs.push_back({.pair = &pair, .index = i});
+    }
+  }
+
+  void take(const motion::Stretch& stretch, std::size_t index) {
+    StretchPlaces places(stretch, kinematics_);
+    index_ = index;
+    if (!places.is_in_reach()) {
+      undecided();
+      for (PairGroup& group : groups_) group.forget();
+      return;
+    }
+    for (PairGroup& group : groups_) {
+      const double before = group.travel;
+      group.travel += group.widest.speed(places.bounds()) * places.length();
+      if (group.travel <= group.next) continue;
+      group.next = std::numeric_limits<double>::infinity();
+      for (PairCourse& course : group.pairs) {
+        // A bound that is not a number never lets a pair pass.
+        if (!(group.travel <= course.free_until)) look_at(places, course, before, group.travel);
+        group.next = std::min(group.next, course.free_until);
+      }
+    }
+    std::sort(result_.encounters.begin() + static_cast<std::ptrdiff_t>(sorted_), result_.encounters.end(),
+              [](const Encounter& a, const Encounter& b) { return a.pair < b.pair; });
+    sorted_ = result_.encounters.size();
+  }
+
+  Examined result() { return std::move(result_); }
+
+ private:
+  void look_at(StretchPlaces& places, PairCourse& course, double before, double after) {
+    const BodyPair& pair = *course.pair;
+    const double rate = pair.speed(places.bounds());
+    const double travel = rate * places.length();
+    const auto distance = [&](double s, double sufficient) { return distance_of(places, pair, s, sufficient); };
+    const bool shifts = places.is_shift(bodies_.obstacles[pair.obstacle]);
+    const auto is_beyond_plane = [&] {
+      if (!course.plane) return false;
+      const PlaneGap gap = plane_gap(places, pair, *course.plane);
+      if (!(gap.smallest >= pair.limit)) return false;
+      course.free_until = after + gap.at_end - pair.limit;
+      return true;
+    };
+    if (shifts && is_beyond_plane()) return;
+    constexpr double kAhead = 8;  // Stretches that one look shall do for.
+    const Clearance begin = distance(places.begin(), pair.limit + kAhead * travel);
+    if (begin.lower >= pair.limit + travel) {
+      course.free_until = before + begin.lower - pair.limit;
+      return;
+    }
+    if (shifts) {
+      course.plane = plane_between(pair, begin);
+      if (is_beyond_plane()) return;
+    }
+    search(places, course, rate);
+    const Clearance end = distance(places.end(), pair.limit + kAhead * travel);
+    course.free_until = after + std::max(0.0, end.lower - pair.limit);
+  }
+
+  Clearance distance_of(StretchPlaces& places, const BodyPair& pair, double s, double sufficient) const {
+    const Obstacle& obstacle = bodies_.obstacles[pair.obstacle];
+    const MovingPart& part = bodies_.parts[pair.part];
+    return distance_to(obstacle.shape, *pair.revolved, places.tool_at(s, part.offset, obstacle), sufficient);
+  }
+
+  /// The gap between both bodies along one direction, which bounds their distance wherever it is not negative.
+  struct PlaneGap {
+    double at_end = 0;
+    double smallest = 0;
+  };
+
+  /// The plane through the nearest point of a convex obstacle, across the shortest way between both bodies.
+  std::optional<Plane> plane_between(const BodyPair& pair, const Clearance& nearest) const {
+    if (!pair.revolved || !(nearest.upper > 0 && std::isfinite(nearest.upper))) return {};
+    const Vec3 between = nearest.on_obstacle - nearest.on_body;
+    const double length = between.norm();
+    if (!(length > 0)) return {};
+    const Vec3 n = between / length;
+    const double low = lowest(bodies_.obstacles[pair.obstacle].shape, n);
+    return std::isfinite(low) ? std::optional(Plane{n, low}) : std::nullopt;
+  }
+
+  /// On a straight shift, the gap changes linearly; on another one as the path does.
+  PlaneGap plane_gap(StretchPlaces& places, const BodyPair& pair, const Plane& plane) const {
+    const Obstacle& obstacle = bodies_.obstacles[pair.obstacle];
+    const double offset = bodies_.parts[pair.part].offset;
+    const auto gap = [&](double s) {
+      return plane.low - highest(*pair.revolved, places.tool_at(s, offset, obstacle), plane.n) - solids::kRounding;
+    };
+    if (places.is_straight_shift()) {
+      const double at_end = gap(places.end());
+      return {at_end, std::min(gap(places.begin()), at_end)};
+    }
+    const kinematics::Path& path = places.path();
+    const auto along = [&](double s) { return plane.n.dot(path.at(s).value.head<3>()); };
+    const double start = along(places.begin());
+    const double at_begin = gap(places.begin());
+    return {at_begin - (along(places.end()) - start),
+            at_begin - (highest_along(path, plane.n, places.begin(), places.end()) - start)};
+  }
+
+  /// Looks for contacts and for the smallest distance.
+  void search(StretchPlaces& places, const PairCourse& course, double rate) {
+    const BodyPair& pair = *course.pair;
+    const auto distance = [&](double s, double sufficient) { return distance_of(places, pair, s, sufficient); };
+    const auto speed = [rate](double) { return rate; };
+    const solids::AdvanceOptions options{
+        .contact = kContactDistance, .clearance = pair.reports_near ? pair.limit : 0, .tolerance = kNearTolerance};
+    Encounter encounter{.stretch = index_, .pair = course.index, .distance = std::numeric_limits<double>::infinity()};
+    double from = places.begin();
+    for (;;) {
+      const solids::AdvanceResult found = solids::first_contact(from, places.end(), distance, speed, options);
+      if (found.verdict == solids::AdvanceResult::Verdict::Contact) {
+        const solids::ContactSpan span = follow(places, pair, found.s, distance, speed, rate);
+        touch(places, pair, span, encounter);
+        if (!span.is_over || !(span.free > from)) break;
+        from = span.free;
+        continue;
+      }
+      if (found.verdict == solids::AdvanceResult::Verdict::Undecided) undecided();
+      if (pair.reports_near && found.nearest < pair.limit && found.nearest < encounter.distance)
+        come_near(places, pair, found, encounter);
+      break;
+    }
+    if (encounter.distance < std::numeric_limits<double>::infinity()) result_.encounters.push_back(encounter);
+  }
+
+  /// A contact that is deeper than the rest of the stretch is long does not end on it.
+  template <class Distance, class Speed>
+  solids::ContactSpan follow(const StretchPlaces& places, const BodyPair& pair, double first, Distance& distance,
+                             Speed& speed, double rate) const {
+    constexpr double kResolution = 0.1;  // mm
+    const Clearance begin = distance(first, solids::kExact);
+    const double rest = rate * (places.end() - first);
+    if (pair.revolved && begin.depth() > rest) {
+      const Clearance end = distance(places.end(), solids::kExact);
+      const bool is_deeper = end.upper < begin.upper;
+      return {.first = first,
+              .last = places.end(),
+              .deepest_s = is_deeper ? places.end() : first,
+              .deepest = is_deeper ? end : begin};
+    }
+    return solids::follow_contact(first, places.end(), distance, speed, kContactDistance, kResolution);
+  }
+
+  void touch(const StretchPlaces& places, const BodyPair& pair, const solids::ContactSpan& span,
+             Encounter& encounter) const {
+    if (!encounter.is_contact) encounter.first_touch = places.time_at(span.first);
+    encounter.is_contact = true;
+    encounter.last_touch = places.time_at(span.last);
+    take_nearest(places, pair, span.deepest_s, span.deepest, encounter);
+  }
+
+  void come_near(const StretchPlaces& places, const BodyPair& pair, const solids::AdvanceResult& found,
+                 Encounter& encounter) const {
+    take_nearest(places, pair, found.nearest_s, found.clearance, encounter);
+  }
+
+  void take_nearest(const StretchPlaces& places, const BodyPair& pair, double s, const Clearance& clearance,
+                    Encounter& encounter) const {
+    const Obstacle& obstacle = bodies_.obstacles[pair.obstacle];
+    const double nearest = clearance.upper - obstacle.slack;
+    if (!(nearest < encounter.distance)) return;
+    encounter.distance = nearest;
+    encounter.nearest_time = places.time_at(s);
+    encounter.point = clearance.on_obstacle + obstacle.shift;
+  }
+
+  void undecided() {
+    if (result_.undecided.empty() || result_.undecided.back() != index_) result_.undecided.push_back(index_);
+  }
+
+  const BodyPairs& bodies_;
+  const kinematics::Kinematics& kinematics_;
+  std::vector<PairGroup> groups_;
+  Examined result_;
+  std::size_t index_ = 0;
+  std::size_t sorted_ = 0;
+};
+
+}  // namespace
+
+Examined examine(std::span<const motion::Stretch> stretches, const BodyPairs& bodies,
+                 const kinematics::Kinematics& kinematics) {
+  Examination examination(bodies, kinematics);
+  for (std::size_t i = 0; i < stretches.size(); ++i) examination.take(stretches[i], i);
+  return examination.result();
+}
+
+}  // namespace isocnc::verification

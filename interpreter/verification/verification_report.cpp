@@ -1,0 +1,92 @@
+#include "interpreter/verification/verification_report.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "interpreter/dialect/format.h"
+#include "interpreter/running/runner.h"
+#include "interpreter/running/vector_json.h"
+#include "interpreter/verification/verified_run.h"
+
+namespace isocnc::verification {
+
+using dialect::Language;
+using dialect::Text;
+using OrderedJson = nlohmann::ordered_json;
+
+/// A number of things, its digits in groups of three.
+static std::string grouped(std::size_t count, Language language) {
+  std::string digits = fmt::format("{}", count);
+  for (std::size_t at = digits.size(); at > 3; at -= 3)
+    digits.insert(at - 3, language == Language::English ? "," : ".");
+  return digits;
+}
+
+static std::string counted(std::size_t count, const Text& one, const Text& several, Language language) {
+  return fmt::format("{} {}", grouped(count, language), (count == 1 ? one : several).in(language));
+}
+
+static std::vector<std::string> not_verified(const Certificate& certificate, Language language) {
+  std::vector<std::string> gaps;
+  for (const Unverified& each : certificate.gaps) {
+    const Text text = each.gap == Gap::ToolWithoutShape ? Text{"{} has no shape", "{} non ha forma"}
+                      : each.gap == Gap::ToolWithoutLength
+                          ? Text{"{} has no length", "{} non ha lunghezza"}
+                          : Text{"motions that could not be decided, from line {} on",
+                                 "movimenti su cui non si è potuto decidere, dalla linea {}"};
+    gaps.push_back(each.gap == Gap::Undecided ? dialect::format(text, language, each.line + 1)
+                                              : dialect::format(text, language, each.tool.in(language)));
+  }
+  if (certificate.stopped_at)
+    gaps.push_back(dialect::format(Text{"what follows the error on line {}", "ciò che segue l'errore alla linea {}"},
+                                   language, *certificate.stopped_at + 1));
+  return gaps;
+}
+
+std::string in_words(const Certificate& certificate, Language language) {
+  std::string line = dialect::format(
+      Text{"verified: {}, {}; nothing nearer than {} mm unseen in the setup of {}",
+           "verificato: {}, {}; nulla di più vicino di {} mm sfugge nell'attrezzaggio di {}"},
+      language, counted(certificate.motions, {"motion", "movimento"}, {"motions", "movimenti"}, language),
+      counted(certificate.contacts, {"contact", "contatto"}, {"contacts", "contatti"}, language), certificate.epsilon,
+      certificate.scene);
+  const std::vector<std::string> gaps = not_verified(certificate, language);
+  if (gaps.empty()) return line;
+  return line + dialect::format(Text{"; not verified: {}", "; non verificato: {}"}, language, fmt::join(gaps, ", "));
+}
+
+std::string in_words(const Contact& contact, Language language) {
+  return syntax::message(finding_of(contact), {}, language);
+}
+
+OrderedJson to_json(const std::vector<Contact>& contacts, const Certificate& certificate, Language language) {
+  OrderedJson json = {{"motions", certificate.motions}, {"contacts", OrderedJson::array()}};
+  OrderedJson near_misses = OrderedJson::array();
+  for (const Contact& contact : contacts) {
+    OrderedJson each = {{"code", dialect::definition(contact.id).code},
+                        {"line", contact.line + 1},
+                        {"endLine", contact.end_line + 1},
+                        {"time", contact.time},
+                        {"endTime", contact.end_time},
+                        {"tool", nullptr},
+                        {"body", contact.who.in(language)},
+                        {"obstacle", contact.whom.in(language)},
+                        {"point", running::array(contact.point)}};
+    if (contact.tool != execution::ToolCode()) each["tool"] = running::tool_name(contact.tool);
+    if (contact.is_near_miss()) {
+      each["distance"] = contact.distance;
+      near_misses.push_back(std::move(each));
+    } else {
+      each["depth"] = std::max(0.0, -contact.distance);
+      json["contacts"].push_back(std::move(each));
+    }
+  }
+  json["nearMisses"] = std::move(near_misses);
+  json["certificate"] = {{"hardEpsilon", certificate.epsilon},
+                         {"setup", certificate.scene},
+                         {"notVerified", not_verified(certificate, language)}};
+  return json;
+}
+
+}  // namespace isocnc::verification

@@ -1,0 +1,100 @@
+#include "interpreter/verification/verified_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "interpreter/simulation/compensation.h"
+#include "interpreter/syntax/line_finder.h"
+#include "interpreter/syntax/tree_store.h"
+
+namespace isocnc::verification {
+
+using namespace dialect::literals;
+using simulation::RunFinding;
+
+/// A value as a message shows it.
+static double rounded(double value, double unit) { return std::round(value / unit) * unit; }
+
+syntax::Finding finding_of(const Contact& contact) {
+  constexpr double kSmallestDepth = 0.01;
+  const geometry::Vec3 point = contact.frame.to_inner(contact.point);
+  const double amount = std::max(kSmallestDepth, rounded(std::abs(contact.distance), 0.01));
+  return {.id = contact.id,
+          .values = {amount, rounded(point.x(), 0.01), rounded(point.y(), 0.01), rounded(point.z(), 0.01),
+                     rounded(contact.time, 0.1)},
+          .names = {contact.who, contact.whom}};
+}
+
+static syntax::Finding finding_of(const Unverified& gap) {
+  const dialect::Cause cause = gap.gap == Gap::ToolWithoutShape    ? "not-verified/tool-without-shape"_cause
+                               : gap.gap == Gap::ToolWithoutLength ? "not-verified/tool-without-length"_cause
+                                                                   : "not-verified/undecided"_cause;
+  return {.id = cause.id, .cause = cause.number, .names = {gap.tool}};
+}
+
+/// Adds what a scene has shown to the findings of a run, in their order.
+static void add_findings(simulation::RunOutcome& outcome, const std::vector<Contact>& contacts,
+                         const Certificate& certificate, std::string_view text) {
+  std::vector<RunFinding> found;
+  std::int32_t mistakes = 0;
+  for (const RunFinding& each : outcome.findings) mistakes = std::max(mistakes, each.mistake + 1);
+  for (const Contact& contact : contacts)
+    found.push_back({.line = contact.line, .finding = finding_of(contact), .mistake = mistakes + contact.mistake});
+  for (const Unverified& gap : certificate.gaps) found.push_back({.line = gap.line, .finding = finding_of(gap)});
+  const auto by_line = [](const RunFinding& a, const RunFinding& b) { return a.line < b.line; };
+  std::stable_sort(found.begin(), found.end(), by_line);
+  syntax::LineFinder lines(text);
+  for (RunFinding& each : found)
+    each.finding.span = simulation::motion_span(syntax::ParsedLine(lines.line(each.line)).tree());
+  outcome.findings.insert(outcome.findings.end(), found.begin(), found.end());
+  const auto place = [](const RunFinding& each) {
+    return std::tuple(each.line, each.finding.span.begin, each.finding.id, each.mistake);
+  };
+  std::stable_sort(outcome.findings.begin(), outcome.findings.end(),
+                   [&](const RunFinding& a, const RunFinding& b) { return place(a) < place(b); });
+  // Each once on its line.
+  const auto is_same = [&](const RunFinding& a, const RunFinding& b) { return a.mistake >= 0 && place(a) == place(b); };
+  outcome.findings.erase(std::unique(outcome.findings.begin(), outcome.findings.end(), is_same),
+                         outcome.findings.end());
+}
+
+VerifiedRun verified_outcome(simulation::RunOutcome outcome, Verifier& verifier, std::string_view text,
+                             const running::RunResult& result) {
+  verifier.finish();
+  VerifiedRun verified{
+      .outcome = std::move(outcome), .contacts = verifier.contacts(), .certificate = verifier.certificate()};
+  if (result.ending == running::Ending::Error) verified.certificate->stopped_at = result.line;
+  add_findings(verified.outcome, verified.contacts, *verified.certificate, text);
+  return verified;
+}
+
+VerifiedRun verified_run(std::string_view text, running::RunOptions options, const simulation::TimedMachine& machine,
+                         const Scene* scene, WorkTogether work_together) {
+  if (!scene) return {.outcome = simulation::outcome_of_run(text, std::move(options), machine)};
+  simulation::RunFindings findings(machine);
+  Verifier verifier(*scene, machine, first_workpiece_origin(text, options), std::move(work_together));
+  simulation::Timing timing(machine,
+                            {.event =
+                                 [&](const simulation::TimedEvent& timed) {
+                                   if (timed.move) findings.take(timed.event.line, *timed.move);
+                                   verifier.take(timed);
+                                 },
+                             .stretch = [&](const motion::Stretch& stretch,
+                                            const simulation::TimedEvent& timed) { verifier.take(stretch, timed); }});
+  simulation::Compensation compensation(machine);
+  const simulation::Compensation::Listeners compensated{
+      .event = [&](const running::Event& event) { timing.take(event); },
+      .warning = [&](const simulation::RunWarning& warning) { findings.take(warning); }};
+  options.before_block = [&](const running::Block& block) { findings.take(block); };
+  const running::RunResult result = run(text, options, [&](const running::Event& event) {
+    findings.take(event);
+    compensation.take(event, compensated);
+  });
+  compensation.finish(compensated);
+  timing.finish();
+  return verified_outcome(findings.outcome(text, result), verifier, text, result);
+}
+
+}  // namespace isocnc::verification

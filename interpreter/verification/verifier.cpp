@@ -1,0 +1,132 @@
+#include "interpreter/verification/verifier.h"
+
+#include <atomic>
+#include <utility>
+
+#include "interpreter/running/runner.h"
+
+namespace isocnc::verification {
+
+using geometry::Vec3;
+
+/// Stretches that are examined one after another, by one thread. Each part starts without knowledge of distances, so
+/// that the result is the same however many threads there are.
+static constexpr std::size_t kPart = 1024;
+/// Stretches that wait at most.
+static constexpr std::size_t kBatch = 16 * kPart;
+
+Verifier::Verifier(const Scene& scene, const simulation::TimedMachine& machine, const Vec3& origin,
+                   WorkTogether work_together)
+    : scene_(scene),
+      machine_(machine),
+      origin_(origin),
+      work_together_(std::move(work_together)),
+      bodies_(pairs_of(scene, machine.motion.kinematics, {}, origin)) {
+  certificate_.epsilon = kContactDistance / 2;
+  certificate_.scene = scene.name;
+}
+
+void Verifier::take(const motion::Stretch& stretch, const simulation::TimedEvent& event) {
+  if (stretch.ends_move) ++certificate_.motions;
+  stretches_.push_back(stretch);
+  waiting_.push_back({.line = event.event.line, .frame = frames_.size() - 1});
+  if (stretches_.size() == kBatch) examine_waiting();
+}
+
+void Verifier::take(const simulation::TimedEvent& event) {
+  if (const auto* const frame = std::get_if<running::FrameEvent>(&event.event.what)) {
+    const geometry::Frame face = frame->face_mounted ? frame->face : geometry::Frame();
+    frames_.push_back({.origin = frame->workpiece_origin + face.origin, .axes = face.axes});
+  }
+  if (const auto* const tool = std::get_if<running::ToolEvent>(&event.event.what)) mount(tool->tool, event.event.line);
+}
+
+void Verifier::mount(const execution::ToolCode& tool, std::size_t line) {
+  examine_waiting();
+  log_.close_all();
+  tool_ = tool;
+  const auto known = scene_.tools.find(tool);
+  const MountedTool mounted{.bodies = known == scene_.tools.end() ? nullptr : &known->second,
+                            .name = running::tool_name(tool),
+                            .length = machine_.tool_length(tool)};
+  bodies_ = pairs_of(scene_, machine_.motion.kinematics, mounted, origin_);
+  const bool has_length = mounted.length > 0;
+  const bool has_shape = mounted.bodies && mounted.bodies->cutter;
+  if ((has_length && has_shape) || !known_gaps_.insert(tool).second) return;
+  certificate_.gaps.push_back({.gap = has_length ? Gap::ToolWithoutShape : Gap::ToolWithoutLength,
+                               .line = line,
+                               .tool = dialect::GivenName::of({mounted.name, mounted.name})});
+}
+
+void Verifier::examine_waiting() {
+  std::vector<Examined> parts((stretches_.size() + kPart - 1) / kPart);
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < parts.size(); i = next++) {
+      const std::span all(stretches_);
+      const std::size_t count = std::min(kPart, all.size() - i * kPart);
+      parts[i] = examine(all.subspan(i * kPart, count), bodies_, machine_.motion.kinematics);
+    }
+  };
+  if (work_together_ && parts.size() > 1) {
+    work_together_(work);
+  } else {
+    work();
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (const Encounter& encounter : parts[i].encounters) {
+      const std::size_t index = i * kPart + encounter.stretch;
+      const WaitingStretch& waiting = waiting_[index];
+      log_.take(encounter, {examined_ + index, waiting.line, frames_[waiting.frame]}, bodies_, tool_);
+    }
+    for (const std::size_t undecided : parts[i].undecided) {
+      const std::size_t line = waiting_[i * kPart + undecided].line;
+      const auto is_known = [&](const Unverified& each) { return each.gap == Gap::Undecided; };
+      if (std::none_of(certificate_.gaps.begin(), certificate_.gaps.end(), is_known))
+        certificate_.gaps.push_back({.gap = Gap::Undecided, .line = line});
+    }
+  }
+  examined_ += stretches_.size();
+  stretches_.clear();
+  waiting_.clear();
+  frames_ = {frames_.back()};
+}
+
+void Verifier::finish() {
+  examine_waiting();
+  log_.close_all();
+  contacts_ = log_.contacts();
+  certificate_.contacts = log_.contact_count();
+  certificate_.more_contacts = log_.left_out();
+}
+
+/// Whether a program may have a G92; a glance that saves a run of those that have none.
+static bool may_set_origin(std::string_view text) {
+  for (std::size_t at = text.find("92"); at != std::string_view::npos; at = text.find("92", at + 1)) {
+    const std::size_t letter = text.find_last_not_of(" \t0+", at == 0 ? 0 : at - 1);
+    if (letter < at && (text[letter] == 'G' || text[letter] == 'g')) return true;
+  }
+  return false;
+}
+
+Vec3 first_workpiece_origin(std::string_view text, const running::RunOptions& options) {
+  if (!may_set_origin(text)) return Vec3::Zero();
+  running::RunOptions silent = options;
+  silent.before_block = nullptr;
+  const running::Program program(text);
+  running::Runner runner(program, silent);
+  bool has_face = false;
+  while (!runner.has_ended()) {
+    runner.step();
+    for (const running::Event& event : runner.events()) {
+      const auto* const frame = std::get_if<running::FrameEvent>(&event.what);
+      if (!frame) continue;
+      // A face frame and its end leave the workpiece frame as it is.
+      if (!frame->face_mounted && !std::exchange(has_face, false)) return frame->workpiece_origin;
+      has_face = frame->face_mounted;
+    }
+  }
+  return Vec3::Zero();
+}
+
+}  // namespace isocnc::verification

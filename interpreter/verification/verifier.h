@@ -1,0 +1,65 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "interpreter/simulation/timing.h"
+#include "interpreter/verification/contact_log.h"
+
+namespace isocnc::verification {
+
+/// Runs `work` on one or several threads at once, and returns when all have ended.
+using WorkTogether = std::function<void(const std::function<void()>& work)>;
+
+/// Compares the motions of a run with a scene. It hears what Timing tells its listeners. What it finds does not depend
+/// on the number of threads, and its memory not on the number of motions.
+class Verifier {
+ public:
+  /// Refers to the machine and the scene. `origin` is that of the first workpiece frame, machine frame, mm.
+  Verifier(const Scene& scene, const simulation::TimedMachine& machine, const geometry::Vec3& origin,
+           WorkTogether work_together = {});
+
+  /// Takes a stretch of motion, with its event.
+  void take(const motion::Stretch& stretch, const simulation::TimedEvent& event);
+  /// Takes an event that has been made.
+  void take(const simulation::TimedEvent& event);
+  /// Ends the run.
+  void finish();
+
+  /// After finish(): sorted by time.
+  const std::vector<Contact>& contacts() const { return contacts_; }
+  /// After finish().
+  const Certificate& certificate() const { return certificate_; }
+
+ private:
+  /// A stretch that waits for being examined.
+  struct WaitingStretch {
+    std::size_t line = 0;
+    std::size_t frame = 0;  ///< Index of the frame in force.
+  };
+
+  void mount(const execution::ToolCode& tool, std::size_t line);
+  void examine_waiting();
+
+  const Scene& scene_;
+  const simulation::TimedMachine& machine_;
+  geometry::Vec3 origin_;
+  WorkTogether work_together_;
+  execution::ToolCode tool_;
+  std::set<execution::ToolCode> known_gaps_;
+  BodyPairs bodies_;
+  std::vector<geometry::Frame> frames_ = {geometry::Frame()};  ///< Those of the stretches that wait.
+  std::vector<motion::Stretch> stretches_;
+  std::vector<WaitingStretch> waiting_;
+  std::size_t examined_ = 0;  ///< Stretches that have been examined.
+  ContactLog log_;
+  std::vector<Contact> contacts_;
+  Certificate certificate_;
+};
+
+/// The origin of the first workpiece frame that a run sets (G92); machine frame, mm. 0 if it sets none.
+geometry::Vec3 first_workpiece_origin(std::string_view text, const running::RunOptions& options);
+
+}  // namespace isocnc::verification

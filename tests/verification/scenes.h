@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "interpreter/solids/tool_shapes.h"
+#include "interpreter/verification/verified_run.h"
+
+namespace isocnc::verification {
+
+/// A scene and the machine that runs in it. The tool T101001 is a flat cutter of radius 10, 60 long, in a holder of
+/// diameter 50 that is 40 high; the nose above it has a diameter of 120.
+struct Shop {
+  Scene scene;
+  simulation::TimedMachine machine;
+
+  explicit Shop(kinematics::MachineKind kind = kinematics::MachineKind::ThreeAxis) {
+    machine.motion = simulation::unbounded_machine();
+    machine.motion.kinematics = {.kind = kind, .pivot = 150, .b_point = {0, 0, -50}, .c_point = {0, 0, -50}};
+    machine.home = {.tip = {0, 0, 400}};
+    machine.tool_lengths[kTool] = 100;
+    ToolBodies& tool = scene.tools[kTool];
+    tool.length = 100;
+    tool.cutter = body(solids::flat_body(10, 60));
+    const solids::StackRow holder{.height = 40, .lower_diameter = 50, .upper_diameter = 50};
+    tool.holder = body(solids::stacked_body({&holder, 1}, 60));
+    const solids::StackRow nose{.height = 120, .lower_diameter = 120, .upper_diameter = 120};
+    scene.nose = body(solids::stacked_body({&nose, 1}, 0));
+  }
+
+  static constexpr execution::ToolCode kTool{1, 1, 1};
+
+  static solids::RevolvedBody body(solids::BodyOrProblem made) {
+    return std::get<solids::RevolvedBody>(std::move(made));
+  }
+
+  SceneBody& box(std::string name, const geometry::Vec3& minimum, const geometry::Vec3& maximum,
+                 BodyRole role = BodyRole::Fixture) {
+    return scene.setup.emplace_back(SceneBody{
+        .name = std::move(name), .role = role, .shape = solids::Cuboid{.minimum = minimum, .maximum = maximum}});
+  }
+
+  SceneBody& pin(std::string name, const geometry::Vec3& foot, const geometry::Vec3& axis, double height,
+                 double radius) {
+    return scene.setup.emplace_back(
+        SceneBody{.name = std::move(name),
+                  .shape = solids::Cylinder{.at = {.origin = foot, .axis = axis}, .height = height, .radius = radius}});
+  }
+
+  VerifiedRun run(const std::string& program, WorkTogether work_together = {}) const {
+    running::RunOptions options;
+    options.setup.home = machine.home;
+    return verified_run(program, options, machine, &scene, std::move(work_together));
+  }
+};
+
+}  // namespace isocnc::verification
