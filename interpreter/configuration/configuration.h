@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "interpreter/configuration/path_patterns.h"
+#include "interpreter/configuration/surroundings.h"
 #include "interpreter/dialect/diagnostic.h"
 #include "interpreter/dialect/lint_thresholds.h"
 #include "interpreter/execution/setup.h"
@@ -25,6 +26,15 @@ struct Tool {
   std::string name;
   std::optional<double> length;
   std::optional<double> radius;
+  std::string shape;                  ///< `flat`, `ball`, `bull`, `cone`, `drill`, `disc`; empty: not known.
+  std::optional<NumberRows> profile;  ///< z, radius; instead of a shape.
+  std::optional<double> corner_radius;
+  std::optional<double> tip_angle;  ///< Degrees.
+  std::optional<double> cut_length;
+  std::optional<double> max_depth;
+  std::optional<double> shank;  ///< Diameter.
+  std::string body;             ///< Name of the holder; empty: none.
+  DescriptionPlace place;
 };
 
 /// A named user M function.
@@ -46,6 +56,11 @@ struct MachineConfiguration {
   std::string kind = "head";                                            ///< `three-axis`, `head`, `table`.
   std::optional<std::vector<Tool>> tools;
   std::optional<std::vector<NamedFunction>> functions;
+  std::vector<NamedRows> holders;     ///< Height, lower diameter, upper diameter, from the collet's face up.
+  std::optional<NumberRows> nose;     ///< The same, from the spindle nose up.
+  std::vector<DescribedBody> bodies;  ///< In machine coordinates with all axes at 0.
+  std::filesystem::path file;         ///< The file that describes the machine, as shown to users; empty without one.
+  std::filesystem::path folder;       ///< Its folder, absolute and without symlinks.
 
   /// The tool, or the M function by its number as written, in the configuration; null if it is not listed.
   const Tool* find_tool(const execution::ToolCode& code) const;
@@ -101,7 +116,9 @@ struct Configuration {
   Lint lint;
   Format format;
   std::optional<dialect::Language> language;
-  std::filesystem::path file;  ///< Path as shown to users; empty without a file.
+  std::vector<DescribedSetup> setups;  ///< Of those for a program, the last one counts.
+  std::filesystem::path file;          ///< Path as shown to users; empty without a file.
+  std::filesystem::path folder;        ///< Its folder, absolute and without symlinks.
 };
 
 }  // namespace isocnc::configuration

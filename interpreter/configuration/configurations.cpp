@@ -93,6 +93,7 @@ const Configuration& Configurations::load(const fs::path& file, const fs::path& 
   for (Mistake& mistake : read.mistakes) complain(std::move(mistake), source.text());
   loaded.configuration = std::move(read.configuration);
   loaded.configuration.file = shown;
+  loaded.configuration.machine.file = shown;
   return loaded.configuration;
 }
 
@@ -103,8 +104,7 @@ std::vector<std::string> Configurations::mistakes(Language language) const {
     const std::string name = file->configuration.file.generic_string();
     if (!file->problem.empty()) lines.push_back(text::printable(fmt::format("{}: {}: {}", name, error, file->problem)));
     for (const auto& [place, mistake] : file->mistakes)
-      lines.push_back(text::printable(
-          fmt::format("{}:{}:{}: {}: {}", name, place.line, place.column, error, mistake.message(language))));
+      lines.push_back(located_message(name, place, mistake, language));
   }
   return lines;
 }

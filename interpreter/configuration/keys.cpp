@@ -3,9 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <concepts>
+#include <utility>
 
+#include <fmt/format.h>
+
+#include "interpreter/configuration/tool_bodies.h"
 #include "interpreter/dialect/codes.h"
 #include "interpreter/dialect/locale.h"
+#include "interpreter/solids/tool_shapes.h"
 
 namespace isocnc::configuration {
 
@@ -26,6 +32,9 @@ static constexpr Text kRotaryJerk = {"degrees/s^3", "gradi/s^3"};
 
 static constexpr std::string_view kSeverities[] = {"error", "warning", "info", "off"};
 static constexpr std::string_view kModal[] = {"keep", "write", "fold"};
+static constexpr std::string_view kToolShapes[] = {"flat", "ball", "bull", "cone", "drill", "disc"};
+static constexpr std::string_view kMachineParts[] = {"machine", "X", "Y", "Z", "C", "B"};
+static constexpr std::string_view kSetupFrames[] = {"workpiece", "machine"};
 static constexpr std::string_view kMachineKinds[] = {"three-axis", "head", "table"};
 
 /// Larger than any machine, and small enough to compute with.
@@ -36,6 +45,25 @@ static constexpr NumberRange kSpeed = {1, 1e7};
 static constexpr NumberRange kAcceleration = {1, 1e6};
 /// The minimum is a tenth of a micron.
 static constexpr NumberRange kRounding = {1e-4, 10};
+/// Places and sizes of bodies.
+static constexpr NumberRange kPlace = {-solids::kMaxSize, solids::kMaxSize};
+static constexpr NumberRange kSize = {0, solids::kMaxSize, true};
+/// Of tools and holders.
+static constexpr NumberRange kToolSize = {0, 1e4, true};
+static constexpr NumberRange kToolDiameter = {0, 1e4};
+
+static constexpr Column kPointColumns[] = {
+    {{"x", "x"}, kPlace},
+    {{"y", "y"}, kPlace},
+    {{"z", "z"}, kPlace},
+};
+static constexpr std::span kAreaColumns = std::span(kPointColumns).first<2>();
+static constexpr Column kProfileColumns[] = {{{"z", "z"}, kToolDiameter}, {{"radius", "raggio"}, kToolDiameter}};
+static constexpr Column kStackColumns[] = {
+    {{"height", "altezza"}, kToolSize},
+    {{"lower diameter", "diametro in basso"}, kToolDiameter},
+    {{"upper diameter", "diametro in alto"}, kToolDiameter},
+};
 
 std::optional<int> function_number(std::string_view name) {
   if (name.size() < 2 || name.size() > 4 || name.front() != 'M') return std::nullopt;
@@ -76,12 +104,12 @@ static void add_home(std::vector<Key>& keys) {
                     .range = axis.range(),
                     .unit = axis.unit(),
                     .documentation = {"The coordinate at home.", "La quota di home."},
-                    .slot = [axis](Configuration& c, std::size_t) -> ValueSlot { return &home_of(c, axis); }});
+                    .slot = [axis](Configuration& c, ElementIndex) -> ValueSlot { return &home_of(c, axis); }});
 }
 
 static std::optional<Objection> min_above_max(const execution::Travel& travel) {
   if (travel.minimum <= travel.maximum) return std::nullopt;
-  return Objection{"max", mistakes::kMinAboveMax};
+  return Objection{.member = "max", .text = mistakes::kMinAboveMax};
 }
 
 static void add_axes(std::vector<Key>& keys) {
@@ -97,7 +125,7 @@ static void add_axes(std::vector<Key>& keys) {
     keys.push_back({.path = path,
                     .documentation = {"The travel of the axis; open where an end is left out.",
                                       "La corsa dell'asse; senza limite dove manca un estremo."},
-                    .objection = [axis](const Configuration& c, std::size_t) {
+                    .objection = [axis](const Configuration& c, ElementIndex) {
                       return min_above_max(c.machine.setup.limits.travel[axis.index]);
                     }});
     keys.push_back({.path = path + ".min",
@@ -105,13 +133,13 @@ static void add_axes(std::vector<Key>& keys) {
                     .range = axis.range(),
                     .unit = axis.unit(),
                     .documentation = {"The minimum coordinate.", "La quota minima."},
-                    .slot = [travel](Configuration& c, std::size_t) -> ValueSlot { return &travel(c).minimum; }});
+                    .slot = [travel](Configuration& c, ElementIndex) -> ValueSlot { return &travel(c).minimum; }});
     keys.push_back({.path = path + ".max",
                     .kind = KeyKind::Number,
                     .range = axis.range(),
                     .unit = axis.unit(),
                     .documentation = {"The maximum coordinate.", "La quota massima."},
-                    .slot = [travel](Configuration& c, std::size_t) -> ValueSlot { return &travel(c).maximum; }});
+                    .slot = [travel](Configuration& c, ElementIndex) -> ValueSlot { return &travel(c).maximum; }});
     keys.push_back(
         {.path = path + ".rapid",
          .kind = KeyKind::Number,
@@ -119,14 +147,14 @@ static void add_axes(std::vector<Key>& keys) {
          .unit = axis.is_rotary ? units::kDegreesPerMinute : units::kMillimetersPerMinute,
          .documentation = {"The maximum speed of the axis, in rapids and in feed moves.",
                            "La velocità massima dell'asse, in rapido e in lavoro."},
-         .slot = [axis](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.rapids[axis.index]; }});
+         .slot = [axis](Configuration& c, ElementIndex) -> ValueSlot { return &c.machine.rapids[axis.index]; }});
     keys.push_back({.path = path + ".acceleration",
                     .kind = KeyKind::Number,
                     .range = kAcceleration,
                     .unit = axis.is_rotary ? units::kRotaryAcceleration : units::kAcceleration,
                     .documentation = {"The maximum acceleration of the axis, also when it slows down.",
                                       "L'accelerazione massima dell'asse, anche quando frena."},
-                    .slot = [axis](Configuration& c, std::size_t) -> ValueSlot {
+                    .slot = [axis](Configuration& c, ElementIndex) -> ValueSlot {
                       return &c.machine.timed.motion.axes[axis.index].acceleration;
                     }});
     keys.push_back({.path = path + ".jerk",
@@ -135,7 +163,7 @@ static void add_axes(std::vector<Key>& keys) {
                     .unit = axis.is_rotary ? units::kRotaryJerk : units::kJerk,
                     .documentation = {"The maximum jerk of the axis; without it, the acceleration may change at once.",
                                       "Il jerk massimo dell'asse; senza, l'accelerazione può cambiare di colpo."},
-                    .slot = [axis](Configuration& c, std::size_t) -> ValueSlot {
+                    .slot = [axis](Configuration& c, ElementIndex) -> ValueSlot {
                       return &c.machine.timed.motion.axes[axis.index].jerk;
                     }});
   }
@@ -147,21 +175,21 @@ static void add_limits(std::vector<Key>& keys) {
                   .range = kSpeed,
                   .unit = units::kMillimetersPerMinute,
                   .documentation = {"The greatest feed rate (W131).", "L'avanzamento massimo (W131)."},
-                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.setup.limits.feed; }});
+                  .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.machine.setup.limits.feed; }});
   keys.push_back(
       {.path = "machine.maxRotarySpeed",
        .kind = KeyKind::Number,
        .range = kSpeed,
        .unit = units::kDegreesPerMinute,
        .documentation = {"The maximum speed of B and C (W132).", "La velocità massima di B e C (W132)."},
-       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.setup.limits.rotary_speed; }});
+       .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.machine.setup.limits.rotary_speed; }});
   keys.push_back(
       {.path = "machine.maxSpindleSpeed",
        .kind = KeyKind::Number,
        .range = kSpeed,
        .unit = units::kRevolutionsPerMinute,
        .documentation = {"The greatest S (W133).", "La S massima (W133)."},
-       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.setup.limits.spindle_speed; }});
+       .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.machine.setup.limits.spindle_speed; }});
   keys.push_back({.path = "machine.tolerances",
                   .documentation = {"How exact the control wants programs to be.",
                                     "La precisione che il controllo pretende dai programmi."}});
@@ -172,7 +200,7 @@ static void add_limits(std::vector<Key>& keys) {
        .unit = units::kMillimeters,
        .documentation = {"How far the given points of an arc may be from a circle (ISO029, ISO030, ISO031).",
                          "Di quanto i punti dati di un arco possono scostarsi da un cerchio (ISO029, ISO030, ISO031)."},
-       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.setup.arc_tolerance; }});
+       .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.machine.setup.arc_tolerance; }});
   keys.push_back(
       {.path = "machine.tolerances.chord",
        .kind = KeyKind::Number,
@@ -180,7 +208,7 @@ static void add_limits(std::vector<Key>& keys) {
        .unit = units::kMillimeters,
        .documentation = {"How far the lines that replace an arc in G49 may be from it (I.3.4.3.a).",
                          "Di quanto i tratti che sostituiscono un arco in G49 possono scostarsi da esso (I.3.4.3.a)."},
-       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.timed.motion.chord_tolerance; }});
+       .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.machine.timed.motion.chord_tolerance; }});
   keys.push_back(
       {.path = "machine.tolerances.corner",
        .kind = KeyKind::Number,
@@ -188,7 +216,7 @@ static void add_limits(std::vector<Key>& keys) {
        .unit = units::kMillimeters,
        .documentation = {"How far from the programmed path the tip may round a corner.",
                          "Di quanto la punta può scostarsi dal percorso programmato per arrotondare uno spigolo."},
-       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.timed.motion.corner_tolerance; }});
+       .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.machine.timed.motion.corner_tolerance; }});
   keys.push_back(
       {.path = "machine.clearance",
        .kind = KeyKind::Number,
@@ -196,7 +224,7 @@ static void add_limits(std::vector<Key>& keys) {
        .unit = units::kMillimeters,
        .documentation = {"The Z of the face frame below which no rapid should go (W134).",
                          "La Z del riferimento di faccia sotto la quale nessun rapido dovrebbe scendere (W134)."},
-       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.setup.clearance; }});
+       .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.machine.setup.clearance; }});
 }
 
 static geometry::Vec3& head_offset(Configuration& configuration, bool is_spindle) {
@@ -219,7 +247,7 @@ static void add_point(std::vector<Key>& keys, const std::string& path, const Tex
          .range = kLength,
          .unit = units::kMillimeters,
          .documentation = documentation,
-         .slot = [point, which, axis](Configuration& c, std::size_t) -> ValueSlot { return &point(c, which)[axis]; }});
+         .slot = [point, which, axis](Configuration& c, ElementIndex) -> ValueSlot { return &point(c, which)[axis]; }});
 }
 
 static void add_kinematics(std::vector<Key>& keys) {
@@ -233,7 +261,7 @@ static void add_kinematics(std::vector<Key>& keys) {
        .documentation =
            {"No rotary axes; a head that C turns and B tilts; a table that B tilts and C turns.",
             "Nessun rotante; una testa girata da C e inclinata da B; una tavola inclinata da B e girata da C."},
-       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.kind; }});
+       .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.machine.kind; }});
   keys.push_back(
       {.path = "machine.kinematics.pivot",
        .kind = KeyKind::Number,
@@ -241,7 +269,7 @@ static void add_kinematics(std::vector<Key>& keys) {
        .unit = units::kMillimeters,
        .documentation = {"Head: from the B axis down to the spindle nose, with B at 0.",
                          "Testa: dall'asse B giù fino al naso del mandrino, con B a 0."},
-       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.timed.motion.kinematics.pivot; }});
+       .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.machine.timed.motion.kinematics.pivot; }});
   add_point(
       keys, "machine.kinematics.bFromC",
       {"Head: from the C axis to the B axis, with B and C at 0.", "Testa: dall'asse C all'asse B, con B e C a 0."},
@@ -267,7 +295,7 @@ static void add_times(std::vector<Key>& keys) {
                     .range = {0, 1e5},
                     .unit = units::kSeconds,
                     .documentation = documentation,
-                    .slot = [member](Configuration& c, std::size_t) -> ValueSlot {
+                    .slot = [member](Configuration& c, ElementIndex) -> ValueSlot {
                       return &(c.machine.timed.durations.*member);
                     }});
   };
@@ -289,11 +317,69 @@ static void add_times(std::vector<Key>& keys) {
       &simulation::Durations::channel);
 }
 
-static std::optional<Objection> tool_twice(const Configuration& configuration, std::size_t index) {
+static std::optional<Objection> tool_twice(const Configuration& configuration, ElementIndex index) {
   const std::vector<Tool>& tools = *configuration.machine.tools;
-  const auto here = tools.begin() + static_cast<std::ptrdiff_t>(index);
+  const auto here = tools.begin() + static_cast<std::ptrdiff_t>(index.element);
   if (std::none_of(tools.begin(), here, [&](const Tool& tool) { return tool.code == here->code; })) return std::nullopt;
-  return Objection{"", mistakes::kToolTwice};
+  return Objection{.member = "", .text = mistakes::kToolTwice};
+}
+
+/// Keys of a tool that verification uses.
+static void add_tool_bodies(std::vector<Key>& keys) {
+  const auto add = [&](std::string_view name, NumberRange range, const Text& unit, const Text& documentation,
+                       auto member) {
+    keys.push_back({.path = "machine.tools[]." + std::string(name),
+                    .kind = KeyKind::Number,
+                    .range = range,
+                    .unit = unit,
+                    .documentation = documentation,
+                    .slot = [member](Configuration& c, ElementIndex i) -> ValueSlot {
+                      return &((*c.machine.tools)[i.element].*member);
+                    }});
+  };
+  keys.push_back(
+      {.path = "machine.tools[].shape",
+       .kind = KeyKind::Choice,
+       .choices = kToolShapes,
+       .documentation = {"What the cutter looks like: a flat end, a ball, a flat end with rounded edge, a cone with a "
+                         "sharp tip, a drill, a disc across the spindle axis (W162).",
+                         "L'aspetto della fresa: piana, sferica, torica, conica con la punta aguzza, punta da trapano, "
+                         "disco perpendicolare al mandrino (W162)."},
+       .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &(*c.machine.tools)[i.element].shape; }});
+  keys.push_back(
+      {.path = "machine.tools[].profile",
+       .kind = KeyKind::Rows,
+       .unit = units::kMillimeters,
+       .documentation = {"The outline of a form cutter, instead of `shape`: points from the tip (z = 0) up, joined by "
+                         "straight lines.",
+                         "Il contorno di una fresa di forma, al posto di `shape`: punti dalla punta (z = 0) in su, "
+                         "uniti da segmenti."},
+       .columns = kProfileColumns,
+       .maximum_rows = solids::kMaxShapePoints - 2,  // Two more for the shank.
+       .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &(*c.machine.tools)[i.element].profile; }});
+  add("cornerRadius", {0, 1e4}, units::kMillimeters,
+      {"`bull`: the radius of its edge.", "`bull`: il raggio del suo spigolo."}, &Tool::corner_radius);
+  add("tipAngle", {0, 179, true}, units::kDegrees,
+      {"`cone`, `drill`: the whole angle at the tip.", "`cone`, `drill`: l'angolo intero alla punta."},
+      &Tool::tip_angle);
+  add("cutLength", kToolSize, units::kMillimeters,
+      {"From the tip to the end of what cuts; without it, the cutter goes up to the holder.",
+       "Dalla punta alla fine di ciò che taglia; senza, la fresa arriva al portautensile."},
+      &Tool::cut_length);
+  add("maxDepth", kToolSize, units::kMillimeters,
+      {"How deep it may cut at once.", "La profondità massima di una passata."}, &Tool::max_depth);
+  add("shank", kToolSize, units::kMillimeters,
+      {"The diameter from there to the holder; without it, that of the cutter.",
+       "Il diametro da lì al portautensile; senza, quello della fresa."},
+      &Tool::shank);
+  keys.push_back(
+      {.path = "machine.tools[].body",
+       .kind = KeyKind::Text,
+       .documentation = {"The holder that it is in: a name of `machine.holders`. The top of the holder is at the "
+                         "spindle nose.",
+                         "Il portautensile in cui sta: un nome di `machine.holders`. La cima del portautensile è al "
+                         "naso del mandrino."},
+       .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &(*c.machine.tools)[i.element].body; }});
 }
 
 static void add_tools(std::vector<Key>& keys) {
@@ -303,8 +389,8 @@ static void add_tools(std::vector<Key>& keys) {
                     .range = range,
                     .documentation = documentation,
                     .is_required = true,
-                    .slot = [member](Configuration& c, std::size_t index) -> ValueSlot {
-                      return &((*c.machine.tools)[index].code.*member);
+                    .slot = [member](Configuration& c, ElementIndex index) -> ValueSlot {
+                      return &((*c.machine.tools)[index.element].code.*member);
                     }});
   };
   keys.push_back(
@@ -312,24 +398,31 @@ static void add_tools(std::vector<Key>& keys) {
        .kind = KeyKind::Objects,
        .documentation = {"The tools that the machine has; without this list M06 takes any (ISO067).",
                          "Gli utensili che la macchina ha; senza questo elenco la M06 li accetta tutti (ISO067)."},
-       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.tools; },
-       .objection = tool_twice});
+       .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.machine.tools; },
+       .objection = tool_twice,
+       .final_objection = [](const Configuration& c, ElementIndex i) -> std::optional<Objection> {
+         const auto bodies = tool_bodies(c.machine, (*c.machine.tools)[i.element]);
+         const auto* const found = std::get_if<Objection>(&bodies);
+         return found ? std::optional(*found) : std::nullopt;
+       }});
   add("head", {1, 9}, {"The head: the first digit of the T.", "La testa: la prima cifra della T."},
       &execution::ToolCode::head);
   add("holder", {1, 99}, {"The holder: the second and third digit.", "Il portautensile: la seconda e la terza cifra."},
       &execution::ToolCode::holder);
   add("tool", {1, 999}, {"The tool: the last three digits.", "L'utensile: le ultime tre cifre."},
       &execution::ToolCode::tool);
-  keys.push_back({.path = "machine.tools[].name",
-                  .kind = KeyKind::Text,
-                  .documentation = {"What the shop calls the tool.", "Come lo chiama l'officina."},
-                  .slot = [](Configuration& c, std::size_t i) -> ValueSlot { return &(*c.machine.tools)[i].name; }});
-  keys.push_back({.path = "machine.tools[].length",
-                  .kind = KeyKind::Number,
-                  .range = {0, 1e4, true},
-                  .unit = units::kMillimeters,
-                  .documentation = {"From the spindle nose to the tip.", "Dal naso del mandrino alla punta."},
-                  .slot = [](Configuration& c, std::size_t i) -> ValueSlot { return &(*c.machine.tools)[i].length; }});
+  keys.push_back(
+      {.path = "machine.tools[].name",
+       .kind = KeyKind::Text,
+       .documentation = {"What the shop calls the tool.", "Come lo chiama l'officina."},
+       .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &(*c.machine.tools)[i.element].name; }});
+  keys.push_back(
+      {.path = "machine.tools[].length",
+       .kind = KeyKind::Number,
+       .range = {0, 1e4, true},
+       .unit = units::kMillimeters,
+       .documentation = {"From the spindle nose to the tip.", "Dal naso del mandrino alla punta."},
+       .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &(*c.machine.tools)[i.element].length; }});
   keys.push_back(
       {.path = "machine.tools[].radius",
        .kind = KeyKind::Number,
@@ -337,15 +430,16 @@ static void add_tools(std::vector<Key>& keys) {
        .unit = units::kMillimeters,
        .documentation = {"The radius of what cuts, by which G41 and G42 lead the tool beside the contour.",
                          "Il raggio della parte che taglia: di tanto G41 e G42 tengono l'utensile a lato del profilo."},
-       .slot = [](Configuration& c, std::size_t i) -> ValueSlot { return &(*c.machine.tools)[i].radius; }});
+       .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &(*c.machine.tools)[i.element].radius; }});
+  add_tool_bodies(keys);
 }
 
-static std::optional<Objection> function_twice(const Configuration& configuration, std::size_t index) {
+static std::optional<Objection> function_twice(const Configuration& configuration, ElementIndex index) {
   const std::vector<NamedFunction>& all = *configuration.machine.functions;
-  const auto here = all.begin() + static_cast<std::ptrdiff_t>(index);
+  const auto here = all.begin() + static_cast<std::ptrdiff_t>(index.element);
   if (std::none_of(all.begin(), here, [&](const NamedFunction& each) { return each.number == here->number; }))
     return std::nullopt;
-  return Objection{"", mistakes::kFunctionTwice};
+  return Objection{.member = "", .text = mistakes::kFunctionTwice};
 }
 
 static void add_functions(std::vector<Key>& keys) {
@@ -354,23 +448,328 @@ static void add_functions(std::vector<Key>& keys) {
                   .text = TextKind::Function,
                   .documentation = {"The M functions of the shop, each by its M: \"M100\" (W129).",
                                     "Le funzioni M dell'officina, ciascuna con la sua M: \"M100\" (W129)."},
-                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.machine.functions; },
+                  .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.machine.functions; },
                   .objection = function_twice});
   keys.push_back(
       {.path = "machine.functions.*.name",
        .kind = KeyKind::Text,
        .documentation = {"What the function does.", "Che cosa fa la funzione."},
-       .slot = [](Configuration& c, std::size_t i) -> ValueSlot { return &(*c.machine.functions)[i].name; }});
-  keys.push_back(
-      {.path = "machine.functions.*.time",
-       .kind = KeyKind::Number,
-       .range = {0, 1e5},
-       .unit = units::kSeconds,
-       .documentation = {"How long the machine waits for it.", "Per quanto tempo la macchina la attende."},
-       .slot = [](Configuration& c, std::size_t i) -> ValueSlot { return &(*c.machine.functions)[i].seconds; }});
+       .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &(*c.machine.functions)[i.element].name; }});
+  keys.push_back({.path = "machine.functions.*.time",
+                  .kind = KeyKind::Number,
+                  .range = {0, 1e5},
+                  .unit = units::kSeconds,
+                  .documentation = {"How long the machine waits for it.", "Per quanto tempo la macchina la attende."},
+                  .slot = [](Configuration& c, ElementIndex i) -> ValueSlot {
+                    return &(*c.machine.functions)[i.element].seconds;
+                  }});
 }
 
-using SelectionGetter = CodeSelection& (*)(Configuration& configuration, std::size_t index);
+static std::optional<Objection> stack_objection(const NumberRows& rows) {
+  const auto body = stack_body(rows, 0);
+  const auto* const found = std::get_if<Objection>(&body);
+  return found ? std::optional(*found) : std::nullopt;
+}
+
+static void add_holders(std::vector<Key>& keys) {
+  keys.push_back({.path = "machine.holders",
+                  .kind = KeyKind::NamedRows,
+                  .unit = units::kMillimeters,
+                  .documentation = {"Tool holders by name: cylinders and cones one on another, from the collet's face "
+                                    "up to the spindle nose.",
+                                    "I portautensili col loro nome: cilindri e coni uno sull'altro, dalla faccia della "
+                                    "pinza su fino al naso del mandrino."},
+                  .columns = kStackColumns,
+                  .maximum_rows = solids::kMaxShapePoints,
+                  .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.machine.holders; },
+                  .objection = [](const Configuration& c,
+                                  ElementIndex i) { return stack_objection(c.machine.holders[i.element].rows); }});
+  keys.push_back({.path = "machine.nose",
+                  .kind = KeyKind::Rows,
+                  .unit = units::kMillimeters,
+                  .documentation = {"The spindle in the same way, from its nose up. It turns with B and C of a head.",
+                                    "Il mandrino allo stesso modo, dal naso in su. Gira con B e C di una testa."},
+                  .columns = kStackColumns,
+                  .maximum_rows = solids::kMaxShapePoints,
+                  .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.machine.nose; },
+                  .objection = [](const Configuration& c, ElementIndex) { return stack_objection(*c.machine.nose); }});
+}
+
+static std::optional<Objection> objection_to(const DescribedShape& shape) {
+  std::string_view first;
+  for (const auto& [name, is_given] : {std::pair<std::string_view, bool>{"box", shape.box.has_value()},
+                                       {"cylinder", shape.cylinder.has_value()},
+                                       {"mesh", shape.mesh.has_value()}}) {
+    if (is_given && !first.empty())
+      return Objection{.member = name, .text = mistakes::kSecondShape, .names = {std::string(first)}};
+    if (is_given) first = name;
+  }
+  if (first.empty()) return Objection{.member = "", .text = mistakes::kOneShape};
+  return std::nullopt;
+}
+
+/// Whether the second row, the upper corner, is below the first one.
+static std::optional<Objection> objection_to_corners(const NumberRows& corners) {
+  for (std::size_t i = 0; i < corners[0].size(); ++i)
+    if (corners[1][i] < corners[0][i])
+      return Objection{.member = "",
+                       .text = mistakes::kCornerBelow,
+                       .names = {fmt::format("{}", corners[1][i]), fmt::format("{}", corners[0][i])},
+                       .row = 1,
+                       .column = i};
+  return std::nullopt;
+}
+
+using ShapeGetter = DescribedShape& (*)(Configuration& configuration, ElementIndex index);
+
+static const DescribedShape& constant_shape(ShapeGetter shape, const Configuration& configuration, ElementIndex index) {
+  return shape(const_cast<Configuration&>(configuration), index);
+}
+
+static void add_point_key(std::vector<Key>& keys, std::string path, const Text& unit, const Text& documentation,
+                          bool is_required, std::function<ValueSlot(Configuration&, ElementIndex)> slot) {
+  keys.push_back({.path = std::move(path),
+                  .kind = KeyKind::Point,
+                  .unit = unit,
+                  .documentation = documentation,
+                  .is_required = is_required,
+                  .columns = kPointColumns,
+                  .slot = std::move(slot)});
+}
+
+static void add_mesh_key(std::vector<Key>& keys, std::string path, const Text& documentation, bool is_required,
+                         std::function<ValueSlot(Configuration&, ElementIndex)> slot) {
+  keys.push_back({.path = std::move(path),
+                  .kind = KeyKind::Text,
+                  .text = TextKind::File,
+                  .documentation = documentation,
+                  .is_required = is_required,
+                  .slot = std::move(slot)});
+}
+
+static constexpr Text kMeshDocumentation = {"An STL file in mm, in the folder of this file or below.",
+                                            "Un file STL in mm, nella cartella di questo file o più sotto."};
+static constexpr Text kShiftDocumentation = {"Shifts the shape by this.", "Sposta la forma di tanto."};
+
+static void add_cylinder_keys(std::vector<Key>& keys, const std::string& path, ShapeGetter shape) {
+  keys.push_back({.path = path,
+                  .documentation = {"A cylinder about any axis.", "Un cilindro intorno a un asse qualsiasi."},
+                  .slot = [shape](Configuration& c, ElementIndex i) -> ValueSlot { return &shape(c, i).cylinder; },
+                  .objection = [shape](const Configuration& c, ElementIndex i) -> std::optional<Objection> {
+                    const auto& axis = constant_shape(shape, c, i).cylinder->axis;
+                    if (!axis || axis->norm() > 0) return std::nullopt;
+                    return Objection{.member = "axis", .text = mistakes::kNoDirection};
+                  }});
+  add_point_key(keys, path + ".at", units::kMillimeters, {"The center of its foot.", "Il centro della sua base."}, true,
+                [shape](Configuration& c, ElementIndex i) -> ValueSlot { return &shape(c, i).cylinder->at; });
+  add_point_key(
+      keys, path + ".axis", {},
+      {"The direction from the foot on; without it, [0, 0, 1].", "La direzione dalla base in su; senza, [0, 0, 1]."},
+      false, [shape](Configuration& c, ElementIndex i) -> ValueSlot { return &shape(c, i).cylinder->axis; });
+  const auto add = [&](std::string_view name, const Text& documentation, auto member) {
+    keys.push_back({.path = path + "." + std::string(name),
+                    .kind = KeyKind::Number,
+                    .range = kSize,
+                    .unit = units::kMillimeters,
+                    .documentation = documentation,
+                    .is_required = true,
+                    .slot = [shape, member](Configuration& c, ElementIndex i) -> ValueSlot {
+                      return &((*shape(c, i).cylinder).*member);
+                    }});
+  };
+  add("height", {"Its length along the axis.", "La sua lunghezza lungo l'asse."}, &DescribedCylinder::height);
+  add("diameter", {"Its diameter.", "Il suo diametro."}, &DescribedCylinder::diameter);
+}
+
+/// The keys of a shape; `prefix` ends with a point.
+static void add_shape_keys(std::vector<Key>& keys, const std::string& prefix, ShapeGetter shape) {
+  keys.push_back(
+      {.path = prefix + "box",
+       .kind = KeyKind::Rows,
+       .unit = units::kMillimeters,
+       .documentation = {"A box along the axes: its lower and its upper corner.",
+                         "Un parallelepipedo lungo gli assi: lo spigolo inferiore e quello superiore."},
+       .columns = kPointColumns,
+       .maximum_rows = 2,
+       .has_all_rows = true,
+       .slot = [shape](Configuration& c, ElementIndex i) -> ValueSlot { return &shape(c, i).box; },
+       .objection = [shape](const Configuration& c,
+                            ElementIndex i) { return objection_to_corners(*constant_shape(shape, c, i).box); }});
+  add_cylinder_keys(keys, prefix + "cylinder", shape);
+  add_mesh_key(keys, prefix + "mesh", kMeshDocumentation, false,
+               [shape](Configuration& c, ElementIndex i) -> ValueSlot { return &shape(c, i).mesh; });
+  add_point_key(keys, prefix + "at", units::kMillimeters, kShiftDocumentation, false,
+                [shape](Configuration& c, ElementIndex i) -> ValueSlot { return &shape(c, i).at; });
+}
+
+static std::optional<Objection> no_such_part(const Configuration& configuration, ElementIndex index) {
+  const std::string& on = configuration.machine.bodies[index.element].on;
+  if (configuration.machine.kind != "three-axis" || (on != "B" && on != "C")) return std::nullopt;
+  return Objection{.member = "on", .text = mistakes::kNoRotaryAxes, .names = {on}};
+}
+
+static void add_machine_bodies(std::vector<Key>& keys) {
+  keys.push_back(
+      {.path = "machine.bodies",
+       .kind = KeyKind::Objects,
+       .documentation = {"Parts of the machine that a motion may hit, in machine coordinates with all axes "
+                         "at 0: each a box, a cylinder or a mesh (E153).",
+                         "Parti della macchina che un movimento può urtare, in coordinate macchina con tutti "
+                         "gli assi a 0: ciascuna un box, un cylinder o una mesh (E153)."},
+       .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.machine.bodies; },
+       .objection = [](const Configuration& c,
+                       ElementIndex i) { return objection_to(c.machine.bodies[i.element].shape); },
+       .final_objection = no_such_part});
+  keys.push_back(
+      {.path = "machine.bodies[].name",
+       .kind = KeyKind::Text,
+       .documentation = {"What messages call it.", "Come la chiamano i messaggi."},
+       .is_required = true,
+       .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &c.machine.bodies[i.element].name; }});
+  keys.push_back(
+      {.path = "machine.bodies[].on",
+       .kind = KeyKind::Choice,
+       .choices = kMachineParts,
+       .documentation =
+           {"What carries it; without it, `machine`, which stands. On a head B carries the spindle, and C "
+            "what turns but does not tilt; on a table B is the cradle, and C what turns on it.",
+            "Che cosa la porta; senza, `machine`, che sta ferma. In una testa B porta il mandrino, e C ciò "
+            "che gira senza inclinarsi; in una tavola B è la culla, e C ciò che vi gira sopra."},
+       .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &c.machine.bodies[i.element].on; }});
+  add_shape_keys(keys, "machine.bodies[].",
+                 [](Configuration& c, ElementIndex i) -> DescribedShape& { return c.machine.bodies[i.element].shape; });
+}
+
+static void add_spoilboard(std::vector<Key>& keys) {
+  const auto add = [&](std::string_view name, NumberRange range, const Text& documentation, bool is_required,
+                       auto member) {
+    keys.push_back({.path = "setups[].spoilboard." + std::string(name),
+                    .kind = KeyKind::Number,
+                    .range = range,
+                    .unit = units::kMillimeters,
+                    .documentation = documentation,
+                    .is_required = is_required,
+                    .slot = [member](Configuration& c, ElementIndex i) -> ValueSlot {
+                      return &((*c.setups[i.element].spoilboard).*member);
+                    }});
+  };
+  keys.push_back(
+      {.path = "setups[].spoilboard",
+       .documentation = {"The board below the workpiece.", "Il piano martire sotto il pezzo."},
+       .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &c.setups[i.element].spoilboard; }});
+  add("top", kPlace, {"The Z of its upper side.", "La Z della sua faccia superiore."}, true, &DescribedSpoilboard::top);
+  add("allow", {0, 1000},
+      {"How far cuts may go into it; without it, 0 (E153).", "Di quanto lo si può incidere; senza, 0 (E153)."}, false,
+      &DescribedSpoilboard::allow);
+  keys.push_back(
+      {.path = "setups[].spoilboard.area",
+       .kind = KeyKind::Rows,
+       .unit = units::kMillimeters,
+       .documentation =
+           {"Its lower and its upper corner; without it, the board goes on in all directions.",
+            "Il suo spigolo inferiore e quello superiore; senza, il piano continua in tutte le direzioni."},
+       .columns = kAreaColumns,
+       .maximum_rows = 2,
+       .has_all_rows = true,
+       .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &c.setups[i.element].spoilboard->area; },
+       .objection = [](const Configuration& c,
+                       ElementIndex i) { return objection_to_corners(*c.setups[i.element].spoilboard->area); }});
+}
+
+static void add_target(std::vector<Key>& keys) {
+  keys.push_back({.path = "setups[].target",
+                  .documentation = {"The finished part.", "Il pezzo finito."},
+                  .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &c.setups[i.element].target; }});
+  add_mesh_key(keys, "setups[].target.mesh", kMeshDocumentation, true,
+               [](Configuration& c, ElementIndex i) -> ValueSlot { return &c.setups[i.element].target->mesh; });
+  add_point_key(keys, "setups[].target.at", units::kMillimeters, kShiftDocumentation, false,
+                [](Configuration& c, ElementIndex i) -> ValueSlot { return &c.setups[i.element].target->at; });
+  keys.push_back(
+      {.path = "setups[].target.tolerance",
+       .kind = KeyKind::Number,
+       .range = {0, 100},
+       .unit = units::kMillimeters,
+       .documentation = {"How deep a cut may go into it; without it, 0 (E155).",
+                         "Di quanto un taglio lo può intaccare; senza, 0 (E155)."},
+       .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &c.setups[i.element].target->tolerance; }});
+}
+
+static void add_fixtures(std::vector<Key>& keys) {
+  keys.push_back(
+      {.path = "setups[].fixtures",
+       .kind = KeyKind::Objects,
+       .documentation = {"What holds the workpiece: cups, clamps, stops, each a box, a cylinder or a mesh "
+                         "(E152).",
+                         "Ciò che tiene il pezzo: ventose, morsetti, battute, ciascuno un box, un cylinder o "
+                         "una mesh (E152)."},
+       .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &c.setups[i.element].fixtures; },
+       .objection = [](const Configuration& c,
+                       ElementIndex i) { return objection_to(c.setups[i.element].fixtures[i.inner].shape); }});
+  keys.push_back({.path = "setups[].fixtures[].name",
+                  .kind = KeyKind::Text,
+                  .documentation = {"What messages call it.", "Come lo chiamano i messaggi."},
+                  .is_required = true,
+                  .slot = [](Configuration& c, ElementIndex i) -> ValueSlot {
+                    return &c.setups[i.element].fixtures[i.inner].name;
+                  }});
+  add_shape_keys(keys, "setups[].fixtures[].", [](Configuration& c, ElementIndex i) -> DescribedShape& {
+    return c.setups[i.element].fixtures[i.inner].shape;
+  });
+}
+
+static void add_setups(std::vector<Key>& keys) {
+  keys.push_back({.path = "setups",
+                  .kind = KeyKind::Objects,
+                  .documentation = {"What stands around programs; of the entries that name a program, the last one "
+                                    "counts.",
+                                    "Ciò che sta intorno ai programmi; delle voci che nominano un programma conta "
+                                    "l'ultima."},
+                  .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.setups; }});
+  keys.push_back({.path = "setups[].paths",
+                  .kind = KeyKind::Texts,
+                  .text = TextKind::Pattern,
+                  .documentation = {"Which programs: patterns of paths from the folder of this file.",
+                                    "Quali programmi: modelli di percorso a partire dalla cartella di questo file."},
+                  .is_required = true,
+                  .is_never_empty = true,
+                  .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &c.setups[i.element].paths; }});
+  keys.push_back({.path = "setups[].frame",
+                  .kind = KeyKind::Choice,
+                  .choices = kSetupFrames,
+                  .documentation = {"Whose coordinates these are: those of the first G92, or of the machine; without "
+                                    "it, `workpiece`.",
+                                    "Di chi sono queste coordinate: della prima G92, o della macchina; senza, "
+                                    "`workpiece`."},
+                  .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &c.setups[i.element].frame; }});
+  keys.push_back(
+      {.path = "setups[].stock",
+       .documentation = {"The blank: a box, a cylinder or a mesh.", "Il grezzo: un box, un cylinder o una mesh."},
+       .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &c.setups[i.element].stock; },
+       .objection = [](const Configuration& c,
+                       ElementIndex i) { return objection_to(c.setups[i.element].stock->shape); }});
+  add_shape_keys(keys, "setups[].stock.",
+                 [](Configuration& c, ElementIndex i) -> DescribedShape& { return c.setups[i.element].stock->shape; });
+  add_spoilboard(keys);
+  add_fixtures(keys);
+  add_target(keys);
+  keys.push_back(
+      {.path = "setups[].resolution",
+       .kind = KeyKind::Number,
+       .range = {0.01, 100},
+       .unit = units::kMillimeters,
+       .documentation = {"How fine the stock is simulated.", "Quanto è fine la simulazione del grezzo."},
+       .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &c.setups[i.element].resolution; }});
+  keys.push_back(
+      {.path = "setups[].clearance",
+       .kind = KeyKind::Number,
+       .range = {0, 1000},
+       .unit = units::kMillimeters,
+       .documentation = {"What comes nearer is reported, even without a contact; without it, 2 (W154).",
+                         "Ciò che si avvicina di più viene segnalato, anche senza contatto; senza, 2 (W154)."},
+       .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &c.setups[i.element].clearance; }});
+}
+
+using SelectionGetter = CodeSelection& (*)(Configuration& configuration, ElementIndex index);
 
 static void add_selection_keys(std::vector<Key>& keys, const std::string& path, SelectionGetter selection) {
   keys.push_back(
@@ -379,20 +778,20 @@ static void add_selection_keys(std::vector<Key>& keys, const std::string& path, 
        .text = TextKind::Code,
        .documentation = {"Shows these codes alone: codes, names, beginnings of codes, ALL.",
                          "Mostra solo questi codici: codici, nomi, inizi di codici, ALL."},
-       .slot = [selection](Configuration& c, std::size_t i) -> ValueSlot { return &selection(c, i).select; }});
+       .slot = [selection](Configuration& c, ElementIndex i) -> ValueSlot { return &selection(c, i).select; }});
   keys.push_back(
       {.path = path + ".ignore",
        .kind = KeyKind::Texts,
        .text = TextKind::Code,
        .documentation = {"Does not show these codes.", "Non mostra questi codici."},
-       .slot = [selection](Configuration& c, std::size_t i) -> ValueSlot { return &selection(c, i).ignore; }});
+       .slot = [selection](Configuration& c, ElementIndex i) -> ValueSlot { return &selection(c, i).ignore; }});
   keys.push_back(
       {.path = path + ".severity",
        .kind = KeyKind::Severities,
        .text = TextKind::Code,
        .choices = kSeverities,
        .documentation = {"How much codes weigh.", "Il peso dei codici."},
-       .slot = [selection](Configuration& c, std::size_t i) -> ValueSlot { return &selection(c, i).severity; }});
+       .slot = [selection](Configuration& c, ElementIndex i) -> ValueSlot { return &selection(c, i).severity; }});
 }
 
 static void add_options(std::vector<Key>& keys) {
@@ -407,7 +806,7 @@ static void add_options(std::vector<Key>& keys) {
          .range = range,
          .unit = unit,
          .documentation = documentation,
-         .slot = [member](Configuration& c, std::size_t) -> ValueSlot { return &(c.lint.thresholds.*member); }});
+         .slot = [member](Configuration& c, ElementIndex) -> ValueSlot { return &(c.lint.thresholds.*member); }});
   };
   add("longestDwell", {0, 1e6, true}, units::kSeconds,
       {"The longest G04 that is not reported (W115).", "La G04 più lunga che non viene segnalata (W115)."},
@@ -426,23 +825,25 @@ static void add_lint(std::vector<Key>& keys) {
   keys.push_back({.path = "lint",
                   .documentation = {"What isolint reports, and which files are programs.",
                                     "Che cosa segnala isolint, e quali file sono programmi."}});
-  add_selection_keys(keys, "lint", [](Configuration& c, std::size_t) -> CodeSelection& { return c.lint.selection; });
+  add_selection_keys(keys, "lint", [](Configuration& c, ElementIndex) -> CodeSelection& { return c.lint.selection; });
   add_options(keys);
   keys.push_back({.path = "lint.files",
                   .kind = KeyKind::Objects,
                   .documentation = {"What holds for some programs alone; the later outweighs the earlier.",
                                     "Ciò che vale solo per alcuni programmi; conta di più quello che viene dopo."},
-                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.lint.files; }});
-  keys.push_back({.path = "lint.files[].paths",
-                  .kind = KeyKind::Texts,
-                  .text = TextKind::Pattern,
-                  .documentation = {"Which programs: patterns of paths from the folder of this file.",
-                                    "Quali programmi: modelli di percorso a partire dalla cartella di questo file."},
-                  .is_required = true,
-                  .is_never_empty = true,
-                  .slot = [](Configuration& c, std::size_t i) -> ValueSlot { return &c.lint.files[i].paths; }});
-  add_selection_keys(keys, "lint.files[]",
-                     [](Configuration& c, std::size_t i) -> CodeSelection& { return c.lint.files[i].selection; });
+                  .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.lint.files; }});
+  keys.push_back(
+      {.path = "lint.files[].paths",
+       .kind = KeyKind::Texts,
+       .text = TextKind::Pattern,
+       .documentation = {"Which programs: patterns of paths from the folder of this file.",
+                         "Quali programmi: modelli di percorso a partire dalla cartella di questo file."},
+       .is_required = true,
+       .is_never_empty = true,
+       .slot = [](Configuration& c, ElementIndex i) -> ValueSlot { return &c.lint.files[i.element].paths; }});
+  add_selection_keys(keys, "lint.files[]", [](Configuration& c, ElementIndex i) -> CodeSelection& {
+    return c.lint.files[i.element].selection;
+  });
   keys.push_back(
       {.path = "lint.extensions",
        .kind = KeyKind::Texts,
@@ -450,14 +851,14 @@ static void add_lint(std::vector<Key>& keys) {
        .documentation = {"What the names of programs end in; a search of a folder takes these files.",
                          "Come finiscono i nomi dei programmi; una ricerca in una cartella prende questi file."},
        .is_never_empty = true,
-       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.lint.extensions; }});
+       .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.lint.extensions; }});
   keys.push_back(
       {.path = "lint.exclude",
        .kind = KeyKind::Texts,
        .text = TextKind::Pattern,
        .documentation = {"What a search passes over: patterns of paths from the folder of this file.",
                          "Ciò che una ricerca salta: modelli di percorso a partire dalla cartella di questo file."},
-       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.lint.exclude; }});
+       .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.lint.exclude; }});
 }
 
 static void add_format(std::vector<Key>& keys) {
@@ -467,44 +868,44 @@ static void add_format(std::vector<Key>& keys) {
                   .kind = KeyKind::Boolean,
                   .documentation = {"N first, arguments in the usual order, then F; as --word-order.",
                                     "Prima N, gli argomenti nell'ordine abituale, poi F; come --word-order."},
-                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.word_order; }});
+                  .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.format.word_order; }});
   keys.push_back({.path = "format.decimals",
                   .kind = KeyKind::Integer,
                   .range = {0, Format::kMaxDecimals},
                   .documentation = {"Drops zeros from numbers that need no more decimals than this; as --decimals.",
                                     "Toglie gli zeri ai numeri ai quali bastano questi decimali; come --decimals."},
-                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.decimals; }});
+                  .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.format.decimals; }});
   keys.push_back(
       {.path = "format.gDigits",
        .kind = KeyKind::Integer,
        .range = {1, 2},
        .documentation = {"1 writes G1, 2 writes G01; as --g-digits.", "1 scrive G1, 2 scrive G01; come --g-digits."},
-       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.g_digits; }});
+       .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.format.g_digits; }});
   keys.push_back({.path = "format.modal",
                   .kind = KeyKind::Choice,
                   .choices = kModal,
                   .documentation = {"Motion Gs on each line, where they change, or as written; as --modal.",
                                     "Le G di movimento su ogni linea, dove cambiano, o come scritte; come --modal."},
-                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.modal; }});
+                  .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.format.modal; }});
   keys.push_back(
       {.path = "format.renumber",
        .documentation = {"Gives lines new numbers; as --renumber.", "Dà nuovi numeri alle linee; come --renumber."},
-       .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.renumber; }});
+       .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.format.renumber; }});
   keys.push_back({.path = "format.renumber.start",
                   .kind = KeyKind::Integer,
                   .range = {0, Renumber::kMaxNumber},
                   .documentation = {"The first number.", "Il primo numero."},
-                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.renumber->start; }});
+                  .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.format.renumber->start; }});
   keys.push_back({.path = "format.renumber.step",
                   .kind = KeyKind::Integer,
                   .range = {1, Renumber::kMaxNumber},
                   .documentation = {"From one number to the next.", "Da un numero al successivo."},
-                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.renumber->step; }});
+                  .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.format.renumber->step; }});
   keys.push_back({.path = "format.renumber.allLines",
                   .kind = KeyKind::Boolean,
                   .documentation = {"Numbers all lines that hold a block; as --renumber-all.",
                                     "Numera tutte le linee con un blocco; come --renumber-all."},
-                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.format.renumber->all_lines; }});
+                  .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.format.renumber->all_lines; }});
 }
 
 static std::vector<Key> make_keys() {
@@ -517,7 +918,7 @@ static std::vector<Key> make_keys() {
                   .kind = KeyKind::Choice,
                   .choices = dialect::kLanguageNames,
                   .documentation = {"The language of messages; as --lang.", "La lingua dei messaggi; come --lang."},
-                  .slot = [](Configuration& c, std::size_t) -> ValueSlot { return &c.language; }});
+                  .slot = [](Configuration& c, ElementIndex) -> ValueSlot { return &c.language; }});
   keys.push_back({.path = "machine",
                   .documentation = {"The machine that programs are written for.",
                                     "La macchina per cui i programmi sono scritti."}});
@@ -527,7 +928,10 @@ static std::vector<Key> make_keys() {
   add_kinematics(keys);
   add_times(keys);
   add_tools(keys);
+  add_holders(keys);
+  add_machine_bodies(keys);
   add_functions(keys);
+  add_setups(keys);
   add_lint(keys);
   add_format(keys);
   return keys;
@@ -551,6 +955,99 @@ std::vector<const Key*> keys_below(const Key* key) {
     if (each.path.starts_with(prefix) && each.path.find('.', prefix.size()) == std::string::npos)
       below.push_back(&each);
   return below;
+}
+
+ElementIndex element_index(const Key& list, ElementIndex owner, std::size_t i) {
+  const bool is_in_element = list.path.find("[]") != std::string::npos;
+  return is_in_element ? ElementIndex{owner.element, i} : ElementIndex{i, 0};
+}
+
+namespace {
+
+template <class T>
+concept Element = std::same_as<T, Tool> || std::same_as<T, NamedFunction> || std::same_as<T, FileOverrides> ||
+    std::same_as<T, DescribedBody> || std::same_as<T, DescribedSetup>;
+
+template <class T>
+concept AbsentObject = std::same_as<T, Renumber> || std::same_as<T, DescribedCylinder> ||
+    std::same_as<T, DescribedBody> || std::same_as<T, DescribedSpoilboard> || std::same_as<T, DescribedTarget>;
+
+template <Element T>
+std::vector<T>* elements_in(std::vector<T>* list) {
+  return list;
+}
+template <Element T>
+std::vector<T>* elements_in(std::optional<std::vector<T>>* list) {
+  return list->has_value() ? &**list : nullptr;
+}
+
+template <Element T>
+void make_empty(std::vector<T>* list) {
+  list->clear();
+}
+template <Element T>
+void make_empty(std::optional<std::vector<T>>* list) {
+  list->emplace();
+}
+
+template <AbsentObject T>
+std::optional<T>& object_in(std::optional<T>* object) {
+  return *object;
+}
+
+}  // namespace
+
+std::optional<std::size_t> element_count(const ValueSlot& slot) {
+  return std::visit(
+      [](const auto& list) -> std::optional<std::size_t> {
+        if constexpr (requires { elements_in(list); }) {
+          if (const auto* const elements = elements_in(list)) return elements->size();
+        }
+        return std::nullopt;
+      },
+      slot);
+}
+
+void create_list(const ValueSlot& slot) {
+  std::visit(
+      [](const auto& list) {
+        if constexpr (requires { make_empty(list); }) make_empty(list);
+      },
+      slot);
+}
+
+std::size_t add_element(const ValueSlot& slot, const DescriptionPlace& place) {
+  return std::visit(
+      [&](const auto& list) -> std::size_t {
+        if constexpr (requires { elements_in(list); }) {
+          auto& elements = *elements_in(list);
+          auto& element = elements.emplace_back();
+          if constexpr (requires { element.place; }) element.place = place;
+          return elements.size() - 1;
+        }
+        return 0;
+      },
+      slot);
+}
+
+void create_object(const ValueSlot& slot, const DescriptionPlace& place) {
+  std::visit(
+      [&](const auto& object) {
+        if constexpr (requires { object_in(object); }) {
+          auto& created = object_in(object).emplace();
+          if constexpr (requires { created.place; }) created.place = place;
+        }
+      },
+      slot);
+}
+
+bool is_absent(const ValueSlot& slot) {
+  return std::visit(
+      [](const auto& object) {
+        if constexpr (requires { object_in(object); }) return !object_in(object);
+        return false;
+      },
+      slot);
 }
 
 }  // namespace isocnc::configuration

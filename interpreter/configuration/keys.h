@@ -28,10 +28,13 @@ enum class KeyKind : std::uint8_t {
   Choice,      ///< One of `choices`.
   Texts,       ///< A list of texts.
   Severities,  ///< A severity for each code.
+  Point,       ///< A list of numbers, one for each of `columns`.
+  Rows,        ///< A list of such lists.
+  NamedRows,   ///< Such lists of lists, with names chosen by the author.
 };
 
 /// The meaning of a text, an element of a list or a name.
-enum class TextKind : std::uint8_t { Any, Code, Pattern, Extension, Function };
+enum class TextKind : std::uint8_t { Any, Code, Pattern, Extension, Function, File };
 
 /// The range of a key's numbers.
 struct NumberRange {
@@ -40,17 +43,40 @@ struct NumberRange {
   bool exclusive_minimum = false;  ///< `minimum` itself is not in the range.
 };
 
+/// A number of a point or of a row.
+struct Column {
+  dialect::Text name;
+  NumberRange range;
+};
+
+/// The index of a list's element, or of a named object; of a list within an element, the index of that element and its
+/// own.
+struct ElementIndex {
+  std::size_t element = 0;
+  std::size_t inner = 0;
+};
+
 /// The storage of a key's value, written by the reader and read by --show-config.
 using ValueSlot =
     std::variant<std::monostate, double*, std::optional<double>*, int*, std::optional<int>*, bool*, std::string*,
                  std::optional<dialect::Language>*, std::vector<std::string>*,
-                 std::vector<std::pair<std::string, std::string>>*, std::optional<std::vector<Tool>>*,
-                 std::optional<std::vector<NamedFunction>>*, std::vector<FileOverrides>*, std::optional<Renumber>*>;
+                 std::vector<std::pair<std::string, std::string>>*, std::optional<geometry::Vec3>*,
+                 std::optional<NumberRows>*, std::vector<NamedRows>*, std::optional<MeshFile>*,
+                 // Lists of objects.
+                 std::optional<std::vector<Tool>>*, std::optional<std::vector<NamedFunction>>*,
+                 std::vector<FileOverrides>*, std::vector<DescribedBody>*, std::vector<DescribedSetup>*,
+                 // Objects that may be absent.
+                 std::optional<Renumber>*, std::optional<DescribedCylinder>*, std::optional<DescribedBody>*,
+                 std::optional<DescribedSpoilboard>*, std::optional<DescribedTarget>*>;
 
 /// A mistake in an object whose keys are all valid, with the key to mark; an empty `member` marks the object itself.
 struct Objection {
   std::string_view member;
-  const dialect::Text& text;
+  dialect::Text text;
+  std::vector<Named> names;
+  std::optional<std::size_t> row;     ///< Of a member with rows, the row to mark.
+  std::optional<std::size_t> column;  ///< The number of that row to mark.
+  std::optional<std::string> meant;   ///< Suggested correction.
 };
 
 /// A row of the table of keys, with all facts about a key. The reader, the JSON schema, the documentation and
@@ -65,9 +91,13 @@ struct Key {
   dialect::Text documentation;
   bool is_required = false;
   bool is_never_empty = false;  ///< The list must have an element.
-  /// For keys of list elements, `index` is the index of the element.
-  std::function<ValueSlot(Configuration& configuration, std::size_t index)> slot;
-  std::function<std::optional<Objection>(const Configuration& configuration, std::size_t index)> objection;
+  std::span<const Column> columns;
+  std::size_t maximum_rows = 0;  ///< Rows need at least one.
+  bool has_all_rows = false;     ///< Rows need `maximum_rows`.
+  std::function<ValueSlot(Configuration& configuration, ElementIndex index)> slot;
+  std::function<std::optional<Objection>(const Configuration& configuration, ElementIndex index)> objection;
+  /// An objection that depends on other objects: asked for when the whole file has been read without a mistake.
+  std::function<std::optional<Objection>(const Configuration& configuration, ElementIndex index)> final_objection;
 
   /// The last part of the path: `head`.
   std::string_view name() const { return std::string_view(path).substr(path.rfind('.') + 1); }
@@ -81,6 +111,20 @@ std::vector<const Key*> keys_below(const Key* key);
 
 /// The common start of the paths of these keys: `machine.tools[].`
 std::string prefix_of(const Key* key);
+
+/// The index of the i-th element of a list, whose own object has the index `owner`.
+ElementIndex element_index(const Key& list, ElementIndex owner, std::size_t i);
+
+/// The number of elements of a list of objects; none if there is no list.
+std::optional<std::size_t> element_count(const ValueSlot& slot);
+/// Makes a list of objects that is empty.
+void create_list(const ValueSlot& slot);
+/// Adds an element to a list of objects, and returns its index.
+std::size_t add_element(const ValueSlot& slot, const DescriptionPlace& place);
+/// Makes an object that may be absent; does nothing for others.
+void create_object(const ValueSlot& slot, const DescriptionPlace& place);
+/// Whether an object that may be absent is.
+bool is_absent(const ValueSlot& slot);
 
 /// The number in a name such as M100; none if it is not a user M function (D48).
 std::optional<int> function_number(std::string_view name);

@@ -1,10 +1,10 @@
 #include "interpreter/configuration/mistake.h"
 
 #include <algorithm>
-#include <iterator>
 
 #include <fmt/format.h>
 
+#include "interpreter/dialect/diagnostic_id.h"
 #include "interpreter/dialect/format.h"
 #include "interpreter/dialect/near_names.h"
 #include "interpreter/text/unicode.h"
@@ -22,18 +22,10 @@ std::string Mistake::message(Language language) const {
   return fmt::format("{}{}{}{}", key, key.empty() ? "" : ": ", said, dialect::did_you_mean(meant, language));
 }
 
-LineColumn place_of(std::size_t at, std::string_view text) {
-  LineColumn place;
-  std::size_t begin = 0;
-  at = std::min(at, text.size());
-  for (std::size_t i = 0; i < at; ++i) {
-    const bool ends_line = text[i] == '\n' || (text[i] == '\r' && (i + 1 == text.size() || text[i + 1] != '\n'));
-    if (!ends_line) continue;
-    ++place.line;
-    begin = i + 1;
-  }
-  place.column = text::column_of(text.substr(begin, std::min(text.size() - begin, at - begin + 4)), at - begin);
-  return place;
+std::string located_message(std::string_view file, const LineColumn& place, const Mistake& mistake, Language language) {
+  return text::printable(fmt::format("{}:{}:{}: {}: {}", file, place.line, place.column,
+                                     dialect::severity_name(dialect::Severity::Error, language),
+                                     mistake.message(language)));
 }
 
 std::string shortened(std::string_view text) {

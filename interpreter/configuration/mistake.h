@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/configuration/text_place.h"
 #include "interpreter/dialect/diagnostic.h"
 
 namespace isocnc::configuration {
@@ -33,12 +34,9 @@ struct Mistake {
   std::string message(dialect::Language language) const;
 };
 
-/// A position in a text, from 1; columns in code points.
-struct LineColumn {
-  std::size_t line = 1;
-  std::size_t column = 1;
-};
-LineColumn place_of(std::size_t at, std::string_view text);
+/// A mistake in its file, in one line: `isocnc.json:12:7: error: machine.home.x: ...`.
+std::string located_message(std::string_view file, const LineColumn& place, const Mistake& mistake,
+                            dialect::Language language);
 
 /// Text of the file, shortened for a message.
 std::string shortened(std::string_view text);
@@ -98,6 +96,64 @@ inline constexpr dialect::Text kEmpty = {"the text is empty", "il testo è vuoto
 inline constexpr dialect::Text kMinAboveMax = {"min is more than max", "min è maggiore di max"};
 inline constexpr dialect::Text kToolTwice = {"this tool is listed already", "utensile già in elenco"};
 inline constexpr dialect::Text kFunctionTwice = {"this M is named already", "questa M ha già un nome"};
+
+inline constexpr dialect::Text kRowLength = {"{0} numbers are needed here: {1}", "qui ci vogliono {0} numeri: {1}"};
+inline constexpr dialect::Text kRowCount = {"{0} rows are needed here", "qui ci vogliono {0} righe"};
+inline constexpr dialect::Text kManyRows = {"more than {0} rows", "più di {0} righe"};
+inline constexpr dialect::Text kCornerBelow = {"{0} is less than {1} of the lower corner",
+                                               "{0} è meno di {1} dello spigolo inferiore"};
+inline constexpr dialect::Text kBelowRowBefore = {"{0} is less than {1} in the row before",
+                                                  "{0} è meno di {1} nella riga precedente"};
+inline constexpr dialect::Text kNotAtTip = {"the rows start at the tip, that is at z = 0, not at {0}",
+                                            "le righe iniziano dalla punta, cioè da z = 0, non da {0}"};
+inline constexpr dialect::Text kNoVolume = {"these rows enclose nothing", "queste righe non racchiudono nulla"};
+inline constexpr dialect::Text kNoDirection = {"a direction without a length", "una direzione senza lunghezza"};
+inline constexpr dialect::Text kOneShape = {"one of box, cylinder and mesh is needed",
+                                            "ci vuole uno fra box, cylinder e mesh"};
+inline constexpr dialect::Text kSecondShape = {"there is {0} already; one of them is enough",
+                                               "c'è già {0}: ne basta uno"};
+inline constexpr dialect::Text kNeedsKey = {"this needs the key {0}", "ci vuole anche la chiave {0}"};
+inline constexpr dialect::Text kNotOfShape = {"only a tool with the shape {0} has this",
+                                              "questo l'ha solo un utensile con la forma {0}"};
+inline constexpr dialect::Text kUnknownHolder = {"there is no {0} in machine.holders",
+                                                 "{0} non c'è in machine.holders"};
+inline constexpr dialect::Text kHolderTwice = {"this holder is listed already", "portautensile già in elenco"};
+inline constexpr dialect::Text kHolderTooHigh = {"the holder is {0} mm high, and the tool {1} mm long",
+                                                 "il portautensile è alto {0} mm, e l'utensile lungo {1} mm"};
+inline constexpr dialect::Text kTooShortForShape = {
+    "{0} mm of the tool are outside the holder, and its shape needs {1} mm",
+    "fuori dal portautensile ci sono {0} mm di utensile, e la sua forma ne vuole {1}"};
+inline constexpr dialect::Text kInsideHolder = {"{0} is too large: {1} mm of the tool are outside the holder",
+                                                "{0} è troppo grande: fuori dal portautensile ci sono {1} mm"};
+inline constexpr dialect::Text kNoRotaryAxes = {"a machine with three axes has no {0}",
+                                                "una macchina a tre assi non ha {0}"};
+
+inline constexpr dialect::Text kOutsideFolder = {"{0}: the file must be in the folder of this file, or below",
+                                                 "{0}: il file deve stare nella cartella di questo file, o più sotto"};
+inline constexpr dialect::Text kFileProblem = {"{0}: {1}", "{0}: {1}"};
+inline constexpr dialect::Text kNotThisKind = {"{0} is not a file", "{0} non è un file"};
+inline constexpr dialect::Text kMeshTooLarge = {"{0} is larger than any mesh: at most {1}",
+                                                "{0} è troppo grande per una mesh: al massimo {1}"};
+inline constexpr dialect::Text kMeshEmpty = {"{0} is no STL file with a triangle",
+                                             "{0} non è un file STL con triangoli"};
+inline constexpr dialect::Text kMeshTruncated = {"{0} ends within the triangle after {1} complete ones",
+                                                 "{0} finisce dentro il triangolo dopo {1} completi"};
+inline constexpr dialect::Text kMeshShort = {"{0} ends before the {1} triangles that it states",
+                                             "{0} finisce prima dei {1} triangoli che dichiara"};
+inline constexpr dialect::Text kMeshLong = {"{0} goes on after the {1} triangles that it states",
+                                            "{0} continua dopo i {1} triangoli che dichiara"};
+inline constexpr dialect::Text kMeshWord = {"{0}, line {1}: not the word that STL has here",
+                                            "{0}, riga {1}: non è la parola che l'STL ha qui"};
+inline constexpr dialect::Text kMeshNumber = {"{0}, line {1}: no number where STL has a coordinate",
+                                              "{0}, riga {1}: nessun numero dove l'STL ha una coordinata"};
+inline constexpr dialect::Text kMeshNotFinite = {"{0}, triangle {1}: a coordinate that is not finite",
+                                                 "{0}, triangolo {1}: una coordinata non finita"};
+inline constexpr dialect::Text kMeshTooFar = {"{0}, triangle {1}: a coordinate that is farther away than a kilometer",
+                                              "{0}, triangolo {1}: una coordinata oltre il chilometro"};
+inline constexpr dialect::Text kMeshShiftedTooFar = {"{0}: its shift takes it farther away than a kilometer",
+                                                     "{0}: lo spostamento la porta oltre il chilometro"};
+inline constexpr dialect::Text kMeshHuge = {"{0} has more triangles than any mesh",
+                                            "{0} ha troppi triangoli per una mesh"};
 }  // namespace mistakes
 
 }  // namespace isocnc::configuration

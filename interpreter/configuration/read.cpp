@@ -37,10 +37,13 @@ static JsonKind json_of(KeyKind kind) {
       return JsonKind::String;
     case KeyKind::Objects:
     case KeyKind::Texts:
+    case KeyKind::Point:
+    case KeyKind::Rows:
       return JsonKind::List;
     case KeyKind::Object:
     case KeyKind::Named:
     case KeyKind::Severities:
+    case KeyKind::NamedRows:
       break;
   }
   return JsonKind::Object;
@@ -67,6 +70,20 @@ static std::optional<Fault> extension_fault(std::string_view text) {
   return is_name ? std::nullopt : std::optional(Fault{mistakes::kBadExtension, {}});
 }
 
+/// A path that could leave its folder on any system.
+static std::optional<Fault> file_fault(std::string_view text) {
+  if (text.empty()) return Fault{mistakes::kEmpty, {}};
+  static constexpr std::string_view kSlashes = "/\\";
+  const bool is_absolute = kSlashes.find(text.front()) != std::string_view::npos || text.substr(1, 1) == ":";
+  bool goes_up = false;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find_first_of(kSlashes, begin), text.size());
+    goes_up = goes_up || text.substr(begin, end - begin) == "..";
+    begin = end + 1;
+  }
+  return is_absolute || goes_up ? std::optional(Fault{mistakes::kOutsideFolder, {}}) : std::nullopt;
+}
+
 static std::optional<Fault> fault_of(TextKind kind, std::string_view text) {
   switch (kind) {
     case TextKind::Code:
@@ -78,6 +95,8 @@ static std::optional<Fault> fault_of(TextKind kind, std::string_view text) {
       return extension_fault(text);
     case TextKind::Function:
       return function_number(text) ? std::nullopt : std::optional(Fault{mistakes::kBadFunction, {}});
+    case TextKind::File:
+      return file_fault(text);
     case TextKind::Any:
       break;
   }
@@ -109,16 +128,30 @@ namespace {
 /// Compares a tree of values with the table of keys, and stores the valid ones in their slots.
 class ConfigurationReader {
  public:
-  ConfigurationReader(std::string_view text, ReadConfiguration& result) : text_(text), result_(result) {}
+  ConfigurationReader(std::string_view text, ReadConfiguration& result) : text_(text), places_(text), result_(result) {}
 
-  void read(const JsonValue& root) {
-    if (root.kind == JsonKind::Object) return read_members(root, nullptr, "", 0);
-    complain(root.at, "", mistakes::kWrongKind, {name_of(root.kind), name_of(JsonKind::Object)});
+  /// Reads the object of `key` that is a file of its own; null means an isocnc.json.
+  void read(const JsonValue& root, const Key* key) {
+    if (root.kind != JsonKind::Object)
+      return complain(root.at, "", mistakes::kWrongKind, {name_of(root.kind), name_of(JsonKind::Object)});
+    root_ = &root;
+    read_members(root, key, "", {});
+    if (!result_.mistakes.empty()) return;
+    for (const Judged& each : judged_)
+      object_to(each.key->final_objection(result_.configuration, each.index), *each.object, each.path);
   }
 
  private:
   /// The keys of one object so far, with their offsets.
   using SeenKeys = std::unordered_map<std::string_view, std::size_t>;
+
+  /// An object with a final objection.
+  struct Judged {
+    const Key* key;
+    const JsonValue* object;
+    std::string path;
+    ElementIndex index;
+  };
 
   /// Limits the list to a hundred mistakes: users read no more, and searching corrections takes time.
   bool is_full() const { return result_.mistakes.size() >= 100; }
@@ -129,16 +162,16 @@ class ConfigurationReader {
     result_.mistakes.push_back({at, shortened(key), text, std::move(names), std::move(meant)});
   }
 
-  void read_value(const Key& key, const JsonValue& value, const std::string& path, std::size_t index) {
+  void read_value(const Key& key, const JsonValue& value, const std::string& path, ElementIndex index) {
     if (value.kind != json_of(key.kind))
       return complain(value.at, path, mistakes::kWrongKind, {name_of(value.kind), name_of(json_of(key.kind))});
     const ValueSlot slot = key.slot ? key.slot(result_.configuration, index) : ValueSlot();
     switch (key.kind) {
       case KeyKind::Object:
-        if (const auto* const renumber = std::get_if<std::optional<Renumber>*>(&slot)) (*renumber)->emplace();
+        create_object(slot, places_.of(value.at));
         return read_object(key, value, path, index);
       case KeyKind::Objects:
-        return read_objects(key, value, path, slot);
+        return read_objects(key, value, path, index, slot);
       case KeyKind::Named:
         return read_named(key, value, path, slot);
       case KeyKind::Number:
@@ -148,8 +181,7 @@ class ConfigurationReader {
         *std::get<bool*>(slot) = value.boolean;
         return;
       case KeyKind::Text:
-        if (is_right(key.text, value.string, value.at, path) && !std::holds_alternative<std::monostate>(slot))
-          *std::get<std::string*>(slot) = value.string;
+        if (is_right(key.text, value.string, value.at, path)) store_text(value, path, slot);
         return;
       case KeyKind::Choice:
         return read_choice(key, value, path, slot);
@@ -157,24 +189,55 @@ class ConfigurationReader {
         return read_texts(key, value, path, *std::get<std::vector<std::string>*>(slot));
       case KeyKind::Severities:
         return read_severities(key, value, path, *std::get<std::vector<std::pair<std::string, std::string>>*>(slot));
+      case KeyKind::Point:
+        return read_point(key, value, path, *std::get<std::optional<geometry::Vec3>*>(slot));
+      case KeyKind::Rows:
+        return read_rows(key, value, path, index, *std::get<std::optional<NumberRows>*>(slot));
+      case KeyKind::NamedRows:
+        return read_named_rows(key, value, path, *std::get<std::vector<NamedRows>*>(slot));
     }
   }
 
-  /// Reads an object, a list element or a named object: first its keys, then conditions on several keys.
-  void read_object(const Key& key, const JsonValue& object, const std::string& path, std::size_t index) {
-    const std::size_t before = result_.mistakes.size();
-    read_members(object, &key, path, index);
-    if (result_.mistakes.size() != before || !key.objection) return;
-    const std::optional<Objection> objection = key.objection(result_.configuration, index);
-    if (!objection) return;
-    const auto member = std::find_if(object.members.begin(), object.members.end(),
-                                     [&](const JsonMember& each) { return each.key == objection->member; });
-    const bool is_member = member != object.members.end();
-    complain(is_member ? member->value.at : object.at, is_member ? path + "." + member->key : path, objection->text);
+  void store_text(const JsonValue& value, const std::string& path, const ValueSlot& slot) {
+    if (auto* const* const text = std::get_if<std::string*>(&slot)) **text = value.string;
+    if (auto* const* const mesh = std::get_if<std::optional<MeshFile>*>(&slot))
+      **mesh = MeshFile{.name = value.string, .key = shortened(path), .place = places_.of(value.at)};
   }
 
-  void read_members(const JsonValue& object, const Key* key, const std::string& path, std::size_t index) {
-    const std::vector<const Key*> keys = keys_below(key);
+  /// Reads an object, a list element or a named object: first its keys, then conditions on several keys.
+  void read_object(const Key& key, const JsonValue& object, const std::string& path, ElementIndex index) {
+    const std::size_t before = result_.mistakes.size();
+    read_members(object, &key, path, index);
+    if (result_.mistakes.size() != before) return;
+    if (key.final_objection) judged_.push_back({&key, &object, path, index});
+    if (key.objection) object_to(key.objection(result_.configuration, index), object, path);
+  }
+
+  /// Reports an objection at the most exact place that it names.
+  void object_to(const std::optional<Objection>& objection, const JsonValue& object, std::string path) {
+    if (!objection) return;
+    const JsonValue* marked = &object;
+    for (const JsonMember& member : object.members) {
+      if (member.key != objection->member) continue;
+      marked = &member.value;
+      path += (path.empty() ? "" : ".") + member.key;
+      break;
+    }
+    for (const std::optional<std::size_t>& i : {objection->row, objection->column}) {
+      if (!i || *i >= marked->elements.size()) break;
+      marked = &marked->elements[*i];
+      path += fmt::format("[{}]", *i);
+    }
+    complain(marked->at, path, objection->text, objection->names, objection->meant);
+  }
+
+  void read_members(const JsonValue& object, const Key* key, const std::string& path, ElementIndex index) {
+    std::vector<const Key*> keys = keys_below(key);
+    const bool is_setup_file = key != nullptr && &object == root_;
+    if (is_setup_file) {
+      std::erase_if(keys, [](const Key* each) { return each->name() == "paths"; });
+      keys.push_back(&all_keys().front());  // $schema
+    }
     SeenKeys seen;
     for (const JsonMember& member : object.members) {
       if (is_full()) return;
@@ -216,8 +279,9 @@ class ConfigurationReader {
     return !fault;
   }
 
-  void read_objects(const Key& key, const JsonValue& list, const std::string& path, const ValueSlot& slot) {
-    if (const auto* const tools = std::get_if<std::optional<std::vector<Tool>>*>(&slot)) (*tools)->emplace();
+  void read_objects(const Key& key, const JsonValue& list, const std::string& path, ElementIndex owner,
+                    const ValueSlot& slot) {
+    create_list(slot);
     for (std::size_t i = 0; i < list.elements.size() && !is_full(); ++i) {
       const JsonValue& element = list.elements[i];
       const std::string below = fmt::format("{}[{}]", path, i);
@@ -225,19 +289,8 @@ class ConfigurationReader {
         complain(element.at, below, mistakes::kWrongKind, {name_of(element.kind), name_of(JsonKind::Object)});
         continue;
       }
-      read_object(key, element, below, add_element(slot));
+      read_object(key, element, below, element_index(key, owner, add_element(slot, places_.of(element.at))));
     }
-  }
-
-  /// Adds an element to the list and returns its index.
-  static std::size_t add_element(const ValueSlot& slot) {
-    if (const auto* const tools = std::get_if<std::optional<std::vector<Tool>>*>(&slot)) {
-      (*tools)->value().emplace_back();
-      return (*tools)->value().size() - 1;
-    }
-    std::vector<FileOverrides>& files = *std::get<std::vector<FileOverrides>*>(slot);
-    files.emplace_back();
-    return files.size() - 1;
   }
 
   void read_named(const Key& key, const JsonValue& object, const std::string& path, const ValueSlot& slot) {
@@ -252,26 +305,109 @@ class ConfigurationReader {
         continue;
       }
       functions.push_back({.number = *function_number(member.key)});
-      read_object(key, member.value, below, functions.size() - 1);
+      read_object(key, member.value, below, {functions.size() - 1, 0});
+    }
+  }
+
+  /// Whether the number is in the range, which else is reported.
+  bool is_within(const NumberRange& range, const Text& unit, const JsonValue& value, const std::string& path) {
+    const double number = value.number;
+    const bool is_above = range.exclusive_minimum ? number > range.minimum : number >= range.minimum;
+    if (is_above && number <= range.maximum) return true;
+    const double bound = is_above ? range.maximum : range.minimum;
+    Named limit(fmt::format("{}{}{}", bound, unit.en.empty() ? "" : " ", unit.en));
+    limit.it = fmt::format("{}{}{}", bound, unit.it.empty() ? "" : " ", unit.it);
+    const Text& text = is_above                  ? mistakes::kTooBig
+                       : range.exclusive_minimum ? mistakes::kNotAbove
+                                                 : mistakes::kTooSmall;
+    complain(value.at, path, text, {fmt::format("{}", number), std::move(limit)});
+    return false;
+  }
+
+  /// The numbers of a list with one for each column; none, after a complaint, if it is another list.
+  std::optional<std::vector<double>> read_columns(const Key& key, const JsonValue& list, const std::string& path) {
+    if (list.elements.size() != key.columns.size()) {
+      Named names{std::string()};
+      for (const Column& column : key.columns) {
+        names.en += fmt::format("{}{}", names.en.empty() ? "" : ", ", column.name.en);
+        names.it += fmt::format("{}{}", names.it.empty() ? "" : ", ", column.name.it);
+      }
+      complain(list.at, path, mistakes::kRowLength, {fmt::format("{}", key.columns.size()), std::move(names)});
+      return std::nullopt;
+    }
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < list.elements.size() && !is_full(); ++i) {
+      const JsonValue& element = list.elements[i];
+      const std::string below = fmt::format("{}[{}]", path, i);
+      if (element.kind != JsonKind::Number) {
+        complain(element.at, below, mistakes::kWrongKind, {name_of(element.kind), name_of(JsonKind::Number)});
+      } else if (is_within(key.columns[i].range, key.unit, element, below)) {
+        numbers.push_back(element.number);
+      }
+    }
+    return numbers.size() == key.columns.size() ? std::optional(std::move(numbers)) : std::nullopt;
+  }
+
+  void read_point(const Key& key, const JsonValue& list, const std::string& path,
+                  std::optional<geometry::Vec3>& point) {
+    if (const auto numbers = read_columns(key, list, path))
+      point = geometry::Vec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+  }
+
+  /// Whether the list has as many rows as the key wants, and all of them are right; else that is reported.
+  bool are_right(const Key& key, const JsonValue& list, const std::string& path, NumberRows& rows) {
+    const std::size_t count = list.elements.size();
+    const std::size_t before = result_.mistakes.size();
+    if (key.has_all_rows && count != key.maximum_rows) {
+      complain(list.at, path, mistakes::kRowCount, {fmt::format("{}", key.maximum_rows)});
+    } else if (count == 0) {
+      complain(list.at, path, mistakes::kEmptyList);
+    } else if (count > key.maximum_rows) {
+      complain(list.at, path, mistakes::kManyRows, {fmt::format("{}", key.maximum_rows)});
+    }
+    for (std::size_t i = 0; i < std::min(count, key.maximum_rows) && !is_full(); ++i) {
+      const JsonValue& element = list.elements[i];
+      const std::string below = fmt::format("{}[{}]", path, i);
+      if (element.kind != JsonKind::List) {
+        complain(element.at, below, mistakes::kWrongKind, {name_of(element.kind), name_of(JsonKind::List)});
+      } else if (auto row = read_columns(key, element, below)) {
+        rows.push_back(*std::move(row));
+      }
+    }
+    return !is_full() && result_.mistakes.size() == before;
+  }
+
+  void read_rows(const Key& key, const JsonValue& list, const std::string& path, ElementIndex index,
+                 std::optional<NumberRows>& slot) {
+    NumberRows rows;
+    if (!are_right(key, list, path, rows)) return;
+    slot = std::move(rows);
+    if (key.objection) object_to(key.objection(result_.configuration, index), list, path);
+  }
+
+  void read_named_rows(const Key& key, const JsonValue& object, const std::string& path, std::vector<NamedRows>& all) {
+    all.clear();
+    SeenKeys seen;
+    for (const JsonMember& member : object.members) {
+      if (is_full()) return;
+      const std::string below = path + "." + member.key;
+      if (is_duplicate(member, seen, below) || !is_right(key.text, member.key, member.at, below)) continue;
+      if (member.value.kind != JsonKind::List) {
+        complain(member.value.at, below, mistakes::kWrongKind, {name_of(member.value.kind), name_of(JsonKind::List)});
+        continue;
+      }
+      NamedRows named{.name = member.key, .rows = {}};
+      if (!are_right(key, member.value, below, named.rows)) continue;
+      all.push_back(std::move(named));
+      object_to(key.objection(result_.configuration, {all.size() - 1, 0}), member.value, below);
     }
   }
 
   void read_number(const Key& key, const JsonValue& value, const std::string& path, const ValueSlot& slot) {
     const double number = value.number;
-    const std::string written = fmt::format("{}", number);
-    const auto limit = [&](double bound) -> Named {
-      Named named(fmt::format("{}{}{}", bound, key.unit.en.empty() ? "" : " ", key.unit.en));
-      named.it = fmt::format("{}{}{}", bound, key.unit.it.empty() ? "" : " ", key.unit.it);
-      return named;
-    };
-    const NumberRange& range = key.range;
     if (key.kind == KeyKind::Integer && std::floor(number) != number)
-      return complain(value.at, path, mistakes::kNotWhole, {written});
-    if (range.exclusive_minimum && !(number > range.minimum))
-      return complain(value.at, path, mistakes::kNotAbove, {written, limit(range.minimum)});
-    if (!(number >= range.minimum))
-      return complain(value.at, path, mistakes::kTooSmall, {written, limit(range.minimum)});
-    if (!(number <= range.maximum)) return complain(value.at, path, mistakes::kTooBig, {written, limit(range.maximum)});
+      return complain(value.at, path, mistakes::kNotWhole, {fmt::format("{}", number)});
+    if (!is_within(key.range, key.unit, value, path)) return;
     if (const auto* const real = std::get_if<double*>(&slot)) **real = number;
     if (const auto* const real = std::get_if<std::optional<double>*>(&slot)) **real = number;
     if (const auto* const whole = std::get_if<int*>(&slot)) **whole = static_cast<int>(number);
@@ -330,7 +466,10 @@ class ConfigurationReader {
   }
 
   std::string_view text_;
+  PlaceFinder places_;
   ReadConfiguration& result_;
+  const JsonValue* root_ = nullptr;
+  std::vector<Judged> judged_;
 };
 
 }  // namespace
@@ -374,20 +513,38 @@ static void derive(Configuration& configuration, const std::filesystem::path& fo
   Lint& lint = configuration.lint;
   lint.excluded = PathPatterns(folder, lint.exclude);
   for (FileOverrides& files : lint.files) files.patterns = PathPatterns(folder, files.paths);
+  for (DescribedSetup& setup : configuration.setups) setup.patterns = PathPatterns(folder, setup.paths);
+  configuration.folder = folder;
+  machine.folder = folder;
+}
+
+/// Reads the text as the object of `key`; null means an isocnc.json.
+static void read_text(std::string_view text, const Key* key, ReadConfiguration& result) {
+  const std::variant<JsonValue, Mistake> parsed = parse_json(text);
+  if (const auto* const mistake = std::get_if<Mistake>(&parsed)) {
+    result.mistakes.push_back(*mistake);
+    return;
+  }
+  ConfigurationReader(text, result).read(std::get<JsonValue>(parsed), key);
+  std::stable_sort(result.mistakes.begin(), result.mistakes.end(),
+                   [](const Mistake& a, const Mistake& b) { return a.at < b.at; });
 }
 
 ReadConfiguration read_configuration(std::string_view text, const std::filesystem::path& folder) {
   ReadConfiguration result;
-  const std::variant<JsonValue, Mistake> parsed = parse_json(text);
-  if (const auto* const mistake = std::get_if<Mistake>(&parsed)) {
-    result.mistakes.push_back(*mistake);
-    return result;
-  }
-  ConfigurationReader(text, result).read(std::get<JsonValue>(parsed));
-  std::stable_sort(result.mistakes.begin(), result.mistakes.end(),
-                   [](const Mistake& a, const Mistake& b) { return a.at < b.at; });
+  read_text(text, nullptr, result);
   derive(result.configuration, folder);
   return result;
+}
+
+ReadSetup read_setup(std::string_view text) {
+  const std::vector<Key>& keys = all_keys();
+  static const Key& kSetups =
+      *std::find_if(keys.begin(), keys.end(), [](const Key& key) { return key.path == "setups"; });
+  ReadConfiguration result;
+  result.configuration.setups.emplace_back();
+  read_text(text, &kSetups, result);
+  return {.setup = std::move(result.configuration.setups.front()), .mistakes = std::move(result.mistakes)};
 }
 
 }  // namespace isocnc::configuration

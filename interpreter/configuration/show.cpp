@@ -49,23 +49,44 @@ static std::optional<ordered_json> value_in(const std::vector<std::pair<std::str
   for (const auto& [code, severity] : *severities) object[code] = severity;
   return object;
 }
+static ordered_json row_value(std::span<const double> row) {
+  ordered_json list = ordered_json::array();
+  for (const double each : row) list.push_back(number(each));
+  return list;
+}
+static ordered_json rows_value(const NumberRows& rows) {
+  ordered_json list = ordered_json::array();
+  for (const std::vector<double>& row : rows) list.push_back(row_value(row));
+  return list;
+}
+static std::optional<ordered_json> value_in(const std::optional<geometry::Vec3>* point) {
+  return *point ? std::optional(row_value(std::span((*point)->data(), 3))) : std::nullopt;
+}
+static std::optional<ordered_json> value_in(const std::optional<NumberRows>* rows) {
+  return *rows ? std::optional(rows_value(**rows)) : std::nullopt;
+}
+static std::optional<ordered_json> value_in(const std::vector<NamedRows>* all) {
+  ordered_json object = ordered_json::object();
+  for (const NamedRows& each : *all) object[each.name] = rows_value(each.rows);
+  return object;
+}
+static std::optional<ordered_json> value_in(const std::optional<MeshFile>* mesh) {
+  return *mesh ? std::optional<ordered_json>((*mesh)->name) : std::nullopt;
+}
 /// Objects have their keys in the table; only their presence matters here.
 template <typename T>
 static std::optional<ordered_json> value_in(const T* /*objects*/) {
   return std::nullopt;
 }
 
-static ordered_json object_of(Configuration& configuration, const Key* key, std::size_t index);
+static ordered_json object_of(Configuration& configuration, const Key* key, ElementIndex index);
 
-static std::optional<ordered_json> list_of(Configuration& configuration, const Key& key, const ValueSlot& slot) {
+static std::optional<ordered_json> list_of(Configuration& configuration, const Key& key, const ValueSlot& slot,
+                                           ElementIndex owner) {
+  const std::optional<std::size_t> count = element_count(slot);
+  if (!count) return std::nullopt;
   ordered_json list = ordered_json::array();
-  if (const auto* const tools = std::get_if<std::optional<std::vector<Tool>>*>(&slot)) {
-    if (!**tools) return std::nullopt;
-    for (std::size_t i = 0; i < (**tools)->size(); ++i) list.push_back(object_of(configuration, &key, i));
-  } else {
-    const std::size_t count = std::get<std::vector<FileOverrides>*>(slot)->size();
-    for (std::size_t i = 0; i < count; ++i) list.push_back(object_of(configuration, &key, i));
-  }
+  for (std::size_t i = 0; i < *count; ++i) list.push_back(object_of(configuration, &key, element_index(key, owner, i)));
   return list;
 }
 
@@ -74,22 +95,21 @@ static std::optional<ordered_json> named_of(Configuration& configuration, const 
   if (!functions) return std::nullopt;
   ordered_json object = ordered_json::object();
   for (std::size_t i = 0; i < functions->size(); ++i)
-    object[fmt::format("M{}", (*functions)[i].number)] = object_of(configuration, &key, i);
+    object[fmt::format("M{}", (*functions)[i].number)] = object_of(configuration, &key, {i, 0});
   return object;
 }
 
-static std::optional<ordered_json> value_of(Configuration& configuration, const Key& key, std::size_t index) {
+static std::optional<ordered_json> value_of(Configuration& configuration, const Key& key, ElementIndex index) {
   const ValueSlot slot = key.slot ? key.slot(configuration, index) : ValueSlot();
-  if (const auto* const renumber = std::get_if<std::optional<Renumber>*>(&slot); renumber && !**renumber)
-    return std::nullopt;
-  if (key.kind == KeyKind::Objects) return list_of(configuration, key, slot);
+  if (is_absent(slot)) return std::nullopt;
+  if (key.kind == KeyKind::Objects) return list_of(configuration, key, slot, index);
   if (key.kind == KeyKind::Named) return named_of(configuration, key, slot);
   if (key.kind != KeyKind::Object) return std::visit([](const auto& place) { return value_in(place); }, slot);
   ordered_json object = object_of(configuration, &key, index);
   return object.empty() ? std::nullopt : std::optional(std::move(object));
 }
 
-static ordered_json object_of(Configuration& configuration, const Key* key, std::size_t index) {
+static ordered_json object_of(Configuration& configuration, const Key* key, ElementIndex index) {
   ordered_json object = ordered_json::object();
   for (const Key* each : keys_below(key))
     if (std::optional<ordered_json> value = value_of(configuration, *each, index))
@@ -99,7 +119,7 @@ static ordered_json object_of(Configuration& configuration, const Key* key, std:
 
 std::string to_json(const Configuration& configuration) {
   Configuration copy = configuration;  // A copy, since slots are writable.
-  return object_of(copy, nullptr, 0).dump(2) + "\n";
+  return object_of(copy, nullptr, {}).dump(2) + "\n";
 }
 
 static ordered_json text_schema(TextKind kind) {
@@ -115,6 +135,9 @@ static ordered_json text_schema(TextKind kind) {
       break;
     case TextKind::Pattern:
       schema["pattern"] = R"(^(?!(.*/)?\.\.(/|$))[^!])";
+      break;
+    case TextKind::File:
+      schema["pattern"] = R"(^(?!(.*[/\\])?\.\.([/\\]|$))(?!.:)[^/\\])";
       break;
     case TextKind::Any:
       schema["minLength"] = 1;
@@ -133,11 +156,29 @@ static ordered_json code_schema() {
   return {{"anyOf", {{{"enum", std::move(names)}}, {{"type", "string"}, {"pattern", "^[A-Za-z][A-Za-z0-9-]*$"}}}}};
 }
 
-static void add_range(const Key& key, ordered_json& schema) {
-  const NumberRange& range = key.range;
+static void add_range(const NumberRange& range, ordered_json& schema) {
   if (std::isfinite(range.minimum))
     schema[range.exclusive_minimum ? "exclusiveMinimum" : "minimum"] = number(range.minimum);
   if (std::isfinite(range.maximum)) schema["maximum"] = number(range.maximum);
+}
+
+/// The schema of a list with a number for each column.
+static ordered_json row_schema(const Key& key) {
+  ordered_json numbers = ordered_json::array();
+  for (const Column& column : key.columns) {
+    ordered_json number = {{"description", column.name.en}, {"type", "number"}};
+    add_range(column.range, number);
+    numbers.push_back(std::move(number));
+  }
+  const std::size_t count = key.columns.size();
+  return {{"type", "array"}, {"items", std::move(numbers)}, {"minItems", count}, {"maxItems", count}};
+}
+
+static ordered_json rows_schema(const Key& key) {
+  return {{"type", "array"},
+          {"items", row_schema(key)},
+          {"minItems", key.has_all_rows ? key.maximum_rows : 1},
+          {"maxItems", key.maximum_rows}};
 }
 
 static std::string description_of(const Key& key) {
@@ -177,7 +218,7 @@ static ordered_json schema_of(const Key* key) {
     case KeyKind::Number:
     case KeyKind::Integer:
       schema["type"] = key->kind == KeyKind::Integer ? "integer" : "number";
-      add_range(*key, schema);
+      add_range(key->range, schema);
       break;
     case KeyKind::Boolean:
       schema["type"] = "boolean";
@@ -198,6 +239,17 @@ static ordered_json schema_of(const Key* key) {
       schema["propertyNames"] = text_schema(key->text);
       schema["additionalProperties"] = {{"enum", key->choices}};
       break;
+    case KeyKind::Point:
+      schema.update(row_schema(*key));
+      break;
+    case KeyKind::Rows:
+      schema.update(rows_schema(*key));
+      break;
+    case KeyKind::NamedRows:
+      schema["type"] = "object";
+      schema["propertyNames"] = text_schema(key->text);
+      schema["additionalProperties"] = rows_schema(*key);
+      break;
   }
   return schema;
 }
@@ -217,8 +269,19 @@ static std::string default_of(const Key& key) {
   if (key.path.find("[]") != std::string::npos || key.path.find('*') != std::string::npos) return "";
   Configuration none;
   none.format.renumber.emplace();
-  const std::optional<ordered_json> value = key.kind == KeyKind::Object ? std::nullopt : value_of(none, key, 0);
+  const std::optional<ordered_json> value = key.kind == KeyKind::Object ? std::nullopt : value_of(none, key, {});
   return value && !value->empty() ? fmt::format("`{}`", value->dump()) : "";
+}
+
+/// The form of lists of numbers: `[[z, radius], ...]`.
+static std::string rows_form(const Key& key, Language language) {
+  std::vector<std::string_view> names;
+  for (const Column& column : key.columns) names.push_back(column.name.in(language));
+  const std::string row = fmt::format("[{}]", fmt::join(names, ", "));
+  if (key.kind == KeyKind::Point) return fmt::format("`{}`", row);
+  const std::string rows = key.has_all_rows ? fmt::format("`[{0}, {0}]`", row) : fmt::format("`[{}, ...]`", row);
+  static constexpr Text kByName = {"{} by name", "{} con nome"};
+  return key.kind == KeyKind::NamedRows ? dialect::format(kByName, language, rows) : rows;
 }
 
 static std::string kind_of(const Key& key, Language language) {
@@ -239,7 +302,8 @@ static std::string kind_of(const Key& key, Language language) {
     for (const std::string_view choice : key.choices) choices.push_back(fmt::format("`\"{}\"`", choice));
     return fmt::format("{}", fmt::join(choices, ", "));
   }
-  std::string kind(kNames[static_cast<std::size_t>(key.kind)].in(language));
+  std::string kind = key.columns.empty() ? std::string(kNames[static_cast<std::size_t>(key.kind)].in(language))
+                                         : rows_form(key, language);
   if (!key.unit.en.empty()) kind += fmt::format(", {}", key.unit.in(language));
   const NumberRange& range = key.range;
   if (std::isfinite(range.minimum))

@@ -16,6 +16,27 @@ inline constexpr std::string_view kRightTexts[] = {
     R"({"machine": {"tools": [{"head": 1, "holder": 1.0, "tool": 999, "name": "\u00d8 8", "length": 80, "radius": 4},
                               {"head": 1, "holder": 2, "tool": 999}]}})",
     R"({"machine": {"functions": {"M1": {}, "M07": {"name": "aria"}, "M100": {}, "M999": {"name": "m"}}}})",
+    R"({"machine": {"tools": [
+      {"head": 1, "holder": 1, "tool": 1, "length": 100, "radius": 5, "shape": "flat", "cornerRadius": 0, "maxDepth": 9},
+      {"head": 1, "holder": 1, "tool": 2, "length": 100, "radius": 5, "shape": "ball", "cutLength": 20, "shank": 12},
+      {"head": 1, "holder": 1, "tool": 3, "length": 100, "radius": 5, "shape": "bull", "cornerRadius": 5, "body": "a"},
+      {"head": 1, "holder": 1, "tool": 4, "length": 100, "radius": 5, "shape": "cone", "tipAngle": 60, "body": "b"},
+      {"head": 1, "holder": 1, "tool": 5, "length": 100, "radius": 5, "shape": "drill", "tipAngle": 118},
+      {"head": 1, "holder": 1, "tool": 6, "length": 100, "radius": 40, "shape": "disc", "cutLength": 4, "shank": 16},
+      {"head": 1, "holder": 1, "tool": 7, "length": 100, "profile": [[0, 0], [0, 6.5], [100, 6.5]]},
+      {"head": 1, "holder": 1, "tool": 8, "length": 100, "profile": [[0, 1], [9, 4]], "cutLength": 5, "shank": 8},
+      {"head": 1, "holder": 1, "tool": 9, "length": 100, "cutLength": 50, "shank": 8, "body": "b"},
+      {"head": 1, "holder": 1, "tool": 10, "cutLength": 50}],
+      "holders": {"a": [[40, 30, 63]], "b": [[1, 0, 20], [9.5, 20, 20]]}, "nose": [[80, 0, 150]]}})",
+    R"({"machine": {"kinematics": {"type": "table"}, "nose": [[1, 2, 3], [4, 5, 6]], "bodies": [
+      {"name": "a", "on": "B", "box": [[0, 0, 0], [0, 0, 0]]}, {"name": "a", "on": "C", "mesh": "a/b..c/d.stl"},
+      {"name": "c", "cylinder": {"at": [1, 2, 3], "height": 0.1, "diameter": 1e5}, "at": [-1, -2, -3]}]}})",
+    R"({"setups": []})",
+    R"({"setups": [{"paths": ["*"]}, {"paths": ["a/"], "frame": "machine", "clearance": 0, "resolution": 0.25,
+      "stock": {"mesh": "./raw.stl"}, "spoilboard": {"top": -18}, "target": {"mesh": "part.stl"}, "fixtures": [
+      {"name": "x", "cylinder": {"at": [0, 0, 0], "axis": [0, -0.1, 0], "height": 1, "diameter": 2}},
+      {"name": "y", "box": [[-1, -1, -1], [1, 1, 1]]}]}, {"paths": ["b"], "fixtures": [{"name": "z", "mesh": "z"}],
+      "spoilboard": {"top": 0, "allow": 1.5, "area": [[0, 0], [1, 1]]}}]})",
     R"({"lint": {"select": ["iso", "W1", "arc-center-mismatch", "ALL"], "ignore": ["W003"], "severity": {"W": "off"}}})",
     R"({"lint": {"files": [{"paths": ["old/**", "*.tmp.iso", "\\!x"], "ignore": ["ALL"]}, {"paths": ["a..b/"]}]}})",
     R"({"lint": {"extensions": [".iso", "out.nc"], "exclude": ["archive/", "[a-c]?.iso"]}})",
@@ -108,6 +129,69 @@ inline constexpr WrongText kWrongTexts[] = {
      "1:61: machine.tools[1]: this tool is listed already", kSchemaAccepts},
     {R"({"machine": {"functions": {"M7": {}, "M07": {}}}})", "1:45: machine.functions.M07: this M is named already",
      kSchemaAccepts},
+    // Bodies: what a schema knows.
+    {R"({"machine": {"nose": 5, "holders": []}})",
+     "1:22: machine.nose: this is a number, and a list [ ] is needed\n"
+     "1:36: machine.holders: this is a list [ ], and an object { } is needed"},
+    {R"({"machine": {"nose": [], "holders": {"a": 1, "b": [[1, 2]]}}})",
+     "1:22: machine.nose: the list is empty\n1:43: machine.holders.a: this is a number, and a list [ ] is needed\n"
+     "1:52: machine.holders.b[0]: 3 numbers are needed here: height, lower diameter, upper diameter"},
+    {R"({"machine": {"nose": [7, [1, "2", 3], [0, -1, 1e5]]}})",
+     "1:23: machine.nose[0]: this is a number, and a list [ ] is needed\n"
+     "1:30: machine.nose[1][1]: this is text, and a number is needed\n"
+     "1:40: machine.nose[2][0]: 0 is too small: more than 0 mm\n"
+     "1:43: machine.nose[2][1]: -1 is too small: at least 0 mm\n"
+     "1:47: machine.nose[2][2]: 100000 is too large: at most 10000 mm"},
+    {R"({"machine": {"tools": [{"head": 1, "holder": 1, "tool": 1, "shape": "round", "shank": -4, "tipAngle": 180}]}})",
+     "1:69: machine.tools[0].shape: round is not one of flat, ball, bull, cone, drill, disc\n"
+     "1:87: machine.tools[0].shank: -4 is too small: more than 0 mm\n"
+     "1:103: machine.tools[0].tipAngle: 180 is too large: at most 179 degrees"},
+    {R"({"machine": {"tools": [{"head": 1, "holder": 1, "tool": 1, "profile": [[0, -1]], "maxDepth": 0, "body": ""}]}})",
+     "1:76: machine.tools[0].profile[0][1]: -1 is too small: at least 0 mm\n"
+     "1:94: machine.tools[0].maxDepth: 0 is too small: more than 0 mm\n"
+     "1:105: machine.tools[0].body: the text is empty"},
+    {R"({"machine": {"bodies": [{"on": "A", "box": [[0, 0, 0]]}]}})",
+     "1:25: machine.bodies[0]: the key name is missing\n1:32: machine.bodies[0].on: A is not one of machine, X, Y, Z, "
+     "C, B\n1:44: machine.bodies[0].box: 2 rows are needed here"},
+    {R"({"setups": [{"fixtures": [{"name": "a", "cylinder": {"at": [1, 2], "height": 0}}], "frame": "table"}]})",
+     "1:13: setups[0]: the key paths is missing\n"
+     "1:53: setups[0].fixtures[0].cylinder: the key diameter is missing\n"
+     "1:60: setups[0].fixtures[0].cylinder.at: 3 numbers are needed here: x, y, z\n"
+     "1:78: setups[0].fixtures[0].cylinder.height: 0 is too small: more than 0 mm\n"
+     "1:93: setups[0].frame: table is not one of workpiece, machine"},
+    {R"({"setups": [{"paths": ["a"], "target": {}, "spoilboard": {"allow": -1}, "fixture": [], "clearance": -1}]})",
+     "1:40: setups[0].target: the key mesh is missing\n1:58: setups[0].spoilboard: the key top is missing\n"
+     "1:68: setups[0].spoilboard.allow: -1 is too small: at least 0 mm\n"
+     "1:73: setups[0].fixture: unknown key; did you mean fixtures?\n"
+     "1:101: setups[0].clearance: -1 is too small: at least 0 mm"},
+    {R"({"setups": [{"paths": ["a"], "target": {"mesh": "../a.stl"}, "stock": {"mesh": "/a.stl"}}]})",
+     "1:49: setups[0].target.mesh: ../a.stl: the file must be in the folder of this file, or below\n"
+     "1:80: setups[0].stock.mesh: /a.stl: the file must be in the folder of this file, or below"},
+    {R"({"setups": [{"paths": ["a"], "target": {"mesh": "a\\..\\..\\b"}, "stock": {"mesh": "C:a.stl"}}]})",
+     "1:49: setups[0].target.mesh: a\\..\\..\\b: the file must be in the folder of this file, or below\n"
+     "1:84: setups[0].stock.mesh: C:a.stl: the file must be in the folder of this file, or below"},
+    {R"({"setups": [{"paths": ["a"], "target": {"mesh": ".."}, "stock": {"mesh": ""}}]})",
+     "1:49: setups[0].target.mesh: ..: the file must be in the folder of this file, or below\n"
+     "1:74: setups[0].stock.mesh: the text is empty"},
+    // Bodies: what takes several values.
+    {R"({"machine": {"nose": [[5, 0, 0]], "holders": {"a": [[5, 0, 0]]}}})",
+     "1:22: machine.nose: these rows enclose nothing\n1:52: machine.holders.a: these rows enclose nothing",
+     kSchemaAccepts},
+    {R"({"machine": {"bodies": [{"name": "a"}, {"name": "b", "box": [[0, 0, 0], [1, -1, 1]]}]}})",
+     "1:25: machine.bodies[0]: one of box, cylinder and mesh is needed\n"
+     "1:77: machine.bodies[1].box[1][1]: -1 is less than 0 of the lower corner",
+     kSchemaAccepts},
+    {R"({"machine": {"bodies": [{"name": "a", "mesh": "a.stl", "box": [[0, 0, 0], [1, 1, 1]]}]}})",
+     "1:47: machine.bodies[0].mesh: there is box already; one of them is enough", kSchemaAccepts},
+    {R"({"machine": {"bodies": [{"name": "a", "on": "B", "mesh": "a.stl"}], "kinematics": {"type": "three-axis"}}})",
+     "1:45: machine.bodies[0].on: a machine with three axes has no B", kSchemaAccepts},
+    {R"({"setups": [{"paths": ["a"], "stock": {}, "spoilboard": {"top": 0, "area": [[0, 5], [1, 4]]}}]})",
+     "1:39: setups[0].stock: one of box, cylinder and mesh is needed\n"
+     "1:89: setups[0].spoilboard.area[1][1]: 4 is less than 5 of the lower corner",
+     kSchemaAccepts},
+    {R"({"setups": [{"paths": ["a"], "stock": {"cylinder": {"at": [0, 0, 0], "axis": [0, 0, 0], "height": 1,
+    "diameter": 1}}}]})",
+     "1:78: setups[0].stock.cylinder.axis: a direction without a length", kSchemaAccepts},
     // What only the table of codes, and the reader of patterns, knows.
     {R"({"lint": {"ignore": ["ISO31"]}})",
      "1:22: lint.ignore[0]: there is no code ISO31 (isolint --list-rules); did you mean ISO031?", kSchemaAccepts},

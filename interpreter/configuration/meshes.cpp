@@ -1,0 +1,99 @@
+#include "interpreter/configuration/meshes.h"
+
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "interpreter/configuration/configurations.h"
+#include "interpreter/solids/clearance.h"
+#include "interpreter/solids/stl.h"
+#include "interpreter/system/file_bytes.h"
+
+namespace isocnc::configuration {
+
+namespace fs = std::filesystem;
+using dialect::Text;
+using solids::Mesh;
+using solids::StlProblem;
+using solids::Triangle;
+
+static Mistake mistake(const Text& text, const std::string& name, std::string detail = {}) {
+  return {.at = 0, .key = {}, .text = text, .names = {shortened(name), std::move(detail)}, .meant = {}};
+}
+
+static Mistake mistake_of(const StlProblem& problem, const std::string& name) {
+  using Kind = StlProblem::Kind;
+  const bool is_text = problem.line > 0;
+  const auto counted = [&](const Text& text, std::uint64_t number) {
+    return mistake(text, name, fmt::format("{}", number));
+  };
+  switch (problem.kind) {
+    case Kind::Empty:
+      break;
+    case Kind::Truncated:
+      return is_text || problem.stated == 0 ? counted(mistakes::kMeshTruncated, problem.triangle)
+                                            : counted(mistakes::kMeshShort, problem.stated);
+    case Kind::TooLong:
+      return counted(mistakes::kMeshLong, problem.stated);
+    case Kind::UnexpectedWord:
+      return counted(mistakes::kMeshWord, problem.line);
+    case Kind::NotANumber:
+      return counted(mistakes::kMeshNumber, problem.line);
+    case Kind::NotFinite:
+      return counted(mistakes::kMeshNotFinite, problem.triangle + 1);
+    case Kind::TooFar:
+      return counted(mistakes::kMeshTooFar, problem.triangle + 1);
+    case Kind::TooManyTriangles:
+      return mistake(mistakes::kMeshHuge, name);
+  }
+  return mistake(mistakes::kMeshEmpty, name);
+}
+
+static Mistake mistake_of(const system::FileBytesProblem& problem, const std::string& name) {
+  using Kind = system::FileBytesProblem::Kind;
+  switch (problem.kind) {
+    case Kind::NotRegular:
+      return mistake(mistakes::kNotThisKind, name);
+    case Kind::TooLarge:
+      return mistake(mistakes::kMeshTooLarge, name, fmt::format("{} MiB", kLargestMesh >> 20));
+    case Kind::Unreadable:
+      break;
+  }
+  return mistake(mistakes::kFileProblem, name, problem.message);
+}
+
+Meshes::MeshOrMistake Meshes::read(const fs::path& file, const std::string& name) const {
+  const auto bytes = system::read_bytes(file, kLargestMesh, language_);
+  if (const auto* const problem = std::get_if<system::FileBytesProblem>(&bytes)) return mistake_of(*problem, name);
+  auto triangles = solids::read_stl(std::get<std::string>(bytes));
+  if (const auto* const problem = std::get_if<StlProblem>(&triangles)) return mistake_of(*problem, name);
+  return std::make_shared<const Mesh>(std::get<std::vector<Triangle>>(std::move(triangles)));
+}
+
+const Meshes::MeshOrMistake& Meshes::unshifted(const fs::path& folder, const std::string& name) {
+  const std::pair<std::string, std::string> key(folder.generic_string(), name);
+  if (const auto known = files_.find(key); known != files_.end()) return known->second;
+  const fs::path file = real_path(folder / name);
+  const fs::path below = file.lexically_relative(folder);
+  if (below.empty() || *below.begin() == "..") return files_[key] = mistake(mistakes::kOutsideFolder, name);
+  return files_[key] = read(file, name);
+}
+
+Meshes::MeshOrMistake Meshes::load(const fs::path& folder, const std::string& name,
+                                   const std::optional<geometry::Vec3>& shift) {
+  const MeshOrMistake& loaded = unshifted(folder, name);
+  const auto* const mesh = std::get_if<std::shared_ptr<const Mesh>>(&loaded);
+  if (mesh == nullptr || !shift || shift->isZero(0)) return loaded;
+  const std::tuple key(folder.generic_string(), name, shift->x(), shift->y(), shift->z());
+  if (const auto known = shifted_.find(key); known != shifted_.end()) return known->second;
+  const solids::BoundingBox box = (*mesh)->bounds().translated(*shift);
+  if (box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff() > solids::kMaxCoordinate)
+    return mistake(mistakes::kMeshShiftedTooFar, name);
+  std::vector<Triangle> triangles((*mesh)->triangles().begin(), (*mesh)->triangles().end());
+  for (Triangle& triangle : triangles)
+    for (geometry::Vec3& corner : triangle.corners) corner += *shift;
+  return shifted_[key] = std::make_shared<const Mesh>(std::move(triangles));
+}
+
+}  // namespace isocnc::configuration

@@ -1,0 +1,132 @@
+#include "interpreter/configuration/scenes.h"
+
+#include <system_error>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "interpreter/configuration/configurations.h"
+#include "interpreter/configuration/read.h"
+#include "interpreter/dialect/diagnostic_id.h"
+#include "interpreter/system/file_bytes.h"
+#include "interpreter/system/source_file.h"
+#include "interpreter/text/unicode.h"
+
+namespace isocnc::configuration {
+
+namespace fs = std::filesystem;
+using dialect::Language;
+using verification::Scene;
+
+fs::path setup_file(const fs::path& program) {
+  fs::path name = program.stem();
+  name += kSetupExtension;
+  return program.parent_path() / name;
+}
+
+std::shared_ptr<const Scene> Scenes::of(const Configuration& configuration, const fs::path& program) {
+  const std::lock_guard lock(mutex_);
+  std::error_code error;
+  if (program.has_filename()) {
+    const fs::path file = setup_file(program);
+    // Includes broken links, which are reported.
+    if (fs::exists(fs::symlink_status(file, error))) return own_scene(configuration, file);
+  }
+  return scene_of_entry(configuration, program);
+}
+
+Scenes::ScenePointer Scenes::own_scene(const Configuration& configuration, const fs::path& file) {
+  OwnScene& own = own_[{&configuration, file.generic_string()}];
+  if (own.has_mistakes) return nullptr;
+  if (ScenePointer known = own.scene.lock()) return known;
+  const fs::path folder = real_path(file.parent_path());
+  const std::optional<DescribedSetup> setup = read_setup_file(file, folder);
+  const ScenePointer scene =
+      setup ? make(configuration, LocatedSetup{.setup = *setup, .file = file, .folder = folder}) : nullptr;
+  own = {.has_mistakes = !scene, .scene = scene};
+  return scene;
+}
+
+/// The setup that a file describes; none, after its mistakes, if it is wrong.
+std::optional<DescribedSetup> Scenes::read_setup_file(const fs::path& file, const fs::path& folder) {
+  const std::string shown = file.generic_string();
+  const auto refuse = [&](const dialect::Text& text, std::vector<Named> names) {
+    mistakes_.push_back({.file = shown,
+                         .place = {},
+                         .mistake = {.at = 0, .key = {}, .text = text, .names = std::move(names), .meant = {}},
+                         .is_of_whole_file = true});
+    return std::nullopt;
+  };
+  // A link to another folder would show what is in there.
+  const fs::path below = real_path(file).lexically_relative(folder);
+  if (below.empty() || *below.begin() == "..")
+    return refuse(mistakes::kOutsideFolder, {file.filename().generic_string()});
+  const auto read = system::read_bytes(file, kLongestFile, language_);
+  if (const auto* const problem = std::get_if<system::FileBytesProblem>(&read)) {
+    using Kind = system::FileBytesProblem::Kind;
+    if (problem->kind == Kind::NotRegular) return refuse(mistakes::kNoFile, {});
+    if (problem->kind == Kind::TooLarge) return refuse(mistakes::kTooLarge, {});
+    return refuse({"{0}", "{0}"}, {problem->message});
+  }
+  const auto& text = std::get<std::string>(read);
+  ReadSetup result;
+  if (text.starts_with(system::kByteOrderMark)) {
+    result.mistakes.push_back({.at = 0, .key = {}, .text = mistakes::kByteOrderMark, .names = {}, .meant = {}});
+  } else {
+    result = read_setup(text);
+  }
+  for (Mistake& mistake : result.mistakes)
+    mistakes_.push_back({.file = shown, .place = place_of(mistake.at, text), .mistake = std::move(mistake)});
+  return result.mistakes.empty() ? std::optional(std::move(result.setup)) : std::nullopt;
+}
+
+/// The scene of the last entry of `setups` for the program, or of the machine alone.
+Scenes::ScenePointer Scenes::scene_of_entry(const Configuration& configuration, const fs::path& program) {
+  std::optional<std::size_t> last;
+  if (program.has_filename() && !configuration.setups.empty()) {
+    const fs::path real = real_path(program.parent_path()) / program.filename();
+    for (std::size_t i = 0; i < configuration.setups.size(); ++i)
+      if (configuration.setups[i].patterns.match(real)) last = i;
+  }
+  if (!last && configuration.machine.bodies.empty()) return nullptr;
+  const auto [known, is_new] = entries_.try_emplace({&configuration, last});
+  if (is_new && last) {
+    known->second = make(
+        configuration,
+        LocatedSetup{.setup = configuration.setups[*last], .file = configuration.file, .folder = configuration.folder});
+  } else if (is_new) {
+    known->second = make(configuration, std::nullopt);
+  }
+  return known->second;
+}
+
+Scenes::ScenePointer Scenes::make(const Configuration& configuration, const std::optional<LocatedSetup>& setup) {
+  bool is_whole = true;
+  auto scene = std::make_shared<Scene>(make_scene(configuration.machine, setup, [&](const MeshRequest& request) {
+    auto loaded = meshes_.load(request.folder, request.mesh.name, request.at);
+    if (auto* const mistake = std::get_if<Mistake>(&loaded)) {
+      is_whole = false;
+      mistake->key = request.mesh.key;
+      const std::string file = request.file.generic_string();
+      const LineColumn place = request.mesh.place.shown;
+      if (missing_meshes_.emplace(file, place.line, place.column).second)
+        mistakes_.push_back({.file = file, .place = place, .mistake = std::move(*mistake)});
+      return std::shared_ptr<const solids::Mesh>();
+    }
+    return std::get<std::shared_ptr<const solids::Mesh>>(std::move(loaded));
+  }));
+  return is_whole ? scene : nullptr;
+}
+
+std::vector<std::string> Scenes::mistakes(Language language) const {
+  const std::lock_guard lock(mutex_);
+  const std::string_view error = dialect::severity_name(dialect::Severity::Error, language);
+  std::vector<std::string> lines;
+  for (const FileMistake& each : mistakes_)
+    lines.push_back(each.is_of_whole_file
+                        ? text::printable(fmt::format("{}: {}: {}", each.file, error, each.mistake.message(language)))
+                        : located_message(each.file, each.place, each.mistake, language));
+  return lines;
+}
+
+}  // namespace isocnc::configuration

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "interpreter/configuration/configuration.h"
+#include "interpreter/configuration/make_scene.h"
+#include "interpreter/configuration/meshes.h"
+#include "interpreter/configuration/mistake.h"
+#include "interpreter/verification/scene.h"
+
+namespace isocnc::configuration {
+
+/// The setup of `door.iso` may be a file beside it: `door.setup.json`.
+inline constexpr std::string_view kSetupExtension = ".setup.json";
+std::filesystem::path setup_file(const std::filesystem::path& program);
+
+/// The scenes of programs. The file beside a program outweighs the `setups` of its configuration. Files are read when a
+/// program first needs them, and meshes once; another object sees what has changed since. All functions may be called
+/// by several threads at the same time.
+class Scenes {
+ public:
+  /// `language` is the language of system errors about files.
+  explicit Scenes(dialect::Language language) : language_(language), meshes_(language) {}
+
+  /// The scene of a program, which programs with the same setup share; an empty path is a program without a file. Null
+  /// if no setup is for the program and the machine has no bodies, and where `mistakes` has an error. The
+  /// configuration has no mistakes, and stays where it is, unchanged, as long as this object.
+  std::shared_ptr<const verification::Scene> of(const Configuration& configuration,
+                                                const std::filesystem::path& program);
+
+  /// Mistakes in the files read so far, one line each: `door.setup.json:3:12: error: fixtures[0].mesh: ...`.
+  std::vector<std::string> mistakes(dialect::Language language) const;
+
+ private:
+  using ScenePointer = std::shared_ptr<const verification::Scene>;
+
+  /// A mistake in a file, or why it cannot be read.
+  struct FileMistake {
+    std::string file;  // As shown to users.
+    LineColumn place;
+    Mistake mistake;
+    bool is_of_whole_file = false;  // It has no place.
+  };
+
+  /// The scene of a program with a setup of its own.
+  struct OwnScene {
+    bool has_mistakes = false;
+    std::weak_ptr<const verification::Scene> scene;
+  };
+
+  ScenePointer own_scene(const Configuration& configuration, const std::filesystem::path& file);
+  std::optional<DescribedSetup> read_setup_file(const std::filesystem::path& file, const std::filesystem::path& folder);
+  ScenePointer scene_of_entry(const Configuration& configuration, const std::filesystem::path& program);
+  ScenePointer make(const Configuration& configuration, const std::optional<LocatedSetup>& setup);
+
+  const dialect::Language language_;
+  mutable std::mutex mutex_;  // Of all below.
+  Meshes meshes_;
+  std::vector<FileMistake> mistakes_;
+  /// Where files name meshes that cannot be had, by file, line and column: one of the machine is missing from many
+  /// scenes, and reported once.
+  std::set<std::tuple<std::string, std::size_t, std::size_t>> missing_meshes_;
+  std::map<std::pair<const Configuration*, std::optional<std::size_t>>, ScenePointer> entries_;  // By index in setups.
+  std::map<std::pair<const Configuration*, std::string>, OwnScene> own_;                         // By file.
+};
+
+}  // namespace isocnc::configuration
