@@ -242,7 +242,12 @@ void Runner::fail(const syntax::Finding& error) {
 RunResult run(std::string_view text, const RunOptions& options, const std::function<void(const Event&)>& on_event) {
   const Program program(text);
   Runner runner(program, options);
-  while (!runner.has_ended()) {
+  constexpr std::uint32_t kLinesWithoutPause = 1024;
+  for (std::uint32_t lines = 0; !runner.has_ended(); ++lines) {
+    if (lines % kLinesWithoutPause == 0 && options.stop && options.stop()) {
+      runner.stop();
+      break;
+    }
     if (options.before_block)
       if (const auto block = runner.next()) options.before_block(*block);
     runner.step();

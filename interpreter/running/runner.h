@@ -39,10 +39,12 @@ struct RunOptions {
   /// Whether an error ends the run, as on the control; otherwise it continues as a checker does.
   bool stop_at_errors = true;
   std::function<void(const Block&)> before_block;  ///< Optional callback to follow the state of run().
+  /// Optional; run() asks it at the start and then at intervals whether to end before the next line (Ending::Stopped).
+  std::function<bool()> stop;
 };
 
 /// The reason for the end of a run.
-enum class Ending : std::uint8_t { ProgramEnd, Error, Until };
+enum class Ending : std::uint8_t { ProgramEnd, Error, Until, Stopped };
 
 struct RunResult {
   Ending ending = Ending::ProgramEnd;
@@ -90,6 +92,8 @@ class Runner {
   void set_state(const execution::State& state) { result_.state = state; }
   /// Sets whether the tool in the machine has not been used yet.
   void set_tool_unused(bool is_unused) { result_.is_tool_unused = is_unused; }
+  /// Ends the run before the next line.
+  void stop() { end(Ending::Stopped, place_.line); }
 
  private:
   /// Scratch memory. It is not part of the run's value, so a copy starts empty.
@@ -140,7 +144,8 @@ class Runner {
 };
 
 /// Runs a program as the control does, block by block, and passes its events to `on_event`. A block with an error has
-/// no effect: the control stops there. A UTF-8 byte-order mark is not part of `text`.
+/// no effect: the control stops there. A UTF-8 byte-order mark is not part of `text`. Only `options.stop` ends a run
+/// with Ending::Stopped, at the line that comes next.
 RunResult run(std::string_view text, const RunOptions& options, const std::function<void(const Event&)>& on_event);
 
 }  // namespace isocnc::running

@@ -15,11 +15,11 @@ TimedProgram::TimedProgram(const documents::Snapshot& snapshot, double vgpl)
 
 running::RunResult TimedProgram::run(const std::function<bool()>& stop, simulation::Timing::Listeners listeners) const {
   running::RunOptions options = options_;
-  options.before_block = [&, blocks = 0u](const running::Block&) mutable {
-    if (++blocks % 1024 == 0 && stop())
-      throw rpc::Error(rpc::ErrorCode::RequestCancelled, "the answer is no longer needed");
-  };
-  return simulation::run_timed(text_, options, machine_->timed, std::move(listeners));
+  options.stop = stop;
+  running::RunResult result = simulation::run_timed(text_, options, machine_->timed, std::move(listeners));
+  if (result.ending == running::Ending::Stopped)
+    throw rpc::Error(rpc::ErrorCode::RequestCancelled, "the answer is no longer needed");
+  return result;
 }
 
 }  // namespace isocnc::queries

@@ -142,6 +142,25 @@ TEST(Runner, StopsWhereAJumpLeadsOverTheLineAskedFor) {
   EXPECT_EQ(runner.result().jumped_over_from, 3u);
 }
 
+TEST(Run, EndsWhereItsCallerWantsItStopped) {
+  std::string text;
+  for (int line = 0; line < 5000; ++line) text += "V1 = 1\n";
+  int asked = 0;
+  std::size_t blocks = 0;
+  const RunOptions options{.before_block = [&](const Block&) { ++blocks; }, .stop = [&] { return ++asked == 3; }};
+  const RunResult result = run(text + "M02\n", options, [](const Event&) {});
+  EXPECT_EQ(result.ending, Ending::Stopped);
+  EXPECT_EQ(asked, 3);
+  EXPECT_EQ(result.line, blocks);
+  EXPECT_GT(blocks, 0u);
+  EXPECT_LT(blocks, 5000u);
+
+  const RunOptions at_once{.stop = [] { return true; }};
+  EXPECT_EQ(run("M02\n", at_once, [](const Event&) { ADD_FAILURE() << "nothing is executed"; }).line, 0u);
+  const RunOptions never{.stop = [] { return false; }};
+  EXPECT_EQ(run(text + "M02\n", never, [](const Event&) {}).ending, Ending::ProgramEnd);
+}
+
 /// Wherever a run is stopped, its copy does what it does, and what a run in one go has left to do.
 TEST(RunnerProperty, CopiesGoOnAsTheOriginal) {
   for (const std::uint64_t seed : seeds(60)) {
