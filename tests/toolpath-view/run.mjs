@@ -56,3 +56,49 @@ export function recordingIn(page) {
   return { facts: JSON.parse(block('facts')), steps: bytes('steps'), points: bytes('points'), turns: bytes('turns') };
 }
 
+
+/** A number of seven bits a byte, the lowest first; signed ones take the lowest bit for their sign. */
+function packed(value) {
+  const bytes = [];
+  for (; value >= 0x80; value = Math.floor(value / 0x80)) bytes.push((value % 0x80) + 0x80);
+  return [...bytes, value];
+}
+const packedSigned = (value) => packed(value < 0 ? -2 * value - 1 : 2 * value);
+
+/** A recording written by hand. Moves have `line` (from 1), `kind` (0 rapid, 1 feed move, 2 arc), `tool` (place among the facts' tools), and `points`, each
+ * [x, y, z, b, c] in mm and degrees, with the seconds that each takes; the tool moves evenly. */
+export function recordingOf(facts, moves) {
+  const [steps, points, turns] = [[], [], []];
+  let [line, sinceTurn] = [0, 0];
+  let last = facts.home;
+  for (const move of moves) {
+    steps.push(...packed(move.kind | 0x04 | 0x08 | 0x40), ...packed(move.line - 1 - line), ...packed(move.tool), ...packed(move.points.length));
+    line = move.line - 1;
+    for (const point of move.points) {
+      const place = point.map((value, i) => Math.round(value * (i < 3 ? 1e3 : 1e4)));
+      for (let i = 0; i < 3; ++i) points.push(...packedSigned(place[i] - last[i]));
+      points.push(...packed(Math.round(move.seconds * 1e8)), ...packedSigned(0));
+      ++sinceTurn;
+      if (place[3] !== last[3] || place[4] !== last[4]) {
+        turns.push(...packed(sinceTurn), ...packedSigned(place[3] - last[3]), ...packedSigned(place[4] - last[4]));
+        sinceTurn = 0;
+      }
+      last = place;
+    }
+  }
+  const bytes = (values) => Uint8Array.from(values);
+  return { facts, steps: bytes(steps), points: bytes(points), turns: bytes(turns) };
+}
+
+/** A page of isorun with another recording in it. */
+export function pageWith(recording, program) {
+  const page = pageOf(write('other.iso', program));
+  const base64 = (bytes) => Buffer.from(bytes).toString('base64');
+  const data = { facts: JSON.stringify(recording.facts).replaceAll('<', '\\u003c') };
+  for (const name of ['steps', 'points', 'turns']) data[name] = base64(recording[name]);
+  let html = readFileSync(page, 'utf8');
+  for (const [name, text] of Object.entries(data))
+    html = html.replace(new RegExp(`(<script id="data-${name}"[^>]*>)[^<]*`), (_, start) => start + text);
+  writeFileSync(page, html);
+  return page;
+}
