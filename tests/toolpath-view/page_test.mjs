@@ -1,17 +1,11 @@
 // The page of isorun --plot FILE.html in a browser, from a file, without any network.
 import assert from 'node:assert/strict';
-import { existsSync, mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { pathToFileURL } from 'node:url';
-import { pageOf, requireFromView, root, run, skip, write } from './run.mjs';
+import { openBrowser } from './browser.mjs';
+import { pageOf, root, run, write } from './run.mjs';
 
-const chromium = process.env.CHROMIUM ?? '/usr/bin/chromium';
-if (!existsSync(chromium)) skip(`there is no ${chromium}`);
-if (!existsSync(join(root, 'toolpath-view/node_modules/playwright-core')))
-  skip('there is no playwright-core: npm ci --prefix toolpath-view');
-if (run('--plot', write('probe.html', ''), '--no-config', write('probe.iso', 'M02\n')).stderr.includes('npm'))
-  skip('this isorun has no --plot FILE.html');
+const { open, close, drawn, keep, picture, problems, requests } = await openBrowser();
 
 /** A square with two tools and a corner that is round; its comments would like to be more than text. */
 const square = write(
@@ -44,67 +38,21 @@ const machine = write(
               {"head": 1, "holder": 2, "tool": 2, "name": "punta", "length": 110, "radius": 3}]}}`,
 );
 
-let browser;
-const problems = [];
-const requests = [];
-
-async function open(file, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, offline: true, ...options });
-  context.setDefaultTimeout(20_000);
-  const page = await context.newPage();
-  page.on('console', (message) => {
-    // The software renderer speaks of its own speed.
-    if (['error', 'warning'].includes(message.type()) && !/GPU stall|GL Driver Message/.test(message.text()))
-      problems.push(message.text());
-  });
-  page.on('pageerror', (error) => problems.push(String(error)));
-  page.on('request', (request) => requests.push(request.url()));
-  await page.goto(pathToFileURL(file).href);
-  await page.waitForSelector('html[data-ready]', { timeout: 60_000 });
-  return page;
-}
-
 /** What the machine has of the tool. */
 const tip = (page) => page.evaluate(() => globalThis.isocnc.path.at(globalThis.isocnc.player.time).tip);
-const picture = async (page) => (await page.locator('#stage').screenshot()).toString('base64');
-/** What a browser draws at last. */
-const drawn = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
 const currentLine = async (page) => {
   await drawn(page);
   return Number(await page.locator('#program .line.current .number').textContent());
 };
 
-/** For people to look at: kept where ISOCNC_SCREENSHOTS names a folder. */
-async function keep(page, name) {
-  if (!process.env.ISOCNC_SCREENSHOTS) return;
-  mkdirSync(process.env.ISOCNC_SCREENSHOTS, { recursive: true });
-  await page.screenshot({ path: join(process.env.ISOCNC_SCREENSHOTS, `${name}.png`) });
-}
-
 let file;
 let page;
 before(async () => {
-  const { chromium: driver } = requireFromView('playwright-core');
-  browser = await driver.launch({
-    executablePath: chromium,
-    args: [
-      '--no-sandbox',
-      '--no-first-run',
-      '--disable-background-networking',
-      '--disable-component-update',
-      '--disable-sync',
-      '--use-gl=angle',
-      '--use-angle=swiftshader',
-      '--enable-unsafe-swiftshader',
-    ],
-  });
   file = pageOf(square, '--machine', machine);
   page = await open(file);
 });
-after(async () => {
-  await browser?.close();
-});
+after(close);
 
 test('shows the program and its moves', async () => {
   assert.equal(await page.evaluate(() => globalThis.isocnc.view !== null), true);
