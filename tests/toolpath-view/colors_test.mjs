@@ -18,6 +18,13 @@ function contrast(a, b) {
   return (light + 0.05) / (dark + 0.05);
 }
 
+for (const [theme, { background, bodies, contacts, measure }] of Object.entries(palettes))
+  test(`${theme}: marks of contacts and measurements are seen, and bodies differ by their role`, () => {
+    for (const color of [...Object.values(contacts), measure])
+      assert.ok(contrast(color, background) >= minimumContrast, `${color}: ${contrast(color, background)}`);
+    assert.equal(new Set(Object.values(bodies).map(String)).size, 5);
+  });
+
 for (const [theme, { background, kinds }] of Object.entries(palettes))
   test(`${theme}: each kind of move is seen on the background, and differs from the others`, () => {
     for (const kind of kinds) assert.ok(contrast(kind, background) >= minimumContrast, `${kind}: ${contrast(kind, background)}`);

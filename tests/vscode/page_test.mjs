@@ -3,6 +3,7 @@
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
+import { contacts, sceneRecording } from '../toolpath-view/scene.mjs';
 import { viewModule } from './modules.mjs';
 import { openPage, recordingOf, postMessage, wholePath, without } from './page.mjs';
 
@@ -154,6 +155,31 @@ test('a program that does not move yet shows its tool', shown, async () => {
   const { width, height } = await page.evaluate(() => globalThis.isocnc.view.canvas.getBoundingClientRect().toJSON());
   for (const { x, y } of [tip, above]) assert.ok(x > 0 && x < width && y > 0 && y < height, `${x} ${y} in ${width} ${height}`);
   assert.ok(tip.y - above.y > 20, `${tip.y - above.y} pixels`);
+});
+
+test('it shows what surrounds a program, and leads to the line of a contact', shown, async () => {
+  const { facts, ...streams } = sceneRecording('head');
+  const data = Object.fromEntries(Object.entries(streams).map(([name, bytes]) => [name, Buffer.from(bytes).toString('base64')]));
+  await post({ ...wholePath('scene', { facts, ...data }), program: 'scene' });
+  await post({ type: 'stock', size: null });
+  assert.equal(await page.locator('#contact-list button').count(), 2);
+  await said();
+  await page.locator('#contact-list button').first().click();
+  assert.deepEqual(await said(), [{ type: 'picked', line: 3 }]);
+  assert.equal(await page.evaluate(() => globalThis.isocnc.player.time), contacts[0].time);
+  // The editor's cursor goes to a line: its contact lights up.
+  await post({ type: 'lines', first: 7, last: 7 });
+  assert.equal(await page.locator('#contact-list [aria-current]').innerText().then((text) => text.split('\n')[0]), contacts[1].code);
+  for (const [name, width] of [['vscode-dark', 700], ['vscode-light', 360]]) {
+    await page.evaluate((classes) => (document.body.className = classes), name);
+    await page.setViewportSize({ width, height: 800 });
+    await drawn();
+    await drawn();
+    if (process.env.ISOCNC_SCREENSHOTS) await page.screenshot({ path: join(process.env.ISOCNC_SCREENSHOTS, `page-scene-${width}.png`) });
+  }
+  await post({ ...wholePath('bare', recordingOf(square(200))), program: 'bare' });
+  assert.equal(await page.locator('#verification').isVisible(), false);
+  assert.equal(await page.evaluate(() => globalThis.isocnc.view.sceneModel), null);
 });
 
 test('nothing has gone wrong', shown, () => assert.deepEqual(problems, []));

@@ -1,4 +1,5 @@
 /** Colors of the path. All sets can be distinguished with every kind of color vision, by lightness where hues fail. */
+import type { Role, Severity } from './scene';
 import { Kind, type Toolpath } from './toolpath';
 
 export type Theme = 'light' | 'dark' | 'contrastLight' | 'contrastDark';
@@ -31,6 +32,12 @@ interface Palette {
   travel: Color;
   cutter: Color;
   holder: Color;
+  /** Of what surrounds the program. */
+  bodies: Record<Role, Color>;
+  bodyEdge: Color;
+  measure: Color;
+  /** Of marks where bodies touch. */
+  contacts: Record<Severity, Color>;
 }
 
 const colors = (...hex: string[]) => hex.map(color);
@@ -49,6 +56,16 @@ export const palettes: Record<Theme, Palette> = {
     travel: color('#9aa2af'),
     cutter: color('#5b6472'),
     holder: color('#a9b1bd'),
+    bodies: {
+      fixture: color('#6f93b5'),
+      spoilboard: color('#d8c7a6'),
+      target: color('#8fb99a'),
+      stock: color('#b9b2c9'),
+      machine: color('#9aa3b0'),
+    },
+    measure: color('#0057b8'),
+    bodyEdge: color('#4a5260'),
+    contacts: { error: color('#c62828'), warning: color('#b26a00'), info: color('#2f6fa8') },
   },
   dark: {
     background: color('#14171c'),
@@ -63,6 +80,16 @@ export const palettes: Record<Theme, Palette> = {
     travel: color('#5c6674'),
     cutter: color('#c3cad5'),
     holder: color('#6d7684'),
+    bodies: {
+      fixture: color('#6d8fb0'),
+      spoilboard: color('#7d6d50'),
+      target: color('#5f9a76'),
+      stock: color('#77709a'),
+      machine: color('#6f7988'),
+    },
+    measure: color('#8fd3ff'),
+    bodyEdge: color('#c3cad5'),
+    contacts: { error: color('#ff6b60'), warning: color('#f2b13d'), info: color('#6cb6ff') },
   },
   contrastLight: {
     background: color('#ffffff'),
@@ -77,6 +104,16 @@ export const palettes: Record<Theme, Palette> = {
     travel: color('#292929'),
     cutter: color('#333333'),
     holder: color('#777777'),
+    bodies: {
+      fixture: color('#3f6f9f'),
+      spoilboard: color('#c9b48a'),
+      target: color('#4f9468'),
+      stock: color('#7d74a0'),
+      machine: color('#7a7a7a'),
+    },
+    measure: color('#003f8a'),
+    bodyEdge: color('#000000'),
+    contacts: { error: color('#b00020'), warning: color('#8a4b00'), info: color('#004f9e') },
   },
   contrastDark: {
     background: color('#000000'),
@@ -91,6 +128,16 @@ export const palettes: Record<Theme, Palette> = {
     travel: color('#d4d4d4'),
     cutter: color('#ffffff'),
     holder: color('#a0a0a0'),
+    bodies: {
+      fixture: color('#7fb4e6'),
+      spoilboard: color('#a08a5c'),
+      target: color('#6cc48f'),
+      stock: color('#a398d6'),
+      machine: color('#9a9a9a'),
+    },
+    measure: color('#a6e0ff'),
+    bodyEdge: color('#ffffff'),
+    contacts: { error: color('#ff8078'), warning: color('#ffc14d'), info: color('#8cc8ff') },
   },
 };
 

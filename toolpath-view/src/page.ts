@@ -39,6 +39,7 @@ class Page {
     document.documentElement.dataset.theme = this.theme;
     this.panel = new Panel(this.path, this.language, this.theme, ['head', 'stock']);
     this.panel.onLine = (line) => this.list.show(line);
+    this.panel.onPick = (line) => this.list.show(line);
     if (this.path.stepCount > 0) this.list.show(this.path.stepLine[this.panel.player.step]);
     this.setUp();
     this.write();

@@ -1,16 +1,21 @@
 /** A path with all that one can choose about it, and its time: what the page of isorun and the panel of an editor share. It
  * fills the elements of page.html. */
 import { modes, type Color, type Mode, type Theme } from './colors';
+import { ContactList } from './contact_list';
 import { byId, element } from './elements';
 import { clock, coordinate, feed, lengthText } from './format';
 import { hasTravel } from './furniture';
+import { Hiding } from './hiding';
 import { icon } from './icons';
 import { legend } from './legend';
 import type { MachinePosition } from './machine_position';
+import { MeasureTool } from './measure_tool';
 import { Player, speeds } from './player';
+import type { Snap } from './measuring';
+import { roles } from './scene';
 import { texts, type Language, type Texts } from './texts';
 import { Kind, type Steps, type Toolpath, type Vector } from './toolpath';
-import { ToolpathView, type Layer, type Look } from './toolpath_view';
+import { layerOf, ToolpathView, type Layer, type Look } from './toolpath_view';
 
 const looks: Look[] = ['iso', 'top', 'front', 'side'];
 const layers: [Layer, keyof Texts][] = [
@@ -22,7 +27,16 @@ const layers: [Layer, keyof Texts][] = [
   ['stock', 'stock'],
   ['grid', 'grid'],
   ['ahead', 'ahead'],
+  ['fixtures', 'fixtures'],
+  ['spoilboard', 'spoilboard'],
+  ['target', 'target'],
+  ['machine', 'machine'],
 ];
+/** Layers that are there where the scene has such bodies. */
+const bodyLayers = new Map(roles.filter((role) => role !== 'stock').map((role) => [layerOf[role], role]));
+
+/** A contact is shown as soon as it begins, even if the step before ends in the same moment. */
+const justAfter = 1e-4; // Seconds.
 
 export class Panel {
   readonly player: Player;
@@ -38,6 +52,9 @@ export class Panel {
   private selected: Steps | null = null;
   private mode: Mode = 'tool';
   private line = -1;
+  private readonly contacts = new ContactList();
+  private readonly hiding = new Hiding();
+  private readonly measuring: MeasureTool | null;
 
   constructor(
     private path: Toolpath,
@@ -51,6 +68,7 @@ export class Panel {
     this.totals = totalsOf(path);
     this.player = new Player(path);
     this.view = this.makeView();
+    this.measuring = this.view && new MeasureTool(this.view, () => this.tipSnap());
     this.setUp();
     this.write();
     this.player.onChange = () => this.update();
@@ -75,7 +93,10 @@ export class Panel {
     this.path = path;
     this.totals = totalsOf(path);
     this.selected = null;
+    this.hiding.forgetSections();
     this.view?.take(path);
+    this.view?.keep(this.hiding.chosen);
+    this.measuring?.restart();
     byId<HTMLInputElement>('scrubber').max = String(path.seconds);
     this.player.take(path);
     const { start, end } = path.stepsOf(line);
@@ -131,6 +152,7 @@ export class Panel {
         this.player.seek(this.path.timeOn(hit.point, hit.part));
         this.onPick(this.path.stepLine[this.path.pointStep[hit.point]]);
       };
+      view.onContact = (contact) => this.showContact(contact);
       return view;
     } catch {
       return null;
@@ -154,9 +176,62 @@ export class Panel {
       this.select(null);
       player.seek(Number(scrubber.value));
     });
+    this.contacts.onChoose = (contact) => this.showContact(contact);
+    this.hiding.onChange = (filter) => {
+      this.view?.keep(filter);
+      this.markLooks();
+    };
+    if (this.measuring)
+      this.measuring.onChange = () => {
+        this.measuring?.write(this.texts);
+        this.markLooks();
+      };
     byId('settings').addEventListener('submit', (event) => event.preventDefault());
     this.keys.addEventListener('keydown', (event) => this.onKey(event as KeyboardEvent));
     for (const name of ['previous', 'next'] as const) byId(name).append(icon(name));
+  }
+
+  /** Brings the tool to where a contact begins, and shows its line. */
+  showContact(index: number): void {
+    const contact = this.path.facts.contacts?.[index];
+    if (!contact) return;
+    const { path } = this;
+    const line = contact.line - 1;
+    const { start, end } = path.stepsOf(line);
+    let { time } = contact;
+    if (end > start) {
+      const [first, last] = [path.times[path.stepStart[start]], path.endOf(end - 1)];
+      time = Math.min(Math.max(time, first + Math.min(justAfter, (last - first) / 2)), last);
+    }
+    this.player.isPlaying = false;
+    this.select(null);
+    this.player.seek(time);
+    this.onPick(line);
+    this.lightContacts([index]);
+  }
+
+  /** Lights up contacts of the line that is shown, or some of its own. */
+  private lightContacts(more: number[] = []): void {
+    const lit = new Set(more);
+    const line = this.line + 1;
+    (this.path.facts.contacts ?? []).forEach((contact, i) => {
+      if (line >= contact.line && line <= Math.max(contact.line, contact.endLine)) lit.add(i);
+    });
+    this.contacts.light(lit);
+    this.view?.lightContacts(lit);
+  }
+
+  private tipSnap(): Snap {
+    const { tip, step } = this.path.at(this.player.time);
+    return { at: tip, kind: 'tip', line: step < 0 ? -1 : this.path.stepLine[step] };
+  }
+
+  private toggleHiding(): void {
+    const form = byId('hiding');
+    form.hidden = !form.hidden;
+    this.markLooks();
+    if (form.hidden) byId('hide').focus();
+    else form.querySelector('input')?.focus();
   }
 
   private select(steps: Steps | null): void {
@@ -222,6 +297,11 @@ export class Panel {
     this.writeLayers();
     this.writeLegend();
     this.writeKeys();
+    this.hiding.write(this.path, texts);
+    this.measuring?.write(texts);
+    const { contacts = [], certificate } = this.path.facts;
+    this.contacts.write(contacts, certificate, this.path.seconds, texts);
+    this.lightContacts();
     if (!this.view) byId('stage').replaceChildren(element('p', { className: 'problem' }, texts.noWebgl));
     this.update();
   }
@@ -249,7 +329,21 @@ export class Panel {
     });
     const fit = element('button', { type: 'button', title: this.texts.fitTitle }, this.texts.fit);
     fit.addEventListener('click', (event) => this.view?.fit(event.shiftKey));
-    byId('looks').replaceChildren(...buttons, fit);
+    const measure = element('button', { type: 'button', id: 'measure', title: this.texts.measure }, icon('measure'));
+    measure.addEventListener('click', () => this.measuring?.toggle());
+    const hide = element('button', { type: 'button', id: 'hide', title: this.texts.hide }, icon('hide'));
+    hide.addEventListener('click', () => this.toggleHiding());
+    hide.setAttribute('aria-controls', 'hiding');
+    for (const each of [measure, hide]) each.setAttribute('aria-label', each.title);
+    byId('looks').replaceChildren(...buttons, fit, measure, hide);
+    this.markLooks();
+  }
+
+  /** Shows which buttons are in force. */
+  private markLooks(): void {
+    byId('measure').setAttribute('aria-pressed', String(this.measuring?.isActive ?? false));
+    byId('hide').setAttribute('aria-expanded', String(!byId('hiding').hidden));
+    byId('hide').classList.toggle('active', this.hiding.isActive);
   }
 
   private writeModes(): void {
@@ -263,7 +357,8 @@ export class Panel {
 
   private writeLayers(): void {
     const boxes = layers
-      .filter(([layer]) => (layer !== 'travel' || hasTravel(this.path)) && (layer !== 'head' || this.path.turned.length > 0))
+      .filter(([layer]) => (layer !== 'travel' || hasTravel(this.path)) && (layer !== 'head' || (this.path.turned.length > 0 && !this.view?.hasSpindle)))
+      .filter(([layer]) => !bodyLayers.has(layer) || this.view?.hasBodies(bodyLayers.get(layer)!))
       .map(([layer, text]) => {
         const input = element('input', { type: 'checkbox', id: `layer-${layer}`, checked: this.shown[layer] });
         input.addEventListener('change', () => {
@@ -289,7 +384,10 @@ export class Panel {
       [[',', '.'], texts.keySpeed],
       [['1', '2', '3', '4'], texts.keyLooks],
       [['F'], texts.keyFit],
-      [['T', 'V', 'K', 'M'], texts.keyColors],
+      [['T', 'V', 'K', 'C'], texts.keyColors],
+      [['M'], texts.keyMeasure],
+      [['N', 'Enter'], texts.keyMeasurePlaces],
+      [['H'], texts.keyHide],
       [['←', '→', '↑', '↓', '+', '-'], texts.keyStage],
       [['↑', '↓'], texts.keyProgram],
     ];
@@ -314,6 +412,7 @@ export class Panel {
     const line = place.step < 0 ? -1 : path.stepLine[place.step];
     if (line !== this.line) {
       this.line = line;
+      this.lightContacts();
       this.onLine(line);
     }
     const play = byId('play');
@@ -371,9 +470,15 @@ export class Panel {
       };
       if (turns[key]) return turns[key];
     }
-    const isControl = target.matches('button, select, input[type=radio], input[type=checkbox]');
-    if (isControl && (key === ' ' || key.startsWith('Arrow') || key === 'Home' || key === 'End')) return undefined;
-    if (target.matches('select')) return undefined;
+    if (key === 'Escape') return this.escape();
+    const isControl = target.matches('button, select, summary, input[type=radio], input[type=checkbox]');
+    if (isControl && (key === ' ' || key === 'Enter' || key.startsWith('Arrow') || key === 'Home' || key === 'End')) return undefined;
+    if (target.matches('select, input[type=number]')) return undefined;
+    if (this.measuring?.isActive) {
+      const { measuring } = this;
+      if (key === 'Enter') return () => measuring.accept();
+      if (key.toLowerCase() === 'n') return () => measuring.offer(shiftKey ? -1 : 1);
+    }
     const many = (step: number, sign: number) => Math.min(Math.max(step + sign * 9, -1), path.stepCount - 1);
     const keys: Record<string, () => void> = {
       ' ': () => this.play(),
@@ -391,10 +496,19 @@ export class Panel {
       t: () => this.setMode('tool'),
       v: () => this.setMode('feed'),
       k: () => this.setMode('kind'),
-      m: () => this.setMode('time'),
+      c: () => this.setMode('time'),
+      m: () => this.measuring?.toggle(),
+      h: () => this.toggleHiding(),
       '?': () => byId<HTMLDialogElement>('keys').showModal(),
     };
     return keys[key.length === 1 ? key.toLowerCase() : key];
+  }
+
+  /** Ends what was opened last. */
+  private escape(): (() => void) | undefined {
+    if (!byId('hiding').hidden) return () => this.toggleHiding();
+    const { measuring } = this;
+    return measuring?.isActive ? () => measuring.end() : undefined;
   }
 
   private setSpeed(direction: 1 | -1): void {

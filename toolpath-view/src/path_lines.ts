@@ -17,6 +17,7 @@ const vertexShader = /* glsl */ `
   flat out float millimeters;
   flat out float before;
   flat out float done;  // Part of the line that the tool has passed.
+  flat out vec2 levels; // Heights of both ends.
   out vec2 local;       // Pixels along and across.
   uniform int reached;
   uniform float reachedPart;
@@ -34,6 +35,7 @@ const vertexShader = /* glsl */ `
     lineStyle = style;
     millimeters = distance(start, end);
     before = run;
+    levels = vec2(start.z, end.z);
     done = gl_InstanceID < reached ? 1.0 : gl_InstanceID == reached ? reachedPart : 0.0;
     vec4 nearest = position.x < 0.5 ? a : b;
     gl_Position = style.w < 0.25 ? vec4(2.0, 2.0, 2.0, 1.0)
@@ -46,7 +48,9 @@ const fragmentShader = /* glsl */ `
   flat in float millimeters;
   flat in float before;
   flat in float done;
+  flat in vec2 levels;
   in vec2 local;
+  uniform vec2 heights;  // Between which lines are shown.
   uniform float width;
   uniform float pixelRatio;
   uniform float pixelsPerMillimeter;
@@ -62,6 +66,8 @@ const fragmentShader = /* glsl */ `
     float radius = (dashed ? dashedWidth : lineStyle.w > 0.9 ? thickWidth : width) * 0.5;
     float alpha = clamp(radius + 0.5 - length(vec2(beyond, local.y)), 0.0, 1.0);
     float part = clamp(local.x / max(pixels, 1e-4), 0.0, 1.0);
+    float height = mix(levels.x, levels.y, part);
+    if (height < heights.x || height > heights.y) discard;
     if (dashed) {
       float phase = fract((before + part * millimeters) * pixelsPerMillimeter / (9.0 * pixelRatio));
       if (phase > 0.6) discard;
@@ -71,6 +77,8 @@ const fragmentShader = /* glsl */ `
     color = vec4(lineStyle.rgb, alpha);
   }`;
 
+/** No height is beyond it, mm. */
+const unlimited = 1e30;
 /** Two triangles for each line. */
 const corners = new Float32Array([0, -1, 0, 0, 1, 0, 1, -1, 0, 1, 1, 0]);
 const triangles = [0, 2, 1, 1, 2, 3];
@@ -83,9 +91,11 @@ const thinVertexShader = /* glsl */ `
   flat out vec4 lineStyle;
   flat out int point;
   out float way;
+  out float height;
 
   void main() {
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+    height = position.z;
     lineStyle = style;
     point = gl_VertexID;
     way = run;
@@ -95,6 +105,8 @@ const thinFragmentShader = /* glsl */ `
   flat in vec4 lineStyle;
   flat in int point;
   in float way;
+  in float height;
+  uniform vec2 heights;
   uniform float pixelRatio;
   uniform float pixelsPerMillimeter;
   uniform float opacity;
@@ -103,7 +115,7 @@ const thinFragmentShader = /* glsl */ `
   out vec4 color;
 
   void main() {
-    if (lineStyle.w < 0.25) discard;
+    if (lineStyle.w < 0.25 || height < heights.x || height > heights.y) discard;
     if (lineStyle.w < 0.6 && fract(way * pixelsPerMillimeter / (9.0 * pixelRatio)) > 0.6) discard;
     // Lines as thin as can be cannot be thicker: arcs have a gap now and then.
     if (lineStyle.w > 0.9 && fract(way * pixelsPerMillimeter / (14.0 * pixelRatio)) > 0.9) discard;
@@ -149,7 +161,7 @@ export class PathLines {
   /** Of the points from `first` to `last`, places from `center`. */
   constructor(
     private readonly path: Toolpath,
-    center: THREE.Vector3,
+    private readonly center: THREE.Vector3,
     private readonly first = 0,
     private readonly last = path.pointCount - 1,
   ) {
@@ -195,14 +207,15 @@ export class PathLines {
         reachedPart: { value: 1 },
         opacity: { value: 1 },
         aheadOpacity: { value: 1 },
+        heights: { value: new THREE.Vector2(-unlimited, unlimited) },
       },
     });
     this.mesh = isThin ? new THREE.Line(geometry, this.material) : new THREE.Mesh(geometry, this.material);
     this.mesh.frustumCulled = false;
   }
 
-  /** Kinds that are not shown are hidden; standing still always is. Rapids are dashed, arcs thicker than lines. */
-  paint(colorOf: (step: number) => Color, shows: (kind: number) => boolean): void {
+  /** Steps that are not shown are hidden; standing still always is. Rapids are dashed, arcs thicker than lines. */
+  paint(colorOf: (step: number) => Color, shows: (step: number) => boolean): void {
     const bytes = this.style.array as Uint8Array;
     let painted = -1;
     let color: Color = [0, 0, 0];
@@ -213,8 +226,7 @@ export class PathLines {
       if (step !== painted && step < this.path.stepCount) {
         painted = step;
         color = colorOf(step);
-        const kind = this.path.stepKind[step];
-        weight = shows(kind) ? weights[kind] : 0;
+        weight = shows(step) ? weights[this.path.stepKind[step]] : 0;
       }
       bytes[4 * i] = color[0];
       bytes[4 * i + 1] = color[1];
@@ -226,6 +238,12 @@ export class PathLines {
 
   set(uniforms: Record<string, number>): void {
     for (const [name, value] of Object.entries(uniforms)) this.material.uniforms[name].value = value;
+  }
+  /** Shows what is at these heights of the machine alone. */
+  keepHeights(min: number, max: number): void {
+    const inShader = (height: number) => Math.min(Math.max(height - this.center.z, -unlimited), unlimited);
+    // What lies at a limit is shown; single precision is not so exact.
+    (this.material.uniforms.heights.value as THREE.Vector2).set(inShader(min - 1e-3), inShader(max + 1e-3));
   }
   set alwaysInFront(is: boolean) {
     this.material.depthTest = !is;

@@ -1,5 +1,6 @@
 /** The path of the tool tip, as isorun has recorded it (interpreter/plot/path_recording.cpp writes it). Machine frame; mm,
  * degrees, seconds. Lines count from 0. */
+import type { Contact, Scene } from './scene';
 
 export const Kind = { Rapid: 0, Feed: 1, Arc: 2, Wait: 3 } as const;
 export type Vector = [number, number, number];
@@ -34,6 +35,12 @@ export interface Facts {
   frames: FrameFact[];
   /** Of X, Y, Z, B, C: of the spindle nose and the rotary axes; null where an axis has no end. */
   travel: [number | null, number | null][];
+  /** What surrounds the program, where a setup describes it. */
+  scene?: Scene;
+  /** What the machine would hit, in the order of the run. */
+  contacts?: Contact[];
+  /** What has been verified, in a line of text. */
+  certificate?: string;
 }
 
 export interface Recording {

@@ -3,17 +3,32 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { number, palettes, stepColors, type Color, type Mode, type Theme } from './colors';
+import { hiddenSteps, noFilter, type Filter } from './filter';
 import { frames, grid, HeadModel, stock, ToolModel, travel, type Box } from './furniture';
+import { MeasureModel } from './measure_model';
+import { arcCenter, type Snap } from './measuring';
 import { PathLines } from './path_lines';
+import { codeOf, type Role } from './scene';
+import { SceneModel } from './scene_model';
 import { Kind, type Steps, type Toolpath, type Vector } from './toolpath';
 
 export type Look = 'iso' | 'top' | 'front' | 'side';
-export type Layer = 'rapids' | 'frames' | 'travel' | 'tool' | 'head' | 'stock' | 'grid' | 'ahead';
+export type Layer = 'rapids' | 'frames' | 'travel' | 'tool' | 'head' | 'stock' | 'grid' | 'ahead' | 'fixtures' | 'spoilboard' | 'target' | 'machine';
+
+/** The layers of bodies that surround the program. */
+export const layerOf: Record<Role, Layer> = {
+  fixture: 'fixtures',
+  spoilboard: 'spoilboard',
+  target: 'target',
+  stock: 'stock',
+  machine: 'machine',
+};
 
 /** From where one looks. From above a little from the front, so that Y goes up. */
 const looks: Record<Look, Vector> = { iso: [-1, -1, 0.816], top: [0, -1e-5, 1], front: [0, -1, 0], side: [1, 0, 0] };
 
 const near = 9; // Pixels within which a click hits a line.
+const nearSnap = 12; // Pixels within which a measurement finds the end of a move or the corner of a body.
 const frameSize = 44; // Pixels.
 const nothing: Steps = { start: -1, end: -1 };
 
@@ -25,6 +40,12 @@ export interface Hit {
 export class ToolpathView {
   /** Somebody clicked the path, or beside it. */
   onPick: (hit: Hit | null) => void = () => {};
+  /** Somebody clicked the mark of a contact. */
+  onContact: (contact: number) => void = () => {};
+  /** While it measures: a place has been clicked; null is none. */
+  onSnap: (snap: Snap | null) => void = () => {};
+  /** While it measures: the pointer is at a place; null is none. */
+  onHover: (snap: Snap | null) => void = () => {};
 
   private readonly renderer: THREE.WebGLRenderer;
   private readonly scene = new THREE.Scene();
@@ -44,6 +65,13 @@ export class ToolpathView {
   private stock: THREE.LineSegments | null = null;
   /** Corners that somebody knows; else it is around what is cut. */
   private stockKnown: Box | null = null;
+  private surroundings: SceneModel | null = null;
+  private readonly measure = new MeasureModel();
+  private isMeasuring = false;
+  private filter: Filter = noFilter;
+  private hidden: Uint8Array | null = null;
+  /** Of arcs, when somebody has asked. */
+  private centers: Snap[] | null = null;
   private lit: PathLines | null = null;
   private litSteps: Steps = nothing;
   private selected: Steps | null = null;
@@ -51,8 +79,15 @@ export class ToolpathView {
   private readonly shown: Record<Layer, boolean>;
   private background: Color;
   private time = 0;
+  /** How far bodies reach beyond the path, mm. */
+  private extent = 0;
+  /** Where the pointer was last, while somebody measures. */
+  private hovered: { x: number; y: number } | null = null;
   /** Pixels at the right that something else covers. */
   private covered = 0;
+  /** Whether the scene has the tool that is shown. */
+  private isToolKnown = false;
+  private toolLength = 0;
   private isDue = false;
   private isDisposed = false;
 
@@ -79,14 +114,20 @@ export class ToolpathView {
     this.lines.mesh.renderOrder = 1;
     this.tip = new THREE.Sprite(new THREE.SpriteMaterial({ map: dot(), depthTest: false, sizeAttenuation: false }));
     this.tip.renderOrder = 4;
-    this.world.add(this.tool.object, this.head.object, this.tip);
+    this.world.add(this.tool.object, this.head.object, this.tip, this.measure.object);
+    this.surround();
     const sky = new THREE.HemisphereLight(0xffffff, 0x777788, 2.2);
     sky.position.set(0, 0, 1);
     const sun = new THREE.DirectionalLight(0xffffff, 1.6);
     sun.position.set(-0.6, -1, 1.4);
     this.scene.add(this.world, this.lines.mesh, sky, sun);
     this.setTheme(theme);
-    listenForClicks(canvas, (x, y) => this.onPick(this.pick(x, y)));
+    listenForClicks(canvas, (x, y) => this.onClick(x, y));
+    canvas.addEventListener('pointermove', (event) => {
+      if (!this.isMeasuring || event.buttons !== 0) return;
+      const box = canvas.getBoundingClientRect();
+      this.hover(event.clientX - box.left, event.clientY - box.top);
+    });
     this.resizing = new ResizeObserver(() => {
       // A canvas is empty once it has another size.
       if (this.resize()) this.draw();
@@ -106,6 +147,8 @@ export class ToolpathView {
     this.background = background;
     this.scene.background = new THREE.Color(number(background));
     this.tip.material.color.setHex(number(palettes[theme].highlight));
+    this.measure.setTheme(theme);
+    this.surroundings?.setTheme(theme);
     this.furnish();
     this.paint();
     this.litSteps = nothing;
@@ -124,6 +167,9 @@ export class ToolpathView {
     this.lines = new PathLines(path, this.center);
     this.lines.mesh.renderOrder = 1;
     this.scene.add(this.lines.mesh);
+    this.centers = null;
+    this.surround();
+    this.keep(this.filter);
     this.selected = null;
     this.time = Math.min(this.time, path.seconds);
     this.frameCamera();
@@ -150,12 +196,58 @@ export class ToolpathView {
     this.invalidate();
   }
 
+  /** Whether the scene has bodies of a role. */
+  hasBodies(role: Role): boolean {
+    return this.surroundings?.hasRole(role) ?? false;
+  }
+
+  /** Whether the scene has the spindle, so that no head of a common size is drawn. */
+  get hasSpindle(): boolean {
+    return this.surroundings?.hasSpindle ?? false;
+  }
+
+  /** Shows a part of the path. */
+  keep(filter: Filter): void {
+    this.filter = filter;
+    this.hidden = hiddenSteps(this.path, filter);
+    this.lines.keepHeights(filter.minZ, filter.maxZ);
+    this.lit?.keepHeights(filter.minZ, filter.maxZ);
+    this.paint();
+    this.litSteps = nothing;
+    this.setTime(this.time);
+  }
+
+  /** Lights the marks of contacts up. */
+  lightContacts(contacts: Iterable<number>): void {
+    this.surroundings?.light(contacts);
+    this.invalidate();
+  }
+
+  /** From now on, clicks and the pointer find places to measure. */
+  startMeasuring(): void {
+    this.isMeasuring = true;
+    this.canvas.style.cursor = 'crosshair';
+  }
+
+  endMeasuring(): void {
+    this.isMeasuring = false;
+    this.canvas.style.cursor = '';
+    this.showMeasurement([], null);
+  }
+
+  /** Draws places that have been chosen, with a line between two of them, and one that could be chosen next. */
+  showMeasurement(chosen: Vector[], next: Vector | null): void {
+    this.measure.show(chosen, next);
+    this.invalidate();
+  }
+
   show(layer: Layer, is: boolean): void {
     this.shown[layer] = is;
     this.frames.visible = this.shown.frames;
     if (this.travel) this.travel.visible = this.shown.travel;
     if (this.grid) this.grid.visible = this.shown.grid;
-    if (this.stock) this.stock.visible = this.shown.stock;
+    if (this.stock) this.stock.visible = this.shown.stock && !this.hasBodies('stock');
+    this.surroundings?.show((role) => this.shown[layerOf[role]], this.shown.tool);
     if (layer === 'rapids') this.paint();
     this.setTime(this.time);
   }
@@ -171,6 +263,8 @@ export class ToolpathView {
     const place = this.path.at(time);
     const tool = this.path.facts.tools[place.step < 0 ? 0 : this.path.stepTool[place.step]];
     this.tool.dress(tool, this.theme, this.size);
+    this.isToolKnown = this.surroundings?.mount(codeOf(tool.name), tool.length) ?? false;
+    this.toolLength = tool.length ?? 0;
     this.pose(place.tip, place.b, place.c);
     if (this.travel) this.travel.position.z = this.travel.userData.height - (tool.length ?? 0);
     this.lines.set({ reached: place.point - 1, reachedPart: place.part, aheadOpacity: this.shown.ahead ? 0.28 : 0 });
@@ -182,8 +276,9 @@ export class ToolpathView {
   pose(tip: Vector, b: number, c: number): void {
     const at = new THREE.Vector3(...tip);
     const turns = this.path.facts.turnsTool;
-    this.tool.object.visible = this.shown.tool;
-    this.head.object.visible = this.shown.head && turns && this.path.turned.length > 0;
+    this.tool.object.visible = this.shown.tool && !this.isToolKnown;
+    this.head.object.visible = this.shown.head && turns && this.path.turned.length > 0 && !this.hasSpindle;
+    this.surroundings?.place(tip, b, c, this.toolLength);
     this.tool.place(at, turns ? b : 0, turns ? c : 0);
     this.head.place(at, turns ? b : 0, turns ? c : 0, this.tool.length, this.theme);
     this.tip.position.copy(at);
@@ -196,13 +291,13 @@ export class ToolpathView {
     this.fit();
   }
 
-  /** Brings what is cut into view, or with `whole` all of the path, from where one looks. */
+  /** Brings what is cut into view, or with `whole` all of the path and what surrounds it, from where one looks. */
   fit(whole = false): void {
-    const { min, max } = whole || !this.path.work ? this.path : this.path.work;
+    const { min, max } = whole ? this.everything() : (this.path.work ?? this.path);
     const middle = new THREE.Vector3(...min).add(new THREE.Vector3(...max)).multiplyScalar(0.5).sub(this.center);
     const offset = this.camera.position.clone().sub(this.controls.target);
     this.controls.target.copy(middle);
-    this.camera.position.copy(middle).add(offset.setLength(2 * this.size + 1000));
+    this.camera.position.copy(middle).add(offset.setLength(this.reach));
     this.camera.lookAt(middle);
     this.camera.updateMatrixWorld();
     const [right, up] = [new THREE.Vector3(), new THREE.Vector3()];
@@ -264,18 +359,60 @@ export class ToolpathView {
       const x1 = ((m[0] * px + m[4] * py + m[8] * pz + m[12] + 1) / 2) * width - x;
       const y1 = ((1 - (m[1] * px + m[5] * py + m[9] * pz + m[13])) / 2) * height - y;
       const z1 = m[2] * px + m[6] * py + m[10] * pz + m[14];
-      if (point > 0 && this.isShown(path.stepKind[path.pointStep[point]])) {
+      if (point > 0 && this.isShown(path.pointStep[point])) {
         const [dx, dy] = [x1 - x0, y1 - y0];
         const square = dx * dx + dy * dy;
         const part = square > 1e-9 ? Math.min(1, Math.max(0, -(x0 * dx + y0 * dy) / square)) : 1;
         const distance = Math.hypot(x0 + part * dx, y0 + part * dy);
         const depth = z0 + part * (z1 - z0);
         const isBetter = !best || distance < best.distance - 2 || (distance < best.distance + 2 && depth < best.depth);
-        if (distance <= near && isBetter) best = { point, part, distance, depth };
+        if (distance <= near && isBetter && this.isAtShownHeight(point, part)) best = { point, part, distance, depth };
       }
       [x0, y0, z0] = [x1, y1, z1];
     }
     return best && { point: best.point, part: best.part };
+  }
+
+  /** The place to measure that a place on the canvas shows, pixels of the page: ends of moves, centers of arcs, corners of boxes and
+   * centers of cylinders come before other places of the path and of bodies. */
+  snap(x: number, y: number): Snap | null {
+    const { clientWidth: width, clientHeight: height } = this.container;
+    this.camera.updateMatrixWorld();
+    const { path, center } = this;
+    const m = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse).elements;
+    let best: { snap: Snap; distance: number; depth: number } | null = null;
+    const offer = (placeX: number, placeY: number, placeZ: number, snap: () => Snap) => {
+      const [px, py, pz] = [placeX - center.x, placeY - center.y, placeZ - center.z];
+      const dx = ((m[0] * px + m[4] * py + m[8] * pz + m[12] + 1) / 2) * width - x;
+      const dy = ((1 - (m[1] * px + m[5] * py + m[9] * pz + m[13])) / 2) * height - y;
+      const distance = Math.hypot(dx, dy);
+      if (distance > nearSnap) return;
+      const depth = m[2] * px + m[6] * py + m[10] * pz + m[14];
+      if (!best || distance < best.distance - 2 || (distance < best.distance + 2 && depth < best.depth)) best = { snap: snap(), distance, depth };
+    };
+    for (let step = 0; step < path.stepCount; ++step) {
+      if (!this.isShown(step)) continue;
+      for (const point of [path.stepStart[step], path.stepStart[step + 1]]) {
+        if (!this.isAtShownHeight(point, 1)) continue;
+        const [px, py, pz] = [path.tips[3 * point], path.tips[3 * point + 1], path.tips[3 * point + 2]];
+        offer(px, py, pz, () => ({ at: [px, py, pz], kind: 'end', line: path.stepLine[step] }));
+      }
+    }
+    for (const snap of [...this.arcCenters(), ...this.bodyPoints()]) offer(...snap.at, () => snap);
+    // The compiler does not see that `offer` has set it.
+    const found = best as { snap: Snap } | null;
+    return found?.snap ?? this.snapAnywhere(x, y);
+  }
+
+  /** Places to measure besides the path's ends, nearest to a place first: for those who have no pointer. */
+  snapsNear(place: Vector): Snap[] {
+    const distance = ({ at }: Snap) => Math.hypot(...at.map((value, i) => value - place[i]));
+    return [...this.bodyPoints(), ...this.arcCenters()].sort((one, other) => distance(one) - distance(other));
+  }
+
+  /** What surrounds the path, for who looks at it from outside. */
+  get sceneModel(): SceneModel | null {
+    return this.surroundings;
   }
 
   dispose(): void {
@@ -284,6 +421,8 @@ export class ToolpathView {
     this.controls.dispose();
     this.lines.dispose();
     this.lit?.dispose();
+    this.surroundings?.dispose();
+    this.measure.dispose();
     this.renderer.dispose();
     this.canvas.remove();
   }
@@ -292,12 +431,121 @@ export class ToolpathView {
     return this.container.clientWidth / Math.max(1, this.container.clientHeight);
   }
 
-  private isShown(kind: number): boolean {
-    return kind !== Kind.Wait && (kind !== Kind.Rapid || this.shown.rapids);
+  /** How far the camera stands from what it looks at: all that is drawn is between them, or behind. */
+  private get reach(): number {
+    return 2 * this.size + 1000 + this.extent;
+  }
+
+  private isShown(step: number): boolean {
+    const kind = this.path.stepKind[step];
+    return kind !== Kind.Wait && (kind !== Kind.Rapid || this.shown.rapids) && !this.hidden?.[step];
+  }
+
+  private isAtShownHeight(point: number, part: number): boolean {
+    const { minZ, maxZ } = this.filter;
+    if (minZ === -Infinity && maxZ === Infinity) return true;
+    const end = this.path.tips[3 * point + 2];
+    const start = point > 0 ? this.path.tips[3 * point - 1] : end;
+    const height = start + part * (end - start);
+    return height >= minZ - 1e-3 && height <= maxZ + 1e-3;
   }
 
   private paint(): void {
-    this.lines.paint(stepColors(this.path, this.mode, this.theme), (kind) => this.isShown(kind));
+    this.lines.paint(stepColors(this.path, this.mode, this.theme), (step) => this.isShown(step));
+  }
+
+  /** Makes a model of what surrounds the path, unless there is one of the same. */
+  private surround(): void {
+    const { scene, contacts = [] } = this.path.facts;
+    const source = JSON.stringify([scene, contacts]);
+    if (scene && this.surroundings?.shows(source)) return;
+    if (this.surroundings) {
+      this.world.remove(this.surroundings.object);
+      this.surroundings.dispose();
+    }
+    this.surroundings = scene ? new SceneModel(scene, contacts, source) : null;
+    this.extent = 0;
+    if (!this.surroundings) return;
+    this.world.add(this.surroundings.object);
+    this.surroundings.setTheme(this.theme);
+    this.surroundings.show((role) => this.shown[layerOf[role]], this.shown.tool);
+    const { tip, b, c } = this.path.at(0);
+    this.surroundings.place(tip, b, c, 0);
+    // Bodies move with the axes, as far as the path is long.
+    for (const { min, max } of this.surroundings.allBounds())
+      for (const corner of [min, max]) this.extent = Math.max(this.extent, 2 * corner.distanceTo(this.center));
+  }
+
+  private everything(): { min: Vector; max: Vector } {
+    const box = new THREE.Box3(new THREE.Vector3(...this.path.min), new THREE.Vector3(...this.path.max));
+    if (this.surroundings) box.union(this.surroundings.bounds());
+    return { min: box.min.toArray(), max: box.max.toArray() };
+  }
+
+  private onClick(x: number, y: number): void {
+    if (this.isMeasuring) {
+      this.onSnap(this.snap(x, y));
+      return;
+    }
+    const contact = this.contactAt(x, y);
+    if (contact === null) this.onPick(this.pick(x, y));
+    else this.onContact(contact);
+  }
+
+  /** The contact whose mark is nearest there. */
+  private contactAt(x: number, y: number): number | null {
+    let best = { contact: null as number | null, distance: near };
+    this.surroundings?.contacts.forEach((_, contact) => {
+      const at = this.project(this.surroundings!.markAt(contact));
+      const distance = Math.hypot(at.x - x, at.y - y);
+      if (distance < best.distance) best = { contact, distance };
+    });
+    return best.contact;
+  }
+
+  /** Finds what the pointer is at, once for each picture. */
+  private hover(x: number, y: number): void {
+    const isAsked = this.hovered !== null;
+    this.hovered = { x, y };
+    if (isAsked) return;
+    requestAnimationFrame(() => {
+      const { hovered } = this;
+      this.hovered = null;
+      if (hovered && this.isMeasuring && !this.isDisposed) this.onHover(this.snap(hovered.x, hovered.y));
+    });
+  }
+
+  private snapAnywhere(x: number, y: number): Snap | null {
+    const hit = this.pick(x, y);
+    const { path } = this;
+    if (hit) {
+      const [from, to] = [path.tipOf(hit.point - 1), path.tipOf(hit.point)];
+      const at = to.map((value, i) => from[i] + hit.part * (value - from[i])) as Vector;
+      return { at, kind: 'path', line: path.stepLine[path.pointStep[hit.point]] };
+    }
+    const ray = new THREE.Raycaster();
+    const { clientWidth, clientHeight } = this.container;
+    ray.setFromCamera(new THREE.Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight), this.camera);
+    this.world.updateMatrixWorld();
+    const found = this.surroundings?.hit(ray);
+    return found ? { at: found.at.add(this.center).toArray(), kind: 'surface', body: found.body.name } : null;
+  }
+
+  private bodyPoints(): Snap[] {
+    return (this.surroundings?.points() ?? []).map(({ at, kind, body }) => ({ at: at.toArray(), kind, body: body.name }));
+  }
+
+  private arcCenters(): Snap[] {
+    const { path } = this;
+    if (!this.centers) {
+      this.centers = [];
+      for (let step = 0; step < path.stepCount; ++step) {
+        const at = arcCenter(path, step);
+        if (at) this.centers.push({ at, kind: 'center', line: path.stepLine[step] });
+      }
+    }
+    // Centers of arcs of the same line that are hidden are hidden, too.
+    return this.centers.filter(({ line }) => this.isShown(path.stepsOf(line!).start));
   }
 
   /** What the theme colors. */
@@ -310,7 +558,7 @@ export class ToolpathView {
     this.grid = grid(new THREE.Vector3(...min), new THREE.Vector3(...max), this.theme);
     this.stock = stock(this.stockKnown ?? this.path.work, this.theme);
     for (const each of [this.frames, this.travel, this.grid, this.stock]) if (each) this.world.add(each);
-    if (this.stock) this.stock.visible = this.shown.stock;
+    if (this.stock) this.stock.visible = this.shown.stock && !this.hasBodies('stock');
     this.frames.visible = this.shown.frames;
     if (this.travel) this.travel.visible = this.shown.travel;
     this.grid.visible = this.shown.grid;
@@ -329,7 +577,8 @@ export class ToolpathView {
     if (start === end) return;
     this.lit = new PathLines(this.path, this.center, start, end);
     this.lit.alwaysInFront = true;
-    this.lit.paint(() => palettes[this.theme].highlight, (kind) => this.isShown(kind));
+    this.lit.keepHeights(this.filter.minZ, this.filter.maxZ);
+    this.lit.paint(() => palettes[this.theme].highlight, (step) => this.isShown(step));
     this.scene.add(this.lit.mesh);
     this.resizeLines();
   }
@@ -351,8 +600,8 @@ export class ToolpathView {
     const half = this.size / 2;
     Object.assign(this.camera, { left: -half * this.aspect, right: half * this.aspect, top: half, bottom: -half });
     this.camera.near = 0;
-    this.camera.far = 8 * this.size + 4000;
-    const offset = this.camera.position.clone().sub(this.controls.target).setLength(2 * this.size + 1000);
+    this.camera.far = 4 * this.reach;
+    const offset = this.camera.position.clone().sub(this.controls.target).setLength(this.reach);
     this.camera.position.copy(this.controls.target).add(offset);
     this.camera.updateProjectionMatrix();
   }
@@ -379,6 +628,8 @@ export class ToolpathView {
     const millimeters = this.size / this.camera.zoom / height; // Of a pixel of the page.
     for (const frame of this.frames.children) frame.scale.setScalar(frameSize * millimeters);
     this.tip.scale.setScalar((12 / height) * (this.size / this.camera.zoom));
+    this.surroundings?.scaleMarks(millimeters);
+    this.measure.scale(millimeters);
     const scale = { pixelsPerMillimeter: this.renderer.getPixelRatio() / millimeters };
     this.lines.set(scale);
     this.lit?.set(scale);
